@@ -36,7 +36,7 @@ solver::large_motion::StaticPathOptions read_large_statics_options(const JsonVie
 void record_point(const GeometricallyExactSystem& system, const PathPoint& point, Recorder& record,
                   std::vector<Warning>& warnings) {
   record.add("load_factor", "", point.state.load);
-  const solver::StaticSolution solution = solver::static_solution(system, point.state);
+  const solver::StaticSolution solution = static_solution(system, point.state);
   record_solution(system.model(), solution, -1, record);
   warn_of_strain(system.model(), solution, warnings);
   for (std::size_t i = 0; i < system.large_motion().drives.size(); ++i) {

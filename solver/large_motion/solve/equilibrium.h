@@ -96,8 +96,4 @@ class Equilibrium {
 /// Adds a correction (dq, dlambda) times a factor.
 void apply_correction(State& state, const VectorXd& step, double factor = 1);
 
-/// The coordinate that moves most in a shape, in words: "rotation of node P".
-[[nodiscard]] std::string describe_largest_coordinate(const GeometricallyExactSystem& system,
-                                                      const VectorXd& shape);
-
 }  // namespace trammel::solver::large_motion

@@ -35,18 +35,6 @@ void count_tangents(const large_motion::GeometricallyExactSystem& system, std::i
   if (moving || !model.gravity.isZero(0)) counters.count(Effect::link_mass, heavy);
 }
 
-StaticSolution static_solution(const large_motion::GeometricallyExactSystem& system,
-                               const large_motion::State& state) {
-  StaticSolution solution;
-  solution.displacement = node_motion(system, state.q);
-  solution.end_rotation = end_rotations(system, state.q);
-  large_motion::Resultants resultants = member_resultants(system, state);
-  solution.resultant_start = std::move(resultants.start);
-  solution.resultant_end = std::move(resultants.end);
-  solution.reaction = reactions(system, state);
-  return solution;
-}
-
 StaticSolution solve_large_statics(const Model& model,
                                    const large_motion::LargeMotionModel& large_motion) {
   const large_motion::GeometricallyExactSystem system(model, large_motion);

@@ -163,18 +163,14 @@ Spectrum spectrum(const ShiftedStiffness& K, const MatrixXd& L, double shift, bo
   found.converged = pairs.converged;
   found.shift = shift;
   if (!pairs.converged) return found;
-  const auto inverse = [&](Index j) {  // 1 / |w^2|
-    return std::abs(pairs.value[j]) / std::abs(1.0 + shift * pairs.value[j]);
-  };
-  std::vector<Index> order(to_size(pairs.value.size()));
-  for (Index j = 0; j < std::ssize(order); ++j) order[to_size(j)] = j;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return inverse(a) > inverse(b); });
   // Motions that constraints hold have no mode.
   const double held = 1e-4 * kEps * pairs.value.cwiseAbs().maxCoeff();
-  for (const Index j : order) {
-    if (!(std::abs(pairs.value[j]) > held)) continue;
-    found.w2.push_back(shift + 1.0 / pairs.value[j]);
+  std::vector<std::pair<std::complex<double>, Index>> order;  // w^2 of each eigenvector
+  for (Index j = 0; j < pairs.value.size(); ++j)
+    if (std::abs(pairs.value[j]) > held) order.emplace_back(shift + 1.0 / pairs.value[j], j);
+  std::ranges::stable_sort(order, {}, [](const auto& mode) { return std::abs(mode.first); });
+  for (const auto& [w2, j] : order) {
+    found.w2.push_back(w2);
     found.x.emplace_back(flexibility * pairs.vector.col(j));
   }
   return found;

@@ -137,17 +137,6 @@ Eigen::MatrixX3d node_motion(const GeometricallyExactSystem& system, const Vecto
   return motion;
 }
 
-Eigen::MatrixX2d end_rotations(const GeometricallyExactSystem& system, const VectorXd& values) {
-  const Layout& layout = system.layout();
-  Eigen::MatrixX2d rotation(static_cast<Index>(layout.end_rotation.size()), 2);
-  for (Index m = 0; m < rotation.rows(); ++m) {
-    for (Index end = 0; end < 2; ++end) {
-      rotation(m, end) = value_or(values, layout.end_rotation[to_size(m)][to_size(end)], kNaN);
-    }
-  }
-  return rotation;
-}
-
 Eigen::MatrixX3d reactions(const GeometricallyExactSystem& system, const State& state) {
   const Layout& layout = system.layout();
   VectorXd force(layout.total);
@@ -165,17 +154,25 @@ Eigen::MatrixX3d reactions(const GeometricallyExactSystem& system, const State& 
   return reaction;
 }
 
-Resultants member_resultants(const GeometricallyExactSystem& system, const State& state) {
+StaticSolution static_solution(const GeometricallyExactSystem& system, const State& state) {
   const Layout& layout = system.layout();
-  const auto count = static_cast<Index>(system.model().members.size());
-  Resultants resultants{Eigen::MatrixX3d(count, 3), Eigen::MatrixX3d(count, 3)};
-  for (Index m = 0; m < count; ++m) {
-    resultants.start.row(m) =
+  const Index members = std::ssize(system.model().members);
+  StaticSolution solution;
+  solution.displacement = node_motion(system, state.q);
+  solution.reaction = reactions(system, state);
+  solution.end_rotation.resize(members, 2);
+  solution.resultant_start.resize(members, 3);
+  solution.resultant_end.resize(members, 3);
+  for (Index m = 0; m < members; ++m) {
+    for (Index end = 0; end < 2; ++end)
+      solution.end_rotation(m, end) =
+          value_or(state.q, layout.end_rotation[to_size(m)][to_size(end)], kNaN);
+    solution.resultant_start.row(m) =
         element_resultants(system, state, layout.first_element[to_size(m)], true);
-    resultants.end.row(m) =
+    solution.resultant_end.row(m) =
         element_resultants(system, state, layout.first_element[to_size(m + 1)] - 1, false);
   }
-  return resultants;
+  return solution;
 }
 
 void MemberBalance::add(const GeometricallyExactSystem& system, const State& state) {

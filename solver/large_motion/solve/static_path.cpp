@@ -81,6 +81,35 @@ double step_factor(const std::vector<double>& correction) {
   return std::clamp(std::sqrt(kWantedRatio * correction[0] / correction[1]), 0.5, 2.0);
 }
 
+/// The coordinate that moves most in a shape, in words: "rotation of node P".
+std::string describe_largest_coordinate(const GeometricallyExactSystem& system,
+                                        const VectorXd& shape) {
+  const Layout& layout = system.layout();
+  static constexpr std::array<const char*, 3> names = {"motion along x", "motion along y",
+                                                       "rotation"};
+  double largest = -1;
+  std::string description = "a motion inside a member";
+  const auto consider = [&](Index k, const std::string& what) {
+    if (k < 0 || k >= layout.free) return;
+    const double amount = std::abs(shape[k]) / system.scale()[k];
+    if (amount <= largest * (1 + 1e-9)) return;
+    largest = amount;
+    description = what;
+  };
+  for (std::size_t i = 0; i < layout.node.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      consider(layout.node[i][k],
+               std::string(names[k]) + " of node " + system.model().nodes[i].name);
+    }
+  }
+  for (std::size_t i = 0; i < layout.end_rotation.size(); ++i) {
+    for (const Index k : layout.end_rotation[i]) {
+      consider(k, "rotation of an end of member " + system.model().members[i].name);
+    }
+  }
+  return description;
+}
+
 /// A limit point or a bifurcation between two points of a path.
 struct CriticalPoint {
   bool load_reversed = false;  ///< a limit point

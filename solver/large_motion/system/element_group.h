@@ -105,12 +105,8 @@ class ElementGroup {
     for (Index e = 0; e < size(); ++e) {
       const Coordinates q = gather<N>(state.q, coordinates(e));
       Coordinates f = Coordinates::Zero(q.size());
-      if constexpr (R > 0) {
-        Rows residual;
-        Gradient G;
-        element(e).constraint_residual(q, state.t, residual, G);
-        f.noalias() += G.transpose() * state.lambda.segment<R>(first_row(e));
-      }
+      if constexpr (R > 0)
+        f += rows_at(e, q, state.t).gradient.transpose() * state.lambda.segment<R>(first_row(e));
       if constexpr (kIsElastic)
         f += element(e).forces(q, tau != 0 ? gather<N>(state.v, coordinates(e)) : q, tau);
       if constexpr (kIsLoad) f -= state.load * element(e).load(q);
@@ -133,12 +129,10 @@ class ElementGroup {
   void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
                            Eigen::Ref<VectorXd> rate) const {
     if constexpr (R > 0) {
-      Rows g;
-      Gradient G;
       for (Index e = 0; e < size(); ++e) {
-        element(e).constraint_residual(gather<N>(state.q, coordinates(e)), state.t, g, G);
-        residual.segment<R>(first_row(e)) = g;
-        rate.segment<R>(first_row(e)) = G * gather<N>(state.v, coordinates(e));
+        const RowValues rows = rows_at(e, gather<N>(state.q, coordinates(e)), state.t);
+        residual.segment<R>(first_row(e)) = rows.residual;
+        rate.segment<R>(first_row(e)) = rows.gradient * gather<N>(state.v, coordinates(e));
         if constexpr (requires { element(e).time_rate(state.t); })
           rate.segment<R>(first_row(e)) += element(e).time_rate(state.t);
       }
@@ -150,9 +144,7 @@ class ElementGroup {
     for (Index e = 0; e < size(); ++e) {
       const Square S = coordinate_matrix(state, e, tau, coefficients);
       if constexpr (R > 0) {
-        Rows residual;
-        Gradient G;
-        element(e).constraint_residual(gather<N>(state.q, coordinates(e)), state.t, residual, G);
+        const Gradient G = rows_at(e, gather<N>(state.q, coordinates(e)), state.t).gradient;
         matrix.add(block(e), S, G, scaled_compliance(e, coefficients), penalty(e, coefficients));
       } else {
         matrix.add(block(e), S);
@@ -196,9 +188,7 @@ class ElementGroup {
       tangent(midpoint, tau, coefficients, matrix);
     } else {
       for (Index e = 0; e < size(); ++e) {
-        Rows residual;
-        Gradient G;
-        element(e).constraint_residual(gather<N>(to.q, coordinates(e)), to.t, residual, G);
+        const Gradient G = rows_at(e, gather<N>(to.q, coordinates(e)), to.t).gradient;
         matrix.add(block(e), coordinate_matrix(midpoint, e, tau, coefficients),
                    discrete_gradient(e, from, to), G, scaled_compliance(e, coefficients),
                    penalty(e, coefficients));
@@ -213,7 +203,18 @@ class ElementGroup {
   static constexpr bool kIsLoad = requires(const Element& e, const Coordinates& q) { e.load(q); };
   static constexpr bool kHasMass = requires(const Element& e) { e.mass(); };
 
+  struct RowValues {
+    Rows residual;
+    Gradient gradient;
+  };
+
   [[nodiscard]] Index block(Index e) const { return first_block_ + e; }
+
+  [[nodiscard]] RowValues rows_at(Index e, const Coordinates& q, double t) const {
+    RowValues rows;
+    element(e).constraint_residual(q, t, rows.residual, rows.gradient);
+    return rows;
+  }
 
   [[nodiscard]] Square coordinate_matrix(const State& state, Index e, double tau,
                                          const TangentCoefficients& coefficients) const {
@@ -235,10 +236,7 @@ class ElementGroup {
     if constexpr (requires { element(e).discrete_gradient(q0, q1); }) {
       return element(e).discrete_gradient(q0, q1);
     } else {
-      Rows residual;
-      Gradient G;
-      element(e).constraint_residual(q1, to.t, residual, G);
-      return G;
+      return rows_at(e, q1, to.t).gradient;
     }
   }
 

@@ -102,20 +102,16 @@ void GeometricallyExactSystem::constraint_residual(const State& state,
       [&](const auto& group) { group.constraint_residual(state, residual, rate); });
 }
 
-TangentCoefficients GeometricallyExactSystem::with_damping(TangentCoefficients coefficients) const {
+TangentCoefficients GeometricallyExactSystem::begin_tangent(
+    TangentCoefficients coefficients) const {
+  element_evaluations_ += std::ssize(layout_.elements) + std::ssize(model_.triangles);
   coefficients.mass += large_motion_.mass_damping * coefficients.damping;
   return coefficients;
 }
 
-void GeometricallyExactSystem::count_elements() const {
-  element_evaluations_ +=
-      static_cast<std::int64_t>(layout_.elements.size() + model_.triangles.size());
-}
-
 void GeometricallyExactSystem::tangent(const State& state, const TangentCoefficients& coefficients,
                                        KktMatrix& matrix) const {
-  count_elements();
-  const TangentCoefficients damped = with_damping(coefficients);
+  const TangentCoefficients damped = begin_tangent(coefficients);
   parts_.for_each_group([&](const auto& group) {
     group.tangent(state, large_motion_.strain_rate_damping, damped, matrix);
   });
@@ -125,8 +121,7 @@ void GeometricallyExactSystem::discrete_gradient_tangent(const State& from, cons
                                                          const State& midpoint,
                                                          const TangentCoefficients& coefficients,
                                                          KktMatrix& matrix) const {
-  count_elements();
-  const TangentCoefficients damped = with_damping(coefficients);
+  const TangentCoefficients damped = begin_tangent(coefficients);
   parts_.for_each_group([&](const auto& group) {
     group.discrete_gradient_tangent(from, to, midpoint, large_motion_.strain_rate_damping, damped,
                                     matrix);

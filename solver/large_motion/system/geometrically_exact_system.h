@@ -75,8 +75,8 @@ class GeometricallyExactSystem final : public ConservativeSystem {
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
 
  private:
-  [[nodiscard]] TangentCoefficients with_damping(TangentCoefficients coefficients) const;
-  void count_elements() const;
+  /// Counts the elements of a tangent. @return the coefficients with damping by mass.
+  TangentCoefficients begin_tangent(TangentCoefficients coefficients) const;
   void add_torques(double factor, double t, Eigen::Ref<VectorXd> r) const;
 
   Model model_;

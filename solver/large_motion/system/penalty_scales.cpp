@@ -20,27 +20,22 @@ Eigen::VectorXd coordinate_stiffness(const Model& model, const LargeMotionModel&
           element.is_bar() ? element.section.EA / h : 12 * element.section.EI / part;
     }
   }
-  for (const Triangle& triangle : model.triangles) {
-    const Plate& plate = model.plates[to_size(triangle.plate)];
-    for (const Index node : triangle.nodes) {
-      if (node < 0) continue;
-      for (std::size_t k = 0; k < 2; ++k) {
-        stiffness[layout.node[to_size(node)][k]] += plate.material.E * plate.thickness;
+  const auto add = [&](const auto& nodes, const Vector3d& value) {
+    for (const Index node : nodes) {
+      for (std::size_t direction = 0; direction < 3 && node >= 0; ++direction) {
+        const Index k = layout.node[to_size(node)][direction];
+        if (k >= 0) stiffness[k] += value[static_cast<Index>(direction)];
       }
     }
-  }
-  const auto add = [&](Index node, std::size_t direction, double value) {
-    const Index k = node < 0 ? node : layout.node[to_size(node)][direction];
-    if (k >= 0) stiffness[k] += value;
   };
-  for (const Spring& spring : model.springs) {
-    for (const Index node : spring.nodes)
-      for (std::size_t k = 0; k < 3; ++k) add(node, k, spring.stiffness[static_cast<Index>(k)]);
+  for (const Triangle& triangle : model.triangles) {
+    const Plate& plate = model.plates[to_size(triangle.plate)];
+    const double Et = plate.material.E * plate.thickness;
+    add(triangle.nodes, {Et, Et, 0});
   }
-  for (const LineSpring& spring : large_motion.line_springs) {
-    for (const Index node : spring.nodes)
-      for (std::size_t k = 0; k < 2; ++k) add(node, k, spring.stiffness);
-  }
+  for (const Spring& spring : model.springs) add(spring.nodes, spring.stiffness);
+  for (const LineSpring& spring : large_motion.line_springs)
+    add(spring.nodes, {spring.stiffness, spring.stiffness, 0});
   return stiffness;
 }
 

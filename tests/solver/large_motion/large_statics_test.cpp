@@ -228,14 +228,14 @@ BOOST_AUTO_TEST_CASE(reactions_and_section_forces_balance_the_loads_in_the_bent_
   const Eigen::RowVector3d reaction = reactions(system, state).row(0);
   BOOST_TEST(std::abs(reaction[0] + 1 + 0.4) < 1e-11);
   BOOST_TEST(std::abs(reaction[1] + 2 - 1.5) < 1e-11);
-  const Resultants section = member_resultants(system, state);
-  BOOST_TEST(std::abs(section.start(0, 0) + reaction[0]) < 1e-11);
-  BOOST_TEST(std::abs(section.start(0, 1) + reaction[1]) < 1e-11);
-  BOOST_TEST(std::abs(section.start(0, 2) + reaction[2]) < 1e-11);
+  const StaticSolution section = static_solution(system, state);
+  BOOST_TEST(std::abs(section.resultant_start(0, 0) + reaction[0]) < 1e-11);
+  BOOST_TEST(std::abs(section.resultant_start(0, 1) + reaction[1]) < 1e-11);
+  BOOST_TEST(std::abs(section.resultant_start(0, 2) + reaction[2]) < 1e-11);
   const double angle = node_motion(system, state.q)(1, 2);
-  BOOST_TEST(std::abs(section.end(0, 0) - (std::cos(angle) + 2 * std::sin(angle))) < 1e-11);
-  BOOST_TEST(std::abs(section.end(0, 1) - (2 * std::cos(angle) - std::sin(angle))) < 1e-11);
-  BOOST_TEST(std::abs(section.end(0, 2) - 0.3) < 1e-11);
+  BOOST_TEST(std::abs(section.resultant_end(0, 0) - (std::cos(angle) + 2 * std::sin(angle))) < 1e-11);
+  BOOST_TEST(std::abs(section.resultant_end(0, 1) - (2 * std::cos(angle) - std::sin(angle))) < 1e-11);
+  BOOST_TEST(std::abs(section.resultant_end(0, 2) - 0.3) < 1e-11);
 }
 
 BOOST_AUTO_TEST_CASE(a_driven_tip_takes_the_force_that_would_move_it_there) {
