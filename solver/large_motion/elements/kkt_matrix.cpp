@@ -143,10 +143,19 @@ KktMatrix::Extended KktMatrix::multiply(const Extended& x) const {
 
 Eigen::SparseMatrix<double> KktMatrix::constraint_gradient(const VectorXd& scale,
                                                            const VectorXd& row_unit) const {
-  Eigen::SparseMatrix<double> ordered;
-  ordered = matrix_.twistedBy(permutation_.inverse());
-  const Eigen::SparseMatrix<double> G = ordered.leftCols(coordinates_).bottomRows(constraints_);
-  return row_unit.cwiseInverse().asDiagonal() * G * scale.asDiagonal();
+  const Eigen::PermutationMatrix<Eigen::Dynamic> inverse = permutation_.inverse();
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index column = 0; column < matrix_.cols(); ++column) {
+    const Index k = inverse.indices()[column];
+    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, column); it; ++it) {
+      const Index r = inverse.indices()[it.row()] - coordinates_;
+      if (k < coordinates_ && r >= 0)
+        entries.emplace_back(r, k, it.value() * scale[k] / row_unit[r]);
+    }
+  }
+  Eigen::SparseMatrix<double> G(constraints_, coordinates_);
+  G.setFromTriplets(entries.begin(), entries.end());
+  return G;
 }
 
 double KktMatrix::energy_over_roundoff(const Extended& x) const {
