@@ -33,9 +33,11 @@ struct RigidLink : Joint<5, 2> {
 
   void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
     const Vector2d normal = perpendicular(offset);
-    residual =
-        q.tail<2>() - q.head<2>() - cosine_minus_one(q[2]) * offset - std::sin(q[2]) * normal;
-    G << -Eigen::Matrix2d::Identity(), -rotated(normal, q[2]), Eigen::Matrix2d::Identity();
+    const double s = std::sin(q[2] / 2), sine = 2 * s * std::cos(q[2] / 2);
+    const double cosine_minus_one = -2 * s * s;
+    const Vector2d slope = (1 + cosine_minus_one) * normal - sine * offset;
+    residual = q.tail<2>() - q.head<2>() - cosine_minus_one * offset - sine * normal;
+    G << -Eigen::Matrix2d::Identity(), -slope, Eigen::Matrix2d::Identity();
   }
   [[nodiscard]] Square geometric_stiffness(const Coordinates& q, const Rows& lambda) const {
     Square K = Square::Zero();

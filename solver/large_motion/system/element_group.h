@@ -19,7 +19,12 @@ using CoordinateIndices = Eigen::Matrix<Index, N, 1>;
 /// Values of an element's coordinates; what a support holds (beyond the vector) is zero.
 template <int N>
 Eigen::Matrix<double, N, 1> gather(const VectorXd& values, const CoordinateIndices<N>& where) {
-  return where.unaryExpr([&](Index k) { return k >= 0 && k < values.size() ? values[k] : 0.0; });
+  Eigen::Matrix<double, N, 1> local(where.size());
+  for (Index i = 0; i < where.size(); ++i) {
+    const Index k = where[i];
+    local[i] = k >= 0 && k < values.size() ? values[k] : 0.0;
+  }
+  return local;
 }
 
 template <int N>
@@ -142,9 +147,10 @@ class ElementGroup {
   void tangent(const State& state, double tau, const TangentCoefficients& coefficients,
                KktMatrix& matrix) const {
     for (Index e = 0; e < size(); ++e) {
-      const Square S = coordinate_matrix(state, e, tau, coefficients);
+      const Coordinates q = gather<N>(state.q, coordinates(e));
+      const Square S = coordinate_matrix(state, e, q, tau, coefficients);
       if constexpr (R > 0) {
-        const Gradient G = rows_at(e, gather<N>(state.q, coordinates(e)), state.t).gradient;
+        const Gradient G = rows_at(e, q, state.t).gradient;
         matrix.add(block(e), S, G, scaled_compliance(e, coefficients), penalty(e, coefficients));
       } else {
         matrix.add(block(e), S);
@@ -189,7 +195,8 @@ class ElementGroup {
     } else {
       for (Index e = 0; e < size(); ++e) {
         const Gradient G = rows_at(e, gather<N>(to.q, coordinates(e)), to.t).gradient;
-        matrix.add(block(e), coordinate_matrix(midpoint, e, tau, coefficients),
+        const Coordinates q = gather<N>(midpoint.q, coordinates(e));
+        matrix.add(block(e), coordinate_matrix(midpoint, e, q, tau, coefficients),
                    discrete_gradient(e, from, to), G, scaled_compliance(e, coefficients),
                    penalty(e, coefficients));
       }
@@ -216,10 +223,10 @@ class ElementGroup {
     return rows;
   }
 
-  [[nodiscard]] Square coordinate_matrix(const State& state, Index e, double tau,
+  [[nodiscard]] Square coordinate_matrix(const State& state, Index e, const Coordinates& q,
+                                         double tau,
                                          const TangentCoefficients& coefficients) const {
     const Element& own = element(e);
-    const Coordinates q = gather<N>(state.q, coordinates(e));
     const double k = coefficients.stiffness;
     Square S = Square::Zero(q.size(), q.size());
     if constexpr (kIsElastic) S += own.tangent(q, k, tau * coefficients.damping);
