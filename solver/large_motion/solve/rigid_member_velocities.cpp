@@ -1,6 +1,6 @@
 #include "solver/large_motion/solve/rigid_member_velocities.h"
 
-#include <map>
+#include <vector>
 
 #include "solver/model/numbers.h"
 
@@ -8,9 +8,14 @@ namespace trammel::solver::large_motion {
 
 PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& system,
                                              const Eigen::MatrixX3d& node, const VectorXd& member) {
-  std::map<Index, double> given;  // of each coordinate the value that is set last
+  // Of each coordinate the value that is set last. A map would take a noticeable part of the time
+  // of motions with damping, which request these velocities in every iteration.
+  VectorXd values(system.coordinates());
+  std::vector<bool> is_given(to_size(system.coordinates()), false);
   const auto set = [&](Index k, double value) {
-    if (k >= 0 && k < system.coordinates()) given[k] = value;
+    if (k < 0 || k >= values.size()) return;
+    values[k] = value;
+    is_given[to_size(k)] = true;
   };
   for (const MemberElement& element : system.layout().elements) {
     const Member& moved = system.model().members[to_size(element.member)];
@@ -27,7 +32,10 @@ PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& sys
   for (Index i = 0; i < node.rows(); ++i) {
     for (Index k = 0; k < 3; ++k) set(system.layout().node[to_size(i)][to_size(k)], node(i, k));
   }
-  return {given.begin(), given.end()};
+  PrescribedVelocities given;
+  for (Index k = 0; k < values.size(); ++k)
+    if (is_given[to_size(k)]) given.emplace_back(k, values[k]);
+  return given;
 }
 
 }  // namespace trammel::solver::large_motion
