@@ -264,7 +264,7 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
     }
   }
   release_driven_actuators(analysis, case_model, large_motion, model);
-  const GeometricallyExactSystem system(model, large_motion, {analysis.get("degree", 3)});
+  const GeometricallyExactSystem system(model, large_motion);
   solver::large_motion::IntegrationOptions options = read_large_motion_options(analysis);
   options.breakpoints = system.large_motion().load_breakpoints;
   StepResult result;

@@ -78,7 +78,7 @@ void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamp
   large_motion.strain_rate_damping = place.get("strain_rate_damping_s", 0.0);
   add_tracking(place, Tracking::torques, case_model, model, large_motion);
   release_driven_actuators(place, case_model, large_motion, model);
-  const solver::large_motion::GeometricallyExactSystem system(model, large_motion, {});
+  const solver::large_motion::GeometricallyExactSystem system(model, large_motion);
   solver::large_motion::IntegrationOptions options;
   options.end_time = case_model.motion.back().time;
   options.step = place.number("step_s");

@@ -36,7 +36,7 @@ solver::large_motion::StaticPathOptions read_large_statics_options(const JsonVie
 void record_point(const GeometricallyExactSystem& system, const PathPoint& point, Recorder& record,
                   std::vector<Warning>& warnings) {
   record.add("load_factor", "", point.state.load);
-  const solver::StaticSolution solution = solver::static_solution(system, point.state);
+  const solver::StaticSolution solution = static_solution(system, point.state);
   record_solution(system.model(), solution, -1, record);
   warn_of_strain(system.model(), solution, warnings);
   for (std::size_t i = 0; i < system.large_motion().drives.size(); ++i) {
@@ -108,7 +108,7 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
   read_drives(analysis, model, large_motion);
   release_driven_actuators(analysis, case_model, large_motion, model);
-  const GeometricallyExactSystem system(model, large_motion, {analysis.get("degree", 3)});
+  const GeometricallyExactSystem system(model, large_motion);
   StepResult result;
   if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
   std::vector<PathPoint> recorded_points;

@@ -1,10 +1,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cmath>
 
 #include "solver/large_motion/elements/constrained_system.h"
-#include "solver/large_motion/elements/shape_functions.h"
 #include "solver/model/plane.h"
 
 namespace trammel::solver::large_motion {
@@ -20,8 +20,23 @@ inline double sinc(double x) {
   return std::abs(x) < 1e-4 ? 1 - x * x / 6 : std::sin(x) / x;
 }
 
-/// Geometrically exact beam element (Simo-Reissner) with P + 1 nodes and P Gauss points, straight
-/// when unloaded. With t0, n0 the element's axes and R(theta) the rotation of the section,
+/// Lagrange polynomials of degree 3 on the Lobatto points of an element, over x = s/h in [0, 1],
+/// and their integrals.
+struct BeamInterpolation {
+  static constexpr int kNodes = 4, kPoints = 3;
+  std::array<double, kNodes> node{};              ///< Lobatto points
+  Eigen::Matrix<double, kPoints, 1> weight;       ///< of the Gauss points; sum 1
+  Eigen::Matrix<double, kPoints, kNodes> value;   ///< at the Gauss points
+  Eigen::Matrix<double, kPoints, kNodes> slope;   ///< d/dx at the Gauss points
+  Eigen::Matrix<double, kNodes, 1> integral;      ///< of each polynomial
+  Eigen::Matrix<double, kNodes, kNodes> bending;  ///< integral of slope_a slope_b
+  Eigen::Matrix<double, kNodes, kNodes> mass;     ///< integral of value_a value_b
+};
+
+[[nodiscard]] const BeamInterpolation& beam_interpolation();
+
+/// Geometrically exact beam element (Simo-Reissner) with four nodes and three Gauss points,
+/// straight when unloaded. With t0, n0 the element's axes and R(theta) the rotation of the section,
 ///
 ///     Gamma = R^T (t0 + u') - t0 = (stretch, shear),       kappa = theta',
 ///     energy = sum over Gauss points of  w h (N Gamma_1 + V Gamma_2 - N^2/2EA - V^2/2kGA)
@@ -31,19 +46,12 @@ inline double sinc(double x) {
 /// compliance w h / EA or w h / kGA. Zero compliance is then exact: an inextensible member, an
 /// Euler-Bernoulli member (J. C. Simo, CMAME 49, 1985; E. Reissner, ZAMP 23, 1972), and neither
 /// ratio EA : EI : kGA enters the digits or Newton's path. Without a load inside, end nodes are
-/// those of Gauss collocation of the rod's differential equation: error O(h^2P), no locking, and
-/// for P >= 2 exact in the linear limit.
+/// those of Gauss collocation of the rod's differential equation: error O(h^6), no locking, and
+/// exact in the linear limit.
 ///
 /// Coordinates: (ux, uy, theta) of each node along the element [m, m, rad]. Rows: stretch, shear
 /// of each Gauss point [m].
-template <int P>
-struct Beam {
-  static constexpr int N = 3 * (P + 1), R = 2 * P;
-  using Coordinates = Eigen::Matrix<double, N, 1>;
-  using Rows = Eigen::Matrix<double, R, 1>;
-  using Gradient = Eigen::Matrix<double, R, N>;
-  using Square = Eigen::Matrix<double, N, N>;
-
+struct Beam : ElementSizes<12, 6> {
   Vector2d axis = Vector2d::UnitX();  ///< t0
   double length = 1;                  ///< h [m]
   double EI = 1;                      ///< [N m^2]
@@ -53,151 +61,33 @@ struct Beam {
   double inertia_per_length = 0;      ///< [kg m]
   bool lumped = false;
 
-  void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
-    const ShapeFunctions<P>& s = shape_functions<P>();
-    for (int g = 0; g < P; ++g) {
-      const Strain at(*this, q, g);
-      const double w = s.weight[g] * length;
-      residual[2 * g] = w * at.stretch;
-      residual[2 * g + 1] = w * at.shear;
-      for (int a = 0; a <= P; ++a) {
-        const double slope = s.weight[g] * s.slope(g, a), value = w * s.value(g, a);
-        G.template block<1, 2>(2 * g, 3 * a) = slope * at.e1.transpose();
-        G(2 * g, 3 * a + 2) = value * at.shear;
-        G.template block<1, 2>(2 * g + 1, 3 * a) = slope * at.e2.transpose();
-        G(2 * g + 1, 3 * a + 2) = -value * (1 + at.stretch);
-      }
-    }
-  }
-
+  void constraint_residual(const Coordinates& q, double t, Rows& residual, Gradient& G) const;
   /// sum of lambda_i d^2 g_i / dq^2.
-  [[nodiscard]] Square geometric_stiffness(const Coordinates& q, const Rows& lambda) const {
-    const ShapeFunctions<P>& s = shape_functions<P>();
-    Square K = Square::Zero();
-    for (int g = 0; g < P; ++g) {
-      const Strain at(*this, q, g);
-      const double normal = s.weight[g] * lambda[2 * g], shear = s.weight[g] * lambda[2 * g + 1];
-      const Vector2d mixed = normal * at.e2 - shear * at.e1;
-      const double rotational = -length * (normal * (1 + at.stretch) + shear * at.shear);
-      for (int a = 0; a <= P; ++a) {
-        for (int b = 0; b <= P; ++b) {
-          const Vector2d coupled = s.slope(g, a) * s.value(g, b) * mixed;
-          K.template block<2, 1>(3 * a, 3 * b + 2) += coupled;
-          K.template block<1, 2>(3 * b + 2, 3 * a) += coupled.transpose();
-          K(3 * a + 2, 3 * b + 2) += rotational * s.value(g, a) * s.value(g, b);
-        }
-      }
-    }
-    return K;
-  }
-
+  [[nodiscard]] Square geometric_stiffness(const Coordinates& q, const Rows& lambda) const;
   /// D with D (q1 - q0) = g(q1) - g(q0).
-  [[nodiscard]] Gradient discrete_gradient(const Coordinates& q0, const Coordinates& q1) const {
-    const ShapeFunctions<P>& s = shape_functions<P>();
-    const Coordinates midpoint = (q0 + q1) / 2;
-    Gradient D;
-    for (int g = 0; g < P; ++g) {
-      const Strain at(*this, midpoint, g);
-      double rotation = 0;
-      for (int a = 0; a <= P; ++a) rotation += s.value(g, a) * (q1[3 * a + 2] - q0[3 * a + 2]);
-      const double c = std::cos(rotation / 2), k = sinc(rotation / 2);
-      for (int a = 0; a <= P; ++a) {
-        const double slope = s.weight[g] * s.slope(g, a) * c;
-        const double value = s.weight[g] * length * s.value(g, a) * k;
-        D.template block<1, 2>(2 * g, 3 * a) = slope * at.e1.transpose();
-        D(2 * g, 3 * a + 2) = value * at.shear;
-        D.template block<1, 2>(2 * g + 1, 3 * a) = slope * at.e2.transpose();
-        D(2 * g + 1, 3 * a + 2) = -value * (1 + at.stretch);
-      }
-    }
-    return D;
-  }
+  [[nodiscard]] Gradient discrete_gradient(const Coordinates& q0, const Coordinates& q1) const;
 
-  /// Bending, constant because kappa is linear in the rotations.
-  [[nodiscard]] Square stiffness() const {
-    Square K = Square::Zero();
-    const ShapeFunctions<P>& s = shape_functions<P>();
-    for (int a = 0; a <= P; ++a) {
-      for (int b = 0; b <= P; ++b) K(3 * a + 2, 3 * b + 2) = EI / length * s.stiffness(a, b);
-    }
-    return K;
+  /// Moments of bending at the nodes with strain-rate damping tau.
+  [[nodiscard]] Coordinates forces(const Coordinates& q, const Coordinates& v, double tau) const;
+  /// Stiffness and damping of bending, constant because kappa is linear in the rotations.
+  [[nodiscard]] Square tangent(const Coordinates& q, double stiffness, double damping) const;
+  [[nodiscard]] Coordinates discrete_gradient_forces(const Coordinates& q0, const Coordinates& q1,
+                                                     double rate) const {
+    return forces((q0 + q1) / 2, q1 - q0, rate);
   }
-
-  /// Moments of bending at the nodes. From rotations beyond the first node's: what all turn by
-  /// cancels before it is multiplied, not after. Its rounding would be a moment at every node of a
-  /// row, n^2 eps EI/L in all of n elements.
-  [[nodiscard]] Coordinates bending(const Coordinates& q) const { return stiffness() * bent(q); }
-  [[nodiscard]] double bending_energy(const Coordinates& q) const {
-    const Coordinates relative = bent(q);
-    return relative.dot(stiffness() * relative) / 2;
-  }
-
-  [[nodiscard]] Square mass() const {
-    Square M = Square::Zero();
-    const ShapeFunctions<P>& s = shape_functions<P>();
-    for (int a = 0; a <= P; ++a) {
-      for (int b = 0; b <= P; ++b) {
-        const double m = length * (lumped ? (a == b ? s.integral[a] : 0.0) : s.mass(a, b));
-        M(3 * a, 3 * b) = M(3 * a + 1, 3 * b + 1) = mass_per_length * m;
-        M(3 * a + 2, 3 * b + 2) = inertia_per_length * m;
-      }
-    }
-    return M;
-  }
-
-  [[nodiscard]] Rows compliance() const {
-    Rows c;
-    for (int g = 0; g < P; ++g) {
-      const double w = shape_functions<P>().weight[g] * length;
-      c[2 * g] = w * stretch_compliance;
-      c[2 * g + 1] = w * shear_compliance;
-    }
-    return c;
-  }
-
+  /// Of bending [J].
+  [[nodiscard]] double energy(const Coordinates& q) const;
+  [[nodiscard]] Square mass() const;
+  /// Forces at the nodes of a distributed load [N/m].
+  [[nodiscard]] Coordinates distributed_load(const Vector2d& force_per_length) const;
+  [[nodiscard]] Rows compliance() const;
   /// rho of `KktMatrix`: a shear stiffness 12 EI/h^2, which keeps bending and shear of one size,
   /// and the element's mass.
-  [[nodiscard]] Rows penalty(const TangentCoefficients& coefficients) const {
-    const double k = 12 * EI / (length * length);
-    Rows rho;
-    for (int g = 0; g < P; ++g) {
-      const double w = shape_functions<P>().weight[g];
-      rho[2 * g] = rho[2 * g + 1] = coefficients.stiffness * k / (w * length) +
-                                    coefficients.mass * mass_per_length * length / (w * w);
-    }
-    return rho;
+  [[nodiscard]] Rows penalty(const TangentCoefficients& coefficients) const;
+  /// Axis of the section at a node.
+  [[nodiscard]] Vector2d section_axis(const Coordinates& q, int node) const {
+    return rotated(axis, q[3 * node + 2]);
   }
-
- private:
-  /// Rotations beyond the first node's; nothing of its motion else bends.
-  [[nodiscard]] static Coordinates bent(const Coordinates& q) {
-    Coordinates relative = Coordinates::Zero();
-    for (int a = 1; a <= P; ++a) relative[3 * a + 2] = q[3 * a + 2] - q[2];
-    return relative;
-  }
-
-  /// Strains and section axes of one Gauss point.
-  struct Strain {
-    Vector2d e1, e2;
-    double stretch = 0, shear = 0;
-
-    Strain(const Beam& beam, const Coordinates& q, int g) {
-      const ShapeFunctions<P>& s = shape_functions<P>();
-      Vector2d slope = Vector2d::Zero();
-      double rotation = 0;
-      for (int a = 0; a <= P; ++a) {
-        slope +=
-            s.slope(g, a) / beam.length * (q.template segment<2>(3 * a) - q.template head<2>());
-        rotation += s.value(g, a) * q[3 * a + 2];
-      }
-      const double cosine = std::cos(rotation), sine = std::sin(rotation);
-      const Vector2d normal = perpendicular(beam.axis);
-      e1 = cosine * beam.axis + sine * normal;
-      e2 = cosine * normal - sine * beam.axis;
-      stretch = e1.dot(slope) + cosine_minus_one(rotation);
-      shear = e2.dot(slope) - sine;
-    }
-  };
 };
 
 }  // namespace trammel::solver::large_motion

@@ -34,6 +34,16 @@ struct TangentCoefficients {
   bool has_penalty = true;  ///< false: the matrix without the penalties of `KktMatrix`
 };
 
+/// Matrix sizes of an element with that number of coordinates and constraint rows.
+template <int Coords, int Count>
+struct ElementSizes {
+  static constexpr int N = Coords, R = Count;
+  using Coordinates = Eigen::Matrix<double, N, 1>;
+  using Rows = Eigen::Matrix<double, R, 1>;
+  using Gradient = Eigen::Matrix<double, R, N>;
+  using Square = Eigen::Matrix<double, N, N>;
+};
+
 class ConstrainedSystem {
  public:
   ConstrainedSystem() = default;

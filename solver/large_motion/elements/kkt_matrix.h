@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -44,10 +43,18 @@ class KktMatrix {
 
   void clear();
 
-  /// Adds an element's coordinates-only matrix.
+  /// Adds an element's matrix: of its coordinates, or of all unknowns of its block.
   template <class Matrix>
   void add(Index block, const Matrix& S) {
-    scatter(block, S, 0);
+    const Index n = S.rows();
+    const int* slot = value_index_.data() + block_start_[static_cast<std::size_t>(block)];
+    double* a = matrix_.valuePtr();
+    for (Index j = 0; j < n; ++j) {
+      for (Index i = 0; i < n; ++i) {
+        const int s = slot[j * n + i];
+        if (s >= 0) a[s] += S(i, j);
+      }
+    }
   }
 
   /// Adds an element with constraint rows: S (n x n), G (m x n), c and rho (m).
@@ -60,18 +67,22 @@ class KktMatrix {
   template <class Matrix, class Gradient, class Rows>
   void add(Index block, const Matrix& S, const Gradient& D, const Gradient& G, const Rows& c,
            const Rows& rho) {
+    constexpr int N = Matrix::RowsAtCompileTime, M = Gradient::RowsAtCompileTime;
+    constexpr int kSize = N == Eigen::Dynamic ? N : N + M;
+    const Index n = S.rows(), m = G.rows();
     const Rows penalty =
         rho.cwiseMin(c.unaryExpr([](double x) { return x > 0 ? 0.5 / x : 1e300; }));
     const Rows E = Rows::Ones(c.size()) - penalty.cwiseProduct(c);
-    const Matrix augmented = S + D.transpose() * penalty.asDiagonal() * G;
-    scatter(block, augmented, G.rows());
-    scatter_rows(block, D, G, E);
-    const Index n = S.rows();
-    for (Index i = 0; i < G.rows(); ++i) {
-      const double least = penalty[i] > 0 ? 1e-11 / penalty[i] : 0;
-      const double compliance = std::max(c[i] * E[i], least);
-      add_row_diagonal(block, n + i, n + G.rows(), -compliance, penalty[i] / E[i]);
-    }
+    const Rows least = penalty.unaryExpr([](double x) { return x > 0 ? 1e-11 / x : 0; });
+    const Rows compliance = c.cwiseProduct(E).cwiseMax(least);
+    Eigen::Matrix<double, kSize, kSize> all(n + m, n + m);
+    all.template topLeftCorner<N, N>(n, n) = S + D.transpose() * penalty.asDiagonal() * G;
+    all.template topRightCorner<N, M>(n, m) = D.transpose() * E.asDiagonal();
+    all.template bottomLeftCorner<M, N>(m, n) = E.asDiagonal() * G;
+    all.template bottomRightCorner<M, M>(m, m) = (-compliance).asDiagonal();
+    add(block, all);
+    multiplier_scaling_.segment(first_row_[static_cast<std::size_t>(block)], m) =
+        penalty.cwiseQuotient(E);
   }
 
   /// Adds to the diagonal of one coordinate.
@@ -98,7 +109,6 @@ class KktMatrix {
   /// root of the sum of the squared terms, times 16 epsilon. Up to 1 the motion is free. The sum of
   /// the terms itself would take smooth motions of fine meshes for free.
   [[nodiscard]] double energy_over_roundoff(const Extended& x) const;
-  [[nodiscard]] bool is_free(const Extended& x) const { return energy_over_roundoff(x) <= 1; }
 
   /// Of each equation, the sum of the magnitudes of its terms with the unknowns x = (q, lambda).
   void term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const;
@@ -106,8 +116,6 @@ class KktMatrix {
   /// Unstable directions: negative pivots beyond those of the constraints; -1 without LDL^T.
   [[nodiscard]] Index negative_pivots() const;
 
-  [[nodiscard]] Index coordinates() const { return coordinates_; }
-  [[nodiscard]] Index constraints() const { return constraints_; }
   [[nodiscard]] std::int64_t factorizations() const { return factorizations_; }
   [[nodiscard]] std::int64_t solves() const { return solves_; }
 
@@ -116,47 +124,15 @@ class KktMatrix {
 
   void order(const std::vector<std::vector<Index>>& blocks);
   void allocate(const std::vector<std::vector<Index>>& blocks);
-  [[nodiscard]] int value_index(Index row, Index column) const;
-
-  /// Adds the n x n matrix into the leading part of a block of n + rows unknowns.
-  template <class Matrix>
-  void scatter(Index block, const Matrix& values, Index rows) {
-    const Index n = values.rows();
-    const int* slot = value_index_.data() + block_start_[static_cast<std::size_t>(block)];
-    double* a = matrix_.valuePtr();
-    for (Index j = 0; j < n; ++j) {
-      for (Index i = 0; i < n; ++i) {
-        const int s = slot[j * (n + rows) + i];
-        if (s >= 0) a[s] += values(i, j);
-      }
-    }
-  }
-
-  template <class Gradient, class Rows>
-  void scatter_rows(Index block, const Gradient& D, const Gradient& G, const Rows& E) {
-    const Index n = G.cols(), m = G.rows();
-    const int* slot = value_index_.data() + block_start_[static_cast<std::size_t>(block)];
-    double* a = matrix_.valuePtr();
-    for (Index j = 0; j < n; ++j) {
-      for (Index i = 0; i < m; ++i) {
-        const int below = slot[j * (n + m) + n + i], right = slot[(n + i) * (n + m) + j];
-        if (below < 0) continue;
-        a[below] += E[i] * G(i, j);
-        a[right] += E[i] * D(i, j);
-      }
-    }
-  }
-
-  void add_row_diagonal(Index block, Index local, Index size, double value, double scaling);
 
   Index coordinates_ = 0, constraints_ = 0;
-  std::vector<Index> permutation_;      ///< elimination order: position of each unknown
-  Eigen::SparseMatrix<double> matrix_;  ///< in elimination order, both triangles
+  Eigen::PermutationMatrix<Eigen::Dynamic> permutation_;  ///< of elimination
+  Eigen::SparseMatrix<double> matrix_;                    ///< in elimination order, both triangles
   std::vector<std::size_t> block_start_;
   std::vector<int> value_index_;  ///< per block, column-major: position in the values, -1: not free
   std::vector<int> diagonal_;     ///< per coordinate
-  std::vector<Index> row_of_value_;
-  VectorXd multiplier_scaling_;  ///< rho / E of each row
+  std::vector<Index> first_row_;  ///< of each block
+  VectorXd multiplier_scaling_;   ///< rho / E of each row
   std::unique_ptr<Factors> factors_;
   mutable VectorXd work_, solution_;
   mutable std::int64_t solves_ = 0;

@@ -1,101 +1,45 @@
 #include "solver/large_motion/elements/triangle.h"
 
-#include <cmath>
+#include "solver/elements/triangle6_element.h"
+#include "solver/elements/triangle_interpolation.h"
 
 namespace trammel::solver::large_motion {
 
-namespace {
-
 template <int Nodes>
-Eigen::Matrix<double, Nodes, 1> shape_functions(double r, double s) {
-  const double t = 1 - r - s;
-  Eigen::Matrix<double, Nodes, 1> n;
-  if constexpr (Nodes == 3) {
-    n << t, r, s;
-  } else {
-    n << t * (2 * t - 1), r * (2 * r - 1), s * (2 * s - 1), 4 * t * r, 4 * r * s, 4 * s * t;
-  }
-  return n;
-}
-
-template <int Nodes>
-Eigen::Matrix<double, 2, Nodes> local_gradients(double r, double s) {
-  Eigen::Matrix<double, 2, Nodes> d;
-  if constexpr (Nodes == 3) {
-    d << -1, 1, 0, -1, 0, 1;
-  } else {
-    const double t = 1 - r - s;
-    d << 1 - 4 * t, 4 * r - 1, 0, 4 * (t - r), 4 * s, -4 * s,  //
-        1 - 4 * t, 0, 4 * s - 1, -4 * r, 4 * r, 4 * (t - s);
-  }
-  return d;
-}
-
-struct Point {
-  double r, s, weight;
-};
-
-/// Interior rules on the triangle, weights summing to 1: degree 1, 2 or 4.
-constexpr std::array<Point, 1> kCentroidRule = {{{1.0 / 3, 1.0 / 3, 1}}};
-constexpr std::array<Point, 3> kThreePointRule = {
-    {{1.0 / 6, 1.0 / 6, 1.0 / 3}, {2.0 / 3, 1.0 / 6, 1.0 / 3}, {1.0 / 6, 2.0 / 3, 1.0 / 3}}};
-constexpr double kA4 = 0.44594849091596488632, kB4 = 0.09157621350977074346;
-constexpr double kWeightA = 0.22338158967801146570, kWeightB = 0.10995174365532186764;
-constexpr std::array<Point, 6> kSixPointRule = {{{kA4, kA4, kWeightA},
-                                                 {1 - 2 * kA4, kA4, kWeightA},
-                                                 {kA4, 1 - 2 * kA4, kWeightA},
-                                                 {kB4, kB4, kWeightB},
-                                                 {1 - 2 * kB4, kB4, kWeightB},
-                                                 {kB4, 1 - 2 * kB4, kWeightB}}};
-
-}  // namespace
-
-template <int Nodes>
-Triangle2d<Nodes>::Triangle2d(const Material& material, double thickness,
-                              const std::array<Eigen::Vector2d, Nodes>& corners) {
-  const double E = material.E, nu = material.nu;
+Triangle2d<Nodes>::Triangle2d(const Model& model, const Triangle& triangle) {
+  const Plate& plate = model.plates[static_cast<std::size_t>(triangle.plate)];
+  const double E = plate.material.E, nu = plate.material.nu;
   D_ << 1, nu, 0, nu, 1, 0, 0, 0, (1 - nu) / 2;
   D_ *= E / (1 - nu * nu);
-  Eigen::Matrix<double, 2, Nodes> X;
-  for (int a = 0; a < Nodes; ++a) X.col(a) = corners[static_cast<std::size_t>(a)];
-  const auto jacobian = [&](double r, double s) {
-    const Eigen::Matrix2d F = X * local_gradients<Nodes>(r, s).transpose();
-    if (!(std::abs(F.determinant()) > 0)) throw ModelError("a triangle has no area");
-    return F;
+  const auto interpolate_at = [&](const Vector3d& area_coordinates) {
+    const TriangleInterpolation at = interpolate(model, triangle, area_coordinates);
+    if (!(at.area > 0)) throw ModelError("a triangle has no area");
+    return at;
   };
-  const auto prepare = [&](const auto& rule) {
-    for (std::size_t p = 0; p < static_cast<std::size_t>(kPoints); ++p) {
-      const Eigen::Matrix2d F = jacobian(rule[p].r, rule[p].s);
-      gradients_[p] = F.inverse().transpose() * local_gradients<Nodes>(rule[p].r, rule[p].s);
-      volume_[p] = thickness * rule[p].weight * std::abs(F.determinant()) / 2;
-    }
-  };
-  if constexpr (Nodes == 3) {
-    prepare(kCentroidRule);
-  } else {
-    prepare(kThreePointRule);
+  // The point at the center is exact to degree 1, the three points to degree 2.
+  const auto count = static_cast<double>(points_.size());
+  for (std::size_t p = 0; p < points_.size(); ++p) {
+    Vector3d area_coordinates = Vector3d::Constant(Nodes == 3 ? 1.0 / 3 : 1.0 / 6);
+    if (Nodes == 6) area_coordinates[static_cast<Index>(p)] = 2.0 / 3;
+    const TriangleInterpolation at = interpolate_at(area_coordinates);
+    points_[p] = {at.gradient.template leftCols<Nodes>(), plate.thickness * at.area / count};
   }
   mass_.setZero();
-  for (const Point& p : kSixPointRule) {
-    const double m =
-        material.rho * thickness * p.weight * std::abs(jacobian(p.r, p.s).determinant()) / 2;
-    const Eigen::Matrix<double, Nodes, 1> n = shape_functions<Nodes>(p.r, p.s);
+  for (const TriangleQuadraturePoint& point : triangle6_quadrature()) {
+    const TriangleInterpolation at = interpolate_at(point.area_coordinates);
+    const double m = plate.material.rho * plate.thickness * point.weight * at.area;
     for (int a = 0; a < Nodes; ++a) {
       for (int b = 0; b < Nodes; ++b) {
-        mass_.template block<2, 2>(2 * a, 2 * b) += m * n[a] * n[b] * Eigen::Matrix2d::Identity();
+        mass_.template block<2, 2>(2 * a, 2 * b) +=
+            m * at.N[a] * at.N[b] * Eigen::Matrix2d::Identity();
       }
     }
   }
 }
 
 template <int Nodes>
-Eigen::Matrix2d Triangle2d<Nodes>::displacement_gradient(const Gradients& gradients,
-                                                         const Coordinates& q) {
-  Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
-  for (int a = 0; a < Nodes; ++a) {
-    H += q.template segment<2>(2 * a) * gradients.col(a).transpose();
-  }
-  return H;
+Eigen::Matrix2d Triangle2d<Nodes>::Point::displacement_gradient(const Coordinates& q) const {
+  return Eigen::Map<const Gradients>(q.data()) * gradients.transpose();
 }
 
 template <int Nodes>
@@ -105,8 +49,8 @@ typename Triangle2d<Nodes>::Strain Triangle2d<Nodes>::strain(const Eigen::Matrix
 }
 
 template <int Nodes>
-typename Triangle2d<Nodes>::Operator Triangle2d<Nodes>::strain_operator(const Gradients& gradients,
-                                                                        const Eigen::Matrix2d& H) {
+typename Triangle2d<Nodes>::Operator Triangle2d<Nodes>::Point::strain_operator(
+    const Eigen::Matrix2d& H) const {
   const Eigen::Matrix2d F = Eigen::Matrix2d::Identity() + H;
   Operator B;
   for (int a = 0; a < Nodes; ++a) {
@@ -121,9 +65,9 @@ typename Triangle2d<Nodes>::Operator Triangle2d<Nodes>::strain_operator(const Gr
 template <int Nodes>
 double Triangle2d<Nodes>::energy(const Coordinates& q) const {
   double sum = 0;
-  for (std::size_t p = 0; p < static_cast<std::size_t>(kPoints); ++p) {
-    const Strain e = strain(displacement_gradient(gradients_[p], q));
-    sum += volume_[p] / 2 * e.dot(D_ * e);
+  for (const Point& point : points_) {
+    const Strain e = strain(point.displacement_gradient(q));
+    sum += point.volume / 2 * e.dot(D_ * e);
   }
   return sum;
 }
@@ -133,12 +77,12 @@ typename Triangle2d<Nodes>::Coordinates Triangle2d<Nodes>::forces(const Coordina
                                                                   const Coordinates& v,
                                                                   double tau) const {
   Coordinates f = Coordinates::Zero();
-  for (std::size_t p = 0; p < static_cast<std::size_t>(kPoints); ++p) {
-    const Eigen::Matrix2d H = displacement_gradient(gradients_[p], q);
-    const Operator B = strain_operator(gradients_[p], H);
+  for (const Point& point : points_) {
+    const Eigen::Matrix2d H = point.displacement_gradient(q);
+    const Operator B = point.strain_operator(H);
     Strain e = strain(H);
     if (tau != 0) e += tau * (B * v);
-    f += volume_[p] * B.transpose() * (D_ * e);
+    f += point.volume * B.transpose() * (D_ * e);
   }
   return f;
 }
@@ -148,15 +92,15 @@ typename Triangle2d<Nodes>::Square Triangle2d<Nodes>::tangent(const Coordinates&
                                                               double stiffness,
                                                               double damping) const {
   Square K = Square::Zero();
-  for (std::size_t p = 0; p < static_cast<std::size_t>(kPoints); ++p) {
-    const Eigen::Matrix2d H = displacement_gradient(gradients_[p], q);
-    const Operator B = strain_operator(gradients_[p], H);
+  for (const Point& point : points_) {
+    const Eigen::Matrix2d H = point.displacement_gradient(q);
+    const Operator B = point.strain_operator(H);
     const Strain s = D_ * strain(H);
-    K += (stiffness + damping) * volume_[p] * B.transpose() * D_ * B;
+    K += (stiffness + damping) * point.volume * B.transpose() * D_ * B;
     Eigen::Matrix2d S;
     S << s[0], s[2], s[2], s[1];
     const Eigen::Matrix<double, Nodes, Nodes> geometric =
-        stiffness * volume_[p] * gradients_[p].transpose() * S * gradients_[p];
+        stiffness * point.volume * point.gradients.transpose() * S * point.gradients;
     for (int a = 0; a < Nodes; ++a) {
       for (int b = 0; b < Nodes; ++b) {
         K(2 * a, 2 * b) += geometric(a, b);
@@ -171,30 +115,17 @@ template <int Nodes>
 typename Triangle2d<Nodes>::Coordinates Triangle2d<Nodes>::discrete_gradient_forces(
     const Coordinates& q0, const Coordinates& q1, double rate) const {
   Coordinates f = Coordinates::Zero();
-  for (std::size_t p = 0; p < static_cast<std::size_t>(kPoints); ++p) {
-    const Eigen::Matrix2d H0 = displacement_gradient(gradients_[p], q0);
-    const Eigen::Matrix2d H1 = displacement_gradient(gradients_[p], q1);
+  for (const Point& point : points_) {
+    const Eigen::Matrix2d H0 = point.displacement_gradient(q0);
+    const Eigen::Matrix2d H1 = point.displacement_gradient(q1);
     const Strain e0 = strain(H0), e1 = strain(H1);
-    const Operator B = strain_operator(gradients_[p], (H0 + H1) / 2);
-    f += volume_[p] * B.transpose() * (D_ * ((e0 + e1) / 2 + rate * (e1 - e0)));
+    const Operator B = point.strain_operator((H0 + H1) / 2);
+    f += point.volume * B.transpose() * (D_ * ((e0 + e1) / 2 + rate * (e1 - e0)));
   }
   return f;
 }
 
-template <int Nodes>
-typename Triangle2d<Nodes>::Square Triangle2d<Nodes>::mass() const {
-  return mass_;
-}
-
-template <int Nodes>
-Eigen::Vector3d Triangle2d<Nodes>::stress(const Coordinates& q) const {
-  Strain mean = Strain::Zero();
-  for (const Gradients& gradients : gradients_)
-    mean += strain(displacement_gradient(gradients, q)) / kPoints;
-  return D_ * mean;
-}
-
-template struct Triangle2d<3>;
-template struct Triangle2d<6>;
+template class Triangle2d<3>;
+template class Triangle2d<6>;
 
 }  // namespace trammel::solver::large_motion

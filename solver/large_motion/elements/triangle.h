@@ -1,28 +1,26 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <array>
 
+#include "solver/large_motion/elements/constrained_system.h"
 #include "solver/model/model.h"
 
 namespace trammel::solver::large_motion {
 
 /// Total-Lagrangian membrane triangle of a St. Venant-Kirchhoff material in plane stress, with 3 or
-/// 6 nodes (mid-sides 01, 12, 20) [m]: E = (H + H^T + H^T H)/2, H = du/dX, S = D E,
-/// energy = t A sum of w E:S/2.
+/// 6 nodes (mid-sides 01, 12, 20): E = (H + H^T + H^T H)/2, H = du/dX, S = D E,
+/// energy = t A sum of w E:S/2. Coordinates: (ux, uy) of each node [m].
 template <int Nodes>
-struct Triangle2d {
+class Triangle2d : public ElementSizes<2 * Nodes, 0> {
   static_assert(Nodes == 3 || Nodes == 6);
-  static constexpr int N = 2 * Nodes;
-  static constexpr int kPoints = Nodes == 3 ? 1 : 3;
-  using Coordinates = Eigen::Matrix<double, N, 1>;
-  using Square = Eigen::Matrix<double, N, N>;
-  using Gradients = Eigen::Matrix<double, 2, Nodes>;
 
-  /// @throws ModelError  where the triangle has no area.
-  Triangle2d(const Material& material, double thickness,
-             const std::array<Eigen::Vector2d, Nodes>& corners);
+ public:
+  using typename ElementSizes<2 * Nodes, 0>::Coordinates;
+  using typename ElementSizes<2 * Nodes, 0>::Square;
+
+  /// @throws ModelError  if the triangle has no area.
+  Triangle2d(const Model& model, const Triangle& triangle);
 
   [[nodiscard]] double energy(const Coordinates& q) const;
   /// dEnergy/dq plus strain-rate damping, S = D (E + tau dE/dt).
@@ -33,22 +31,26 @@ struct Triangle2d {
   /// N. Tarnow, ZAMP 43, 1992); `rate` is tau over the step.
   [[nodiscard]] Coordinates discrete_gradient_forces(const Coordinates& q0, const Coordinates& q1,
                                                      double rate) const;
-  [[nodiscard]] Square mass() const;
-  [[nodiscard]] Eigen::Vector3d stress(const Coordinates& q) const;
+  [[nodiscard]] const Square& mass() const { return mass_; }
 
  private:
+  using Gradients = Eigen::Matrix<double, 2, Nodes>;
   using Strain = Eigen::Vector3d;  ///< E11, E22, 2 E12
-  using Operator = Eigen::Matrix<double, 3, N>;
+  using Operator = Eigen::Matrix<double, 3, 2 * Nodes>;
 
-  [[nodiscard]] static Eigen::Matrix2d displacement_gradient(const Gradients& gradients,
-                                                             const Coordinates& q);
+  /// A point of the integration rule.
+  struct Point {
+    Gradients gradients;
+    double volume = 0;  ///< thickness times area times weight [m^3]
+
+    [[nodiscard]] Eigen::Matrix2d displacement_gradient(const Coordinates& q) const;
+    [[nodiscard]] Operator strain_operator(const Eigen::Matrix2d& H) const;
+  };
+
   [[nodiscard]] static Strain strain(const Eigen::Matrix2d& H);
-  [[nodiscard]] static Operator strain_operator(const Gradients& gradients,
-                                                const Eigen::Matrix2d& H);
 
   Eigen::Matrix3d D_;
-  std::array<Gradients, kPoints> gradients_;
-  std::array<double, kPoints> volume_{};  ///< thickness times area times weight [m^3]
+  std::array<Point, Nodes == 3 ? 1 : 3> points_;
   Square mass_;
 };
 

@@ -17,7 +17,7 @@ class ConsistentInitialization {
         step_(step),
         n_(system.coordinates()),
         m_(system.constraints()),
-        row_unit_(system.row_unit()),
+        rigid_((system.compliance().array() == 0).cast<double>()),
         matrix_(n_, m_, system.blocks()),
         constraint_residual_(VectorXd::Zero(m_)),
         constraint_rate_(VectorXd::Zero(m_)),
@@ -44,8 +44,7 @@ class ConsistentInitialization {
   }
 
   Outcome run_accelerations() {
-    if (state_.a.size() != n_) state_.a.setZero(n_);
-    state_.a.setZero();
+    state_.a.setZero(n_);
     if (!solve_accelerations()) return failed("accelerations");
     if (resolved_) refine_accelerations();
     return {};
@@ -55,28 +54,31 @@ class ConsistentInitialization {
   Outcome failed(const std::string& what) const {
     std::ostringstream message;
     message << "no consistent " << what << " at the start, time " << state_.t
-            << " s: the largest constraint residual is "
-            << (m_ > 0 ? rigid_constraint_residual() : 0.0) << " of the model's size or of 1 rad";
+            << " s: the largest constraint residual is " << rigid_constraint_residual()
+            << " of the model's size or of 1 rad";
     return {Status::not_converged, message.str()};
   }
 
   /// Over the model's size or 1 rad.
   double rigid_constraint_residual() const {
-    double largest = 0;
-    for (Index i = 0; i < m_; ++i) {
-      if (rigid(i)) largest = std::max(largest, std::abs(constraint_residual_[i]) / row_unit_[i]);
-    }
-    return largest;
+    if (m_ == 0) return 0;
+    return rigid_.cwiseProduct(constraint_residual_.cwiseQuotient(system_.row_unit()))
+        .lpNorm<Eigen::Infinity>();
   }
 
-  bool rigid(Index i) const { return system_.compliance()[i] == 0; }
+  /// Solves for forces and for what the rigid rows lack.
+  /// @return false if the matrix is singular.
+  bool solve(const VectorXd& force, const VectorXd& row) {
+    solution_ << force, -rigid_.cwiseProduct(row);
+    matrix_.solve(solution_);
+    return solution_.allFinite();
+  }
 
   /// S = M + (fraction of step)^2 K.
   void assemble(double fraction) {
     const double stiffness = fraction * fraction * step_ * step_;
     matrix_.clear();
-    coefficients_ = TangentCoefficients{1, 0, stiffness, 1 / stiffness};
-    system_.tangent(state_, coefficients_, matrix_);
+    system_.tangent(state_, {1, 0, stiffness, 1 / stiffness}, matrix_);
   }
 
   bool project_positions() {
@@ -89,11 +91,7 @@ class ConsistentInitialization {
       last = now;
       assemble(0.5);
       if (!matrix_.factor(system_.symmetric())) return false;
-      solution_.setZero();
-      for (Index r = 0; r < m_; ++r) {
-        if (rigid(r)) solution_[n_ + r] = -constraint_residual_[r];
-      }
-      matrix_.solve(solution_);
+      if (!solve(VectorXd::Zero(n_), constraint_residual_)) return false;
       state_.q += solution_.head(n_);
     }
     return last < 1e-9;
@@ -118,37 +116,28 @@ class ConsistentInitialization {
       State at_rest = state_;
       at_rest.v.setZero();
       system_.constraint_residual(at_rest, constraint_residual_, constraint_rate_);
-      solution_.head(n_) = penalty_force;
-      for (Index r = 0; r < m_; ++r) solution_[n_ + r] = rigid(r) ? -constraint_rate_[r] : 0.0;
-      matrix_.solve(solution_);
+      if (!solve(penalty_force, constraint_rate_)) return false;
       const double change = weighted_rms_norm(system_, solution_.head(n_) - state_.v);
       state_.v = solution_.head(n_);
-      if (!state_.v.allFinite()) return false;
       if (change <= 1e-15 * weighted_rms_norm(system_, state_.v)) break;
     }
-    return project_velocities();
-  }
-
-  /// What regularization left: a last correction onto G v + dg/dt = 0.
-  bool project_velocities() {
+    // Two corrections onto G v + dg/dt = 0 remove the error of the regularization.
     for (int i = 0; i < 2; ++i) {
       system_.constraint_residual(state_, constraint_residual_, constraint_rate_);
-      solution_.setZero();
-      for (Index r = 0; r < m_; ++r) solution_[n_ + r] = rigid(r) ? -constraint_rate_[r] : 0.0;
-      matrix_.solve(solution_);
+      if (!solve(VectorXd::Zero(n_), constraint_rate_)) return false;
       state_.v += solution_.head(n_);
     }
-    return state_.v.allFinite();
+    return true;
   }
 
-  /// Sum of what unit accelerations of all coordinates bring about, in their units.
+  /// Sum of the forces that unit accelerations of all coordinates require, in their units.
   double mass_scale() {
     State probe = state_;
-    VectorXd r0(n_), r1(n_);
-    system_.force_residual(probe, r0);
+    VectorXd forces(n_);
+    system_.force_residual(probe, force_residual_);
     probe.a = system_.scale();
-    system_.force_residual(probe, r1);
-    const double sum = (r1 - r0).cwiseProduct(system_.scale()).cwiseAbs().sum();
+    system_.force_residual(probe, forces);
+    const double sum = (forces - force_residual_).cwiseProduct(system_.scale()).cwiseAbs().sum();
     return sum > 0 ? sum : 1.0;
   }
 
@@ -172,9 +161,7 @@ class ConsistentInitialization {
       resolved_ = false;
     }
     state_.a = solution_.head(n_);
-    for (Index r = 0; r < m_; ++r) {
-      if (rigid(r)) state_.lambda[r] = solution_[n_ + r];
-    }
+    state_.lambda += rigid_.cwiseProduct(solution_.tail(m_));
     return state_.a.allFinite() && state_.lambda.allFinite();
   }
 
@@ -186,22 +173,15 @@ class ConsistentInitialization {
       const double now = force_residual_.cwiseProduct(system_.scale()).norm();
       if (!(now < last)) return;
       last = now;
-      solution_.head(n_) = -force_residual_;
-      solution_.tail(m_).setZero();
-      matrix_.solve(solution_);
+      if (!solve(-force_residual_, VectorXd::Zero(m_))) return;
       state_.a += solution_.head(n_);
-      for (Index r = 0; r < m_; ++r)
-        if (rigid(r)) state_.lambda[r] += solution_[n_ + r];
+      state_.lambda += rigid_.cwiseProduct(solution_.tail(m_));
     }
   }
 
   bool solve_with_mass_scaling(double fraction, const VectorXd& bias) {
     assemble(fraction);
-    if (!matrix_.factor(system_.symmetric())) return false;
-    solution_.head(n_) = -force_residual_;
-    for (Index r = 0; r < m_; ++r) solution_[n_ + r] = rigid(r) ? -bias[r] : 0.0;
-    matrix_.solve(solution_);
-    return solution_.allFinite();
+    return matrix_.factor(system_.symmetric()) && solve(-force_residual_, bias);
   }
 
   /// d(G v + dg/dt)/dt without accelerations, by a central difference along the motion. The
@@ -226,9 +206,8 @@ class ConsistentInitialization {
   double step_;
   Index n_, m_;
   bool resolved_ = true;  ///< nothing vibrates faster than a step
-  VectorXd row_unit_;     ///< of each constraint [m or rad]
+  VectorXd rigid_;        ///< 1 for each rigid row, 0 for each compliant one
   KktMatrix matrix_;
-  TangentCoefficients coefficients_;
   VectorXd constraint_residual_, constraint_rate_, force_residual_, solution_;
 };
 

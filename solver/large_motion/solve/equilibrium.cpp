@@ -151,7 +151,7 @@ Equilibrium::FreeMotion Equilibrium::free_motion(const State& state) {
   matrix_.term_magnitudes(motion, terms);
   KktMatrix::Extended x = KktMatrix::Extended::Zero(motion.size());
   x.head(n) = found.shape.cast<long double>();
-  found.exists = matrix_.is_free(x);
+  found.exists = matrix_.energy_over_roundoff(x) <= 1;
   system_.load_derivative(state, load);
   const double work = motion.head(n).cwiseQuotient(system_.scale()).norm() *
                       load.cwiseProduct(system_.scale()).norm();
@@ -161,7 +161,7 @@ Equilibrium::FreeMotion Equilibrium::free_motion(const State& state) {
   return found;
 }
 
-NewtonResult Equilibrium::solve(State& state, double load) {
+NewtonResult Equilibrium::solve(State& state, double load, const LoadControl& control) {
   NewtonResult result;
   const State before = state;
   const Index n = system_.coordinates();
@@ -172,12 +172,19 @@ NewtonResult Equilibrium::solve(State& state, double load) {
     return result;
   };
   for (int i = 0; i < options_.max_iterations; ++i) {
-    if (!factor_if_moved(state)) return fail(Status::singular, "the tangent is singular");
+    if (!factor_if_moved(state, options_.same_state))
+      return fail(Status::singular, "the tangent is singular");
     correction(state, step_, result);
+    if (control) {
+      load_direction(state, load_step_);
+      const double change = control(step_, load_step_);
+      step_ += change * load_step_;
+      system_.set_load(state, state.load + change);
+    }
     if (!step_.allFinite()) return fail(Status::singular, "the tangent is singular");
     apply_correction(state, step_);
-    const double last = result.correction.back(),
-                 displacement = weighted_rms_norm(system_, state.q.head(n));
+    const double last = result.correction.back() = weighted_rms_norm(system_, step_.head(n));
+    const double displacement = weighted_rms_norm(system_, state.q.head(n));
     if (converged(result.correction, displacement)) return result;
     if (last > 1e6 * (1 + displacement)) break;
   }
@@ -186,34 +193,6 @@ NewtonResult Equilibrium::solve(State& state, double load) {
           << result.correction.size() << " iterations; last correction " << result.correction.back()
           << ", residual " << result.force_residual.back() << " N m";
   return fail(Status::not_converged, message.str());
-}
-
-std::string describe_largest_coordinate(const GeometricallyExactSystem& system,
-                                        const VectorXd& shape) {
-  const Layout& layout = system.layout();
-  static constexpr std::array<const char*, 3> names = {"motion along x", "motion along y",
-                                                       "rotation"};
-  double largest = -1;
-  std::string description = "a motion inside a member";
-  const auto consider = [&](Index k, const std::string& what) {
-    if (k < 0 || k >= layout.free) return;
-    const double amount = std::abs(shape[k]) / system.scale()[k];
-    if (amount <= largest * (1 + 1e-9)) return;
-    largest = amount;
-    description = what;
-  };
-  for (std::size_t i = 0; i < layout.node.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      consider(layout.node[i][k],
-               std::string(names[k]) + " of node " + system.model().nodes[i].name);
-    }
-  }
-  for (std::size_t i = 0; i < layout.end_rotation.size(); ++i) {
-    for (const Index k : layout.end_rotation[i]) {
-      consider(k, "rotation of an end of member " + system.model().members[i].name);
-    }
-  }
-  return description;
 }
 
 }  // namespace trammel::solver::large_motion

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,7 +13,13 @@ namespace trammel::solver::large_motion {
 struct NewtonOptions {
   int max_iterations = 30;
   double tolerance = 1e-13;  ///< last correction over the displacement [-]
+  /// The tangent is factored again when the state has changed by more than this share [-].
+  double same_state = 1e-7;
 };
+
+/// Change of the load factor in an iteration, not finite to stop: function of the correction at a
+/// fixed load and of d(q, lambda)/dload.
+using LoadControl = std::function<double(const VectorXd& correction, const VectorXd& load_step)>;
 
 /// One Newton solution; each list has an entry an iteration.
 struct NewtonResult {
@@ -31,14 +38,14 @@ class Equilibrium {
   /// What damping takes up at the velocities of a state acts on every state from here on.
   void hold_damping(const State& moving);
 
-  /// Solves at `load` (also the time of drives) from the state given; on failure the state is what
-  /// it was.
-  [[nodiscard]] NewtonResult solve(State& state, double load);
+  /// Solves at `load` (also the time of drives), which `control` changes if it is given, from a
+  /// start state. On failure the state stays as it was.
+  [[nodiscard]] NewtonResult solve(State& state, double load, const LoadControl& control = {});
 
   /// Factors the tangent at a state. @return false: singular to working precision.
   [[nodiscard]] bool factor(const State& state);
   /// The same unless the tangent factored last is of a state that differs by that share at most.
-  [[nodiscard]] bool factor_if_moved(const State& state, double relative = 1e-7);
+  [[nodiscard]] bool factor_if_moved(const State& state, double relative);
   /// dq/dload and dlambda/dload with the tangent factored last, as (dq, dlambda).
   void load_direction(const State& state, VectorXd& direction);
   /// One corrector: solution of the tangent equation for minus the residual.
@@ -79,7 +86,7 @@ class Equilibrium {
   const GeometricallyExactSystem& system_;
   NewtonOptions options_;
   KktMatrix matrix_;
-  VectorXd constraint_residual_, constraint_rate_, step_;
+  VectorXd constraint_residual_, constraint_rate_, step_, load_step_;
   State factored_;                              ///< of which the tangent was factored last
   VectorXd held_damping_;                       ///< empty: none
   std::vector<std::pair<Index, double>> held_;  ///< stiffness of coordinates of free motions
@@ -88,9 +95,5 @@ class Equilibrium {
 
 /// Adds a correction (dq, dlambda) times a factor.
 void apply_correction(State& state, const VectorXd& step, double factor = 1);
-
-/// The coordinate that moves most in a shape, in words: "rotation of node P".
-[[nodiscard]] std::string describe_largest_coordinate(const GeometricallyExactSystem& system,
-                                                      const VectorXd& shape);
 
 }  // namespace trammel::solver::large_motion

@@ -1,8 +1,5 @@
 #include "solver/large_motion/solve/large_statics.h"
 
-#include <cmath>
-#include <vector>
-
 #include "solver/large_motion/solve/state_results.h"
 #include "solver/large_motion/solve/static_path.h"
 
@@ -38,18 +35,6 @@ void count_tangents(const large_motion::GeometricallyExactSystem& system, std::i
   if (moving || !model.gravity.isZero(0)) counters.count(Effect::link_mass, heavy);
 }
 
-StaticSolution static_solution(const large_motion::GeometricallyExactSystem& system,
-                               const large_motion::State& state) {
-  StaticSolution solution;
-  solution.displacement = node_motion(system, state.q);
-  solution.end_rotation = end_rotations(system, state.q);
-  large_motion::Resultants resultants = member_resultants(system, state);
-  solution.resultant_start = std::move(resultants.start);
-  solution.resultant_end = std::move(resultants.end);
-  solution.reaction = reactions(system, state);
-  return solution;
-}
-
 StaticSolution solve_large_statics(const Model& model,
                                    const large_motion::LargeMotionModel& large_motion) {
   const large_motion::GeometricallyExactSystem system(model, large_motion);
@@ -69,27 +54,17 @@ StaticSolution solve_large_statics(const Model& model,
 
 StaticSolution estimate_large_statics(const Model& model,
                                       const large_motion::LargeMotionModel& large_motion) {
-  // Bending and the axial forces it means correct each other in turns: every second one is smaller.
-  constexpr double kEnough = 1e-6, kFast = 0.1, kNothing = 1e-15;
+  // Bending and the axial forces that follow from it correct each other in turns: every second
+  // correction is smaller, and those that shrink fast have six digits after ten.
+  const large_motion::NewtonOptions options{
+      .max_iterations = 12, .tolerance = 1e-6, .same_state = 1e300};  // never
   const large_motion::GeometricallyExactSystem system(model, large_motion);
-  large_motion::Equilibrium equilibrium(system);
+  large_motion::Equilibrium equilibrium(system, options);
   large_motion::State state = system.reference_state();
-  bool shrinks = equilibrium.factor(state);
+  bool solved = equilibrium.factor(state);
   const Index unstable = equilibrium.matrix().negative_pivots();
-  system.set_load(state, 1);
-  large_motion::NewtonResult result;
-  const std::vector<double>& correction = result.correction;
-  Eigen::VectorXd step;
-  double moved = 0;
-  while (shrinks && (correction.empty() || correction.back() > kEnough * moved + kNothing)) {
-    equilibrium.correction(state, step, result);
-    apply_correction(state, step);
-    moved = weighted_rms_norm(system, state.q);
-    const std::size_t count = correction.size();
-    shrinks = std::isfinite(moved) &&
-              (count < 3 || correction[count - 1] < kFast * correction[count - 3]);
-  }
-  if (!shrinks || !equilibrium.factor(state) || equilibrium.matrix().negative_pivots() != unstable)
+  solved = solved && equilibrium.solve(state, 1).outcome.solved() && equilibrium.factor(state);
+  if (!solved || equilibrium.matrix().negative_pivots() != unstable)
     return solve_large_statics(model, large_motion);
   StaticSolution solution = static_solution(system, state);
   solution.counters.factorizations = equilibrium.matrix().factorizations();

@@ -7,11 +7,6 @@
 
 namespace trammel::solver {
 
-/// A state of large motion in the terms of `solve_statics`: displacements, end rotations,
-/// reactions, and section forces along the axes of the rotated sections.
-[[nodiscard]] StaticSolution static_solution(const large_motion::GeometricallyExactSystem& system,
-                                             const large_motion::State& state);
-
 /// Adds the evaluations of the elements of so many tangents, by effect.
 /// @param moving  with the masses
 void count_tangents(const large_motion::GeometricallyExactSystem& system, std::int64_t tangents,

@@ -30,24 +30,6 @@ constexpr double kAlike = 1e6;
 /// How far from a mode's w^2 the matrix is factored that its vector is solved for with.
 constexpr double kAside = 1e-3;
 
-/// M, as what accelerations add to the forces of a state at rest.
-MatrixXd mass_matrix(const ConstrainedSystem& system, const State& at_rest) {
-  const Index n = system.coordinates();
-  State state = at_rest;
-  VectorXd still(n), moved(n);
-  MatrixXd M(n, n);
-  state.v.setZero();
-  state.a.setZero();
-  system.force_residual(state, still);
-  for (Index j = 0; j < n; ++j) {
-    state.a[j] = 1;
-    system.force_residual(state, moved);
-    M.col(j) = moved - still;
-    state.a[j] = 0;
-  }
-  return M;
-}
-
 /// K - w2 M on the constraints, factored with penalties and again without, for exact products:
 /// those of stiff members would round off the stiffness of soft joints.
 class ShiftedStiffness {
@@ -180,18 +162,14 @@ Spectrum spectrum(const ShiftedStiffness& K, const MatrixXd& L, double shift, bo
   found.converged = pairs.converged;
   found.shift = shift;
   if (!pairs.converged) return found;
-  const auto inverse = [&](Index j) {  // 1 / |w^2|
-    return std::abs(pairs.value[j]) / std::abs(1.0 + shift * pairs.value[j]);
-  };
-  std::vector<Index> order(to_size(pairs.value.size()));
-  for (Index j = 0; j < std::ssize(order); ++j) order[to_size(j)] = j;
-  std::stable_sort(order.begin(), order.end(),
-                   [&](Index a, Index b) { return inverse(a) > inverse(b); });
   // Motions that constraints hold have no mode.
   const double held = 1e-4 * kEps * pairs.value.cwiseAbs().maxCoeff();
-  for (const Index j : order) {
-    if (!(std::abs(pairs.value[j]) > held)) continue;
-    found.w2.push_back(shift + 1.0 / pairs.value[j]);
+  std::vector<std::pair<std::complex<double>, Index>> order;  // w^2 of each eigenvector
+  for (Index j = 0; j < pairs.value.size(); ++j)
+    if (std::abs(pairs.value[j]) > held) order.emplace_back(shift + 1.0 / pairs.value[j], j);
+  std::ranges::stable_sort(order, {}, [](const auto& mode) { return std::abs(mode.first); });
+  for (const auto& [w2, j] : order) {
+    found.w2.push_back(w2);
     found.x.emplace_back(flexibility * pairs.vector.col(j));
   }
   return found;
@@ -266,7 +244,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
     found.outcome = {Status::singular, "the tangent is singular"};
     return found;
   }
-  const MatrixXd M = mass_matrix(system, state), L = mass_factor(M);
+  const MatrixXd M = MatrixXd(system.mass()).topLeftCorner(n, n), L = mass_factor(M);
   if (L.cols() == 0) {
     found.outcome = {Status::singular, "nothing vibrates, for nothing that moves has mass"};
     return found;

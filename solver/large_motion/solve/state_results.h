@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "solver/large_motion/system/geometrically_exact_system.h"
+#include "solver/statics/statics.h"
 
 /// What a state means at the model's own parts, in the order and the signs of `StaticSolution`.
 namespace trammel::solver::large_motion {
@@ -12,22 +13,15 @@ namespace trammel::solver::large_motion {
 [[nodiscard]] Eigen::MatrixX3d node_motion(const GeometricallyExactSystem& system,
                                            const VectorXd& values);
 
-/// Member x (first, second end); NaN for a bar [rad].
-[[nodiscard]] Eigen::MatrixX2d end_rotations(const GeometricallyExactSystem& system,
-                                             const VectorXd& values);
-
 /// Support x (Fx, Fy [N], moment [N m]) of the ground on the node, inertia included. Supports that
 /// hold one shared coordinate each show its whole reaction.
 [[nodiscard]] Eigen::MatrixX3d reactions(const GeometricallyExactSystem& system,
                                          const State& state);
 
-/// Section forces (N [N], V [N], M [N m]) at the members' ends, along the axes of the rotated
-/// section.
-struct Resultants {
-  Eigen::MatrixX3d start, end;  ///< member x (N, V, M)
-};
-[[nodiscard]] Resultants member_resultants(const GeometricallyExactSystem& system,
-                                           const State& state);
+/// A state in the terms of `solve_statics`: displacements, end rotations, reactions, and section
+/// forces along the axes of the rotated sections.
+[[nodiscard]] StaticSolution static_solution(const GeometricallyExactSystem& system,
+                                             const State& state);
 
 /// How far members cut free are from equilibrium under the section forces at their ends, their
 /// loads, weight and inertia in the place where they are.

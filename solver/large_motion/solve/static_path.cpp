@@ -9,6 +9,7 @@
 
 #include "solver/large_motion/solve/consistent_initialization.h"
 #include "solver/large_motion/solve/state_results.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::solver::large_motion {
 
@@ -80,6 +81,35 @@ double step_factor(const std::vector<double>& correction) {
   return std::clamp(std::sqrt(kWantedRatio * correction[0] / correction[1]), 0.5, 2.0);
 }
 
+/// The coordinate that moves most in a shape, in words: "rotation of node P".
+std::string describe_largest_coordinate(const GeometricallyExactSystem& system,
+                                        const VectorXd& shape) {
+  const Layout& layout = system.layout();
+  static constexpr std::array<const char*, 3> names = {"motion along x", "motion along y",
+                                                       "rotation"};
+  double largest = -1;
+  std::string description = "a motion inside a member";
+  const auto consider = [&](Index k, const std::string& what) {
+    if (k < 0 || k >= layout.free) return;
+    const double amount = std::abs(shape[k]) / system.scale()[k];
+    if (amount <= largest * (1 + 1e-9)) return;
+    largest = amount;
+    description = what;
+  };
+  for (std::size_t i = 0; i < layout.node.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      consider(layout.node[i][k],
+               std::string(names[k]) + " of node " + system.model().nodes[i].name);
+    }
+  }
+  for (std::size_t i = 0; i < layout.end_rotation.size(); ++i) {
+    for (const Index k : layout.end_rotation[i]) {
+      consider(k, "rotation of an end of member " + system.model().members[i].name);
+    }
+  }
+  return description;
+}
+
 /// A limit point or a bifurcation between two points of a path.
 struct CriticalPoint {
   bool load_reversed = false;  ///< a limit point
@@ -93,7 +123,7 @@ class PathFollower {
       : system_(system), options_(options), equilibrium_(system, options.newton) {}
 
   StaticPath run() {
-    if (start() && !points_done()) {
+    if (start() && system_.coordinates() > 0) {
       while (next()) {
       }
     }
@@ -145,13 +175,11 @@ class PathFollower {
     State end = start;
     system_.set_load(end, options_.target);
     NewtonResult newton;
-    equilibrium_.correction(end, residual_step_, newton);
-    const double response = weighted_rms_norm(system_, residual_step_.head(system_.coordinates())) /
-                            std::abs(options_.target);
+    VectorXd step;
+    equilibrium_.correction(end, step, newton);
+    const double response = newton.correction.back() / std::abs(options_.target);
     return std::isfinite(response) ? response : 0;
   }
-
-  bool points_done() const { return system_.coordinates() == 0; }
 
   bool stop(Outcome outcome) {
     path_.outcome = std::move(outcome);
@@ -194,31 +222,17 @@ class PathFollower {
 
   /// Newton on the plane normal to the direction at distance `arc`.
   bool corrector(const State& from, const Direction& d, double arc, PathPoint& point) {
-    State& state = point.state;
-    state = from;
-    system_.set_load(state, from.load + arc * d.load);
-    apply_correction(state, d.step, arc);
-    point.newton = {};
+    point.state = from;
+    apply_correction(point.state, d.step, arc);
     double distance = 0;
-    for (int i = 0; i < options_.newton.max_iterations; ++i) {
-      if (!equilibrium_.factor_if_moved(state)) return false;
-      equilibrium_.correction(state, residual_step_, point.newton);
-      equilibrium_.load_direction(state, load_step_);
-      if (!residual_step_.allFinite() || !load_step_.allFinite()) return false;
-      const double along = dot(d, load_step_, 1);
-      const double change = along == 0 ? 0.0 : -dot(d, residual_step_, 0) / along;
-      residual_step_ += change * load_step_;
-      apply_correction(state, residual_step_);
-      system_.set_load(state, state.load + change);
-      const double correction_norm =
-          weighted_rms_norm(system_, residual_step_.head(system_.coordinates()));
-      point.newton.correction.back() = correction_norm;
-      distance += std::sqrt(squared_norm(residual_step_) + change * change);
-      if (!(distance < 0.3 * std::abs(arc))) return false;
-      if (equilibrium_.converged(point.newton.correction, weighted_rms_norm(system_, state.q)))
-        return true;
-    }
-    return false;
+    const auto stay_on_plane = [&](const VectorXd& correction, const VectorXd& load_step) {
+      const double along = dot(d, load_step, 1);
+      const double change = along == 0 ? 0.0 : -dot(d, correction, 0) / along;
+      distance += std::sqrt(squared_norm(correction + change * load_step) + change * change);
+      return distance < 0.3 * std::abs(arc) ? change : kNaN;
+    };
+    point.newton = equilibrium_.solve(point.state, from.load + arc * d.load, stay_on_plane);
+    return point.newton.outcome.solved();
   }
 
   bool next() {
@@ -464,7 +478,6 @@ class PathFollower {
   double arc_step_ = 0;
   std::size_t point_count_ = 0;
   bool switched_ = false;
-  VectorXd residual_step_, load_step_;
 };
 
 }  // namespace

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
+#include <Eigen/SparseCore>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -9,297 +10,255 @@
 #include "solver/large_motion/system/penalty_scales.h"
 #include "solver/model/numbers.h"
 
-/// Elements of one type and what they add to the equations of `GeometricallyExactSystem`.
 namespace trammel::solver::large_motion {
 
-class ElementGroup {
- public:
-  ElementGroup() = default;
-  ElementGroup(const ElementGroup&) = delete;
-  ElementGroup& operator=(const ElementGroup&) = delete;
-  ElementGroup(ElementGroup&&) = delete;
-  ElementGroup& operator=(ElementGroup&&) = delete;
-  virtual ~ElementGroup() = default;
-
-  /// Appends what each element couples and remembers where its blocks begin.
-  virtual void append_blocks(std::vector<std::vector<Index>>& blocks) = 0;
-  /// Adds -f + G^T lambda, with strain-rate damping tau.
-  virtual void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const = 0;
-  // Ref is a view.
-  // NOLINTNEXTLINE(performance-unnecessary-value-param)
-  virtual void constraint_residual(const State&, Eigen::Ref<VectorXd>, Eigen::Ref<VectorXd>) const {
-  }
-  virtual void tangent(const State& state, double tau, const TangentCoefficients& coefficients,
-                       KktMatrix& matrix) const = 0;
-  /// The same as `forces` between two states, doing exactly the work of the energy's change.
-  virtual void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda,
-                                        double tau, Eigen::Ref<VectorXd> r) const = 0;
-  /// The derivative of `discrete_gradient_forces` and of the rows with respect to the second state,
-  /// up to terms of the step's square; `midpoint` has the mean coordinates.
-  virtual void discrete_gradient_tangent(const State&, const State&, const State& midpoint,
-                                         double tau, const TangentCoefficients& coefficients,
-                                         KktMatrix& matrix) const {
-    tangent(midpoint, tau, coefficients, matrix);
-  }
-  /// Strain energy of what is not a compliant row [J].
-  [[nodiscard]] virtual double energy(const State&) const { return 0; }
-  [[nodiscard]] virtual Index size() const = 0;
-  /// Number of constraint rows.
-  [[nodiscard]] virtual Index rows() const { return 0; }
-  /// Sets c >= 0 of the group's own rows.
-  // NOLINTNEXTLINE(performance-unnecessary-value-param)
-  virtual void set_compliance(Eigen::Ref<VectorXd>) const {}
-  /// Sets the penalties of the rows from the parts that they join.
-  virtual void set_penalty_scales(const PenaltyScales&) {}
-  /// Sets the unit of each of the group's own rows: the model's size [m] or 1 rad.
-  // NOLINTNEXTLINE(performance-unnecessary-value-param)
-  virtual void set_row_units(const PenaltyScales&, Eigen::Ref<VectorXd>) const {}
-};
+/// Coordinates that an element couples; -1: none.
+template <int N>
+using CoordinateIndices = Eigen::Matrix<Index, N, 1>;
 
 /// Values of an element's coordinates; what a support holds (beyond the vector) is zero.
 template <int N>
-Eigen::Matrix<double, N, 1> gather(const VectorXd& values, const std::array<Index, N>& where) {
-  Eigen::Matrix<double, N, 1> local;
-  for (int i = 0; i < N; ++i) {
-    const Index k = where[to_size(i)];
+Eigen::Matrix<double, N, 1> gather(const VectorXd& values, const CoordinateIndices<N>& where) {
+  Eigen::Matrix<double, N, 1> local(where.size());
+  for (Index i = 0; i < where.size(); ++i) {
+    const Index k = where[i];
     local[i] = k >= 0 && k < values.size() ? values[k] : 0.0;
   }
   return local;
 }
 
 template <int N>
-void scatter(const Eigen::Matrix<double, N, 1>& local, const std::array<Index, N>& where,
+void scatter(const Eigen::Matrix<double, N, 1>& local, const CoordinateIndices<N>& where,
              Eigen::Ref<VectorXd> values) {
-  for (int i = 0; i < N; ++i) {
-    const Index k = where[to_size(i)];
-    if (k >= 0 && k < values.size()) values[k] += local[i];
+  for (Index i = 0; i < where.size(); ++i) {
+    if (where[i] >= 0 && where[i] < values.size()) values[where[i]] += local[i];
   }
 }
 
-/// Elements with the coordinates that each couples and R rows each, numbered from `first_row` on.
-template <class Element, int R>
-class ElementList : public ElementGroup {
+/// Properties of the constraint rows and what each element couples.
+struct SystemRows {
+  std::vector<std::vector<Index>> blocks;  ///< of each element, for `KktMatrix`
+  VectorXd compliance;                     ///< c >= 0 of each row
+  VectorXd unit;                           ///< of each row: the model's size [m] or 1 rad
+};
+
+/// Elements of one type and their terms in the equations of `GeometricallyExactSystem`. An element
+/// has any of: constraint rows g(q, t) = C lambda (beams, bars, joints), an elastic energy
+/// (triangles, springs, the bending of beams), a load, a mass.
+template <class Element>
+class ElementGroup {
  public:
-  static constexpr int N = Element::N;
+  static constexpr int N = Element::N, R = Element::R;
+  using Coordinates = typename Element::Coordinates;
+  using Rows = typename Element::Rows;
+  using Gradient = typename Element::Gradient;
+  using Square = typename Element::Square;
 
-  /// @param free  number of free coordinates; those from there on are held by supports.
-  explicit ElementList(Index free, Index first_row = 0) : free_(free), first_row_(first_row) {}
-
-  void add(Element element, const std::array<Index, N>& coordinates) {
+  void add(Element element, const CoordinateIndices<N>& where) {
     elements_.push_back(std::move(element));
-    where_.push_back(coordinates);
+    where_.push_back(where);
   }
-  [[nodiscard]] Index size() const override { return static_cast<Index>(elements_.size()); }
-  [[nodiscard]] Index rows() const override { return R * size(); }
-
-  void append_blocks(std::vector<std::vector<Index>>& blocks) override {
-    first_block_ = static_cast<Index>(blocks.size());
-    for (Index e = 0; e < size(); ++e) {
-      std::vector<Index> block;
-      for (const Index i : coordinates(e)) block.push_back(i < free_ ? i : -1);
-      for (Index r = 0; r < R; ++r) block.push_back(free_ + first_row(e) + r);
-      blocks.push_back(std::move(block));
-    }
-  }
-
- protected:
+  [[nodiscard]] Index size() const { return static_cast<Index>(elements_.size()); }
+  [[nodiscard]] Index rows() const { return R * size(); }
   [[nodiscard]] const Element& element(Index e) const { return elements_[to_size(e)]; }
-  [[nodiscard]] Element& element(Index e) { return elements_[to_size(e)]; }
-  [[nodiscard]] const std::array<Index, N>& coordinates(Index e) const {
+  [[nodiscard]] const CoordinateIndices<N>& coordinates(Index e) const {
     return where_[to_size(e)];
   }
   [[nodiscard]] Index first_row(Index e) const { return first_row_ + R * e; }
-  [[nodiscard]] Index block(Index e) const { return first_block_ + e; }
+  /// Rows are numbered one group after the other.
+  void set_first_row(Index row) { first_row_ = row; }
 
- private:
-  Index free_ = 0, first_row_ = 0, first_block_ = 0;
-  std::vector<Element> elements_;
-  std::vector<std::array<Index, N>> where_;
-};
-
-/// Elements with constraint rows g(q, t) = C lambda: beams, bars and joints.
-template <class Element>
-class ConstraintElements final : public ElementList<Element, Element::R> {
-  using List = ElementList<Element, Element::R>;
-  using List::block, List::coordinates, List::element, List::first_row;
-
- public:
-  static constexpr int N = Element::N, R = Element::R;
-  static constexpr bool kBends = requires(const Element& e) { e.stiffness(); };
-  using List::List, List::size;
-
-  void set_compliance(Eigen::Ref<VectorXd> compliance) const override {
-    for (Index e = 0; e < size(); ++e) {
-      compliance.template segment<R>(first_row(e)) = element(e).compliance();
-    }
-  }
-
-  void set_penalty_scales(const PenaltyScales& scales) override {
-    if constexpr (requires(Element & e) { e.stiffness_scale; }) {
+  void append_masses(std::vector<Eigen::Triplet<double>>& masses) const {
+    if constexpr (kHasMass) {
       for (Index e = 0; e < size(); ++e) {
-        double lever = 0;
-        if constexpr (requires { element(e).offset; }) lever = element(e).offset.norm();
-        element(e).stiffness_scale = scales.stiffness(coordinates(e), lever);
-        element(e).mass_scale = scales.mass(coordinates(e), lever);
+        const Square M = element(e).mass();
+        const CoordinateIndices<N>& where = coordinates(e);
+        for (Index i = 0; i < M.rows(); ++i) {
+          for (Index j = 0; j < M.cols(); ++j)
+            if (M(i, j) != 0) masses.emplace_back(where[i], where[j], M(i, j));
+        }
       }
     }
   }
 
-  void set_row_units(const PenaltyScales& scales, Eigen::Ref<VectorXd> unit) const override {
-    for (Index e = 0; e < size(); ++e)
-      unit.template segment<R>(first_row(e)).setConstant(scales.row_unit(coordinates(e)));
+  /// Sets the rows' properties and penalties from the parts that they join.
+  /// @param free  number of free coordinates; those from there on are held by supports
+  void connect(Index free, const PenaltyScales& scales, SystemRows& system) {
+    first_block_ = std::ssize(system.blocks);
+    for (Index e = 0; e < size(); ++e) {
+      std::vector<Index>& block = system.blocks.emplace_back();
+      for (const Index k : coordinates(e)) block.push_back(k < free ? k : -1);
+      if constexpr (R > 0) {
+        for (Index r = 0; r < R; ++r) block.push_back(free + first_row(e) + r);
+        const std::span<const Index> joined(coordinates(e).data(), where_[to_size(e)].size());
+        Element& own = elements_[to_size(e)];
+        system.compliance.segment<R>(first_row(e)) = own.compliance();
+        system.unit.segment<R>(first_row(e)).setConstant(scales.row_unit(joined));
+        if constexpr (requires { own.stiffness_scale; }) {
+          double lever = 0;
+          if constexpr (requires { own.offset; }) lever = own.offset.norm();
+          own.stiffness_scale = scales.stiffness(joined, lever);
+          own.mass_scale = scales.mass(joined, lever);
+        }
+      }
+    }
   }
 
-  void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const override {
-    typename Element::Rows residual;
-    typename Element::Gradient G;
+  /// Adds -f + G^T lambda, with strain-rate damping tau.
+  void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const {
+    if constexpr (R == 0 && !kIsElastic && !kIsLoad) return;
     for (Index e = 0; e < size(); ++e) {
-      const typename Element::Coordinates q = gather<N>(state.q, coordinates(e));
-      element(e).constraint_residual(q, state.t, residual, G);
-      typename Element::Coordinates f =
-          G.transpose() * state.lambda.template segment<R>(first_row(e));
-      if constexpr (kBends) {
-        f += element(e).bending(q);
-        if (tau != 0) f += tau * element(e).bending(gather<N>(state.v, coordinates(e)));
-      }
+      const Coordinates q = gather<N>(state.q, coordinates(e));
+      Coordinates f = Coordinates::Zero(q.size());
+      if constexpr (R > 0)
+        f += rows_at(e, q, state.t).gradient.transpose() * state.lambda.segment<R>(first_row(e));
+      if constexpr (kIsElastic)
+        f += element(e).forces(q, tau != 0 ? gather<N>(state.v, coordinates(e)) : q, tau);
+      if constexpr (kIsLoad) f -= state.load * element(e).load(q);
       scatter<N>(f, coordinates(e), r);
     }
   }
 
+  /// Adds the derivative of the force residual with respect to the load factor.
+  void add_load_derivative(const State& state, Eigen::Ref<VectorXd> r) const {
+    if constexpr (kIsLoad) {
+      for (Index e = 0; e < size(); ++e) {
+        const Coordinates f = -element(e).load(gather<N>(state.q, coordinates(e)));
+        scatter<N>(f, coordinates(e), r);
+      }
+    }
+  }
+
+  // Ref is a view.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param)
   void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
-                           Eigen::Ref<VectorXd> rate) const override {
-    typename Element::Rows g;
-    typename Element::Gradient G;
-    for (Index e = 0; e < size(); ++e) {
-      element(e).constraint_residual(gather<N>(state.q, coordinates(e)), state.t, g, G);
-      residual.template segment<R>(first_row(e)) = g;
-      rate.template segment<R>(first_row(e)) = G * gather<N>(state.v, coordinates(e));
-      if constexpr (requires { element(e).time_rate(state.t); }) {
-        rate.template segment<R>(first_row(e)) += element(e).time_rate(state.t);
+                           Eigen::Ref<VectorXd> rate) const {
+    if constexpr (R > 0) {
+      for (Index e = 0; e < size(); ++e) {
+        const RowValues rows = rows_at(e, gather<N>(state.q, coordinates(e)), state.t);
+        residual.segment<R>(first_row(e)) = rows.residual;
+        rate.segment<R>(first_row(e)) = rows.gradient * gather<N>(state.v, coordinates(e));
+        if constexpr (requires { element(e).time_rate(state.t); })
+          rate.segment<R>(first_row(e)) += element(e).time_rate(state.t);
       }
     }
   }
 
   void tangent(const State& state, double tau, const TangentCoefficients& coefficients,
-               KktMatrix& matrix) const override {
-    typename Element::Rows residual;
-    typename Element::Gradient G;
+               KktMatrix& matrix) const {
     for (Index e = 0; e < size(); ++e) {
-      const typename Element::Coordinates q = gather<N>(state.q, coordinates(e));
-      element(e).constraint_residual(q, state.t, residual, G);
-      matrix.add(block(e), coordinate_matrix(state, e, tau, coefficients), G,
-                 scaled_compliance(e, coefficients), penalty(e, coefficients));
-    }
-  }
-
-  void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
-                                 double tau, const TangentCoefficients& coefficients,
-                                 KktMatrix& matrix) const override {
-    typename Element::Rows residual;
-    typename Element::Gradient G;
-    for (Index e = 0; e < size(); ++e) {
-      const typename Element::Coordinates q0 = gather<N>(from.q, coordinates(e));
-      const typename Element::Coordinates q1 = gather<N>(to.q, coordinates(e));
-      element(e).constraint_residual(q1, to.t, residual, G);
-      matrix.add(block(e), coordinate_matrix(midpoint, e, tau, coefficients),
-                 element(e).discrete_gradient(q0, q1), G, scaled_compliance(e, coefficients),
-                 penalty(e, coefficients));
-    }
-  }
-
-  void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda,
-                                double tau, Eigen::Ref<VectorXd> r) const override {
-    for (Index e = 0; e < size(); ++e) {
-      const typename Element::Coordinates q0 = gather<N>(from.q, coordinates(e));
-      const typename Element::Coordinates q1 = gather<N>(to.q, coordinates(e));
-      typename Element::Coordinates f = element(e).discrete_gradient(q0, q1).transpose() *
-                                        lambda.template segment<R>(first_row(e));
-      if constexpr (kBends) {
-        f += element(e).bending((q0 + q1) / 2 + tau / (to.t - from.t) * (q1 - q0));
+      const Coordinates q = gather<N>(state.q, coordinates(e));
+      const Square S = coordinate_matrix(state, e, q, tau, coefficients);
+      if constexpr (R > 0) {
+        const Gradient G = rows_at(e, q, state.t).gradient;
+        matrix.add(block(e), S, G, scaled_compliance(e, coefficients), penalty(e, coefficients));
+      } else {
+        matrix.add(block(e), S);
       }
-      scatter<N>(f, coordinates(e), r);
     }
   }
 
-  [[nodiscard]] double energy(const State& state) const override {
+  /// Strain energy except that of compliant rows [J].
+  [[nodiscard]] double energy(const State& state) const {
     double sum = 0;
-    if constexpr (kBends) {
+    if constexpr (kIsElastic) {
       for (Index e = 0; e < size(); ++e)
-        sum += element(e).bending_energy(gather<N>(state.q, coordinates(e)));
+        sum += element(e).energy(gather<N>(state.q, coordinates(e)));
     }
     return sum;
   }
 
+  /// The same as `forces` between two states, doing exactly the work of the energy's change.
+  void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda,
+                                double tau, Eigen::Ref<VectorXd> r) const {
+    if constexpr (R == 0 && !kIsElastic && !kIsLoad) return;
+    for (Index e = 0; e < size(); ++e) {
+      const Coordinates q0 = gather<N>(from.q, coordinates(e));
+      const Coordinates q1 = gather<N>(to.q, coordinates(e));
+      Coordinates f = Coordinates::Zero(q0.size());
+      if constexpr (R > 0)
+        f.noalias() += discrete_gradient(e, from, to).transpose() * lambda.segment<R>(first_row(e));
+      if constexpr (kIsElastic)
+        f += element(e).discrete_gradient_forces(q0, q1, tau / (to.t - from.t));
+      if constexpr (kIsLoad) f -= (from.load + to.load) / 2 * element(e).load((q0 + q1) / 2);
+      scatter<N>(f, coordinates(e), r);
+    }
+  }
+
+  /// The derivative of `discrete_gradient_forces` and of the rows with respect to the second state,
+  /// up to terms of the step's square; `midpoint` has the mean coordinates.
+  void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
+                                 double tau, const TangentCoefficients& coefficients,
+                                 KktMatrix& matrix) const {
+    if constexpr (R == 0) {
+      tangent(midpoint, tau, coefficients, matrix);
+    } else {
+      for (Index e = 0; e < size(); ++e) {
+        const Gradient G = rows_at(e, gather<N>(to.q, coordinates(e)), to.t).gradient;
+        const Coordinates q = gather<N>(midpoint.q, coordinates(e));
+        matrix.add(block(e), coordinate_matrix(midpoint, e, q, tau, coefficients),
+                   discrete_gradient(e, from, to), G, scaled_compliance(e, coefficients),
+                   penalty(e, coefficients));
+      }
+    }
+  }
+
  private:
-  [[nodiscard]] typename Element::Square coordinate_matrix(
-      const State& state, Index e, double tau, const TangentCoefficients& coefficients) const {
-    const typename Element::Rows lambda = state.lambda.template segment<R>(first_row(e));
-    typename Element::Square S =
-        coefficients.stiffness *
-        element(e).geometric_stiffness(gather<N>(state.q, coordinates(e)), lambda);
-    if constexpr (kBends)
-      S += (coefficients.stiffness + tau * coefficients.damping) * element(e).stiffness();
-    if constexpr (requires { element(e).mass(); }) S += coefficients.mass * element(e).mass();
+  static constexpr bool kIsElastic = requires(const Element& e, const Coordinates& q) {
+    e.forces(q, q, 0.0);
+  };
+  static constexpr bool kIsLoad = requires(const Element& e, const Coordinates& q) { e.load(q); };
+  static constexpr bool kHasMass = requires(const Element& e) { e.mass(); };
+
+  struct RowValues {
+    Rows residual;
+    Gradient gradient;
+  };
+
+  [[nodiscard]] Index block(Index e) const { return first_block_ + e; }
+
+  [[nodiscard]] RowValues rows_at(Index e, const Coordinates& q, double t) const {
+    RowValues rows;
+    element(e).constraint_residual(q, t, rows.residual, rows.gradient);
+    return rows;
+  }
+
+  [[nodiscard]] Square coordinate_matrix(const State& state, Index e, const Coordinates& q,
+                                         double tau,
+                                         const TangentCoefficients& coefficients) const {
+    const Element& own = element(e);
+    const double k = coefficients.stiffness;
+    Square S = Square::Zero(q.size(), q.size());
+    if constexpr (kIsElastic) S += own.tangent(q, k, tau * coefficients.damping);
+    if constexpr (requires(const Rows& lambda) { own.geometric_stiffness(q, lambda); })
+      S += k * own.geometric_stiffness(q, state.lambda.segment<R>(first_row(e)));
+    if constexpr (kIsLoad) S -= k * state.load * own.load_derivative(q);
+    if constexpr (kHasMass) S += coefficients.mass * own.mass();
     return S;
   }
 
-  [[nodiscard]] typename Element::Rows penalty(Index e,
-                                               const TangentCoefficients& coefficients) const {
-    if (!coefficients.has_penalty) return Element::Rows::Zero();
+  [[nodiscard]] Gradient discrete_gradient(Index e, const State& from, const State& to) const {
+    const Coordinates q0 = gather<N>(from.q, coordinates(e));
+    const Coordinates q1 = gather<N>(to.q, coordinates(e));
+    if constexpr (requires { element(e).discrete_gradient(q0, q1); }) {
+      return element(e).discrete_gradient(q0, q1);
+    } else {
+      return rows_at(e, q1, to.t).gradient;
+    }
+  }
+
+  [[nodiscard]] Rows penalty(Index e, const TangentCoefficients& coefficients) const {
+    if (!coefficients.has_penalty) return Rows::Zero();
     return element(e).penalty(coefficients);
   }
 
-  [[nodiscard]] typename Element::Rows scaled_compliance(
-      Index e, const TangentCoefficients& coefficients) const {
+  [[nodiscard]] Rows scaled_compliance(Index e, const TangentCoefficients& coefficients) const {
     return coefficients.compliance * element(e).compliance();
   }
-};
 
-/// Elements with a strain energy of their coordinates alone, as `Triangle2d`.
-template <class Element>
-class EnergyElements final : public ElementList<Element, 0> {
-  using List = ElementList<Element, 0>;
-  using List::block, List::coordinates, List::element;
-
- public:
-  static constexpr int N = Element::N;
-  using List::List, List::size;
-
-  void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const override {
-    for (Index e = 0; e < size(); ++e) {
-      scatter<N>(element(e).forces(gather<N>(state.q, coordinates(e)),
-                                   gather<N>(state.v, coordinates(e)), tau),
-                 coordinates(e), r);
-    }
-  }
-
-  void tangent(const State& state, double tau, const TangentCoefficients& coefficients,
-               KktMatrix& matrix) const override {
-    for (Index e = 0; e < size(); ++e) {
-      typename Element::Square S = element(e).tangent(
-          gather<N>(state.q, coordinates(e)), coefficients.stiffness, tau * coefficients.damping);
-      S += coefficients.mass * element(e).mass();
-      matrix.add(block(e), S);
-    }
-  }
-
-  void discrete_gradient_forces(const State& from, const State& to, const VectorXd&, double tau,
-                                Eigen::Ref<VectorXd> r) const override {
-    for (Index e = 0; e < size(); ++e) {
-      scatter<N>(element(e).discrete_gradient_forces(gather<N>(from.q, coordinates(e)),
-                                                     gather<N>(to.q, coordinates(e)),
-                                                     tau / (to.t - from.t)),
-                 coordinates(e), r);
-    }
-  }
-
-  [[nodiscard]] double energy(const State& state) const override {
-    double sum = 0;
-    for (Index e = 0; e < size(); ++e) {
-      sum += element(e).energy(gather<N>(state.q, coordinates(e)));
-    }
-    return sum;
-  }
+  Index first_row_ = 0, first_block_ = 0;
+  std::vector<Element> elements_;
+  std::vector<CoordinateIndices<N>> where_;
 };
 
 }  // namespace trammel::solver::large_motion

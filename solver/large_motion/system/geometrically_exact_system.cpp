@@ -3,11 +3,6 @@
 #include <utility>
 
 #include "solver/assembly/validate.h"
-#include "solver/large_motion/system/energy_elements.h"
-#include "solver/large_motion/system/joint_elements.h"
-#include "solver/large_motion/system/linear_constraints.h"
-#include "solver/large_motion/system/loads.h"
-#include "solver/large_motion/system/member_elements.h"
 #include "solver/model/plane.h"
 
 namespace trammel::solver::large_motion {
@@ -27,61 +22,45 @@ double model_size(const Model& model) {
 VectorXd coordinate_scales(const Model& model, const Layout& layout) {
   const double size = model_size(model);
   VectorXd scale(layout.free);
-  for (Index i = 0; i < layout.free; ++i) scale[i] = layout.is_rotation[to_size(i)] ? 1.0 : size;
+  for (Index i = 0; i < layout.free; ++i) scale[i] = layout.is_rotation(i) ? 1.0 : size;
   return scale;
 }
 
-/// Numbers the coordinates of what has passed every check.
-Layout validated_layout(const Model& model, const LargeMotionModel& large_motion, int order) {
+/// Checks the model and numbers its coordinates.
+Layout validated_layout(const Model& model, const LargeMotionModel& large_motion) {
   validate(model);
   validate(large_motion, model);
-  if (order < 1 || order > 3) throw ModelError("the degree of beam elements is 1, 2 or 3");
-  return number_coordinates(model, large_motion, order);
+  return number_coordinates(model, large_motion);
 }
 
-SystemParts all_parts(const Model& model, const LargeMotionModel& large_motion,
-                      const Layout& layout, int order) {
-  SystemParts parts;
-  parts.loads = VectorXd::Zero(layout.total);
-  add_members(model, layout, order, parts);
-  add_triangles(model, layout, parts);
-  add_coordinate_springs(model, layout, parts);
-  add_rigid_links(model, layout, parts);
-  add_sliders(model, large_motion, layout, parts);
-  add_line_springs(model, large_motion, layout, parts);
-  add_drives(large_motion, layout, parts);
-  add_linear_constraints(model, large_motion, layout, parts);
-  add_loads(model, large_motion, layout, parts);
-  return parts;
+/// Gravity at every translation, zero at rotations [m/s^2]: the weight is M times this.
+VectorXd gravity_field(const Model& model, const Layout& layout) {
+  VectorXd field = VectorXd::Zero(layout.total);
+  for (Index k = 0; k < layout.total; ++k) {
+    if (!layout.is_rotation(k)) field[k] = model.gravity[layout.direction[to_size(k)]];
+  }
+  return field;
 }
 
 }  // namespace
 
-GeometricallyExactSystem::GeometricallyExactSystem(Model model, LargeMotionModel large_motion,
-                                                   const GeometricallyExactOptions& options)
+GeometricallyExactSystem::GeometricallyExactSystem(Model model, LargeMotionModel large_motion)
     : model_(std::move(model)),
       large_motion_(std::move(large_motion)),
-      order_(options.order),
-      layout_(validated_layout(model_, large_motion_, options.order)),
-      parts_(all_parts(model_, large_motion_, layout_, options.order)),
-      compliance_(VectorXd::Zero(parts_.rows)),
+      layout_(validated_layout(model_, large_motion_)),
+      parts_(build_parts(model_, large_motion_, layout_)),
+      rows_{{}, VectorXd::Zero(parts_.rows), VectorXd::Ones(parts_.rows)},
       scale_(coordinate_scales(model_, layout_)),
-      row_unit_(VectorXd::Ones(parts_.rows)),
       mass_(layout_.total, layout_.total),
       padded_(VectorXd::Zero(layout_.total)),
       product_(VectorXd::Zero(layout_.total)) {
-  std::vector<Eigen::Triplet<double>> masses = std::exchange(parts_.mass_entries, {});
-  for (const auto& [k, m] : parts_.point_mass) masses.emplace_back(k, k, m);
+  std::vector<Eigen::Triplet<double>> masses;
+  parts_.for_each_group([&](const auto& group) { group.append_masses(masses); });
   mass_.setFromTriplets(masses.begin(), masses.end());
   gravity_ = mass_ * gravity_field(model_, layout_);
   const PenaltyScales scales(model_, large_motion_, layout_, mass_.diagonal(), model_size(model_));
-  for (const std::unique_ptr<ElementGroup>& group : parts_.groups) {
-    group->append_blocks(blocks_);
-    group->set_compliance(compliance_);
-    group->set_penalty_scales(scales);
-    group->set_row_units(scales, row_unit_);
-  }
-  require_driven_parts(model_, large_motion_, layout_, blocks_, mass_.diagonal());
+  parts_.for_each_group([&](auto& group) { group.connect(layout_.free, scales, rows_); });
+  require_driven_parts(model_, large_motion_, layout_, rows_.blocks, mass_.diagonal());
 }
 
 void GeometricallyExactSystem::force_residual(const State& state, Eigen::Ref<VectorXd> r) const {
@@ -95,9 +74,8 @@ void GeometricallyExactSystem::force_residual(const State& state, Eigen::Ref<Vec
     r += product_.head(size);
   }
   add_torques(-1, state.t, r);
-  for (const std::unique_ptr<ElementGroup>& group : parts_.groups) {
-    group->forces(state, large_motion_.strain_rate_damping, r);
-  }
+  parts_.for_each_group(
+      [&](const auto& group) { group.forces(state, large_motion_.strain_rate_damping, r); });
 }
 
 VectorXd GeometricallyExactSystem::damped_velocities(const State& state) const {
@@ -120,48 +98,34 @@ void GeometricallyExactSystem::add_torques(double factor, double t, Eigen::Ref<V
 void GeometricallyExactSystem::constraint_residual(const State& state,
                                                    Eigen::Ref<VectorXd> residual,
                                                    Eigen::Ref<VectorXd> rate) const {
-  for (const std::unique_ptr<ElementGroup>& group : parts_.groups)
-    group->constraint_residual(state, residual, rate);
+  parts_.for_each_group(
+      [&](const auto& group) { group.constraint_residual(state, residual, rate); });
 }
 
-TangentCoefficients GeometricallyExactSystem::with_damping(TangentCoefficients coefficients) const {
+TangentCoefficients GeometricallyExactSystem::begin_tangent(
+    TangentCoefficients coefficients) const {
+  element_evaluations_ += std::ssize(layout_.elements) + std::ssize(model_.triangles);
   coefficients.mass += large_motion_.mass_damping * coefficients.damping;
   return coefficients;
 }
 
-void GeometricallyExactSystem::add_point_masses(const TangentCoefficients& coefficients,
-                                                KktMatrix& matrix) const {
-  for (const auto& [k, m] : parts_.point_mass) {
-    if (k < layout_.free) matrix.add_diagonal(k, coefficients.mass * m);
-  }
-}
-
-void GeometricallyExactSystem::count_elements() const {
-  element_evaluations_ +=
-      static_cast<std::int64_t>(layout_.elements.size() + model_.triangles.size());
-}
-
 void GeometricallyExactSystem::tangent(const State& state, const TangentCoefficients& coefficients,
                                        KktMatrix& matrix) const {
-  count_elements();
-  const TangentCoefficients damped = with_damping(coefficients);
-  for (const std::unique_ptr<ElementGroup>& group : parts_.groups) {
-    group->tangent(state, large_motion_.strain_rate_damping, damped, matrix);
-  }
-  add_point_masses(damped, matrix);
+  const TangentCoefficients damped = begin_tangent(coefficients);
+  parts_.for_each_group([&](const auto& group) {
+    group.tangent(state, large_motion_.strain_rate_damping, damped, matrix);
+  });
 }
 
 void GeometricallyExactSystem::discrete_gradient_tangent(const State& from, const State& to,
                                                          const State& midpoint,
                                                          const TangentCoefficients& coefficients,
                                                          KktMatrix& matrix) const {
-  count_elements();
-  const TangentCoefficients damped = with_damping(coefficients);
-  for (const std::unique_ptr<ElementGroup>& group : parts_.groups) {
-    group->discrete_gradient_tangent(from, to, midpoint, large_motion_.strain_rate_damping, damped,
-                                     matrix);
-  }
-  add_point_masses(damped, matrix);
+  const TangentCoefficients damped = begin_tangent(coefficients);
+  parts_.for_each_group([&](const auto& group) {
+    group.discrete_gradient_tangent(from, to, midpoint, large_motion_.strain_rate_damping, damped,
+                                    matrix);
+  });
 }
 
 void GeometricallyExactSystem::discrete_gradient_residual(const State& from, const State& to,
@@ -175,13 +139,13 @@ void GeometricallyExactSystem::discrete_gradient_residual(const State& from, con
   product_.noalias() = mass_ * padded_;
   r += product_.head(size);
   for (const double t : {from.t, to.t}) add_torques(-0.5, t, r);
-  for (const std::unique_ptr<ElementGroup>& group : parts_.groups) {
-    group->discrete_gradient_forces(from, to, lambda, large_motion_.strain_rate_damping, r);
-  }
+  parts_.for_each_group([&](const auto& group) {
+    group.discrete_gradient_forces(from, to, lambda, large_motion_.strain_rate_damping, r);
+  });
 }
 
 bool GeometricallyExactSystem::symmetric() const {
-  return parts_.follower_loads == nullptr;
+  return large_motion_.follower_loads.empty();
 }
 
 double GeometricallyExactSystem::load_factor(double t) const {
@@ -196,12 +160,12 @@ Energy GeometricallyExactSystem::energy(const State& state) const {
     product_.noalias() = mass_ * padded_;
     energy.kinetic = product_.head(n).dot(state.v) / 2;
   }
-  for (const std::unique_ptr<ElementGroup>& group : parts_.groups)
-    energy.strain += group->energy(state);
+  parts_.for_each_group([&](const auto& group) { energy.strain += group.energy(state); });
   VectorXd residual = VectorXd::Zero(parts_.rows), rate = VectorXd::Zero(parts_.rows);
   constraint_residual(state, residual, rate);
   for (Index i = 0; i < parts_.rows; ++i) {
-    if (compliance_[i] > 0) energy.strain += residual[i] * residual[i] / (2 * compliance_[i]);
+    if (rows_.compliance[i] > 0)
+      energy.strain += residual[i] * residual[i] / (2 * rows_.compliance[i]);
   }
   energy.load = -state.q.dot(state.gravity * gravity_.head(n) + state.load * parts_.loads.head(n));
   return energy;
@@ -227,17 +191,17 @@ double GeometricallyExactSystem::nonconservative_work(const State& from, const S
   const double tau = large_motion_.strain_rate_damping;
   for (Index i = 0; i < parts_.rows; ++i) {
     const double change = after[i] - before[i];
-    work -= compliance_[i] > 0 ? tau / h * change * change / compliance_[i] : lambda[i] * change;
+    work -= rows_.compliance[i] > 0 ? tau / h * change * change / rows_.compliance[i]
+                                    : lambda[i] * change;
   }
   VectorXd forces = VectorXd::Zero(n), elastic = forces;
   for (const double t : {from.t, to.t}) add_torques(-0.5, t, forces);
-  if (parts_.follower_loads != nullptr)
-    parts_.follower_loads->discrete_gradient_forces(from, to, lambda, 0, forces);
+  parts_.group<FollowerForce>().discrete_gradient_forces(from, to, lambda, 0, forces);
   if (tau != 0) {
-    for (const std::unique_ptr<ElementGroup>& group : parts_.groups) {
-      group->discrete_gradient_forces(from, to, lambda, tau, forces);
-      group->discrete_gradient_forces(from, to, lambda, 0, elastic);
-    }
+    parts_.for_each_group([&](const auto& group) {
+      group.discrete_gradient_forces(from, to, lambda, tau, forces);
+      group.discrete_gradient_forces(from, to, lambda, 0, elastic);
+    });
   }
   return work - moved.dot(forces - elastic);
 }
@@ -249,7 +213,7 @@ void GeometricallyExactSystem::load_derivative(const State& state, Eigen::Ref<Ve
     product_.noalias() = mass_ * padded_;
     r += product_.head(r.size());
   }
-  if (parts_.follower_loads != nullptr) parts_.follower_loads->add_load_derivative(state, r);
+  parts_.group<FollowerForce>().add_load_derivative(state, r);
 }
 
 State GeometricallyExactSystem::reference_state() const {
@@ -257,10 +221,6 @@ State GeometricallyExactSystem::reference_state() const {
   state.q = state.v = state.a = VectorXd::Zero(layout_.free);
   state.lambda = VectorXd::Zero(parts_.rows);
   return state;
-}
-
-Index GeometricallyExactSystem::drive_row(Index drive) const {
-  return parts_.first_drive_row + drive;
 }
 
 }  // namespace trammel::solver::large_motion

@@ -13,24 +13,19 @@
 
 namespace trammel::solver::large_motion {
 
-struct GeometricallyExactOptions {
-  int order = 3;  ///< degree of the beam elements, 1 to 3; end nodes converge with order 2 * degree
-};
-
 /// A planar model in large motion: Simo-Reissner beams, total-Lagrangian triangles, rigid bodies
 /// and joints, in absolute coordinates. One object serves one thread.
 class GeometricallyExactSystem final : public ConservativeSystem {
  public:
   /// @throws ModelError  where the model has no meaning.
-  explicit GeometricallyExactSystem(Model model, LargeMotionModel large_motion = {},
-                                    const GeometricallyExactOptions& options = {});
+  explicit GeometricallyExactSystem(Model model, LargeMotionModel large_motion = {});
 
   [[nodiscard]] Index coordinates() const override { return layout_.free; }
-  [[nodiscard]] Index constraints() const override { return compliance_.size(); }
-  [[nodiscard]] const VectorXd& compliance() const override { return compliance_; }
+  [[nodiscard]] Index constraints() const override { return parts_.rows; }
+  [[nodiscard]] const VectorXd& compliance() const override { return rows_.compliance; }
   [[nodiscard]] const VectorXd& scale() const override { return scale_; }
-  [[nodiscard]] VectorXd row_unit() const override { return row_unit_; }
-  [[nodiscard]] std::vector<std::vector<Index>> blocks() const override { return blocks_; }
+  [[nodiscard]] VectorXd row_unit() const override { return rows_.unit; }
+  [[nodiscard]] std::vector<std::vector<Index>> blocks() const override { return rows_.blocks; }
   void force_residual(const State& state, Eigen::Ref<VectorXd> r) const override;
   void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
                            Eigen::Ref<VectorXd> rate) const override;
@@ -70,30 +65,26 @@ class GeometricallyExactSystem final : public ConservativeSystem {
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const LargeMotionModel& large_motion() const { return large_motion_; }
   [[nodiscard]] const Layout& layout() const { return layout_; }
+  [[nodiscard]] const SystemParts& parts() const { return parts_; }
   /// Row of a drive's multiplier.
-  [[nodiscard]] Index drive_row(Index drive) const;
-  /// First row of a member element's multipliers: N, V at each Gauss point; of a bar N.
-  [[nodiscard]] Index element_row(Index element) const {
-    return parts_.element_row[to_size(element)];
+  [[nodiscard]] Index drive_row(Index drive) const {
+    return parts_.group<DrivenCoordinate>().first_row(drive);
   }
-  [[nodiscard]] int order() const { return order_; }
   /// Element tangents filled so far: of members and triangles.
   [[nodiscard]] std::int64_t element_evaluations() const { return element_evaluations_; }
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
 
  private:
-  [[nodiscard]] TangentCoefficients with_damping(TangentCoefficients coefficients) const;
-  void count_elements() const;
+  /// Counts the elements of a tangent. @return the coefficients with damping by mass.
+  TangentCoefficients begin_tangent(TangentCoefficients coefficients) const;
   void add_torques(double factor, double t, Eigen::Ref<VectorXd> r) const;
-  void add_point_masses(const TangentCoefficients& coefficients, KktMatrix& matrix) const;
 
   Model model_;
   LargeMotionModel large_motion_;
-  int order_ = 3;
   Layout layout_;
   SystemParts parts_;
-  std::vector<std::vector<Index>> blocks_;
-  VectorXd compliance_, scale_, row_unit_;
+  SystemRows rows_;
+  VectorXd scale_;
   Eigen::SparseMatrix<double> mass_;  ///< total x total
   VectorXd gravity_;                  ///< M times the gravity field, total
   VectorXd accelerations_;            ///< of statics; empty: none

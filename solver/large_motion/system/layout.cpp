@@ -1,10 +1,12 @@
 #include "solver/large_motion/system/layout.h"
 
+#include <algorithm>
 #include <numeric>
 #include <optional>
 #include <utility>
 
 #include "solver/elements/frame_element.h"
+#include "solver/large_motion/elements/beam.h"
 #include "solver/model/labels.h"
 #include "solver/model/numbers.h"
 
@@ -12,10 +14,27 @@ namespace trammel::solver::large_motion {
 
 namespace {
 
+/// Sets of parts or coordinates that are one, each named by one of them.
+class MergedSets {
+ public:
+  explicit MergedSets(Index count) : parent_(to_size(count)) {
+    std::iota(parent_.begin(), parent_.end(), Index{0});
+  }
+  [[nodiscard]] Index find(Index i) const {
+    while (parent_[to_size(i)] != i) i = parent_[to_size(i)];
+    return i;
+  }
+  /// The set of `second` also names that of `first`.
+  void merge(Index first, Index second) { parent_[to_size(find(first))] = find(second); }
+
+ private:
+  std::vector<Index> parent_;
+};
+
 class Numbering {
  public:
-  Numbering(const Model& model, const LargeMotionModel& large_motion, int order)
-      : model_(model), large_motion_(large_motion), order_(order) {}
+  Numbering(const Model& model, const LargeMotionModel& large_motion)
+      : model_(model), large_motion_(large_motion), owner_(std::ssize(model.nodes)) {}
 
   Layout run() {
     share_rotations();
@@ -32,22 +51,15 @@ class Numbering {
 
  private:
   void share_rotations() {
-    owner_.resize(model_.nodes.size());
-    std::iota(owner_.begin(), owner_.end(), Index{0});
     for (const RigidBody& body : model_.rigid_bodies) {
-      for (const Index node : body.attached) owner_[to_size(owner(node))] = owner(body.reference);
+      for (const Index node : body.attached) owner_.merge(node, body.reference);
     }
-  }
-
-  Index owner(Index node) const {
-    while (owner_[to_size(node)] != node) node = owner_[to_size(node)];
-    return node;
   }
 
   void find_rotations() {
     has_rotation_.assign(model_.nodes.size(), false);
     const auto require_rotation = [&](Index node) {
-      if (node >= 0) has_rotation_[to_size(owner(node))] = true;
+      if (node >= 0) has_rotation_[to_size(owner_.find(node))] = true;
     };
     for (const Member& member : model_.members) {
       for (std::size_t end = 0; end < 2; ++end) {
@@ -83,8 +95,8 @@ class Numbering {
     }
   }
 
-  Index add(bool rotation) {
-    layout_.is_rotation.push_back(rotation);
+  Index add(int direction) {
+    layout_.direction.push_back(direction);
     fixed_.push_back(false);
     return layout_.total++;
   }
@@ -92,14 +104,14 @@ class Numbering {
   void number_nodes() {
     layout_.node.assign(model_.nodes.size(), {-1, -1, -1});
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
-      layout_.node[i][0] = add(false);
-      layout_.node[i][1] = add(false);
-      if (has_rotation_[i] && owner(static_cast<Index>(i)) == static_cast<Index>(i)) {
-        layout_.node[i][2] = add(true);
+      layout_.node[i][0] = add(0);
+      layout_.node[i][1] = add(1);
+      if (has_rotation_[i] && owner_.find(static_cast<Index>(i)) == static_cast<Index>(i)) {
+        layout_.node[i][2] = add(2);
       }
     }
     for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
-      layout_.node[i][2] = layout_.node[to_size(owner(static_cast<Index>(i)))][2];
+      layout_.node[i][2] = layout_.node[to_size(owner_.find(static_cast<Index>(i)))][2];
     }
   }
 
@@ -108,7 +120,7 @@ class Numbering {
     std::array<Index, 2> rotation{-1, -1};
     for (std::size_t end = 0; end < 2 && bends; ++end) {
       const bool welded = member.ends[end].fixity == EndFixity::welded;
-      rotation[end] = welded ? layout_.node[to_size(member.nodes[end])][2] : add(true);
+      rotation[end] = welded ? layout_.node[to_size(member.nodes[end])][2] : add(2);
     }
     return rotation;
   }
@@ -130,13 +142,13 @@ class Numbering {
         continue;
       }
       element.coordinates.assign(left.begin(), left.end());
-      for (int inner = 1; inner < order_; ++inner) {
-        for (int k = 0; k < 3; ++k) element.coordinates.push_back(add(k == 2));
+      for (int inner = 2; inner < BeamInterpolation::kNodes; ++inner) {
+        for (int k = 0; k < 3; ++k) element.coordinates.push_back(add(k));
       }
       if (e + 1 == member.elements) {
         left = {last[0], last[1], rotation[1]};
       } else {
-        for (std::size_t k = 0; k < 3; ++k) left[k] = add(k == 2);
+        for (int k = 0; k < 3; ++k) left[static_cast<std::size_t>(k)] = add(k);
       }
       element.coordinates.insert(element.coordinates.end(), left.begin(), left.end());
       layout_.elements.push_back(std::move(element));
@@ -163,8 +175,8 @@ class Numbering {
         layout_.mass_centre.push_back(
             {layout_.node[to_size(mass.node)][0], layout_.node[to_size(mass.node)][1]});
       } else {
-        const Index x = add(false);
-        layout_.mass_centre.push_back({x, add(false)});
+        const Index x = add(0);
+        layout_.mass_centre.push_back({x, add(1)});
       }
     }
   }
@@ -172,29 +184,24 @@ class Numbering {
   /// A constraint that makes two coordinates equal, such as a revolute joint between nodes in one
   /// place, is one coordinate.
   void merge_equated() {
-    representative_.resize(to_size(layout_.total));
-    std::iota(representative_.begin(), representative_.end(), Index{0});
+    representative_ = MergedSets(layout_.total);
     for (const LinearConstraint& constraint : model_.constraints) {
       const std::optional<std::array<Index, 2>> pair = layout_.equated_coordinates(constraint);
-      if (pair) representative_[to_size(representative((*pair)[0]))] = representative((*pair)[1]);
+      if (pair) representative_.merge((*pair)[0], (*pair)[1]);
     }
-  }
-
-  Index representative(Index i) const {
-    while (representative_[to_size(i)] != i) i = representative_[to_size(i)];
-    return i;
   }
 
   void apply_supports() {
     for (const Support& support : model_.supports) {
       for (std::size_t k = 0; k < 3; ++k) {
         const Index coordinate = layout_.node[to_size(support.node)][k];
-        if (support.fixed[k] && coordinate >= 0) fixed_[to_size(representative(coordinate))] = true;
+        if (support.fixed[k] && coordinate >= 0)
+          fixed_[to_size(representative_.find(coordinate))] = true;
       }
     }
     for (const Drive& drive : large_motion_.drives) {
       if (fixed_[to_size(
-              representative(layout_.node[to_size(drive.node)][to_size(drive.direction)]))]) {
+              representative_.find(layout_.node[to_size(drive.node)][to_size(drive.direction)]))]) {
         throw ModelError(part_label("drive", drive.name, 0) + " moves what a support holds");
       }
     }
@@ -205,44 +212,41 @@ class Numbering {
     Index next = 0;
     for (const bool fixed : {false, true}) {
       for (Index i = 0; i < layout_.total; ++i) {
-        if (representative(i) == i && fixed_[to_size(i)] == fixed) new_index[to_size(i)] = next++;
+        if (representative_.find(i) == i && fixed_[to_size(i)] == fixed)
+          new_index[to_size(i)] = next++;
       }
       if (!fixed) layout_.free = next;
     }
-    std::vector<bool> is_rotation(to_size(next));
+    std::vector<int> direction(to_size(next));
     for (Index i = 0; i < layout_.total; ++i) {
-      new_index[to_size(i)] = new_index[to_size(representative(i))];
-      is_rotation[to_size(new_index[to_size(i)])] = layout_.is_rotation[to_size(i)];
+      new_index[to_size(i)] = new_index[to_size(representative_.find(i))];
+      direction[to_size(new_index[to_size(i)])] = layout_.direction[to_size(i)];
     }
     layout_.total = next;
-    layout_.is_rotation = std::move(is_rotation);
-    const auto renumber = [&](Index& i) {
-      if (i >= 0) i = new_index[to_size(i)];
+    layout_.direction = std::move(direction);
+    const auto renumber = [&](auto& coordinates) {
+      for (Index& i : coordinates) i = i < 0 ? i : new_index[to_size(i)];
     };
-    for (auto& node : layout_.node) {
-      for (Index& i : node) renumber(i);
-    }
-    for (auto& ends : layout_.end_rotation) {
-      for (Index& i : ends) renumber(i);
-    }
-    for (MemberElement& element : layout_.elements) {
-      for (Index& i : element.coordinates) renumber(i);
-    }
-    for (auto& centre : layout_.mass_centre) {
-      for (Index& i : centre) renumber(i);
-    }
+    std::ranges::for_each(layout_.node, renumber);
+    std::ranges::for_each(layout_.end_rotation, renumber);
+    std::ranges::for_each(layout_.mass_centre, renumber);
+    for (MemberElement& element : layout_.elements) renumber(element.coordinates);
   }
 
   const Model& model_;
   const LargeMotionModel& large_motion_;
-  int order_;
   Layout layout_;
-  std::vector<Index> owner_;           ///< node whose rotation a node shares
-  std::vector<Index> representative_;  ///< coordinate that a coordinate equals
+  MergedSets owner_;              ///< nodes that share a rotation
+  MergedSets representative_{0};  ///< coordinates that are equal
   std::vector<bool> has_rotation_, fixed_;
 };
 
 }  // namespace
+
+Vector2d MemberElement::position(std::size_t node) const {
+  const double x = is_bar() ? static_cast<double>(node) : beam_interpolation().node[node];
+  return start + x * (end - start);
+}
 
 Index Layout::index_of(const Coordinate& coordinate) const {
   if (coordinate.kind == Coordinate::Kind::end_rotation) {
@@ -268,8 +272,8 @@ std::optional<std::array<Index, 2>> Layout::equated_coordinates(
   return pair;
 }
 
-Layout number_coordinates(const Model& model, const LargeMotionModel& large_motion, int order) {
-  return Numbering(model, large_motion, order).run();
+Layout number_coordinates(const Model& model, const LargeMotionModel& large_motion) {
+  return Numbering(model, large_motion).run();
 }
 
 }  // namespace trammel::solver::large_motion

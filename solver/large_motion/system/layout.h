@@ -19,6 +19,11 @@ struct MemberElement {
   std::vector<Index> coordinates;
   [[nodiscard]] bool is_bar() const { return coordinates.size() == 4; }
   [[nodiscard]] double length() const { return (end - start).norm(); }
+  /// Coordinates of a node.
+  [[nodiscard]] std::size_t stride() const { return is_bar() ? 2 : 3; }
+  [[nodiscard]] std::size_t nodes() const { return coordinates.size() / stride(); }
+  /// Position of a node in the model's pose [m].
+  [[nodiscard]] Vector2d position(std::size_t node) const;
 };
 
 /// Numbers the coordinates: the free ones first, then those that supports hold, so that an index at
@@ -33,18 +38,20 @@ struct Layout {
   std::vector<MemberElement> elements;
   std::vector<Index> first_element;  ///< of each member, one past the last at the end
   std::vector<std::array<Index, 2>>
-      mass_centre;                ///< of each point mass with an offset; else node's
-  std::vector<bool> is_rotation;  ///< of each coordinate
+      mass_centre;             ///< of each point mass with an offset; else node's
+  std::vector<int> direction;  ///< of each coordinate: 0: x, 1: y, 2: rotation
 
+  [[nodiscard]] bool is_rotation(Index coordinate) const {
+    return direction[static_cast<std::size_t>(coordinate)] == 2;
+  }
   [[nodiscard]] Index index_of(const Coordinate& coordinate) const;
   /// The two coordinates that a constraint makes equal, if it is of that kind.
   [[nodiscard]] std::optional<std::array<Index, 2>> equated_coordinates(
       const LinearConstraint& constraint) const;
 };
 
-/// @param order  degree of the beam elements, 1 to 3.
-/// @throws ModelError  where the model has no meaning.
-[[nodiscard]] Layout number_coordinates(const Model& model, const LargeMotionModel& large_motion,
-                                        int order);
+/// @throws ModelError  if a drive moves a coordinate that a support holds, or a constraint names a
+///                     part that does not exist.
+[[nodiscard]] Layout number_coordinates(const Model& model, const LargeMotionModel& large_motion);
 
 }  // namespace trammel::solver::large_motion

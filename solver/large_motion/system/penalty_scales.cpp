@@ -20,27 +20,22 @@ Eigen::VectorXd coordinate_stiffness(const Model& model, const LargeMotionModel&
           element.is_bar() ? element.section.EA / h : 12 * element.section.EI / part;
     }
   }
-  for (const Triangle& triangle : model.triangles) {
-    const Plate& plate = model.plates[to_size(triangle.plate)];
-    for (const Index node : triangle.nodes) {
-      if (node < 0) continue;
-      for (std::size_t k = 0; k < 2; ++k) {
-        stiffness[layout.node[to_size(node)][k]] += plate.material.E * plate.thickness;
+  const auto add = [&](const auto& nodes, const Vector3d& value) {
+    for (const Index node : nodes) {
+      for (std::size_t direction = 0; direction < 3 && node >= 0; ++direction) {
+        const Index k = layout.node[to_size(node)][direction];
+        if (k >= 0) stiffness[k] += value[static_cast<Index>(direction)];
       }
     }
-  }
-  const auto add = [&](Index node, std::size_t direction, double value) {
-    const Index k = node < 0 ? node : layout.node[to_size(node)][direction];
-    if (k >= 0) stiffness[k] += value;
   };
-  for (const Spring& spring : model.springs) {
-    for (const Index node : spring.nodes)
-      for (std::size_t k = 0; k < 3; ++k) add(node, k, spring.stiffness[static_cast<Index>(k)]);
+  for (const Triangle& triangle : model.triangles) {
+    const Plate& plate = model.plates[to_size(triangle.plate)];
+    const double Et = plate.material.E * plate.thickness;
+    add(triangle.nodes, {Et, Et, 0});
   }
-  for (const LineSpring& spring : large_motion.line_springs) {
-    for (const Index node : spring.nodes)
-      for (std::size_t k = 0; k < 2; ++k) add(node, k, spring.stiffness);
-  }
+  for (const Spring& spring : model.springs) add(spring.nodes, spring.stiffness);
+  for (const LineSpring& spring : large_motion.line_springs)
+    add(spring.nodes, {spring.stiffness, spring.stiffness, 0});
   return stiffness;
 }
 
@@ -67,13 +62,13 @@ double mean_of_positive(const Eigen::VectorXd& values, double none) {
 
 PenaltyScales::PenaltyScales(const Model& model, const LargeMotionModel& large_motion,
                              const Layout& layout, const Eigen::VectorXd& mass, double size)
-    : is_rotation_(layout.is_rotation),
+    : layout_(layout),
       size_(size),
       stiffness_(coordinate_stiffness(model, large_motion, layout)),
       mass_(mass) {
   const auto of_translations = [&](Eigen::VectorXd values) {
     for (Index k = 0; k < layout.total; ++k)
-      if (is_rotation_[to_size(k)]) values[k] /= size * size;
+      if (layout_.is_rotation(k)) values[k] /= size * size;
     return values;
   };
   mean_mass_ = mean_of_positive(of_translations(mass_), 1);
@@ -84,8 +79,7 @@ PenaltyScales::PenaltyScales(const Model& model, const LargeMotionModel& large_m
 }
 
 bool PenaltyScales::turns(std::span<const Index> coordinates) const {
-  return std::ranges::all_of(coordinates,
-                             [&](Index k) { return k < 0 || is_rotation_[to_size(k)]; });
+  return std::ranges::all_of(coordinates, [&](Index k) { return k < 0 || layout_.is_rotation(k); });
 }
 
 double PenaltyScales::row_unit(std::span<const Index> coordinates) const {
@@ -99,7 +93,7 @@ double PenaltyScales::largest(const Eigen::VectorXd& values, double mean,
          levered = 0;  // of the row's own kind, and of rotations in a row of displacements
   for (const Index k : coordinates) {
     if (k < 0) continue;
-    double& kind = is_rotation_[to_size(k)] && !is_turn ? levered : value;
+    double& kind = layout_.is_rotation(k) && !is_turn ? levered : value;
     kind = std::max(kind, values[k]);
   }
   if (!(value > 0) && lever > 0) {

@@ -35,10 +35,10 @@ class PenaltyScales {
   [[nodiscard]] double largest(const Eigen::VectorXd& values, double mean,
                                std::span<const Index> coordinates, double lever) const;
 
-  std::vector<bool> is_rotation_;  ///< of each coordinate
-  double size_;                    ///< of the model [m]
-  Eigen::VectorXd stiffness_;      ///< of each coordinate [N/m or N m/rad]
-  Eigen::VectorXd mass_;           ///< of each coordinate [kg or kg m^2]
+  const Layout& layout_;
+  double size_;                ///< of the model [m]
+  Eigen::VectorXd stiffness_;  ///< of each coordinate [N/m or N m/rad]
+  Eigen::VectorXd mass_;       ///< of each coordinate [kg or kg m^2]
   double mean_stiffness_, mean_mass_;
 };
 

@@ -1,47 +1,53 @@
 #pragma once
 
-#include <Eigen/SparseCore>
-#include <array>
-#include <memory>
-#include <utility>
+#include <tuple>
 #include <vector>
 
+#include "solver/large_motion/elements/beam.h"
+#include "solver/large_motion/elements/joints.h"
+#include "solver/large_motion/elements/triangle.h"
 #include "solver/large_motion/system/element_group.h"
-#include "solver/model/numbers.h"
+#include "solver/large_motion/system/layout.h"
 
 namespace trammel::solver::large_motion {
 
-class FollowerLoads;
-
-/// What the parts of a model contribute to the equations of `GeometricallyExactSystem`. Built part
-/// by part by the functions of member_elements.h, energy_elements.h, joint_elements.h,
-/// linear_constraints.h and loads.h.
+/// The elements and loads of a model.
 struct SystemParts {
-  std::vector<std::unique_ptr<ElementGroup>> groups;
-  Index rows = 0;                  ///< constraint rows so far
-  std::vector<Index> element_row;  ///< first row of each element of a member
-  Index first_drive_row = 0;
-  const FollowerLoads* follower_loads = nullptr;     ///< among the groups; null: none
-  std::vector<std::pair<Index, double>> point_mass;  ///< on one coordinate [kg or kg m^2]
-  std::vector<Eigen::Triplet<double>> mass_entries;  ///< of elements [kg, kg m, kg m^2]
-  VectorXd loads;                                    ///< dead loads, one a coordinate [N, N m]
+  std::tuple<ElementGroup<Beam>, ElementGroup<Bar>, ElementGroup<Triangle2d<3>>,
+             ElementGroup<Triangle2d<6>>, ElementGroup<CoordinateSpring>, ElementGroup<RigidLink>,
+             ElementGroup<SlidingJoint>, ElementGroup<LineSpringElement>,
+             ElementGroup<DrivenCoordinate>, ElementGroup<LinearRow>, ElementGroup<FollowerForce>,
+             ElementGroup<PointInertia>>
+      groups;
+  Index rows = 0;                  ///< number of constraint rows
+  std::vector<Index> group_index;  ///< of each element of a member among the beams or the bars
+  VectorXd loads;                  ///< dead loads, one a coordinate [N, N m]
 
-  /// Keeps a group that has elements; its rows come after those of the groups before it.
-  void add(std::unique_ptr<ElementGroup> group) {
-    rows += group->rows();
-    if (group->size() > 0) groups.push_back(std::move(group));
+  template <class Element>
+  [[nodiscard]] const ElementGroup<Element>& group() const {
+    return std::get<ElementGroup<Element>>(groups);
   }
-
-  /// Adds the mass matrix of an element.
-  template <int N>
-  void add_mass(const Eigen::Matrix<double, N, N>& mass, const std::array<Index, N>& coordinates) {
-    for (int i = 0; i < N; ++i) {
-      for (int j = 0; j < N; ++j) {
-        if (mass(i, j) == 0) continue;
-        mass_entries.emplace_back(coordinates[to_size(i)], coordinates[to_size(j)], mass(i, j));
-      }
-    }
+  template <class Function>
+  void for_each_group(const Function& function) const {
+    std::apply([&](const auto&... group) { (function(group), ...); }, groups);
+  }
+  template <class Function>
+  void for_each_group(const Function& function) {
+    std::apply([&](auto&... group) { (function(group), ...); }, groups);
   }
 };
+
+/// Builds the elements and numbers their rows.
+/// @throws ModelError  if a triangle has no area, or a constraint names a rotation that no part has
+///                     or mixes translations and rotations.
+[[nodiscard]] SystemParts build_parts(const Model& model, const LargeMotionModel& large_motion,
+                                      const Layout& layout);
+
+/// @param blocks  coordinates and rows that each element couples, those of the drives included
+/// @param mass    of each coordinate
+/// @throws ModelError  if a drive moves a coordinate to which nothing is joined.
+void require_driven_parts(const Model& model, const LargeMotionModel& large_motion,
+                          const Layout& layout, const std::vector<std::vector<Index>>& blocks,
+                          const VectorXd& mass);
 
 }  // namespace trammel::solver::large_motion

@@ -140,7 +140,9 @@ BOOST_AUTO_TEST_CASE(a_pulse_within_a_step_is_seen) {
 }
 
 BOOST_AUTO_TEST_CASE(a_path_out_of_reach_is_named) {
-  ElastodynamicsOptions options = options_of(ElbowKind::hinged, 1, 1, 1e-2);
+  // With steps of 1e-2 s the vibration is not resolved, and it depends on rounding whether they
+  // fail before the end of the reach.
+  ElastodynamicsOptions options = options_of(ElbowKind::hinged, 1, 1, 5e-3);
   options.path = Line{{0.25, 0.144, 0}, {0.25, 0.9, 0}, 1};
   options.time.sample_times = {0, 1};
   const Outcome found = solve_large_elastodynamics(options).outcome;
