@@ -32,8 +32,10 @@ void set_triangle_stress(const MovingSystem& moving, const VectorXd& u, StaticSo
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     TrianglePoints points;
     for (std::size_t k = 0; k < 3; ++k) points[k] = moving.position(triangles[i].nodes[k]);
+    const auto local = detail::gather(moving.start().coordinates.of_triangle<6>(triangles[i]), u);
+    const Plate& plate = moving.start().model.plates[to_size(triangles[i].plate)];
     state.triangle_stress.row(static_cast<Index>(i)) =
-        plate_stress(moving.start(), triangles[i], points, Vector3d::Constant(1.0 / 3), u);
+        membrane_stress(plate.material, triangle_deformation(points) * local);
   }
 }
 

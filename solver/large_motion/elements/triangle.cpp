@@ -1,7 +1,6 @@
 #include "solver/large_motion/elements/triangle.h"
 
-#include "solver/elements/triangle6_element.h"
-#include "solver/elements/triangle_interpolation.h"
+#include "solver/elements/triangle_element.h"
 
 namespace trammel::solver::large_motion {
 
@@ -11,30 +10,16 @@ Triangle2d<Nodes>::Triangle2d(const Model& model, const Triangle& triangle) {
   const double E = plate.material.E, nu = plate.material.nu;
   D_ << 1, nu, 0, nu, 1, 0, 0, 0, (1 - nu) / 2;
   D_ *= E / (1 - nu * nu);
-  const auto interpolate_at = [&](const Vector3d& area_coordinates) {
-    const TriangleInterpolation at = interpolate(model, triangle, area_coordinates);
-    if (!(at.area > 0)) throw ModelError("a triangle has no area");
-    return at;
-  };
   // The point at the center is exact to degree 1, the three points to degree 2.
   const auto count = static_cast<double>(points_.size());
   for (std::size_t p = 0; p < points_.size(); ++p) {
     Vector3d area_coordinates = Vector3d::Constant(Nodes == 3 ? 1.0 / 3 : 1.0 / 6);
     if (Nodes == 6) area_coordinates[static_cast<Index>(p)] = 2.0 / 3;
-    const TriangleInterpolation at = interpolate_at(area_coordinates);
+    const TriangleInterpolation at = interpolate(model, triangle, area_coordinates);
+    if (!(at.area > 0)) throw ModelError("a triangle has no area");
     points_[p] = {at.gradient.template leftCols<Nodes>(), plate.thickness * at.area / count};
   }
-  mass_.setZero();
-  for (const TriangleQuadraturePoint& point : triangle6_quadrature()) {
-    const TriangleInterpolation at = interpolate_at(point.area_coordinates);
-    const double m = plate.material.rho * plate.thickness * point.weight * at.area;
-    for (int a = 0; a < Nodes; ++a) {
-      for (int b = 0; b < Nodes; ++b) {
-        mass_.template block<2, 2>(2 * a, 2 * b) +=
-            m * at.N[a] * at.N[b] * Eigen::Matrix2d::Identity();
-      }
-    }
-  }
+  mass_ = triangle_mass(triangle_nodes<Nodes>(model, triangle), plate);
 }
 
 template <int Nodes>
