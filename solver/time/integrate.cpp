@@ -46,82 +46,70 @@ std::vector<Stop> stops_of(const TransientOptions& options, const std::vector<do
   return stops;
 }
 
-/// Chooses the sizes of steps from stop to stop.
-class StepControl {
- public:
-  explicit StepControl(const TransientOptions& options) : options_(options) {}
-  StepControl(const StepControl&) = delete;
-  StepControl& operator=(const StepControl&) = delete;
-  StepControl(StepControl&&) = delete;
-  StepControl& operator=(StepControl&&) = delete;
-  virtual ~StepControl() = default;
-  virtual void begin(double time, double stop) = 0;
-  [[nodiscard]] virtual Step next(double time) const = 0;
-  virtual void accept(const Step& step, double error) = 0;
-  /// @returns null, or the reason for giving up
-  [[nodiscard]] virtual const char* reject(const Step& step, const StepReport& report) = 0;
-  /// Steps with at most this share of the allowed error are accepted.
-  [[nodiscard]] virtual double error_limit() const { return 1; }
+/// Number of equal steps up to a stop that are not above the requested one.
+double equal_steps(double span, double step, int multiple = 1) {
+  return multiple * std::max(1.0, std::ceil(span / (multiple * step) * (1 - 1e-9)));
+}
 
- protected:
-  /// @returns number of equal steps up to a stop that are not above the requested one
-  [[nodiscard]] double equal_steps(double span, int multiple) const {
-    return multiple * std::max(1.0, std::ceil(span / (multiple * options_.step) * (1 - 1e-9)));
-  }
-  const TransientOptions& options_;
-};
-
-class HalvedSteps final : public StepControl {
+/// Steps of largest / 2^level from stop to stop.
+class HalvedSteps {
  public:
-  using StepControl::StepControl;
-  void begin(double time, double stop) override {
+  static constexpr double kErrorLimit = 1;  ///< of accepted steps, over the allowed error
+  explicit HalvedSteps(const TransientOptions& options) : options_(options) {}
+  void begin(double time, double stop) {
     begin_ = time;
     end_ = stop;
-    const double steps = std::min(1e12, equal_steps(stop - time, 1));
+    const double steps = std::min(1e12, equal_steps(stop - time, options_.step));
     const double largest = (stop - time) / steps;
     if (!(std::abs(largest - largest_) <= 1e-12 * largest_)) largest_ = largest;
+    size_ = std::ldexp(largest_, -level_);
     done_ = 0;
     count_ = static_cast<std::int64_t>(steps) << level_;
   }
-  [[nodiscard]] Step next(double /*time*/) const override {
-    const double h = std::ldexp(largest_, -level_);
+  [[nodiscard]] Step next(double /*time*/) const {
     const bool last = done_ + 1 == count_;
-    return {h, last ? end_ : begin_ + static_cast<double>(done_ + 1) * h, level_, last};
+    return {size_, last ? end_ : begin_ + static_cast<double>(done_ + 1) * size_, level_, last};
   }
-  void accept(const Step& /*step*/, double error) override {
+  void accept(const Step& /*step*/, double error) {
     ++done_;
     if (level_ == 0 || error >= 0.125 || done_ % 2 != 0) return;
     --level_;
+    size_ *= 2;
     done_ /= 2;
     count_ /= 2;
   }
-  [[nodiscard]] const char* reject(const Step& /*step*/, const StepReport& report) override {
+  /// @returns null, or the reason for giving up
+  [[nodiscard]] const char* reject(const Step& /*step*/, const StepReport& report) {
     if (report.status != Status::solved) return "the step fails";
     if (++level_ > options_.adaptive->finest_level) return "the step is the smallest";
+    size_ /= 2;
     done_ *= 2;
     count_ *= 2;
     return nullptr;
   }
 
  private:
-  double begin_ = 0, end_ = 0, largest_ = 0;
+  const TransientOptions& options_;
+  double begin_ = 0, end_ = 0, largest_ = 0, size_ = 0;
   std::int64_t done_ = 0, count_ = 0;  ///< steps of the present level
   int level_ = 0;
 };
 
-class FreeSteps final : public StepControl {
+/// Steps as the error asks for; smaller and larger ones if a step does not converge.
+class FreeSteps {
  public:
-  explicit FreeSteps(const TransientOptions& options) : StepControl(options), size_(options.step) {}
-  void begin(double time, double stop) override {
+  static constexpr double kErrorLimit = 1.5;
+  explicit FreeSteps(const TransientOptions& options) : options_(options), size_(options.step) {}
+  void begin(double time, double stop) {
     stop_ = stop;
-    longest_ = options_.adaptive
-                   ? std::numeric_limits<double>::infinity()
-                   : (stop - time) / equal_steps(stop - time, options_.steps_in_multiples_of);
+    longest_ = options_.adaptive ? std::numeric_limits<double>::infinity()
+                                 : (stop - time) / equal_steps(stop - time, options_.step,
+                                                               options_.steps_in_multiples_of);
     failures_ = 0;
     failed_size_ = 0;
   }
   /// Equal steps up to a sample: no tiny last one.
-  [[nodiscard]] Step next(double time) const override {
+  [[nodiscard]] Step next(double time) const {
     const double remaining = stop_ - time;
     const double allowed = failures_ > 0 ? size_ : std::min(size_, longest_);
     const double count = std::ceil(remaining / allowed * (1 - 1e-9));
@@ -130,7 +118,7 @@ class FreeSteps final : public StepControl {
     const double size = every_step_is_shown ? allowed : remaining / count;
     return {size, time + size, 0, false};
   }
-  void accept(const Step& step, double error) override {
+  void accept(const Step& step, double error) {
     failures_ = 0;
     failed_size_ = 0;
     if (!options_.adaptive) {
@@ -141,7 +129,7 @@ class FreeSteps final : public StepControl {
     const double wanted = step.size * 0.85 / std::cbrt(std::max(error, 1e-6));
     size_ = std::clamp(wanted, 0.3 * step.size, std::max(1.8 * step.size, size_));
   }
-  [[nodiscard]] const char* reject(const Step& step, const StepReport& report) override {
+  [[nodiscard]] const char* reject(const Step& step, const StepReport& report) {
     if (++failures_ > 30) return "no step converges";
     if (report.status != Status::solved) {
       size_ = retry(step.size);
@@ -153,7 +141,6 @@ class FreeSteps final : public StepControl {
     if (size_ >= 1e-7 * options_.step || step.last) return nullptr;
     return "the step has become smaller than 1e-7 of the requested one";
   }
-  [[nodiscard]] double error_limit() const override { return 1.5; }
 
  private:
   /// After a step that does not converge: a smaller one, and every second time a larger one, since
@@ -165,15 +152,21 @@ class FreeSteps final : public StepControl {
     return failures_ % 2 == 1 ? smaller : larger;
   }
 
+  const TransientOptions& options_;
   double stop_ = 0, longest_ = 0;
   double size_ = 0, failed_size_ = 0;
   int failures_ = 0;
 };
 
+template <class Control>
 class TimeIntegration {
  public:
-  TimeIntegration(Stepper& stepper, StepControl& control, const TransientOptions& options)
-      : stepper_(stepper), control_(control), options_(options), next_look_(options.start) {}
+  TimeIntegration(Stepper& stepper, const TransientOptions& options)
+      : stepper_(stepper),
+        control_(options),
+        options_(options),
+        time_(options.start),
+        next_look_(options.start) {}
 
   TransientSummary run(const std::vector<Stop>& stops) {
     set_step_limit(std::ssize(stops));
@@ -183,7 +176,7 @@ class TimeIntegration {
       if (stop.breakpoint) stepper_.restart();
       if (stop.sample && stop.time > options_.start) stepper_.show();
     }
-    summary_.time = stepper_.time();
+    summary_.time = time_;
     summary_.counters.steps = summary_.accepted + summary_.rejected;
     return std::move(summary_);
   }
@@ -203,20 +196,20 @@ class TimeIntegration {
   }
 
   bool advance(double stop) {
-    if (!(stepper_.time() < stop)) return true;
-    control_.begin(stepper_.time(), stop);
-    step_ = control_.next(stepper_.time());
+    if (!(time_ < stop)) return true;
+    control_.begin(time_, stop);
+    step_ = control_.next(time_);
     summary_.outcome = stepper_.begin(step_, stop);
     if (!summary_.outcome.solved()) {
       summary_.outcome.reason += " at " + describe_step();
       return false;
     }
-    while (stepper_.time() < stop) {
+    while (time_ < stop) {
       if (summary_.accepted + summary_.rejected >= max_steps_) return fail(limit_reason_);
-      step_ = control_.next(stepper_.time());
+      step_ = control_.next(time_);
       report_ = stepper_.attempt(step_);
       summary_.iterations += report_.iterations;
-      if (report_.status != Status::solved || report_.error > control_.error_limit() ||
+      if (report_.status != Status::solved || report_.error > Control::kErrorLimit ||
           report_.leaves_branch) {
         ++summary_.rejected;
         if (const char* reason = control_.reject(step_, report_)) return fail(reason);
@@ -231,6 +224,7 @@ class TimeIntegration {
     const bool inspect = step_.end >= next_look_ || step_.end >= options_.end;
     if (inspect) next_look_ = step_.end + (options_.end - options_.start) / 200;
     stepper_.accept(step_, inspect, summary_.evidence);
+    time_ = step_.end;
     control_.accept(step_, report_.error);
     ++summary_.accepted;
     summary_.smallest_step =
@@ -240,8 +234,8 @@ class TimeIntegration {
 
   [[nodiscard]] std::string describe_step() const {
     std::ostringstream text;
-    text << "step " << summary_.accepted + 1 << " at time " << stepper_.time() << " s of size "
-         << step_.size << " s";
+    text << "step " << summary_.accepted + 1 << " at time " << time_ << " s of size " << step_.size
+         << " s";
     return text.str();
   }
 
@@ -254,12 +248,12 @@ class TimeIntegration {
   }
 
   Stepper& stepper_;
-  StepControl& control_;
+  Control control_;
   const TransientOptions& options_;
   TransientSummary summary_;
   Step step_;
   StepReport report_;  ///< the last one
-  double next_look_ = 0;
+  double time_, next_look_;
   std::int64_t max_steps_ = 0;
   const char* limit_reason_ = "too many steps";
 };
@@ -276,12 +270,10 @@ std::vector<double> even_times(double start, double end, double step) {
 
 TransientSummary integrate(Stepper& stepper, const TransientOptions& options,
                            const std::vector<double>& breakpoints, StepSizes sizes) {
-  const auto run = [&](StepControl& control, const std::vector<double>& samples) {
-    return TimeIntegration(stepper, control, options).run(stops_of(options, samples, breakpoints));
-  };
-  HalvedSteps halved(options);
-  FreeSteps free(options);
-  return sizes == StepSizes::halved ? run(halved, {}) : run(free, options.sample_times);
+  if (sizes == StepSizes::halved)
+    return TimeIntegration<HalvedSteps>(stepper, options).run(stops_of(options, {}, breakpoints));
+  return TimeIntegration<FreeSteps>(stepper, options)
+      .run(stops_of(options, options.sample_times, breakpoints));
 }
 
 }  // namespace trammel::solver

@@ -91,7 +91,6 @@ class Stepper {
   Stepper& operator=(Stepper&&) = delete;
   virtual ~Stepper() = default;
 
-  [[nodiscard]] virtual double time() const = 0;
   /// Prepares the steps up to the next stop.
   [[nodiscard]] virtual Outcome begin(const Step& /*first*/, double /*stop*/) { return {}; }
   /// Tries a step; the result waits until it is accepted.

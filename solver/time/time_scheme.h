@@ -61,7 +61,8 @@ struct TimeScheme {
 /// the scheme is unstable there.
 [[nodiscard]] double spectral_radius(const TimeScheme& scheme, double phase_step);
 
-/// Largest w h at which an undamped motion stays bounded; infinity if any step is stable.
+/// Largest w h at which an undamped motion stays bounded; infinity if any step is stable. That of
+/// Newmark is 1 / sqrt(gamma/2 - beta) (Hughes 1987, section 9.1); the others are stable at any step.
 [[nodiscard]] double stability_limit(const TimeScheme& scheme);
 
 // The relations of the scheme for states with q, v and a.

@@ -155,7 +155,6 @@ class LinearStepper final : public Stepper {
     return summary;
   }
 
-  [[nodiscard]] double time() const override { return now_.time; }
   [[nodiscard]] Outcome begin(const Step& first, double stop) override;
   [[nodiscard]] StepReport attempt(const Step& step) override;
   void accept(const Step& step, bool inspect, Evidence& evidence) override;
@@ -197,8 +196,7 @@ class LinearStepper final : public Stepper {
   MasslessCoordinates massless_;
   bool massless_balance_ = false;  // they follow the others, as the states that are shown have it
   std::array<TransientState, 2> shown_{TransientState(0), TransientState(0)};
-  std::vector<std::unique_ptr<SparseLdlt>> factors_;  // of steps factors_step_ / 2^index
-  double factors_step_ = 0;
+  std::vector<std::pair<double, std::unique_ptr<SparseLdlt>>> factors_;  // steps, one per level
   double largest_ = 0, largest_residual_ = 0;
   MotionEvidence evidence_;
   SampleOutput output_;
@@ -308,14 +306,12 @@ void LinearStepper::estimate_size_from_load(double begin, double end) {
 
 /// M + gamma' h C + beta' h^2 K, factored; null if it is singular.
 SparseLdlt* LinearStepper::step_factor(const Step& step) {
-  const double largest = std::ldexp(step.size, step.level);
   const auto index = matrices_.constant() ? static_cast<std::size_t>(step.level) : 0;
-  if (largest != factors_step_) factors_.clear();
-  factors_step_ = largest;
   if (factors_.size() <= index) factors_.resize(index + 1);
-  std::unique_ptr<SparseLdlt>& factor = factors_[index];
-  if (factor && matrices_.constant()) return factor.get();
+  auto& [size, factor] = factors_[index];
+  if (factor && matrices_.constant() && size == step.size) return factor.get();
   if (!factor) factor = std::make_unique<SparseLdlt>(SparseLdlt::Triangle::mean);
+  size = step.size;
   const double c = scheme_.velocity_gain() * step.size;
   const double k = scheme_.position_gain() * step.size * step.size;
   S_.coeffs() = matrices_.M().coeffs() + c * matrices_.C().coeffs() + k * matrices_.K().coeffs();

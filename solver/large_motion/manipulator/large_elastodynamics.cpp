@@ -322,6 +322,11 @@ class LargeElastodynamics {
           if (now.t > options_.time.start) balance_.add(system, now);
           add_sample(system, now, start_, at_time(now.t));
         });
+    // Close to the end of the reach no step converges: a few steps ahead the rigid links end.
+    constexpr int kStepsAhead = 10;
+    for (int i = 1; i <= kStepsAhead && !summary.outcome.solved() && reached_.solved(); ++i)
+      static_cast<void>(
+          rigid_motion_(std::min(integration.end, summary.time + i * integration.step)));
     solution_.outcome = summary.outcome.solved() || reached_.solved() ? summary.outcome : reached_;
     solution_.evidence.add(summary.evidence);
     TransientSummary& result = solution_.summary;

@@ -64,6 +64,7 @@ ConstrainedStepper::ConstrainedStepper(const ConstrainedSystem& system,
                          {.relations = options.scheme,
                           .error_constant = options.scheme.error_constant(),
                           .keeps_rates = true,
+                          .acceleration_share = 1,
                           .resolution = 1e-13,
                           .position_resolution = 0}) {}
 
@@ -156,12 +157,13 @@ StepReport ConstrainedStepper::iterate(const Step& step) {
   const int spent = report.iterations;
   report = newton(step, true);
   report.iterations += spent;
-  factored_step_ = 0;
+  if (report.status != Status::solved || !scheme_.keeps_rates) factored_step_ = 0;
   return report;
 }
 
 StepReport ConstrainedStepper::newton(const Step& step, bool exact) {
-  constexpr int kMaxIterations = 30;
+  // Energy is kept by iterating to the end, also if the iteration converges slowly.
+  const int max_iterations = scheme_.keeps_rates ? 20 : 30;
   const Index n = system_.coordinates();
   const double h = step.size;
   StepReport report;
@@ -174,7 +176,7 @@ StepReport ConstrainedStepper::newton(const Step& step, bool exact) {
   predict(scheme_.relations, h, from_, A0_, to_, A1_);
   StepConvergence convergence;
   bool fresh = false;
-  for (int i = 0; i < kMaxIterations; ++i) {
+  for (int i = 0; i < max_iterations; ++i) {
     if (exact || factored_step_ != h || (!fresh && convergence.slow())) {
       matrix_.clear();
       factored_step_ = h;
@@ -249,7 +251,8 @@ void ConstrainedStepper::correct(double h) {
 bool ConstrainedStepper::has_converged(double h, const StepConvergence& convergence) const {
   // Between the estimate for one rounding of each force and what several of them add up to.
   constexpr double kRoundoffErrors = 10;
-  const double acceleration = scheme_.relations.beta * h * h * size(A1_);
+  const double acceleration =
+      scheme_.acceleration_share * scheme_.relations.beta * h * h * size(A1_);
   const double position = size(to_.q);
   const double limit =
       std::max(scheme_.resolution * acceleration, scheme_.position_resolution * position);
@@ -285,7 +288,8 @@ class EnergyMomentum final : public ConstrainedStepper {
                            {.relations = {.beta = 0.5, .gamma = 1},
                             .error_constant = 1.0 / 12,
                             .keeps_rates = false,
-                            .resolution = 2e-15,
+                            .acceleration_share = 2e-4,
+                            .resolution = 1e-11,
                             .position_resolution = 1e-17}),
         system_(system),
         midpoint_(start),
@@ -335,7 +339,7 @@ bool EnergyMomentum::tangent(double h, bool exact) {
   coefficients.damping = h / 2;
   coefficients.stiffness = h * h / 4;
   coefficients.compliance = 2 / (h * h) / (0.5 + system_.strain_rate_damping() / h);
-  if (exact) {
+  if (exact) {  // next to singular positions
     system_.discrete_gradient_tangent(from_, to_, midpoint_, coefficients, matrix_);
     return false;
   }

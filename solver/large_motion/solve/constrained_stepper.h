@@ -28,7 +28,6 @@ class ConstrainedStepper : public Stepper {
   ConstrainedStepper(const ConstrainedSystem& system, const TransientOptions& options,
                      const State& start, const Observer& observe);
 
-  [[nodiscard]] double time() const override { return from_.t; }
   [[nodiscard]] StepReport attempt(const Step& step) override;
   void accept(const Step& step, bool inspect, Evidence& evidence) override;
   void restart() override { first_ = true; }
@@ -48,8 +47,9 @@ class ConstrainedStepper : public Stepper {
     TimeScheme relations;
     double error_constant = 0;
     bool keeps_rates = true;         ///< velocities meet the rigid constraints at the ends of steps
-    double resolution = 0;           ///< Newton's method ends at this share of acceleration, ...
-    double position_resolution = 0;  ///< ... and of position
+    double acceleration_share = 1;   ///< of accelerations that count as motion
+    double resolution = 0;           ///< smallest correction over these accelerations, ...
+    double position_resolution = 0;  ///< ... and over positions
   };
   ConstrainedStepper(const ConstrainedSystem& system, const TransientOptions& options,
                      const State& start, const Observer& observe, const Scheme& scheme);
