@@ -67,21 +67,24 @@ OutputSelection read_kept(const JsonView& analysis, const GeometricallyExactSyst
   return selection;
 }
 
-solver::large_motion::IntegrationOptions read_large_motion_options(const JsonView& analysis) {
-  solver::large_motion::IntegrationOptions options;
+solver::TransientOptions read_large_motion_options(const JsonView& analysis) {
+  solver::TransientOptions options;
+  options.scheme = solver::generalized_alpha(analysis.get("spectral_radius", 0.9));
   if (analysis.get<std::string>("integrator", "generalized-alpha") == "energy-momentum") {
-    options.integrator = solver::large_motion::Integrator::energy_momentum;
+    options.scheme.conserves_energy = true;
     if (analysis.has("spectral_radius"))
-      throw analysis["spectral_radius"].error("expected it beside 'generalized-alpha' alone");
+      throw analysis["spectral_radius"].error("expected it with 'generalized-alpha' only");
   }
-  options.end_time = analysis.number("end_time_s");
+  options.end = analysis.number("end_time_s");
   options.step = analysis.number("step_s");
-  options.output_step = analysis.get("output_step_s", 0.0);
-  options.adaptive = analysis.has("tolerance");
-  options.tolerance = analysis.get("tolerance", options.tolerance);
-  if (!options.adaptive) require_step_count(analysis["step_s"], options.end_time);
-  if (options.output_step > 0) require_step_count(analysis["output_step_s"], options.end_time);
-  options.spectral_radius = analysis.get("spectral_radius", options.spectral_radius);
+  if (analysis.has("tolerance")) {
+    options.adaptive = {.relative = analysis.number("tolerance")};
+  } else {
+    require_step_count(analysis["step_s"], options.end);
+  }
+  const double output_step = analysis.get("output_step_s", options.adaptive ? 0 : options.step);
+  if (analysis.has("output_step_s")) require_step_count(analysis["output_step_s"], options.end);
+  if (output_step > 0) options.sample_times = solver::even_times(0, options.end, output_step);
   options.max_steps = analysis.get("steps", options.max_steps);
   return options;
 }
@@ -219,7 +222,7 @@ void record_deflection(const GeometricallyExactSystem& system, const State& stat
 /// From where the model stands, or with the velocities of the rigid twin that it follows.
 solver::large_motion::IntegrationSummary integrate_motion(
     const GeometricallyExactSystem& system, const CaseModel& case_model, bool tracking,
-    const solver::large_motion::IntegrationOptions& options, bool extrapolated,
+    const solver::TransientOptions& options, bool extrapolated,
     const solver::large_motion::Observer& look) {
   if (tracking) return integrate_tracking(case_model, system, options, look);
   State state;
@@ -229,12 +232,12 @@ solver::large_motion::IntegrationSummary integrate_motion(
 
 void record_summary(const solver::large_motion::IntegrationSummary& summary,
                     const MotionRecorder& log, Recorder& record) {
-  record.add("steps", "", static_cast<double>(summary.steps));
+  record.add("steps", "", static_cast<double>(summary.accepted));
   record.add("rejected_steps", "", static_cast<double>(summary.rejected));
   record.add("newton_iterations", "", static_cast<double>(summary.iterations));
-  record.add("smallest_step_s", "", summary.min_step);
-  record.add("constraint_residual", "", summary.max_constraint_residual);
-  record.add("constraint_rate_residual", "", summary.max_constraint_rate);
+  record.add("smallest_step_s", "", summary.smallest_step);
+  record.add("constraint_residual", "", summary.constraints.position);
+  record.add("constraint_rate_residual", "", summary.constraints.rate);
   record.add("energy_drift", "", log.energy_drift());
 }
 
@@ -265,7 +268,7 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
   }
   release_driven_actuators(analysis, case_model, large_motion, model);
   const GeometricallyExactSystem system(model, large_motion);
-  solver::large_motion::IntegrationOptions options = read_large_motion_options(analysis);
+  solver::TransientOptions options = read_large_motion_options(analysis);
   options.breakpoints = system.large_motion().load_breakpoints;
   StepResult result;
   if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
@@ -279,7 +282,7 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
     if (tracking) record_deflection(system, state, *case_model.path, record);
     if (!result.drawing) return;
     std::vector<Drawing::Pose>& poses = result.drawing->poses;
-    const double next = options.end_time * static_cast<double>(poses.size()) / moments;
+    const double next = options.end * static_cast<double>(poses.size()) / moments;
     if (state.t < next * (1 - 1e-9)) return;
     poses.push_back(draw_large_pose(system, state.q, moment_label(state.t)));
     poses.back().time = state.t;
@@ -292,7 +295,6 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
   solver::count_tangents(system, summary.iterations, true, result.counters);
   if (damped) result.counters.count(solver::Effect::damping, summary.iterations);
   result.counters.element_evaluations = system.element_evaluations();
-  result.counters.steps = summary.steps + summary.rejected;
   record_summary(summary, log, record);
   if (result.outcome.solved() && last.q.size() > 0)
     warn_of_redundancy(redundant_constraints(system, last), result.warnings);

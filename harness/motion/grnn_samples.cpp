@@ -79,11 +79,14 @@ void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamp
   add_tracking(place, Tracking::torques, case_model, model, large_motion);
   release_driven_actuators(place, case_model, large_motion, model);
   const solver::large_motion::GeometricallyExactSystem system(model, large_motion);
-  solver::large_motion::IntegrationOptions options;
-  options.end_time = case_model.motion.back().time;
+  solver::TransientOptions options;
+  options.scheme = solver::generalized_alpha(0.9);
+  options.end = case_model.motion.back().time;
   options.step = place.number("step_s");
-  require_step_count(place["step_s"], options.end_time);
-  if (case_model.motion.size() > 1) options.output_step = case_model.motion[1].time;
+  require_step_count(place["step_s"], options.end);
+  const double output_step =
+      case_model.motion.size() > 1 ? case_model.motion[1].time : options.step;
+  options.sample_times = solver::even_times(0, options.end, output_step);
   Eigen::MatrixXd& outputs = path.samples.outputs;
   const Eigen::RowVector3d start = outputs.row(0).head<3>();
   solver::Index k = 0;

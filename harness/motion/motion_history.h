@@ -6,7 +6,7 @@
 #include "solver/assembly/damping.h"
 #include "solver/model/evidence.h"
 #include "solver/statics/postprocessing.h"
-#include "solver/time/transient_history.h"
+#include "solver/time/transient.h"
 
 namespace trammel::harness {
 

@@ -132,8 +132,7 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
 
 solver::large_motion::IntegrationSummary integrate_tracking(
     const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system,
-    const solver::large_motion::IntegrationOptions& options,
-    const solver::large_motion::Observer& look) {
+    const solver::TransientOptions& options, const solver::large_motion::Observer& look) {
   solver::large_motion::State state = system.reference_state();
   solver::large_motion::IntegrationSummary summary;
   summary.outcome =

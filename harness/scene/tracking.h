@@ -30,7 +30,6 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
 /// The motion from the model's pose on, with the velocities of the rigid twin.
 [[nodiscard]] solver::large_motion::IntegrationSummary integrate_tracking(
     const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system,
-    const solver::large_motion::IntegrationOptions& options,
-    const solver::large_motion::Observer& look);
+    const solver::TransientOptions& options, const solver::large_motion::Observer& look);
 
 }  // namespace trammel::harness

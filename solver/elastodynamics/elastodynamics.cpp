@@ -22,12 +22,7 @@ std::vector<double> sample_times(const TransientOptions& options) {
   if (!(options.step > 0 && options.end > options.start)) {
     throw ModelError("a motion ends after it starts, and its step is positive");
   }
-  std::vector<double> times;
-  const double step_count = std::ceil((options.end - options.start) / options.step - 1e-9);
-  for (Index i = 0; i <= static_cast<Index>(step_count); ++i) {
-    times.push_back(std::min(options.end, options.start + static_cast<double>(i) * options.step));
-  }
-  return times;
+  return even_times(options.start, options.end, options.step);
 }
 
 /// One row a sample.

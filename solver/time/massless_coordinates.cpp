@@ -58,10 +58,10 @@ void MasslessCoordinates::settle(TransientState& state, const VectorXd& rate) {
   balance(residual, damped_ ? state.v : state.q);
   if (!damped_) balance(rate - K * state.v, state.v);
   const VectorXd left = state.f - C * state.v - K * state.q;
-  factor_.solve(left, state.acceleration);
-  factor_.solve(left - matrices_->M() * state.acceleration, s_);
+  factor_.solve(left, state.a);
+  factor_.solve(left - matrices_->M() * state.a, s_);
   counters_->solves += 2;
-  state.acceleration += s_;
+  state.a += s_;
   accelerate(state, rate);
 }
 
@@ -72,10 +72,9 @@ void MasslessCoordinates::follow(TransientState& state, const VectorXd& rate) {
 
 void MasslessCoordinates::accelerate(TransientState& state, const VectorXd& rate) {
   if (damped_) {
-    balance(rate - matrices_->K() * state.v - matrices_->C() * state.acceleration,
-            state.acceleration);
+    balance(rate - matrices_->K() * state.v - matrices_->C() * state.a, state.a);
   } else {
-    balance(-(matrices_->K() * state.acceleration), state.acceleration);
+    balance(-(matrices_->K() * state.a), state.a);
   }
 }
 

@@ -3,8 +3,7 @@
 #include <Eigen/Core>
 
 #include "solver/linalg/sparse_ldlt.h"
-#include "solver/time/equation_of_motion.h"
-#include "solver/time/sample_output.h"
+#include "solver/time/transient.h"
 
 namespace trammel::solver {
 

@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "solver/linalg/dense_eigen.h"
 #include "solver/linalg/factorization.h"
+#include "solver/model/model.h"
 #include "solver/model/numbers.h"
 #include "solver/time/oscillator.h"
 
@@ -13,83 +15,35 @@ namespace {
 
 using Eigen::VectorXd;
 
-void check(const PiecewiseLinearLoad& load) {
-  if (load.factor.cols() != static_cast<Index>(load.time.size()) ||
-      load.factor.rows() != load.pattern.cols() || load.time.empty()) {
-    throw ModelError("a piecewise linear load has a factor for each of its loads and times");
-  }
-  if (!std::is_sorted(load.time.begin(), load.time.end())) {
-    throw ModelError("the times of a load ascend");
-  }
-}
-
-/// Value and slope of the factors in the interval that begins at t.
+/// Value and slope of the factors in the interval that begins at a time.
 struct Factor {
   VectorXd value, slope;
 };
 
-Factor factor_from(const PiecewiseLinearLoad& load, double t) {
-  const auto next = std::upper_bound(load.time.begin(), load.time.end(), t);
-  const auto k = static_cast<Index>(next - load.time.begin());
-  const VectorXd zero = VectorXd::Zero(load.factor.rows());
-  if (k == 0) return {load.factor.col(0), zero};
-  if (next == load.time.end()) return {load.factor.col(k - 1), zero};
-  const double begin = *(next - 1);
-  const VectorXd slope = (load.factor.col(k) - load.factor.col(k - 1)) / (*next - begin);
-  return {load.factor.col(k - 1) + (t - begin) * slope, slope};
-}
-
-/// Times at which the modes stop: the samples and the load's own.
-std::vector<double> stops(const PiecewiseLinearLoad& load, const std::vector<double>& times) {
-  std::vector<double> all = times;
-  for (const double t : load.time) {
-    if (t > times.front() && t < times.back()) all.push_back(t);
+/// Visits the intervals between the samples and the times of the load.
+/// @param sample  (index of the sample, factors from there)
+/// @param advance  (length of the interval, its factors)
+template <class Sample, class Advance>
+void walk(const PiecewiseLinearLoad& load, const std::vector<double>& times, const Sample& sample,
+          const Advance& advance) {
+  std::vector<double> stops = times;
+  std::copy_if(load.time.begin(), load.time.end(), std::back_inserter(stops),
+               [&](double t) { return t > times.front() && t < times.back(); });
+  std::sort(stops.begin(), stops.end());
+  stops.erase(std::unique(stops.begin(), stops.end()), stops.end());
+  std::size_t next = 0;
+  for (std::size_t k = 0; k < stops.size(); ++k) {
+    const auto [left, right, share, length] = find_interval(load.time, stops[k]);
+    Factor factor;
+    factor.slope = (load.factor.col(right) - load.factor.col(left)) / length;
+    factor.value = load.factor.col(left) + share * length * factor.slope;
+    for (; next < times.size() && times[next] == stops[k]; ++next)
+      sample(static_cast<Index>(next), factor);
+    if (k + 1 < stops.size()) advance(stops[k + 1] - stops[k], factor);
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  return all;
 }
 
 }  // namespace
-
-void PiecewiseLinearLoad::at(double t, VectorXd& f) const {
-  const auto next = std::upper_bound(time.begin(), time.end(), t);
-  const auto k = static_cast<Index>(next - time.begin());
-  if (k == 0 || next == time.end()) {
-    f.noalias() = pattern * factor.col(std::max<Index>(k, 1) - 1);
-    return;
-  }
-  const double s = (t - *(next - 1)) / (*next - *(next - 1));
-  f.noalias() = pattern * factor.col(k - 1) * (1 - s);
-  f.noalias() += pattern * factor.col(k) * s;
-}
-
-void PiecewiseLinearLoad::apply_to(EquationOfMotion& equation) const {
-  check(*this);
-  if (pattern.rows() != equation.M.rows()) {
-    throw ModelError("the load has the size of the equation of motion");
-  }
-  equation.breakpoints.insert(equation.breakpoints.end(), time.begin(), time.end());
-  equation.load = [self = *this](double t, VectorXd& f) { self.at(t, f); };
-}
-
-PiecewiseLinearLoad step_load(const VectorXd& pattern, double start) {
-  return {.pattern = pattern,
-          .time = {start, start},
-          .factor = (Eigen::MatrixXd(1, 2) << 0, 1).finished()};
-}
-
-PiecewiseLinearLoad load_by_history(const LoadHistory& history, const VectorXd& varied,
-                                    const VectorXd& constant) {
-  PiecewiseLinearLoad load;
-  load.pattern.resize(varied.size(), 2);
-  load.pattern << varied, constant;
-  load.time = history.time;
-  load.factor.setOnes(2, std::ssize(history.factor));
-  load.factor.row(0) =
-      Eigen::Map<const Eigen::RowVectorXd>(history.factor.data(), std::ssize(history.factor));
-  return load;
-}
 
 ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
   if (M.rows() != K.rows() || M.cols() != K.cols() || M.rows() != M.cols()) {
@@ -134,7 +88,7 @@ ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
 ModalResponse superpose(const ModalBasis& basis, const VectorXd& decay, const SparseMatrix& M,
                         const PiecewiseLinearLoad& load, const std::vector<double>& times,
                         const VectorXd& q0, const VectorXd& v0) {
-  check(load);
+  load.check();
   const Index n = basis.shape.rows();
   const Index modes = basis.omega.size();
   const auto fits = [n](const VectorXd& x) { return x.size() == 0 || x.size() == n; };
@@ -147,40 +101,38 @@ ModalResponse superpose(const ModalBasis& basis, const VectorXd& decay, const Sp
   }
   const auto columns = static_cast<Index>(times.size());
   const Eigen::MatrixXd pattern = basis.shape.transpose() * load.pattern;
-  std::vector<OscillatorState> state(static_cast<std::size_t>(modes));
+  std::vector<OscillatorState> state(to_size(modes));
   const auto project = [&](const VectorXd& x) -> VectorXd {
     if (x.size() == 0) return VectorXd::Zero(modes);
     return basis.shape.transpose() * (M * x);
   };
   const VectorXd y0 = project(q0);
   const VectorXd w0 = project(v0);
-  for (Index i = 0; i < modes; ++i) state[static_cast<std::size_t>(i)] = {y0[i], w0[i]};
+  for (Index i = 0; i < modes; ++i) state[to_size(i)] = {y0[i], w0[i]};
 
   Eigen::MatrixXd y(modes, columns);
   Eigen::MatrixXd v(modes, columns);
   Eigen::MatrixXd a(modes, columns);
-  Index sample = 0;
-  const std::vector<double> all = stops(load, times);
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const Factor factor = factor_from(load, all[k]);
-    const VectorXd p0 = pattern * factor.value;
-    const VectorXd p1 = pattern * factor.slope;
-    for (; sample < columns && times[static_cast<std::size_t>(sample)] == all[k]; ++sample) {
-      for (Index i = 0; i < modes; ++i) {
-        const OscillatorState& s = state[static_cast<std::size_t>(i)];
-        const double w = basis.omega[i];
-        y(i, sample) = s.y;
-        v(i, sample) = s.v;
-        a(i, sample) = p0[i] - 2 * decay[i] * s.v - w * w * s.y;
-      }
-    }
-    if (k + 1 == all.size()) break;
+  VectorXd p0, p1;
+  const auto sample = [&](Index column, const Factor& factor) {
+    p0 = pattern * factor.value;
     for (Index i = 0; i < modes; ++i) {
-      OscillatorState& s = state[static_cast<std::size_t>(i)];
+      const OscillatorState& s = state[to_size(i)];
       const double w = basis.omega[i];
-      s = advance(impulse_response(w, decay[i], all[k + 1] - all[k]), w, s, p0[i], p1[i]);
+      y(i, column) = s.y;
+      v(i, column) = s.v;
+      a(i, column) = p0[i] - 2 * decay[i] * s.v - w * w * s.y;
     }
-  }
+  };
+  walk(load, times, sample, [&](double step, const Factor& factor) {
+    p0 = pattern * factor.value;
+    p1 = pattern * factor.slope;
+    for (Index i = 0; i < modes; ++i) {
+      OscillatorState& s = state[to_size(i)];
+      const double w = basis.omega[i];
+      s = advance(impulse_response(w, decay[i], step), w, s, p0[i], p1[i]);
+    }
+  });
   return {basis.shape * y, basis.shape * v, basis.shape * a};
 }
 
@@ -190,26 +142,25 @@ FollowedFactors followed_factors(const PiecewiseLinearLoad& load, double relaxat
   const auto columns = static_cast<Index>(times.size());
   for (Eigen::MatrixXd* m : {&found.value, &found.rate, &found.acceleration})
     m->setZero(load.factor.rows(), columns);
-  VectorXd y = start;
-  Index sample = 0;
-  const std::vector<double> all = stops(load, times);
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const Factor factor = factor_from(load, all[k]);
-    const bool lags = relaxation > 0;
-    const VectorXd settled = factor.value - relaxation * factor.slope;
-    const VectorXd away = lags ? VectorXd(y - settled) : VectorXd::Zero(y.size());
-    for (; sample < columns && times[to_size(sample)] == all[k]; ++sample) {
-      found.value.col(sample) = settled + away;
-      found.rate.col(sample) = factor.slope;
-      if (!lags) continue;
-      // By their equation, in which round-off of what is at rest is none.
-      found.rate.col(sample) = (factor.value - found.value.col(sample)) / relaxation;
-      found.acceleration.col(sample) = (factor.slope - found.rate.col(sample)) / relaxation;
-    }
-    if (!lags || k + 1 == all.size()) continue;
-    const double step = all[k + 1] - all[k];
+  VectorXd y = start, settled, away;
+  const auto split = [&](const Factor& factor) {
+    settled = factor.value - relaxation * factor.slope;
+    away = relaxation > 0 ? VectorXd(y - settled) : VectorXd::Zero(y.size());
+  };
+  const auto sample = [&](Index column, const Factor& factor) {
+    split(factor);
+    found.value.col(column) = settled + away;
+    found.rate.col(column) = factor.slope;
+    if (relaxation == 0) return;
+    // By their equation, in which round-off of what is at rest is none.
+    found.rate.col(column) = (factor.value - found.value.col(column)) / relaxation;
+    found.acceleration.col(column) = (factor.slope - found.rate.col(column)) / relaxation;
+  };
+  walk(load, times, sample, [&](double step, const Factor& factor) {
+    if (relaxation == 0) return;
+    split(factor);
     y = settled + step * factor.slope + std::exp(-step / relaxation) * away;
-  }
+  });
   return found;
 }
 

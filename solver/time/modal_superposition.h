@@ -3,34 +3,13 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "solver/assembly/system.h"
+#include "solver/model/counters.h"
+#include "solver/model/outcome.h"
 #include "solver/time/load_history.h"
-#include "solver/time/transient.h"
 
 /// The exact response of a model with constant matrices to a load that is linear between given
 /// times: the reference for the integrators in time, and the cheap way where few modes matter.
 namespace trammel::solver {
-
-/// f(t) = pattern * factor(t); factor is linear between the times, constant outside them, and jumps
-/// where a time is given twice.
-struct PiecewiseLinearLoad {
-  Eigen::MatrixXd pattern;   ///< coordinate x load [SI]
-  std::vector<double> time;  ///< ascending [s]
-  Eigen::MatrixXd factor;    ///< load x time [-]
-
-  /// The value at t; at a jump, the value after it.
-  void at(double t, Eigen::VectorXd& f) const;
-  /// Makes it the load of the equation, with its times as breakpoints.
-  void apply_to(EquationOfMotion& equation) const;
-};
-
-/// From `start` on, the load does not change.
-[[nodiscard]] PiecewiseLinearLoad step_load(const Eigen::VectorXd& pattern, double start = 0);
-
-/// The product of a history and one load, and another load that always acts.
-[[nodiscard]] PiecewiseLinearLoad load_by_history(const LoadHistory& history,
-                                                  const Eigen::VectorXd& varied,
-                                                  const Eigen::VectorXd& constant);
 
 /// Modes to superpose, with x^T M x = 1 (paper Eq. 33).
 struct ModalBasis {

@@ -64,32 +64,17 @@ void MotionEvidence::add_equilibrium(double time, double load_time, const Vector
 
 void MotionEvidence::add_relations(const TransientState& from, const TransientState& to, double h) {
   if (scale_.size() == 0) find_scale(h);
-  const TimeScheme& s = scheme_;
-  const auto take = [this] {
-    set_sizes(terms_);
-    evidence_.add(Residual::equation_of_motion, largest_ratio(sum_, size_));
-  };
-  const double b0 = (0.5 - s.beta) * h * h, b1 = s.beta * h * h;
-  sum_ = to.q - from.q - h * from.v - b0 * from.a - b1 * to.a;
-  terms_ = to.q.cwiseAbs() + from.q.cwiseAbs() + h * from.v.cwiseAbs() +
-           std::abs(b0) * from.a.cwiseAbs() + b1 * to.a.cwiseAbs();
-  take();
-  sum_ = to.v - from.v - h * ((1 - s.gamma) * from.a + s.gamma * to.a);
-  terms_ = to.v.cwiseAbs() + from.v.cwiseAbs() + h * (from.a.cwiseAbs() + to.a.cwiseAbs());
-  take();
-  sum_ = (1 - s.alpha_m) * to.a + s.alpha_m * from.a - (1 - s.alpha_f) * to.acceleration -
-         s.alpha_f * from.acceleration;
-  terms_ = to.a.cwiseAbs() + from.a.cwiseAbs() + to.acceleration.cwiseAbs() +
-           from.acceleration.cwiseAbs();
-  take();
+  const auto norm = [this](const VectorXd& x) { return x.cwiseProduct(scale_).norm(); };
+  evidence_.add(Residual::equation_of_motion,
+                relation_residual(scheme_, h, from, from.A, to, to.A, true, norm, sum_));
 }
 
 void MotionEvidence::add_energy(const TransientState& from, const TransientState& to, double h) {
   const TimeScheme& s = scheme_;
   const double a = h / 2 - h * (s.gamma - 0.5), b = h / 2 + h * (s.gamma - 0.5);
   const double c = h * h * (s.beta - s.gamma / 2);
-  double added = 0.5 * ((a * from.a + b * to.a).dot(from.Mv + to.Mv) -
-                        ((h / 2) * (from.v + to.v) + c * (to.a - from.a)).dot(from.MA + to.MA));
+  double added = 0.5 * ((a * from.A + b * to.A).dot(from.Mv + to.Mv) -
+                        ((h / 2) * (from.v + to.v) + c * (to.A - from.A)).dot(from.Ma + to.Ma));
   if (!matrices_.constant()) {
     added += 0.5 * (from.q.dot(to.Kq) - to.q.dot(from.Kq) + from.v.dot(to.Mv) - to.v.dot(from.Mv));
   }

@@ -4,8 +4,7 @@
 
 #include "solver/model/evidence.h"
 #include "solver/time/equation_of_motion.h"
-#include "solver/time/sample_output.h"
-#include "solver/time/time_scheme.h"
+#include "solver/time/transient.h"
 
 namespace trammel::solver {
 
@@ -30,7 +29,7 @@ class MotionEvidence {
   /// nothing moves but rounding, a row has no digits.
   void add_equilibrium(double time, double load_time, const Eigen::VectorXd& q,
                        const Eigen::VectorXd& v, const Eigen::VectorXd& A, double step);
-  /// The scheme's relations between two states, the same way.
+  /// The scheme's relations between two states.
   void add_relations(const TransientState& from, const TransientState& to, double h);
   /// @param from  its energies, too
   void add_energy(const TransientState& from, const TransientState& to, double h);

@@ -8,12 +8,6 @@
 #include "solver/model/model.h"
 
 namespace trammel::solver {
-namespace {
-
-/// Growth by round-off of what should keep its size exactly.
-constexpr double kBounded = 1 + 1e-9;
-
-}  // namespace
 
 TimeScheme newmark(double beta, double gamma) {
   if (!(beta >= 0)) throw ModelError("Newmark's beta must not be negative");
@@ -62,23 +56,10 @@ double spectral_radius(const TimeScheme& s, double phase_step) {
   return eigenpairs(left.partialPivLu().solve(right)).value.cwiseAbs().maxCoeff();
 }
 
-double stability_limit(const TimeScheme& scheme) {
-  constexpr double kFar = 1e3;
-  double unstable = kFar;
-  double stable = kFar;
-  for (double phase = 1e-2; phase < kFar; phase *= 1.1) {
-    if (spectral_radius(scheme, phase) > kBounded) {
-      unstable = phase;
-      stable = phase / 1.1;
-      break;
-    }
-  }
-  if (stable == kFar) return std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (stable + unstable) / 2;
-    (spectral_radius(scheme, middle) > kBounded ? unstable : stable) = middle;
-  }
-  return stable;
+double stability_limit(const TimeScheme& s) {
+  const double deficit = s.gamma / 2 - s.beta;
+  constexpr double kRoundoff = 1e-12;
+  return deficit > kRoundoff ? 1 / std::sqrt(deficit) : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace trammel::solver

@@ -2,42 +2,13 @@
 
 #include <Eigen/Core>
 #include <functional>
-#include <optional>
 #include <vector>
 
-#include "solver/model/evidence.h"
-#include "solver/model/numbers.h"
-#include "solver/model/outcome.h"
 #include "solver/time/equation_of_motion.h"
-#include "solver/time/time_scheme.h"
+#include "solver/time/integrate.h"
 
-/// Integration in time of the equation of motion (equation_of_motion.h).
+/// Motions of linear systems by integration in time.
 namespace trammel::solver {
-
-/// Error control: the estimated errors of all steps together stay below
-/// relative * size + absolute [m sqrt(kg)], shared out evenly in time, so that the global error
-/// falls in proportion to the tolerance. The size is the largest sqrt(q^T M q) so far or, before
-/// there is a motion, what the load would give it.
-struct ErrorControl {
-  double relative = 1e-4;
-  double absolute = 0;
-  int finest_level = 24;  ///< the smallest step is the largest / 2^finest_level
-};
-
-struct TransientOptions {
-  double start = 0;  ///< [s]
-  double end = 0;    ///< > start [s]
-  /// The step, or with error control the largest step [s]. It is shortened so that whole steps fill
-  /// the time between breakpoints.
-  double step = 0;
-  TimeScheme scheme = average_acceleration();
-  /// Empty: fixed steps. Otherwise steps are `step` / 2^k, so that constant matrices need one
-  /// factorization for each k and not one for each change.
-  std::optional<ErrorControl> adaptive;
-  std::vector<double> sample_times;  ///< ascending, within [start, end] [s]; empty: every step
-  bool quasi_static_start = false;   ///< K q = f - C v with its velocity; otherwise from q0, v0
-  Eigen::VectorXd q0, v0;            ///< empty: zero
-};
 
 /// Energies since the start [J]. Kinetic + strain - work + dissipated stays constant but for what
 /// the scheme dissipates or what changing matrices exchange.
@@ -62,26 +33,46 @@ struct MotionSample {
 };
 using MotionObserver = std::function<void(const MotionSample&)>;
 
-struct TransientSummary {
-  /// singular: no factorization; not_converged: the reason names step, time and residual, or the
-  /// evidence does not bear out the motion.
-  Outcome outcome;
-  /// Equation of motion and the scheme's relations, at every sample and at a hundred steps spread
-  /// over the time at least; energy of all steps.
-  Evidence evidence;
-  double time = 0;  ///< reached [s]
-  std::int64_t accepted = 0;
-  std::int64_t rejected = 0;
-  double smallest_step = 0, largest_step = 0;  ///< [s]
-  double largest_residual = 0;  ///< |M a + C v + K q - f| over the sum of the four norms, worst
-  Counters counters;
-};
-
 /// Integrates, handing each sample to the observer. With constant matrices and fixed steps there is
 /// one factorization and the loop does not allocate.
-/// @throws ModelError  for sizes that differ, a time or step without meaning.
+/// @throws ModelError  for sizes that differ, or a time or step without meaning.
 [[nodiscard]] TransientSummary solve_transient(const EquationOfMotion& equation,
                                                const TransientOptions& options,
                                                const MotionObserver& observe);
+
+/// All samples of a motion: coordinate x sample.
+struct TransientHistory {
+  TransientSummary summary;
+  std::vector<double> time;  ///< [s]; ends at the failure if there is one
+  Eigen::MatrixXd q, v, a;
+  std::vector<MotionEnergy> energy;
+};
+
+[[nodiscard]] TransientHistory solve_transient(const EquationOfMotion& equation,
+                                               const TransientOptions& options);
+
+/// Where a quantity sampled at even times is largest in magnitude, refined by the parabola through
+/// the sample and its two neighbours.
+struct Peak {
+  double time = 0;
+  double value = 0;
+};
+[[nodiscard]] Peak peak(const std::vector<double>& time, const Eigen::VectorXd& value);
+
+/// At the end of a time step.
+struct TransientState {
+  double time = 0;
+  Eigen::VectorXd q, v, a;
+  Eigen::VectorXd A;  ///< the scheme's accelerations ...
+  double A_step = 0;  ///< ... and the step that they belong to
+  Eigen::VectorXd f, Ma, Mv, Cv, Kq;
+  MotionEnergy energy;
+  WorkingMotion working;
+  MotionEnergy shown;  ///< the energy, or that of the working motion
+
+  explicit TransientState(Index n) {
+    for (Eigen::VectorXd* x : {&q, &v, &a, &A, &f, &Ma, &Mv, &Cv, &Kq}) x->setZero(n);
+  }
+};
 
 }  // namespace trammel::solver

@@ -310,14 +310,12 @@ class LargeElastodynamics {
 
   void integrate_from(const GeometricallyExactSystem& system, State& state) {
     constexpr double kInfinity = 1e8;
-    IntegrationOptions integration;
-    integration.end_time = options_.time.end;
-    integration.step = options_.time.step;
-    integration.spectral_radius =
-        std::clamp(spectral_radius(options_.time.scheme, kInfinity), 0.0, 1.0);
+    TransientOptions integration = options_.time;
+    integration.scheme =
+        generalized_alpha(std::clamp(spectral_radius(integration.scheme, kInfinity), 0.0, 1.0));
     integration.breakpoints = options_.load_history.bends();
-    for (const double time : options_.time.sample_times)
-      if (time != options_.time.start) integration.output_times.push_back(time);
+    if (integration.sample_times.empty())
+      integration.sample_times = even_times(integration.start, integration.end, integration.step);
     const ConstrainedSystem& equations = system;
     const IntegrationSummary summary =
         integrate(equations, state, integration, [&](const State& now) {
@@ -327,13 +325,11 @@ class LargeElastodynamics {
     solution_.outcome = summary.outcome.solved() || reached_.solved() ? summary.outcome : reached_;
     solution_.evidence.add(summary.evidence);
     TransientSummary& result = solution_.summary;
-    result.accepted = summary.steps;
-    result.rejected = summary.rejected;
-    result.smallest_step = summary.min_step;
+    const Counters before = result.counters;
+    result = summary;
     result.largest_step = options_.time.step;
-    result.counters += summary.counters;
+    result.counters += before;
     count_tangents(system, summary.iterations, true, result.counters);
-    result.counters.steps += summary.steps + summary.rejected;
     if (options_.damping.mass != 0 || options_.damping.stiffness != 0)
       result.counters.count(Effect::damping, summary.iterations);
   }

@@ -1,5 +1,6 @@
 #include "solver/large_motion/solve/motion_residuals.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -8,12 +9,10 @@
 
 namespace trammel::solver::large_motion {
 
-MotionResiduals::MotionResiduals(const ConstrainedSystem& system, const Stepper& stepper)
+MotionResiduals::MotionResiduals(const ConstrainedSystem& system)
     : system_(system),
-      stepper_(stepper),
       row_unit_(system.row_unit()),
       matrix_(system.coordinates(), system.constraints(), system.blocks()),
-      residual_(VectorXd::Zero(system.coordinates())),
       unknowns_(VectorXd::Zero(system.coordinates() + system.constraints())),
       terms_(unknowns_),
       magnitudes_(unknowns_),
@@ -27,11 +26,8 @@ void MotionResiduals::add_terms(const TangentCoefficients& coefficients, const S
   terms_ += magnitudes_;
 }
 
-void MotionResiduals::add_equation_of_motion(Evidence& evidence) {
-  const State& state = stepper_.state();
+double MotionResiduals::equation_of_motion(const State& state, const VectorXd& residual) {
   const Index n = system_.coordinates();
-  evidence.add(Residual::equation_of_motion, stepper_.relation_residual());
-  stepper_.force_residual(residual_);
   terms_.setZero();
   unknowns_.head(n) = state.a;
   unknowns_.tail(state.lambda.size()).setZero();
@@ -42,34 +38,63 @@ void MotionResiduals::add_equation_of_motion(Evidence& evidence) {
   const auto scale = system_.scale().array();
   const double least = n > 0 ? kLeastShare * (terms_.head(n).array() * scale).maxCoeff() : 0;
   terms_.head(n) = terms_.head(n).array().max(least / scale);
-  evidence.add(Residual::equation_of_motion, largest_ratio(residual_, terms_.head(n)));
+  return largest_ratio(residual, terms_.head(n));
 }
 
-void MotionResiduals::add_constraints(double h, Evidence& evidence) {
-  system_.constraint_residual(stepper_.state(), constraint_residual_, constraint_rate_);
-  const double rate = stepper_.keeps_rates() ? h : 0;
-  evidence.add(Residual::constraints, 0);  // every row may be compliant
+ConstraintGaps MotionResiduals::constraints(const State& state) {
+  system_.constraint_residual(state, constraint_residual_, constraint_rate_);
+  ConstraintGaps gaps;
   for (Index r = 0; r < constraint_residual_.size(); ++r) {
     if (system_.compliance()[r] > 0) continue;
-    evidence.add(Residual::constraints, std::abs(constraint_residual_[r]) / row_unit_[r]);
-    evidence.add(Residual::constraints, rate * std::abs(constraint_rate_[r]) / row_unit_[r]);
+    const double position = std::abs(constraint_residual_[r]), rate = std::abs(constraint_rate_[r]);
+    gaps.position = nan_max(gaps.position, position);
+    gaps.rate = nan_max(gaps.rate, rate);
+    gaps.relative_position = nan_max(gaps.relative_position, position / row_unit_[r]);
+    gaps.relative_rate = nan_max(gaps.relative_rate, rate / row_unit_[r]);
   }
+  return gaps;
 }
 
-void MotionResiduals::take_energy() {
-  const auto step = stepper_.energy_step();
-  if (!step) return;
-  has_energy_ = true;
-  energy_gap_ += step->after.total() - step->before.total() - step->work;
-  throughput_ += std::abs(step->work);
-  for (const Energy& e : {step->before, step->after})
-    largest_energy_ = std::max(largest_energy_, e.kinetic + e.strain + std::abs(e.load));
-  largest_energy_gap_ = nan_max(largest_energy_gap_, std::abs(energy_gap_));
+AssemblyBranch::AssemblyBranch(const ConstrainedSystem& system) : system_(system) {
+  constexpr Index kLargest = 64;  // the determinant is dense
+  const Index n = system.coordinates();
+  const Index rigid = (system.compliance().array() == 0).count();
+  freedom_ = n - rigid;
+  const bool is_mechanism = rigid == system.constraints() && (freedom_ == 0 || freedom_ == 1);
+  if (n > 0 && n <= kLargest && is_mechanism) matrix_.emplace(n, rigid, system.blocks());
 }
 
-void MotionResiduals::add_energy(Evidence& evidence) const {
-  const double size = largest_energy_ + throughput_;
-  if (has_energy_) evidence.add(Residual::energy, size > 0 ? largest_energy_gap_ / size : 0);
+bool AssemblyBranch::changes(const State& from, const State& to) {
+  if (!matrix_) return false;
+  if (last_time_ != from.t) last_sign_ = orientation(from);
+  last_time_ = from.t;
+  const double sign = orientation(to);
+  const VectorXd weight = system_.scale().cwiseAbs2().cwiseInverse();
+  const bool reverses = freedom_ == 1 && from.v.cwiseProduct(weight).dot(to.v) < 0;
+  if (last_sign_ * sign * (reverses ? -1 : 1) < 0) return true;
+  last_time_ = to.t;
+  last_sign_ = sign;
+  return false;
+}
+
+double AssemblyBranch::orientation(const State& state) {
+  const Index n = system_.coordinates();
+  TangentCoefficients coefficients;
+  coefficients.has_penalty = false;
+  matrix_->clear();
+  system_.tangent(state, coefficients, *matrix_);
+  Eigen::MatrixXd G(n, n);
+  G.topRows(n - freedom_) = matrix_->constraint_gradient(system_.scale(), system_.row_unit());
+  if (freedom_ == 1) {
+    const VectorXd rate = state.v.cwiseQuotient(system_.scale());
+    const double speed = rate.norm();
+    // A drive moves the mechanism as well: then its velocity has no orientation.
+    if (speed == 0 || (G.topRows(n - 1) * rate).norm() > 1e-6 * speed) return 0;
+    G.bottomRows<1>() = rate.normalized().transpose();
+  }
+  const Eigen::PartialPivLU<Eigen::MatrixXd> lu(G);
+  return lu.matrixLU().diagonal().array().sign().prod() *
+         static_cast<double>(lu.permutationP().determinant());
 }
 
 }  // namespace trammel::solver::large_motion

@@ -1,38 +1,57 @@
 #pragma once
 
-#include "solver/large_motion/solve/stepper.h"
-#include "solver/model/evidence.h"
+#include <limits>
+#include <optional>
+
+#include "solver/large_motion/elements/constrained_system.h"
 
 namespace trammel::solver::large_motion {
 
-/// Residuals of the step that a stepper has accepted last, evaluated anew.
+/// Largest residuals of the rigid constraints of a state.
+struct ConstraintGaps {
+  double position = 0, rate = 0;                    ///< [m or rad], [m/s or rad/s]
+  double relative_position = 0, relative_rate = 0;  ///< over the model's size or 1 rad [-], [1/s]
+};
+
+/// Residuals of the state at the end of a step, evaluated again.
 class MotionResiduals {
  public:
-  /// @pre both outlive this
-  MotionResiduals(const ConstrainedSystem& system, const Stepper& stepper);
+  /// @pre the system outlives this
+  explicit MotionResiduals(const ConstrainedSystem& system);
 
-  /// The method's equation of motion, row by row over |M| |a| + |K| |q| + |G^T| |lambda|, and its
-  /// relations between q, v and a.
-  void add_equation_of_motion(Evidence& evidence);
-  /// Rigid rows over the size of what they join, in positions and, where the method keeps them
-  /// there, in velocities times h.
-  void add_constraints(double h, Evidence& evidence);
-  /// Takes what the step did to the energy; generalized-alpha has no balance of its own for forces
-  /// that are not linear.
-  void take_energy();
-  /// The largest gap in the balance since the start, over the energies and the work done.
-  void add_energy(Evidence& evidence) const;
+  /// Row by row over |M| |a| + |K| |q| + |G^T| |lambda|.
+  /// @param residual  of the scheme's equation of motion
+  [[nodiscard]] double equation_of_motion(const State& state, const VectorXd& residual);
+  [[nodiscard]] ConstraintGaps constraints(const State& state);
 
  private:
   void add_terms(const TangentCoefficients& coefficients, const State& state);
 
   const ConstrainedSystem& system_;
-  const Stepper& stepper_;
   VectorXd row_unit_;  ///< of each constraint [m or rad]
-  bool has_energy_ = false;
-  double energy_gap_ = 0, largest_energy_gap_ = 0, largest_energy_ = 0, throughput_ = 0;  ///< [J]
   KktMatrix matrix_;
-  VectorXd residual_, unknowns_, terms_, magnitudes_, constraint_residual_, constraint_rate_;
+  VectorXd unknowns_, terms_, magnitudes_, constraint_residual_, constraint_rate_;
+};
+
+/// Orientation of a mechanism's assembly: the sign of det G, or of det (G, v) with one degree of
+/// freedom. It differs between the branches that meet at a singular position, and a step that is
+/// longer than the gap between two branches takes the wrong one, with residuals of round-off.
+class AssemblyBranch {
+ public:
+  /// @pre the system outlives this
+  explicit AssemblyBranch(const ConstrainedSystem& system);
+  /// True if the orientation at the end of a step is the opposite of that at its start.
+  [[nodiscard]] bool changes(const State& from, const State& to);
+
+ private:
+  /// 0 if it is not known, as at a singular position or at rest.
+  [[nodiscard]] double orientation(const State& state);
+
+  const ConstrainedSystem& system_;
+  Index freedom_ = 0;
+  double last_time_ = -std::numeric_limits<double>::infinity();
+  double last_sign_ = 0;             ///< at the end of the last step that kept it
+  std::optional<KktMatrix> matrix_;  ///< empty: the orientation is not known
 };
 
 }  // namespace trammel::solver::large_motion

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "solver/model/numbers.h"
-#include "solver/time/transient_history.h"
+#include "solver/time/transient.h"
 
 BOOST_AUTO_TEST_SUITE(motion_evidence)
 
@@ -105,18 +105,18 @@ BOOST_AUTO_TEST_CASE(a_wrong_coefficient_of_newmark_is_not_solved) {
   for (const double gamma : {0.5, 0.6}) {
     const double h = 0.02;
     TransientState from(1), to(1);
-    from.q[0] = 1, from.v[0] = 2, from.a[0] = from.acceleration[0] = -100;
+    from.q[0] = 1, from.v[0] = 2, from.A[0] = from.a[0] = -100;
     const double predicted = from.q[0] + h * from.v[0] + h * h / 4 * from.a[0];
-    to.a[0] = to.acceleration[0] = -100 * predicted / (1 + 100 * h * h / 4);
+    to.A[0] = to.a[0] = -100 * predicted / (1 + 100 * h * h / 4);
     to.q[0] = predicted + h * h / 4 * to.a[0];
     to.v[0] = from.v[0] + h * ((1 - gamma) * from.a[0] + gamma * to.a[0]);
     for (TransientState* s : {&from, &to}) {
-      s->MA = s->a, s->Mv = s->v, s->Kq = 100 * s->q;
+      s->Ma = s->a, s->Mv = s->v, s->Kq = 100 * s->q;
       s->energy.kinetic = s->v.dot(s->v) / 2;
       s->energy.strain = 50 * s->q.dot(s->q);
     }
     MotionEvidence evidence(equation);
-    evidence.add_equilibrium(h, h, to.q, to.v, to.acceleration, h);
+    evidence.add_equilibrium(h, h, to.q, to.v, to.a, h);
     evidence.add_energy(from, to, h);
     BOOST_TEST(outcome_by_evidence({}, evidence.result()).solved() == (gamma == 0.5));
     evidence.add_relations(from, to, h);

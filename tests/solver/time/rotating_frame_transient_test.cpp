@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "solver/modes/rotating_modes.h"
-#include "solver/time/transient_history.h"
+#include "solver/time/transient.h"
 #include "tests/support/solver/frames.h"
 
 BOOST_AUTO_TEST_SUITE(rotating_frame_transient)
