@@ -21,7 +21,6 @@
 #include "harness/run/stored_results.h"
 #include "harness/studies/accuracy_search.h"
 #include "harness/studies/cost_study_of_sweeps.h"
-#include "harness/studies/roofline.h"
 
 namespace trammel::harness {
 namespace {
@@ -282,7 +281,6 @@ int cost_command(const CostCommand& command, const Renderers& renderers) {
   }
   results::Results results = results_of({}, {}, references);
   results.cost = cost_results(measured, extent, options.timing);
-  if (command.what.empty()) results.cost->roofline = measure_roofline();
   const fs::path unfinished = fs::path(command.out) / results::kUnfinishedFolder;
   fs::create_directories(unfinished);
   write_results(results, unfinished);
@@ -321,9 +319,7 @@ results::CostStudies quick_cost(const References& references, const fs::path& st
       error_messages.emplace_back(error.what());
     }
   }
-  results::CostStudies found = cost_results(measured, SweepExtent::quick, options.timing);
-  found.roofline = measure_roofline();
-  return found;
+  return cost_results(measured, SweepExtent::quick, options.timing);
 }
 
 }  // namespace trammel::harness

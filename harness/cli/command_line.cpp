@@ -79,7 +79,7 @@ class CommandLine {
       if (error.get_exit_code() == 0) return app_.exit(error);
       throw InputError("trammel: " + explained(error, arguments));
     }
-    run_.json = compare_.json = coverage_.json = cost_.json = effects_.json = slower_.json = json_;
+    run_.json = compare_.json = coverage_.json = cost_.json = effects_.json = json_;
     return command_();
   }
 
@@ -406,15 +406,6 @@ class CommandLine {
     on_run(sub, [this] { return history_command(name_, json_); });
   }
 
-  void define_slower(CLI::App* sub) {
-    sub->add_option("program", slower_.program, "Another build of trammel")->required();
-    add_cases(sub);
-    sub->add_option("--repeats", slower_.repeats, "21 by default, more for many cases")
-        ->check(CLI::Range(1, 10000));
-    add_json(sub);
-    on_run(sub, [this] { return slower_command(slower_, run_); });
-  }
-
   const Renderers& renderers_;
   CLI::App app_{help_text("about")};
   RunCommand run_;
@@ -424,7 +415,6 @@ class CommandLine {
   EffectsCommand effects_;
   ExportCommand export_;
   GradeCommand grade_;
-  SlowerCommand slower_;
   SlurmCommand slurm_;
   std::string name_, other_;
   std::vector<std::string> builds_;
@@ -454,7 +444,6 @@ const CommandLine::Command CommandLine::kCommands[] = {
     {"merge", &CommandLine::define_merge},
     {"slurm", &CommandLine::define_slurm},
     {"history", &CommandLine::define_history},
-    {"slower", &CommandLine::define_slower},
 };
 
 }  // namespace

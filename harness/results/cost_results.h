@@ -73,24 +73,11 @@ struct CostStudy {
   [[nodiscard]] Number error(const CostSetting& setting) const;
 };
 
-/// An inner loop: operations and bytes that it cannot do without, and its processor time.
-struct LoopRate {
-  std::string title;
-  double operations = 0, bytes = 0, cpu_s = 0;
-};
-
-/// What one core of the machine does at most, and loops beside it.
-struct Roofline {
-  double peak_flop_per_s = 0, bandwidth_B_per_s = 0;
-  std::vector<LoopRate> loops;
-};
-
 struct CostStudies {
   std::string sweep;  ///< quick or full
   std::size_t seed = 0, repeats = 0;
   double equal_within = 0, diverged_above = 0;
   std::vector<CostStudy> studies;
-  std::optional<Roofline> roofline = {};
 
   [[nodiscard]] bool is_quick() const { return sweep == "quick"; }
 };

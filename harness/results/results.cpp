@@ -127,11 +127,8 @@ TRAMMEL_FIELDS(CostStudy,
                TRAMMEL_REQUIRED(id, family, title, reference_solution, scale, norm, baseline,
                                 wall_s, settings, cheapest, repeatability, conclusion),
                TRAMMEL_OPTIONAL(description, outputs));
-TRAMMEL_FIELDS(LoopRate, TRAMMEL_REQUIRED(title, operations, bytes, cpu_s));
-TRAMMEL_FIELDS(Roofline, TRAMMEL_REQUIRED(peak_flop_per_s, bandwidth_B_per_s, loops));
 TRAMMEL_FIELDS(CostStudies,
-               TRAMMEL_REQUIRED(sweep, seed, repeats, equal_within, diverged_above, studies),
-               TRAMMEL_OPTIONAL(roofline));
+               TRAMMEL_REQUIRED(sweep, seed, repeats, equal_within, diverged_above, studies));
 TRAMMEL_FIELDS(Environment,
                TRAMMEL_REQUIRED(trammel, commit, date, compiler, flags, build_type, libraries,
                                 processor, cores, system),

@@ -172,24 +172,6 @@ Data study_data(const CostPanel& panel) {
   return data;
 }
 
-/// Loops beside the machine: rates, and shares of the lower of what its core and memory allow.
-void set_roofline(Data& section, const Roofline& roofline) {
-  const auto row = [&](const LoopRate& loop) {
-    const double flops = loop.operations / loop.cpu_s, bytes = loop.bytes / loop.cpu_s;
-    const double allowed = std::min(roofline.peak_flop_per_s,
-                                    loop.operations / loop.bytes * roofline.bandwidth_B_per_s);
-    return object({{"loop", loop.title},
-                   {"flops", trimmed(flops / 1e9, 3)},
-                   {"peak_share", trimmed(100 * flops / roofline.peak_flop_per_s, 2)},
-                   {"bytes", trimmed(bytes / 1e9, 3)},
-                   {"bandwidth_share", trimmed(100 * bytes / roofline.bandwidth_B_per_s, 2)},
-                   {"allowed_share", trimmed(100 * flops / allowed, 2)}});
-  };
-  set(section, {{"peak", trimmed(roofline.peak_flop_per_s / 1e9, 3)},
-                {"bandwidth", trimmed(roofline.bandwidth_B_per_s / 1e9, 3)},
-                {"loops", list_of(roofline.loops, row)}});
-}
-
 /// All studies in one table: the cheapest setting for each accuracy.
 void set_overview(Data& section, const std::vector<CostPanel>& panels) {
   const auto row = [](const CostPanel& panel) {
@@ -236,10 +218,8 @@ Data cost_section(const Results& results, const std::vector<Family>& families,
                 {"repeats", std::to_string(cost.repeats)},
                 {"studies_count", studies_count},
                 {"words", studies_count + ". " + first.title + ": " + first.conclusion},
-                {"studies", list_of(panels, study_data)},
-                {"has_roofline", cost.roofline.has_value()}});
+                {"studies", list_of(panels, study_data)}});
   set_overview(section, panels);
-  if (cost.roofline) set_roofline(section, *cost.roofline);
   return section;
 }
 

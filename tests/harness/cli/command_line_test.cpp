@@ -258,8 +258,7 @@ BOOST_AUTO_TEST_CASE(every_command_that_prints_a_table_takes_json) {
       {"effects --random 1", "/kinds/0/within"},
       {"effects --random 1", "/scenes/0/deciding_s"},
       {"grade \"" + testing::trammel_program() + " solve\"" + file, "/runs/0/checks/0/verdict"},
-      {"history h.db", "/calls/0/checks"},
-      {"slower " + program + file + " --repeats 10", "/0/ratio"}};
+      {"history h.db", "/calls/0/checks"}};
   std::set<std::string> seen = {"claims", "report", "export", "solve", "slurm"};
   for (const auto& [words, pointer] : commands) {
     seen.insert(words.substr(0, words.find(' ')));
@@ -329,29 +328,6 @@ BOOST_AUTO_TEST_CASE(a_report_draws_its_history_and_notes_no_time_twice) {
   BOOST_TEST(contains(page, "Counted work is 1 times the first call"));
   BOOST_TEST(run(folder, "report out/results.json --out again").status == 0);
   BOOST_TEST(contains(text_of(folder.path() / "again/index.html"), "<section id=\"history\">"));
-}
-
-BOOST_AUTO_TEST_CASE(another_build_is_slower_or_faster_by_what_it_takes) {
-  const Folder folder;
-  (void)folder.write(judged(101));
-  const auto program = [&](const char* name, const std::string& text) {
-    const auto file = folder.path() / name;
-    std::ofstream(file) << "#!/bin/sh\n" << text << '\n';
-    std::filesystem::permissions(file, std::filesystem::perms::owner_all);
-  };
-  program("idle", "exit 0");
-  program("busy", "i=0; while [ $i -lt 200000 ]; do i=$((i+1)); done; exit 0");
-  program("broken", "exit 3");
-  const Outcome slower = run(folder, "slower ./idle cantilever.json --repeats 10 --json");
-  BOOST_TEST(slower.status == 1, slower.err);
-  BOOST_TEST(parse_json(slower.out, "out")[0]["verdict"] == "slower");
-  const Outcome faster = run(folder, "slower ./busy cantilever.json --repeats 10");
-  BOOST_TEST(faster.status == 0, faster.err);
-  BOOST_TEST(contains(faster.out, "faster"));
-  BOOST_TEST(contains(faster.out, "0 of 1 case is slower; 10 interleaved repeats"));
-  for (const char* words : {"./broken cantilever.json --repeats 10", "./none cantilever.json",
-                            "./idle cantilever.json --repeats 2"})
-    BOOST_TEST(run(folder, "slower " + std::string(words)).status == 2, words);
 }
 
 BOOST_AUTO_TEST_CASE(a_misspelt_case_or_command_is_answered_with_the_nearest) {

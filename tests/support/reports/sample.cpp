@@ -620,11 +620,6 @@ void add_cost(Json& results) {
   results["cost"] = {{"sweep", "quick"},     {"seed", 1},
                      {"repeats", 7},         {"equal_within", 0.05},
                      {"diverged_above", 10}, {"studies", {study}}};
-  // Half of what memory allows, a tenth of what the core does.
-  results["cost"]["roofline"] = {
-      {"peak_flop_per_s", 4e10},
-      {"bandwidth_B_per_s", 1e10},
-      {"loops", {{{"title", "A loop"}, {"operations", 4e9}, {"bytes", 5e9}, {"cpu_s", 1.0}}}}};
 }
 
 // ---- claims, and a table of variants ----------------------------------------------------------

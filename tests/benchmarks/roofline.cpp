@@ -1,13 +1,16 @@
-#include "harness/studies/roofline.h"
-
+// Inner loops of the solver against what one core and its memory allow: rates in the lower of the
+// two for their operations and bytes, which are counted from sizes. By hand:
+// build/release/tests/roofline
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
+#include <cstdio>
+#include <ctime>
 #include <functional>
+#include <string>
 #include <vector>
 
-#include "harness/base/stopwatch.h"
 #include "solver/grnn/grnn.h"
 #include "solver/linalg/sparse_ldlt.h"
 
@@ -18,9 +21,9 @@
 #define TRAMMEL_WIDE
 #endif
 
-namespace trammel::harness {
 namespace {
 
+namespace solver = trammel::solver;
 using solver::Index;
 using solver::SparseMatrix;
 
@@ -29,14 +32,21 @@ double least_time(const std::function<void()>& work) {
   constexpr double kTogether = 0.12, kShortest = 1e-6;
   double least = 1e300;
   for (double all = 0; all < kTogether;) {
-    const Stopwatch watch;
+    const std::clock_t start = std::clock();
     work();
-    const double took = std::max(watch.cpu_s(), kShortest);
+    const double cpu_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    const double took = std::max(cpu_s, kShortest);
     least = std::min(least, took);
     all += took;
   }
   return least;
 }
+
+/// An inner loop: operations and bytes that it cannot do without, and its processor time.
+struct LoopRate {
+  std::string title;
+  double operations = 0, bytes = 0, cpu_s = 0;
+};
 
 constexpr std::size_t kLanes = 64;  // enough to hide how long an operation takes
 constexpr int kRounds = 200000;
@@ -65,7 +75,7 @@ SparseMatrix grid_laplacian(Index n) {
   return A;
 }
 
-void add_factorization(std::vector<results::LoopRate>& loops) {
+void add_factorization(std::vector<LoopRate>& loops) {
   const SparseMatrix A = grid_laplacian(160);
   solver::SparseLdlt ldlt(solver::SparseLdlt::Triangle::lower);
   if (!ldlt.factorize(A)) return;
@@ -87,7 +97,7 @@ void add_factorization(std::vector<results::LoopRate>& loops) {
                    least_time([&] { ldlt.solve(x, solution); })});
 }
 
-void add_network(std::vector<results::LoopRate>& loops) {
+void add_network(std::vector<LoopRate>& loops) {
   constexpr Index kSamples = 379, kInputs = 3, kOutputs = 6, kQueries = 1000;
   // A pair: squares and their least, excess and its least, exponential, products with the outputs.
   constexpr double kPair = 3 * kInputs + 1 + 5 * kInputs + 2 + 24 + 2 * (kOutputs + 1);
@@ -102,16 +112,21 @@ void add_network(std::vector<results::LoopRate>& loops) {
 
 }  // namespace
 
-results::Roofline measure_roofline() {
-  results::Roofline roofline;
+int main() {
   std::array<double, kLanes> lanes{};
-  roofline.peak_flop_per_s = 2.0 * kLanes * kRounds / least_time([&] { multiply_and_add(lanes); });
+  const double peak = 2.0 * kLanes * kRounds / least_time([&] { multiply_and_add(lanes); });
   Eigen::VectorXd a(Eigen::VectorXd::Zero(1 << 22)), b = a, c = a;
-  roofline.bandwidth_B_per_s =
+  const double bandwidth =
       24.0 * static_cast<double>(a.size()) / least_time([&] { a = b + 0.5 * c; });
-  add_factorization(roofline.loops);
-  add_network(roofline.loops);
-  return roofline;
+  std::printf("one core: %.3g Gflop/s, %.3g GB/s\n", peak / 1e9, bandwidth / 1e9);
+  std::vector<LoopRate> loops;
+  add_factorization(loops);
+  add_network(loops);
+  for (const LoopRate& loop : loops) {
+    const double allowed = std::min(peak, loop.operations / loop.bytes * bandwidth);
+    const double rate = loop.operations / loop.cpu_s;
+    std::printf("%-36s %8.3g Gflop/s, %8.3g GB/s, %5.1f %% of what it can reach\n",
+                loop.title.c_str(), rate / 1e9, loop.bytes / loop.cpu_s / 1e9,
+                100 * rate / allowed);
+  }
 }
-
-}  // namespace trammel::harness
