@@ -44,8 +44,8 @@ double LoadHistory::end_of_step(double t) const {
 
 void PiecewiseLinearLoad::at(double t, VectorXd& f) const {
   const auto [left, right, share, length] = find_interval(time, t);
-  f.noalias() = pattern * factor.col(left) * (1 - share);
-  if (share > 0) f.noalias() += pattern * factor.col(right) * share;
+  f.noalias() = pattern * ((1 - share) * factor.col(left));
+  if (share > 0) f.noalias() += pattern * (share * factor.col(right));
 }
 
 void PiecewiseLinearLoad::check() const {

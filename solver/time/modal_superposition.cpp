@@ -46,9 +46,6 @@ void walk(const PiecewiseLinearLoad& load, const std::vector<double>& times, con
 }  // namespace
 
 ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
-  if (M.rows() != K.rows() || M.cols() != K.cols() || M.rows() != M.cols()) {
-    throw ModelError("M and K are square and of one size");
-  }
   const Eigen::MatrixXd mass = M;
   const Eigen::MatrixXd stiffness = K;
   const double trace = mass.trace();
@@ -88,17 +85,7 @@ ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
 ModalResponse superpose(const ModalBasis& basis, const VectorXd& decay, const SparseMatrix& M,
                         const PiecewiseLinearLoad& load, const std::vector<double>& times,
                         const VectorXd& q0, const VectorXd& v0) {
-  load.check();
-  const Index n = basis.shape.rows();
   const Index modes = basis.omega.size();
-  const auto fits = [n](const VectorXd& x) { return x.size() == 0 || x.size() == n; };
-  if (M.rows() != n || load.pattern.rows() != n || decay.size() != modes || !fits(q0) ||
-      !fits(v0)) {
-    throw ModelError("modes, mass, load and state of a superposition have one size");
-  }
-  if (times.empty() || !std::is_sorted(times.begin(), times.end())) {
-    throw ModelError("the times of a response ascend");
-  }
   const auto columns = static_cast<Index>(times.size());
   const Eigen::MatrixXd pattern = basis.shape.transpose() * load.pattern;
   std::vector<OscillatorState> state(to_size(modes));

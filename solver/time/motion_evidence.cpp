@@ -11,13 +11,6 @@ namespace trammel::solver {
 
 using Eigen::VectorXd;
 
-namespace {
-
-/// Motions below have no digits: what numerical damping leaves of a vibration ends in them.
-constexpr double kUnderflow = std::numeric_limits<double>::min() / kEps;
-
-}  // namespace
-
 MotionEvidence::MotionEvidence(const EquationOfMotion& equation, const TimeScheme& scheme)
     : matrices_(equation), scheme_(scheme) {
   for (VectorXd* x : {&size_, &sum_, &terms_, &f_}) x->setZero(equation.M.rows());
@@ -39,12 +32,8 @@ void MotionEvidence::set_sizes(const VectorXd& x) {
 
 void MotionEvidence::add_product(const SparseMatrix& A, const VectorXd& x) {
   set_sizes(x);
-  for (Index column = 0; column < A.outerSize(); ++column) {
-    for (SparseMatrix::InnerIterator it(A, column); it; ++it) {
-      sum_[it.row()] += it.value() * x[column];
-      terms_[it.row()] += std::abs(it.value()) * size_[column];
-    }
-  }
+  sum_.noalias() += A * x;
+  terms_.noalias() += A.cwiseAbs() * size_;
 }
 
 void MotionEvidence::add_equilibrium(double time, double load_time, const VectorXd& q,

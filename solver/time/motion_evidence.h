@@ -1,12 +1,17 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 
 #include "solver/model/evidence.h"
+#include "solver/model/numbers.h"
 #include "solver/time/equation_of_motion.h"
 #include "solver/time/transient.h"
 
 namespace trammel::solver {
+
+/// Motions below have no digits: what numerical damping leaves of a vibration ends in them.
+inline constexpr double kUnderflow = std::numeric_limits<double>::min() / kEps;
 
 /// Residuals of a motion, taken step by step with matrices and loads of its own.
 ///

@@ -23,9 +23,6 @@ using Eigen::VectorXd;
 /// A step counts as solved when what is left of the equation is below this share of its terms, or
 /// is round-off of its largest products.
 constexpr double kResidual = 1e-10;
-/// Motions so small have no digits: what numerical damping leaves of a vibration ends in them.
-constexpr double kUnderflow =
-    std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 constexpr int kMaxRefinements = 40;
 
 double infinity_norm(const VectorXd& x) {
@@ -132,14 +129,13 @@ class LinearStepper final : public Stepper {
         scheme_(options.scheme),
         matrices_(equation),
         S_(matrices_.M()),
-        now_(equation.M.rows()),
-        next_(equation.M.rows()),
+        states_{TransientState(equation.M.rows()), TransientState(equation.M.rows())},
         evidence_(equation, options.scheme),
         output_(options.sample_times, observe) {
     for (VectorXd* x : {&residual_, &correction_}) x->setZero(S_.rows());
-    now_.time = options.start;
-    if (options.q0.size()) now_.q = options.q0;
-    if (options.v0.size()) now_.v = options.v0;
+    now_->time = options.start;
+    if (options.q0.size()) now_->q = options.q0;
+    if (options.v0.size()) now_->v = options.v0;
   }
 
   TransientSummary run() {
@@ -175,12 +171,13 @@ class LinearStepper final : public Stepper {
   void settle_massless(double h);
   void estimate_size_from_load(double begin, double end);
   [[nodiscard]] SparseLdlt* step_factor(const Step& step);
-  double form_residual(StepReport& report, double& allowed);
+  void form_residual();
+  double judge_residual(StepReport& report, double& allowed) const;
   [[nodiscard]] double error_ratio(double h);
   void update_energies(double load_time);
   /// The left limit at a jump; see EquationOfMotion::load.
   [[nodiscard]] double load_time(const Step& step) const {
-    return step.last ? std::nextafter(step.end, now_.time) : step.end;
+    return step.last ? std::nextafter(step.end, now_->time) : step.end;
   }
 
   const EquationOfMotion& equation_;
@@ -188,7 +185,8 @@ class LinearStepper final : public Stepper {
   TimeScheme scheme_;
   EquationMatrices matrices_;
   SparseMatrix S_;  // of a step
-  TransientState now_, next_;
+  std::array<TransientState, 2> states_;
+  TransientState *now_ = &states_[0], *next_ = &states_[1];
   VectorXd residual_, correction_;  // work
   std::unique_ptr<SparseLdlt> mass_factor_;
   SparseLdlt* start_factor_ = nullptr;  // of M, or of the first step where M is singular
@@ -205,18 +203,18 @@ class LinearStepper final : public Stepper {
 
 Outcome LinearStepper::start() {
   if (options_.quasi_static_start) {
-    Outcome outcome = start_quasi_statically(matrices_, options_, now_.q, now_.v, counters_);
+    Outcome outcome = start_quasi_statically(matrices_, options_, now_->q, now_->v, counters_);
     if (!outcome.solved()) return outcome;
   }
-  matrices_.update(now_.time);
+  matrices_.update(now_->time);
   if (!options_.adaptive) {
     Outcome outcome = check_stability(matrices_, options_, counters_);
     if (!outcome.solved()) return outcome;
   }
-  now_.Mv.noalias() = matrices_.M() * now_.v;
-  now_.Kq.noalias() = matrices_.K() * now_.q;
-  now_.energy.kinetic = 0.5 * now_.v.dot(now_.Mv);
-  now_.energy.strain = 0.5 * now_.q.dot(now_.Kq);
+  now_->Mv.noalias() = matrices_.M() * now_->v;
+  now_->Kq.noalias() = matrices_.K() * now_->q;
+  now_->energy.kinetic = 0.5 * now_->v.dot(now_->Mv);
+  now_->energy.strain = 0.5 * now_->q.dot(now_->Kq);
   return {};
 }
 
@@ -225,11 +223,11 @@ Outcome LinearStepper::start() {
 /// that the first step would find.
 Outcome LinearStepper::begin(const Step& first, double stop) {
   const double h = first.size;
-  matrices_.update(now_.time);
-  matrices_.load(now_.time, now_.f);
-  now_.Cv.noalias() = matrices_.C() * now_.v;
-  now_.Kq.noalias() = matrices_.K() * now_.q;
-  residual_ = now_.f - now_.Cv - now_.Kq;
+  matrices_.update(now_->time);
+  matrices_.load(now_->time, now_->f);
+  now_->Cv.noalias() = matrices_.C() * now_->v;
+  now_->Kq.noalias() = matrices_.K() * now_->q;
+  residual_ = now_->f - now_->Cv - now_->Kq;
   const bool is_start = !mass_factor_;
   if (is_start) mass_factor_ = std::make_unique<SparseLdlt>(SparseLdlt::Triangle::mean);
   if (is_start || !matrices_.constant()) {
@@ -244,41 +242,41 @@ Outcome LinearStepper::begin(const Step& first, double stop) {
   if (massless_balance_) {
     settle_massless(h);
   } else {
-    start_factor_->solve(residual_, now_.a);
+    start_factor_->solve(residual_, now_->a);
     ++counters_.solves;
   }
   if (equation_.working_motion) {
-    now_.working = equation_.working_motion(now_.time, now_.q, now_.v);
-    now_.shown.kinetic = now_.working.kinetic;
-    now_.shown.strain = now_.working.strain;
+    now_->working = equation_.working_motion(now_->time, now_->q, now_->v);
+    now_->shown.kinetic = now_->working.kinetic;
+    now_->shown.strain = now_->working.strain;
   } else {
-    now_.shown = now_.energy;
+    now_->shown = now_->energy;
   }
-  now_.A = now_.a;
-  now_.A_step = h;
-  now_.Ma.noalias() = matrices_.M() * now_.a;
-  evidence_.begin_segment(residual_ - now_.Ma);
+  now_->A = now_->a;
+  now_->A_step = h;
+  now_->Ma.noalias() = matrices_.M() * now_->a;
+  evidence_.begin_segment(residual_ - now_->Ma);
   if (!mass_is_singular_) {
-    evidence_.add_equilibrium(now_.time, now_.time, now_.q, now_.v, now_.a, h);
+    evidence_.add_equilibrium(now_->time, now_->time, now_->q, now_->v, now_->a, h);
   }
-  if (is_start) output_.start(now_);
-  if (options_.adaptive) estimate_size_from_load(now_.time, stop);
+  if (is_start) output_.start(*now_);
+  if (options_.adaptive) estimate_size_from_load(now_->time, stop);
   return {};
 }
 
 /// A jump of the load moves coordinates without mass at once, and what it does beyond straining
 /// is lost.
 void LinearStepper::settle_massless(double h) {
-  correction_ = now_.q;
-  matrices_.load(now_.time + h / 2, next_.f);
-  massless_.settle(now_, (next_.f - now_.f) / (h / 2));
-  now_.Cv.noalias() = matrices_.C() * now_.v;
-  now_.Kq.noalias() = matrices_.K() * now_.q;
-  residual_ = now_.f - now_.Cv - now_.Kq;
-  const double strain = 0.5 * now_.q.dot(now_.Kq), work = now_.f.dot(now_.q - correction_);
-  now_.energy.dissipated += work - (strain - now_.energy.strain);
-  now_.energy.work += work;
-  now_.energy.strain = strain;
+  correction_ = now_->q;
+  matrices_.load(now_->time + h / 2, next_->f);
+  massless_.settle(*now_, (next_->f - now_->f) / (h / 2));
+  now_->Cv.noalias() = matrices_.C() * now_->v;
+  now_->Kq.noalias() = matrices_.K() * now_->q;
+  residual_ = now_->f - now_->Cv - now_->Kq;
+  const double strain = 0.5 * now_->q.dot(now_->Kq), work = now_->f.dot(now_->q - correction_);
+  now_->energy.dissipated += work - (strain - now_->energy.strain);
+  now_->energy.work += work;
+  now_->energy.strain = strain;
 }
 
 /// What the load of the segment can move: the size of the motion, before there is any, to which
@@ -291,14 +289,14 @@ void LinearStepper::estimate_size_from_load(double begin, double end) {
   for (int i = 0; i <= kPoints; ++i) {
     const double t = i == kPoints ? std::nextafter(end, begin)
                                   : begin + (end - begin) * static_cast<double>(i) / kPoints;
-    matrices_.load(t, next_.f);
-    start_factor_->solve(next_.f, correction_);
+    matrices_.load(t, next_->f);
+    start_factor_->solve(next_->f, correction_);
     ++counters_.solves;
-    next_.Ma.noalias() = matrices_.M() * correction_;
-    next_.Kq.noalias() = matrices_.K() * correction_;
-    const double squared = correction_.dot(next_.Ma);
+    next_->Ma.noalias() = matrices_.M() * correction_;
+    next_->Kq.noalias() = matrices_.K() * correction_;
+    const double squared = correction_.dot(next_->Ma);
     if (!(squared > 0)) continue;
-    const double stiffness = std::max(correction_.dot(next_.Kq) / squared, 1 / (time * time));
+    const double stiffness = std::max(correction_.dot(next_->Kq) / squared, 1 / (time * time));
     const double share = std::min(1.0, (end - begin) * std::sqrt(stiffness));
     largest_ = std::max(largest_, share * std::sqrt(squared) / stiffness);
   }
@@ -323,32 +321,33 @@ SparseLdlt* LinearStepper::step_factor(const Step& step) {
 /// step. Symmetric matrices need one.
 StepReport LinearStepper::attempt(const Step& step) {
   const double h = step.size;
-  if (now_.A_step != h) change_step(h / now_.A_step, now_.a, now_.A);
-  now_.A_step = h;
+  if (now_->A_step != h) change_step(h / now_->A_step, now_->a, now_->A);
+  now_->A_step = h;
   matrices_.update(step.end);
-  matrices_.load(load_time(step), next_.f);
+  matrices_.load(load_time(step), next_->f);
   SparseLdlt* factor = step_factor(step);
   StepReport report;
   if (!factor) {
     report.status = Status::singular;
     return report;
   }
-  next_.a.setZero();
-  predict(scheme_, h, now_, now_.A, next_, next_.A);
+  next_->a.setZero();
+  predict(scheme_, h, *now_, now_->A, *next_, next_->A);
   double left = std::numeric_limits<double>::infinity();
   double allowed = 0;
-  form_residual(report, allowed);
+  form_residual();
   for (int pass = 0; pass < kMaxRefinements; ++pass) {
     factor->solve(residual_, correction_);
     ++counters_.solves;
-    correct(scheme_, h, correction_, next_, next_.A);
-    next_.q += (scheme_.position_gain() * h * h) * correction_;
+    correct(scheme_, h, correction_, *next_, next_->A);
+    next_->q += (scheme_.position_gain() * h * h) * correction_;
     const double before = left;
-    left = form_residual(report, allowed);
+    form_residual();
+    left = judge_residual(report, allowed);
     if (left <= allowed * 1e-4 || !(left <= before / 2)) break;
   }
-  next_.time = step.end;
-  next_.A_step = h;
+  next_->time = step.end;
+  next_->A_step = h;
   if (!(left <= allowed)) return report;
   report.status = Status::solved;
   largest_residual_ = std::max(largest_residual_, report.residual);
@@ -356,23 +355,27 @@ StepReport LinearStepper::attempt(const Step& step) {
   return report;
 }
 
-/// residual_ = f - M a - C v - K q of next_, its share of the sum of the terms and what is allowed.
-/// @returns its largest entry
-double LinearStepper::form_residual(StepReport& report, double& allowed) {
-  next_.Ma.noalias() = matrices_.M() * next_.a;
+/// residual_ = f - M a - C v - K q of next_.
+void LinearStepper::form_residual() {
+  next_->Ma.noalias() = matrices_.M() * next_->a;
   if (matrices_.norm_C() > 0) {
-    next_.Cv.noalias() = matrices_.C() * next_.v;
+    next_->Cv.noalias() = matrices_.C() * next_->v;
   } else {
-    next_.Cv.setZero();
+    next_->Cv.setZero();
   }
-  next_.Kq.noalias() = matrices_.K() * next_.q;
-  residual_ = next_.f - next_.Ma - next_.Cv - next_.Kq;
+  next_->Kq.noalias() = matrices_.K() * next_->q;
+  residual_ = next_->f - next_->Ma - next_->Cv - next_->Kq;
+}
+
+/// Share of residual_ in the sum of its terms, and what is allowed.
+/// @returns its largest entry
+double LinearStepper::judge_residual(StepReport& report, double& allowed) const {
   const double left = infinity_norm(residual_);
-  const double terms = infinity_norm(next_.Ma) + infinity_norm(next_.Cv) + infinity_norm(next_.Kq) +
-                       infinity_norm(next_.f);
-  const double products = matrices_.norm_M() * infinity_norm(next_.a) +
-                          matrices_.norm_C() * infinity_norm(next_.v) +
-                          matrices_.norm_K() * infinity_norm(next_.q);
+  const double terms = infinity_norm(next_->Ma) + infinity_norm(next_->Cv) +
+                       infinity_norm(next_->Kq) + infinity_norm(next_->f);
+  const double products = matrices_.norm_M() * infinity_norm(next_->a) +
+                          matrices_.norm_C() * infinity_norm(next_->v) +
+                          matrices_.norm_K() * infinity_norm(next_->q);
   allowed = kResidual * terms + 16 * kEps * products +
             kUnderflow * (matrices_.norm_M() + matrices_.norm_C() + matrices_.norm_K());
   report.residual = terms > 0 ? left / terms : left;
@@ -381,12 +384,12 @@ double LinearStepper::form_residual(StepReport& report, double& allowed) {
 
 /// Estimated local error, in the norm of kinetic energy, over its allowance.
 double LinearStepper::error_ratio(double h) {
-  correction_ = next_.A - now_.A;
+  correction_ = next_->A - now_->A;
   residual_.noalias() = matrices_.M() * correction_;
   const double error =
       scheme_.error_constant() * h * h * std::sqrt(std::max(0.0, correction_.dot(residual_)));
-  residual_.noalias() = matrices_.M() * next_.q;
-  const double size = std::max(largest_, std::sqrt(std::max(0.0, next_.q.dot(residual_))));
+  residual_.noalias() = matrices_.M() * next_->q;
+  const double size = std::max(largest_, std::sqrt(std::max(0.0, next_->q.dot(residual_))));
   const double budget = options_.adaptive->relative * size + options_.adaptive->absolute;
   const double allowed = budget * h / (options_.end - options_.start);
   if (error <= allowed) largest_ = size;
@@ -394,40 +397,41 @@ double LinearStepper::error_ratio(double h) {
 }
 
 void LinearStepper::update_energies(double load_time) {
-  MotionEnergy& energy = next_.energy;
-  energy = now_.energy;
-  correction_ = next_.q - now_.q;
-  energy.work += 0.5 * (correction_.dot(now_.f) + correction_.dot(next_.f));
-  energy.dissipated += 0.5 * (correction_.dot(now_.Cv) + correction_.dot(next_.Cv));
-  next_.Mv.noalias() = matrices_.M() * next_.v;
-  energy.kinetic = 0.5 * next_.v.dot(next_.Mv);
-  energy.strain = 0.5 * next_.q.dot(next_.Kq);
-  next_.shown = energy;
+  MotionEnergy& energy = next_->energy;
+  energy = now_->energy;
+  correction_ = next_->q - now_->q;
+  energy.work += 0.5 * (correction_.dot(now_->f) + correction_.dot(next_->f));
+  energy.dissipated += 0.5 * (correction_.dot(now_->Cv) + correction_.dot(next_->Cv));
+  next_->Mv.noalias() = matrices_.M() * next_->v;
+  energy.kinetic = 0.5 * next_->v.dot(next_->Mv);
+  energy.strain = 0.5 * next_->q.dot(next_->Kq);
+  next_->shown = energy;
   if (!equation_.working_motion) return;
-  next_.working = equation_.working_motion(load_time, next_.q, next_.v);
-  const WorkingMotion &from = now_.working, &to = next_.working;
+  next_->working = equation_.working_motion(load_time, next_->q, next_->v);
+  const WorkingMotion &from = now_->working, &to = next_->working;
   const VectorXd way = to.u - from.u;
-  next_.shown = {.kinetic = to.kinetic,
-                 .strain = to.strain,
-                 .work = now_.shown.work + 0.5 * way.dot(from.load + to.load),
-                 .dissipated = now_.shown.dissipated + 0.5 * way.dot(from.drag + to.drag)};
+  next_->shown = {.kinetic = to.kinetic,
+                  .strain = to.strain,
+                  .work = now_->shown.work + 0.5 * way.dot(from.load + to.load),
+                  .dissipated = now_->shown.dissipated + 0.5 * way.dot(from.drag + to.drag)};
 }
 
 void LinearStepper::accept(const Step& step, bool inspect, Evidence& /*evidence*/) {
   update_energies(load_time(step));
-  evidence_.add_energy(now_, next_, step.size);
-  if (inspect || output_.covers(next_.time)) {
-    evidence_.add_relations(now_, next_, step.size);
-    evidence_.add_equilibrium(next_.time, load_time(step), next_.q, next_.v, next_.a, step.size);
+  evidence_.add_energy(*now_, *next_, step.size);
+  if (inspect || output_.covers(next_->time)) {
+    evidence_.add_relations(*now_, *next_, step.size);
+    evidence_.add_equilibrium(next_->time, load_time(step), next_->q, next_->v, next_->a,
+                              step.size);
   }
-  if (massless_balance_ && output_.covers(next_.time)) {
-    shown_[0] = now_;
-    shown_[1] = next_;
-    const VectorXd rate = (next_.f - now_.f) / step.size;
+  if (massless_balance_ && output_.covers(next_->time)) {
+    shown_[0] = *now_;
+    shown_[1] = *next_;
+    const VectorXd rate = (next_->f - now_->f) / step.size;
     for (TransientState& state : shown_) massless_.follow(state, rate);
     output_.step(shown_[0], shown_[1], step.size);
   } else {
-    output_.step(now_, next_, step.size);
+    output_.step(*now_, *next_, step.size);
   }
   std::swap(now_, next_);
 }
@@ -443,27 +447,25 @@ TransientSummary solve_transient(const EquationOfMotion& equation, const Transie
 TransientHistory solve_transient(const EquationOfMotion& equation,
                                  const TransientOptions& options) {
   TransientHistory history;
-  const Index n = equation.M.rows();
-  Index capacity = static_cast<Index>(options.sample_times.size());
-  const auto resize = [&history, n](Index columns) {
-    for (Eigen::MatrixXd* X : {&history.q, &history.v, &history.a}) {
-      X->conservativeResize(n, columns);
-    }
+  std::vector<double> q, v, a;
+  const auto append = [](const VectorXd& from, std::vector<double>& to) {
+    to.insert(to.end(), from.begin(), from.end());
   };
-  resize(capacity);
   history.summary = solve_transient(equation, options, [&](const MotionSample& sample) {
     if (sample.index < 0) return;
-    if (sample.index >= capacity) {
-      capacity = std::max<Index>(64, 2 * capacity);
-      resize(capacity);
-    }
-    history.q.col(sample.index) = sample.q;
-    history.v.col(sample.index) = sample.v;
-    history.a.col(sample.index) = sample.a;
+    append(sample.q, q);
+    append(sample.v, v);
+    append(sample.a, a);
     history.time.push_back(sample.time);
     history.energy.push_back(sample.energy);
   });
-  resize(static_cast<Index>(history.time.size()));
+  const auto columns = [&](const std::vector<double>& values) {
+    return Eigen::Map<const Eigen::MatrixXd>(values.data(), equation.M.rows(),
+                                             std::ssize(history.time));
+  };
+  history.q = columns(q);
+  history.v = columns(v);
+  history.a = columns(a);
   return history;
 }
 

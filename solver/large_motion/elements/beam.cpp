@@ -1,37 +1,24 @@
 #include "solver/large_motion/elements/beam.h"
 
+#include <Eigen/LU>
+
 namespace trammel::solver::large_motion {
 
 namespace {
 
 constexpr int kNodes = BeamInterpolation::kNodes, kPoints = BeamInterpolation::kPoints;
 using NodeValues = Eigen::Matrix<double, kNodes, 1>;
-using Nodes = std::array<double, kNodes>;
+using Monomials = Eigen::Matrix<double, 1, kNodes>;
+/// Rotations among the coordinates.
+const auto kTurns = Eigen::seqN(Eigen::fix<2>, Eigen::fix<kNodes>, Eigen::fix<3>);
 
-double lagrange(const Nodes& node, std::size_t a, double x) {
-  double product = 1;
-  for (std::size_t b = 0; b < node.size(); ++b) {
-    if (b != a) product *= (x - node[b]) / (node[a] - node[b]);
-  }
-  return product;
-}
-
-double lagrange_slope(const Nodes& node, std::size_t a, double x) {
-  double sum = 0;
-  for (std::size_t c = 0; c < node.size(); ++c) {
-    if (c == a) continue;
-    double product = 1 / (node[a] - node[c]);
-    for (std::size_t b = 0; b < node.size(); ++b) {
-      if (b != a && b != c) product *= (x - node[b]) / (node[a] - node[b]);
-    }
-    sum += product;
-  }
-  return sum;
+Monomials monomials(double x) {
+  return {1, x, x * x, x * x * x};
 }
 
 /// On the Lobatto points and Gauss rules of [-1, 1], whose lengths are twice those of [0, 1].
 BeamInterpolation make_interpolation() {
-  const Nodes lobatto = {-1, -std::sqrt(0.2), std::sqrt(0.2), 1};
+  const std::array<double, kNodes> lobatto = {-1, -std::sqrt(0.2), std::sqrt(0.2), 1};
   const std::array<double, kPoints> point = {-std::sqrt(0.6), 0, std::sqrt(0.6)};
   const double inner = std::sqrt(3.0 / 7 - 2.0 / 7 * std::sqrt(1.2));
   const double outer = std::sqrt(3.0 / 7 + 2.0 / 7 * std::sqrt(1.2));
@@ -39,30 +26,28 @@ BeamInterpolation make_interpolation() {
   const double outer_weight = (18 - std::sqrt(30.0)) / 36;
   BeamInterpolation s;
   s.weight << 5.0 / 18, 8.0 / 18, 5.0 / 18;
-  for (std::size_t a = 0; a < lobatto.size(); ++a) {
-    s.node[a] = (1 + lobatto[a]) / 2;
-    for (int g = 0; g < kPoints; ++g) {
-      const double x = point[static_cast<std::size_t>(g)];
-      s.value(g, static_cast<int>(a)) = lagrange(lobatto, a, x);
-      s.slope(g, static_cast<int>(a)) = 2 * lagrange_slope(lobatto, a, x);
-    }
+  Eigen::Matrix4d at_nodes;
+  for (int a = 0; a < kNodes; ++a) {
+    const double x = lobatto[static_cast<std::size_t>(a)];
+    s.node[static_cast<std::size_t>(a)] = (1 + x) / 2;
+    at_nodes.row(a) = monomials(x);
+  }
+  const Eigen::Matrix4d lagrange = at_nodes.inverse();  // coefficients of each polynomial
+  for (int g = 0; g < kPoints; ++g) {
+    const double x = point[static_cast<std::size_t>(g)];
+    s.value.row(g) = monomials(x) * lagrange;
+    s.slope.row(g) = 2 * Monomials(0, 1, 2 * x, 3 * x * x) * lagrange;
   }
   s.bending = s.slope.transpose() * s.weight.asDiagonal() * s.slope;
   s.integral.setZero();
   s.mass.setZero();
   for (const auto& [x, weight] : {std::pair(-outer, outer_weight), std::pair(-inner, inner_weight),
                                   std::pair(inner, inner_weight), std::pair(outer, outer_weight)}) {
-    NodeValues n;
-    for (std::size_t a = 0; a < lobatto.size(); ++a)
-      n[static_cast<int>(a)] = lagrange(lobatto, a, x);
+    const NodeValues n = (monomials(x) * lagrange).transpose();
     s.integral += weight / 2 * n;
     s.mass += weight / 2 * n * n.transpose();
   }
   return s;
-}
-
-NodeValues rotations(const Beam::Coordinates& q) {
-  return Eigen::Map<const NodeValues, 0, Eigen::InnerStride<3>>(q.data() + 2);
 }
 
 /// Strains and section axes of one Gauss point.
@@ -139,7 +124,7 @@ Beam::Gradient Beam::discrete_gradient(const Coordinates& q0, const Coordinates&
   Gradient D;
   for (int g = 0; g < kPoints; ++g) {
     const Strain midpoint(*this, (q0 + q1) / 2, g);
-    const double rotation = s.value.row(g).dot(rotations(q1) - rotations(q0));
+    const double rotation = s.value.row(g).dot(NodeValues((q1 - q0)(kTurns)));
     const double c = std::cos(rotation / 2), k = sinc(rotation / 2);
     for (int a = 0; a < kNodes; ++a)
       midpoint.set_rows(g, a, s.weight[g] * s.slope(g, a) * c,
@@ -152,27 +137,22 @@ Beam::Gradient Beam::discrete_gradient(const Coordinates& q0, const Coordinates&
 /// multiplied. Its rounding would be a moment at every node of a row, n^2 eps EI/L in all of n
 /// elements.
 Beam::Coordinates Beam::forces(const Coordinates& q, const Coordinates& v, double tau) const {
-  NodeValues relative = rotations(q).array() - q[2];
-  if (tau != 0) relative.array() += tau * (rotations(v).array() - v[2]);
+  NodeValues relative = q(kTurns).array() - q[2];
+  if (tau != 0) relative.array() += tau * (v(kTurns).array() - v[2]);
   Coordinates f = Coordinates::Zero();
-  Eigen::Map<NodeValues, 0, Eigen::InnerStride<3>>(f.data() + 2) =
-      EI / length * (beam_interpolation().bending * relative);
+  f(kTurns) = EI / length * (beam_interpolation().bending * relative);
   return f;
 }
 
 Beam::Square Beam::tangent(const Coordinates&, double stiffness, double damping) const {
-  const BeamInterpolation& s = beam_interpolation();
   Square K = Square::Zero();
-  for (int a = 0; a < kNodes; ++a) {
-    for (int b = 0; b < kNodes; ++b)
-      K(3 * a + 2, 3 * b + 2) = (stiffness + damping) * (EI / length * s.bending(a, b));
-  }
+  K(kTurns, kTurns) = (stiffness + damping) * (EI / length * beam_interpolation().bending);
   return K;
 }
 
 double Beam::energy(const Coordinates& q) const {
   Coordinates relative = q;
-  for (int a = 0; a < kNodes; ++a) relative[3 * a + 2] -= q[2];
+  relative(kTurns).array() -= q[2];
   return relative.dot(forces(q, q, 0)) / 2;
 }
 

@@ -108,24 +108,4 @@ struct Energy {
   [[nodiscard]] double total() const { return kinetic + strain + load; }
 };
 
-/// A system with constant mass matrix that also knows its discrete gradients: forces between two
-/// states that do exactly the work by which the energy changes.
-class ConservativeSystem : public ConstrainedSystem {
- public:
-  /// r = M (v1 - v0) / h - f + D^T lambda, with D (q1 - q0) = g(q1) - g(q0) exactly.
-  virtual void discrete_gradient_residual(const State& from, const State& to,
-                                          const VectorXd& lambda, Eigen::Ref<VectorXd> r) const = 0;
-  /// Its derivative with respect to the second state, up to terms of the step's square: not
-  /// symmetric.
-  virtual void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
-                                         const TangentCoefficients& coefficients,
-                                         KktMatrix& matrix) const = 0;
-  [[nodiscard]] virtual Energy energy(const State& state) const = 0;
-  /// Work that changes the energy in a step [J]: of drives, of loads that change or follow their
-  /// nodes, less what damping takes.
-  /// @param lambda  means of the step
-  [[nodiscard]] virtual double nonconservative_work(const State& from, const State& to,
-                                                    const VectorXd& lambda) const = 0;
-};
-
 }  // namespace trammel::solver::large_motion

@@ -15,22 +15,6 @@ namespace {
 
 using Blocks = std::vector<std::vector<Index>>;
 
-Eigen::SparseMatrix<double> coordinate_pattern(Index n, const Blocks& blocks) {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Index i = 0; i < n; ++i) entries.emplace_back(i, i, 1.0);
-  for (const std::vector<Index>& block : blocks) {
-    for (const Index i : block) {
-      if (i < 0 || i >= n) continue;
-      for (const Index j : block) {
-        if (j >= 0 && j < n) entries.emplace_back(i, j, 1.0);
-      }
-    }
-  }
-  Eigen::SparseMatrix<double> pattern(n, n);
-  pattern.setFromTriplets(entries.begin(), entries.end());
-  return pattern;
-}
-
 }  // namespace
 
 struct KktMatrix::Factors {
@@ -43,8 +27,18 @@ KktMatrix::~KktMatrix() = default;
 
 KktMatrix::KktMatrix(Index coordinates, Index constraints, const Blocks& blocks)
     : coordinates_(coordinates), constraints_(constraints), factors_(std::make_unique<Factors>()) {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index i = 0; i < coordinates + constraints; ++i) entries.emplace_back(i, i, 0.0);
+  for (const std::vector<Index>& block : blocks) {
+    for (const Index i : block) {
+      for (const Index j : block)
+        if (i >= 0 && j >= 0) entries.emplace_back(i, j, 0.0);
+    }
+  }
+  matrix_.resize(coordinates + constraints, coordinates + constraints);
+  matrix_.setFromTriplets(entries.begin(), entries.end());
   order(blocks);
-  allocate(blocks);
+  locate(blocks);
   multiplier_scaling_ = VectorXd::Zero(constraints);
   work_.resize(coordinates + constraints);
   solution_.resize(coordinates + constraints);
@@ -54,7 +48,10 @@ void KktMatrix::order(const Blocks& blocks) {
   using Indices = Eigen::Matrix<Index, Eigen::Dynamic, 1>;
   const Index n = coordinates_, size = coordinates_ + constraints_;
   Eigen::PermutationMatrix<Eigen::Dynamic> elimination;
-  if (n > 0) Eigen::AMDOrdering<int>()(coordinate_pattern(n, blocks), elimination);
+  if (n > 0) {
+    const Eigen::SparseMatrix<double> pattern = matrix_.topLeftCorner(n, n);
+    Eigen::AMDOrdering<int>()(pattern, elimination);
+  }
   // Twice the position among the coordinates; a row comes right after its last coordinate.
   Indices key = Indices::Constant(size, -1);
   for (Index p = 0; p < n; ++p) key[elimination.indices()[p]] = 2 * p;
@@ -74,20 +71,13 @@ void KktMatrix::order(const Blocks& blocks) {
                    [&](Index i, Index j) { return key[i] < key[j]; });
   permutation_.resize(size);
   for (Index p = 0; p < size; ++p) permutation_.indices()[sequence[p]] = static_cast<int>(p);
+  Eigen::SparseMatrix<double> ordered;
+  ordered = matrix_.twistedBy(permutation_);
+  matrix_.swap(ordered);
 }
 
-void KktMatrix::allocate(const Blocks& blocks) {
+void KktMatrix::locate(const Blocks& blocks) {
   const auto& position = permutation_.indices();
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Index i = 0; i < position.size(); ++i) entries.emplace_back(i, i, 0.0);
-  for (const std::vector<Index>& block : blocks) {
-    for (const Index i : block) {
-      for (const Index j : block)
-        if (i >= 0 && j >= 0) entries.emplace_back(position[i], position[j], 0.0);
-    }
-  }
-  matrix_.resize(position.size(), position.size());
-  matrix_.setFromTriplets(entries.begin(), entries.end());
   const auto value_index = [&](Index i, Index j) {
     return static_cast<int>(&matrix_.coeffRef(position[i], position[j]) - matrix_.valuePtr());
   };
@@ -133,29 +123,16 @@ void KktMatrix::solve(Eigen::Ref<VectorXd> right_hand_side) const {
 
 KktMatrix::Extended KktMatrix::multiply(const Extended& x) const {
   const Extended ordered = permutation_ * x;
-  Extended sums = Extended::Zero(x.size());
-  for (Index column = 0; column < matrix_.cols(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, column); it; ++it)
-      sums[it.row()] += static_cast<long double>(it.value()) * ordered[column];
-  }
-  return permutation_.transpose() * sums;
+  return permutation_.transpose() * Extended(matrix_.cast<long double>() * ordered);
 }
 
 Eigen::SparseMatrix<double> KktMatrix::constraint_gradient(const VectorXd& scale,
                                                            const VectorXd& row_unit) const {
-  const Eigen::PermutationMatrix<Eigen::Dynamic> inverse = permutation_.inverse();
-  std::vector<Eigen::Triplet<double>> entries;
-  for (Index column = 0; column < matrix_.cols(); ++column) {
-    const Index k = inverse.indices()[column];
-    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, column); it; ++it) {
-      const Index r = inverse.indices()[it.row()] - coordinates_;
-      if (k < coordinates_ && r >= 0)
-        entries.emplace_back(r, k, it.value() * scale[k] / row_unit[r]);
-    }
-  }
-  Eigen::SparseMatrix<double> G(constraints_, coordinates_);
-  G.setFromTriplets(entries.begin(), entries.end());
-  return G;
+  const Eigen::PermutationMatrix<Eigen::Dynamic> inverse(permutation_.inverse());
+  Eigen::SparseMatrix<double> all;
+  all = matrix_.twistedBy(inverse);
+  const Eigen::SparseMatrix<double> G = all.bottomLeftCorner(constraints_, coordinates_);
+  return row_unit.cwiseInverse().asDiagonal() * G * scale.asDiagonal();
 }
 
 double KktMatrix::energy_over_roundoff(const Extended& x) const {
@@ -169,12 +146,8 @@ double KktMatrix::energy_over_roundoff(const Extended& x) const {
 }
 
 void KktMatrix::term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const {
-  work_.noalias() = permutation_ * x;
-  solution_.setZero();
-  for (Index column = 0; column < matrix_.cols(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator it(matrix_, column); it; ++it)
-      solution_[it.row()] += std::abs(it.value() * work_[column]);
-  }
+  work_.noalias() = permutation_ * x.cwiseAbs();
+  solution_.noalias() = matrix_.cwiseAbs() * work_;
   magnitudes.noalias() = permutation_.transpose() * solution_;
 }
 

@@ -57,13 +57,8 @@ class KktMatrix {
     }
   }
 
-  /// Adds an element with constraint rows: S (n x n), G (m x n), c and rho (m).
-  template <class Matrix, class Gradient, class Rows>
-  void add(Index block, const Matrix& S, const Gradient& G, const Rows& c, const Rows& rho) {
-    add(block, S, G, G, c, rho);
-  }
-
-  /// The same where the columns' D^T is not the transpose of the rows' G.
+  /// Adds an element with constraint rows: S (n x n), D^T of the columns, which is that of the
+  /// rows' G (m x n) where the matrix is symmetric, c and rho (m).
   template <class Matrix, class Gradient, class Rows>
   void add(Index block, const Matrix& S, const Gradient& D, const Gradient& G, const Rows& c,
            const Rows& rho) {
@@ -123,7 +118,7 @@ class KktMatrix {
   struct Factors;
 
   void order(const std::vector<std::vector<Index>>& blocks);
-  void allocate(const std::vector<std::vector<Index>>& blocks);
+  void locate(const std::vector<std::vector<Index>>& blocks);
 
   Index coordinates_ = 0, constraints_ = 0;
   Eigen::PermutationMatrix<Eigen::Dynamic> permutation_;  ///< of elimination

@@ -86,11 +86,9 @@ typename Triangle2d<Nodes>::Square Triangle2d<Nodes>::tangent(const Coordinates&
     S << s[0], s[2], s[2], s[1];
     const Eigen::Matrix<double, Nodes, Nodes> geometric =
         stiffness * point.volume * point.gradients.transpose() * S * point.gradients;
-    for (int a = 0; a < Nodes; ++a) {
-      for (int b = 0; b < Nodes; ++b) {
-        K(2 * a, 2 * b) += geometric(a, b);
-        K(2 * a + 1, 2 * b + 1) += geometric(a, b);
-      }
+    for (const int k : {0, 1}) {
+      const auto along = Eigen::seqN(k, Eigen::fix<Nodes>, Eigen::fix<2>);
+      K(along, along) += geometric;
     }
   }
   return K;

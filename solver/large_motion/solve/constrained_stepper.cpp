@@ -280,7 +280,7 @@ namespace {
 /// While a step is attempted, `to_.lambda` is its mean.
 class EnergyMomentum final : public ConstrainedStepper {
  public:
-  EnergyMomentum(const ConservativeSystem& system, const TransientOptions& options,
+  EnergyMomentum(const GeometricallyExactSystem& system, const TransientOptions& options,
                  const State& start, const Observer& observe)
       // What Newton's method leaves is lost or gained energy: it iterates to a tenth of what is
       // lost in storing the positions.
@@ -320,7 +320,7 @@ class EnergyMomentum final : public ConstrainedStepper {
   void end_step(double h) override;
   void advance() override;
 
-  const ConservativeSystem& system_;
+  const GeometricallyExactSystem& system_;
   State midpoint_;
   VectorXd mean_lambda_, previous_mean_lambda_;
   VectorXd previous_constraint_residual_;
@@ -384,7 +384,7 @@ void EnergyMomentum::advance() {
 
 }  // namespace
 
-std::unique_ptr<ConstrainedStepper> make_energy_momentum(const ConservativeSystem& system,
+std::unique_ptr<ConstrainedStepper> make_energy_momentum(const GeometricallyExactSystem& system,
                                                          const TransientOptions& options,
                                                          const State& start,
                                                          const Observer& observe) {

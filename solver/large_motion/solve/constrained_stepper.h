@@ -3,8 +3,8 @@
 #include <functional>
 #include <memory>
 
-#include "solver/large_motion/elements/constrained_system.h"
 #include "solver/large_motion/solve/motion_residuals.h"
+#include "solver/large_motion/system/geometrically_exact_system.h"
 #include "solver/time/integrate.h"
 
 namespace trammel::solver::large_motion {
@@ -113,7 +113,7 @@ class ConstrainedStepper : public Stepper {
 /// `integrate` shows those that follow from positions and velocities. With a the mean acceleration
 /// of the step its relations are those of beta = 1/2 and gamma = 1.
 [[nodiscard]] std::unique_ptr<ConstrainedStepper> make_energy_momentum(
-    const ConservativeSystem& system, const TransientOptions& options, const State& start,
+    const GeometricallyExactSystem& system, const TransientOptions& options, const State& start,
     const Observer& observe);
 
 }  // namespace trammel::solver::large_motion

@@ -12,7 +12,7 @@ namespace trammel::solver::large_motion {
 
 void apply_correction(State& state, const VectorXd& step, double factor) {
   state.q += factor * step.head(state.q.size());
-  state.lambda += factor * step.tail(state.lambda.size());
+  state.lambda += factor * step.segment(state.q.size(), state.lambda.size());
 }
 
 Equilibrium::Equilibrium(const GeometricallyExactSystem& system, const NewtonOptions& options)

@@ -22,8 +22,9 @@ void add_constraints(const ConstraintGaps& gaps, IntegrationSummary& summary) {
 }
 
 /// @param conservative  the system, for the energy-momentum method; null for generalized-alpha
-IntegrationSummary run(const ConstrainedSystem& system, const ConservativeSystem* conservative,
-                       State& state, const TransientOptions& options, const Observer& observe) {
+IntegrationSummary run(const ConstrainedSystem& system,
+                       const GeometricallyExactSystem* conservative, State& state,
+                       const TransientOptions& options, const Observer& observe) {
   IntegrationSummary summary;
   MotionResiduals residuals(system);
   const Observer look = [&](const State& at) {

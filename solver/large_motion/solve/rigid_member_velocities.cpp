@@ -1,6 +1,6 @@
 #include "solver/large_motion/solve/rigid_member_velocities.h"
 
-#include <vector>
+#include <cmath>
 
 #include "solver/model/numbers.h"
 
@@ -10,12 +10,9 @@ PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& sys
                                              const Eigen::MatrixX3d& node, const VectorXd& member) {
   // Of each coordinate the value that is set last. A map would take a noticeable part of the time
   // of motions with damping, which request these velocities in every iteration.
-  VectorXd values(system.coordinates());
-  std::vector<bool> is_given(to_size(system.coordinates()), false);
+  VectorXd values = VectorXd::Constant(system.coordinates(), kNaN);
   const auto set = [&](Index k, double value) {
-    if (k < 0 || k >= values.size()) return;
-    values[k] = value;
-    is_given[to_size(k)] = true;
+    if (k >= 0 && k < values.size()) values[k] = value;
   };
   for (const MemberElement& element : system.layout().elements) {
     const Member& moved = system.model().members[to_size(element.member)];
@@ -34,7 +31,7 @@ PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& sys
   }
   PrescribedVelocities given;
   for (Index k = 0; k < values.size(); ++k)
-    if (is_given[to_size(k)]) given.emplace_back(k, values[k]);
+    if (!std::isnan(values[k])) given.emplace_back(k, values[k]);
   return given;
 }
 

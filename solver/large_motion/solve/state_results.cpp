@@ -227,21 +227,15 @@ Index redundant_constraints(const GeometricallyExactSystem& system, const State&
   coefficients.has_penalty = false;
   matrix.clear();
   system.tangent(state, coefficients, matrix);
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> rows =
-      matrix.constraint_gradient(system.scale(), system.row_unit());
-  std::vector<Eigen::Triplet<double>> entries;
-  Index column = 0;
-  for (Index r = 0; r < rows.rows(); ++r) {
-    if (system.compliance()[r] > 0) continue;
-    const double size = rows.row(r).norm();  // 0 for what supports hold at both ends
-    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator it(rows, r); size > 0 && it;
-         ++it)
-      entries.emplace_back(it.col(), column, it.value() / size);
-    ++column;
+  Eigen::SparseMatrix<double> columns =
+      matrix.constraint_gradient(system.scale(), system.row_unit()).transpose();
+  VectorXd factor = VectorXd::Zero(columns.cols());
+  for (Index r = 0; r < columns.cols(); ++r) {
+    const double size = columns.col(r).norm();  // 0 for what supports hold at both ends
+    if (system.compliance()[r] == 0 && size > 0) factor[r] = 1 / size;
   }
-  Eigen::SparseMatrix<double> columns(system.coordinates(), rigid);
-  columns.setFromTriplets(entries.begin(), entries.end());
-  columns.makeCompressed();
+  columns = columns * factor.asDiagonal();
+  columns.prune(0.0);
   Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr;
   qr.setPivotThreshold(1e-10);  // of unit columns; rounding leaves far less
   qr.compute(columns);

@@ -15,18 +15,11 @@ namespace trammel::solver::large_motion {
 
 namespace {
 
-/// Least cosines of the angles between the tangents at two neighbouring points of a path, and
-/// between their mean and the chord, which is parallel to it but for the change of curvature.
-constexpr double kTurn = 0.95, kChord = 0.995;
+/// Least cosine of the angle between the tangents at two neighbouring points of a path.
+constexpr double kTurn = 0.95;
 
 /// What has moved less needs no new factorization to tell its stability.
 constexpr double kSame = 1e-9;
-
-/// A direction in (q, lambda, load), of unit length in the path's metric.
-struct Direction {
-  VectorXd step;  ///< (dq, dlambda)
-  double load = 0;
-};
 
 /// A point between two others of the path: how far from the first, what is to vanish, the count of
 /// unstable directions, and the state.
@@ -155,16 +148,21 @@ class PathFollower {
       if (!equilibrium_.factor(point.state))
         return stop({Status::singular, "the tangent is singular"});
     }
-    equilibrium_.load_direction(point.state, direction_.step);
-    const double response = weighted_rms_norm(system_, direction_.step.head(system_.coordinates()));
+    VectorXd direction;
+    equilibrium_.load_direction(point.state, direction);
+    const double response = weighted_rms_norm(system_, direction.head(system_.coordinates()));
     if (!std::isfinite(response)) return stop({Status::singular, "the tangent is singular"});
     const double typical = response < 1e-6 ? mean_response(point.state) : response;
     displacement_weight_ = 1 / std::pow(std::max(typical, 1e-6), 2);
-    direction_.load = 1;
-    normalize(direction_);
+    metric_ = VectorXd::Zero(direction.size() + 1);
+    metric_.head(system_.coordinates()) = displacement_weight_ /
+                                          static_cast<double>(system_.coordinates()) *
+                                          system_.scale().cwiseAbs2().cwiseInverse();
+    metric_.tail<1>().setOnes();
+    direction_ = normalized(with_load(direction, 1));
     point.unstable_directions = equilibrium_.matrix().negative_pivots();
     const bool small = response * std::abs(options_.target) < options_.small_response;
-    arc_step_ = (small ? std::abs(options_.target) : options_.first_step) / direction_.load;
+    arc_step_ = (small ? std::abs(options_.target) : options_.first_step) / load_of(direction_);
     add_evidence(point.state);
     path_.points.push_back(std::move(point));
     return true;
@@ -186,83 +184,65 @@ class PathFollower {
     return false;
   }
 
-  double squared_norm(const VectorXd& step) const {
-    const double length = weighted_rms_norm(system_, step.head(system_.coordinates()));
-    return displacement_weight_ * length * length;
-  }
+  // Directions in (q, lambda, load), of unit length in the path's metric.
 
-  double dot(const Direction& a, const VectorXd& step, double load) const {
-    const Index n = system_.coordinates();
-    const double count = static_cast<double>(n);
-    return displacement_weight_ / count *
-               a.step.head(n)
-                   .cwiseQuotient(system_.scale())
-                   .dot(step.head(n).cwiseQuotient(system_.scale())) +
-           a.load * load;
+  static VectorXd with_load(const VectorXd& step, double load) {
+    return (VectorXd(step.size() + 1) << step, load).finished();
   }
-
-  void normalize(Direction& d) const {
-    const double length = std::sqrt(squared_norm(d.step) + d.load * d.load);
-    d.step /= length;
-    d.load /= length;
-  }
+  static double load_of(const VectorXd& direction) { return direction[direction.size() - 1]; }
+  double dot(const VectorXd& a, const VectorXd& b) const { return a.cwiseProduct(metric_).dot(b); }
+  VectorXd normalized(const VectorXd& d) const { return d / std::sqrt(dot(d, d)); }
 
   /// Tangent of the path with the matrix factored last, along `along`.
-  Direction tangent(const State& state, const Direction& along) {
-    Direction d;
-    equilibrium_.load_direction(state, d.step);
-    d.load = 1;
-    normalize(d);
-    if (dot(along, d.step, d.load) < 0) {
-      d.step = -d.step;
-      d.load = -d.load;
-    }
-    return d;
+  VectorXd tangent(const State& state, const VectorXd& along) {
+    VectorXd step;
+    equilibrium_.load_direction(state, step);
+    const VectorXd d = normalized(with_load(step, 1));
+    return dot(along, d) < 0 ? VectorXd(-d) : d;
   }
 
   /// Newton on the plane normal to the direction at distance `arc`.
-  bool corrector(const State& from, const Direction& d, double arc, PathPoint& point) {
-    point.state = from;
-    apply_correction(point.state, d.step, arc);
+  bool corrector(const VectorXd& d, double arc, PathPoint& point) {
+    point.state = last().state;
+    apply_correction(point.state, d, arc);
     double distance = 0;
     const auto stay_on_plane = [&](const VectorXd& correction, const VectorXd& load_step) {
-      const double along = dot(d, load_step, 1);
-      const double change = along == 0 ? 0.0 : -dot(d, correction, 0) / along;
-      distance += std::sqrt(squared_norm(correction + change * load_step) + change * change);
+      const double along = dot(d, with_load(load_step, 1));
+      const double change = along == 0 ? 0.0 : -dot(d, with_load(correction, 0)) / along;
+      const VectorXd moved = with_load(correction + change * load_step, change);
+      distance += std::sqrt(dot(moved, moved));
       return distance < 0.3 * std::abs(arc) ? change : kNaN;
     };
-    point.newton = equilibrium_.solve(point.state, from.load + arc * d.load, stay_on_plane);
+    const double load = last().state.load + arc * load_of(d);
+    point.newton = equilibrium_.solve(point.state, load, stay_on_plane);
     return point.newton.outcome.solved();
   }
 
   bool next() {
-    const State from = path_.points.back().state;
-    const Index previous_unstable = path_.points.back().unstable_directions;
     if (static_cast<int>(point_count_) >= options_.max_points)
       return not_converged("too many points");
     PathPoint point;
-    Direction ahead;
+    VectorXd ahead;
     std::optional<CriticalPoint> critical;
     for (int cut = 0;; ++cut) {
       if (cut == 40) return not_converged("no step is small enough");
       // A step beyond the target ends on the target, or is halved; so is one that may have come to
       // another branch, which passes near by.
-      const bool reached = crosses_target(from)
-                               ? solve_at_target(from, point)
-                               : corrector(from, direction_, arc_step_, point) &&
-                                     !passed_target(from, point.state) &&
-                                     equilibrium_.factor_if_moved(point.state, kSame);
+      const bool reached = crosses_target() ? solve_at_target(point)
+                                            : corrector(direction_, arc_step_, point) &&
+                                                  !passed_target(point.state) &&
+                                                  equilibrium_.factor_if_moved(point.state, kSame);
       if (reached) ahead = tangent(point.state, direction_);
-      if (reached && is_smooth(from, point.state, ahead)) {
+      if (reached && dot(direction_, ahead) > kTurn) {
         point.unstable_directions = equilibrium_.matrix().negative_pivots();
-        critical = find_critical_point(from, previous_unstable, point, ahead);
-        if (!critical || lies_on_path(*critical, from, previous_unstable, point)) break;
+        critical = find_critical_point(point, ahead);
+        if (!critical || lies_on_path(*critical, point.state.load)) break;
       }
       arc_step_ /= 2;
     }
     ++point_count_;
     const bool done = point.state.load == options_.target;
-    const bool switched = critical && record_event(*critical, previous_unstable, point, done);
+    const bool switched = critical && record_event(*critical, point, done);
     if (!switched) {
       arc_step_ *= step_factor(point.newton.correction);
       direction_ = std::move(ahead);
@@ -271,44 +251,32 @@ class PathFollower {
     return switched || !done;
   }
 
-  /// Whether the path from one point to another can have the tangents direction_ and `ahead`.
-  bool is_smooth(const State& from, const State& to, const Direction& ahead) const {
-    Direction chord = chord_between(from, to);
-    normalize(chord);
-    const double turn = dot(direction_, ahead.step, ahead.load);
-    return turn > kTurn &&
-           dot(direction_, chord.step, chord.load) + dot(ahead, chord.step, chord.load) >
-               kChord * std::sqrt(2 + 2 * turn);
-  }
-
   /// What lies between two points, if anything does.
-  std::optional<CriticalPoint> find_critical_point(const State& from, Index previous_unstable,
-                                                   const PathPoint& to, const Direction& ahead) {
-    CriticalPoint critical{ahead.load * direction_.load < 0, {}, to};
-    if (!critical.load_reversed && !stability_changed(previous_unstable, to)) return {};
-    critical.load = locate(from, previous_unstable, critical.load_reversed, to, critical.point);
+  std::optional<CriticalPoint> find_critical_point(const PathPoint& to, const VectorXd& ahead) {
+    CriticalPoint critical{load_of(ahead) * load_of(direction_) < 0, {}, to};
+    const Index unstable = last().unstable_directions;
+    const bool stability_changed = unstable >= 0 && to.unstable_directions != unstable;
+    if (!critical.load_reversed && !stability_changed) return {};
+    critical.load = locate(critical.load_reversed, to, critical.point);
     return critical;
   }
 
   /// Whether it is on the way from one to the other: a limit point has a load beyond both of
   /// theirs, a bifurcation has one between them.
-  bool lies_on_path(const CriticalPoint& critical, const State& from, Index previous_unstable,
-                    const PathPoint& to) const {
-    if (previous_unstable < 0) return true;
+  bool lies_on_path(const CriticalPoint& critical, double end) const {
+    if (last().unstable_directions < 0) return true;
     if (!critical.load) return false;
     const double load = *critical.load, slack = 1e-9 * std::abs(load);
-    const auto [low, high] = std::minmax(from.load, to.state.load);
+    const auto [low, high] = std::minmax(last().state.load, end);
     if (!critical.load_reversed) return load > low - slack && load < high + slack;
-    return direction_.load > 0 ? load > high - slack : load < low + slack;
+    return load_of(direction_) > 0 ? load > high - slack : load < low + slack;
   }
 
-  static bool stability_changed(Index previous_unstable, const PathPoint& point) {
-    return previous_unstable >= 0 && point.unstable_directions != previous_unstable;
-  }
+  [[nodiscard]] const PathPoint& last() const { return path_.points.back(); }
 
-  static Direction chord_between(const State& from, const State& to) {
-    Direction chord{VectorXd(to.q.size() + to.lambda.size()), to.load - from.load};
-    chord.step << to.q - from.q, to.lambda - from.lambda;
+  static VectorXd chord_between(const State& from, const State& to) {
+    VectorXd chord(to.q.size() + to.lambda.size() + 1);
+    chord << to.q - from.q, to.lambda - from.lambda, to.load - from.load;
     return chord;
   }
 
@@ -324,20 +292,21 @@ class PathFollower {
     path_.points.push_back(std::move(point));
   }
 
-  bool crosses_target(const State& from) const {
-    const double ahead = from.load + arc_step_ * direction_.load;
-    return (from.load - options_.target) * (ahead - options_.target) <= 0 && direction_.load != 0;
+  bool crosses_target() const {
+    const double from = last().state.load, slope = load_of(direction_);
+    return (from - options_.target) * (from + arc_step_ * slope - options_.target) <= 0 &&
+           slope != 0;
   }
 
-  bool passed_target(const State& from, const State& to) const {
-    return (from.load - options_.target) * (to.load - options_.target) < 0;
+  bool passed_target(const State& to) const {
+    return (last().state.load - options_.target) * (to.load - options_.target) < 0;
   }
 
   /// The last step ends on the target itself.
-  bool solve_at_target(const State& from, PathPoint& point) {
-    const double arc = (options_.target - from.load) / direction_.load;
-    point.state = from;
-    apply_correction(point.state, direction_.step, arc);
+  bool solve_at_target(PathPoint& point) {
+    point.state = last().state;
+    const double arc = (options_.target - point.state.load) / load_of(direction_);
+    apply_correction(point.state, direction_, arc);
     const State guess = point.state;
     point.newton = equilibrium_.solve(point.state, options_.target);
     if (!point.newton.outcome.solved()) return false;
@@ -348,15 +317,14 @@ class PathFollower {
   }
 
   /// Records what lies between two points. @return true: the path goes on along another branch.
-  bool record_event(const CriticalPoint& critical, Index previous_unstable, const PathPoint& point,
-                    bool done) {
+  bool record_event(const CriticalPoint& critical, const PathPoint& point, bool done) {
     PathEvent event;
     event.load = critical.load.value_or(critical.point.state.load);
     if (!equilibrium_.factor(critical.point.state)) return false;
     equilibrium_.smallest_eigenpair(event.shape);
     // One for each direction that becomes unstable or stable; a limit point is one of them.
-    Index bifurcations =
-        previous_unstable < 0 ? 1 : std::abs(point.unstable_directions - previous_unstable);
+    const Index unstable = last().unstable_directions;
+    Index bifurcations = unstable < 0 ? 1 : std::abs(point.unstable_directions - unstable);
     if (critical.load_reversed) {
       event.kind = PathEvent::Kind::limit_point;
       path_.events.push_back(event);
@@ -380,19 +348,18 @@ class PathFollower {
   /// Finds along the arc where dload/darc vanishes (a limit point) or the smallest eigenvalue does
   /// (a bifurcation), between states on both sides of it. @returns the load there, or nothing where
   /// it is not found, the path has a gap, or there is another event; `critical` is left near it.
-  std::optional<double> locate(const State& from, Index previous_unstable, bool load_reversed,
-                               const PathPoint& to, PathPoint& critical) {
-    const Direction d = direction_;
+  std::optional<double> locate(bool load_reversed, const PathPoint& to, PathPoint& critical) {
+    const VectorXd& d = direction_;
+    const State& from = last().state;
+    const Index unstable = last().unstable_directions;
     const auto indicator = [&](const State& state) {
-      if (load_reversed) return tangent(state, d).load;
+      if (load_reversed) return load_of(tangent(state, d));
       VectorXd shape;
       const double eigenvalue = equilibrium_.smallest_eigenpair(shape);
-      return equilibrium_.matrix().negative_pivots() == previous_unstable ? eigenvalue
-                                                                          : -eigenvalue;
+      return equilibrium_.matrix().negative_pivots() == unstable ? eigenvalue : -eigenvalue;
     };
-    Direction chord = chord_between(from, to.state);
-    const double interval = dot(d, chord.step, chord.load);
-    normalize(chord);
+    const VectorXd chord = chord_between(from, to.state);
+    const double interval = dot(d, chord);
     if (!equilibrium_.factor(from)) return {};
     const auto trial_at = [&](double arc, const State& state) {
       const double f = indicator(state);
@@ -405,7 +372,7 @@ class PathFollower {
         nearest_to_bifurcation() * std::max(std::abs(to.state.load), std::abs(interval));
     double f = 0;  // of the last trial
     const auto solve_at = [&](double arc, PathPoint& trial) {
-      if (!corrector(from, d, arc, trial) || !equilibrium_.factor(trial.state)) return false;
+      if (!corrector(d, arc, trial) || !equilibrium_.factor(trial.state)) return false;
       Trial found = trial_at(arc, trial.state);
       f = found.f;
       bracket.update(std::move(found));
@@ -436,11 +403,10 @@ class PathFollower {
     }
     // What is on both sides of a gap is not one path: it goes aside more than the path bends.
     const Trial &left = bracket.left(), &right = bracket.right();
-    const Direction across = chord_between(left.state, right.state);
-    const double way = squared_norm(across.step) + across.load * across.load;
-    const double along = dot(chord, across.step, across.load);
-    if (way - along * along > 0.05 * along * along) return {};
-    const bool alone = left.unstable == previous_unstable || previous_unstable < 0;
+    const VectorXd across = chord_between(left.state, right.state);
+    const double along = dot(normalized(chord), across);
+    if (dot(across, across) - along * along > 0.05 * along * along) return {};
+    const bool alone = left.unstable == unstable || unstable < 0;
     if (!alone || right.unstable != to.unstable_directions) return {};
     return load ? load : bracket.load();
   }
@@ -448,10 +414,9 @@ class PathFollower {
   void switch_to_branch(const PathPoint& critical, const VectorXd& shape) {
     switched_ = true;
     const Index n = system_.coordinates();
-    direction_.step.setZero(n + system_.constraints());
-    direction_.step.head(n) = shape;
-    direction_.load = 0;
-    normalize(direction_);
+    direction_.setZero();
+    direction_.head(n) = shape;
+    direction_ = normalized(direction_);
     // The buckling shape's first noticeable amplitude, whatever the response before it was.
     arc_step_ = 1e-3 * std::sqrt(displacement_weight_);
     append(critical);
@@ -459,12 +424,12 @@ class PathFollower {
   }
 
   bool not_converged(const std::string& why) {
-    const PathPoint& last = path_.points.back();
+    const PathPoint& point = last();
     std::ostringstream message;
-    message << why << " after point " << point_count_ << " at load factor " << last.state.load
+    message << why << " after point " << point_count_ << " at load factor " << point.state.load
             << ", arc step " << arc_step_ << ", residual "
-            << (last.newton.force_residual.empty() ? 0.0 : last.newton.force_residual.back())
-            << " N m" << contradictory_drives(system_, last.state, std::abs(arc_step_));
+            << (point.newton.force_residual.empty() ? 0.0 : point.newton.force_residual.back())
+            << " N m" << contradictory_drives(system_, point.state, std::abs(arc_step_));
     return stop({Status::not_converged, message.str()});
   }
 
@@ -473,7 +438,7 @@ class PathFollower {
   Equilibrium equilibrium_;
   StaticPath path_;
   MemberBalance balance_;
-  Direction direction_;
+  VectorXd direction_, metric_;
   double displacement_weight_ = 1;  ///< of the displacements beside the load factor
   double arc_step_ = 0;
   std::size_t point_count_ = 0;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <span>
 #include <utility>
 #include <vector>
@@ -65,6 +66,10 @@ class ElementGroup {
     return where_[to_size(e)];
   }
   [[nodiscard]] Index first_row(Index e) const { return first_row_ + R * e; }
+  template <class Function>
+  void for_each_coordinate(const Function& function) {
+    for (CoordinateIndices<N>& where : where_) std::ranges::for_each(where, function);
+  }
   /// Rows are numbered one group after the other.
   void set_first_row(Index row) { first_row_ = row; }
 
@@ -93,12 +98,13 @@ class ElementGroup {
         const std::span<const Index> joined(coordinates(e).data(), where_[to_size(e)].size());
         Element& own = elements_[to_size(e)];
         system.compliance.segment<R>(first_row(e)) = own.compliance();
-        system.unit.segment<R>(first_row(e)).setConstant(scales.row_unit(joined));
+        double lever = 0;
+        if constexpr (requires { own.offset; }) lever = own.offset.norm();
+        const RowScales row = scales.of_row(joined, lever);
+        system.unit.segment<R>(first_row(e)).setConstant(row.unit);
         if constexpr (requires { own.stiffness_scale; }) {
-          double lever = 0;
-          if constexpr (requires { own.offset; }) lever = own.offset.norm();
-          own.stiffness_scale = scales.stiffness(joined, lever);
-          own.mass_scale = scales.mass(joined, lever);
+          own.stiffness_scale = row.stiffness;
+          own.mass_scale = row.mass;
         }
       }
     }
@@ -151,7 +157,7 @@ class ElementGroup {
       const Square S = coordinate_matrix(state, e, q, tau, coefficients);
       if constexpr (R > 0) {
         const Gradient G = rows_at(e, q, state.t).gradient;
-        matrix.add(block(e), S, G, scaled_compliance(e, coefficients), penalty(e, coefficients));
+        matrix.add(block(e), S, G, G, scaled_compliance(e, coefficients), penalty(e, coefficients));
       } else {
         matrix.add(block(e), S);
       }

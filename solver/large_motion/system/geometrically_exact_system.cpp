@@ -2,7 +2,6 @@
 
 #include <utility>
 
-#include "solver/assembly/validate.h"
 #include "solver/model/plane.h"
 
 namespace trammel::solver::large_motion {
@@ -26,13 +25,6 @@ VectorXd coordinate_scales(const Model& model, const Layout& layout) {
   return scale;
 }
 
-/// Checks the model and numbers its coordinates.
-Layout validated_layout(const Model& model, const LargeMotionModel& large_motion) {
-  validate(model);
-  validate(large_motion, model);
-  return number_coordinates(model, large_motion);
-}
-
 /// Gravity at every translation, zero at rotations [m/s^2]: the weight is M times this.
 VectorXd gravity_field(const Model& model, const Layout& layout) {
   VectorXd field = VectorXd::Zero(layout.total);
@@ -47,7 +39,6 @@ VectorXd gravity_field(const Model& model, const Layout& layout) {
 GeometricallyExactSystem::GeometricallyExactSystem(Model model, LargeMotionModel large_motion)
     : model_(std::move(model)),
       large_motion_(std::move(large_motion)),
-      layout_(validated_layout(model_, large_motion_)),
       parts_(build_parts(model_, large_motion_, layout_)),
       rows_{{}, VectorXd::Zero(parts_.rows), VectorXd::Ones(parts_.rows)},
       scale_(coordinate_scales(model_, layout_)),
@@ -60,7 +51,6 @@ GeometricallyExactSystem::GeometricallyExactSystem(Model model, LargeMotionModel
   gravity_ = mass_ * gravity_field(model_, layout_);
   const PenaltyScales scales(model_, large_motion_, layout_, mass_.diagonal(), model_size(model_));
   parts_.for_each_group([&](auto& group) { group.connect(layout_.free, scales, rows_); });
-  require_driven_parts(model_, large_motion_, layout_, rows_.blocks, mass_.diagonal());
 }
 
 void GeometricallyExactSystem::force_residual(const State& state, Eigen::Ref<VectorXd> r) const {

@@ -15,7 +15,7 @@ namespace trammel::solver::large_motion {
 
 /// A planar model in large motion: Simo-Reissner beams, total-Lagrangian triangles, rigid bodies
 /// and joints, in absolute coordinates. One object serves one thread.
-class GeometricallyExactSystem final : public ConservativeSystem {
+class GeometricallyExactSystem final : public ConstrainedSystem {
  public:
   /// @throws ModelError  where the model has no meaning.
   explicit GeometricallyExactSystem(Model model, LargeMotionModel large_motion = {});
@@ -31,19 +31,28 @@ class GeometricallyExactSystem final : public ConservativeSystem {
                            Eigen::Ref<VectorXd> rate) const override;
   void tangent(const State& state, const TangentCoefficients& coefficients,
                KktMatrix& matrix) const override;
-  void discrete_gradient_residual(const State& from, const State& to, const VectorXd& lambda,
-                                  Eigen::Ref<VectorXd> r) const override;
-  void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
-                                 const TangentCoefficients& coefficients,
-                                 KktMatrix& matrix) const override;
   [[nodiscard]] bool symmetric() const override;
   [[nodiscard]] double strain_rate_damping() const override {
     return large_motion_.strain_rate_damping;
   }
   [[nodiscard]] double load_factor(double t) const override;
-  [[nodiscard]] Energy energy(const State& state) const override;
+
+  // Discrete gradients: forces between two states that do exactly the work by which the energy
+  // changes.
+
+  /// r = M (v1 - v0) / h - f + D^T lambda, with D (q1 - q0) = g(q1) - g(q0) exactly.
+  void discrete_gradient_residual(const State& from, const State& to, const VectorXd& lambda,
+                                  Eigen::Ref<VectorXd> r) const;
+  /// Its derivative with respect to the second state, up to terms of the step's square: not
+  /// symmetric.
+  void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
+                                 const TangentCoefficients& coefficients, KktMatrix& matrix) const;
+  [[nodiscard]] Energy energy(const State& state) const;
+  /// Work that changes the energy in a step [J]: of drives, of loads that change or follow their
+  /// nodes, less what damping takes.
+  /// @param lambda  means of the step
   [[nodiscard]] double nonconservative_work(const State& from, const State& to,
-                                            const VectorXd& lambda) const override;
+                                            const VectorXd& lambda) const;
 
   /// In statics the inertia of these accelerations of the free coordinates acts beside the loads.
   void set_accelerations(VectorXd accelerations) { accelerations_ = std::move(accelerations); }

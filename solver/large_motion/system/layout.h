@@ -1,10 +1,8 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
-#include "solver/large_motion/elements/large_motion_model.h"
 #include "solver/model/model.h"
 
 namespace trammel::solver::large_motion {
@@ -44,14 +42,6 @@ struct Layout {
   [[nodiscard]] bool is_rotation(Index coordinate) const {
     return direction[static_cast<std::size_t>(coordinate)] == 2;
   }
-  [[nodiscard]] Index index_of(const Coordinate& coordinate) const;
-  /// The two coordinates that a constraint makes equal, if it is of that kind.
-  [[nodiscard]] std::optional<std::array<Index, 2>> equated_coordinates(
-      const LinearConstraint& constraint) const;
 };
-
-/// @throws ModelError  if a drive moves a coordinate that a support holds, or a constraint names a
-///                     part that does not exist.
-[[nodiscard]] Layout number_coordinates(const Model& model, const LargeMotionModel& large_motion);
 
 }  // namespace trammel::solver::large_motion

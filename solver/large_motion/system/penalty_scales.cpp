@@ -78,38 +78,24 @@ PenaltyScales::PenaltyScales(const Model& model, const LargeMotionModel& large_m
       mean_of_positive(of_translations(stiffness_), turning > 0 ? turning : mean_mass_);
 }
 
-bool PenaltyScales::turns(std::span<const Index> coordinates) const {
-  return std::ranges::all_of(coordinates, [&](Index k) { return k < 0 || layout_.is_rotation(k); });
-}
-
-double PenaltyScales::row_unit(std::span<const Index> coordinates) const {
-  return turns(coordinates) ? 1 : size_;
-}
-
-double PenaltyScales::largest(const Eigen::VectorXd& values, double mean,
-                              std::span<const Index> coordinates, double lever) const {
-  const bool is_turn = turns(coordinates);
-  double value = 0,
-         levered = 0;  // of the row's own kind, and of rotations in a row of displacements
-  for (const Index k : coordinates) {
-    if (k < 0) continue;
-    double& kind = layout_.is_rotation(k) && !is_turn ? levered : value;
-    kind = std::max(kind, values[k]);
-  }
-  if (!(value > 0) && lever > 0) {
-    constexpr double kShortest = 1e-3;  // an offset of round-off is no lever
-    const double length = std::max(lever, kShortest * size_);
-    value = levered / (length * length);
-  }
-  return value > 0 ? value : is_turn ? mean * size_ * size_ : mean;
-}
-
-double PenaltyScales::stiffness(std::span<const Index> coordinates, double lever) const {
-  return largest(stiffness_, mean_stiffness_, coordinates, lever);
-}
-
-double PenaltyScales::mass(std::span<const Index> coordinates, double lever) const {
-  return largest(mass_, mean_mass_, coordinates, lever);
+RowScales PenaltyScales::of_row(std::span<const Index> coordinates, double lever) const {
+  const bool turns =
+      std::ranges::all_of(coordinates, [&](Index k) { return k < 0 || layout_.is_rotation(k); });
+  const auto largest = [&](const Eigen::VectorXd& values, double mean) {
+    double value = 0, levered = 0;  // of the row's own kind, of rotations beside displacements
+    for (const Index k : coordinates) {
+      if (k < 0) continue;
+      double& kind = layout_.is_rotation(k) && !turns ? levered : value;
+      kind = std::max(kind, values[k]);
+    }
+    if (!(value > 0) && lever > 0) {
+      constexpr double kShortest = 1e-3;  // an offset of round-off is no lever
+      const double length = std::max(lever, kShortest * size_);
+      value = levered / (length * length);
+    }
+    return value > 0 ? value : turns ? mean * size_ * size_ : mean;
+  };
+  return {turns ? 1 : size_, largest(stiffness_, mean_stiffness_), largest(mass_, mean_mass_)};
 }
 
 }  // namespace trammel::solver::large_motion

@@ -4,19 +4,45 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/assembly/validate.h"
 #include "solver/elements/edge_load.h"
+#include "solver/elements/frame_element.h"
 #include "solver/model/labels.h"
 
 namespace trammel::solver::large_motion {
 
 namespace {
 
-class PartsBuilder {
+/// Sets of coordinates that are one, each named by one of them.
+class MergedSets {
  public:
-  PartsBuilder(const Model& model, const LargeMotionModel& large_motion, const Layout& layout)
+  Index add() {
+    parent_.push_back(std::ssize(parent_));
+    return parent_.back();
+  }
+  [[nodiscard]] Index find(Index i) const {
+    while (parent_[to_size(i)] != i) i = parent_[to_size(i)];
+    return i;
+  }
+  /// The set of `second` also names that of `first`.
+  void merge(Index first, Index second) { parent_[to_size(find(first))] = find(second); }
+
+ private:
+  std::vector<Index> parent_;
+};
+
+/// Gives every node three coordinates, adds the elements, and then drops the rotations that no
+/// element and no moment turns.
+class SystemBuilder {
+ public:
+  SystemBuilder(const Model& model, const LargeMotionModel& large_motion, Layout& layout)
       : model_(model), large_motion_(large_motion), layout_(layout) {}
 
   SystemParts run() {
+    number_nodes();
+    for (std::size_t m = 0; m < model_.members.size(); ++m) number_member(static_cast<Index>(m));
+    layout_.first_element.push_back(std::ssize(layout_.elements));
+    number_masses();
     parts_.loads = VectorXd::Zero(layout_.total);
     add_members();
     for (const Triangle& triangle : model_.triangles) {
@@ -34,6 +60,7 @@ class PartsBuilder {
     add_drives();
     add_linear_constraints();
     add_loads();
+    renumber_free_first();
     parts_.for_each_group([&](auto& group) {
       group.set_first_row(parts_.rows);
       parts_.rows += group.rows();
@@ -42,6 +69,70 @@ class PartsBuilder {
   }
 
  private:
+  Index add_coordinate(int direction) {
+    layout_.direction.push_back(direction);
+    ++layout_.total;
+    return shared_.add();
+  }
+
+  std::array<Index, 3> add_node() {
+    const Index x = add_coordinate(0), y = add_coordinate(1);
+    return {x, y, add_coordinate(2)};
+  }
+
+  void number_nodes() {
+    for (std::size_t i = 0; i < model_.nodes.size(); ++i) layout_.node.push_back(add_node());
+    for (const RigidBody& body : model_.rigid_bodies) {
+      for (const Index node : body.attached)
+        shared_.merge(coordinate(node, 2), coordinate(body.reference, 2));
+    }
+  }
+
+  void number_member(Index m) {
+    const Member& member = model_.members[to_size(m)];
+    const double count = static_cast<double>(member.elements);
+    const Vector2d& from = model_.nodes[to_size(member.nodes[0])].position;
+    const Vector2d span = offset(member.nodes[0], member.nodes[1]);
+    const bool bends = section_at(member, 0.5).EI > 0;
+    std::array<std::array<Index, 3>, 2> ends{};
+    for (std::size_t end = 0; end < 2; ++end) {
+      ends[end] = layout_.node[to_size(member.nodes[end])];
+      if (!bends) {
+        ends[end][2] = -1;
+      } else if (member.ends[end].fixity != EndFixity::welded) {
+        ends[end][2] = add_coordinate(2);
+      }
+    }
+    layout_.end_rotation.push_back({ends[0][2], ends[1][2]});
+    layout_.first_element.push_back(std::ssize(layout_.elements));
+    std::array<Index, 3> left = ends[0];
+    for (Index e = 0; e < member.elements; ++e) {
+      const double begin = static_cast<double>(e);
+      MemberElement element;
+      element.member = m;
+      element.start = from + begin / count * span;
+      element.end = from + (begin + 1) / count * span;
+      element.section = section_at(member, (begin + 0.5) / count);
+      const auto append = [&](const std::array<Index, 3>& node) {
+        element.coordinates.insert(element.coordinates.end(), node.begin(),
+                                   node.end() - (bends ? 0 : 1));
+      };
+      append(left);
+      for (int inner = 2; bends && inner < BeamInterpolation::kNodes; ++inner) append(add_node());
+      left = e + 1 == member.elements ? ends[1] : add_node();
+      append(left);
+      layout_.elements.push_back(std::move(element));
+    }
+  }
+
+  void number_masses() {
+    for (const PointMass& mass : model_.masses) {
+      const auto& [x, y, rotation] =
+          mass.offset.isZero(0) ? layout_.node[to_size(mass.node)] : add_node();
+      layout_.mass_centre.push_back({x, y});
+    }
+  }
+
   template <class Element>
   Index add(Element element, const CoordinateIndices<Element::N>& where) {
     auto& group = std::get<ElementGroup<Element>>(parts_.groups);
@@ -207,17 +298,27 @@ class PartsBuilder {
     add(row, Eigen::Map<const CoordinateIndices<Eigen::Dynamic>>(coordinates.data(), count));
   }
 
-  /// A constraint that makes two coordinates equal is one coordinate of the layout instead.
+  [[nodiscard]] Index index_of(const Coordinate& named) const {
+    if (named.kind == Coordinate::Kind::end_rotation)
+      return layout_.end_rotation[to_size(named.member)][to_size(named.end)];
+    return coordinate(named.node, static_cast<std::size_t>(named.kind));
+  }
+
+  /// A constraint that makes two coordinates equal, such as a revolute joint between nodes in one
+  /// place, is one coordinate.
   void add_linear_constraints() {
     for (const LinearConstraint& constraint : model_.constraints) {
-      if (layout_.equated_coordinates(constraint)) continue;
       std::vector<double> factors;
       std::vector<Index> coordinates;
       for (const auto& [coordinate, factor] : constraint.terms) {
         factors.push_back(factor);
-        coordinates.push_back(layout_.index_of(coordinate));
+        coordinates.push_back(index_of(coordinate));
         if (coordinates.back() < 0)
           throw ModelError("constraint " + constraint.name + " names a rotation that no part has");
+      }
+      if (factors.size() == 2 && factors[0] != 0 && factors[0] == -factors[1]) {
+        shared_.merge(coordinates[0], coordinates[1]);
+        continue;
       }
       const Index rotations =
           std::ranges::count_if(coordinates, [&](Index k) { return layout_.is_rotation(k); });
@@ -250,34 +351,96 @@ class PartsBuilder {
     }
   }
 
+  /// How many elements and moments each coordinate takes part in.
+  /// @throws ModelError  if a drive moves a coordinate to which nothing is joined.
+  std::vector<int> count_uses() {
+    std::vector<int> uses(to_size(layout_.total), 0);
+    const auto use = [&](Index k) {
+      if (k >= 0) ++uses[to_size(shared_.find(k))];
+    };
+    parts_.for_each_group([&](auto& group) { group.for_each_coordinate(use); });
+    for (const Drive& drive : large_motion_.drives) {
+      const Index driven = shared_.find(coordinate(drive.node, to_size(drive.direction)));
+      if (uses[to_size(driven)] > 1) continue;
+      throw ModelError(part_label("drive", drive.name, 0) + " moves nothing: no member end, " +
+                       "body, spring or mass is joined to " +
+                       (drive.direction == 2 ? "the rotation of " : "") +
+                       node_label(model_, drive.node));
+    }
+    for (const Torque& torque : large_motion_.torques) use(coordinate(torque.node, 2));
+    for (Index k = 0; k < layout_.total; ++k)
+      if (parts_.loads[k] != 0) use(k);
+    return uses;
+  }
+
+  /// Coordinates that supports hold, by the names of their sets.
+  [[nodiscard]] std::vector<bool> held_coordinates() const {
+    std::vector<bool> held(to_size(layout_.total), false);
+    for (const Support& support : model_.supports) {
+      for (std::size_t k = 0; k < 3; ++k)
+        if (support.fixed[k]) held[to_size(shared_.find(coordinate(support.node, k)))] = true;
+    }
+    for (const Drive& drive : large_motion_.drives) {
+      if (held[to_size(shared_.find(coordinate(drive.node, to_size(drive.direction))))])
+        throw ModelError(part_label("drive", drive.name, 0) + " moves what a support holds");
+    }
+    return held;
+  }
+
+  void renumber_free_first() {
+    const std::vector<bool> held = held_coordinates();
+    const std::vector<int> uses = count_uses();
+    std::vector<Index> new_index(to_size(layout_.total), -1);
+    std::vector<int> direction;
+    for (const bool fixed : {false, true}) {
+      for (Index i = 0; i < layout_.total; ++i) {
+        const bool exists = !layout_.is_rotation(i) || uses[to_size(i)] > 0;
+        if (shared_.find(i) != i || held[to_size(i)] != fixed || !exists) continue;
+        new_index[to_size(i)] = std::ssize(direction);
+        direction.push_back(layout_.direction[to_size(i)]);
+      }
+      if (!fixed) layout_.free = std::ssize(direction);
+    }
+    const auto renumber = [&](Index& i) {
+      if (i >= 0) i = new_index[to_size(shared_.find(i))];
+    };
+    const auto renumber_all = [&](auto& coordinates) {
+      std::ranges::for_each(coordinates, renumber);
+    };
+    VectorXd loads = VectorXd::Zero(std::ssize(direction));
+    for (Index i = 0; i < layout_.total; ++i) {
+      Index k = i;
+      renumber(k);
+      if (k >= 0) loads[k] += parts_.loads[i];
+    }
+    parts_.loads = std::move(loads);
+    layout_.total = std::ssize(direction);
+    layout_.direction = std::move(direction);
+    std::ranges::for_each(layout_.node, renumber_all);
+    std::ranges::for_each(layout_.end_rotation, renumber_all);
+    std::ranges::for_each(layout_.mass_centre, renumber_all);
+    for (MemberElement& element : layout_.elements) renumber_all(element.coordinates);
+    parts_.for_each_group([&](auto& group) { group.for_each_coordinate(renumber); });
+  }
+
   const Model& model_;
   const LargeMotionModel& large_motion_;
-  const Layout& layout_;
+  Layout& layout_;
   SystemParts parts_;
+  MergedSets shared_;  ///< coordinates that are equal
 };
 
 }  // namespace
 
-SystemParts build_parts(const Model& model, const LargeMotionModel& large_motion,
-                        const Layout& layout) {
-  return PartsBuilder(model, large_motion, layout).run();
+Vector2d MemberElement::position(std::size_t node) const {
+  const double x = is_bar() ? static_cast<double>(node) : beam_interpolation().node[node];
+  return start + x * (end - start);
 }
 
-void require_driven_parts(const Model& model, const LargeMotionModel& large_motion,
-                          const Layout& layout, const std::vector<std::vector<Index>>& blocks,
-                          const VectorXd& mass) {
-  for (const Drive& drive : large_motion.drives) {
-    const Index driven = layout.node[to_size(drive.node)][to_size(drive.direction)];
-    const auto couples = [driven](const std::vector<Index>& block) {
-      return std::ranges::find(block, driven) != block.end();
-    };
-    // One of the blocks is that of the drive.
-    if (mass[driven] != 0 || std::ranges::count_if(blocks, couples) > 1) continue;
-    throw ModelError(part_label("drive", drive.name, 0) + " moves nothing: no member end, body, " +
-                     "spring or mass is joined to " +
-                     (drive.direction == 2 ? "the rotation of " : "") +
-                     node_label(model, drive.node));
-  }
+SystemParts build_parts(const Model& model, const LargeMotionModel& large_motion, Layout& layout) {
+  validate(model);
+  validate(large_motion, model);
+  return SystemBuilder(model, large_motion, layout).run();
 }
 
 }  // namespace trammel::solver::large_motion

@@ -37,17 +37,12 @@ struct SystemParts {
   }
 };
 
-/// Builds the elements and numbers their rows.
-/// @throws ModelError  if a triangle has no area, or a constraint names a rotation that no part has
-///                     or mixes translations and rotations.
+/// Builds the elements and numbers coordinates and rows.
+/// @throws ModelError  where the model has no meaning; if a triangle has no area, a drive moves
+///                     what a support holds or a coordinate to which nothing is joined, or a
+///                     constraint names a part that does not exist or mixes translations and
+///                     rotations.
 [[nodiscard]] SystemParts build_parts(const Model& model, const LargeMotionModel& large_motion,
-                                      const Layout& layout);
-
-/// @param blocks  coordinates and rows that each element couples, those of the drives included
-/// @param mass    of each coordinate
-/// @throws ModelError  if a drive moves a coordinate to which nothing is joined.
-void require_driven_parts(const Model& model, const LargeMotionModel& large_motion,
-                          const Layout& layout, const std::vector<std::vector<Index>>& blocks,
-                          const VectorXd& mass);
+                                      Layout& layout);
 
 }  // namespace trammel::solver::large_motion

@@ -56,7 +56,7 @@ void CallableSystem::tangent(const State& state, const TangentCoefficients& coef
   for (Index r = 0; r < constraints(); ++r) {
     rho[r] = typical / G.row(r).transpose().cwiseProduct(scale()).squaredNorm();
   }
-  matrix.add(0, S, G, c, rho);
+  matrix.add(0, S, G, G, c, rho);
 }
 
 }  // namespace trammel::testing
