@@ -71,6 +71,7 @@ MovingPencil::MovingPencil(const Model& model, const ManipulatorGeometry& geomet
     const Index q = start.constraints.free[to_size(u)];
     if (q >= 0 && start.coordinates.is_rotation[to_size(u)]) length_[q] = size;
   }
+  P_.setZero(n, inside());
   static_cast<void>(move_to(start_posture_, pose));
 }
 
@@ -85,7 +86,6 @@ Outcome MovingPencil::move_to(const Posture& posture, const Pose& pose) {
   if (!outcome.solved()) return outcome;
   K_ = system_.K();
   M_ = system_.M();
-  P_.setZero(K_.rows(), inside());
   const RowMajorMatrix& T = system_.constraints().T;
   for (std::size_t l = 0; l < links_.size(); ++l) {
     const MovingElement& element = system_.elements()[l];
@@ -95,6 +95,7 @@ Outcome MovingPencil::move_to(const Posture& posture, const Pose& pose) {
       Eigen::Matrix<double, 1, 6> row = P.row(j);
       element.to_world(row, direction);
       double* const column = &P_(0, links_[l].first + j);
+      for (const Index q : links_[l].ends) column[q] = 0;
       for (Index i = 0; i < 6; ++i) {
         const Index u = element.coordinates[to_size(i)];
         for (int a = T.outerIndexPtr()[u]; a < T.outerIndexPtr()[u + 1]; ++a)
@@ -114,9 +115,9 @@ Index MovingPencil::eigenvalues_below(double shift) {
       const double pivot = 1 - shift * mu_[j];
       if (pivot == 0) return -1;
       if (pivot < 0) ++below;
-      for (const Index q : link.ends) {
-        const double factor = shift * shift / pivot * P[q];
-        for (const Index p : link.ends) shifted_(p, q) -= factor * P[p];
+      for (auto q = link.ends.begin(); q != link.ends.end(); ++q) {
+        const double factor = shift * shift / pivot * P[*q];
+        for (auto p = q; p != link.ends.end(); ++p) shifted_(*p, *q) -= factor * P[*p];
       }
     }
   }
