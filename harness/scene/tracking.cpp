@@ -5,10 +5,8 @@
 #include "harness/scene/rigid_case_model.h"
 #include "solver/large_motion/manipulator/joint_law.h"
 #include "solver/large_motion/solve/consistent_initialization.h"
-#include "solver/large_motion/solve/rigid_member_velocities.h"
 #include "solver/manipulator/inverse_dynamics.h"
 #include "solver/model/numbers.h"
-#include "solver/model/plane.h"
 
 namespace trammel::harness {
 namespace {
@@ -30,7 +28,7 @@ solver::large_motion::RigidMotion loaded_motion(const solver::RigidManipulator& 
                                                 const CaseModel& case_model,
                                                 const std::function<double(double)>& load_history) {
   return solver::large_motion::once_per_time([rigid, case_model, load_history](double t) {
-    const auto [first, last] = solver::large_motion::time_limits(*case_model.path);
+    const auto [first, last] = solver::time_span(*case_model.path);
     const solver::TrajectoryPoint point = solver::at(*case_model.path, std::clamp(t, first, last));
     const Eigen::Vector3d wrench =
         (load_history ? load_history(t) : 1.0) * wrench_on_platform(case_model, point.pose);
@@ -38,44 +36,17 @@ solver::large_motion::RigidMotion loaded_motion(const solver::RigidManipulator& 
   });
 }
 
-solver::Index member_between(const solver::Model& model, solver::Index first,
-                             solver::Index second) {
-  for (std::size_t m = 0; m < model.members.size(); ++m) {
-    const std::array<solver::Index, 2>& nodes = model.members[m].nodes;
-    if (nodes[0] == first && nodes[1] == second) return static_cast<solver::Index>(m);
-  }
-  return -1;
-}
-
 /// Velocities at the start, those of the rigid twin.
 solver::large_motion::PrescribedVelocities tracking_start(
     const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system) {
-  const solver::Model& model = system.model();
   const solver::TrajectoryPoint start = solver::at(*case_model.path, 0);
-  const solver::InverseDynamics motion =
+  const solver::InverseDynamics twin =
       solver::inverse_dynamics(solver::rigid_manipulator(*case_model.manipulator), start);
-  Eigen::MatrixX3d node(static_cast<solver::Index>(model.nodes.size()), 3);
-  const Eigen::Vector2d center(start.pose.x, start.pose.y);
-  for (solver::Index k = 0; k < node.rows(); ++k) {
-    // The platform's nodes; those of the limbs follow below.
-    const Eigen::Vector2d& place = model.nodes[solver::to_size(k)].position;
-    node.row(k) << (start.velocity.head<2>() +
-                    start.velocity[2] * solver::perpendicular(place - center))
-                       .transpose(),
-        start.velocity[2];
-  }
-  Eigen::VectorXd member = Eigen::VectorXd::Zero(static_cast<solver::Index>(model.members.size()));
-  for (solver::Index i = 0; i < 3; ++i) {
-    const std::string limb = std::to_string(i + 1);
-    const solver::Index a = model.find_node("A" + limb), b = model.find_node("B" + limb);
-    const Eigen::Vector2d arm =
-        model.nodes[solver::to_size(b)].position - model.nodes[solver::to_size(a)].position;
-    node.row(a) << 0, 0, motion.q_dot[i];
-    node.row(b) << motion.q_dot[i] * solver::perpendicular(arm).transpose(), motion.q_dot[i];
-    member[member_between(model, a, b)] = motion.q_dot[i];
-    member[member_between(model, b, model.find_node("C" + limb))] = motion.q_dot[3 + i];
-  }
-  return rigid_member_velocities(system, node, member);
+  const Eigen::VectorXd rates =
+      nominal_rates(system, solver::nominal_motion(system.model(), twin, twin.q, start, {0, 0}), 1);
+  solver::large_motion::PrescribedVelocities velocities;
+  for (solver::Index k = 0; k < rates.size(); ++k) velocities.emplace_back(k, rates[k]);
+  return velocities;
 }
 
 }  // namespace

@@ -25,6 +25,8 @@ constexpr Index kModesFromRest = 16, kModesBesidePath = 4;
 constexpr Index kElements = 8;
 /// (W / w1)^2 of a path whose harmonics come near no resonance.
 constexpr double kSlow = 0.1;
+constexpr std::array kFlexibilities = {Effect::axial_flexibility, Effect::shear,
+                                       Effect::platform_flexibility, Effect::joint_compliance};
 /// A part of an energy that is found as a difference and may be rounding.
 constexpr double kRounding = 1e-12;
 
@@ -65,11 +67,11 @@ struct ResponseSize {
 
 /// One mode, as far as it vibrates.
 struct Vibration {
-  double translation = 0;          ///< amplitude over the largest of the response
-  double energy = 0;               ///< the same in the norm of K
-  std::map<Effect, double> phase;  ///< what it loses step by [rad]
-  double frequency = 0;            ///< [rad/s]
-  double damping_ratio = 0, damped = 0, gyroscopic = 0;
+  double translation = 0;           ///< amplitude over the largest of the response
+  double energy = 0;                ///< the same in the norm of K
+  std::map<Effect, double> change;  ///< what it loses, relative, or loses step by [rad]
+  double frequency = 0;             ///< [rad/s]
+  double damping_ratio = 0;
   /// In resonance with the path: the mean age of the vibration over how long one lasts; else 0.
   double resonant_share = 0;
 };
@@ -83,17 +85,19 @@ class MotionEstimates {
         duration_(options.time.end - options.time.start) {}
 
   EffectEstimates run() {
-    const std::set<double> extremes = estimate_along_path();
-    for (const double time : extremes) estimate_at(time, time == *extremes.begin());
-    estimate_at((options_.time.start + options_.time.end) / 2, false);
-    if (estimates_.outcome.solved() && frequency_ <= 0) {
+    std::vector<double> times = estimate_along_path();
+    times.push_back((options_.time.start + options_.time.end) / 2);
+    for (std::size_t i = 0; i < times.size() && solved(); ++i) estimate_at(times[i], i == 0);
+    if (solved() && frequency_ <= 0) {
       estimates_.outcome = {Status::singular, "nothing vibrates"};
     }
-    if (estimates_.outcome.solved()) collect_estimates();
+    if (solved()) collect_estimates();
     return std::move(estimates_);
   }
 
  private:
+  [[nodiscard]] bool solved() const { return estimates_.outcome.solved(); }
+
   [[nodiscard]] static double translation_of(const MovingSystem& system, const VectorXd& q) {
     const VectorXd u = system.constraints().T * q;
     double largest = 0;
@@ -113,7 +117,7 @@ class MotionEstimates {
   /// K q = F + f; empty where it has no solution.
   VectorXd quasi_static_response(PathFollower& pose, double time, const Vector2d& gravity) {
     estimates_.outcome = pose.move_to(time, gravity);
-    if (!estimates_.outcome.solved()) return {};
+    if (!solved()) return {};
     max_angular_velocity_ =
         std::max(max_angular_velocity_, largest_angular_velocity(pose.system().motion()));
     VectorXd q;
@@ -125,7 +129,7 @@ class MotionEstimates {
 
   /// What goes with rates, at samples of some spread over the path.
   /// @returns those at which the quasi-static response is largest
-  std::set<double> estimate_along_path() {
+  std::vector<double> estimate_along_path() {
     PathFollower pose(options_, options_.time.start);
     ResponseSize largest;
     double farthest = options_.time.start, hardest = farthest;
@@ -134,14 +138,14 @@ class MotionEstimates {
     for (std::size_t i = 0; i < samples.size(); i += stride) {
       const double time = samples[i];
       const ResponseSize size = estimate_rates_at(pose, time);
-      if (!estimates_.outcome.solved()) return {};
+      if (!solved()) return {};
       if (size.translation > largest.translation) farthest = time;
       if (size.energy > largest.energy) hardest = time;
       largest.take_max(size);
     }
     estimates_.counters += pose.counters();
-    estimates_.extreme_times = {farthest, hardest};
-    return {farthest, hardest};
+    const std::set<double> extremes = {farthest, hardest};
+    return estimates_.extreme_times = {extremes.begin(), extremes.end()};
   }
 
   /// Inertia, damping and gyroscopic forces; at an end of the path, within it.
@@ -151,10 +155,10 @@ class MotionEstimates {
     const auto [first, last] = time_span(options_.path);
     const double time = std::clamp(sample, first + step, last - step);
     std::array<VectorXd, 3> q;  // before, after, now
-    for (const double offset : {-1, 1, 0}) {
-      VectorXd& at = q[offset < 0 ? 0 : offset > 0 ? 1 : 2];
-      at = quasi_static_response(pose, time + offset * step, options_.gravity);
-      if (!estimates_.outcome.solved()) return {};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double offset = std::array{-1.0, 1.0, 0.0}[i];
+      q[i] = quasi_static_response(pose, time + offset * step, options_.gravity);
+      if (!solved()) return {};
     }
     const VectorXd v = (q[1] - q[0]) / (2 * step);
     const VectorXd a = (q[1] - 2 * q[2] + q[0]) / (step * step);
@@ -184,16 +188,15 @@ class MotionEstimates {
 
   /// What the loads of one pose say: flexibilities, masses and weights.
   void estimate_at(double time, bool with_modes) {
-    if (!estimates_.outcome.solved()) return;
     PathFollower pose(options_, time);
     const VectorXd q = quasi_static_response(pose, time, options_.gravity);
-    if (!estimates_.outcome.solved()) return;
+    if (!solved()) return;
     const MovingSystem& system = pose.system();
     const ResponseSize total = size_of(system, q);
     response_.take_max(total);
     const double energy = q.dot(system.K() * q);
     const EnergyShares shares(system.start(), q, energy);
-    for (const Effect effect : flexibilities()) {
+    for (const Effect effect : kFlexibilities) {
       const double share = energy > 0 ? shares.elastic(effect) : 0;
       share_[effect] = std::max(share_[effect], share);
       const VectorXd lost = solve(pose, system.start().T.transpose() * shares.forces(effect));
@@ -201,28 +204,19 @@ class MotionEstimates {
     }
     const VectorXd load = pose.load();
     without_masses(time, load, pose);
-    if (with_modes && estimates_.outcome.solved()) {
+    if (with_modes && solved()) {
       bound_large_displacement(system, q);
       estimate_vibration(system, q);
     }
-    if (applicable_.has(Effect::gravity) && estimates_.outcome.solved()) {
+    if (applicable_.has(Effect::gravity) && solved()) {
       estimates_.outcome = pose.move_to(time, Vector2d::Zero());
-      if (!estimates_.outcome.solved()) return;
+      if (!solved()) return;
       const ResponseSize weight = size_of(system, solve(pose, load - pose.load()));
       double& of_all = share_[Effect::gravity];
       if (total.energy > 0) of_all = std::max(of_all, weight.energy / total.energy);
       record_change(Effect::gravity, weight);
     }
     estimates_.counters += pose.counters();
-  }
-
-  [[nodiscard]] std::vector<Effect> flexibilities() const {
-    std::vector<Effect> all;
-    for (const Effect effect : {Effect::axial_flexibility, Effect::shear,
-                                Effect::platform_flexibility, Effect::joint_compliance}) {
-      if (applicable_.has(effect)) all.push_back(effect);
-    }
-    return all;
   }
 
   /// The same model without masses of links, or the turning of their sections: other loads.
@@ -233,7 +227,7 @@ class MotionEstimates {
       options.design = restrict_effects(options.design, Effects::all().without(effect));
       PathFollower light(options, time);
       estimates_.outcome = light.move_to(time, options.gravity);
-      if (!estimates_.outcome.solved()) return;
+      if (!solved()) return;
       record_change(effect, size_of(pose.system(), solve(pose, load - light.load())));
     }
   }
@@ -246,8 +240,7 @@ class MotionEstimates {
     const VectorXd u = system.T * q;
     double rotation = 0, load = 0;
     for (Index i = 0; i < u.size(); ++i) {
-      if (system.coordinates.is_rotation[static_cast<std::size_t>(i)])
-        rotation = std::max(rotation, std::abs(u[i]));
+      if (system.coordinates.is_rotation[to_size(i)]) rotation = std::max(rotation, std::abs(u[i]));
     }
     const VectorXd still = VectorXd::Zero(q.size());
     const MovingSystem::Forces forces = moving.forces(q, still, still, {}, true);
@@ -255,7 +248,7 @@ class MotionEstimates {
     for (std::size_t i = 0; i < system.mesh.frame.size(); ++i) {
       const FrameElement& e = system.mesh.frame[i];
       if (e.is_bar()) continue;
-      const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
+      const Member& member = system.model.members[to_size(e.member)];
       const double length = e.length * static_cast<double>(member.elements);
       const double force = axial[static_cast<Index>(i)];
       load = std::max(load, std::abs(force) * length * length /
@@ -288,7 +281,7 @@ class MotionEstimates {
       const VectorXd& shape = modes.shape.col(k);
       const double amplitude = std::abs(shape.dot(load)) / (omega * omega);
       Vibration one = vibration_without_effects(system, shape, omega);
-      one.gyroscopic = gyroscopic_coupling(moving, modes, first, k);
+      one.change[Effect::gyroscopic] = gyroscopic_coupling(moving, modes, first, k);
       if (from_rest && total.translation > 0 && total.energy > 0) {
         one.energy = amplitude * omega / total.energy;
         one.translation = amplitude * translation_of(moving, shape) / total.translation;
@@ -312,12 +305,12 @@ class MotionEstimates {
     const double ratio = one.damping_ratio = damping_ratio(options_.damping, omega);
     const double phase = vibration_duration(omega, ratio) * omega;
     const EnergyShares shares(system, shape, omega * omega);
-    for (const Effect effect : flexibilities())
-      one.phase[effect] = phase * frequency_change_without(shares.elastic(effect));
+    for (const Effect effect : kFlexibilities)
+      one.change[effect] = phase * frequency_change_without(shares.elastic(effect));
     const double rotary = shares.kinetic(true), all = shares.kinetic(false);
-    one.phase[Effect::link_mass] = phase * frequency_change_without(all - rotary);
-    one.phase[Effect::rotary_inertia] = phase * frequency_change_without(rotary);
-    one.damped = -std::expm1(-ratio * omega * duration_);
+    one.change[Effect::link_mass] = phase * frequency_change_without(all - rotary);
+    one.change[Effect::rotary_inertia] = phase * frequency_change_without(rotary);
+    one.change[Effect::damping] = -std::expm1(-ratio * omega * duration_);
     if (std::pow(rate_ / omega, 2) > kSlow) {
       const double age = ratio > 0 ? std::min(duration_ / 2, 1 / (ratio * omega)) : duration_ / 2;
       one.resonant_share = age / vibration_duration(omega, ratio);
@@ -370,12 +363,12 @@ class MotionEstimates {
   }
 
   /// Translations of modes may add up; they are orthogonal in energy.
-  /// @param change_of  what a vibration loses, relative
-  template <class Change>
-  [[nodiscard]] double vibration_change(const Change& change_of) const {
+  [[nodiscard]] double vibration_change(Effect effect) const {
     double translation = 0, energy = std::pow(2 * beyond_modes_, 2), resonant = 0;
     for (const Vibration& one : vibrations_) {
-      const double change = change_of(one), bounded = std::min(2.0, change);
+      const auto found = one.change.find(effect);
+      const double change = found == one.change.end() ? 0 : std::abs(found->second);
+      const double bounded = std::min(2.0, change);
       translation += one.translation * bounded;
       energy += std::pow(one.energy * bounded, 2);
       resonant = std::max(resonant, std::min(2.0, one.resonant_share * change));
@@ -392,19 +385,6 @@ class MotionEstimates {
       resonant = std::max(resonant, one.resonant_share * phase);
     }
     return std::max(translation, resonant);
-  }
-
-  /// What vibrations lose by their change of frequency, and stiff parts by their own.
-  [[nodiscard]] double frequency_change(Effect effect, double vibration_share) const {
-    double change = vibration_change([effect](const Vibration& one) {
-      const auto phase = one.phase.find(effect);
-      return phase == one.phase.end() ? 0 : std::abs(phase->second);
-    });
-    if (effect == Effect::axial_flexibility && applicable_.has(Effect::damping))
-      change += options_.damping.stiffness * max_angular_velocity_;
-    if (effect == Effect::platform_flexibility || effect == Effect::joint_compliance)
-      change += stiff_part_vibration(share_.at(effect), vibration_share);
-    return change;
   }
 
   void collect_estimates() {
@@ -431,30 +411,24 @@ class MotionEstimates {
       const ResponseSize relative = relative_change(effect);
       double change = std::max(relative.translation, relative.energy) * amplified;
       double number = share_[effect];
-      switch (effect) {
-        case Effect::inertia:
-          number = r * r;
-          change = growth * std::max(change * from_start, vibration_share);
-          break;
-        case Effect::damping:
-          number = damping_;
-          change *= from_start;
-          change += vibration_change([](const Vibration& one) { return one.damped; });
-          break;
-        case Effect::gyroscopic:
-          number = 2 * max_angular_velocity_ / frequency_;
-          change += vibration_change([](const Vibration& one) { return one.gyroscopic; });
-          break;
-        case Effect::gravity:
-          change *= growth;
-          break;
-        case Effect::link_mass:
-        case Effect::rotary_inertia:
-          change *= growth;
-          [[fallthrough]];
-        default:
-          change += frequency_change(effect, vibration_share);
+      if (effect == Effect::gravity || effect == Effect::link_mass ||
+          effect == Effect::rotary_inertia)
+        change *= growth;
+      if (effect == Effect::inertia) {
+        number = r * r;
+        change = growth * std::max(change * from_start, vibration_share);
       }
+      if (effect == Effect::damping) {
+        number = damping_;
+        change *= from_start;
+      }
+      if (effect == Effect::gyroscopic) number = 2 * max_angular_velocity_ / frequency_;
+      if (effect == Effect::axial_flexibility && applicable_.has(Effect::damping))
+        change += options_.damping.stiffness * max_angular_velocity_;
+      if (effect == Effect::platform_flexibility || effect == Effect::joint_compliance)
+        change += stiff_part_vibration(number, vibration_share);
+      if (effect != Effect::inertia && effect != Effect::gravity)
+        change += vibration_change(effect);
       estimates_.effects.push_back({effect, number, change});
     }
   }

@@ -19,8 +19,8 @@ Vector3d deformation_share(const System& system, const FrameElement& e, Effect e
   if (e.is_bar()) return Vector3d::Zero();
   if (effect == Effect::axial_flexibility) return {1, 0, 0};
   if (effect != Effect::shear) return Vector3d::Zero();
-  const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
-  const double phi = shear_ratio(e.section, member.theory, e.length);
+  const BeamTheory theory = system.model.members[to_size(e.member)].theory;
+  const double phi = shear_ratio(e.section, theory, e.length);
   return {0, 0, phi / (1 + phi)};
 }
 
@@ -30,17 +30,15 @@ VectorXd EnergyShares::forces(Effect effect) const {
   const auto frames = static_cast<Index>(system_.mesh.frame.size());
   const auto plates = frames + static_cast<Index>(system_.model.triangles.size());
   Index own_springs = 0;
-  for (const Spring& spring : system_.model.springs) {
+  for (const Spring& spring : system_.model.springs)
     own_springs += (spring.stiffness.array() != 0).count();
-  }
   VectorXd force = VectorXd::Zero(u_.size());
   Index visited = 0;
   for_each_deformation(system_, [&](const auto& coordinates, const auto& B, const auto& c) {
     const Index i = visited++;
     auto part = (c.asDiagonal() * (B * detail::gather(coordinates, u_))).eval();
     if (i < frames) {
-      const Vector3d w =
-          deformation_share(system_, system_.mesh.frame[static_cast<std::size_t>(i)], effect);
+      const Vector3d w = deformation_share(system_, system_.mesh.frame[to_size(i)], effect);
       for (Index k = 0; k < part.size(); ++k) part[k] *= w[k];
     } else {
       const bool plate = i < plates && effect == Effect::platform_flexibility;

@@ -108,11 +108,18 @@ class MotionSolver {
             "the stiffness is singular: free joints have no quasi-static position"};
         return;
       }
-      evidence.add_equilibrium(time, load_time(time), q, still, still, options_.time.step);
-      record({0, time, q, still, still, {.strain = q.dot(moving_.K() * q) / 2}}, load_time(time));
-      solution_.summary.time = time;
+      record_exact({0, time, q, still, still, {.strain = q.dot(moving_.K() * q) / 2}},
+                   load_time(time), evidence);
     }
     solution_.evidence = evidence.result();
+  }
+
+  /// A sample that no scheme has computed.
+  void record_exact(const MotionSample& sample, double load_time, MotionEvidence& evidence) {
+    evidence.add_equilibrium(sample.time, load_time, sample.q, sample.v, sample.a,
+                             options_.time.step);
+    record(sample, load_time);
+    solution_.summary.time = sample.time;
   }
 
   /// The acting forces at the present pose, and the wrench by its history.
@@ -156,15 +163,13 @@ class MotionSolver {
       const VectorXd q = response.q.col(column);
       const VectorXd v = response.v.col(column);
       const VectorXd a = response.a.col(column);
-      evidence.add_equilibrium(times[i], times[i], q, v, a, options_.time.step);
       MotionEnergy energy{.kinetic = v.dot(M * v) / 2, .strain = q.dot(K * q) / 2};
       // The work of a variable load is not integrated here.
       energy.work = options_.load_history.constant() ? f.dot(q - q0) : kNaN;
       // The rest has been dissipated; without damping it shows the round-off.
       if (follower_.damped())
         energy.dissipated = strain_at_start + energy.work - energy.kinetic - energy.strain;
-      record({0, times[i], q, v, a, energy}, times[i]);
-      solution_.summary.time = times[i];
+      record_exact({0, times[i], q, v, a, energy}, times[i], evidence);
     }
     solution_.evidence = evidence.result();
   }

@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "solver/assembly/strain.h"
-#include "solver/model/plane.h"
 #include "solver/statics/postprocessing.h"
 
 namespace trammel::solver {
@@ -39,42 +38,6 @@ void set_triangle_stress(const MovingSystem& moving, const VectorXd& u, StaticSo
   }
 }
 
-/// Reactions, loads, weight, inertia and the drag of damping by mass are in equilibrium.
-void check_equilibrium(const MovingSystem& moving, const VectorXd& external, StaticSolution& state,
-                       WholeBalance& balance) {
-  const Model& model = moving.start().model;
-  const Coordinates& coordinates = moving.start().coordinates;
-  Vector2d force = Vector2d::Zero();
-  double moment = 0;
-  Vector2d terms = Vector2d::Zero();
-  const auto add = [&](const Vector2d& at, const Vector2d& f, double m) {
-    force += f;
-    moment += m + cross(at, f);
-    terms[0] += f.norm();
-    terms[1] += std::abs(m) + at.norm() * f.norm();
-  };
-  for (std::size_t node = 0; node < coordinates.node.size(); ++node) {
-    const auto& c = coordinates.node[node];
-    add(moving.position(static_cast<Index>(node)), {external[c[0]], external[c[1]]},
-        c[2] < 0 ? 0 : external[c[2]]);
-  }
-  for (std::size_t i = 0; i < model.members.size(); ++i) {
-    for (std::size_t end = 0; end < 2; ++end) {
-      const Index own = coordinates.member_end[i][end];
-      if (own >= 0 && own != coordinates.node[to_size(model.members[i].nodes[end])][2])
-        moment += external[own];
-    }
-  }
-  for (std::size_t i = 0; i < model.supports.size(); ++i) {
-    const Eigen::RowVector3d r = state.reaction.row(static_cast<Index>(i));
-    add(moving.position(model.supports[i].node), {r[0], r[1]}, r[2]);
-  }
-  state.equilibrium_residual = force.norm();
-  state.moment_residual = std::abs(moment);
-  balance.residual = balance.residual.cwiseMax(Vector2d(force.norm(), std::abs(moment)));
-  balance.terms = balance.terms.cwiseMax(terms);
-}
-
 }  // namespace
 
 StaticSolution postprocess_motion(const MovingSystem& moving, const VectorXd& q,
@@ -84,14 +47,19 @@ StaticSolution postprocess_motion(const MovingSystem& moving, const VectorXd& q,
   const Constraints& constraints = moving.constraints();
   const VectorXd multipliers = constraints.multipliers(forces.total);
   std::vector<Vector2d> positions;
-  for (Index node = 0; node < std::ssize(moving.start().model.nodes); ++node)
+  for (Index node = 0; node < std::ssize(moving.start().mesh.positions); ++node)
     positions.push_back(moving.position(node));
   recover(moving.start(),
           {positions, forces.working.u, constraints, multipliers,
            end_forces(moving, forces, multipliers)},
           state);
   set_triangle_stress(moving, forces.working.u, state);
-  check_equilibrium(moving, forces.external, state, balance);
+  const ForceSum sum = sum_forces(moving.start(), positions, forces.external, state);
+  state.equilibrium_residual = sum.force.norm();
+  state.moment_residual = std::abs(sum.moment);
+  balance.residual =
+      balance.residual.cwiseMax(Vector2d(state.equilibrium_residual, state.moment_residual));
+  balance.terms = balance.terms.cwiseMax(sum.terms);
   return state;
 }
 

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/model/plane.h"
-
 namespace trammel::solver {
 
 using Eigen::MatrixXd;
@@ -17,21 +15,13 @@ constexpr double kLargestT = 1e4;
 /// An entry of T below this share of its row's largest is round-off of zero.
 constexpr double kVanishing = 1e-11;
 
-/// The vector's derivative in time, of order 0, 1 or 2, when it turns with a part.
-Vector2d derivative(const Vector2d& at_start, const PartMotion& part, int order) {
-  const Vector2d now = rotated(at_start, part.angle);
-  if (order == 0) return now;
-  if (order == 1) return part.rate * perpendicular(now);
-  return part.acceleration * perpendicular(now) - part.rate * part.rate * now;
-}
-
 /// The part whose motion changes the row; null: none.
 const PartMotion* part_of(const System& start, const ConstraintRow& row,
                           const NominalMotion& motion) {
   if (row.source == ConstraintRow::Source::inextensible)
-    return &motion.member[to_size(start.mesh.frame[to_size(row.index)].member)];
+    return &motion.part[to_size(start.mesh.frame[to_size(row.index)].member)];
   if (row.source == ConstraintRow::Source::rigid_body)
-    return &motion.rigid_body[to_size(row.index)];
+    return &motion.part[to_size(body_part(start.model, row.index))];
   return nullptr;
 }
 
@@ -40,24 +30,22 @@ double coefficient(const System& start, const ConstraintRow& row, std::size_t te
                    const NominalMotion& motion, int order) {
   if (row.source == ConstraintRow::Source::inextensible) {
     const FrameElement& e = start.mesh.frame[to_size(row.index)];
-    const Vector2d d = derivative(e.direction, *part_of(start, row, motion), order);
-    const Index u = row.terms[term].first;
-    const auto at = std::find(e.coordinates.begin(), e.coordinates.end(), u);
-    const auto local = at - e.coordinates.begin();
+    const Vector2d d = part_of(start, row, motion)->derivative(e.direction, order);
+    const auto local =
+        std::ranges::find(e.coordinates, row.terms[term].first) - e.coordinates.begin();
     return (local >= 3 ? 1 : -1) * (local % 3 == 0 ? d.x() : d.y());
   }
   const Index first = row.terms.front().first;
   const auto& coordinates = start.coordinates;
   const bool arm_term = row.source == ConstraintRow::Source::rigid_body && term == 2 &&
-                        !coordinates.is_rotation[static_cast<std::size_t>(first)];
+                        !coordinates.is_rotation[to_size(first)];
   if (!arm_term) return order == 0 ? row.terms[term].second : 0.0;
-  const auto body = static_cast<std::size_t>(row.index);
-  const Index node = coordinates.node_of[static_cast<std::size_t>(first)];
+  const Index node = coordinates.node_of[to_size(first)];
+  const Index reference = start.model.rigid_bodies[to_size(row.index)].reference;
   const Vector2d arm =
-      start.mesh.positions[static_cast<std::size_t>(node)] -
-      start.mesh.positions[static_cast<std::size_t>(start.model.rigid_bodies[body].reference)];
-  const Vector2d now = derivative(arm, *part_of(start, row, motion), order);
-  return first == coordinates.node[static_cast<std::size_t>(node)][0] ? now.y() : -now.x();
+      start.mesh.positions[to_size(node)] - start.mesh.positions[to_size(reference)];
+  const Vector2d now = part_of(start, row, motion)->derivative(arm, order);
+  return first == coordinates.node[to_size(node)][0] ? now.y() : -now.x();
 }
 
 }  // namespace
@@ -66,10 +54,8 @@ MovingConstraints::MovingConstraints(const System& start, const NominalMotion& m
                                      bool derivatives)
     : constraints_(start.constraints), derivatives_(derivatives) {
   for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
-    const auto source = constraints_.rows[r].source;
-    variable_ = variable_ ||
-                (constraints_.pivot[r] >= 0 && (source == ConstraintRow::Source::rigid_body ||
-                                                source == ConstraintRow::Source::inextensible));
+    const bool turns = part_of(start, constraints_.rows[r], motion) != nullptr;
+    variable_ = variable_ || (constraints_.pivot[r] >= 0 && turns);
   }
   if (!variable_) return;
   find_dependent_rows();
@@ -78,14 +64,11 @@ MovingConstraints::MovingConstraints(const System& start, const NominalMotion& m
 
 /// Rows that T is solved from.
 void MovingConstraints::find_dependent_rows() {
-  dependent_row_of_.assign(static_cast<std::size_t>(constraints_.T.rows()), -1);
+  dependent_row_of_.assign(to_size(constraints_.T.rows()), -1);
   for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
-    if (constraints_.pivot[r] < 0 ||
-        constraints_.rows[r].source == ConstraintRow::Source::support) {
-      continue;
-    }
-    dependent_row_of_[static_cast<std::size_t>(constraints_.pivot[r])] =
-        static_cast<Index>(dependent_rows_.size());
+    const Index pivot = constraints_.pivot[r];
+    if (pivot < 0 || constraints_.rows[r].source == ConstraintRow::Source::support) continue;
+    dependent_row_of_[to_size(pivot)] = std::ssize(dependent_rows_);
     dependent_rows_.push_back(r);
   }
   const auto columns = [](const std::vector<Index>& column_of, Index count) {
@@ -112,9 +95,7 @@ void MovingConstraints::extend_pattern(const System& start, const NominalMotion&
   NominalMotion general = motion;
   double turn = 1;
   for (int found = 0, trial = 0; found < 3 && trial < 100; ++trial) {
-    for (auto* parts : {&general.member, &general.rigid_body}) {
-      for (PartMotion& part : *parts) part.angle = 0.4 * std::sin(turn += std::numbers::phi);
-    }
+    for (PartMotion& part : general.part) part.angle = 0.4 * std::sin(turn += std::numbers::phi);
     const MatrixXd X = dependent_coordinates(start, general).cwiseAbs();
     if (!(X.allFinite() && X.maxCoeff() < kLargestT)) continue;
     ++found;
@@ -124,8 +105,7 @@ void MovingConstraints::extend_pattern(const System& start, const NominalMotion&
   }
   std::vector<Eigen::Triplet<double>> entries;
   for (Index u = 0; u < T.rows(); ++u) {
-    const Index row = dependent_row_of_[static_cast<std::size_t>(u)];
-    const Index own = constraints_.free[static_cast<std::size_t>(u)];
+    const Index row = dependent_row_of_[to_size(u)], own = constraints_.free[to_size(u)];
     for (Index q = 0; q < T.cols(); ++q) {
       const bool enters = row >= 0 ? needed(row, q) : q == own;
       if (enters) entries.emplace_back(static_cast<int>(u), static_cast<int>(q), T.coeff(u, q));

@@ -17,18 +17,12 @@ const Eigen::Matrix3d& generator() {
   return J;
 }
 
-/// The same on the coordinates of a frame element or, top left, of a node.
-Matrix6d generator6() {
-  Matrix6d J = Matrix6d::Zero();
-  J.topLeftCorner<3, 3>() = J.bottomRightCorner<3, 3>() = generator();
-  return J;
-}
-
 /// Adds int rho N^T X and int rho N^T (J X - X J6), with X = J N - N J6 the derivative of
 /// W = R N R6^T; weights are rho times (1, 1, radius of gyration squared).
 void add_derivatives(const Eigen::Matrix<double, 3, 6>& N, const Vector3d& weights,
                      MovingElement& element) {
-  const Matrix6d J6 = generator6();
+  Matrix6d J6 = Matrix6d::Zero();
+  J6.topLeftCorner<3, 3>() = J6.bottomRightCorner<3, 3>() = generator();
   const Eigen::Matrix<double, 3, 6> X = generator() * N - N * J6;
   const Eigen::Matrix<double, 3, 6> Y = generator() * X - X * J6;
   element.first_derivative += N.transpose() * weights.asDiagonal() * X;
@@ -38,8 +32,7 @@ void add_derivatives(const Eigen::Matrix<double, 3, 6>& N, const Vector3d& weigh
 MovingElement frame_element(const FrameElement& e, const Member& member) {
   MovingElement element;
   element.coordinates = e.coordinates;
-  element.part = &NominalMotion::member;
-  element.part_index = to_size(e.member);
+  element.part = e.member;
   element.axis = e.direction;
   element.B = frame_deformation_matrix(Vector2d(Vector2d::UnitX()), e.length);
   element.c = frame_rigidity(e.section, member.theory, e.length);
@@ -62,22 +55,17 @@ void add_triangles(const System& system, std::vector<MovingElement>& elements) {
   for (const Triangle& triangle : system.model.triangles) {
     MovingElement element;
     element.layout = MovingElement::Layout::triangle;
-    element.part = &NominalMotion::plate;
-    element.part_index = to_size(triangle.plate);
+    element.part = plate_part(system.model, triangle.plate);
     if (triangle.quadratic()) throw ModelError("triangles of six nodes do not move yet");
     const TrianglePoints points = corners(system.model, triangle);
     element.coordinates = system.coordinates.of_triangle<6>(triangle);
-    const Plate& plate = system.model.plates[element.part_index];
+    const Plate& plate = system.model.plates[to_size(triangle.plate)];
     const TriangleStiffness<3> k = triangle_stiffness(points, plate);
     element.B = k.B;
     element.c = k.c;
     element.m = triangle_mass(points, plate);  // the interpolation is isotropic: W does not turn
     elements.push_back(element);
   }
-}
-
-bool holds(const RigidBody& body, Index node) {
-  return body.reference == node || std::count(body.attached.begin(), body.attached.end(), node) > 0;
 }
 
 void add_point_masses(const System& system, std::vector<MovingElement>& elements) {
@@ -88,9 +76,10 @@ void add_point_masses(const System& system, std::vector<MovingElement>& elements
     const auto& node = system.coordinates.node[to_size(point_mass.node)];
     std::copy(node.begin(), node.end(), element.coordinates.begin());
     for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b) {
-      if (!holds(model.rigid_bodies[b], point_mass.node)) continue;
-      element.part = &NominalMotion::rigid_body;
-      element.part_index = b;
+      const RigidBody& body = model.rigid_bodies[b];
+      if (body.reference == point_mass.node ||
+          std::ranges::count(body.attached, point_mass.node) > 0)
+        element.part = body_part(model, static_cast<Index>(b));
     }
     element.m.topLeftCorner<3, 3>() =
         point_inertia(point_mass.mass, point_mass.inertia, point_mass.offset);
@@ -114,8 +103,7 @@ void add_scalars(const System& system, std::vector<MovingElement>& elements) {
       if (inertia == 0) continue;
       MovingElement& element = elements.emplace_back(scalar);
       element.coordinates[0] = system.coordinates.member_end[i][end];
-      element.part = &NominalMotion::member;
-      element.part_index = i;
+      element.part = static_cast<Index>(i);
       element.m(0, 0) = inertia;
     }
   }

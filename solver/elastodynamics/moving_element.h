@@ -31,12 +31,11 @@ struct MovingElement {
   Matrix6d first_derivative = Matrix6d::Zero();   ///< int rho N^T dN/dangle
   Matrix6d second_derivative = Matrix6d::Zero();  ///< int rho N^T d2N/dangle2
   Vector2d axis = Vector2d::UnitX();  ///< its own x axis where the model was built, world axes
-  const std::vector<PartMotion> NominalMotion::*part = nullptr;  ///< null: does not turn
-  std::size_t part_index = 0;
+  Index part = -1;                    ///< of NominalMotion; -1: does not turn
   Vector2d first_moment = Vector2d::Zero();  ///< of a point mass: mass * offset [kg m]
 
   [[nodiscard]] PartMotion motion(const NominalMotion& nominal) const {
-    return part ? (nominal.*part)[part_index] : PartMotion{};
+    return part < 0 ? PartMotion{} : nominal.part[to_size(part)];
   }
   /// Its own x axis during a motion, world axes.
   [[nodiscard]] Vector2d direction(const NominalMotion& nominal) const;

@@ -12,13 +12,10 @@ using Eigen::VectorXd;
 
 NominalMotion motion_at_start(const Model& model) {
   NominalMotion motion;
-  const auto nodes = static_cast<Index>(model.nodes.size());
-  motion.position.resize(nodes, 2);
-  for (Index i = 0; i < nodes; ++i) motion.position.row(i) = model.nodes[to_size(i)].position;
-  motion.acceleration.setZero(nodes, 2);
-  motion.member.resize(model.members.size());
-  motion.plate.resize(model.plates.size());
-  motion.rigid_body.resize(model.rigid_bodies.size());
+  const Index nodes = std::ssize(model.nodes);
+  for (Eigen::MatrixX2d& values : motion.node) values.setZero(nodes, 2);
+  for (Index i = 0; i < nodes; ++i) motion.node[0].row(i) = model.nodes[to_size(i)].position;
+  motion.part.resize(to_size(body_part(model, std::ssize(model.rigid_bodies))));
   return motion;
 }
 
@@ -157,7 +154,7 @@ Vector6d MovingSystem::nominal_inertia(const MovingElement& element, const PartM
         element.layout == MovingElement::Layout::scalar || i % element.stride() == 2;
     a[i] = rotation ? part.acceleration
                     : at_mesh_node(start_.coordinates.node_of[to_size(u)],
-                                   motion_.acceleration)[i % element.stride()];
+                                   motion_.node[2])[i % element.stride()];
   }
   element.to_own(a, direction);
   Vector6d f = -element.m * a.transpose();

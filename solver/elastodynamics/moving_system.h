@@ -58,7 +58,7 @@ class MovingSystem {
   [[nodiscard]] const NominalMotion& motion() const { return motion_; }
   /// Nominal position of a node of the mesh [m].
   [[nodiscard]] Vector2d position(Index mesh_node) const {
-    return at_mesh_node(mesh_node, motion_.position);
+    return at_mesh_node(mesh_node, motion_.node[0]);
   }
   /// The model where it was built; its mesh, coordinates and numbering hold at every pose.
   [[nodiscard]] const System& start() const { return start_; }

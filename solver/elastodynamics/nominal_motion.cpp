@@ -7,53 +7,51 @@
 
 namespace trammel::solver {
 
-NominalMotion nominal_motion(const ManipulatorDesign& design, const Model& model,
-                             const InverseDynamics& dynamics, const Vector9d& from,
-                             const TrajectoryPoint& point, const Vector2d& gravity) {
+Vector2d PartMotion::derivative(const Vector2d& at_start, int order) const {
+  const Vector2d now = rotated(at_start, angle);
+  if (order == 0) return now;
+  if (order == 1) return rate * perpendicular(now);
+  return acceleration * perpendicular(now) - rate * rate * now;
+}
+
+NominalMotion nominal_motion(const Model& model, const InverseDynamics& dynamics,
+                             const Vector9d& from, const TrajectoryPoint& point,
+                             const Vector2d& gravity) {
   const auto part = [&](Index i) {
     return PartMotion{dynamics.q[i] - from[i], dynamics.q_dot[i], dynamics.q_ddot[i]};
   };
-  const PartMotion platform = part(8);
   NominalMotion motion;
   motion.gravity = gravity;
-  motion.plate.assign(model.plates.size(), platform);
-  motion.rigid_body.assign(model.rigid_bodies.size(), platform);
-  const auto nodes = static_cast<Index>(model.nodes.size());
-  motion.position.resize(nodes, 2);
-  motion.velocity.setZero(nodes, 2);
-  motion.acceleration.setZero(nodes, 2);
-  for (Index i = 0; i < 3; ++i) {
-    motion.member.push_back(part(i));
-    motion.member.push_back(part(3 + i));
-    const Vector2d A = design.geometry.base[static_cast<std::size_t>(i)];
-    const double length = design.geometry.proximal[static_cast<std::size_t>(i)];
-    const Vector2d arm = length * Vector2d(std::cos(dynamics.q[i]), std::sin(dynamics.q[i]));
-    const double rate = dynamics.q_dot[i];
-    motion.position.row(i) = A;
-    motion.position.row(3 + i) = A + arm;
-    motion.velocity.row(3 + i) = rate * perpendicular(arm);
-    motion.acceleration.row(3 + i) = dynamics.q_ddot[i] * perpendicular(arm) - rate * rate * arm;
+  for (Index limb = 0; limb < 3; ++limb) {
+    motion.part.push_back(part(limb));
+    motion.part.push_back(part(3 + limb));
+  }
+  motion.part.resize(to_size(body_part(model, std::ssize(model.rigid_bodies))), part(8));
+  for (Eigen::MatrixX2d& values : motion.node) values.resize(std::ssize(model.nodes), 2);
+  using Carrier = std::array<Vector2d, 3>;
+  const auto place = [&](Index node, const Vector2d& start, const Carrier& carrier,
+                         const PartMotion& turns) {
+    const Vector2d arm = model.nodes[to_size(node)].position - start;
+    for (int order = 0; order < 3; ++order) {
+      motion.node[to_size(order)].row(node) =
+          carrier[to_size(order)] + turns.derivative(arm, order);
+    }
+  };
+  for (Index limb = 0; limb < 3; ++limb) {
+    const Vector2d& A = model.nodes[to_size(limb)].position;
+    for (const Index node : {limb, 3 + limb})
+      place(node, A, {A, Vector2d::Zero(), Vector2d::Zero()}, motion.part[to_size(2 * limb)]);
   }
   // C1 C2 C3, P and the nodes of a plate turn with the platform.
-  const Vector2d P = from.segment<2>(6);
-  const Vector2d now(point.pose.x, point.pose.y);
-  for (Index i = 6; i < nodes; ++i) {
-    const Vector2d arm =
-        rotated(model.nodes[static_cast<std::size_t>(i)].position - P, platform.angle);
-    motion.position.row(i) = now + arm;
-    motion.velocity.row(i) = point.velocity.head<2>() + platform.rate * perpendicular(arm);
-    motion.acceleration.row(i) = point.acceleration.head<2>() +
-                                 platform.acceleration * perpendicular(arm) -
-                                 platform.rate * platform.rate * arm;
-  }
+  const Carrier P = {point.pose.position(), point.velocity.head<2>(), point.acceleration.head<2>()};
+  for (Index node = 6; node < std::ssize(model.nodes); ++node)
+    place(node, from.segment<2>(6), P, motion.part.back());
   return motion;
 }
 
 double largest_angular_velocity(const NominalMotion& motion) {
   double largest = 0;
-  for (const auto* parts : {&motion.member, &motion.plate, &motion.rigid_body}) {
-    for (const PartMotion& part : *parts) largest = std::max(largest, std::abs(part.rate));
-  }
+  for (const PartMotion& part : motion.part) largest = std::max(largest, std::abs(part.rate));
   return largest;
 }
 

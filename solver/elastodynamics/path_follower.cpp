@@ -52,8 +52,7 @@ Outcome PathFollower::move_to(double time, const Vector2d& gravity) {
   point_ = at(options_.path, time);
   dynamics_ = inverse_dynamics(rigid_, point_, wrench(time));
   if (!dynamics_.outcome.solved()) return dynamics_.outcome;
-  NominalMotion motion =
-      nominal_motion(options_.design, moving_.start().model, dynamics_, start_, point_, gravity);
+  NominalMotion motion = nominal_motion(moving_.start().model, dynamics_, start_, point_, gravity);
   motion.load_factor = options_.load_history.at(time);
   return moving_.move_to(motion);
 }
@@ -73,28 +72,18 @@ VectorXd PathFollower::load() const {
 }
 
 void PathFollower::matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
-  if (options_.elastic_inertia) {
-    M.coeffs() = moving_.M().coeffs();
-  } else {
-    M.coeffs().setZero();
-  }
   K.coeffs() = moving_.K().coeffs();
-  if (damped()) {
-    C.coeffs() =
-        options_.damping.mass * M.coeffs() + options_.damping.stiffness * moving_.K().coeffs();
-    counters_.count(Effect::damping, 1);
-  }
+  M.coeffs().setZero();
+  if (options_.elastic_inertia) M.coeffs() = moving_.M().coeffs();
+  const auto [mass, stiffness] = options_.damping;
+  if (damped() || options_.gyroscopic)
+    C.coeffs() = mass * M.coeffs() + stiffness * moving_.K().coeffs();
+  if (damped()) counters_.count(Effect::damping, 1);
   if (!options_.gyroscopic) return;
   counters_.count(Effect::gyroscopic, 1);
-  if (damped()) {
-    C.coeffs() += moving_.gyroscopic_matrix().coeffs();
-  } else {
-    C.coeffs() = moving_.gyroscopic_matrix().coeffs();
-  }
-  K.coeffs() += moving_.centrifugal_and_euler_matrix().coeffs();
-  if (!damped()) return;
-  K.coeffs() += options_.damping.mass * moving_.M_T_dot().coeffs() +
-                options_.damping.stiffness * moving_.K_T_dot().coeffs();
+  C.coeffs() += moving_.gyroscopic_matrix().coeffs();
+  K.coeffs() += moving_.centrifugal_and_euler_matrix().coeffs() +
+                mass * moving_.M_T_dot().coeffs() + stiffness * moving_.K_T_dot().coeffs();
 }
 
 bool PathFollower::solve_statically(const VectorXd& f, VectorXd& q) {

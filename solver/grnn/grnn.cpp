@@ -8,12 +8,6 @@
 
 namespace trammel::solver {
 
-namespace {
-
-bool squarable(const Eigen::MatrixXd& m) {
-  return m.allFinite() && (m.size() == 0 || m.cwiseAbs().maxCoeff() < 1e150);
-}
-
 Eigen::VectorXd scale_of(const Eigen::MatrixXd& inputs, InputScaling scaling) {
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(inputs.cols());
   if (scaling == InputScaling::none) return scale;
@@ -25,6 +19,12 @@ Eigen::VectorXd scale_of(const Eigen::MatrixXd& inputs, InputScaling scaling) {
     scale(f) = scaling == InputScaling::range ? range : deviation;
   }
   return scale;
+}
+
+namespace {
+
+bool squarable(const Eigen::MatrixXd& m) {
+  return m.allFinite() && (m.size() == 0 || m.cwiseAbs().maxCoeff() < 1e150);
 }
 
 }  // namespace
@@ -58,9 +58,9 @@ Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
   require(queries.cols() == network.inputs.cols(), "a query has the wrong number of inputs");
   require(network.sigma >= std::numeric_limits<double>::min() && std::isfinite(network.sigma),
           "the sigma of a GRNN must be a positive normal number");
-  const Eigen::VectorXd inverse = network.scale.cwiseInverse();
-  const Eigen::MatrixXd samples = network.inputs * inverse.asDiagonal();
-  const Eigen::MatrixXd scaled = inverse.asDiagonal() * queries.transpose();  // input x query
+  const Eigen::MatrixXd samples = scaled_inputs(network);
+  const Eigen::MatrixXd scaled =
+      network.scale.cwiseInverse().asDiagonal() * queries.transpose();  // input x query
   require(squarable(scaled), "a query is not finite or too large to be squared");
 
   // Queries in blocks: the weights of a block meet the outputs, and ones for their sums, in one

@@ -14,31 +14,20 @@ namespace trammel::solver {
 
 namespace {
 
-Eigen::MatrixXd scaled_inputs(const Grnn& network) {
-  return network.inputs * network.scale.cwiseInverse().asDiagonal();
-}
-
-/// 1 / standard deviation of each output.
-Eigen::RowVectorXd output_weights(const Eigen::MatrixXd& outputs) {
-  Eigen::RowVectorXd weights = Eigen::RowVectorXd::Ones(outputs.cols());
-  for (Index j = 0; j < outputs.cols(); ++j) {
-    const Eigen::VectorXd column = outputs.col(j);
-    if (column.maxCoeff() == column.minCoeff()) continue;
-    weights(j) = 1 / std::sqrt((column.array() - column.mean()).square().mean());
-  }
-  return weights;
-}
-
 void check_sigmas(const Eigen::VectorXd& sigmas) {
   require(sigmas.size() >= 1, "no sigma to try");
   require(sigmas.allFinite() && (sigmas.array() >= std::numeric_limits<double>::min()).all(),
           "every sigma to try must be a positive normal number");
 }
 
-/// Fisher-Yates; the library's shuffle is not the same everywhere.
-void shuffle(std::vector<Index>& values, std::uint64_t seed) {
+/// 0, 1, ..., by Fisher-Yates if shuffled; the library's shuffle is not the same everywhere.
+std::vector<Index> order_of(Index samples, bool shuffled, std::uint64_t seed) {
+  std::vector<Index> order(to_size(samples));
+  std::iota(order.begin(), order.end(), Index{0});
   std::mt19937_64 random(seed);
-  for (std::size_t i = values.size(); i > 1; --i) std::swap(values[i - 1], values[random() % i]);
+  for (std::size_t i = order.size(); shuffled && i > 1; --i)
+    std::swap(order[i - 1], order[random() % i]);
+  return order;
 }
 
 }  // namespace
@@ -47,9 +36,8 @@ std::vector<Index> fold_of_samples(Index samples, const CrossValidation& validat
   const Index folds = validation.folds == 0 ? samples : validation.folds;
   require(folds >= 2, "cross-validation needs at least two folds");
   require(samples >= folds, "cross-validation needs at least one sample in each fold");
-  std::vector<Index> fold(static_cast<std::size_t>(samples));
-  std::iota(fold.begin(), fold.end(), Index{0});
-  if (validation.order == FoldOrder::shuffled) shuffle(fold, validation.seed);
+  std::vector<Index> fold =
+      order_of(samples, validation.order == FoldOrder::shuffled, validation.seed);
   const bool blocks = validation.order == FoldOrder::blocks;
   for (Index& p : fold) p = blocks ? p * folds / samples : p % folds;
   return fold;
@@ -57,14 +45,12 @@ std::vector<Index> fold_of_samples(Index samples, const CrossValidation& validat
 
 std::vector<bool> training_mask(Index samples, Index train, Split split, std::uint64_t seed) {
   require(train >= 1 && train <= samples, "expected to train with at least one and at most all");
-  std::vector<Index> order(static_cast<std::size_t>(samples));
-  std::iota(order.begin(), order.end(), Index{0});
-  if (split == Split::shuffled) shuffle(order, seed);
+  const std::vector<Index> order = order_of(samples, split == Split::shuffled, seed);
   std::vector<bool> trains(order.size(), false);
   for (Index k = 0; k < train; ++k) {
     // The middle of the k-th of `train` equal pieces.
     const Index rank = split == Split::interleaved ? (2 * k + 1) * samples / (2 * train) : k;
-    trains[static_cast<std::size_t>(order[static_cast<std::size_t>(rank)])] = true;
+    trains[to_size(order[to_size(rank)])] = true;
   }
   return trains;
 }
@@ -76,7 +62,8 @@ Eigen::VectorXd cross_validation_error(const Grnn& network, const Eigen::VectorX
   const std::vector<Index> fold = fold_of_samples(n, validation);
   const Eigen::Map<const Eigen::Array<Index, Eigen::Dynamic, 1>> folds(fold.data(), n);
   const Eigen::MatrixXd samples = scaled_inputs(network);
-  const Eigen::RowVectorXd importance = output_weights(network.outputs);
+  const Eigen::RowVectorXd importance =
+      scale_of(network.outputs, InputScaling::deviation).cwiseInverse();
 
   // Samples in blocks: their weights meet the outputs, and ones for their sums, in one product.
   constexpr Index kBlock = 32;
@@ -135,8 +122,7 @@ Eigen::VectorXd default_grid(const Grnn& network, Index count) {
 SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,
                          const CrossValidation& validation) {
   check_sigmas(grid);
-  for (Index k = 1; k < grid.size(); ++k)
-    require(grid(k) > grid(k - 1), "the sigmas of a grid must ascend");
+  require(std::ranges::is_sorted(grid, std::less_equal()), "the sigmas of a grid must ascend");
   SigmaSearch search;
   search.grid = grid;
   search.grid_error = cross_validation_error(network, grid, validation);

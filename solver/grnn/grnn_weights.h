@@ -2,10 +2,17 @@
 
 #include <Eigen/Core>
 
-#include "solver/model/model.h"
+#include "solver/grnn/grnn.h"
 
 /// The kernel weights of a GRNN, shared by prediction and cross-validation.
 namespace trammel::solver {
+
+/// What each column is divided by; 1 where it is constant.
+[[nodiscard]] Eigen::VectorXd scale_of(const Eigen::MatrixXd& columns, InputScaling scaling);
+/// Sample x input, in scaled distances.
+[[nodiscard]] inline Eigen::MatrixXd scaled_inputs(const Grnn& network) {
+  return network.inputs * network.scale.cwiseInverse().asDiagonal();
+}
 
 /// D_i^2 - D_m^2 >= 0 of every sample to a query, m the nearest sample.
 class ExcessDistances {

@@ -22,37 +22,24 @@ namespace {
 namespace odeint = boost::numeric::odeint;
 using State = Eigen::Matrix<double, 7, 1>;  // pose, velocity, work of torques and wrench
 
-Pose pose_of(const State& y) {
-  return {y(0), y(1), y(2)};
-}
-
 /// Local error over the tolerance, as ForwardOptions measures it; odeint accepts a step up to 1.
-class ErrorNorm {
- public:
-  /// @param duration  of the motion [s]
-  ErrorNorm(const ManipulatorGeometry& geometry, double tolerance, double duration)
-      : tolerance_(tolerance), duration_(duration) {
-    for (const Vector2d& c : geometry.platform) radius_ += c.norm() / 3;
-  }
+struct ErrorNorm {
+  double tolerance;
+  double duration;  ///< of the motion [s]
+  double radius;    ///< of the platform, by which rotations count [m]
+
   template <class Algebra>
   double error(Algebra&, const State& y, const State&, const State& error, double) const {
     if (!error.allFinite()) return std::numeric_limits<double>::infinity();
-    const double speed = duration_ > 0 ? radius_ / duration_ : 0;
-    return std::max(relative(error, y, 0, radius_), relative(error, y, 3, speed)) / tolerance_;
+    // Of positions (first = 0) or velocities (3).
+    const auto size = [this](const State& x, Index first) {
+      return x.segment<3>(first).cwiseProduct(Vector3d(1, 1, radius)).cwiseAbs().maxCoeff();
+    };
+    const double speed = duration > 0 ? radius / duration : 0;
+    return std::max(size(error, 0) / std::max(size(y, 0), radius),
+                    size(error, 3) / std::max(size(y, 3), speed)) /
+           tolerance;
   }
-
- private:
-  /// Error of positions (first = 0) or velocities (3), relative to the largest of them and to no
-  /// less than `least`: a motion through the platform's radius. Rotations count by that radius.
-  [[nodiscard]] double relative(const State& error, const State& y, Index first,
-                                double least) const {
-    const Vector3d scale(1, 1, radius_);
-    const double largest = y.segment<3>(first).cwiseProduct(scale).cwiseAbs().maxCoeff();
-    return error.segment<3>(first).cwiseProduct(scale).cwiseAbs().maxCoeff() /
-           std::max(largest, least);
-  }
-
-  double tolerance_, duration_, radius_ = 0;
 };
 
 using DormandPrince =
@@ -69,10 +56,10 @@ class MotionIntegrator {
         wrench_(wrench),
         max_steps_(options.max_steps),
         duration_(end - start.time),
-        stepper_(ErrorNorm(manipulator.geometry, options.tolerance, duration_)),
+        stepper_(ErrorNorm{options.tolerance, duration_, platform_radius(manipulator.geometry)}),
         t_(start.time),
         h_(1e-3 * duration_) {  // error control finds its own step from here
-    y_ << start.pose.x, start.pose.y, start.pose.phi, start.velocity, 0;
+    y_ << start.pose.vector(), start.velocity, 0;
     result.outcome = evaluate(t_, y_, rate_);
     side_ = side();
     if (result.outcome.solved()) add_evidence();
@@ -81,31 +68,24 @@ class MotionIntegrator {
   /// Of the present state.
   void add_evidence() {
     const InverseDynamics now = inverse_dynamics(manipulator_, point(), wrench_);
-    const RigidTerms terms = rigid_terms(manipulator_, pose_of(y_), y_.segment<3>(3));
+    const RigidTerms terms = rigid_terms(manipulator_, pose(), y_.segment<3>(3));
     const Vector3d given = torque_(t_);
     const Vector3d size = terms.Mh.cwiseAbs() * now.q_ddot.head<3>().cwiseAbs() +
                           terms.Ch.cwiseAbs() * now.q_dot.head<3>().cwiseAbs() +
                           terms.Nh.cwiseAbs() + given.cwiseAbs() +
                           terms.W.bottomRows<3>().transpose().cwiseAbs() * wrench_.cwiseAbs();
     result.evidence.add(Residual::equation_of_motion, largest_ratio(now.torque - given, size));
-    double reach = 0, gap = 0;
-    for (Index i = 0; i < 3; ++i) {
-      const ManipulatorGeometry& g = manipulator_.geometry;
-      const double a = g.proximal[to_size(i)], b = g.distal[to_size(i)];
-      const Vector2d limb = rotated({a, 0}, now.q(i)) + rotated({b, 0}, now.q(3 + i));
-      const Vector2d open = g.base[to_size(i)] + limb - now.q.segment<2>(6) -
-                            rotated(g.platform[to_size(i)], now.q(8));
-      gap = std::max(gap, open.norm());
-      reach = std::max(reach, a + b);
-    }
-    result.evidence.add(Residual::constraints, gap / reach);
-    if (std::isnan(start_energy_)) start_energy_ = now.kinetic_energy + now.potential_energy;
-    const double change = now.kinetic_energy + now.potential_energy - start_energy_;
+    const ManipulatorGeometry& g = manipulator_.geometry;
+    double reach = 0;
+    for (std::size_t i = 0; i < 3; ++i) reach = std::max(reach, g.proximal[i] + g.distal[i]);
+    result.evidence.add(Residual::constraints, inverse_kinematics(g, pose()).closure_error / reach);
+    const double energy = now.kinetic_energy + now.potential_energy;
+    if (std::isnan(start_energy_)) start_energy_ = energy;
+    const double change = energy - start_energy_;
     turnover_ += std::abs(y_(6) - last_work_);
     last_work_ = y_(6);
     energy_size_ = std::max({energy_size_, now.kinetic_energy, std::abs(change)});
-    largest_imbalance_ = std::max(largest_imbalance_, std::abs(change - y_(6)));
-    if (std::isnan(change - y_(6))) largest_imbalance_ = kNaN;
+    largest_imbalance_ = nan_max(largest_imbalance_, std::abs(change - y_(6)));
   }
 
   /// With what the whole motion shows.
@@ -130,17 +110,18 @@ class MotionIntegrator {
   }
 
   [[nodiscard]] TrajectoryPoint point() const {
-    return {t_, pose_of(y_), y_.segment<3>(3), rate_.segment<3>(3)};
+    return {t_, pose(), y_.segment<3>(3), rate_.segment<3>(3)};
   }
 
   ForwardDynamics result;
 
  private:
+  [[nodiscard]] Pose pose() const { return pose_of(y_.head<3>()); }
+
   Outcome evaluate(double t, const State& y, State& rate) {
     ++result.evaluations;
-    const Vector3d torque = torque_(t);
-    const PlatformAcceleration a =
-        forward_acceleration(manipulator_, pose_of(y), y.segment<3>(3), torque, wrench_);
+    const PlatformAcceleration a = forward_acceleration(manipulator_, pose_of(y.head<3>()),
+                                                        y.segment<3>(3), torque_(t), wrench_);
     rate << y.segment<3>(3), a.acceleration, a.power;
     return a.outcome;
   }
@@ -176,11 +157,7 @@ class MotionIntegrator {
 
   /// Of a parallel singularity, by the sign: there the equations in the actuators' angles have no
   /// solution, but a step may jump over it, and whether one does is up to rounding.
-  [[nodiscard]] double side() const {
-    const Posture posture = inverse_kinematics(manipulator_.geometry, pose_of(y_));
-    if (!posture.outcome.solved()) return 0;
-    return jacobians(manipulator_.geometry, pose_of(y_), posture).parallel.determinant();
-  }
+  [[nodiscard]] double side() const { return parallel_determinant(manipulator_.geometry, pose()); }
 
   static constexpr const char* kSingularity =
       "a parallel (type 2) singularity is passed, where the actuators' angles do not determine the "

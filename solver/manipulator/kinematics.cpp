@@ -1,5 +1,6 @@
 #include "solver/manipulator/kinematics.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,11 +25,6 @@ Eigen::Vector2<T> unit(const T& angle) {
 double wrapped(double angle) {
   const double a = std::remainder(angle, 2 * std::numbers::pi);
   return a <= -std::numbers::pi ? std::numbers::pi : a;
-}
-
-std::string limb_name(std::size_t i) {
-  const std::string n = std::to_string(i + 1);
-  return "limb " + n + " (A" + n + "-B" + n + "-C" + n + ")";
 }
 
 /// The triangle A_i B_i C_i from its sides: a = |A B|, b = |B C|, r = |A C|.
@@ -66,18 +62,17 @@ T active_angle(const Vector2d& p_AC, const LimbAngles<T>& limb, int working_mode
 
 /// Why the limb cannot reach, or empty.
 std::string out_of_reach(std::size_t i, double a, double b, double r) {
-  const double roundoff = 4 * kEps * (a + b + r);
-  if (r - (a + b) <= roundoff && std::abs(a - b) - r <= roundoff && r > roundoff) return {};
+  const double roundoff = 4 * kEps * (a + b + r), beyond = r - (a + b),
+               within = std::abs(a - b) - r;
+  if (beyond <= roundoff && within <= roundoff && r > roundoff) return {};
   std::ostringstream why;
-  why.precision(6);
-  if (r - (a + b) > roundoff) {
-    why << limb_name(i) << " cannot reach: C is " << r << " m from A, " << r - (a + b)
-        << " m farther than its links are long together";
-  } else if (std::abs(a - b) - r > roundoff) {
-    why << limb_name(i) << " cannot reach: C is " << r << " m from A, " << std::abs(a - b) - r
-        << " m nearer than the difference of its links allows";
-  } else if (r <= roundoff) {
-    why << limb_name(i) << " has C on A: with links of equal length its direction is free";
+  why << "limb " << i + 1 << " (A" << i + 1 << "-B" << i + 1 << "-C" << i + 1 << ")";
+  if (beyond <= roundoff && within <= roundoff) {
+    why << " has C on A: with links of equal length its direction is free";
+  } else {
+    why << " cannot reach: C is " << r << " m from A, " << std::max(beyond, within)
+        << (beyond > roundoff ? " m farther than its links are long together"
+                              : " m nearer than the difference of its links allows");
   }
   return why.str();
 }
@@ -112,10 +107,12 @@ void check_geometry(const ManipulatorGeometry& g) {
     const auto n = [i] { return std::to_string(i + 1); };
     if (!g.base[i].allFinite()) throw ModelError("base point A" + n() + " is not finite");
     if (!g.platform[i].allFinite()) throw ModelError("platform point C" + n() + " is not finite");
-    if (!(g.proximal[i] > 0) || !std::isfinite(g.proximal[i]))
-      throw ModelError("the proximal length of limb " + n() + " must be positive");
-    if (!(g.distal[i] > 0) || !std::isfinite(g.distal[i]))
-      throw ModelError("the distal length of limb " + n() + " must be positive");
+    for (const auto& [name, length] :
+         {std::pair("proximal", g.proximal[i]), {"distal", g.distal[i]}}) {
+      if (!(length > 0) || !std::isfinite(length))
+        throw ModelError("the " + std::string(name) + " length of limb " + n() +
+                         " must be positive");
+    }
     if (std::abs(g.working_mode[i]) != 1)
       throw ModelError("the working mode of limb " + n() + " must be 1 or -1");
   }
@@ -124,10 +121,9 @@ void check_geometry(const ManipulatorGeometry& g) {
 
 Posture inverse_kinematics(const ManipulatorGeometry& g, const Pose& pose) {
   check_geometry(g);
-  if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !std::isfinite(pose.phi))
-    throw ModelError("the pose is not finite");
+  require(pose.vector().allFinite(), "the pose is not finite");
   Posture posture;
-  const Vector2d P(pose.x, pose.y);
+  const Vector2d P = pose.position();
   for (std::size_t i = 0; i < 3; ++i) {
     posture.C[i] = P + rotated(g.platform[i], pose.phi);
     const Vector2d p_AC = posture.C[i] - g.base[i];
@@ -183,7 +179,7 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
       const auto k = static_cast<Index>(i);
       const Vector2d c = rotated(g.platform[i], result.pose.phi);
       const Vector2d B = g.base[i] + g.proximal[i] * unit(active[i]);
-      const Vector2d d = Vector2d(result.pose.x, result.pose.y) + c - B;
+      const Vector2d d = result.pose.position() + c - B;
       const double gap = std::hypot(d.x(), d.y()) - g.distal[i];
       residual(k) = gap * (1 + gap / (2 * g.distal[i]));
       J.row(k) << d.x(), d.y(), cross(c, d) / size;
@@ -202,9 +198,7 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
     // Quadratic convergence ends where the steps stop shrinking at the level of round-off.
     if (norm <= 4 * kEps * size || (norm <= 1e-12 * size && norm >= last / 2)) return result;
     last = norm;
-    result.pose.x += step(0);
-    result.pose.y += step(1);
-    result.pose.phi += step(2) / size;
+    result.pose = pose_of(result.pose.vector() + step.cwiseProduct(Vector3d(1, 1, 1 / size)));
   }
   std::ostringstream why;
   why << "no assembly of the manipulator found near the start: the loops stay open by "
@@ -217,7 +211,7 @@ Jacobians jacobians(const ManipulatorGeometry& g, const Pose& pose, const Postur
   Jacobians j;
   j.platform_radius = platform_radius(g);
   j.serial_distance = 1;
-  const Vector2d P(pose.x, pose.y);
+  const Vector2d P = pose.position();
   for (std::size_t i = 0; i < 3; ++i) {
     const auto k = static_cast<Index>(i);
     const Vector2d d = posture.C[i] - posture.B[i];
@@ -228,6 +222,11 @@ Jacobians jacobians(const ManipulatorGeometry& g, const Pose& pose, const Postur
   const Vector3d sigma = singular_values(scaled(j));
   j.parallel_distance = sigma(2) / sigma(0);
   return j;
+}
+
+double parallel_determinant(const ManipulatorGeometry& g, const Pose& pose) {
+  const Posture posture = inverse_kinematics(g, pose);
+  return posture.outcome.solved() ? jacobians(g, pose, posture).parallel.determinant() : kNaN;
 }
 
 HoldingTorques holding_torques(const Jacobians& j, const Vector3d& wrench) {

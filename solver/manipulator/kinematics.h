@@ -41,7 +41,13 @@ struct Pose {
   double x = 0;    ///< of P [m]
   double y = 0;    ///< of P [m]
   double phi = 0;  ///< platform orientation [rad]
+
+  [[nodiscard]] Vector2d position() const { return {x, y}; }
+  [[nodiscard]] Vector3d vector() const { return {x, y, phi}; }
 };
+[[nodiscard]] inline Pose pose_of(const Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
 
 /// All joint positions and absolute link angles of a pose. What is not reached is NaN.
 struct Posture {
@@ -96,6 +102,9 @@ struct Jacobians {
 /// @pre posture.outcome.solved()
 [[nodiscard]] Jacobians jacobians(const ManipulatorGeometry& geometry, const Pose& pose,
                                   const Posture& posture);
+
+/// det J_x [m^4], 0 at a parallel singularity; NaN out of reach.
+[[nodiscard]] double parallel_determinant(const ManipulatorGeometry& geometry, const Pose& pose);
 
 /// What the actuators give to hold a platform that carries a wrench (paper Fig. 5).
 struct HoldingTorques {

@@ -1,5 +1,6 @@
 #include "solver/manipulator/manipulator.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -23,9 +24,8 @@ std::string numbered(char letter, std::size_t i) {
   return name;
 }
 
-template <Real T>
-bool positive(const T& number) {
-  return value(number) > 0 && std::isfinite(value(number));
+bool positive(double number) {
+  return number > 0 && std::isfinite(number);
 }
 
 double platform_area(const std::array<Vector2d, 3>& c) {
@@ -40,11 +40,14 @@ bool has_area(const std::array<Vector2d, 3>& c) {
 
 /// The end of a link at a joint: sprung, welded where the kind is `rigid`, else hinged.
 template <class Kind>
-MemberEnd end_at(const Joint<Kind>& joint, Kind rigid, const std::string& name) {
-  if (joint.kind != Kind::sprung)
-    return {joint.kind == rigid ? EndFixity::welded : EndFixity::hinged, 0, 0};
-  require(positive(joint.stiffness), "the spring stiffness of the " + name + " must be positive");
-  return {EndFixity::sprung, joint.stiffness, 0};
+void set_joint(const Joint<Kind>& joint, Kind rigid, const std::string& name, MemberEnd& end) {
+  if (joint.kind == Kind::sprung) {
+    require(positive(joint.stiffness), "the spring stiffness of the " + name + " must be positive");
+    end.fixity = EndFixity::sprung;
+    end.stiffness = joint.stiffness;
+  } else {
+    end.fixity = joint.kind == rigid ? EndFixity::welded : EndFixity::hinged;
+  }
 }
 
 bool is_eq25(PlatformJointKind kind) {
@@ -62,56 +65,47 @@ void check_platform_joints(const ManipulatorDesign& design) {
               "for C1, C2 and C3");
     }
     if (design.platform.kind == PlatformDesign::Kind::rigid) continue;
-    require(kind != PlatformJointKind::welded,
-            "a link cannot be welded to the platform at " + C +
-                ": a node of constant-strain triangles has no rotation; choose hinged, or a rigid "
-                "platform");
-    require(kind != PlatformJointKind::sprung,
-            "a spring cannot join a link's rotation to the platform at " + C +
-                ": a node of constant-strain triangles has no rotation; choose hinged, or a rigid "
-                "platform");
+    for (const auto& [joint, problem] :
+         {std::pair(PlatformJointKind::welded, "a link cannot be welded to the platform at "),
+          {PlatformJointKind::sprung,
+           "a spring cannot join a link's rotation to the platform at "}})
+      require(kind != joint, problem + C +
+                                 ": a node of constant-strain triangles has no rotation; choose "
+                                 "hinged, or a rigid platform");
     require(!is_eq25(kind),
             "Eq. 25 gives the rotation of a rigid platform: one of triangles has no single "
             "rotation; choose hinged, or a rigid platform");
   }
 }
 
-Member make_member(const LinkDesign& link, double length, std::string name, Index first,
-                   Index second) {
+Member make_member(const LinkDesign& link, double length, const std::string& first_name,
+                   const std::string& second_name, Index first) {
   Member member;
-  member.name = std::move(name);
-  member.nodes = {first, second};
+  member.name = first_name + "-" + second_name;
+  member.nodes = {first, first + 3};
   member.section = member.end_section = link_section(link, length);
   member.theory = link.theory;
   member.mass = link.mass_matrix;
   member.elements = link.elements;
   member.axially_flexible = link.axially_flexible;
+  for (MemberEnd& end : member.ends) end.inertia = link.inertia.value_or(0) / 2;
   return member;
 }
 
 void add_limb(const ManipulatorDesign& design, std::size_t i, Model& model) {
   const auto k = static_cast<Index>(i);
   const ManipulatorGeometry& g = design.geometry;
+  const std::string A = numbered('A', i), B = numbered('B', i), C = numbered('C', i);
   const bool grounded = design.active[i].kind != ActiveKind::free;
-  model.supports.push_back({numbered('A', i), kA + k, {true, true, grounded}});
-
-  Member proximal = make_member(design.proximal[i], g.proximal[i],
-                                numbered('A', i) + "-" + numbered('B', i), kA + k, kB + k);
-  Member distal = make_member(design.distal[i], g.distal[i],
-                              numbered('B', i) + "-" + numbered('C', i), kB + k, kC + k);
-  proximal.ends[0] =
-      end_at(design.active[i], ActiveKind::locked, "active joint " + numbered('A', i));
-  distal.ends[0] = end_at(design.elbow[i], ElbowKind::welded, "elbow joint " + numbered('B', i));
-  distal.ends[1] = end_at(design.platform_joint[i], PlatformJointKind::welded,
-                          "platform joint " + numbered('C', i));
-  for (MemberEnd& end : proximal.ends) end.inertia = design.proximal[i].inertia.value_or(0) / 2;
-  for (MemberEnd& end : distal.ends) end.inertia = design.distal[i].inertia.value_or(0) / 2;
+  model.supports.push_back({A, kA + k, {true, true, grounded}});
+  Member proximal = make_member(design.proximal[i], g.proximal[i], A, B, kA + k);
+  Member distal = make_member(design.distal[i], g.distal[i], B, C, kB + k);
+  set_joint(design.active[i], ActiveKind::locked, "active joint " + A, proximal.ends[0]);
+  set_joint(design.elbow[i], ElbowKind::welded, "elbow joint " + B, distal.ends[0]);
+  set_joint(design.platform_joint[i], PlatformJointKind::welded, "platform joint " + C,
+            distal.ends[1]);
   model.members.push_back(std::move(proximal));
   model.members.push_back(std::move(distal));
-}
-
-Coordinate node_coordinate(Coordinate::Kind kind, Index node) {
-  return {kind, node, -1, 0};
 }
 
 void add_rigid_platform(const ManipulatorDesign& design, const Eigen::Matrix2d& R_WP,
@@ -122,7 +116,7 @@ void add_rigid_platform(const ManipulatorDesign& design, const Eigen::Matrix2d& 
 
   const PlatformJointKind kind = design.platform_joint[0].kind;
   if (!is_eq25(kind)) return;
-  LinearConstraint eq25{"eq25", {{node_coordinate(Coordinate::Kind::rotation, kP), 1}}};
+  LinearConstraint eq25{"eq25", {{Coordinate{Coordinate::Kind::rotation, kP, -1, 0}, 1}}};
   for (Index limb = 0; limb < 3; ++limb) {
     eq25.terms.emplace_back(Coordinate{Coordinate::Kind::end_rotation, -1, 2 * limb + 1, 1},
                             kind == PlatformJointKind::eq25_mean ? -1.0 / 3 : -1.0);
@@ -144,11 +138,11 @@ void add_pin(const TriangleMesh& mesh, std::size_t vertex, double radius, Index 
               "pin radius or fewer refinements");
   for (const Coordinate::Kind kind : {Coordinate::Kind::x, Coordinate::Kind::y}) {
     LinearConstraint tie;
-    tie.name = "pin " + model.nodes[static_cast<std::size_t>(pin)].name +
-               (kind == Coordinate::Kind::x ? " x" : " y");
-    tie.terms.emplace_back(node_coordinate(kind, pin), 1);
+    tie.name =
+        "pin " + model.nodes[to_size(pin)].name + (kind == Coordinate::Kind::x ? " x" : " y");
+    tie.terms.emplace_back(Coordinate{kind, pin, -1, 0}, 1);
     for (const auto& [node, weight] : weights)
-      tie.terms.emplace_back(node_coordinate(kind, first + node), -weight);
+      tie.terms.emplace_back(Coordinate{kind, first + node, -1, 0}, -weight);
     model.constraints.push_back(std::move(tie));
   }
 }
@@ -179,7 +173,7 @@ void add_triangles(const ManipulatorDesign& design, const Pose& pose, const Eige
   const Index first = pinned ? kP + 1 : kC;
   const std::size_t shared = pinned ? 0 : 4;
   for (std::size_t n = shared; n < mesh.nodes.size(); ++n)
-    model.nodes.push_back({"", Vector2d(pose.x, pose.y) + R_WP * mesh.nodes[n]});
+    model.nodes.push_back({"", pose.position() + R_WP * mesh.nodes[n]});
   model.triangles.reserve(mesh.triangles.size());
   for (TriangleMesh::Nodes t : mesh.triangles) {
     for (Index& node : t) node = node < 0 ? -1 : first + node;
@@ -202,25 +196,22 @@ void restrict_effects(LinkDesign& link, Effects active) {
 }  // namespace
 
 template <Real T>
-T link_mass(const LinkDesignOf<T>& link, const std::type_identity_t<T>& length) {
-  if (link.mass) return T(*link.mass);
-  return link.material.rho * link.thickness * link.width * length;
-}
-
-template <Real T>
 SectionOf<T> link_section(const LinkDesignOf<T>& link, const std::type_identity_t<T>& length) {
-  require(positive(length), "a link's length must be positive");
-  require(positive(link.thickness), "a link's thickness must be positive");
-  require(positive(link.width), "a link's width must be positive");
-  require(positive(link.material.E), "a link's Young's modulus must be positive");
+  for (const auto& [name, number] : {std::pair("length", value(length)),
+                                     {"thickness", value(link.thickness)},
+                                     {"width", value(link.width)},
+                                     {"Young's modulus", value(link.material.E)},
+                                     {"shear coefficient", link.shear_coefficient}})
+    require(positive(number), std::string("a link's ") + name + " must be positive");
   require(value(link.material.nu) > -1 && value(link.material.nu) <= 0.5,
           "a link's Poisson's ratio must lie between -1 and 0.5");
   require(link.elements >= 1, "a link needs at least one element");
-  require(positive(link.shear_coefficient), "a link's shear coefficient must be positive");
-  const T mass = link_mass(link, length);
-  require(value(mass) >= 0 && std::isfinite(value(mass)), "a link's mass must not be negative");
-  require(link.inertia.value_or(0) >= 0 && std::isfinite(link.inertia.value_or(0)),
-          "a link's inertia must not be negative");
+  const T mass =
+      link.mass ? T(*link.mass) : T(link.material.rho * link.thickness * link.width * length);
+  for (const auto& [name, number] :
+       {std::pair("mass", value(mass)), {"inertia", link.inertia.value_or(0)}})
+    require(number >= 0 && std::isfinite(number),
+            std::string("a link's ") + name + " must not be negative");
 
   const T area = link.thickness * link.width;
   const T second_moment = area * link.thickness * link.thickness / 12.0;
@@ -245,7 +236,7 @@ PlatformMassOf<T> platform_mass(const PlatformDesignOf<T>& platform,
     result.mass = T(*platform.mass);
   } else {
     require(has_area(c), "the platform's triangle C1 C2 C3 has no area: give its mass instead");
-    require(positive(platform.thickness), "the platform's thickness must be positive");
+    require(positive(value(platform.thickness)), "the platform's thickness must be positive");
     result.mass = platform.material.rho * platform.thickness * platform_area(c);
   }
   require(value(result.mass) >= 0 && std::isfinite(value(result.mass)),
@@ -267,8 +258,6 @@ PlatformMass platform_mass(const ManipulatorDesign& design) {
   return platform_mass(design.platform, design.geometry.platform);
 }
 
-template double link_mass(const LinkDesignOf<double>&, const double&);
-template Dual link_mass(const LinkDesignOf<Dual>&, const Dual&);
 template SectionOf<double> link_section(const LinkDesignOf<double>&, const double&);
 template SectionOf<Dual> link_section(const LinkDesignOf<Dual>&, const Dual&);
 template PlatformMassOf<double> platform_mass(const PlatformDesignOf<double>&,
@@ -282,16 +271,14 @@ Model build_manipulator(const ManipulatorDesign& design, const Pose& pose) {
   check_platform_joints(design);
 
   Model model;
-  model.nodes.reserve(10);
-  for (std::size_t i = 0; i < 3; ++i)
-    model.nodes.push_back({numbered('A', i), design.geometry.base[i]});
-  for (std::size_t i = 0; i < 3; ++i) model.nodes.push_back({numbered('B', i), posture.B[i]});
-  for (std::size_t i = 0; i < 3; ++i) model.nodes.push_back({numbered('C', i), posture.C[i]});
-  model.nodes.push_back({"P", {pose.x, pose.y}});
+  for (const auto& [letter, places] :
+       {std::pair('A', design.geometry.base), {'B', posture.B}, {'C', posture.C}}) {
+    for (std::size_t i = 0; i < 3; ++i) model.nodes.push_back({numbered(letter, i), places[i]});
+  }
+  model.nodes.push_back({"P", pose.position()});
   for (std::size_t i = 0; i < 3; ++i) add_limb(design, i, model);
 
-  Eigen::Matrix2d R_WP;
-  R_WP << std::cos(pose.phi), -std::sin(pose.phi), std::sin(pose.phi), std::cos(pose.phi);
+  const Eigen::Matrix2d R_WP = Eigen::Rotation2Dd(pose.phi).toRotationMatrix();
   if (design.platform.kind == PlatformDesign::Kind::rigid) {
     add_rigid_platform(design, R_WP, model);
   } else {

@@ -99,9 +99,6 @@ template <Real T>
 [[nodiscard]] PlatformMassOf<T> platform_mass(const PlatformDesignOf<T>& platform,
                                               const std::array<Vector2d, 3>& vertices);
 [[nodiscard]] PlatformMass platform_mass(const ManipulatorDesign& design);
-/// Total mass of a link [kg].
-template <Real T>
-[[nodiscard]] T link_mass(const LinkDesignOf<T>& link, const std::type_identity_t<T>& length);
 /// @throws ModelError  where a dimension or a constant has no meaning.
 template <Real T>
 [[nodiscard]] SectionOf<T> link_section(const LinkDesignOf<T>& link,

@@ -14,10 +14,6 @@ template <class T>
 using Vec2 = Eigen::Vector2<T>;
 
 template <Real T>
-T cross2(const Vec2<T>& a, const Vec2<T>& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-template <Real T>
 Vec2<T> perp(const Vec2<T>& a) {
   return {-a.y(), a.x()};
 }
@@ -25,9 +21,8 @@ template <Real T>
 Vec2<T> turned(const Vector2d& v, const T& angle) {
   using std::cos;
   using std::sin;
-  const T c = cos(angle);
-  const T s = sin(angle);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+  const Vec2<T> along(cos(angle), sin(angle));
+  return along * v.x() + perp(along) * v.y();
 }
 
 /// Unit vectors a, e along proximal and distal links, and c = C_i - P.
@@ -50,37 +45,39 @@ RigidLink rigid_link(const LinkDesign& link, double length) {
   return {mass, length / 2, link.inertia.value_or(mass * length * length / 12)};
 }
 
-/// Of Christoffel symbols.
-Matrix9d coriolis_matrix(const RigidManipulator& m, const Vector9d& q, const Vector9d& q_dot) {
-  Matrix9d C = Matrix9d::Zero();
-  for (Index i = 0; i < 3; ++i) {
-    const auto k = to_size(i);
-    const Limb<double> l = limb<double>(m, q, i);
-    // Of the coupling m l1 lc cos(theta_a - theta_p) in M.
-    const double h = m.distal[k].mass * l.proximal * m.distal[k].center * cross(l.a, l.e);
-    C(i, 3 + i) = -h * q_dot(3 + i);
-    C(3 + i, i) = h * q_dot(i);
-  }
-  const Vector2d center = rotated(m.platform.center, q(8));
-  C(6, 8) = -m.platform.mass * center.x() * q_dot(8);
-  C(7, 8) = -m.platform.mass * center.y() * q_dot(8);
-  return C;
+Vector3d body_inertia(const RigidManipulator& m, Index body) {
+  const auto of = [](const auto& b) { return Vector3d(b.mass, b.mass, b.inertia); };
+  if (body == 6) return of(m.platform);
+  return of((body < 3 ? m.proximal : m.distal)[to_size(body % 3)]);
 }
 
-Vector9d gravity_vector(const RigidManipulator& m, const Vector9d& q) {
-  const Vector2d& g = m.gravity;
-  Vector9d N;
-  for (Index i = 0; i < 3; ++i) {
-    const auto k = to_size(i);
-    const Limb<double> l = limb<double>(m, q, i);
-    N(i) = -(m.proximal[k].mass * m.proximal[k].center + m.distal[k].mass * l.proximal) *
-           perpendicular(l.a).dot(g);
-    N(3 + i) = -m.distal[k].mass * m.distal[k].center * perpendicular(l.e).dot(g);
+/// A body's centre of mass and the matrix of its motion.
+template <Real T>
+struct BodyPlace {
+  Vec2<T> position;
+  Eigen::Matrix<T, 3, 9> J = Eigen::Matrix<T, 3, 9>::Zero();
+};
+
+template <Real T>
+BodyPlace<T> body_place(const RigidManipulator& m, const Vector9<T>& q, Index body) {
+  BodyPlace<T> place;
+  const auto add_arm = [&](const Vector2d& arm, Index angle) {
+    const Vec2<T> r = turned<T>(arm, q(angle));
+    place.position += r;
+    place.J.col(angle).template head<2>() += perp(r);
+  };
+  if (body == 6) {
+    place.position = q.template segment<2>(6);
+    place.J.template block<2, 2>(0, 6).setIdentity();
+    add_arm(m.platform.center, 8);
+  } else {
+    const std::size_t k = to_size(body % 3);
+    place.position = m.geometry.base[k].template cast<T>();
+    if (body >= 3) add_arm({m.geometry.proximal[k], 0}, body - 3);
+    add_arm({(body < 3 ? m.proximal : m.distal)[k].center, 0}, body);
   }
-  const Vector2d center = rotated(m.platform.center, q(8));
-  N.segment<2>(6) = -m.platform.mass * g;
-  N(8) = -m.platform.mass * perpendicular(center).dot(g);
-  return N;
+  place.J(2, body < 6 ? body : 8) = T(1);
+  return place;
 }
 
 Vector9d coordinates(const Pose& pose, const Posture& posture) {
@@ -89,7 +86,7 @@ Vector9d coordinates(const Pose& pose, const Posture& posture) {
     q(i) = posture.active[to_size(i)];
     q(3 + i) = posture.passive[to_size(i)];
   }
-  q.tail<3>() << pose.x, pose.y, pose.phi;
+  q.tail<3>() = pose.vector();
   return q;
 }
 
@@ -121,23 +118,13 @@ RigidManipulator rigid_manipulator(const ManipulatorDesign& design) {
   return m;
 }
 
-template <Real T>
-Eigen::Matrix<T, 9, 9> mass_matrix(const RigidManipulator& m, const Vector9<T>& q) {
-  Eigen::Matrix<T, 9, 9> M = Eigen::Matrix<T, 9, 9>::Zero();
-  for (Index i = 0; i < 3; ++i) {
-    const Limb<T> l = limb(m, q, i);
-    const RigidLink& p = m.proximal[to_size(i)];
-    const RigidLink& d = m.distal[to_size(i)];
-    M(i, i) = p.inertia + p.mass * p.center * p.center + d.mass * l.proximal * l.proximal;
-    M(3 + i, 3 + i) = d.inertia + d.mass * d.center * d.center;
-    M(i, 3 + i) = M(3 + i, i) = d.mass * l.proximal * d.center * l.a.dot(l.e);
+Eigen::Matrix<Dual, 9, 9> mass_matrix(const RigidManipulator& m, const Vector9<Dual>& q) {
+  Eigen::Matrix<Dual, 9, 9> M = Eigen::Matrix<Dual, 9, 9>::Zero();
+  for (Index body = 0; body < 7; ++body) {
+    const Eigen::Matrix<Dual, 3, 9> J = body_place(m, q, body).J;
+    const Eigen::Vector3<Dual> inertia = body_inertia(m, body).cast<Dual>();
+    M += J.transpose() * inertia.asDiagonal() * J;
   }
-  const PlatformMass& platform = m.platform;
-  const Vec2<T> lever = perp(turned<T>(platform.center, q(8)));
-  M(6, 6) = M(7, 7) = platform.mass;
-  M(6, 8) = M(8, 6) = platform.mass * lever.x();
-  M(7, 8) = M(8, 7) = platform.mass * lever.y();
-  M(8, 8) = platform.inertia + platform.mass * platform.center.squaredNorm();
   return M;
 }
 
@@ -150,8 +137,8 @@ Eigen::Matrix<T, 9, 3> motion_map(const RigidManipulator& m, const Vector9<T>& q
   Square K, D = Square::Zero();
   for (Index i = 0; i < 3; ++i) {
     const Limb<T> l = limb(m, q, i);
-    K.row(i) << l.e.x(), l.e.y(), cross2(l.c, l.e) / size;
-    D(i, i) = l.proximal * cross2(l.a, l.e);
+    K.row(i) << l.e.x(), l.e.y(), perp(l.c).dot(l.e) / size;
+    D(i, i) = l.proximal * perp(l.a).dot(l.e);
   }
   Square G = Eigen::PartialPivLU<Square>(K).solve(D);
   G.row(2) /= T(size);
@@ -177,14 +164,12 @@ Vector9<T> velocities(const RigidManipulator& m, const Vector9<T>& q,
   for (Index i = 0; i < 3; ++i) {
     const Limb<T> l = limb(m, q, i);
     const Vec2<T> rate = platform.template head<2>() + perp(l.c) * platform(2);
-    q_dot(i) = l.e.dot(rate) / (l.proximal * cross2(l.a, l.e));
+    q_dot(i) = l.e.dot(rate) / (l.proximal * perp(l.a).dot(l.e));
     q_dot(3 + i) = (perp(l.e).dot(rate) - l.proximal * l.a.dot(l.e) * q_dot(i)) / l.distal;
   }
   return q_dot;
 }
 
-template Matrix9d mass_matrix(const RigidManipulator&, const Vector9d&);
-template Eigen::Matrix<Dual, 9, 9> mass_matrix(const RigidManipulator&, const Vector9<Dual>&);
 template Matrix93d motion_map(const RigidManipulator&, const Vector9d&);
 template Eigen::Matrix<Dual, 9, 3> motion_map(const RigidManipulator&, const Vector9<Dual>&);
 template Vector9d velocities(const RigidManipulator&, const Vector9d&, const Vector3d&);
@@ -198,11 +183,21 @@ RigidTerms rigid_terms(const RigidManipulator& m, const Pose& pose, const Vector
   if (!terms.outcome.solved()) return terms;
   terms.q = coordinates(pose, posture);
   terms.q_dot = velocities<double>(m, terms.q, velocity);
-  terms.M = mass_matrix<double>(m, terms.q);
-  terms.C = coriolis_matrix(m, terms.q, terms.q_dot);
-  terms.N = gravity_vector(m, terms.q);
-  const auto W = motion_map<Dual>(m, with_rates(terms.q, terms.q_dot));
-  terms.W = W.unaryExpr([](const Dual& x) { return x.value(); });
+  const Vector9<Dual> q = with_rates(terms.q, terms.q_dot);
+  terms.M.setZero();
+  terms.C.setZero();
+  terms.N.setZero();
+  for (Index b = 0; b < 7; ++b) {
+    const BodyPlace<Dual> place = body_place(m, q, b);
+    BodyTerms& body = terms.bodies[to_size(b)];
+    body = {body_inertia(m, b), values_of(place.position), values_of(place.J), rates_of(place.J)};
+    const Matrix93d momentum = body.J.transpose() * body.inertia.asDiagonal();
+    terms.M += momentum * body.J;
+    terms.C += momentum * body.J_dot;
+    terms.N -= momentum.leftCols<2>() * m.gravity;
+  }
+  const Eigen::Matrix<Dual, 9, 3> W = motion_map(m, q);
+  terms.W = values_of(W);
   terms.W_dot = rates_of(W);
   terms.Mh = terms.W.transpose() * terms.M * terms.W;
   terms.Ch = terms.W.transpose() * (terms.M * terms.W_dot + terms.C * terms.W);
@@ -213,7 +208,7 @@ RigidTerms rigid_terms(const RigidManipulator& m, const Pose& pose, const Vector
 PropertyResiduals property_residuals(const RigidManipulator& m, const RigidTerms& terms) {
   const Vector9<Dual> q = with_rates(terms.q, terms.q_dot);
   const Eigen::Matrix<Dual, 9, 3> W = motion_map<Dual>(m, q);
-  const Eigen::Matrix<Dual, 3, 3> Mh = W.transpose() * mass_matrix<Dual>(m, q) * W;
+  const Eigen::Matrix<Dual, 3, 3> Mh = W.transpose() * mass_matrix(m, q) * W;
   const Matrix3d Mh_dot = rates_of(Mh);
   const Matrix3d S = Mh_dot - 2 * terms.Ch;
   const double scale = Mh_dot.norm() + 2 * terms.Ch.norm();

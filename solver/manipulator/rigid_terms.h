@@ -53,9 +53,14 @@ template <int n, int m>
   return values.unaryExpr([](const Dual& x) { return derivative(x); });
 }
 
-/// M [kg, kg m, kg m^2], symmetric.
-template <Real T>
-[[nodiscard]] Eigen::Matrix<T, 9, 9> mass_matrix(const RigidManipulator& m, const Vector9<T>& q);
+template <int n, int m>
+[[nodiscard]] Eigen::Matrix<double, n, m> values_of(const Eigen::Matrix<Dual, n, m>& values) {
+  return values.unaryExpr([](const Dual& x) { return x.value(); });
+}
+
+/// M with its rate [kg, kg m, kg m^2], symmetric.
+[[nodiscard]] Eigen::Matrix<Dual, 9, 9> mass_matrix(const RigidManipulator& m,
+                                                    const Vector9<Dual>& q);
 
 /// W = [I; d theta_p / d theta_a; d(x, y, phi) / d theta_a].
 /// @pre no parallel singularity
@@ -67,6 +72,13 @@ template <Real T>
 [[nodiscard]] Vector9<T> velocities(const RigidManipulator& m, const Vector9<T>& q,
                                     const Eigen::Matrix<T, 3, 1>& platform);
 
+/// A body in one state, (xdot, ydot, omega) = J q. at its centre of mass.
+struct BodyTerms {
+  Vector3d inertia;   ///< mass, mass, and inertia about the centre [kg, kg, kg m^2]
+  Vector2d position;  ///< of the centre [m]
+  Eigen::Matrix<double, 3, 9> J, J_dot;
+};
+
 /// All terms of Eq. 1-5 in one state; NaN unless solved.
 struct RigidTerms {
   /// singular: out of reach, at a parallel singularity (no W) or at a serial one (the velocity of
@@ -74,12 +86,13 @@ struct RigidTerms {
   Outcome outcome;
   Vector9d q = Vector9d::Constant(kNaN), q_dot = q;
   Matrix9d M = Matrix9d::Constant(kNaN);
-  Matrix9d C = M;  ///< of Christoffel symbols, so that M. - 2 C is skew-symmetric
+  Matrix9d C = M;  ///< sum of J^T diag(inertia) J., so that M. - 2 C is skew-symmetric
   Vector9d N = q;  ///< gravity, dV/dq [N, N m]
   Matrix93d W = Matrix93d::Constant(kNaN), W_dot = W;
   /// Mh symmetric positive definite; Mh. - 2 Ch skew-symmetric
   Matrix3d Mh = Matrix3d::Constant(kNaN), Ch = Mh;
   Vector3d Nh = Vector3d::Constant(kNaN);
+  std::array<BodyTerms, 7> bodies;  ///< proximal 1-3, distal 1-3, platform
 };
 
 /// @param velocity  of the platform (xdot, ydot [m/s], phidot [rad/s])

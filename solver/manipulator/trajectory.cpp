@@ -16,14 +16,6 @@ void require_path(bool holds, const char* message) {
   if (!holds) throw PathError(message);
 }
 
-Vector3d as_vector(const Pose& pose) {
-  return {pose.x, pose.y, pose.phi};
-}
-
-Pose as_pose(const Vector3d& v) {
-  return {v(0), v(1), v(2)};
-}
-
 TrajectoryPoint evaluate(const Circle& circle, double t) {
   require_path(circle.center.allFinite() && std::isfinite(circle.phi), "the circle is not finite");
   require_path(circle.radius >= 0 && std::isfinite(circle.radius),
@@ -32,22 +24,17 @@ TrajectoryPoint evaluate(const Circle& circle, double t) {
   const double w = circle.angular_speed;
   const double rx = circle.radius * std::cos(w * t);
   const double ry = circle.radius * std::sin(w * t);
-  TrajectoryPoint point;
-  point.pose = {circle.center.x() + rx, circle.center.y() + ry, circle.phi};
-  point.velocity = {-w * ry, w * rx, 0};
-  point.acceleration = {-w * w * rx, -w * w * ry, 0};
-  return point;
+  return {0,
+          {circle.center.x() + rx, circle.center.y() + ry, circle.phi},
+          {-w * ry, w * rx, 0},
+          {-w * w * rx, -w * w * ry, 0}};
 }
 
 /// from + s (to - from), with ds = ds/dt and dds = d2s/dt2.
 TrajectoryPoint between(const Pose& from, const Pose& to, double s, double ds, double dds) {
-  const Vector3d line = as_vector(to) - as_vector(from);
+  const Vector3d line = to.vector() - from.vector();
   require_path(line.allFinite(), "the ends of the path are not finite");
-  TrajectoryPoint point;
-  point.pose = as_pose(as_vector(from) + s * line);
-  point.velocity = ds * line;
-  point.acceleration = dds * line;
-  return point;
+  return {0, pose_of(from.vector() + s * line), ds * line, dds * line};
 }
 
 TrajectoryPoint evaluate(const Line& line, double t) {
@@ -83,12 +70,8 @@ TrajectoryPoint evaluate(const Spline& spline, double time) {
   const Vector3d p1 = spline.pose.row(k);
   const Vector3d a0 = spline.acceleration.row(k - 1);
   const Vector3d a1 = spline.acceleration.row(k);
-  TrajectoryPoint point;
-  point.pose =
-      as_pose(a * p0 + b * p1 + (h * h / 6) * (a * (a * a - 1) * a0 + b * (b * b - 1) * a1));
-  point.velocity = (p1 - p0) / h + (h / 6) * ((1 - 3 * a * a) * a0 + (3 * b * b - 1) * a1);
-  point.acceleration = a * a0 + b * a1;
-  return point;
+  return {0, pose_of(a * p0 + b * p1 + (h * h / 6) * (a * (a * a - 1) * a0 + b * (b * b - 1) * a1)),
+          (p1 - p0) / h + (h / 6) * ((1 - 3 * a * a) * a0 + (3 * b * b - 1) * a1), a * a0 + b * a1};
 }
 
 bool is_still(const Circle& circle) {
@@ -102,7 +85,7 @@ bool is_still(const Spline& spline) {
 /// A line, or from rest to rest.
 template <class Way>
 bool is_still(const Way& line) {
-  return as_vector(line.from) == as_vector(line.to);
+  return line.from.vector() == line.to.vector();
 }
 
 }  // namespace
@@ -115,20 +98,15 @@ Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& po
   require_path(n >= 3, "a table of poses needs at least three points");
   require_path(poses.size() == times.size(), "a table of poses needs one time for each pose");
   Spline spline{times, Eigen::MatrixX3d(n, 3), Eigen::MatrixX3d::Zero(n, 3)};
-  Eigen::VectorXd h(n - 1);
-  for (Index k = 0; k < n; ++k) {
-    const auto i = static_cast<std::size_t>(k);
-    spline.pose.row(k) = as_vector(poses[i]).transpose();
-    if (k > 0) h(k - 1) = times[i] - times[i - 1];
-  }
-  require_path(spline.pose.allFinite() && std::isfinite(times.front()) && h.allFinite(),
-               "the table of poses is not finite");
+  for (Index k = 0; k < n; ++k) spline.pose.row(k) = poses[to_size(k)].vector();
+  const Eigen::Map<const Eigen::VectorXd> knots(times.data(), n);
+  const Eigen::VectorXd h = knots.tail(n - 1) - knots.head(n - 1);
+  require_path(spline.pose.allFinite() && knots.allFinite(), "the table of poses is not finite");
   for (Index k = 0; k + 1 < n; ++k) {
     if (h(k) > 0) continue;
     throw PathError("the times of the table of poses must ascend; knot " + std::to_string(k + 1) +
-                    " at " + std::to_string(times[static_cast<std::size_t>(k + 1)]) +
-                    " s does not follow " + std::to_string(times[static_cast<std::size_t>(k)]) +
-                    " s");
+                    " at " + std::to_string(knots[k + 1]) + " s does not follow " +
+                    std::to_string(knots[k]) + " s");
   }
   const bool periodic = ends == SplineEnds::periodic;
   require_path(!periodic || spline.pose.row(0) == spline.pose.row(n - 1),
@@ -146,24 +124,19 @@ Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& po
     rhs.row(row) = 6 * (slope(after) - slope(before));
   };
   for (Index k = 1; k + 1 < n; ++k) bend(k, k - 1, k, k + 1);
-  switch (ends) {
-    case SplineEnds::natural:
-      entries.emplace_back(0, 0, 1);
-      entries.emplace_back(n - 1, n - 1, 1);
-      break;
-    case SplineEnds::at_rest:
-      entries.emplace_back(0, 0, 2 * h(0));
-      entries.emplace_back(0, 1, h(0));
-      rhs.row(0) = 6 * slope(0);
-      entries.emplace_back(n - 1, n - 1, 2 * h(n - 2));
-      entries.emplace_back(n - 1, n - 2, h(n - 2));
-      rhs.row(n - 1) = -6 * slope(n - 2);
-      break;
-    case SplineEnds::periodic:
-      bend(0, n - 2, 0, 1);
-      entries.emplace_back(n - 1, n - 1, 1);
-      entries.emplace_back(n - 1, 0, -1);
-      break;
+  if (periodic) {
+    bend(0, n - 2, 0, 1);
+    entries.emplace_back(n - 1, n - 1, 1);
+    entries.emplace_back(n - 1, 0, -1);
+  } else {
+    entries.emplace_back(0, 0, 2 * h(0));
+    entries.emplace_back(n - 1, n - 1, 2 * h(n - 2));
+  }
+  if (ends == SplineEnds::at_rest) {
+    entries.emplace_back(0, 1, h(0));
+    rhs.row(0) = 6 * slope(0);
+    entries.emplace_back(n - 1, n - 2, h(n - 2));
+    rhs.row(n - 1) = -6 * slope(n - 2);
   }
   Eigen::SparseMatrix<double> A(n, n);
   A.setFromTriplets(entries.begin(), entries.end());

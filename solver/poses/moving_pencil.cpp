@@ -43,9 +43,7 @@ MovingPencil::MovingPencil(const Model& model, const ManipulatorGeometry& geomet
     : system_(model, {.condensed = true}),
       start_posture_(inverse_kinematics(geometry, pose)),
       start_phi_(pose.phi) {
-  next_.member.resize(model.members.size());
-  next_.plate.resize(model.plates.size());
-  next_.rigid_body.resize(model.rigid_bodies.size());
+  next_.part.resize(system_.motion().part.size());
   const System& start = system_.start();
   const Index n = start.K.rows();
   free_coordinates_ = n;
@@ -73,22 +71,21 @@ MovingPencil::MovingPencil(const Model& model, const ManipulatorGeometry& geomet
     const Index q = start.constraints.free[to_size(u)];
     if (q >= 0 && start.coordinates.is_rotation[to_size(u)]) length_[q] = size;
   }
+  P_.setZero(n, inside());
   static_cast<void>(move_to(start_posture_, pose));
 }
 
 Outcome MovingPencil::move_to(const Posture& posture, const Pose& pose) {
   for (std::size_t i = 0; i < 3; ++i) {
-    next_.member[2 * i].angle = posture.active[i] - start_posture_.active[i];
-    next_.member[2 * i + 1].angle = posture.passive[i] - start_posture_.passive[i];
+    next_.part[2 * i].angle = posture.active[i] - start_posture_.active[i];
+    next_.part[2 * i + 1].angle = posture.passive[i] - start_posture_.passive[i];
   }
-  for (auto* parts : {&next_.plate, &next_.rigid_body}) {
-    for (PartMotion& part : *parts) part.angle = pose.phi - start_phi_;
-  }
+  for (std::size_t part = 6; part < next_.part.size(); ++part)
+    next_.part[part].angle = pose.phi - start_phi_;
   Outcome outcome = system_.move_to(next_);
   if (!outcome.solved()) return outcome;
   K_ = system_.K();
   M_ = system_.M();
-  P_.setZero(K_.rows(), inside());
   const RowMajorMatrix& T = system_.constraints().T;
   for (std::size_t l = 0; l < links_.size(); ++l) {
     const MovingElement& element = system_.elements()[l];
@@ -98,6 +95,7 @@ Outcome MovingPencil::move_to(const Posture& posture, const Pose& pose) {
       Eigen::Matrix<double, 1, 6> row = P.row(j);
       element.to_world(row, direction);
       double* const column = &P_(0, links_[l].first + j);
+      for (const Index q : links_[l].ends) column[q] = 0;
       for (Index i = 0; i < 6; ++i) {
         const Index u = element.coordinates[to_size(i)];
         for (int a = T.outerIndexPtr()[u]; a < T.outerIndexPtr()[u + 1]; ++a)
@@ -117,9 +115,9 @@ Index MovingPencil::eigenvalues_below(double shift) {
       const double pivot = 1 - shift * mu_[j];
       if (pivot == 0) return -1;
       if (pivot < 0) ++below;
-      for (const Index q : link.ends) {
-        const double factor = shift * shift / pivot * P[q];
-        for (const Index p : link.ends) shifted_(p, q) -= factor * P[p];
+      for (auto q = link.ends.begin(); q != link.ends.end(); ++q) {
+        const double factor = shift * shift / pivot * P[*q];
+        for (auto p = q; p != link.ends.end(); ++p) shifted_(*p, *q) -= factor * P[*p];
       }
     }
   }
@@ -191,8 +189,8 @@ void MovingPencil::measure_strain(const VectorBlock<rows>& X,
 /// Row by row; none is judged by coordinates that are rounding of the others (backward_error.h),
 /// modes inside by the energy of the whole.
 template <int rows>
-void MovingPencil::measure_residual(const VectorBlock<rows>& X, Workspace<rows>& space,
-                                    ModeMeasures<rows>& measures) const {
+void MovingPencil::measure_residual(const VectorBlock<rows>& X, const VectorBlock<rows>& MX,
+                                    Workspace<rows>& space, ModeMeasures<rows>& measures) const {
   using Numbers = Eigen::Array<double, rows, 1>;
   const Numbers w2 = measures.strain / measures.inertia;
   space.sizes = X.ends.cwiseAbs();
@@ -203,7 +201,7 @@ void MovingPencil::measure_residual(const VectorBlock<rows>& X, Workspace<rows>&
   }
   measures.backward_error.setZero();
   for (Index i = 0; i < ends(); ++i) {
-    Numbers sum = -w2 * space.image.ends.col(i).array(), terms = sum.abs();
+    Numbers sum = -w2 * MX.ends.col(i).array(), terms = sum.abs();
     for (Index j = 0; j < ends(); ++j) {
       const double k = K_(j, i);
       if (k == 0) continue;
@@ -214,18 +212,18 @@ void MovingPencil::measure_residual(const VectorBlock<rows>& X, Workspace<rows>&
   }
   const Numbers size = measures.strain.sqrt();  // modes inside have stiffness 1
   for (Index j = 0; j < inside(); ++j) {
-    const Numbers force = w2 * space.image.inside.col(j).array();
+    const Numbers force = w2 * MX.inside.col(j).array();
     measures.backward_error =
         measures.backward_error.max((X.inside.col(j).array() - force).abs() / size);
   }
 }
 
 template <int rows>
-ModeMeasures<rows> MovingPencil::measure(const VectorBlock<rows>& X, Workspace<rows>& space) const {
+ModeMeasures<rows> MovingPencil::measure(const VectorBlock<rows>& X, const VectorBlock<rows>& MX,
+                                         Workspace<rows>& space) const {
   ModeMeasures<rows> measures;
-  mass_times(X, space.image);
-  measures.inertia = X.ends.cwiseProduct(space.image.ends).rowwise().sum() +
-                     X.inside.cwiseProduct(space.image.inside).rowwise().sum();
+  measures.inertia = X.ends.cwiseProduct(MX.ends).rowwise().sum() +
+                     X.inside.cwiseProduct(MX.inside).rowwise().sum();
   const RowMajorMatrix& T = system_.constraints().T;
   space.U.setZero(rows, T.rows());
   for (Index u = 0; u < T.rows(); ++u) {
@@ -233,13 +231,15 @@ ModeMeasures<rows> MovingPencil::measure(const VectorBlock<rows>& X, Workspace<r
       space.U.col(u) += T.valuePtr()[a] * X.ends.col(T.innerIndexPtr()[a]);
   }
   measure_strain(X, space.U, measures);
-  measure_residual(X, space, measures);
+  measure_residual(X, MX, space, measures);
   return measures;
 }
 
 template void MovingPencil::mass_times(const VectorBlock<6>&, VectorBlock<6>&) const;
 template void MovingPencil::mass_times(const VectorBlock<16>&, VectorBlock<16>&) const;
-template ModeMeasures<6> MovingPencil::measure(const VectorBlock<6>&, Workspace<6>&) const;
-template ModeMeasures<16> MovingPencil::measure(const VectorBlock<16>&, Workspace<16>&) const;
+template ModeMeasures<6> MovingPencil::measure(const VectorBlock<6>&, const VectorBlock<6>&,
+                                               Workspace<6>&) const;
+template ModeMeasures<16> MovingPencil::measure(const VectorBlock<16>&, const VectorBlock<16>&,
+                                                Workspace<16>&) const;
 
 }  // namespace trammel::solver

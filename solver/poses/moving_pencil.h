@@ -61,7 +61,6 @@ struct VectorBlock {
 template <int rows>
 struct Workspace {
   Eigen::Matrix<double, rows, Eigen::Dynamic> U, sizes;
-  VectorBlock<rows> image;
 };
 
 /// Energies and equation residuals of approximate modes, one number a row.
@@ -104,8 +103,9 @@ class MovingPencil {
   /// Y = X M.
   template <int rows>
   void mass_times(const VectorBlock<rows>& X, VectorBlock<rows>& Y) const;
+  /// @param MX  X M
   template <int rows>
-  [[nodiscard]] ModeMeasures<rows> measure(const VectorBlock<rows>& X,
+  [[nodiscard]] ModeMeasures<rows> measure(const VectorBlock<rows>& X, const VectorBlock<rows>& MX,
                                            Workspace<rows>& space) const;
 
  private:
@@ -119,8 +119,8 @@ class MovingPencil {
                       const Eigen::Matrix<double, rows, Eigen::Dynamic>& U,
                       ModeMeasures<rows>& measures) const;
   template <int rows>
-  void measure_residual(const VectorBlock<rows>& X, Workspace<rows>& space,
-                        ModeMeasures<rows>& measures) const;
+  void measure_residual(const VectorBlock<rows>& X, const VectorBlock<rows>& MX,
+                        Workspace<rows>& space, ModeMeasures<rows>& measures) const;
 
   MovingSystem system_;
   NominalMotion next_;

@@ -4,9 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <atomic>
 #include <cmath>
-#include <exception>
-#include <memory>
-#include <mutex>
+#include <future>
 #include <numbers>
 #include <optional>
 #include <thread>
@@ -132,7 +130,7 @@ class BlockSolver {
       inverse_iteration();
       if (!rayleigh_ritz()) return false;
       if (change_.head(wanted).maxCoeff() < kTolerance) {
-        measures_ = pencil_.measure(X_, space_);
+        measures_ = pencil_.measure(X_, MX_, space_);
         const double residual = measures_.backward_error.head(wanted).maxCoeff();
         if (residual < kResidual) {
           if (warm && step == 0 && residual < 1e-2 * kResidual && plain_ > 0) --plain_;
@@ -235,28 +233,22 @@ class BlockSolver {
 
 /// Blocks of poses on threads; what each block finds depends on nothing but its poses.
 template <class Solver>
-void solve_blocks(const Task& task, const std::vector<Solver>& solvers) {
+void solve_blocks(const Task& task, std::vector<Solver> solvers) {
   std::atomic<std::size_t> next = 0;
-  std::mutex mutex;
-  std::exception_ptr error;
-  const auto work = [&](Solver solver) {
-    try {
-      const std::size_t poses = task.poses.size();
-      for (std::size_t begin; (begin = kBlock * next++) < poses;)
-        solver.run(begin, std::min(poses, begin + kBlock));
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      error = std::current_exception();
-    }
-    const std::lock_guard lock(mutex);
+  const std::size_t poses = task.poses.size();
+  const auto work = [&](Solver& solver) {
+    for (std::size_t begin; (begin = kBlock * next++) < poses;)
+      solver.run(begin, std::min(poses, begin + kBlock));
+  };
+  std::vector<std::future<void>> threads;
+  for (Solver& solver : solvers)
+    threads.push_back(std::async(std::launch::async, work, std::ref(solver)));
+  for (const std::future<void>& thread : threads) thread.wait();  // before an error is thrown
+  for (std::future<void>& thread : threads) thread.get();
+  for (const Solver& solver : solvers) {
     task.result.counters += solver.counters;
     task.result.by_itself += solver.by_itself;
-  };
-  std::vector<std::thread> threads;
-  for (std::size_t i = 1; i < solvers.size(); ++i) threads.emplace_back(work, solvers[i]);
-  work(solvers.front());
-  for (std::thread& thread : threads) thread.join();
-  if (error) std::rethrow_exception(error);
+  }
 }
 
 /// The first pose within reach.

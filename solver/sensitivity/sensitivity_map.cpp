@@ -1,9 +1,5 @@
 #include "solver/sensitivity/sensitivity_map.h"
 
-#include <Eigen/Geometry>
-#include <cmath>
-#include <limits>
-
 namespace trammel::solver {
 
 FirstFrequency first_frequency(const ManipulatorDesign& design, const DesignParameter& parameter,
@@ -25,27 +21,6 @@ FirstFrequency first_frequency(const ManipulatorDesign& design, const DesignPara
   }
   if (first.outcome.solved()) first.outcome = {Status::singular, "every motion is rigid"};
   return first;
-}
-
-PoseGrid reachable_grid(const ManipulatorGeometry& geometry, double phi, Index columns) {
-  check_geometry(geometry);
-  if (columns < 2) throw ModelError("a grid of poses has at least two columns");
-  Vector2d low = Vector2d::Constant(-std::numeric_limits<double>::infinity());
-  Vector2d high = -low;
-  const Eigen::Rotation2Dd turn(phi);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vector2d center = geometry.base[i] - turn * geometry.platform[i];
-    const double reach = geometry.proximal[i] + geometry.distal[i];
-    low = low.cwiseMax((center.array() - reach).matrix());
-    high = high.cwiseMin((center.array() + reach).matrix());
-  }
-  const Vector2d size = high - low;
-  if (!(size.minCoeff() > 0)) {
-    throw ModelError("no pose of this orientation is within reach of the three limbs");
-  }
-  const double step = size.x() / static_cast<double>(columns - 1);
-  const auto rows = static_cast<Index>(std::floor(size.y() / step * (1 + 1e-12))) + 1;
-  return {low.x(), low.y(), step, step, columns, rows, phi};
 }
 
 SensitivityMap map_first_frequency(const ManipulatorDesign& design,

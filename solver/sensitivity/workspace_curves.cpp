@@ -1,5 +1,5 @@
 #include <Eigen/Geometry>
-#include <Eigen/LU>
+#include <algorithm>
 #include <array>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
@@ -7,6 +7,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "solver/sensitivity/sensitivity_map.h"
 
@@ -29,38 +30,27 @@ std::array<Annulus, 3> reach_annuli(const ManipulatorGeometry& g, double phi) {
   return all;
 }
 
-bool reached_by_others(const std::array<Annulus, 3>& all, std::size_t own, const Vector2d& P) {
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (i == own) continue;
-    const double r = (P - all[i].center).norm();
-    if (r < all[i].inner || r > all[i].outer) return false;
-  }
-  return true;
+bool reached_by_others(const std::array<Annulus, 3>& all, const Annulus& own, const Vector2d& P) {
+  return std::ranges::all_of(all, [&](const Annulus& limb) {
+    const double r = (P - limb.center).norm();
+    return &limb == &own || (r >= limb.inner && r <= limb.outer);
+  });
 }
 
-void add_arcs(const std::array<Annulus, 3>& all, std::size_t own, double radius, Index points,
+void add_arcs(const std::array<Annulus, 3>& all, const Annulus& own, double radius, Index points,
               std::vector<Polyline>& arcs) {
-  if (radius == 0) return;
   Polyline arc;
-  for (Index k = 0; k <= points; ++k) {
+  for (Index k = 0; k <= points && radius > 0; ++k) {
     const double angle =
         2 * std::numbers::pi * static_cast<double>(k) / static_cast<double>(points);
-    const Vector2d P = all[own].center + radius * Vector2d(std::cos(angle), std::sin(angle));
+    const Vector2d P = own.center + radius * Vector2d(std::cos(angle), std::sin(angle));
     if (reached_by_others(all, own, P)) {
       arc.push_back(P);
     } else if (!arc.empty()) {
-      arcs.push_back(std::move(arc));
-      arc.clear();
+      arcs.push_back(std::exchange(arc, {}));
     }
   }
   if (!arc.empty()) arcs.push_back(std::move(arc));
-}
-
-/// det J_x [m^4]; NaN out of reach.
-double determinant(const ManipulatorGeometry& geometry, const Pose& pose) {
-  const Posture posture = inverse_kinematics(geometry, pose);
-  if (!posture.outcome.solved()) return std::numeric_limits<double>::quiet_NaN();
-  return jacobians(geometry, pose, posture).parallel.determinant();
 }
 
 /// det J_x = 0 between two places where its signs, `a` and `b`, differ; nothing where the way from
@@ -71,7 +61,7 @@ std::optional<Vector2d> crossing(const ManipulatorGeometry& geometry, double phi
   bool left = false;
   const auto along = [&](double t) {
     const Vector2d P = from + t * (to - from);
-    const double value = determinant(geometry, {P.x(), P.y(), phi});
+    const double value = parallel_determinant(geometry, {P.x(), P.y(), phi});
     left = left || std::isnan(value);
     return left ? 0.0 : value;  // 0 ends the search
   };
@@ -88,19 +78,36 @@ std::vector<Polyline> workspace_boundary(const ManipulatorGeometry& geometry, do
   check_geometry(geometry);
   const std::array<Annulus, 3> all = reach_annuli(geometry, phi);
   std::vector<Polyline> arcs;
-  for (std::size_t i = 0; i < 3; ++i) {
-    add_arcs(all, i, all[i].outer, points, arcs);
-    add_arcs(all, i, all[i].inner, points, arcs);
+  for (const Annulus& limb : all) {
+    for (const double radius : {limb.outer, limb.inner}) add_arcs(all, limb, radius, points, arcs);
   }
   return arcs;
+}
+
+PoseGrid reachable_grid(const ManipulatorGeometry& geometry, double phi, Index columns) {
+  check_geometry(geometry);
+  if (columns < 2) throw ModelError("a grid of poses has at least two columns");
+  Vector2d low = Vector2d::Constant(-std::numeric_limits<double>::infinity());
+  Vector2d high = -low;
+  for (const Annulus& limb : reach_annuli(geometry, phi)) {
+    low = low.cwiseMax((limb.center.array() - limb.outer).matrix());
+    high = high.cwiseMin((limb.center.array() + limb.outer).matrix());
+  }
+  const Vector2d size = high - low;
+  if (!(size.minCoeff() > 0)) {
+    throw ModelError("no pose of this orientation is within reach of the three limbs");
+  }
+  const double step = size.x() / static_cast<double>(columns - 1);
+  const auto rows = static_cast<Index>(std::floor(size.y() / step * (1 + 1e-12))) + 1;
+  return {low.x(), low.y(), step, step, columns, rows, phi};
 }
 
 std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry,
                                              const PoseGrid& grid) {
   Eigen::MatrixXd value(grid.rows, grid.columns);
-  const auto at = [&](Index i, Index j) { return Vector2d(grid.pose(j, i).x, grid.pose(j, i).y); };
   for (Index j = 0; j < grid.rows; ++j) {
-    for (Index i = 0; i < grid.columns; ++i) value(j, i) = determinant(geometry, grid.pose(j, i));
+    for (Index i = 0; i < grid.columns; ++i)
+      value(j, i) = parallel_determinant(geometry, grid.pose(j, i));
   }
   std::vector<Polyline> segments;
   for (Index j = 0; j + 1 < grid.rows; ++j) {
@@ -114,8 +121,8 @@ std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry
         const double a = value(j + dj[k], i + di[k]);
         const double b = value(j + dj[next], i + di[next]);
         if (!((a < 0 && b >= 0) || (a >= 0 && b < 0))) continue;
-        const Vector2d from = at(i + di[k], j + dj[k]);
-        const Vector2d to = at(i + di[next], j + dj[next]);
+        const Vector2d from = grid.pose(j + dj[k], i + di[k]).position();
+        const Vector2d to = grid.pose(j + dj[next], i + di[next]).position();
         const std::optional<Vector2d> zero = crossing(geometry, grid.phi, from, to, a, b);
         if (zero) crossings.push_back(*zero);
       }

@@ -137,9 +137,7 @@ void recover_triangles(const System& system, const VectorXd& u, StaticSolution& 
   for (std::size_t i = 0; i < model.triangles.size(); ++i) {
     const Triangle& triangle = model.triangles[i];
     const double size = std::abs(signed_area(corners(model, triangle)));
-    const auto stress = [&](const Vector3d& at) {
-      return plate_stress(system, triangle, at, u);
-    };
+    const auto stress = [&](const Vector3d& at) { return plate_stress(system, triangle, at, u); };
     solution.triangle_stress.row(static_cast<Index>(i)) = stress(Vector3d::Constant(1 / 3.0));
     for (std::size_t k = 0; k < (triangle.quadratic() ? 6 : 3); ++k) {
       solution.node_stress.row(triangle.nodes[k]) += size * stress(points[k]);
@@ -153,37 +151,20 @@ void recover_triangles(const System& system, const VectorXd& u, StaticSolution& 
 /// of the theory solved.
 void sum_external_forces(const System& system, const ElasticState& state,
                          StaticSolution& solution) {
-  Vector2d force = Vector2d::Zero();
-  double moment = 0;
-  const auto add = [&](Index node, const Vector2d& f, double m) {
-    force += f;
-    moment += m + cross(system.mesh.positions[to_size(node)], f);
-  };
   VectorXd load = acting_load(system, state);
   if (state.prestress) {  // second-order theory: the forces turn with what they act on
     load -= geometric_stiffness_forces(system, *state.prestress, state.u);
   }
-  for (Index i = 0; i < load.size(); ++i) {
-    const Index node = system.coordinates.node_of[to_size(i)];
-    const bool x = system.coordinates.node[to_size(node)][0] == i;
-    if (system.coordinates.is_rotation[to_size(i)]) {
-      add(node, Vector2d::Zero(), load[i]);
-    } else {
-      add(node, load[i] * (x ? Vector2d::UnitX() : Vector2d::UnitY()), 0);
-    }
-  }
-  for (std::size_t i = 0; i < system.model.supports.size(); ++i) {
-    const Eigen::RowVector3d r = solution.reaction.row(static_cast<Index>(i));
-    add(system.model.supports[i].node, {r[0], r[1]}, r[2]);
-  }
+  ForceSum sum = sum_forces(system, system.mesh.positions, load, solution);
   for (const Spring& spring : system.model.springs) {
     if (spring.nodes[1] >= 0) continue;
     const Eigen::RowVector3d u = solution.displacement.row(spring.nodes[0]);
-    add(spring.nodes[0], {-spring.stiffness[0] * u[0], -spring.stiffness[1] * u[1]},
-        spring.stiffness[2] == 0 ? 0.0 : -spring.stiffness[2] * u[2]);
+    sum.add(system.mesh.positions[to_size(spring.nodes[0])],
+            {-spring.stiffness[0] * u[0], -spring.stiffness[1] * u[1]},
+            spring.stiffness[2] == 0 ? 0.0 : -spring.stiffness[2] * u[2]);
   }
-  solution.equilibrium_residual = force.norm();
-  solution.moment_residual = std::abs(moment);
+  solution.equilibrium_residual = sum.force.norm();
+  solution.moment_residual = std::abs(sum.moment);
 }
 
 }  // namespace
@@ -272,11 +253,34 @@ void recover(const System& system, const RecoveredForces& forces, StaticSolution
   recover_members(system, forces, solution);
 }
 
+void ForceSum::add(const Vector2d& at, const Vector2d& f, double m) {
+  force += f;
+  moment += m + cross(at, f);
+  terms += Vector2d(f.norm(), std::abs(m) + at.norm() * f.norm());
+}
+
+ForceSum sum_forces(const System& system, const std::vector<Vector2d>& position,
+                    const VectorXd& load, const StaticSolution& solution) {
+  ForceSum sum;
+  for (Index i = 0; i < load.size(); ++i) {
+    const Index node = system.coordinates.node_of[to_size(i)];
+    const bool x = system.coordinates.node[to_size(node)][0] == i;
+    if (system.coordinates.is_rotation[to_size(i)]) {
+      sum.add(position[to_size(node)], Vector2d::Zero(), load[i]);
+    } else {
+      sum.add(position[to_size(node)], load[i] * (x ? Vector2d::UnitX() : Vector2d::UnitY()), 0);
+    }
+  }
+  for (std::size_t i = 0; i < system.model.supports.size(); ++i) {
+    const Eigen::RowVector3d r = solution.reaction.row(static_cast<Index>(i));
+    sum.add(position[to_size(system.model.supports[i].node)], {r[0], r[1]}, r[2]);
+  }
+  return sum;
+}
+
 void postprocess(const System& system, const ElasticState& state, StaticSolution& solution) {
-  std::vector<Vector2d> positions;
-  for (const Node& node : system.model.nodes) positions.push_back(node.position);
   recover(system,
-          {positions, state.u, system.constraints, constraint_forces(system, state),
+          {system.mesh.positions, state.u, system.constraints, constraint_forces(system, state),
            end_forces(system, state)},
           solution);
   recover_triangles(system, state.u, solution);

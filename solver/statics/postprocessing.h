@@ -34,7 +34,7 @@ using ElementForces = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
 /// Forces on the frame elements and in the constraints of a state, by whatever theory.
 struct RecoveredForces {
-  const std::vector<Vector2d>& position;  ///< of the model's nodes [m]
+  const std::vector<Vector2d>& position;  ///< of the nodes of the mesh, the model's first [m]
   const Eigen::VectorXd& u;               ///< of the unconstrained coordinates [m, rad]
   const Constraints& constraints;
   Eigen::VectorXd multipliers;  ///< of the constraint rows [N, N m]
@@ -61,6 +61,19 @@ template <class T>
 /// members: the largest at the ends of their elements and between them, where an element bears
 /// evenly what the forces at its ends leave.
 void recover(const System& system, const RecoveredForces& forces, StaticSolution& solution);
+
+/// Sums of forces and of moments about the origin, and of the magnitudes of their terms.
+struct ForceSum {
+  Vector2d force = Vector2d::Zero();  ///< [N]
+  double moment = 0;                  ///< [N m]
+  Vector2d terms = Vector2d::Zero();  ///< [N], [N m]
+
+  void add(const Vector2d& at, const Vector2d& f, double m);
+};
+/// Of loads on the unconstrained coordinates and of the reactions of supports.
+/// @param position  of the nodes of the mesh [m]
+[[nodiscard]] ForceSum sum_forces(const System& system, const std::vector<Vector2d>& position,
+                                  const Eigen::VectorXd& load, const StaticSolution& solution);
 
 /// Multipliers of the constraint rows: the forces of supports, rigid bodies and inextensible
 /// members, which balance elastic and inertia forces and the loads.

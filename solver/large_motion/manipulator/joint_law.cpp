@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <numbers>
-#include <variant>
 
+#include "solver/large_motion/solve/rigid_member_velocities.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::solver::large_motion {
@@ -19,7 +18,7 @@ struct Turn {
 };
 
 TimeFunction extended(const TimeFunction& law, const Path& path) {
-  return [law, limits = time_limits(path)](double t) {
+  return [law, limits = time_span(path)](double t) {
     const double end = std::clamp(t, limits.first, limits.second), d = t - end;
     std::array<double, 3> motion = law(end);
     if (d == 0) return motion;
@@ -30,12 +29,6 @@ TimeFunction extended(const TimeFunction& law, const Path& path) {
 }
 
 }  // namespace
-
-std::pair<double, double> time_limits(const Path& path) {
-  const auto* spline = std::get_if<Spline>(&path);
-  if (spline != nullptr) return {spline->times.front(), spline->times.back()};
-  return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-}
 
 RigidMotion once_per_time(std::function<InverseDynamics(double)> reckon) {
   struct Last {
@@ -76,6 +69,33 @@ TimeFunction joint_law(const RigidMotion& motion, const Path& path, double start
     }
   };
   return extended(law, path);
+}
+
+VectorXd nominal_rates(const GeometricallyExactSystem& system, const NominalMotion& motion,
+                       int order, const std::vector<DrivenEnd>& ends) {
+  const Model& model = system.model();
+  const auto turn = [order](const PartMotion& part) {
+    return order == 1 ? part.rate : part.acceleration;
+  };
+  const Index nodes = std::ssize(model.nodes), built = nodes - std::ssize(ends);
+  Eigen::MatrixX3d node(nodes, 3);
+  node.topLeftCorner(built, 2) = motion.node[to_size(order)].topRows(built);
+  for (Index i = 0; i < built; ++i) node(i, 2) = turn(motion.at_node(i));
+  for (const DrivenEnd& end : ends)
+    node.row(end.node) << node.row(end.beside).head<2>(), turn(motion.part[end.member]);
+  VectorXd member(std::ssize(model.members));
+  for (Index m = 0; m < member.size(); ++m) member[m] = turn(motion.part[to_size(m)]);
+  VectorXd rates = VectorXd::Zero(system.coordinates());
+  for (const auto& [k, value] : rigid_member_velocities(system, node, member)) rates[k] = value;
+  for (std::size_t i = 0; i < model.masses.size(); ++i) {
+    const PointMass& mass = model.masses[i];
+    if (mass.offset.isZero(0)) continue;
+    const Vector2d center = node.row(mass.node).head<2>().transpose() +
+                            motion.at_node(mass.node).derivative(mass.offset, order);
+    for (std::size_t k = 0; k < 2; ++k)
+      rates[system.layout().mass_centre[i][k]] = center[static_cast<Index>(k)];
+  }
+  return rates;
 }
 
 }  // namespace trammel::solver::large_motion

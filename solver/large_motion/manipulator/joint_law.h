@@ -1,16 +1,14 @@
 #pragma once
 
 #include <functional>
-#include <utility>
+#include <vector>
 
-#include "solver/large_motion/elements/large_motion_model.h"
+#include "solver/elastodynamics/nominal_motion.h"
+#include "solver/large_motion/system/geometrically_exact_system.h"
 #include "solver/manipulator/inverse_dynamics.h"
 
 /// Joints of the rigid manipulator on its path, as laws for drives in large motion.
 namespace trammel::solver::large_motion {
-
-/// First and last time of a path [s].
-[[nodiscard]] std::pair<double, double> time_limits(const Path& path);
 
 /// The rigid manipulator at a time.
 using RigidMotion = std::function<const InverseDynamics&(double)>;
@@ -26,5 +24,19 @@ using RigidMotion = std::function<const InverseDynamics&(double)>;
 /// platform 8
 [[nodiscard]] TimeFunction joint_law(const RigidMotion& motion, const Path& path, double start,
                                      Index part, Index from = -1);
+
+/// A node beside that of a joint, on which the end of a distal link is; its turn is driven.
+struct DrivenEnd {
+  Index node = 0, beside = 0;
+  Index part = 0, from = 0;  ///< of `InverseDynamics::q`
+  std::size_t member = 0;
+};
+
+/// Rates of the coordinates where all parts move as rigid ones: velocities or accelerations, the
+/// derivative of order 1 or 2.
+/// @param ends  the last nodes of the model; the others are the builder's
+[[nodiscard]] VectorXd nominal_rates(const GeometricallyExactSystem& system,
+                                     const NominalMotion& motion, int order,
+                                     const std::vector<DrivenEnd>& ends = {});
 
 }  // namespace trammel::solver::large_motion

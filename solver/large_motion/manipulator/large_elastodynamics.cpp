@@ -14,10 +14,8 @@
 #include "solver/large_motion/manipulator/joint_law.h"
 #include "solver/large_motion/solve/integrate.h"
 #include "solver/large_motion/solve/large_statics.h"
-#include "solver/large_motion/solve/rigid_member_velocities.h"
 #include "solver/large_motion/solve/state_results.h"
 #include "solver/large_motion/solve/static_path.h"
-#include "solver/model/plane.h"
 #include "solver/time/transient_start.h"
 
 namespace trammel::solver::large_motion {
@@ -30,13 +28,6 @@ struct NominalState {
   TrajectoryPoint point;
   InverseDynamics dynamics;
   Model model;  ///< built there, with the loads and the weight
-};
-
-/// A node beside that of a joint, on which the end of a distal link is; its turn is driven.
-struct DrivenEnd {
-  Index node = 0, beside = 0;
-  Index part = 0, from = 0;  ///< of `InverseDynamics::q`
-  std::size_t member = 0;
 };
 
 /// An equilibrium at one time.
@@ -62,41 +53,6 @@ std::vector<DrivenEnd> add_driven_ends(Model& model) {
     }
   }
   return ends;
-}
-
-/// Rates of the parts that the nominal motion gives the coordinates.
-enum class Rate { velocity, acceleration };
-
-VectorXd nominal_rates(const GeometricallyExactSystem& system, const NominalMotion& motion,
-                       const std::vector<DrivenEnd>& ends, Rate rate) {
-  const bool first = rate == Rate::velocity;
-  const auto turn = [first](const PartMotion& part) {
-    return first ? part.rate : part.acceleration;
-  };
-  const PartMotion& platform = motion.plate.empty() ? motion.rigid_body[0] : motion.plate[0];
-  const Eigen::MatrixX2d& translation = first ? motion.velocity : motion.acceleration;
-  const Index built = std::ssize(system.model().nodes) - std::ssize(ends);
-  Eigen::MatrixX3d node(std::ssize(system.model().nodes), 3);
-  node.topLeftCorner(built, 2) = translation.topRows(built);
-  node.col(2).setConstant(turn(platform));
-  for (Index i = 0; i < 6; ++i) node(i, 2) = turn(motion.member[to_size(2 * (i % 3))]);
-  for (const DrivenEnd& end : ends)
-    node.row(end.node) << node.row(end.beside).head<2>(), turn(motion.member[end.member]);
-  VectorXd member(std::ssize(motion.member));
-  for (Index m = 0; m < member.size(); ++m) member[m] = turn(motion.member[to_size(m)]);
-  VectorXd rates = VectorXd::Zero(system.coordinates());
-  for (const auto& [k, value] : rigid_member_velocities(system, node, member)) rates[k] = value;
-  for (std::size_t i = 0; i < system.model().masses.size(); ++i) {
-    const PointMass& mass = system.model().masses[i];
-    if (mass.offset.isZero(0)) continue;
-    const Vector2d arm = rotated(mass.offset, platform.angle);
-    const Vector2d own = node.row(mass.node).head<2>().transpose() +
-                         turn(platform) * perpendicular(arm) -
-                         (first ? 0 : platform.rate * platform.rate) * arm;
-    for (std::size_t k = 0; k < 2; ++k)
-      rates[system.layout().mass_centre[i][k]] = own[static_cast<Index>(k)];
-  }
-  return rates;
 }
 
 class LargeElastodynamics {
@@ -158,8 +114,7 @@ class LargeElastodynamics {
   /// What the rigid parts do from one pose on.
   [[nodiscard]] NominalMotion motion_between(const NominalState& from,
                                              const NominalState& to) const {
-    return nominal_motion(options_.design, from.model, to.dynamics, from.dynamics.q, to.point,
-                          options_.gravity);
+    return nominal_motion(from.model, to.dynamics, from.dynamics.q, to.point, options_.gravity);
   }
 
   /// @param moves  else the drives stand where the model was built
@@ -195,7 +150,7 @@ class LargeElastodynamics {
     still.mass_damping = options_.damping.mass;
     still.strain_rate_damping = options_.damping.stiffness;
     now.system = std::make_unique<GeometricallyExactSystem>(std::move(model), std::move(still));
-    now.system->set_accelerations(rates_of(now, Rate::acceleration));
+    now.system->set_accelerations(rates_of(now, 2));
     StaticPathOptions options;
     options.first_step = 0.5;
     options.small_response = 0.01;
@@ -215,15 +170,15 @@ class LargeElastodynamics {
     return now;
   }
 
-  [[nodiscard]] VectorXd rates_of(const StaticInstant& now, Rate rate) const {
-    return nominal_rates(*now.system, motion_between(now.nominal, now.nominal), now.ends, rate);
+  [[nodiscard]] VectorXd rates_of(const StaticInstant& now, int order) const {
+    return nominal_rates(*now.system, motion_between(now.nominal, now.nominal), order, now.ends);
   }
 
   /// Moves an equilibrium to where it holds with what damping takes up at these rates of its
   /// deflections.
   [[nodiscard]] bool add_damping(StaticInstant& now, const VectorXd& rates) {
     State& state = now.state;
-    const VectorXd nominal = rates_of(now, Rate::velocity);
+    const VectorXd nominal = rates_of(now, 1);
     now.system->set_undamped_velocities([nominal](double) { return nominal; });
     const VectorXd velocities = state.v = nominal + rates;
     Equilibrium equilibrium(*now.system);
@@ -272,7 +227,7 @@ class LargeElastodynamics {
     GeometricallyExactSystem system(std::move(model), std::move(large_motion));
     const auto velocities = [&](double t) {
       const NominalState now{at(options_.path, t), rigid_motion_(t), {}};
-      return nominal_rates(system, motion_between(start_, now), ends, Rate::velocity);
+      return nominal_rates(system, motion_between(start_, now), 1, ends);
     };
     system.set_undamped_velocities(velocities);
     State state = system.reference_state();
@@ -355,18 +310,16 @@ class LargeElastodynamics {
       return std::remainder(rotation - nominal, 2 * std::numbers::pi);
     };
     Eigen::MatrixX3d displacement = sample.displacement.topRows(nodes);
-    const PartMotion& platform = moved.plate.empty() ? moved.rigid_body[0] : moved.plate[0];
     for (Index i = 0; i < nodes; ++i) {
       const Vector2d from = built.model.nodes[to_size(i)].position;
-      displacement.row(i).head<2>() += from.transpose() - moved.position.row(i);
-      const PartMotion& part = i < 6 ? moved.member[to_size(2 * (i % 3))] : platform;
-      displacement(i, 2) = turn(displacement(i, 2), part.angle);
+      displacement.row(i).head<2>() += from.transpose() - moved.node[0].row(i);
+      displacement(i, 2) = turn(displacement(i, 2), moved.at_node(i).angle);
     }
     sample.displacement = std::move(displacement);
     for (Index m = 0; m < sample.end_rotation.rows(); ++m) {
       for (Index end = 0; end < 2; ++end)
         sample.end_rotation(m, end) =
-            turn(sample.end_rotation(m, end), moved.member[to_size(m)].angle);
+            turn(sample.end_rotation(m, end), moved.part[to_size(m)].angle);
     }
     for (Index i = 0; i < 3; ++i) sample.reaction(i, 2) = drive_force(system, state, i);
     return sample;

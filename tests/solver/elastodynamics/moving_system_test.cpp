@@ -66,15 +66,17 @@ struct Walk {
   MovingSystem moving;
 
   Walk(const ManipulatorDesign& d, const Path& p, double t, bool gyroscopic)
-      : design(d), path(p), start(t), moving(build_manipulator(d, at(p, t).pose), {.gyroscopic = gyroscopic}) {}
+      : design(d),
+        path(p),
+        start(t),
+        moving(build_manipulator(d, at(p, t).pose), {.gyroscopic = gyroscopic}) {}
 
   Outcome go_to(double time) {
     const RigidManipulator rigid = rigid_manipulator(design);
     const Vector9d from = inverse_dynamics(rigid, at(path, start)).q;
     const TrajectoryPoint point = at(path, time);
-    return moving.move_to(nominal_motion(design, moving.start().model,
-                                         inverse_dynamics(rigid, point), from, point,
-                                         Vector2d(0.3, -9.81)));
+    return moving.move_to(nominal_motion(moving.start().model, inverse_dynamics(rigid, point), from,
+                                         point, Vector2d(0.3, -9.81)));
   }
 };
 
@@ -195,9 +197,9 @@ BOOST_AUTO_TEST_CASE(the_load_of_inertia_is_that_of_equation_14) {
   model.members = {member};
   MovingSystem moving(model);
   NominalMotion motion = moving.motion();
-  motion.member[0] = {0, w, alpha};
-  motion.acceleration.row(0) = a_A;
-  motion.acceleration.row(1) = a_A + alpha * length * Vector2d(-d.y(), d.x()) - w * w * length * d;
+  motion.part[0] = {0, w, alpha};
+  motion.node[2].row(0) = a_A;
+  motion.node[2].row(1) = a_A + alpha * length * Vector2d(-d.y(), d.x()) - w * w * length * d;
   BOOST_TEST_REQUIRE(moving.move_to(motion).solved());
 
   Eigen::RowVectorXd H7 = Eigen::RowVectorXd::Zero(6);
@@ -318,12 +320,12 @@ BOOST_AUTO_TEST_CASE(a_pose_that_is_refused_leaves_no_trace) {
   const VectorXd force = VectorXd::LinSpaced(moving.constraints().T.rows(), -1, 2);
   const VectorXd multipliers = moving.constraints().multipliers(force);
   int refused = 0;
-  for (std::size_t member = 0; member < before.member.size(); ++member) {
+  for (std::size_t member = 0; member < moving.start().model.members.size(); ++member) {
     const auto& ends = moving.start().model.members[member].nodes;
-    const Vector2d d = before.position.row(ends[1]) - before.position.row(ends[0]);
+    const Vector2d d = before.node[0].row(ends[1]) - before.node[0].row(ends[0]);
     for (const double along : {0.0, 0.5}) {  // of x, of y: the other component is no pivot then
       NominalMotion motion = before;
-      motion.member[member].angle = along * std::numbers::pi - std::atan2(d.y(), d.x());
+      motion.part[member].angle = along * std::numbers::pi - std::atan2(d.y(), d.x());
       refused += moving.move_to(motion).solved() ? 0 : 1;
       BOOST_TEST_REQUIRE(moving.move_to(before).solved());
       BOOST_TEST((moving.constraints().multipliers(force) - multipliers).norm() <

@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(Mh_is_symmetric_positive_definite_and_Mh_dot_minus_2_Ch_is_
       if (!t.outcome.solved()) BOOST_FAIL(t.outcome.reason);
       const Vector9<Dual> q = with_rates(t.q, t.q_dot);
       const Eigen::Matrix<Dual, 9, 3> W = motion_map<Dual>(m, q);
-      const Eigen::Matrix<Dual, 3, 3> Mh = W.transpose() * mass_matrix<Dual>(m, q) * W;
+      const Eigen::Matrix<Dual, 3, 3> Mh = W.transpose() * mass_matrix(m, q) * W;
       const Matrix3d Mh_dot = rates_of(Mh);
       const Matrix3d S = Mh_dot - 2 * t.Ch;
       worst_skew = std::max(worst_skew, (S + S.transpose()).norm() / S.norm());
@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(M_dot_minus_2_C_is_skew_in_all_nine_coordinates) {
   for (int trial = 0; trial < 200; ++trial) {
     const TrajectoryPoint p = random.point();
     const RigidTerms t = rigid_terms(m, p.pose, p.velocity);
-    const Matrix9d M_dot = rates_of(mass_matrix<Dual>(m, with_rates(t.q, t.q_dot)));
+    const Matrix9d M_dot = rates_of(mass_matrix(m, with_rates(t.q, t.q_dot)));
     const Matrix9d S = M_dot - 2 * t.C;
     BOOST_TEST((S + S.transpose()).norm() < 1e-14 * S.norm());
   }

@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(holding_the_total_mass_is_not_holding_the_density) {
   ManipulatorDesign by_density = coarse_design();
   ManipulatorDesign by_total = coarse_design();
   for (std::size_t i = 0; i < 3; ++i) {
-    const double mass = link_mass(by_density.proximal[i], 0.2);
+    const double mass = link_section(by_density.proximal[i], 0.2).mass_per_length * 0.2;
     by_total.proximal[i].mass = by_total.distal[i].mass = mass;
   }
   const Pose pose{0.26, 0.15, 0.1};
