@@ -6,7 +6,6 @@
 #include "solver/assembly/system.h"
 #include "solver/assembly/validate.h"
 #include "solver/elements/edge_load.h"
-#include "solver/linalg/symmetric_builder.h"
 #include "solver/model/plane.h"
 
 namespace trammel::solver {
@@ -35,157 +34,106 @@ std::vector<SpringElement> spring_elements(const Model& model, const Coordinates
   return springs;
 }
 
-class Assembler {
- public:
-  Assembler(Model model, Effects active, System& system) : active_(active), system_(system) {
-    validate(model);
-    Discretisation discretisation = discretise(model);
-    system_.constraints = build_constraints(model, discretisation);
-    system_.mesh = std::move(discretisation.mesh);
-    system_.coordinates = std::move(discretisation.coordinates);
-    system_.springs = spring_elements(model, system_.coordinates);
-    system_.model = std::move(model);
-    system_.T = system_.constraints.T;
-  }
+/// Free coordinates that carry nothing keep their place on the diagonal.
+Projection empty_sum(const System& system) {
+  const auto& triangles = system.model.triangles;
+  const bool quadratic = !triangles.empty() && triangles.front().quadratic();
+  const Index size = system.constraints.free_count;
+  Projection sum(system.constraints);
+  sum.reserve(21 * system.mesh.frame.size() + (quadratic ? 78 : 21) * triangles.size() +
+              to_size(size));
+  for (Index i = 0; i < size; ++i) sum.add(i, i, 0.0);
+  return sum;
+}
 
-  void run() {
-    stiffness();
-    if (active_.has(Effect::inertia)) mass();
-    loads();
-  }
+SparseMatrix stiffness(const System& system, Counters& counters) {
+  Projection sum = empty_sum(system);
+  for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
+    sum.add(coordinates, (B.transpose() * c.asDiagonal() * B).eval());
+    ++counters.element_evaluations;
+  });
+  return sum.build();
+}
 
- private:
-  [[nodiscard]] Index free_count() const { return system_.constraints.free_count; }
-  [[nodiscard]] std::size_t entries() const {
-    const auto& triangles = system_.model.triangles;
-    const bool quadratic = !triangles.empty() && triangles.front().quadratic();
-    return 21 * system_.mesh.frame.size() + (quadratic ? 78 : 21) * triangles.size();
-  }
+SparseMatrix mass(const System& system, Counters& counters) {
+  Projection sum = empty_sum(system);
+  for_each_inertia(system, [&](const auto& coordinates, const auto& m) {
+    sum.add(coordinates, m);
+    if (coordinates.size() >= 6) ++counters.element_evaluations;
+  });
+  return sum.build();
+}
 
-  [[nodiscard]] SymmetricBuilder empty_builder() const {
-    SymmetricBuilder builder(free_count());
-    builder.reserve(entries() + static_cast<std::size_t>(free_count()));
-    // Free coordinates that carry nothing keep their place on the diagonal.
-    for (Index i = 0; i < free_count(); ++i) builder.add(i, i, 0.0);
-    return builder;
+void count_effects(const System& system, bool has_inertia, Counters& counters) {
+  const Model& model = system.model;
+  const bool has_weight = !model.gravity.isZero(0);
+  for (const FrameElement& e : system.mesh.frame) {
+    const Member& member = model.members[to_size(e.member)];
+    const bool has_mass = e.section.mass_per_length > 0;
+    const bool turns = e.section.inertia_per_length > 0;
+    if (!e.is_bar() && member.axially_flexible) counters.count(Effect::axial_flexibility, 1);
+    if (!e.is_bar() && has_shear_deformation(member.theory)) counters.count(Effect::shear, 1);
+    if (has_inertia && (has_mass || turns)) counters.count(Effect::link_mass, 1);
+    if (has_inertia && turns && has_rotary_inertia(member.theory))
+      counters.count(Effect::rotary_inertia, 1);
+    if (!has_weight || !has_mass) continue;
+    counters.count(Effect::gravity, 1);
+    counters.count(Effect::link_mass, 1);
   }
-
-  void stiffness() {
-    SymmetricBuilder builder = empty_builder();
-    Projection projection(system_.constraints, builder);
-    for_each_deformation(system_, [&](const auto& coordinates, const auto& B, const auto& c) {
-      projection.add(coordinates, (B.transpose() * c.asDiagonal() * B).eval());
-      ++system_.counters.element_evaluations;
-    });
-    builder.build().swap(system_.K);
-    count_stiffness();
+  for (const Member& member : model.members) {
+    for (const MemberEnd& end : member.ends)
+      if (end.fixity == EndFixity::sprung) counters.count(Effect::joint_compliance, 1);
   }
+  counters.count(Effect::platform_flexibility, std::ssize(model.triangles));
+  if (has_weight)
+    counters.count(Effect::gravity, std::ssize(model.triangles) + std::ssize(model.masses));
+  if (has_inertia) counters.count(Effect::inertia, 1);
+}
 
-  void count_stiffness() {
-    Counters& counters = system_.counters;
-    for (const FrameElement& e : system_.mesh.frame) {
-      const Member& member = system_.model.members[static_cast<std::size_t>(e.member)];
-      if (e.is_bar()) continue;
-      if (member.axially_flexible) counters.count(Effect::axial_flexibility, 1);
-      if (has_shear_deformation(member.theory)) counters.count(Effect::shear, 1);
+Eigen::VectorXd weight_of(const System& system) {
+  const Vector2d& gravity = system.model.gravity;
+  Eigen::VectorXd weight = Eigen::VectorXd::Zero(system.coordinates.size);
+  if (gravity.isZero(0)) return weight;
+  for (const FrameElement& e : system.mesh.frame)
+    detail::scatter(e.coordinates, element_load(e, e.section.mass_per_length * gravity), weight);
+  for_each_plate_mass(system, [&](const auto& coordinates, const auto& m) {
+    Eigen::VectorXd fall(m.cols());  // the same acceleration at every node
+    for (Index i = 0; i < fall.size(); ++i) fall[i] = gravity[i % 2];
+    detail::scatter(coordinates, (m * fall).eval(), weight);
+  });
+  for (const PointMass& point_mass : system.model.masses) {
+    const Vector2d force = point_mass.mass * gravity;
+    detail::scatter(system.coordinates.node[to_size(point_mass.node)],
+                    Vector3d(force.x(), force.y(), cross(point_mass.offset, force)), weight);
+  }
+  return weight;
+}
+
+/// Loads on nodes, members and sides of plates.
+Eigen::VectorXd applied_load(const System& system) {
+  const Model& model = system.model;
+  const auto& node = system.coordinates.node;
+  Eigen::VectorXd sum = Eigen::VectorXd::Zero(system.coordinates.size);
+  for (const NodalLoad& load : model.loads) {
+    if (load.force[2] != 0) {  // asks for the rotation, so that a node without one is an error
+      (void)system.coordinates.number(model, {Coordinate::Kind::rotation, load.node, -1, 0});
     }
-    for (const Member& member : system_.model.members) {
-      for (const MemberEnd& end : member.ends) {
-        if (end.fixity == EndFixity::sprung) counters.count(Effect::joint_compliance, 1);
-      }
-    }
-    counters.count(Effect::platform_flexibility,
-                   static_cast<std::int64_t>(system_.model.triangles.size()));
+    detail::scatter(node[to_size(load.node)], load.force, sum);
   }
-
-  void mass() {
-    SymmetricBuilder builder = empty_builder();
-    Projection projection(system_.constraints, builder);
-    for_each_inertia(system_, [&](const auto& coordinates, const auto& m) {
-      projection.add(coordinates, m);
-      if (coordinates.size() >= 6) ++system_.counters.element_evaluations;
-    });
-    count_link_inertia();
-    builder.build().swap(system_.M);
-    system_.counters.count(Effect::inertia, 1);
+  for (const FrameElement& e : system.mesh.frame) {
+    const Vector2d& load = model.members[to_size(e.member)].load;
+    if (!load.isZero(0)) detail::scatter(e.coordinates, element_load(e, load), sum);
   }
-
-  void count_link_inertia() {
-    for (const FrameElement& e : system_.mesh.frame) {
-      if (e.section.mass_per_length == 0 && e.section.inertia_per_length == 0) continue;
-      const Member& member = system_.model.members[static_cast<std::size_t>(e.member)];
-      system_.counters.count(Effect::link_mass, 1);
-      const bool rotary = has_rotary_inertia(member.theory) && e.section.inertia_per_length > 0;
-      if (rotary) system_.counters.count(Effect::rotary_inertia, 1);
-    }
-  }
-
-  template <std::size_t n, class Vector>
-  void add_load(const std::array<Index, n>& coordinates, const Vector& force) {
-    detail::scatter(coordinates, force, system_.load);
-  }
-
-  template <std::size_t n, class Vector>
-  void add_weight(const std::array<Index, n>& coordinates, const Vector& force) {
-    add_load(coordinates, force);
-    detail::scatter(coordinates, force, system_.weight);
-  }
-
-  void loads() {
-    const Model& model = system_.model;
-    system_.load = system_.weight = Eigen::VectorXd::Zero(system_.coordinates.size);
-    for (const NodalLoad& load : model.loads) {
-      if (load.force[2] != 0) {  // asks for the rotation, so that a node without one is an error
-        (void)system_.coordinates.number(model, {Coordinate::Kind::rotation, load.node, -1, 0});
-      }
-      add_load(system_.coordinates.node[static_cast<std::size_t>(load.node)], load.force);
-    }
-    for (const FrameElement& e : system_.mesh.frame) {
-      const Member& member = model.members[static_cast<std::size_t>(e.member)];
-      const Vector2d weight = e.section.mass_per_length * model.gravity;
-      if (!weight.isZero(0)) {
-        system_.counters.count(Effect::gravity, 1);
-        system_.counters.count(Effect::link_mass, 1);
-        detail::scatter(e.coordinates, element_load(e, weight), system_.weight);
-      }
-      const Vector2d q = member.load + weight;
-      if (!q.isZero(0)) add_load(e.coordinates, element_load(e, q));
-    }
-    edge_loads();
-    if (!model.gravity.isZero(0)) weights();
-    system_.f = system_.T.transpose() * system_.load;
-  }
-
-  void edge_loads() {
-    for (const EdgeLoad& load : system_.model.edge_loads) {
-      const std::array<Vector2d, 3> forces = edge_forces(system_.model, load);
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (load.nodes[i] < 0) continue;
-        const auto& node = system_.coordinates.node[static_cast<std::size_t>(load.nodes[i])];
-        add_load(std::array<Index, 2>{node[0], node[1]}, forces[i]);
-      }
+  for (const EdgeLoad& load : model.edge_loads) {
+    const std::array<Vector2d, 3> forces = edge_forces(model, load);
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (load.nodes[i] < 0) continue;
+      const auto& [x, y, rotation] = node[to_size(load.nodes[i])];
+      detail::scatter(std::array{x, y}, forces[i], sum);
     }
   }
-
-  void weights() {
-    const Model& model = system_.model;
-    system_.counters.count(Effect::gravity,
-                           static_cast<std::int64_t>(model.triangles.size() + model.masses.size()));
-    for_each_plate_mass(system_, [&](const auto& coordinates, const auto& m) {
-      Eigen::VectorXd fall(m.cols());  // the same acceleration at every node
-      for (Index i = 0; i < fall.size(); ++i) fall[i] = model.gravity[i % 2];
-      add_weight(coordinates, (m * fall).eval());
-    });
-    for (const PointMass& point_mass : model.masses) {
-      const Vector2d weight = point_mass.mass * model.gravity;
-      add_weight(system_.coordinates.node[static_cast<std::size_t>(point_mass.node)],
-                 Vector3d(weight.x(), weight.y(), cross(point_mass.offset, weight)));
-    }
-  }
-
-  Effects active_;
-  System& system_;  // no move: Eigen 3.4 copies the sparse matrices in it
-};
+  return sum;
+}
 
 }  // namespace
 
@@ -201,13 +149,26 @@ Vector6d element_load(const FrameElement& element, const Vector2d& load) {
 
 System assemble(const Model& model, Effects active) {
   System system;
-  Assembler(restrict_effects(model, active), active, system).run();
+  system.model = restrict_effects(model, active);
+  validate(system.model);
+  Discretisation discretisation = discretise(system.model);
+  system.constraints = build_constraints(system.model, discretisation);
+  system.mesh = std::move(discretisation.mesh);
+  system.coordinates = std::move(discretisation.coordinates);
+  system.springs = spring_elements(system.model, system.coordinates);
+  system.T = system.constraints.T;
+  const bool has_inertia = active.has(Effect::inertia);
+  stiffness(system, system.counters).swap(system.K);  // Eigen 3.4 copies what is assigned
+  if (has_inertia) mass(system, system.counters).swap(system.M);
+  count_effects(system, has_inertia, system.counters);
+  system.weight = weight_of(system);
+  system.load = applied_load(system) + system.weight;
+  system.f = system.T.transpose() * system.load;
   return system;
 }
 
-Eigen::MatrixX3d mesh_motion(const System& system, const Eigen::VectorXd& q) {
-  const Eigen::VectorXd u = system.T * q;
-  Eigen::MatrixX3d motion(static_cast<Index>(system.mesh.positions.size()), 3);
+Eigen::MatrixX3d motion_of_nodes(const System& system, const Eigen::VectorXd& u) {
+  Eigen::MatrixX3d motion(std::ssize(system.model.nodes), 3);
   for (Index node = 0; node < motion.rows(); ++node) {
     const auto& c = system.coordinates.node[to_size(node)];
     motion.row(node) << u[c[0]], u[c[1]], c[2] < 0 ? kNaN : u[c[2]];
@@ -216,7 +177,7 @@ Eigen::MatrixX3d mesh_motion(const System& system, const Eigen::VectorXd& q) {
 }
 
 Eigen::MatrixX3d node_motion(const System& system, const Eigen::VectorXd& q) {
-  return mesh_motion(system, q).topRows(static_cast<Index>(system.model.nodes.size()));
+  return motion_of_nodes(system, system.T * q);
 }
 
 }  // namespace trammel::solver

@@ -14,20 +14,6 @@
 namespace trammel::solver {
 namespace {
 
-const Plate& plate_of(const System& system, const Triangle& triangle) {
-  return system.model.plates[static_cast<std::size_t>(triangle.plate)];
-}
-
-void add_to_nodes(System& system, const Triangle& triangle, const TriangleInterpolation& at,
-                  const Vector2d& force) {
-  for (Index i = 0; i < at.nodes; ++i) {
-    const auto node = static_cast<std::size_t>(triangle.nodes[static_cast<std::size_t>(i)]);
-    const auto& coordinates = system.coordinates.node[node];
-    system.load[coordinates[0]] += at.N[i] * force.x();
-    system.load[coordinates[1]] += at.N[i] * force.y();
-  }
-}
-
 void project(System& system) {
   system.f = system.T.transpose() * system.load;
 }
@@ -46,49 +32,36 @@ std::map<Side, int> count_sides(const Model& model) {
   return count;
 }
 
-/// Along the side from corner k to the next, at a fraction of it.
-Eigen::Vector3d on_side(std::size_t k, double at) {
-  Eigen::Vector3d L = Eigen::Vector3d::Zero();
-  L[static_cast<Index>(k)] = 1 - at;
-  L[static_cast<Index>((k + 1) % 3)] = at;
-  return L;
-}
-
-/// d(position) / d(fraction) along the side from corner k to the next.
-Vector2d tangent(const Model& model, const Triangle& triangle, std::size_t k, double at) {
-  const auto position = [&](std::size_t i) -> const Vector2d& {
-    return model.nodes[static_cast<std::size_t>(triangle.nodes[i])].position;
-  };
-  const auto dN = side_shape(triangle.quadratic(), at).dN;
-  Vector2d along = dN[0] * position(k) + dN[1] * position((k + 1) % 3);
-  if (triangle.quadratic()) along += dN[2] * position(k + 3);
-  return along;
-}
-
 }  // namespace
 
 void add_body_force(System& system, const BodyForce& force) {
   for (const Triangle& triangle : system.model.triangles) {
+    const double thickness = system.model.plates[to_size(triangle.plate)].thickness;
+    Eigen::Matrix<double, 2, 6> forces = Eigen::Matrix<double, 2, 6>::Zero();
     for (const TriangleQuadraturePoint& point : triangle_quadrature()) {
       const TriangleInterpolation at = interpolate(system.model, triangle, point.area_coordinates);
-      const double volume = point.weight * at.area * plate_of(system, triangle).thickness;
-      add_to_nodes(system, triangle, at, volume * force(at.position));
+      forces += point.weight * at.area * thickness * force(at.position) * at.N.transpose();
     }
+    detail::scatter(system.coordinates.of_triangle<12>(triangle), forces.reshaped(), system.load);
   }
   project(system);
 }
 
 void add_edge_traction(System& system, const Traction& traction) {
   const std::map<Side, int> count = count_sides(system.model);
+  const SideLoad load = [&traction](const Vector2d& position, const Vector2d& tangent) -> Vector2d {
+    const double length = tangent.norm();
+    return length * traction(position, Vector2d(tangent.y(), -tangent.x()) / length);
+  };
   for (const Triangle& triangle : system.model.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       if (count.at(side_of(triangle, k)) != 1) continue;
-      for (const LineQuadraturePoint& point : line_quadrature()) {
-        const TriangleInterpolation at = interpolate(system.model, triangle, on_side(k, point.xi));
-        const Vector2d along = tangent(system.model, triangle, k, point.xi);
-        const Vector2d normal = Vector2d(along.y(), -along.x()) / along.norm();
-        const double area = point.weight * along.norm() * plate_of(system, triangle).thickness;
-        add_to_nodes(system, triangle, at, area * traction(at.position, normal));
+      const std::array nodes{triangle.nodes[k], triangle.nodes[(k + 1) % 3], triangle.nodes[k + 3]};
+      const auto forces = side_forces(system.model, triangle.plate, nodes, load);
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (nodes[i] < 0) continue;
+        const auto& [x, y, rotation] = system.coordinates.node[to_size(nodes[i])];
+        detail::scatter(std::array{x, y}, forces[i], system.load);
       }
     }
   }

@@ -54,12 +54,12 @@ void add_rigid_rows(const Model& model, const Coordinates& coordinates,
                     std::vector<ConstraintRow>& rows) {
   for (std::size_t i = 0; i < model.rigid_bodies.size(); ++i) {
     const RigidBody& body = model.rigid_bodies[i];
-    const auto& reference = coordinates.node[static_cast<std::size_t>(body.reference)];
+    const auto& reference = coordinates.node[to_size(body.reference)];
     for (const Index node : body.attached) {
       if (node == body.reference) continue;
-      const auto& attached = coordinates.node[static_cast<std::size_t>(node)];
-      const Vector2d arm = model.nodes[static_cast<std::size_t>(node)].position -
-                           model.nodes[static_cast<std::size_t>(body.reference)].position;
+      const auto& attached = coordinates.node[to_size(node)];
+      const Vector2d arm =
+          model.nodes[to_size(node)].position - model.nodes[to_size(body.reference)].position;
       const auto add = [&](Terms terms) {
         rows.push_back(
             {ConstraintRow::Source::rigid_body, static_cast<Index>(i), std::move(terms)});
@@ -97,19 +97,18 @@ class Elimination {
   }
 
   std::vector<Index> run(const std::vector<ConstraintRow>& rows) {
-    for (const ConstraintRow& row : rows) {
-      for (const auto& term : row.terms) ++occurrences_[static_cast<std::size_t>(term.first)];
-    }
+    for (const ConstraintRow& row : rows)
+      for (const auto& term : row.terms) ++occurrences_[to_size(term.first)];
     std::vector<Index> pivots;
     pivots.reserve(rows.size());
-    for (const ConstraintRow& row : rows) pivots.push_back(eliminate(row));
+    for (const ConstraintRow& row : rows) pivots.push_back(eliminate(row.terms));
     resolve();
     return pivots;
   }
 
   /// u = sum over free coordinates, for an eliminated u; null where u is free.
   [[nodiscard]] const Terms* expression(Index u) const {
-    const Index row = row_of_[static_cast<std::size_t>(u)];
+    const Index row = row_of_[to_size(u)];
     return row < 0 ? nullptr : &expressions_[static_cast<std::size_t>(row)].terms;
   }
 
@@ -130,47 +129,50 @@ class Elimination {
     entry.magnitude += magnitude;
   }
 
-  /// Replaces the eliminated coordinates of a row until none is left.
-  void substitute(Row& row) const {
+  /// Sum of scaled terms with the eliminated coordinates replaced until none is left.
+  [[nodiscard]] Row substitute(const Terms& terms) const {
+    Row row;
+    for (const auto& [u, c] : terms) add(row, u, c, std::abs(c));
     for (bool again = true; again;) {
       again = false;
       for (auto it = row.begin(); it != row.end();) {
-        const Index expression = row_of_[static_cast<std::size_t>(it->first)];
-        if (expression < 0) {
+        const Terms* const replacement = expression(it->first);
+        if (!replacement) {
           ++it;
           continue;
         }
         const Entry entry = it->second;
         it = row.erase(it);
-        for (const auto& [u, c] : expressions_[static_cast<std::size_t>(expression)].terms) {
+        for (const auto& [u, c] : *replacement)
           add(row, u, c * entry.value, std::abs(c) * entry.magnitude);
-        }
         again = true;
       }
     }
+    return row;
   }
 
-  Index eliminate(const ConstraintRow& constraint) {
-    Row row;
-    double size = 0;
-    for (const auto& [u, coefficient] : constraint.terms) {
-      const double value = coefficient * scale_[static_cast<std::size_t>(u)];
-      add(row, u, value, std::abs(value));
-      size = std::max(size, std::abs(value));
+  /// Entries of a row, but for the pivot and round-off, over a divisor.
+  static Terms significant_terms(const Row& row, Index pivot, double divisor) {
+    Terms terms;
+    for (const auto& [u, entry] : row) {
+      if (u != pivot && std::abs(entry.value) > 1e-14 * entry.magnitude)
+        terms.emplace_back(u, entry.value / divisor);
     }
-    substitute(row);
-    double largest = 0;
+    return terms;
+  }
+
+  Index eliminate(Terms terms) {
+    double size = 0, largest = 0;
+    for (auto& [u, c] : terms) {
+      c *= scale_[to_size(u)];
+      size = std::max(size, std::abs(c));
+    }
+    const Row row = substitute(terms);
     for (const auto& [u, entry] : row) largest = std::max(largest, std::abs(entry.value));
     if (!(largest > kRedundant * size)) return -1;
     const Index pivot = choose_pivot(row, largest);
-    const double value = row[pivot].value;
-    Expression expression{pivot, {}};
-    for (const auto& [u, entry] : row) {
-      if (u == pivot || std::abs(entry.value) <= 1e-14 * entry.magnitude) continue;
-      expression.terms.emplace_back(u, -entry.value / value);
-    }
-    row_of_[static_cast<std::size_t>(pivot)] = static_cast<Index>(expressions_.size());
-    expressions_.push_back(std::move(expression));
+    expressions_.push_back({pivot, significant_terms(row, pivot, -row.at(pivot).value)});
+    row_of_[to_size(pivot)] = std::ssize(expressions_) - 1;
     return pivot;
   }
 
@@ -184,7 +186,7 @@ class Elimination {
         best = u;
         continue;
       }
-      const auto count = occurrences_[static_cast<std::size_t>(u)];
+      const auto count = occurrences_[to_size(u)];
       const auto best_count = occurrences_[static_cast<std::size_t>(best)];
       const double gain = std::abs(entry.value) - std::abs(row.at(best).value);
       if (count < best_count || (count == best_count && gain > -1e-9 * largest)) best = u;
@@ -194,25 +196,11 @@ class Elimination {
 
   /// An expression names only coordinates eliminated after it, or free ones; so backwards.
   void resolve() {
-    for (std::size_t i = expressions_.size(); i-- > 0;) {
-      Expression& expression = expressions_[i];
-      const auto eliminated = [this](const auto& term) {
-        return row_of_[static_cast<std::size_t>(term.first)] >= 0;
-      };
-      if (std::none_of(expression.terms.begin(), expression.terms.end(), eliminated)) continue;
-      Row row;
-      for (const auto& [u, c] : expression.terms) add(row, u, c, std::abs(c));
-      substitute(row);
-      expression.terms.clear();
-      for (const auto& [u, entry] : row) {
-        if (std::abs(entry.value) > 1e-14 * entry.magnitude) {
-          expression.terms.emplace_back(u, entry.value);
-        }
-      }
-    }
+    for (std::size_t i = expressions_.size(); i-- > 0;)
+      expressions_[i].terms = significant_terms(substitute(expressions_[i].terms), -1, 1);
     for (Expression& expression : expressions_) {  // back to the coordinates' own units
-      const double scale = scale_[static_cast<std::size_t>(expression.pivot)];
-      for (auto& [u, c] : expression.terms) c *= scale / scale_[static_cast<std::size_t>(u)];
+      const double scale = scale_[to_size(expression.pivot)];
+      for (auto& [u, c] : expression.terms) c *= scale / scale_[to_size(u)];
     }
   }
 
@@ -223,27 +211,19 @@ class Elimination {
 };
 
 void build_T(const Elimination& elimination, Constraints& constraints, Index size) {
-  constraints.free.assign(static_cast<std::size_t>(size), -1);
-  Index entries = 0;
+  std::vector<Index>& free = constraints.free;
+  free.assign(to_size(size), -1);
+  for (Index u = 0; u < size; ++u)
+    if (!elimination.expression(u)) free[to_size(u)] = constraints.free_count++;
+  std::vector<Eigen::Triplet<double>> entries;
+  Terms itself(1);
   for (Index u = 0; u < size; ++u) {
-    const Terms* terms = elimination.expression(u);
-    entries += terms ? static_cast<Index>(terms->size()) : 1;
-    if (!terms) constraints.free[static_cast<std::size_t>(u)] = constraints.free_count++;
+    itself[0] = {u, 1.0};
+    const Terms* const terms = elimination.expression(u);
+    for (const auto& [v, c] : terms ? *terms : itself) entries.emplace_back(u, free[to_size(v)], c);
   }
   constraints.T.resize(size, constraints.free_count);
-  constraints.T.reserve(entries);
-  for (Index u = 0; u < size; ++u) {
-    constraints.T.startVec(u);
-    const Terms* terms = elimination.expression(u);
-    if (!terms) {
-      constraints.T.insertBack(u, constraints.free[static_cast<std::size_t>(u)]) = 1;
-      continue;
-    }
-    for (const auto& [v, c] : *terms) {  // ascending, as is the numbering of the free ones
-      constraints.T.insertBack(u, constraints.free[static_cast<std::size_t>(v)]) = c;
-    }
-  }
-  constraints.T.finalize();
+  constraints.T.setFromTriplets(entries.begin(), entries.end());
 }
 
 }  // namespace
@@ -262,45 +242,31 @@ Constraints build_constraints(const Model& model, const Discretisation& discreti
 }
 
 Eigen::VectorXd Constraints::multipliers(const Eigen::VectorXd& force) const {
-  // Square system of the kept rows and their pivots; supports, one entry each, come last.
-  std::vector<Index> independent_rows;
-  std::vector<Index> number_of_pivot(static_cast<std::size_t>(T.rows()), -1);
+  // Square system of the kept rows and their pivots.
+  std::vector<Index> kept, number_of_pivot(to_size(T.rows()), -1);
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (pivot[i] < 0 || rows[i].source == ConstraintRow::Source::support) continue;
-    number_of_pivot[static_cast<std::size_t>(pivot[i])] =
-        static_cast<Index>(independent_rows.size());
-    independent_rows.push_back(static_cast<Index>(i));
+    if (pivot[i] < 0) continue;
+    number_of_pivot[to_size(pivot[i])] = std::ssize(kept);
+    kept.push_back(static_cast<Index>(i));
   }
-  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(static_cast<Index>(rows.size()));
-  Eigen::VectorXd remaining_force = force;
-  if (!independent_rows.empty()) {
-    const auto n = static_cast<Index>(independent_rows.size());
-    std::vector<Eigen::Triplet<double>> entries;
-    Eigen::VectorXd right(n);
-    for (Index k = 0; k < n; ++k) {
-      const auto row = static_cast<std::size_t>(independent_rows[static_cast<std::size_t>(k)]);
-      right[k] = force[pivot[row]];
-      for (const auto& [u, c] : rows[row].terms) {
-        const Index equation = number_of_pivot[static_cast<std::size_t>(u)];
-        if (equation >= 0) entries.emplace_back(equation, k, c);
-      }
-    }
-    Eigen::SparseMatrix<double> matrix(n, n);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    SparseLu<double> lu;
-    const Eigen::VectorXd solution = lu.factorize(matrix)
-                                         ? lu.solve(right)
-                                         : Eigen::VectorXd(Eigen::VectorXd::Constant(n, kNaN));
-    for (Index k = 0; k < n; ++k) {
-      const auto row = static_cast<std::size_t>(independent_rows[static_cast<std::size_t>(k)]);
-      lambda[static_cast<Index>(row)] = solution[k];
-      for (const auto& [u, c] : rows[row].terms) remaining_force[u] -= c * solution[k];
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(std::ssize(rows));
+  if (kept.empty()) return lambda;
+  const Index n = std::ssize(kept);
+  std::vector<Eigen::Triplet<double>> entries;
+  Eigen::VectorXd right(n);
+  for (Index k = 0; k < n; ++k) {
+    const auto row = to_size(kept[to_size(k)]);
+    right[k] = force[pivot[row]];
+    for (const auto& [u, c] : rows[row].terms) {
+      const Index equation = number_of_pivot[to_size(u)];
+      if (equation >= 0) entries.emplace_back(equation, k, c);
     }
   }
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (pivot[i] < 0 || rows[i].source != ConstraintRow::Source::support) continue;
-    lambda[static_cast<Index>(i)] = remaining_force[pivot[i]];
-  }
+  SparseMatrix matrix(n, n);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  SparseLu<double> lu;
+  if (!lu.factorize(matrix)) return lambda.setConstant(kNaN);
+  lambda(kept) = lu.solve(right);
   return lambda;
 }
 

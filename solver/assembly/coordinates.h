@@ -19,8 +19,7 @@ struct FrameElement {
   [[nodiscard]] bool is_bar() const { return coordinates[2] < 0; }
 };
 
-/// The model's nodes, in their order, followed by those that cut the members into elements. Drawing
-/// needs no more: `positions`, the elements' nodes and the motions from `mesh_motion`.
+/// The model's nodes, in their order, followed by those that cut the members into elements.
 struct Mesh {
   std::vector<Vector2d> positions;  ///< [m]
   std::vector<FrameElement> frame;  ///< in the order of the members, first to second node
@@ -38,13 +37,12 @@ struct Coordinates {
   std::vector<Index> node_of;                    ///< coordinate -> mesh node it moves or turns at
   std::vector<bool> is_rotation;                 ///< coordinate
 
-  /// (u1 v1 u2 v2 ...) of a triangle's first n / 2 nodes.
+  /// (u1 v1 u2 v2 ...) of a triangle's first n / 2 nodes; -1 for a node that it does not have.
   template <std::size_t n>
   [[nodiscard]] std::array<Index, n> of_triangle(const Triangle& triangle) const {
     std::array<Index, n> numbers{};
-    for (std::size_t i = 0; i < n; ++i) {
-      numbers[i] = node[static_cast<std::size_t>(triangle.nodes[i / 2])][i % 2];
-    }
+    for (std::size_t i = 0; i < n; ++i)
+      numbers[i] = triangle.nodes[i / 2] < 0 ? -1 : node[to_size(triangle.nodes[i / 2])][i % 2];
     return numbers;
   }
 

@@ -1,6 +1,5 @@
 #include "solver/assembly/field_error.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "solver/assembly/strain.h"
@@ -10,55 +9,31 @@
 namespace trammel::solver {
 namespace {
 
-/// Squares of an error and of the exact field, summed up over quadrature points.
-class Norm {
- public:
-  void add(double weight, double error, double exact) {
-    error_ += weight * error * error;
-    exact_ += weight * exact * exact;
-  }
-  void add_squares(double weight, double error, double exact) {
-    error_ += weight * error;
-    exact_ += weight * exact;
+/// Sums of the squares of errors and of exact values.
+template <int n>
+struct Squares {
+  using Values = Eigen::Array<double, n, 1>;
+  Values error = Values::Zero(), exact = Values::Zero();
+
+  void add(double weight, const Values& error_squared, const Values& exact_squared) {
+    error += weight * error_squared;
+    exact += weight * exact_squared;
   }
   /// NaN where the exact field is zero: there is nothing to be relative to.
-  [[nodiscard]] double relative() const { return std::sqrt(error_ / exact_); }
-
- private:
-  double error_ = 0;
-  double exact_ = 0;
-};
-
-/// Largest error over largest exact value; a NaN stays.
-class Largest {
- public:
-  void add(double error, double exact) {
-    if (!(std::abs(error) <= error_)) error_ = std::isnan(error_) ? error_ : std::abs(error);
-    exact_ = std::max(exact_, std::abs(exact));
-  }
-  [[nodiscard]] double relative() const { return error_ / exact_; }
-
- private:
-  double error_ = 0;
-  double exact_ = 0;
+  [[nodiscard]] Values relative() const { return (error / exact).sqrt(); }
 };
 
 MembraneFieldPoint membrane_point(const System& system, const Triangle& triangle,
                                   const TriangleInterpolation& at, const Eigen::VectorXd& u) {
+  const Eigen::Matrix<double, 2, 6> d =
+      detail::gather(system.coordinates.of_triangle<12>(triangle), u).reshaped(2, 6);
+  const Eigen::Matrix2d gradient = d * at.gradient.transpose();  // rows u, v; columns d/dx, d/dy
   MembraneFieldPoint point;
-  Eigen::Matrix2d gradient = Eigen::Matrix2d::Zero();  // rows u, v; columns d/dx, d/dy
-  for (Index i = 0; i < at.nodes; ++i) {
-    const auto node = static_cast<std::size_t>(triangle.nodes[static_cast<std::size_t>(i)]);
-    const auto& coordinates = system.coordinates.node[node];
-    const Vector2d d(u[coordinates[0]], u[coordinates[1]]);
-    point.displacement += at.N[i] * d;
-    gradient += d * at.gradient.col(i).transpose();
-  }
-  const Material& material = system.model.plates[static_cast<std::size_t>(triangle.plate)].material;
+  point.displacement = d * at.N;
   point.rotation = (gradient(1, 0) - gradient(0, 1)) / 2;
-  point.stress =
-      membrane_stress(material, {gradient(0, 0) + gradient(1, 1), gradient(0, 0) - gradient(1, 1),
-                                 gradient(0, 1) + gradient(1, 0)});
+  point.stress = membrane_stress(
+      system.model.plates[to_size(triangle.plate)].material,
+      {gradient.trace(), gradient(0, 0) - gradient(1, 1), gradient(0, 1) + gradient(1, 0)});
   return point;
 }
 
@@ -69,108 +44,80 @@ double energy_density(const Material& material, const Vector3d& s) {
          material.E;
 }
 
-/// N, V, M of the interpolation, from the element's deformations; V and N are uniform.
-class FrameField {
- public:
-  FrameField(const System& system, const FrameElement& element, const Eigen::VectorXd& u)
-      : theory_(system.model.members[static_cast<std::size_t>(element.member)].theory),
-        length_(element.length),
-        phi_(shear_ratio(element.section, theory_, element.length)) {
-    const Vector6d world = detail::gather(element.coordinates, u);
-    local_ = frame_rotation(element.direction) * world;
-    forces_ = frame_rigidity(element.section, theory_, length_)
-                  .cwiseProduct(frame_deformation_matrix(element.direction, length_) * world);
-  }
+/// Interpolation of a frame element whose coordinates are `world`; V and N are uniform.
+BeamFieldPoint frame_point(const FrameElement& e, BeamTheory theory, const Vector6d& world,
+                           double xi) {
+  const double L = e.length, phi = shear_ratio(e.section, theory, L);
+  const Vector3d motion = frame_interpolation(phi, L, xi) * (frame_rotation(e.direction) * world);
+  const Vector3d force = frame_rigidity(e.section, theory, L)
+                             .cwiseProduct(frame_deformation_matrix(e.direction, L) * world);
+  return {motion[0], motion[1],         motion[2],
+          force[0],  -2 * force[2] / L, force[1] + (2 * xi - 1) * force[2]};
+}
 
-  [[nodiscard]] BeamFieldPoint at(double xi) const {
-    const Vector3d motion = frame_interpolation(phi_, length_, xi) * local_;
-    return {motion[0],
-            motion[1],
-            motion[2],
-            forces_[0],
-            -2 * forces_[2] / length_,
-            forces_[1] + (2 * xi - 1) * forces_[2]};
-  }
-  /// Shear compliance [1/N]; 0 for a theory without shear.
-  [[nodiscard]] double shear_compliance(const Section& section) const {
-    return has_shear_deformation(theory_) ? 1 / section.kappa_GA : 0;
-  }
-
- private:
-  BeamTheory theory_;
-  double length_;
-  double phi_;
-  Vector6d local_;
-  Vector3d forces_;
-};
-
-struct BeamNorms {
-  Norm axial, deflection, rotation, axial_force, shear_force, bending_moment, energy;
-  Largest nodal_deflection, nodal_rotation;
-
-  void add(double weight, const BeamFieldPoint& h, const BeamFieldPoint& x,
-           double bending_compliance, double shear_compliance) {
-    axial.add(weight, h.axial - x.axial, x.axial);
-    deflection.add(weight, h.deflection - x.deflection, x.deflection);
-    rotation.add(weight, h.rotation - x.rotation, x.rotation);
-    axial_force.add(weight, h.axial_force - x.axial_force, x.axial_force);
-    shear_force.add(weight, h.shear_force - x.shear_force, x.shear_force);
-    bending_moment.add(weight, h.bending_moment - x.bending_moment, x.bending_moment);
-    energy.add(weight * bending_compliance, h.bending_moment - x.bending_moment, x.bending_moment);
-    energy.add(weight * shear_compliance, h.shear_force - x.shear_force, x.shear_force);
-  }
-  void add_node(const BeamFieldPoint& h, const BeamFieldPoint& x) {
-    nodal_deflection.add(h.deflection - x.deflection, x.deflection);
-    nodal_rotation.add(h.rotation - x.rotation, x.rotation);
-  }
-  [[nodiscard]] BeamErrors errors() const {
-    return {axial.relative(),       deflection.relative(),       rotation.relative(),
-            axial_force.relative(), shear_force.relative(),      bending_moment.relative(),
-            energy.relative(),      nodal_deflection.relative(), nodal_rotation.relative()};
-  }
-};
+Eigen::Array<double, 6, 1> values_of(const BeamFieldPoint& p) {
+  return {{p.axial, p.deflection, p.rotation, p.axial_force, p.shear_force, p.bending_moment}};
+}
 
 }  // namespace
 
 MembraneErrors membrane_errors(const System& system, const Eigen::VectorXd& q,
                                const MembraneField& exact) {
   const Eigen::VectorXd u = system.T * q;
-  Norm displacement, rotation, stress, energy;
+  Squares<4> sum;
   for (const Triangle& triangle : system.model.triangles) {
-    const Plate& plate = system.model.plates[static_cast<std::size_t>(triangle.plate)];
+    const Plate& plate = system.model.plates[to_size(triangle.plate)];
+    const auto squares = [&plate](const MembraneFieldPoint& p) {
+      return Eigen::Array4d(p.displacement.squaredNorm(), p.rotation * p.rotation,
+                            p.stress.squaredNorm(), energy_density(plate.material, p.stress));
+    };
     for (const TriangleQuadraturePoint& point : triangle_quadrature()) {
       const TriangleInterpolation at = interpolate(system.model, triangle, point.area_coordinates);
       const MembraneFieldPoint h = membrane_point(system, triangle, at, u);
       const MembraneFieldPoint x = exact(at.position);
-      const double weight = point.weight * at.area * plate.thickness;
-      const Vector3d difference = h.stress - x.stress;
-      displacement.add_squares(weight, (h.displacement - x.displacement).squaredNorm(),
-                               x.displacement.squaredNorm());
-      rotation.add(weight, h.rotation - x.rotation, x.rotation);
-      stress.add_squares(weight, difference.squaredNorm(), x.stress.squaredNorm());
-      energy.add_squares(weight, energy_density(plate.material, difference),
-                         energy_density(plate.material, x.stress));
+      const MembraneFieldPoint error{h.displacement - x.displacement, h.rotation - x.rotation,
+                                     h.stress - x.stress};
+      sum.add(point.weight * at.area * plate.thickness, squares(error), squares(x));
     }
   }
-  return {displacement.relative(), rotation.relative(), stress.relative(), energy.relative()};
+  const Eigen::Array4d relative = sum.relative();
+  return {relative[0], relative[1], relative[2], relative[3]};
 }
 
 BeamErrors beam_errors(const System& system, const Eigen::VectorXd& q, const BeamField& exact) {
+  using Values = Eigen::Array<double, 6, 1>;
   const Eigen::VectorXd u = system.T * q;
-  BeamNorms norms;
+  Squares<6> sum;
+  Squares<1> energy;
+  Values nodal_error = Values::Zero(), nodal_size = Values::Zero();
   for (const FrameElement& e : system.mesh.frame) {
-    const FrameField field(system, e, u);
-    const Vector2d& start = system.mesh.positions[static_cast<std::size_t>(e.nodes[0])];
-    const auto position = [&](double xi) -> Vector2d {
-      return start + xi * e.length * e.direction;
+    const BeamTheory theory = system.model.members[to_size(e.member)].theory;
+    const Vector6d world = detail::gather(e.coordinates, u);
+    const Vector2d& start = system.mesh.positions[to_size(e.nodes[0])];
+    const auto exact_at = [&](double xi) {
+      return values_of(exact(start + xi * e.length * e.direction));
     };
+    Values compliance = Values::Zero();
+    compliance[5] = 1 / e.section.EI;
+    if (has_shear_deformation(theory)) compliance[4] = 1 / e.section.kappa_GA;
     for (const LineQuadraturePoint& point : line_quadrature()) {
-      norms.add(point.weight * e.length, field.at(point.xi), exact(position(point.xi)),
-                1 / e.section.EI, field.shear_compliance(e.section));
+      const Values x = exact_at(point.xi);
+      const Values error = values_of(frame_point(e, theory, world, point.xi)) - x;
+      const double weight = point.weight * e.length;
+      sum.add(weight, error.square(), x.square());
+      energy.add(weight, Squares<1>::Values((compliance * error.square()).sum()),
+                 Squares<1>::Values((compliance * x.square()).sum()));
     }
-    for (const double end : {0.0, 1.0}) norms.add_node(field.at(end), exact(position(end)));
+    for (const double end : {0.0, 1.0}) {
+      const Values x = exact_at(end);
+      const Values error = values_of(frame_point(e, theory, world, end)) - x;
+      nodal_error = nodal_error.binaryExpr(error.abs(), &nan_max);
+      nodal_size = nodal_size.max(x.abs());
+    }
   }
-  return norms.errors();
+  const Values relative = sum.relative(), nodal = nodal_error / nodal_size;
+  return {relative[0], relative[1],          relative[2], relative[3], relative[4],
+          relative[5], energy.relative()[0], nodal[1],    nodal[2]};
 }
 
 }  // namespace trammel::solver

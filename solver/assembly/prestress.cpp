@@ -95,10 +95,9 @@ TurningPart rail_part(const System& system, const LinearConstraint::Rail& rail, 
 template <class Visit>
 void for_each_geometric_stiffness(const System& system, const Prestress& state, Visit&& visit) {
   const Model& model = system.model;
-  for (std::size_t i = 0; i < system.mesh.frame.size(); ++i) {
-    const FrameElement& e = system.mesh.frame[i];
-    const double axial = state.axial[static_cast<Index>(i)];
-    const double axial_variation = state.axial_variation[static_cast<Index>(i)];
+  for (Index i = 0; i < state.axial.size(); ++i) {
+    const FrameElement& e = system.mesh.frame[to_size(i)];
+    const double axial = state.axial[i], axial_variation = state.axial_variation[i];
     if (axial == 0 && axial_variation == 0) continue;
     const BeamTheory theory = model.members[static_cast<std::size_t>(e.member)].theory;
     visit(e.coordinates, frame_chord_rotation_and_bending(e.direction, e.length),
@@ -106,8 +105,8 @@ void for_each_geometric_stiffness(const System& system, const Prestress& state, 
   }
   for_each_stress_point(
       model, [&](Index row, const Triangle& triangle, const Vector3d& at, double weight) {
+        if (row >= state.stress.rows() || state.stress.row(row).isZero(0)) return;
         const Eigen::RowVector3d stress = state.stress.row(row);
-        if (stress.isZero(0)) return;
         const TriangleInterpolation point = interpolate(model, triangle, at);
         const double volume = model.plates[to_size(triangle.plate)].thickness * point.area * weight;
         visit_nodes(model, triangle, [&]<std::size_t n>(const TriangleNodes<n>&) {
@@ -266,13 +265,12 @@ Outcome require_determined_stiffening(const System& system) {
 }
 
 SparseMatrix geometric_stiffness(const System& system, const Prestress& state) {
-  SymmetricBuilder builder(system.constraints.free_count);
-  Projection projection(system.constraints, builder);
+  Projection sum(system.constraints);
   for_each_geometric_stiffness(system, state,
                                [&](const auto& coordinates, const auto& B, const auto& H) {
-                                 projection.add(coordinates, (B.transpose() * H * B).eval());
+                                 sum.add(coordinates, (B.transpose() * H * B).eval());
                                });
-  return builder.build();
+  return sum.build();
 }
 
 VectorXd geometric_stiffness_forces(const System& system, const Prestress& state,

@@ -2,49 +2,50 @@
 
 #include <Eigen/SparseCore>
 #include <array>
+#include <vector>
 
 #include "solver/assembly/constraints.h"
-#include "solver/linalg/symmetric_builder.h"
+#include "solver/model/numbers.h"
 
 namespace trammel::solver {
 
-/// Adds element matrices of unconstrained coordinates to a matrix of free ones, through T's rows.
+/// Sums symmetric element matrices of unconstrained coordinates to a matrix of the free ones,
+/// through T's rows. Entries at the same place are added in the order in which they came.
 class Projection {
  public:
-  Projection(const Constraints& constraints, SymmetricBuilder& builder)
-      : T_(constraints.T), builder_(builder) {}
+  explicit Projection(const Constraints& constraints) : T_(constraints.T) {}
+
+  void reserve(std::size_t entries) { entries_.reserve(entries); }
 
   template <std::size_t n, class Matrix>
   void add(const std::array<Index, n>& coordinates, const Matrix& k) {
+    using Row = RowMajorMatrix::InnerIterator;
     for (std::size_t i = 0; i < n; ++i) {
-      if (coordinates[i] < 0) continue;
-      for (std::size_t j = 0; j <= i; ++j) {
+      for (std::size_t j = 0; j < n; ++j) {
         const double value = k(static_cast<Index>(i), static_cast<Index>(j));
-        if (coordinates[j] >= 0 && value != 0)
-          add_pair(coordinates[i], coordinates[j], value, i == j);
-      }
-    }
-  }
-
- private:
-  using Row = RowMajorMatrix::InnerIterator;
-
-  /// k u_i u_j + k u_j u_i, or k u_i^2 on the diagonal, in terms of q.
-  void add_pair(Index i, Index j, double k, bool diagonal) {
-    for (Row a(T_, i); a; ++a) {
-      for (Row b(T_, j); b; ++b) {
-        const double value = a.value() * k * b.value();
-        if (diagonal) {
-          if (b.col() <= a.col()) builder_.add(a.col(), b.col(), value);
-        } else {
-          builder_.add(a.col(), b.col(), a.col() == b.col() ? 2 * value : value);
+        if (coordinates[i] < 0 || coordinates[j] < 0 || value == 0) continue;
+        for (Row a(T_, coordinates[i]); a; ++a) {
+          for (Row b(T_, coordinates[j]); b; ++b)
+            if (b.col() <= a.col()) add(a.col(), b.col(), a.value() * value * b.value());
         }
       }
     }
   }
+  /// Adds to an entry of the lower triangle.
+  void add(Index i, Index j, double value) {
+    entries_.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
+  }
 
+  /// Both triangles.
+  [[nodiscard]] SparseMatrix build() const {
+    SparseMatrix lower(T_.cols(), T_.cols());
+    lower.setFromTriplets(entries_.begin(), entries_.end());
+    return lower.selfadjointView<Eigen::Lower>();
+  }
+
+ private:
   const RowMajorMatrix& T_;
-  SymmetricBuilder& builder_;
+  std::vector<Eigen::Triplet<double>> entries_;
 };
 
 }  // namespace trammel::solver

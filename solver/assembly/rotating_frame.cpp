@@ -105,34 +105,28 @@ void for_each_rotating_mass(const System& system, RotationAxis axis, Visit&& vis
 }  // namespace
 
 SparseMatrix centrifugal_softening(const System& system, RotationAxis axis) {
-  SymmetricBuilder builder(system.constraints.free_count);
-  Projection projection(system.constraints, builder);
+  Projection sum(system.constraints);
   for_each_rotating_mass(system, axis, [&](const auto& coordinates, const auto& S, const auto&) {
-    projection.add(coordinates, S);
+    sum.add(coordinates, S);
   });
-  return builder.build();
+  return sum.build();
 }
 
 SparseMatrix gyroscopic_matrix(const System& system) {
-  using Row = RowMajorMatrix::InnerIterator;
-  const auto& T = system.constraints.T;
   std::vector<Eigen::Triplet<double>> entries;
   const RotationAxis normal = RotationAxis::normal;
   for_each_rotating_mass(system, normal, [&](const auto& coordinates, const auto&, const auto& G) {
     for (std::size_t i = 0; i < coordinates.size(); ++i) {
       for (std::size_t j = 0; j < coordinates.size(); ++j) {
         const double g = G(static_cast<Index>(i), static_cast<Index>(j));
-        if (coordinates[i] < 0 || coordinates[j] < 0 || g == 0) continue;
-        for (Row a(T, coordinates[i]); a; ++a) {
-          for (Row b(T, coordinates[j]); b; ++b) {
-            entries.emplace_back(a.col(), b.col(), a.value() * g * b.value());
-          }
-        }
+        if (coordinates[i] >= 0 && coordinates[j] >= 0)
+          entries.emplace_back(coordinates[i], coordinates[j], g);
       }
     }
   });
-  SparseMatrix matrix(T.cols(), T.cols());
-  matrix.setFromTriplets(entries.begin(), entries.end());
+  SparseMatrix on_u(system.T.rows(), system.T.rows());
+  on_u.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix matrix = system.T.transpose() * on_u * system.T;
   const SparseMatrix transposed = matrix.transpose();
   return 0.5 * (matrix - transposed);  // skew to the last bit
 }

@@ -19,16 +19,9 @@ namespace {
 /// Adds k u to the rows of the element's coordinates, for each column of u.
 template <class Coordinates, class Stiffness, class Matrix>
 void add_product(const Coordinates& coordinates, const Stiffness& k, const Matrix& u, Matrix& sum) {
-  Eigen::Matrix<typename Matrix::Scalar, Stiffness::ColsAtCompileTime, 1> local;
-  for (Index state = 0; state < u.cols(); ++state) {
-    for (std::size_t i = 0; i < coordinates.size(); ++i) {
-      const Index c = coordinates[i];
-      local[static_cast<Index>(i)] = c < 0 ? typename Matrix::Scalar(0) : u(c, state);
-    }
-    local = (k * local).eval();
-    for (std::size_t i = 0; i < coordinates.size(); ++i)
-      if (coordinates[i] >= 0) sum(coordinates[i], state) += local[static_cast<Index>(i)];
-  }
+  for (Index state = 0; state < u.cols(); ++state)
+    detail::scatter(coordinates, (k * detail::gather(coordinates, u.col(state))).eval(),
+                    sum.col(state));
 }
 
 }  // namespace

@@ -19,10 +19,10 @@ namespace detail {
 
 template <std::size_t n, class Vector>
 auto gather(const std::array<Index, n>& coordinates, const Vector& u) {
-  Eigen::Matrix<double, static_cast<int>(n), 1> local;
-  for (std::size_t i = 0; i < n; ++i) {
-    local[static_cast<Index>(i)] = coordinates[i] < 0 ? 0.0 : u[coordinates[i]];
-  }
+  using Scalar = typename Vector::Scalar;
+  Eigen::Matrix<Scalar, static_cast<int>(n), 1> local;
+  for (std::size_t i = 0; i < n; ++i)
+    local[static_cast<Index>(i)] = coordinates[i] < 0 ? Scalar(0) : u[coordinates[i]];
   return local;
 }
 
@@ -34,8 +34,8 @@ auto force_roundoff(const Matrix& B, const Rigidity& c, const Vector& u) {
 }
 
 /// Adds an element's values to those of its coordinates.
-template <std::size_t n, class Vector>
-void scatter(const std::array<Index, n>& coordinates, const Vector& local, Eigen::VectorXd& u) {
+template <std::size_t n, class Vector, class Sum>
+void scatter(const std::array<Index, n>& coordinates, const Vector& local, Sum&& u) {
   for (std::size_t i = 0; i < n; ++i) {
     if (coordinates[i] >= 0) u[coordinates[i]] += local[static_cast<Index>(i)];
   }

@@ -47,7 +47,7 @@ struct System {
 /// where a node has none.
 [[nodiscard]] Eigen::MatrixX3d node_motion(const System& system, const Eigen::VectorXd& q);
 
-/// The same for every node of the mesh, in the order of `mesh.positions`.
-[[nodiscard]] Eigen::MatrixX3d mesh_motion(const System& system, const Eigen::VectorXd& q);
+/// The same of the unconstrained coordinates u.
+[[nodiscard]] Eigen::MatrixX3d motion_of_nodes(const System& system, const Eigen::VectorXd& u);
 
 }  // namespace trammel::solver

@@ -58,6 +58,13 @@ class Validator {
     }
   }
 
+  template <class Nodes>
+  void on_plate(Index plate, const Nodes& nodes, std::size_t count, const std::string& part) const {
+    require(plate >= 0 && plate < std::ssize(model_.plates), part,
+            "names a plate that does not exist");
+    for (std::size_t k = 0; k < count; ++k) known(nodes[k], part);
+  }
+
   [[nodiscard]] const Vector2d& position(Index node) const {
     return model_.nodes[static_cast<std::size_t>(node)].position;
   }
@@ -117,10 +124,7 @@ class Validator {
   void triangle(std::size_t i) const {
     const Triangle& triangle = model_.triangles[i];
     const std::string part = "triangle " + std::to_string(i);
-    require(triangle.plate >= 0 && triangle.plate < static_cast<Index>(model_.plates.size()), part,
-            "names a plate that does not exist");
-    const std::size_t corners = triangle.quadratic() ? 6 : 3;
-    for (std::size_t k = 0; k < corners; ++k) known(triangle.nodes[k], part);
+    on_plate(triangle.plate, triangle.nodes, triangle.quadratic() ? 6 : 3, part);
     const TrianglePoints p = {position(triangle.nodes[0]), position(triangle.nodes[1]),
                               position(triangle.nodes[2])};
     const double longest = std::max(
@@ -135,24 +139,18 @@ class Validator {
 
   /// The map from area coordinates must not fold: same sign of its determinant at all six nodes.
   void curved(const Triangle& triangle, const std::string& part) const {
-    const double h = 0.5;
-    for (const Vector3d& at : {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1),
-                               Vector3d(h, h, 0), Vector3d(0, h, h), Vector3d(h, 0, h)}) {
-      const TriangleInterpolation here = interpolate(model_, triangle, at);
-      const TriangleInterpolation centre =
-          interpolate(model_, triangle, Vector3d::Constant(1 / 3.0));
-      require(here.signed_area * centre.signed_area > 0, part,
-              "is folded by the middle nodes of its sides");
+    const auto area_at = [&](const Vector3d& at) {
+      return interpolate(model_, triangle, at).signed_area;
+    };
+    const double at_center = area_at(Vector3d::Constant(1 / 3.0));
+    for (const Vector3d& at : triangle_node_coordinates()) {
+      require(area_at(at) * at_center > 0, part, "is folded by the middle nodes of its sides");
     }
   }
 
   void edge_load(const EdgeLoad& load) const {
     const std::string part = "an edge load";
-    require(load.plate >= 0 && load.plate < static_cast<Index>(model_.plates.size()), part,
-            "names a plate that does not exist");
-    known(load.nodes[0], part);
-    known(load.nodes[1], part);
-    if (load.nodes[2] != -1) known(load.nodes[2], part);
+    on_plate(load.plate, load.nodes, load.nodes[2] == -1 ? 2 : 3, part);
     require(load.traction.allFinite() && std::isfinite(load.normal), part,
             "is not a finite number");
   }

@@ -37,6 +37,12 @@ struct TriangleInterpolation {
   double area = 0;         ///< the triangle's area if all of it were like here [m^2]
 };
 
+/// Area coordinates of the corners and the middles of the sides.
+[[nodiscard]] inline std::array<Vector3d, 6> triangle_node_coordinates() {
+  return {Vector3d(1, 0, 0),     Vector3d(0, 1, 0),     Vector3d(0, 0, 1),
+          Vector3d(0.5, 0.5, 0), Vector3d(0, 0.5, 0.5), Vector3d(0.5, 0, 0.5)};
+}
+
 [[nodiscard]] Eigen::Matrix<double, 6, 1> triangle_shape_functions(const Vector3d& L,
                                                                    bool six_nodes);
 

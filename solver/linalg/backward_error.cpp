@@ -1,6 +1,5 @@
 #include "solver/linalg/backward_error.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -12,12 +11,9 @@ double largest_ratio(const Eigen::VectorXd& residual, const Eigen::VectorXd& ter
   double largest = 0;
   for (Index i = 0; i < residual.size(); ++i) {
     if (residual[i] == 0 && terms[i] >= 0) continue;
-    const double ratio = std::abs(residual[i]) / terms[i];
-    if (!(ratio <= std::numeric_limits<double>::max()))
-      return std::numeric_limits<double>::infinity();
-    largest = std::max(largest, ratio);
+    largest = nan_max(largest, std::abs(residual[i]) / terms[i]);
   }
-  return largest;
+  return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace trammel::solver

@@ -68,7 +68,11 @@ class Solver {
       if (!dense_) return no_eigenpairs();
       break;
     }
-    if (some_are_hidden()) return hidden_eigenpairs();
+    if (some_are_hidden()) {
+      return finish("only " + std::to_string(checked_) +
+                    " eigenvalues were found: the others are too far from the first for double "
+                    "precision");
+    }
     iterate_beside_each();
     return finish({});
   }
@@ -90,6 +94,13 @@ class Solver {
   /// (K - s B) x.
   [[nodiscard]] VectorXd apply(const VectorXd& x) const {
     VectorXd y = pencil_.K_times(x);
+    if (pencil_.shift != 0) y -= pencil_.shift * times_B(x);
+    return y;
+  }
+
+  /// The same by the assembled K.
+  [[nodiscard]] VectorXd assembled(const VectorXd& x) const {
+    VectorXd y = pencil_.K->transpose() * x;
     if (pencil_.shift != 0) y -= pencil_.shift * times_B(x);
     return y;
   }
@@ -126,9 +137,7 @@ class Solver {
     MatrixXd known(size_, known_count);  // y = F^T x = F^-1 (K - s B) x
     known << null_, X_;
     for (Index j = 0; j < known_count; ++j) {
-      VectorXd image = *pencil_.K * known.col(j);
-      if (pencil_.shift != 0) image -= pencil_.shift * times_B(known.col(j));
-      known.col(j) = factorization_.solve_half(image);
+      known.col(j) = factorization_.solve_half(assembled(known.col(j)));
       for (int pass = 0; pass < 2; ++pass) {
         known.col(j) -= known.leftCols(j) * (known.leftCols(j).transpose() * known.col(j));
       }
@@ -244,19 +253,13 @@ class Solver {
     values();
   }
 
-  /// In K - s B, against the columns before it; normalised. Again where most of it went: else a
-  /// second pass would only find rounding (Daniel, Gragg, Kaufman and Stewart 1976).
+  /// In K - s B, against the columns before it; normalised.
   void orthogonalise(MatrixXd& Y, Index j) const {
-    for (const bool first : {true, false}) {
-      VectorXd image = pencil_.K->transpose() * Y.col(j);
-      if (pencil_.shift != 0) image -= pencil_.shift * times_B(Y.col(j));
-      const VectorXd part = Y.leftCols(j).transpose() * image;
-      const double whole = Y.col(j).dot(image), left = whole - part.squaredNorm();
-      Y.col(j) -= Y.leftCols(j) * part;
-      if (first && !(left > 0.5 * whole)) continue;
-      Y.col(j) /= std::sqrt(std::abs(left));
-      return;
-    }
+    const VectorXd image = assembled(Y.col(j));
+    const VectorXd part = Y.leftCols(j).transpose() * image;
+    const double left = Y.col(j).dot(image) - part.squaredNorm();
+    Y.col(j) -= Y.leftCols(j) * part;
+    Y.col(j) /= std::sqrt(std::abs(left));
   }
 
   /// Rayleigh quotients, ascending.
@@ -374,12 +377,6 @@ class Solver {
     return finish(std::to_string(checked_) +
                   " eigenvalues were found where the inertia of the matrices counts " +
                   std::to_string(expected));
-  }
-
-  Eigenpairs hidden_eigenpairs() {
-    return finish("only " + std::to_string(checked_) +
-                  " eigenvalues were found: the others are too far from the first for double "
-                  "precision");
   }
 
   Eigenpairs finish(const std::string& failure) {

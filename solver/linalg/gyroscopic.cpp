@@ -19,24 +19,6 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
-/// [A, B; C, D]
-SparseMatrix block_matrix(const SparseMatrix& A, const SparseMatrix& B, const SparseMatrix& C,
-                          const SparseMatrix& D) {
-  std::vector<Eigen::Triplet<double>> entries;
-  const auto append = [&entries](const SparseMatrix& block, Index row, Index column) {
-    for (Index j = 0; j < block.outerSize(); ++j)
-      for (SparseMatrix::InnerIterator it(block, j); it; ++it)
-        entries.emplace_back(row + it.row(), column + j, it.value());
-  };
-  append(A, 0, 0);
-  append(B, 0, A.cols());
-  append(C, A.rows(), 0);
-  append(D, A.rows(), A.cols());
-  SparseMatrix whole(A.rows() + D.rows(), A.cols() + D.cols());
-  whole.setFromTriplets(entries.begin(), entries.end());
-  return whole;
-}
-
 /// A z = s G z with z = (x, s x_m), s = i w, x_m the coordinates that have mass: A = diag(K, M),
 /// G = [-C, -M; M, 0].
 struct Linearization {
@@ -52,12 +34,20 @@ Linearization linearize(const GyroscopicPencil& pencil) {
     if (diagonal[i] > 0) massive.emplace_back(static_cast<int>(massive.size()), i, 1.0);
   SparseMatrix S(std::ssize(massive), n);
   S.setFromTriplets(massive.begin(), massive.end());
-  const SparseMatrix M = S * pencil.M, none(S.rows(), n), empty(S.rows(), S.rows());
+  const Index m = S.rows();
+  SparseMatrix upper(n + m, n), lower(n + m, m);  // columns of the identity matrix
+  for (Index i = 0; i < n; ++i) upper.insert(i, i) = 1;
+  for (Index i = 0; i < m; ++i) lower.insert(n + i, i) = 1;
+  const auto block = [](const SparseMatrix& row, const SparseMatrix& A,
+                        const SparseMatrix& column) {
+    return SparseMatrix(row * A * column.transpose());
+  };
+  const SparseMatrix coupling = block(lower, S * pencil.M, upper);
   Linearization linear;
-  linear.mass = M * S.transpose();
-  for (Index i = 0; i < S.rows(); ++i) linear.mass.coeffRef(i, i) *= 1 + kHelp;
-  linear.A = block_matrix(pencil.K, none.transpose(), none, linear.mass);
-  linear.G = block_matrix(-pencil.C, -SparseMatrix(M.transpose()), M, empty);
+  linear.mass = S * pencil.M * S.transpose();
+  for (Index i = 0; i < m; ++i) linear.mass.coeffRef(i, i) *= 1 + kHelp;
+  linear.A = block(upper, pencil.K, upper) + block(lower, linear.mass, lower);
+  linear.G = coupling - SparseMatrix(coupling.transpose()) - block(upper, pencil.C, upper);
   return linear;
 }
 

@@ -152,13 +152,7 @@ double SparseLdlt::smallest_to_largest_pivot() const {
 
 double SparseLdlt::element_growth() const {
   const auto& L = factors_->ldlt.matrixL().nestedExpression();
-  double largest = 0;
-  for (Index j = 0; j < L.outerSize(); ++j) {
-    for (SparseMatrix::InnerIterator it(L, j); it; ++it) {
-      largest = std::max(largest, std::abs(it.value()));
-    }
-  }
-  return largest;
+  return L.nonZeros() > 0 ? L.coeffs().abs().maxCoeff() : 0;
 }
 
 void SparseLdlt::solve(const VectorXd& b, VectorXd& x) const {

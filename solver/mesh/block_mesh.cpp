@@ -3,7 +3,6 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <set>
 #include <string>
 #include <utility>
 
@@ -17,34 +16,34 @@ double merge_tolerance(const std::vector<Vector2d>& points) {
   return 1e-9 * box_diagonal(points);
 }
 
-/// Finds the nodes that a model has so far by their place.
-class NodeFinder {
+/// Finds nodes by their place.
+class Places {
  public:
-  /// @param preferred  before others at their places
-  NodeFinder(const Model& model, const std::vector<Index>& preferred, double near)
-      : preferred_(preferred.begin(), preferred.end()), tolerance_(near) {
-    for (const Node& node : model.nodes) {
-      by_x_.emplace(node.position.x(), Place{static_cast<Index>(by_x_.size()), node.position});
-    }
+  explicit Places(double tolerance) : tolerance_(tolerance) {}
+
+  void add(Index node, const Vector2d& position) {
+    by_x_.emplace(position.x(), Place{by_x_.size(), node, position});
   }
 
-  /// The first node there, or -1.
+  /// The node there that was added first, or -1.
   [[nodiscard]] Index find(const Vector2d& position) const {
-    Index first = -1;
-    const auto rank = [this](Index node) { return std::pair(preferred_.count(node) == 0, node); };
+    const Place* first = nullptr;
     auto at = by_x_.lower_bound(position.x() - tolerance_);
     for (; at != by_x_.end() && at->first <= position.x() + tolerance_; ++at) {
-      const auto& [node, place] = at->second;
-      const bool here = (place - position).norm() < tolerance_;
-      if (here && (first < 0 || rank(node) < rank(first))) first = node;
+      const Place& place = at->second;
+      const bool here = (place.position - position).norm() < tolerance_;
+      if (here && (!first || place.order < first->order)) first = &place;
     }
-    return first;
+    return first ? first->node : -1;
   }
 
  private:
-  using Place = std::pair<Index, Vector2d>;
+  struct Place {
+    std::size_t order;
+    Index node;
+    Vector2d position;
+  };
   std::multimap<double, Place> by_x_;
-  std::set<Index> preferred_;
   double tolerance_;
 };
 
@@ -103,31 +102,9 @@ std::vector<double> lines(Index cells, double grading, bool with_mid_side_nodes)
 
 class Mesher {
  public:
-  Mesher(const std::vector<Block>& blocks, bool six_nodes) : blocks_(blocks) {
-    mesh_.six_nodes = six_nodes;
-    std::vector<Vector2d> corners;
-    for (const Block& block : blocks) {
-      corners.insert(corners.end(), block.corners.begin(), block.corners.end());
-    }
-    tolerance_ = merge_tolerance(corners);
-  }
+  Mesher(bool six_nodes, double tolerance) : outer_(tolerance) { mesh_.six_nodes = six_nodes; }
 
-  BlockMesh run() {
-    for (const Block& block : blocks_) add(block);
-    return std::move(mesh_);
-  }
-
- private:
-  /// A node on a block's side, which may be another block's as well.
-  Index shared_node(const Vector2d& position) {
-    for (const Index node : outer_) {
-      if ((mesh_.positions[static_cast<std::size_t>(node)] - position).norm() < tolerance_)
-        return node;
-    }
-    mesh_.positions.push_back(position);
-    outer_.push_back(static_cast<Index>(mesh_.positions.size()) - 1);
-    return outer_.back();
-  }
+  BlockMesh mesh() { return std::move(mesh_); }
 
   void add(const Block& block) {
     if (block.cells[0] < 1 || block.cells[1] < 1) {
@@ -157,19 +134,23 @@ class Mesher {
     grid_.clear();
     for (std::size_t j = 0; j < t.size(); ++j) {
       for (std::size_t i = 0; i < s.size(); ++i) {
+        // A node on a side may be another block's as well.
         const bool outer = i == 0 || j == 0 || i + 1 == s.size() || j + 1 == t.size();
-        if (outer) {
-          grid_.push_back(shared_node(point(s[i], t[j])));
-        } else {
-          mesh_.positions.push_back(point(s[i], t[j]));
-          grid_.push_back(static_cast<Index>(mesh_.positions.size()) - 1);
+        const Vector2d position = point(s[i], t[j]);
+        Index node = outer ? outer_.find(position) : -1;
+        if (node < 0) {
+          node = std::ssize(mesh_.positions);
+          mesh_.positions.push_back(position);
+          if (outer) outer_.add(node, position);
         }
+        grid_.push_back(node);
       }
     }
     sides(s.size(), t.size());
     triangles(block);
   }
 
+ private:
   [[nodiscard]] Index node(std::size_t i, std::size_t j) const { return grid_[j * width_ + i]; }
 
   void sides(std::size_t nx, std::size_t ny) {
@@ -205,11 +186,9 @@ class Mesher {
     mesh_.triangles.push_back({at(a), at(b), at(c), middle(a, b), middle(b, c), middle(c, a)});
   }
 
-  const std::vector<Block>& blocks_;
   BlockMesh mesh_;
-  double tolerance_ = 0;
-  std::vector<Index> outer_;  // nodes on the sides so far
-  std::vector<Index> grid_;   // nodes of the current block, row by row
+  Places outer_;             // nodes on the sides so far
+  std::vector<Index> grid_;  // nodes of the current block, row by row
   std::size_t width_ = 0;
 };
 
@@ -217,16 +196,24 @@ class Mesher {
 
 BlockMesh mesh_blocks(const std::vector<Block>& blocks, bool six_nodes) {
   if (blocks.empty()) throw ModelError("a mesh needs at least one block");
-  return Mesher(blocks, six_nodes).run();
+  std::vector<Vector2d> corners;
+  for (const Block& block : blocks)
+    corners.insert(corners.end(), block.corners.begin(), block.corners.end());
+  Mesher mesher(six_nodes, merge_tolerance(corners));
+  for (const Block& block : blocks) mesher.add(block);
+  return mesher.mesh();
 }
 
 std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh,
                           const std::vector<Index>& corners) {
-  const NodeFinder finder(model, corners, merge_tolerance(mesh.positions));
+  Places places(merge_tolerance(mesh.positions));
+  for (const Index corner : corners) places.add(corner, model.nodes[to_size(corner)].position);
+  for (std::size_t i = 0; i < model.nodes.size(); ++i)
+    places.add(static_cast<Index>(i), model.nodes[i].position);
   std::vector<Index> nodes;
   nodes.reserve(mesh.positions.size());
   for (const Vector2d& position : mesh.positions) {
-    nodes.push_back(finder.find(position));
+    nodes.push_back(places.find(position));
     if (nodes.back() >= 0) continue;
     nodes.back() = static_cast<Index>(model.nodes.size());
     model.nodes.push_back({"", position});

@@ -3,12 +3,12 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <unordered_map>
 #include <utility>
 
-#include "solver/model/plane.h"
 #include "solver/elements/triangle_element.h"
+#include "solver/model/plane.h"
+#include "solver/model/quadrature.h"
 
 namespace trammel::solver {
 
@@ -20,34 +20,18 @@ double twice_area(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return cross(b - a, c - a);
 }
 
-/// The nodes at the middles of the sides, one for the two triangles of a side.
-class Middles {
- public:
-  explicit Middles(std::vector<Vector2d>& nodes, std::size_t sides) : nodes_(nodes) {
-    nodes.reserve(nodes.size() + sides);
-    middle_.reserve(sides);
-  }
-  Index of(Index i, Index j) {
-    const auto low = static_cast<std::uint64_t>(std::min(i, j));
-    const auto high = static_cast<std::uint64_t>(std::max(i, j));
-    const auto [at, fresh] =
-        middle_.try_emplace((low << 32U) | high, static_cast<Index>(nodes_.size()));
-    if (fresh) {
-      nodes_.emplace_back(
-          (nodes_[static_cast<std::size_t>(i)] + nodes_[static_cast<std::size_t>(j)]) / 2);
-    }
-    return at->second;
-  }
-
- private:
-  std::vector<Vector2d>& nodes_;
-  std::unordered_map<std::uint64_t, Index> middle_;
-};
-
+/// Adds the nodes at the middles of the sides, one for the two triangles of a side.
 void add_middles(TriangleMesh& mesh) {
-  Middles middles(mesh.nodes, 2 * mesh.triangles.size());
+  mesh.nodes.reserve(mesh.nodes.size() + 2 * mesh.triangles.size());
+  std::unordered_map<Index, Index> middle;  // side by its two ends
+  middle.reserve(2 * mesh.triangles.size());
   for (TriangleMesh::Nodes& t : mesh.triangles) {
-    for (std::size_t k = 0; k < 3; ++k) t[3 + k] = middles.of(t[k], t[(k + 1) % 3]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto [i, j] = std::minmax({t[k], t[(k + 1) % 3]});
+      const auto [at, fresh] = middle.try_emplace((i << 32) | j, std::ssize(mesh.nodes));
+      if (fresh) mesh.nodes.emplace_back((mesh.nodes[to_size(i)] + mesh.nodes[to_size(j)]) / 2);
+      t[3 + k] = at->second;
+    }
   }
 }
 
@@ -65,30 +49,6 @@ TriangleMesh split(TriangleMesh mesh) {
   return fine;
 }
 
-/// Degree-5 rule of seven points on a triangle (Radon 1948): barycentric coordinates and weight.
-struct RulePoint {
-  Vector3d barycentric;
-  double weight;
-};
-
-const std::array<RulePoint, 7>& radon_rule() {
-  static const std::array<RulePoint, 7> rule = [] {
-    const double r = std::sqrt(15.0);
-    const double a = (6 - r) / 21;
-    const double b = (6 + r) / 21;
-    const double wa = (155 - r) / 1200;
-    const double wb = (155 + r) / 1200;
-    return std::array<RulePoint, 7>{{{Vector3d::Constant(1.0 / 3), 9.0 / 40},
-                                     {{1 - 2 * a, a, a}, wa},
-                                     {{a, 1 - 2 * a, a}, wa},
-                                     {{a, a, 1 - 2 * a}, wa},
-                                     {{1 - 2 * b, b, b}, wb},
-                                     {{b, 1 - 2 * b, b}, wb},
-                                     {{b, b, 1 - 2 * b}, wb}}};
-  }();
-  return rule;
-}
-
 /// Calls visit(point, its share of the area) for a quadrature of the triangle near the disc, in
 /// pieces that are small beside the disc; what lies outside the disc is left out.
 template <class Visit>
@@ -97,7 +57,7 @@ void integrate_near(const Corners& t, const Vector2d& x0, double radius, const V
   double reach = 0;
   for (const Vector2d& corner : t) reach = std::max(reach, (corner - centroid).norm());
   if ((centroid - x0).norm() > radius + reach) return;
-  if (reach > radius / 16) {
+  if (reach > radius / 8) {
     const Corners m{(t[0] + t[1]) / 2, (t[1] + t[2]) / 2, (t[2] + t[0]) / 2};
     integrate_near({t[0], m[0], m[2]}, x0, radius, visit);
     integrate_near({m[0], t[1], m[1]}, x0, radius, visit);
@@ -106,10 +66,9 @@ void integrate_near(const Corners& t, const Vector2d& x0, double radius, const V
     return;
   }
   const double area = twice_area(t[0], t[1], t[2]) / 2;
-  for (const RulePoint& point : radon_rule()) {
-    const Vector3d& l = point.barycentric;
-    const Vector2d x = l(0) * t[0] + l(1) * t[1] + l(2) * t[2];
-    visit(x, point.weight * area);
+  for (const TriangleQuadraturePoint& point : triangle_quadrature()) {
+    const Vector3d& L = point.area_coordinates;
+    visit(Vector2d(L[0] * t[0] + L[1] * t[1] + L[2] * t[2]), point.weight * area);
   }
 }
 

@@ -57,7 +57,7 @@ double floating_shift(const System& system, const MatrixXd& Z, Counters& counter
 }
 
 /// Largest backward error of (K + K_G) x = w^2 M x over the modes, and the number of modes.
-void judge(const System& system, const SparseMatrix* K_G, ModalSolution& solution,
+void judge(const System& system, const SparseMatrix& K_G, ModalSolution& solution,
            Factorization&& spent = {}, double shift_above = 0) {
   if (!solution.outcome.solved()) return;
   const VectorXd w2 = (2 * std::numbers::pi * solution.frequency).cwiseAbs2();
@@ -66,12 +66,11 @@ void judge(const System& system, const SparseMatrix* K_G, ModalSolution& solutio
     RowBalance<double> rows(system, u.cols());
     rows.add_stiffness(u);
     rows.add_inertia(u * (-w2).asDiagonal());
-    if (K_G) rows.add(*K_G, solution.shape);
+    rows.add(K_G, solution.shape);
     solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());
   }
-  const SparseMatrix loaded = K_G ? SparseMatrix(system.K + *K_G) : SparseMatrix();
   const double missed =
-      miscounted_eigenvalues(K_G ? loaded : system.K, system.M, w2, std::move(spent), shift_above);
+      miscounted_eigenvalues(system.K + K_G, system.M, w2, std::move(spent), shift_above);
   const auto twice = static_cast<double>(dependent_vectors(system.M, solution.shape));
   solution.evidence.add(Residual::mode_count, missed + twice);
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
@@ -84,17 +83,13 @@ ModalSolution solve(const System& system, const ModesOptions& options,
   ModalSolution solution;
   solution.counters = system.counters;
   Counters& counters = solution.counters;
-  SparseMatrix K_G, loaded;
-  if (state && system.K.rows() > 0) {
-    K_G = geometric_stiffness(system, state->forces);
-    loaded = system.K + K_G;
-  }
-  const SparseMatrix* const added = state ? &K_G : nullptr;
-  const SparseMatrix& K = state ? loaded : system.K;
+  SparseMatrix K_G(system.K.rows(), system.K.cols());
   if (system.K.rows() == 0) {  // nothing can move
-    judge(system, added, solution);
+    judge(system, K_G, solution);
     return solution;
   }
+  if (state) K_G = geometric_stiffness(system, state->forces);
+  const SparseMatrix K = system.K + K_G;
   Factorization factorization;
   factorization.compute(shifted(K, system.M, 0));
   ++counters.factorizations;
@@ -123,11 +118,10 @@ ModalSolution solve(const System& system, const ModesOptions& options,
       ++counters.factorizations;
     }
     pencil.K_times = [&, elastic = stiffness_operator(system)](const VectorXd& x) -> VectorXd {
-      return added ? elastic(x) + K_G * x : elastic(x);
+      return elastic(x) + K_G * x;
     };
     pencil.K_products = [&](const MatrixXd& X) -> MatrixXd {
-      const MatrixXd elastic = strain_products(system, system.T * X);
-      return added ? elastic + X.transpose() * (K_G * X) : elastic;
+      return strain_products(system, system.T * X) + X.transpose() * (K_G * X);
     };
     const Index elastic = std::max<Index>(0, options.count - free.count());
     pairs = lowest_eigenpairs(pencil, free.basis, elastic, options.method, factorization, counters);
@@ -143,17 +137,13 @@ ModalSolution solve(const System& system, const ModesOptions& options,
   for (Index j = 0; j < elastic; ++j) {
     const double w2 = pairs.value[j];
     const VectorXd x = pairs.vector.col(j);
-    double rounding = strain_roundoff(system, system.T * x);
-    if (state) rounding += geometric_energy_roundoff(system, K_G, of_forces, x);
+    const double rounding = strain_roundoff(system, system.T * x) +
+                            geometric_energy_roundoff(system, K_G, of_forces, x);
     solution.frequency[rigid + j] = std::sqrt(w2) / (2 * std::numbers::pi);
     solution.roundoff[rigid + j] = 0.5 * (rounding / w2 + pairs.error[j]) + 4 * kEps;
     solution.shape.col(rigid + j) = x;
   }
-  if (swings) {
-    judge(system, added, solution, std::move(factorization), pairs.check_shift);
-  } else {
-    judge(system, added, solution);
-  }
+  judge(system, K_G, solution, std::move(factorization), pairs.check_shift);
   return solution;
 }
 

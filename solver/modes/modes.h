@@ -31,7 +31,7 @@ struct ModalSolution {
   /// over w^2 (what rounding the mode to doubles can do to its strain energy), and the error left
   /// by the residual.
   Eigen::VectorXd roundoff;
-  Eigen::MatrixXd shape;             ///< free coordinate x mode; use node_motion, mesh_motion
+  Eigen::MatrixXd shape;             ///< free coordinate x mode; see node_motion
   Index zero_energy_mode_count = 0;  ///< how many leading frequencies are zero
   Evidence evidence;
   Counters counters;

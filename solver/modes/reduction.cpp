@@ -1,6 +1,7 @@
 #include "solver/modes/reduction.h"
 
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "solver/linalg/eigenpairs.h"
@@ -48,17 +49,11 @@ std::vector<std::vector<Index>> interior_sets(const System& system) {
       join(q, own);
     }
   }
+  std::map<Index, std::vector<Index>> set_of;  // by root
+  for (Index q = 0; q < std::ssize(root); ++q)
+    if (root[to_size(q)] >= 0) set_of[find(q)].push_back(q);
   std::vector<std::vector<Index>> sets;
-  std::vector<Index> set_of(root.size(), -1);
-  for (Index q = 0; q < std::ssize(root); ++q) {
-    if (root[to_size(q)] < 0) continue;
-    Index& set = set_of[to_size(find(q))];
-    if (set < 0) {
-      set = std::ssize(sets);
-      sets.emplace_back();
-    }
-    sets[to_size(set)].push_back(q);
-  }
+  for (const auto& entry : set_of) sets.push_back(entry.second);
   return sets;
 }
 

@@ -31,7 +31,7 @@ struct RotatingOptions {
 /// above at a w just beyond the last has as many negative pivots as there are below it.
 struct RotatingModes {
   Outcome outcome;              ///< singular: a mechanism; not_converged: see the reason
-  Eigen::VectorXd q;            ///< steady state, free coordinates; see mesh_motion
+  Eigen::VectorXd q;            ///< steady state, free coordinates; see node_motion
   bool stable = true;           ///< false where a motion grows
   Eigen::VectorXd frequency;    ///< ascending [Hz]; 0 for what grows without turning over
   Eigen::VectorXd growth_rate;  ///< of each [1/s]; 0 in a stable state

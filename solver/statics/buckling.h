@@ -23,7 +23,7 @@ struct BucklingSolution {
   double checked_factor = 0;
   /// Estimate of each factor's relative round-off error [-], as in ModalSolution.
   Eigen::VectorXd roundoff;
-  Eigen::MatrixXd shape;  ///< free coordinate x factor, x^T |K_G| x = 1; see mesh_motion
+  Eigen::MatrixXd shape;  ///< free coordinate x factor, x^T |K_G| x = 1; see node_motion
   Evidence evidence;
   Counters counters;
 };

@@ -80,14 +80,8 @@ double largest_stress(const Member& member, const FrameElement& e, double from_s
 
 void recover_displacements(const System& system, const RecoveredForces& forces,
                            StaticSolution& solution) {
-  const auto value = [&forces](Index c) { return c < 0 ? kNaN : forces.u[c]; };
   const Model& model = system.model;
-  solution.displacement.resize(std::ssize(model.nodes), 3);
-  for (Index i = 0; i < solution.displacement.rows(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k)
-      solution.displacement(i, static_cast<Index>(k)) =
-          value(system.coordinates.node[to_size(i)][k]);
-  }
+  solution.displacement = motion_of_nodes(system, forces.u);
   solution.end_rotation.resize(std::ssize(model.members), 2);
   for (std::size_t i = 0; i < model.members.size(); ++i) {
     const auto& [first, second] = model.members[i].nodes;
@@ -98,7 +92,7 @@ void recover_displacements(const System& system, const RecoveredForces& forces,
       const Index c = system.coordinates.member_end[i][end];
       // A bar turns as a whole.
       solution.end_rotation(static_cast<Index>(i), static_cast<Index>(end)) =
-          c < 0 ? cross(span, shift) / span.squaredNorm() : value(c);
+          c < 0 ? cross(span, shift) / span.squaredNorm() : forces.u[c];
     }
   }
 }
@@ -131,9 +125,7 @@ void recover_triangles(const System& system, const VectorXd& u, StaticSolution& 
   solution.triangle_stress.resize(std::ssize(model.triangles), 3);
   solution.node_stress.setZero(std::ssize(model.nodes), 3);
   VectorXd area = VectorXd::Zero(std::ssize(model.nodes));
-  const double h = 0.5;
-  const std::array<Vector3d, 6> points = {Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1),
-                                          Vector3d(h, h, 0), Vector3d(0, h, h), Vector3d(h, 0, h)};
+  const std::array<Vector3d, 6> points = triangle_node_coordinates();
   for (std::size_t i = 0; i < model.triangles.size(); ++i) {
     const Triangle& triangle = model.triangles[i];
     const double size = std::abs(signed_area(corners(model, triangle)));
@@ -155,14 +147,11 @@ void sum_external_forces(const System& system, const ElasticState& state,
   if (state.prestress) {  // second-order theory: the forces turn with what they act on
     load -= geometric_stiffness_forces(system, *state.prestress, state.u);
   }
-  ForceSum sum = sum_forces(system, system.mesh.positions, load, solution);
-  for (const Spring& spring : system.model.springs) {
-    if (spring.nodes[1] >= 0) continue;
-    const Eigen::RowVector3d u = solution.displacement.row(spring.nodes[0]);
-    sum.add(system.mesh.positions[to_size(spring.nodes[0])],
-            {-spring.stiffness[0] * u[0], -spring.stiffness[1] * u[1]},
-            spring.stiffness[2] == 0 ? 0.0 : -spring.stiffness[2] * u[2]);
+  for (const SpringElement& spring : system.springs) {
+    const auto& [ground, node] = spring.coordinates;
+    if (ground < 0) load[node] -= spring.stiffness * state.u[node];
   }
+  const ForceSum sum = sum_forces(system, system.mesh.positions, load, solution);
   solution.equilibrium_residual = sum.force.norm();
   solution.moment_residual = std::abs(sum.moment);
 }
@@ -216,19 +205,10 @@ ElementForces end_forces(const System& system, const ElasticState& state) {
       force += geometric_stiffness_forces(e, member.theory, state.prestress->axial[index],
                                           state.prestress->axial_variation[index], u);
     }
-    if (state.acceleration.size() > 0) {
-      const Vector6d a =
-          frame_rotation(e.direction) * detail::gather(e.coordinates, state.acceleration);
-      force += frame_mass(e.section, member.theory, member.mass, e.length) * a;
-    }
-    const Vector2d world = acting_load(system, state, e);
-    const Vector2d q(e.direction.dot(world), cross(e.direction, world));
-    if (e.is_bar()) {
-      force.head<2>() -= q * (e.length / 2);
-      force.segment<2>(3) -= q * (e.length / 2);
-    } else {
-      force -= frame_uniform_load(q, e.length);
-    }
+    const Matrix6d R = frame_rotation(e.direction);
+    if (state.acceleration.size() > 0)
+      force += R * (world_mass(e, member) * detail::gather(e.coordinates, state.acceleration));
+    force -= R * element_load(e, acting_load(system, state, e));
     forces.col(index) = force;
   }
   return forces;

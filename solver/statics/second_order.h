@@ -1,10 +1,11 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 
 #include "solver/assembly/prestress.h"
 #include "solver/assembly/system.h"
-#include "solver/model/counters.h"
+#include "solver/linalg/refinement.h"
 #include "solver/statics/linear_solution.h"
 
 namespace trammel::solver {
@@ -15,6 +16,44 @@ namespace trammel::solver {
 [[nodiscard]] Prestress forces_of(const System& system, const Eigen::VectorXd& u,
                                   const Eigen::VectorXd& load, const BodyForces& body,
                                   const Prestress* before = nullptr);
+
+/// Equilibrium (K + A + K_G) q = f of a state whose own forces hold it, K_G from these forces and A
+/// the softening of a rotating frame, if there is one. Without A the state has to be stable:
+/// K + K_G has no negative pivot (Sylvester). Functions that fail set the outcome of the state.
+class StiffenedEquilibrium {
+ public:
+  /// Forces in q, from q and the forces of the matrix that q was solved with.
+  using Forces = std::function<Prestress(const Eigen::VectorXd&, const Prestress*)>;
+
+  StiffenedEquilibrium(const System& system, Counters& counters,
+                       const SparseMatrix* softening = nullptr);
+
+  /// Solves with K_G of the state's forces, none if they are empty; returns false if it fails.
+  bool solve(const Eigen::VectorXd& f, StaticState& state);
+  /// Solves and updates the forces until they repeat, from a state nearby.
+  void iterate(const Eigen::VectorXd& f, const Forces& forces, StaticState& state);
+
+  /// StaticState::error of the state that was solved last.
+  [[nodiscard]] double error(const StaticState& state) const;
+  /// A + K_G of the last solution, and (K + A + K_G) q with K q from the elements' deformations.
+  [[nodiscard]] const SparseMatrix& added() const { return added_; }
+  [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& q) const;
+  [[nodiscard]] bool is_stable() const { return factorization_.smallest_pivot() > 0; }
+
+ private:
+  /// max |u|, rotations times the size of the model.
+  [[nodiscard]] double measure(const Eigen::VectorXd& q) const;
+  /// What rounding of the state's forces does to the displacements.
+  [[nodiscard]] double force_rounding(const StaticState& state) const;
+
+  const System& system_;
+  Counters& counters_;
+  const SparseMatrix* softening_;
+  SparseMatrix lengths_, added_;
+  Operator elastic_;
+  Factorization factorization_;
+  double left_ = 0;  // of q, what the latest iteration leaves
+};
 
 /// Second-order theory: (K + K_G) q = f, K_G from the forces that hold q itself. Singular if a
 /// motion buckles on the way; not converged if there is no equilibrium beyond the share of the

@@ -21,7 +21,7 @@ struct StaticsOptions {
 /// EI v'' = M, dM/dx = -V, dV/dx = -q_y, dN/dx = -q_x.
 struct StaticSolution {
   Outcome outcome;           ///< singular: the reason names the free motion in words
-  Eigen::VectorXd q;         ///< free coordinates; draw them with mesh_motion
+  Eigen::VectorXd q;         ///< free coordinates; see node_motion
   Prestress forces;          ///< second-order theory: of q, those that hold it
   double amplification = 1;  ///< of what second-order theory adds, by the loads [-]
   double estimated_correct_digits =

@@ -1,11 +1,10 @@
 #include "solver/statics/unbalanced_forces.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "solver/assembly/length_scales.h"
 #include "solver/assembly/strain.h"
 #include "solver/linalg/backward_error.h"
-#include "solver/model/numbers.h"
 
 namespace trammel::solver {
 namespace {
@@ -50,37 +49,15 @@ void add_other_elements(const System& system, const ElasticState& state, VectorX
   sum += geometric_stiffness_forces(system, rest, state.u);
 }
 
-/// What the rounding of a constraint's force is a share of: a constraint carries the terms at each
-/// of its coordinates to all of them, as a chain of inextensible elements does to its loose end.
-/// @returns  constraint row
-VectorXd carried_terms(const std::vector<ConstraintRow>& rows, const VectorXd& force,
-                       VectorXd terms) {
-  VectorXd carried = force.cwiseAbs();
-  const auto carry = [&](Index i) {
-    const ConstraintRow& row = rows[to_size(i)];
-    if (row.source == ConstraintRow::Source::support) return;
-    double& size = carried[i];
-    for (const auto& [coordinate, coefficient] : row.terms) {
-      if (coefficient != 0) size = std::max(size, terms[coordinate] / std::abs(coefficient));
-    }
-    for (const auto& [coordinate, coefficient] : row.terms)
-      terms[coordinate] = std::max(terms[coordinate], std::abs(coefficient) * size);
-  };
-  for (Index i = 0; i < carried.size(); ++i) carry(i);
-  for (Index i = carried.size(); i-- > 0;) carry(i);
-  return carried;
-}
-
 /// Adds what supports and other constraints exert, with its magnitudes.
 void add_constraints(const System& system, const ElasticState& state,
                      const StaticSolution& solution, VectorXd& sum, VectorXd& magnitudes) {
   const VectorXd multipliers = constraint_forces(system, state);
-  const VectorXd carried = carried_terms(system.constraints.rows, multipliers, magnitudes);
   for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
     const ConstraintRow& row = system.constraints.rows[i];
     double force = multipliers[static_cast<Index>(i)];
     for (const auto& [coordinate, coefficient] : row.terms)
-      magnitudes[coordinate] += std::abs(coefficient) * carried[static_cast<Index>(i)];
+      magnitudes[coordinate] += std::abs(coefficient * force);
     if (row.source == ConstraintRow::Source::inextensible) continue;  // the members have it
     if (row.source == ConstraintRow::Source::support)
       force = solution.reaction(row.index, support_component(system, row));
@@ -97,7 +74,11 @@ double unbalanced_forces(const System& system, const ElasticState& state,
   add_members(system, state, solution, sum);
   add_other_elements(system, state, sum);
   add_constraints(system, state, solution, sum, magnitudes);
-  return largest_ratio(sum, magnitudes);
+  // Constraints carry the round-off of a force to other coordinates, as a chain of inextensible
+  // elements does to its loose end.
+  const VectorXd length = length_scales(system);
+  const double largest = magnitudes.cwiseQuotient(length).maxCoeff();
+  return largest_ratio(sum, magnitudes.cwiseMax(kLeastShare * largest * length));
 }
 
 }  // namespace trammel::solver

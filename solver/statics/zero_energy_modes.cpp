@@ -5,6 +5,7 @@
 #include "solver/assembly/strain.h"
 #include "solver/linalg/dense_eigen.h"
 #include "solver/linalg/lanczos.h"
+#include "solver/linalg/refinement.h"
 
 namespace trammel::solver {
 namespace {
@@ -35,21 +36,18 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
   Factorization factorization;
   factorization.compute(shifted);
   ++counters.factorizations;
-  const auto solve = [&](const VectorXd& b) {
-    VectorXd x = VectorXd::Zero(n), residual = b;
-    for (int step = 0; step < 4; ++step) {
-      x += factorization.solve(residual);
-      ++counters.solves;
-      residual = b - system.T.transpose() * internal_forces(system, system.T * x) -
-                 kShift * D.cwiseProduct(x);
-    }
-    return x;
+  const Operator shifted_K = [&,
+                              elastic = stiffness_operator(system)](const VectorXd& x) -> VectorXd {
+    return elastic(x) + kShift * D.cwiseProduct(x);
   };
   const VectorXd root = D.cwiseSqrt();
   for (Index block = std::min<Index>(4, n);; block = std::min({3 * block, n, kMaxModes})) {
     MatrixXd X = start_vectors(n, block);
     for (int step = 0; step < 3; ++step) {
-      for (Index j = 0; j < block; ++j) X.col(j) = solve(D.cwiseProduct(X.col(j)));
+      for (Index j = 0; j < block; ++j) {
+        const VectorXd b = D.cwiseProduct(X.col(j));
+        X.col(j) = refined_solve(shifted_K, factorization, b, counters).x;
+      }
       const Eigen::HouseholderQR<MatrixXd> qr(root.asDiagonal() * X);
       X = qr.householderQ() * MatrixXd::Identity(n, block);
       X = root.cwiseInverse().asDiagonal() * X;
