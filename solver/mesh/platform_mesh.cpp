@@ -8,7 +8,6 @@
 
 #include "solver/elements/triangle_element.h"
 #include "solver/model/plane.h"
-#include "solver/model/quadrature.h"
 
 namespace trammel::solver {
 
@@ -49,6 +48,30 @@ TriangleMesh split(TriangleMesh mesh) {
   return fine;
 }
 
+/// Degree-5 rule of seven points on a triangle (Radon 1948): barycentric coordinates and weight.
+struct RulePoint {
+  Vector3d barycentric;
+  double weight;
+};
+
+const std::array<RulePoint, 7>& radon_rule() {
+  static const std::array<RulePoint, 7> rule = [] {
+    const double r = std::sqrt(15.0);
+    const double a = (6 - r) / 21;
+    const double b = (6 + r) / 21;
+    const double wa = (155 - r) / 1200;
+    const double wb = (155 + r) / 1200;
+    return std::array<RulePoint, 7>{{{Vector3d::Constant(1.0 / 3), 9.0 / 40},
+                                     {{1 - 2 * a, a, a}, wa},
+                                     {{a, 1 - 2 * a, a}, wa},
+                                     {{a, a, 1 - 2 * a}, wa},
+                                     {{1 - 2 * b, b, b}, wb},
+                                     {{b, 1 - 2 * b, b}, wb},
+                                     {{b, b, 1 - 2 * b}, wb}}};
+  }();
+  return rule;
+}
+
 /// Calls visit(point, its share of the area) for a quadrature of the triangle near the disc, in
 /// pieces that are small beside the disc; what lies outside the disc is left out.
 template <class Visit>
@@ -57,7 +80,7 @@ void integrate_near(const Corners& t, const Vector2d& x0, double radius, const V
   double reach = 0;
   for (const Vector2d& corner : t) reach = std::max(reach, (corner - centroid).norm());
   if ((centroid - x0).norm() > radius + reach) return;
-  if (reach > radius / 8) {
+  if (reach > radius / 16) {
     const Corners m{(t[0] + t[1]) / 2, (t[1] + t[2]) / 2, (t[2] + t[0]) / 2};
     integrate_near({t[0], m[0], m[2]}, x0, radius, visit);
     integrate_near({m[0], t[1], m[1]}, x0, radius, visit);
@@ -66,9 +89,10 @@ void integrate_near(const Corners& t, const Vector2d& x0, double radius, const V
     return;
   }
   const double area = twice_area(t[0], t[1], t[2]) / 2;
-  for (const TriangleQuadraturePoint& point : triangle_quadrature()) {
-    const Vector3d& L = point.area_coordinates;
-    visit(Vector2d(L[0] * t[0] + L[1] * t[1] + L[2] * t[2]), point.weight * area);
+  for (const RulePoint& point : radon_rule()) {
+    const Vector3d& l = point.barycentric;
+    const Vector2d x = l(0) * t[0] + l(1) * t[1] + l(2) * t[2];
+    visit(x, point.weight * area);
   }
 }
 
