@@ -88,7 +88,7 @@ class CommandLine {
     const char* name;
     void (CommandLine::*define)(CLI::App* sub);
   };
-  static const Command kCommands[21];
+  static const Command kCommands[20];
 
   static bool is_command(const std::string& name) {
     return std::ranges::any_of(kCommands,
