@@ -6,7 +6,7 @@
 #include "harness/base/find_or_add.h"
 #include "harness/base/numbers.h"
 #include "harness/readers/manipulator_reader.h"
-#include "solver/poses/pose_modes.h"
+#include "solver/manipulator/pose_modes.h"
 
 namespace trammel::harness {
 namespace {

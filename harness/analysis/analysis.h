@@ -11,7 +11,7 @@
 #include "harness/input/reference_library.h"
 #include "harness/results/run_results.h"
 #include "harness/scene/drawing.h"
-#include "solver/assembly/system.h"
+#include "solver/linear/system.h"
 #include "solver/model/evidence.h"
 
 /// One computation: a case with its patches in, numbers out.

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "solver/model/plane.h"
+#include "solver/model/model.h"
 
 namespace trammel::harness {
 namespace {

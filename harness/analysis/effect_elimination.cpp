@@ -12,8 +12,8 @@
 #include "harness/base/find_or_add.h"
 #include "harness/motion/analyse_elastodynamics.h"
 #include "harness/statics_modes/analyse_statics.h"
-#include "solver/large_motion/manipulator/large_elastodynamics.h"
-#include "solver/model/plane.h"
+#include "solver/large/large_elastodynamics.h"
+#include "solver/model/model.h"
 
 namespace trammel::harness {
 namespace {

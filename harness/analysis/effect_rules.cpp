@@ -5,10 +5,10 @@
 
 #include "harness/motion/analyse_elastodynamics.h"
 #include "harness/readers/time_reader.h"
-#include "solver/assembly/restrict_model_effects.h"
-#include "solver/effects/dynamic_effect_estimates.h"
 #include "solver/elements/frame_element.h"
-#include "solver/large_motion/manipulator/large_elastodynamics.h"
+#include "solver/large/large_elastodynamics.h"
+#include "solver/linear/validate.h"
+#include "solver/manipulator/effect_estimates.h"
 
 namespace trammel::harness {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/scene/case_model.h"
-#include "solver/effects/effect_estimates.h"
+#include "solver/manipulator/effect_estimates.h"
 
 /// What the analyses that know effects can do with, how they decide, and what they say of it.
 namespace trammel::harness {

@@ -10,9 +10,9 @@
 #include "harness/export/vtk_files.h"
 #include "harness/readers/damping_reader.h"
 #include "harness/scene/with_model_errors.h"
-#include "solver/assembly/damping.h"
-#include "solver/assembly/system.h"
-#include "solver/large_motion/elements/linear_joints.h"
+#include "solver/large/large_motion_model.h"
+#include "solver/linear/row_balance.h"
+#include "solver/linear/system.h"
 
 namespace trammel::harness {
 namespace {

@@ -1,6 +1,6 @@
 #include "harness/export/mechanism.h"
 
-#include "solver/manipulator/inverse_dynamics.h"
+#include "solver/manipulator/rigid_dynamics.h"
 
 namespace trammel::harness {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "harness/export/section_table.h"
 #include "harness/readers/member_chain.h"
-#include "solver/elements/edge_load.h"
 #include "solver/elements/frame_element.h"
+#include "solver/elements/triangle_element.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::harness {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/base/json.h"
-#include "solver/large_motion/elements/large_motion_model.h"
+#include "solver/large/large_motion_model.h"
 #include "solver/model/model.h"
 
 /// A built model as a case file says it, with nothing left to resolve: every node has a name,

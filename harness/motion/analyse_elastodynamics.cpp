@@ -8,10 +8,10 @@
 #include "harness/scene/rigid_case_model.h"
 #include "harness/statics_modes/analyse_statics.h"
 #include "harness/statics_modes/range_warnings.h"
-#include "solver/elastodynamics/elastodynamics.h"
-#include "solver/large_motion/manipulator/large_elastodynamics.h"
+#include "solver/large/large_elastodynamics.h"
+#include "solver/linear/modes.h"
+#include "solver/manipulator/elastodynamics.h"
 #include "solver/manipulator/manipulator.h"
-#include "solver/modes/modes.h"
 
 namespace trammel::harness {
 namespace {

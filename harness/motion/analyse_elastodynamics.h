@@ -1,7 +1,7 @@
 #pragma once
 
 #include "harness/statics_modes/step_result.h"
-#include "solver/elastodynamics/elastodynamics.h"
+#include "solver/manipulator/elastodynamics.h"
 
 namespace trammel::harness {
 

@@ -5,7 +5,7 @@
 
 #include "harness/scene/rigid_case_model.h"
 #include "solver/manipulator/forward_dynamics.h"
-#include "solver/manipulator/inverse_dynamics.h"
+#include "solver/manipulator/rigid_dynamics.h"
 
 namespace trammel::harness {
 namespace {

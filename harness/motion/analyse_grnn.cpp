@@ -8,7 +8,7 @@
 #include "harness/scene/rigid_case_model.h"
 #include "solver/grnn/grnn_validation.h"
 #include "solver/manipulator/forward_dynamics.h"
-#include "solver/manipulator/inverse_dynamics.h"
+#include "solver/manipulator/rigid_dynamics.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::harness {

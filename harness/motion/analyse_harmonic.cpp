@@ -7,7 +7,7 @@
 #include "harness/scene/outputs.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "harness/statics_modes/reduced_system.h"
-#include "solver/modes/modes.h"
+#include "solver/linear/modes.h"
 
 namespace trammel::harness {
 namespace {

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "harness/scene/rigid_case_model.h"
-#include "solver/manipulator/inverse_dynamics.h"
+#include "solver/manipulator/rigid_dynamics.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::harness {

@@ -9,9 +9,9 @@
 #include "harness/scene/draw_large.h"
 #include "harness/scene/tracking.h"
 #include "harness/statics_modes/range_warnings.h"
-#include "solver/large_motion/solve/integrate.h"
-#include "solver/large_motion/solve/large_statics.h"
-#include "solver/large_motion/solve/state_results.h"
+#include "solver/large/equilibrium.h"
+#include "solver/large/integrate_large_motion.h"
+#include "solver/large/state_results.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::harness {

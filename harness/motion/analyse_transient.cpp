@@ -11,7 +11,7 @@
 #include "harness/statics_modes/range_warnings.h"
 #include "harness/statics_modes/reduced_system.h"
 #include "solver/model/numbers.h"
-#include "solver/time/late_strain.h"
+#include "solver/motion/modal_superposition.h"
 
 namespace trammel::harness {
 namespace {

@@ -8,8 +8,8 @@
 #include "harness/scene/rigid_case_model.h"
 #include "harness/scene/tracking.h"
 #include "harness/statics_modes/step_result.h"
-#include "solver/large_motion/solve/state_results.h"
-#include "solver/manipulator/inverse_dynamics.h"
+#include "solver/large/state_results.h"
+#include "solver/manipulator/rigid_dynamics.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::harness {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/scene/case_model.h"
-#include "solver/manipulator/inverse_dynamics.h"
+#include "solver/manipulator/rigid_dynamics.h"
 
 /// What a network learns from and is asked about.
 namespace trammel::harness {

@@ -10,14 +10,13 @@
 #include "harness/readers/joint_reader.h"
 #include "harness/readers/material_reader.h"
 #include "harness/readers/time_reader.h"
-#include "solver/assembly/damping.h"
-#include "solver/assembly/inertia.h"
+#include "solver/linear/element_operators.h"
+#include "solver/linear/modes.h"
+#include "solver/linear/row_balance.h"
 #include "solver/model/numbers.h"
-#include "solver/modes/modes.h"
-#include "solver/time/late_strain.h"
-#include "solver/time/modal_superposition.h"
-#include "solver/time/motion_evidence.h"
-#include "solver/time/rotating_frame_transient.h"
+#include "solver/motion/modal_superposition.h"
+#include "solver/motion/motion_evidence.h"
+#include "solver/motion/rotating_frame_transient.h"
 
 namespace trammel::harness {
 namespace {

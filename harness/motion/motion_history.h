@@ -3,10 +3,10 @@
 #include <vector>
 
 #include "harness/input/json_view.h"
-#include "solver/assembly/damping.h"
+#include "solver/linear/row_balance.h"
+#include "solver/linear/statics.h"
 #include "solver/model/evidence.h"
-#include "solver/statics/postprocessing.h"
-#include "solver/time/transient.h"
+#include "solver/motion/transient.h"
 
 namespace trammel::harness {
 

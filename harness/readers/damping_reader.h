@@ -1,7 +1,7 @@
 #pragma once
 
 #include "harness/input/json_view.h"
-#include "solver/time/harmonic.h"
+#include "solver/motion/harmonic.h"
 
 namespace trammel::harness {
 

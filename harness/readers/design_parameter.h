@@ -3,7 +3,7 @@
 #include <string>
 
 #include "harness/input/json_view.h"
-#include "solver/sensitivity/design_parameter.h"
+#include "solver/manipulator/frequency_sensitivity.h"
 
 /// Numbers of the manipulator's design, as cases name them.
 namespace trammel::harness {

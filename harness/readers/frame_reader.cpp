@@ -8,9 +8,9 @@
 #include "harness/readers/member_chain.h"
 #include "harness/readers/plate_reader.h"
 #include "harness/readers/symbol_table.h"
-#include "solver/large_motion/elements/linear_joints.h"
+#include "solver/large/large_motion_model.h"
+#include "solver/model/model.h"
 #include "solver/model/numbers.h"
-#include "solver/model/plane.h"
 
 namespace trammel::harness {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "harness/input/json_view.h"
-#include "solver/large_motion/elements/large_motion_model.h"
+#include "solver/large/large_motion_model.h"
 #include "solver/model/model.h"
 
 namespace trammel::harness {

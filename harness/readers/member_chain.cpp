@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "solver/elements/frame_element.h"
-#include "solver/model/plane.h"
+#include "solver/model/model.h"
 
 namespace trammel::harness {
 namespace {

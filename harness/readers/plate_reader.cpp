@@ -7,9 +7,9 @@
 #include <set>
 
 #include "harness/readers/material_reader.h"
-#include "solver/mesh/block_mesh.h"
+#include "solver/elements/block_mesh.h"
+#include "solver/model/model.h"
 #include "solver/model/numbers.h"
-#include "solver/model/plane.h"
 
 namespace trammel::harness {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "harness/input/json_view.h"
-#include "solver/assembly/damping.h"
-#include "solver/time/load_history.h"
-#include "solver/time/transient.h"
+#include "solver/linear/row_balance.h"
+#include "solver/motion/equation_of_motion.h"
+#include "solver/motion/transient.h"
 
 /// What analyses in time have in common.
 namespace trammel::harness {

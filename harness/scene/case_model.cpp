@@ -9,11 +9,11 @@
 #include "harness/readers/joint_reader.h"
 #include "harness/readers/manipulator_reader.h"
 #include "harness/scene/with_model_errors.h"
-#include "solver/assembly/restrict_model_effects.h"
-#include "solver/large_motion/elements/linear_joints.h"
+#include "solver/large/large_motion_model.h"
+#include "solver/linear/validate.h"
 #include "solver/manipulator/manipulator.h"
 #include "solver/manipulator/trajectory.h"
-#include "solver/model/labels.h"
+#include "solver/model/model.h"
 
 namespace trammel::harness {
 namespace {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "harness/input/json_view.h"
-#include "solver/large_motion/elements/large_motion_model.h"
+#include "solver/large/large_motion_model.h"
 #include "solver/manipulator/manipulator.h"
 #include "solver/manipulator/trajectory.h"
 #include "solver/model/effects.h"

@@ -1,6 +1,6 @@
 #include "harness/scene/draw_large.h"
 
-#include "solver/large_motion/solve/state_results.h"
+#include "solver/large/state_results.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::harness {

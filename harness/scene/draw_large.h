@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "harness/scene/drawing.h"
-#include "solver/large_motion/system/geometrically_exact_system.h"
+#include "solver/large/geometrically_exact_system.h"
 
 /// Pictures of models in large motion: places, never magnified.
 namespace trammel::harness {

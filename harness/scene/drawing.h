@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/assembly/system.h"
+#include "solver/linear/system.h"
 #include "solver/manipulator/kinematics.h"
 #include "solver/manipulator/trajectory.h"
 #include "solver/model/numbers.h"

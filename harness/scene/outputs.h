@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "harness/input/json_view.h"
-#include "solver/statics/statics.h"
-#include "solver/time/harmonic.h"
+#include "solver/linear/statics.h"
+#include "solver/motion/harmonic.h"
 
 /// What a response in time or over frequency is followed by: key "outputs" of its analysis.
 namespace trammel::harness {

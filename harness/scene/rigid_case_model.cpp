@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "solver/model/model.h"
 #include "solver/model/numbers.h"
-#include "solver/model/plane.h"
 
 namespace trammel::harness {
 namespace {

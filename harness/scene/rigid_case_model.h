@@ -1,7 +1,7 @@
 #pragma once
 
 #include "harness/scene/case_model.h"
-#include "solver/manipulator/rigid_terms.h"
+#include "solver/manipulator/rigid_dynamics.h"
 
 /// What the analyses of the rigid manipulator take from a scene.
 namespace trammel::harness {

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "harness/scene/rigid_case_model.h"
-#include "solver/large_motion/manipulator/joint_law.h"
-#include "solver/large_motion/solve/consistent_initialization.h"
-#include "solver/manipulator/inverse_dynamics.h"
+#include "solver/large/consistent_initialization.h"
+#include "solver/large/large_elastodynamics.h"
+#include "solver/manipulator/rigid_dynamics.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::harness {

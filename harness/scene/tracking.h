@@ -2,8 +2,8 @@
 
 #include "harness/input/json_view.h"
 #include "harness/scene/case_model.h"
-#include "solver/large_motion/solve/integrate.h"
-#include "solver/large_motion/system/geometrically_exact_system.h"
+#include "solver/large/geometrically_exact_system.h"
+#include "solver/large/integrate_large_motion.h"
 
 /// The manipulator in large motion, its actuators driven as its rigid twin follows the path, or
 /// under the torques that this one needs for it.

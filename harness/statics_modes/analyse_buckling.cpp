@@ -4,7 +4,7 @@
 
 #include "harness/readers/eigen_method.h"
 #include "harness/statics_modes/range_warnings.h"
-#include "solver/statics/buckling.h"
+#include "solver/linear/buckling.h"
 
 namespace trammel::harness {
 namespace {

@@ -9,10 +9,10 @@
 #include "harness/statics_modes/analyse_statics.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "harness/statics_modes/rotating_state.h"
-#include "solver/large_motion/solve/large_statics.h"
-#include "solver/large_motion/solve/small_vibration.h"
-#include "solver/large_motion/solve/state_results.h"
-#include "solver/large_motion/solve/static_path.h"
+#include "solver/large/equilibrium.h"
+#include "solver/large/small_vibration.h"
+#include "solver/large/state_results.h"
+#include "solver/large/static_path.h"
 
 namespace trammel::harness {
 namespace {

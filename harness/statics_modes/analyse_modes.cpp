@@ -6,10 +6,10 @@
 #include "harness/readers/eigen_method.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "harness/statics_modes/rotating_state.h"
+#include "solver/linear/modes.h"
+#include "solver/linear/reduction.h"
+#include "solver/manipulator/pose_modes.h"
 #include "solver/model/numbers.h"
-#include "solver/modes/modes.h"
-#include "solver/modes/reduction.h"
-#include "solver/poses/pose_modes.h"
 
 namespace trammel::harness {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "solver/elements/frame_element.h"
 #include "solver/elements/triangle_element.h"
+#include "solver/model/model.h"
 #include "solver/model/numbers.h"
-#include "solver/model/plane.h"
 #include "solver/model/quadrature.h"
 
 namespace trammel::harness {

@@ -6,7 +6,7 @@
 #include "harness/scene/rigid_case_model.h"
 #include "harness/statics_modes/design_change.h"
 #include "harness/statics_modes/frequency_differences.h"
-#include "solver/sensitivity/frequency_sensitivity.h"
+#include "solver/manipulator/frequency_sensitivity.h"
 
 namespace trammel::harness {
 namespace {

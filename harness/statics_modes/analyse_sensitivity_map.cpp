@@ -9,7 +9,7 @@
 #include "harness/readers/design_parameter.h"
 #include "harness/scene/rigid_case_model.h"
 #include "harness/statics_modes/design_change.h"
-#include "solver/sensitivity/sensitivity_map.h"
+#include "solver/manipulator/sensitivity_map.h"
 
 namespace trammel::harness {
 namespace {

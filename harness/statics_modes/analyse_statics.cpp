@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "harness/statics_modes/range_warnings.h"
-#include "solver/large_motion/solve/large_statics.h"
+#include "solver/large/equilibrium.h"
+#include "solver/linear/second_order.h"
+#include "solver/linear/statics.h"
 #include "solver/model/numbers.h"
-#include "solver/statics/linear_solution.h"
-#include "solver/statics/statics.h"
 
 namespace trammel::harness {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "harness/statics_modes/step_result.h"
-#include "solver/statics/statics.h"
+#include "solver/linear/statics.h"
 
 namespace trammel::harness {
 

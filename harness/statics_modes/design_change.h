@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solver/sensitivity/design_parameter.h"
+#include "solver/manipulator/frequency_sensitivity.h"
 
 /// Values of the parameters of a design, and changed designs.
 namespace trammel::harness {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "harness/statics_modes/design_change.h"
-#include "solver/modes/modes.h"
-#include "solver/sensitivity/frequency_sensitivity.h"
+#include "solver/linear/modes.h"
+#include "solver/manipulator/frequency_sensitivity.h"
 
 namespace trammel::harness {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <Eigen/Core>
 
-#include "solver/model/counters.h"
+#include "solver/manipulator/frequency_sensitivity.h"
+#include "solver/model/effects.h"
 #include "solver/model/evidence.h"
-#include "solver/sensitivity/design_parameter.h"
 
 /// Sensitivities of the natural frequencies by differences, as a study over a parameter of the
 /// design: a second route, which shares no derivative with `solver::frequency_sensitivity`.

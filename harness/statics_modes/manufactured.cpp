@@ -1,11 +1,10 @@
 #include "harness/statics_modes/manufactured.h"
 
-#include "solver/assembly/consistent_load.h"
-#include "solver/assembly/row_balance.h"
-#include "solver/assembly/strain.h"
+#include "solver/elements/block_mesh.h"
 #include "solver/linalg/factorization.h"
-#include "solver/linalg/refinement.h"
-#include "solver/mesh/distorted_mesh.h"
+#include "solver/linear/element_operators.h"
+#include "solver/linear/fields.h"
+#include "solver/linear/row_balance.h"
 
 namespace trammel::harness {
 namespace {

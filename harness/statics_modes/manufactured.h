@@ -1,10 +1,9 @@
 #pragma once
 
 #include "references/data/manufactured.h"
-#include "solver/assembly/field_error.h"
-#include "solver/assembly/system.h"
+#include "solver/linear/fields.h"
+#include "solver/linear/system.h"
 #include "solver/model/evidence.h"
-#include "solver/model/outcome.h"
 
 /// Manufactured solutions on a mesh: loads from the closed form, solve, errors against the closed
 /// form.

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/model/model.h"
 #include "solver/model/numbers.h"
-#include "solver/model/plane.h"
 
 namespace trammel::harness {
 namespace {

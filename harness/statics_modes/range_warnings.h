@@ -1,8 +1,8 @@
 #pragma once
 
 #include "harness/base/warning.h"
-#include "solver/assembly/system.h"
-#include "solver/statics/statics.h"
+#include "solver/linear/statics.h"
+#include "solver/linear/system.h"
 
 /// How far the theories hold, and warnings of solutions that went farther.
 namespace trammel::harness {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "solver/modes/reduction.h"
+#include "solver/linear/reduction.h"
 
 namespace trammel::harness {
 

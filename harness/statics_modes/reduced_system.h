@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "harness/input/json_view.h"
-#include "solver/assembly/system.h"
-#include "solver/model/outcome.h"
+#include "solver/linear/system.h"
+#include "solver/model/evidence.h"
 
 namespace trammel::harness {
 

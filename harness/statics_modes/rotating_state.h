@@ -1,7 +1,7 @@
 #pragma once
 
 #include "harness/statics_modes/step_result.h"
-#include "solver/modes/rotating_modes.h"
+#include "solver/linear/rotating_frame.h"
 
 namespace trammel::harness {
 

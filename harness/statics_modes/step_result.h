@@ -11,7 +11,7 @@
 #include "harness/results/run_results.h"
 #include "harness/scene/case_model.h"
 #include "harness/scene/drawing.h"
-#include "solver/assembly/system.h"
+#include "solver/linear/system.h"
 #include "solver/model/evidence.h"
 
 namespace trammel::harness {

@@ -10,8 +10,8 @@
 #include "harness/base/timing.h"
 #include "harness/input/reference_library.h"
 #include "harness/scene/with_model_errors.h"
-#include "solver/model/plane.h"
-#include "solver/statics/buckling.h"
+#include "solver/linear/buckling.h"
+#include "solver/model/model.h"
 
 namespace trammel::harness {
 namespace {

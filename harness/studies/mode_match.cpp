@@ -9,7 +9,7 @@
 #include "harness/scene/case_model.h"
 #include "harness/scene/drawing.h"
 #include "harness/scene/with_model_errors.h"
-#include "solver/modes/modes.h"
+#include "solver/linear/modes.h"
 
 namespace trammel::harness {
 namespace {

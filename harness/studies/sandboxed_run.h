@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "harness/studies/cost_study.h"
-#include "solver/assembly/system.h"
+#include "solver/linear/system.h"
 
 namespace trammel::harness {
 

@@ -3,8 +3,8 @@
 #include <Eigen/Core>
 #include <type_traits>
 
-#include "solver/model/dual.h"
 #include "solver/model/model.h"
+#include "solver/model/numbers.h"
 #include "solver/model/quadrature.h"
 
 /// The two-node planar frame element, as pure functions. Element axes: x from the first node to the

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <random>
 
-#include "solver/grnn/grnn_weights.h"
+#include "solver/grnn/grnn.h"
 
 namespace trammel::solver {
 

@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/QR>
 #include <Eigen/SVD>
+#include <cmath>
+#include <limits>
 
 #include "solver/model/numbers.h"
 
@@ -50,6 +52,15 @@ PivotedSolution pivoted_solve(const Matrix3d& A, const Vector3d& b) {
 Vector3d singular_values(const Matrix3d& A) {
   const Eigen::JacobiSVD<Matrix3d> svd(A);
   return svd.info() == Eigen::Success ? Vector3d(svd.singularValues()) : Vector3d::Constant(kNaN);
+}
+
+double largest_ratio(const Eigen::VectorXd& residual, const Eigen::VectorXd& terms) {
+  double largest = 0;
+  for (Index i = 0; i < residual.size(); ++i) {
+    if (residual[i] == 0 && terms[i] >= 0) continue;
+    largest = nan_max(largest, std::abs(residual[i]) / terms[i]);
+  }
+  return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace trammel::solver

@@ -5,10 +5,9 @@
 #include <optional>
 
 #include "solver/linalg/factorization.h"
-#include "solver/linalg/refinement.h"
-#include "solver/model/counters.h"
+#include "solver/model/effects.h"
+#include "solver/model/evidence.h"
 #include "solver/model/numbers.h"
-#include "solver/model/outcome.h"
 
 namespace trammel::solver {
 
@@ -76,5 +75,27 @@ struct Eigenpairs {
 /// Number of eigenvectors that depend on the others, by their products in a metric in which they
 /// are orthogonal: a mode that was found twice counts once.
 [[nodiscard]] Index dependent_vectors(const SparseMatrix& metric, const Eigen::MatrixXd& X);
+
+struct LanczosOptions {
+  Index wanted = 1;    ///< eigenvalues, below the operator's size
+  Index subspace = 2;  ///< vectors kept between restarts, above `wanted`
+  double tolerance = 1e-9;
+};
+
+/// Those that converged; there may be fewer than were wanted, or none.
+struct LanczosPairs {
+  Eigen::VectorXd value;   ///< descending
+  Eigen::MatrixXd vector;  ///< one a column
+};
+
+/// Largest eigenvalues of a symmetric operator, by Lanczos' method with implicit restarts
+/// (Spectra).
+[[nodiscard]] LanczosPairs largest_eigenpairs(
+    const std::function<Eigen::VectorXd(const Eigen::Ref<const Eigen::VectorXd>&)>& apply,
+    const Eigen::VectorXd& start, const LanczosOptions& options);
+
+/// Columns for an eigenvalue iteration to start from: numbers in [-1, 1), the same everywhere.
+/// @param variant  another sequence
+[[nodiscard]] Eigen::MatrixXd start_vectors(Index rows, Index columns, Index variant = 0);
 
 }  // namespace trammel::solver

@@ -1,10 +1,193 @@
 #include "solver/linalg/factorization.h"
 
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
+#include <algorithm>
 #include <cmath>
+#include <complex>
+#include <iostream>  // MetisSupport needs it
+#include <limits>
+#include <mutex>
+#include <numeric>
+#include <vector>
+
+// after <iostream>
+#include <Eigen/MetisSupport>
 
 namespace trammel::solver {
 
+namespace {
+
 using Eigen::VectorXd;
+
+/// The upper triangle of P A P^T, whose values are the places of its entries among those of one
+/// triangle of A.
+template <unsigned Triangle>
+SparseMatrix permuted_places(const SparseMatrix& A, const Permutation& P) {
+  SparseMatrix places = A;
+  std::iota(places.valuePtr(), places.valuePtr() + places.nonZeros(), 0.0);
+  SparseMatrix upper(A.rows(), A.cols());
+  upper.selfadjointView<Eigen::Upper>() = places.selfadjointView<Triangle>().twistedBy(P);
+  return upper;
+}
+
+/// The same matrix, each column by rising rows.
+SparseMatrix sorted(const SparseMatrix& A) {
+  const SparseMatrix rows = A.transpose();
+  return rows.transpose();
+}
+
+/// x becomes L^-T x, L with a diagonal of ones that is not stored. From its last entry to the
+/// first: memory is fetched ahead in one direction only.
+void solve_transposed(const SparseMatrix& L, VectorXd& x) {
+  const int *start = L.outerIndexPtr(), *row = L.innerIndexPtr();
+  const double* value = L.valuePtr();
+  for (Index j = L.cols() - 1; j >= 0; --j) {
+    double sum = 0;
+    for (int k = start[j + 1] - 1; k >= start[j]; --k) sum += value[k] * x[row[k]];
+    x[j] -= sum;
+  }
+}
+
+std::vector<Index> values_of(const SparseMatrix& places) {
+  return {places.valuePtr(), places.valuePtr() + places.nonZeros()};
+}
+
+}  // namespace
+
+Permutation fill_reducing_order(const SparseMatrix& A) {
+  constexpr Index kSmall = 5000;
+  Permutation elimination;  // its entry k is the coordinate eliminated k-th
+  if (A.rows() == 0) return elimination;
+  if (A.rows() < kSmall) {
+    Eigen::AMDOrdering<int>()(A, elimination);
+  } else {
+    // METIS seeds and draws from the one random sequence of the process.
+    static std::mutex one_at_a_time;
+    const std::lock_guard lock(one_at_a_time);
+    Eigen::MetisOrdering<int>()(A, elimination);
+  }
+  return elimination.inverse();
+}
+
+struct SparseLdlt::Factors {
+  Ordering ordering;
+  Triangle triangle;
+  std::vector<int> columns, rows;   // pattern that the order is of
+  Permutation P;                    // coordinate -> its place in the order of elimination
+  SparseMatrix upper;               // upper triangle in that order
+  std::vector<Index> from, mirror;  // entry of upper -> that of A, and the one across its diagonal
+  Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt;
+  VectorXd pivots, root;  // D and, for half solves, |D|^(1/2)
+  mutable VectorXd ordered, solved;
+
+  [[nodiscard]] bool has_pattern_of(const SparseMatrix& A) const {
+    return columns.size() == to_size(A.cols()) + 1 &&
+           std::equal(columns.begin(), columns.end(), A.outerIndexPtr()) &&
+           std::equal(rows.begin(), rows.end(), A.innerIndexPtr());
+  }
+
+  void analyze(const SparseMatrix& A) {
+    columns.assign(A.outerIndexPtr(), A.outerIndexPtr() + A.cols() + 1);
+    rows.assign(A.innerIndexPtr(), A.innerIndexPtr() + A.nonZeros());
+    if (ordering == Ordering::fill_reducing) {
+      P = fill_reducing_order(A);
+    } else {
+      P.setIdentity(A.rows());
+    }
+    if (triangle == Triangle::mean) {  // sorted, so that the two agree entry by entry
+      upper = sorted(permuted_places<Eigen::Lower>(A, P));
+      mirror = values_of(sorted(permuted_places<Eigen::Upper>(A, P)));
+    } else {
+      upper = triangle == Triangle::lower ? permuted_places<Eigen::Lower>(A, P)
+                                          : permuted_places<Eigen::Upper>(A, P);
+    }
+    from = values_of(upper);
+    ldlt.analyzePattern(upper);
+    ordered.resize(A.rows());
+    solved.resize(A.rows());
+  }
+};
+
+SparseLdlt::SparseLdlt(Triangle triangle, Ordering ordering)
+    : factors_(new Factors, [](Factors* factors) { delete factors; }) {
+  factors_->ordering = ordering;
+  factors_->triangle = triangle;
+}
+
+bool SparseLdlt::factorize(const SparseMatrix& A) {
+  Factors& f = *factors_;
+  bool same = f.has_pattern_of(A);
+  if (!same) f.analyze(A);
+  double* const values = f.upper.valuePtr();
+  for (std::size_t k = 0; k < f.from.size(); ++k) {
+    double value = A.valuePtr()[f.from[k]];
+    if (!f.mirror.empty()) value = (value + A.valuePtr()[f.mirror[k]]) / 2;
+    same = same && values[k] == value;
+    values[k] = value;
+  }
+  if (!same) {
+    f.ldlt.factorize(f.upper);
+    f.pivots = f.ldlt.vectorD();
+    f.root = f.pivots.cwiseAbs().cwiseSqrt();
+  }
+  return f.ldlt.info() == Eigen::Success && f.pivots.allFinite();
+}
+
+const VectorXd& SparseLdlt::pivots() const {
+  return factors_->pivots;
+}
+
+Index SparseLdlt::negative_pivots() const {
+  return (factors_->pivots.array() < 0).count();
+}
+
+double SparseLdlt::smallest_to_largest_pivot() const {
+  const VectorXd& D = pivots();
+  double smallest = 1;
+  for (Index j = 0; j < D.size(); ++j) {
+    for (SparseMatrix::InnerIterator it(factors_->upper, j); it; ++it) {
+      if (it.row() != j) continue;
+      smallest = std::min(smallest, it.value() == 0 ? 0 : std::abs(D[j] / it.value()));
+    }
+  }
+  return smallest;
+}
+
+double SparseLdlt::element_growth() const {
+  const auto& L = factors_->ldlt.matrixL().nestedExpression();
+  return L.nonZeros() > 0 ? L.coeffs().abs().maxCoeff() : 0;
+}
+
+void SparseLdlt::solve(const VectorXd& b, VectorXd& x) const {
+  const Eigen::VectorXi& place = factors_->P.indices();
+  for (Index i = 0; i < b.size(); ++i) factors_->ordered[place[i]] = b[i];
+  factors_->solved = factors_->ordered;
+  factors_->ldlt.matrixL().solveInPlace(factors_->solved);
+  factors_->solved.array() /= factors_->pivots.array();
+  solve_transposed(factors_->ldlt.matrixL().nestedExpression(), factors_->solved);
+  x.resize(b.size());
+  for (Index i = 0; i < b.size(); ++i) x[i] = factors_->solved[place[i]];
+}
+
+VectorXd SparseLdlt::solve_half(const VectorXd& b) const {
+  VectorXd y = factors_->P * b;
+  factors_->ldlt.matrixL().solveInPlace(y);
+  y.array() /= factors_->root.array();
+  return y;
+}
+
+VectorXd SparseLdlt::solve_half_transposed(const VectorXd& y) const {
+  VectorXd x = y.cwiseQuotient(factors_->root);
+  solve_transposed(factors_->ldlt.matrixL().nestedExpression(), x);
+  return factors_->P.transpose() * x;
+}
+
+SparseMatrix SparseLdlt::square_root() const {
+  const VectorXd root = factors_->pivots.cwiseMax(0).cwiseSqrt();
+  const SparseMatrix U = root.asDiagonal() * SparseMatrix(factors_->ldlt.matrixU());
+  return U * factors_->P;
+}
 
 void Factorization::compute(const SparseMatrix& A) {
   scaling_ =
@@ -41,6 +224,61 @@ VectorXd Factorization::solve_half_transposed(const VectorXd& y) const {
   VectorXd x = ldlt_.solve_half_transposed(y);
   x.array() *= scaling_.array();
   return x;
+}
+
+template <class Scalar>
+struct SparseLu<Scalar>::Factors {
+  Eigen::SparseLU<Eigen::SparseMatrix<Scalar>, Eigen::COLAMDOrdering<int>> lu;
+  bool analyzed = false;
+};
+
+template <class Scalar>
+SparseLu<Scalar>::SparseLu() : factors_(new Factors, [](Factors* factors) { delete factors; }) {}
+
+template <class Scalar>
+bool SparseLu<Scalar>::factorize(const Eigen::SparseMatrix<Scalar>& A) {
+  if (!Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).allFinite()) return false;
+  if (!factors_->analyzed) factors_->lu.analyzePattern(A);
+  factors_->analyzed = true;
+  factors_->lu.factorize(A);
+  return factors_->lu.info() == Eigen::Success;
+}
+
+template <class Scalar>
+typename SparseLu<Scalar>::Vector SparseLu<Scalar>::solve(const Vector& b) const {
+  return factors_->lu.solve(b);
+}
+
+template class SparseLu<double>;
+template class SparseLu<std::complex<double>>;
+
+RefinedSolution refined_solve(const Operator& A, const Factorization& factorization,
+                              const Eigen::VectorXd& b, Counters& counters) {
+  const Eigen::VectorXd x = factorization.solve(b);
+  ++counters.solves;
+  return refined_solve(A, factorization, b, x, counters);
+}
+
+RefinedSolution refined_solve(const Operator& A, const Factorization& factorization,
+                              const Eigen::VectorXd& b, const Eigen::VectorXd& guess,
+                              Counters& counters) {
+  constexpr int kMaxSteps = 8;
+  constexpr double kSmall = 1e-10;  // a correction whose own error no longer counts
+  RefinedSolution result{guess, 0};
+  double last = std::numeric_limits<double>::infinity();  // of a guess nothing is known
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const Eigen::VectorXd correction = factorization.solve(b - A(result.x));
+    ++counters.solves;
+    // In the scaling of the matrix, so that meters and radians have one unit.
+    const double size = correction.cwiseQuotient(factorization.scaling()).norm();
+    const double whole = result.x.cwiseQuotient(factorization.scaling()).norm();
+    result.correction = size == 0 ? 0 : size / whole;
+    if (!(size < last)) break;  // it no longer converges: what is left is rounding, or hopeless
+    result.x += correction;
+    if (size <= kSmall * whole || size > 0.5 * last) break;
+    last = size;
+  }
+  return result;
 }
 
 }  // namespace trammel::solver

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "solver/linalg/eigenpairs.h"
-#include "solver/model/counters.h"
+#include "solver/model/effects.h"
+#include "solver/model/evidence.h"
 #include "solver/model/numbers.h"
-#include "solver/model/outcome.h"
 
 namespace trammel::solver {
 

@@ -10,10 +10,10 @@
 #include <sstream>
 #include <utility>
 
-#include "solver/linalg/backward_error.h"
-#include "solver/manipulator/inverse_dynamics.h"
+#include "solver/linalg/dense_eigen.h"
+#include "solver/manipulator/rigid_dynamics.h"
+#include "solver/model/model.h"
 #include "solver/model/numbers.h"
-#include "solver/model/plane.h"
 
 namespace trammel::solver {
 

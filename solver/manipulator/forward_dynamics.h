@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "solver/manipulator/rigid_terms.h"
+#include "solver/manipulator/rigid_dynamics.h"
 #include "solver/manipulator/trajectory.h"
 #include "solver/model/evidence.h"
 

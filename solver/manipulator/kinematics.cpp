@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "solver/linalg/dense_eigen.h"
+#include "solver/model/model.h"
 #include "solver/model/numbers.h"
-#include "solver/model/plane.h"
 
 namespace trammel::solver {
 

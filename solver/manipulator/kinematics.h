@@ -3,10 +3,9 @@
 #include <Eigen/Core>
 #include <array>
 
-#include "solver/model/dual.h"
+#include "solver/model/evidence.h"
 #include "solver/model/model.h"
 #include "solver/model/numbers.h"
-#include "solver/model/outcome.h"
 
 /// Rigid kinematics of the planar 3-RRR manipulator: limbs A_i B_i C_i, active joints at A_i.
 namespace trammel::solver {

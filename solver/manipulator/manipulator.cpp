@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "solver/mesh/platform_mesh.h"
-#include "solver/model/plane.h"
+#include "solver/elements/platform_mesh.h"
+#include "solver/model/model.h"
 
 namespace trammel::solver {
 

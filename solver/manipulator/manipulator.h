@@ -5,9 +5,9 @@
 #include <type_traits>
 
 #include "solver/manipulator/kinematics.h"
-#include "solver/model/dual.h"
 #include "solver/model/effects.h"
 #include "solver/model/model.h"
+#include "solver/model/numbers.h"
 
 /// The 3-RRR builder: a geometry, a pose and the choices the paper leaves open make a Model.
 namespace trammel::solver {

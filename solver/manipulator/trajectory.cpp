@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "solver/linalg/sparse_lu.h"
+#include "solver/linalg/factorization.h"
 
 namespace trammel::solver {
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 namespace trammel::solver {
+
 namespace {
 
 constexpr std::array<std::string_view, kEffectCount> kNames = {"axial-flexibility",
@@ -37,6 +38,15 @@ std::optional<Effect> effect_named(std::string_view name) {
   const auto found = std::find(kNames.begin(), kNames.end(), name);
   if (found == kNames.end()) return std::nullopt;
   return static_cast<Effect>(found - kNames.begin());
+}
+
+Counters& Counters::operator+=(const Counters& other) {
+  element_evaluations += other.element_evaluations;
+  factorizations += other.factorizations;
+  solves += other.solves;
+  steps += other.steps;
+  for (std::size_t i = 0; i < kEffectCount; ++i) effects[i] += other.effects[i];
+  return *this;
 }
 
 }  // namespace trammel::solver

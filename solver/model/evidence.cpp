@@ -5,6 +5,7 @@
 #include <sstream>
 
 namespace trammel::solver {
+
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();

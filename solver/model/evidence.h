@@ -5,10 +5,18 @@
 #include <string>
 #include <vector>
 
-#include "solver/model/outcome.h"
+namespace trammel::solver {
+
+/// How a computation ended. A numerical outcome is a value, never an exception.
+enum class Status { solved, singular, not_converged };
+
+struct Outcome {
+  Status status = Status::solved;
+  std::string reason;  ///< in words; empty when solved
+  [[nodiscard]] bool solved() const { return status == Status::solved; }
+};
 
 /// What speaks for a solution: residuals that finding it did not use.
-namespace trammel::solver {
 
 /// Each is relative to the magnitudes of the terms that it is the sum of: rounding alone leaves a
 /// few eps, nonsense 1.

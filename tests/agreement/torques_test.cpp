@@ -4,7 +4,7 @@
 #include <random>
 
 #include "references/manipulator/newton_euler.h"
-#include "solver/manipulator/inverse_dynamics.h"
+#include "solver/manipulator/rigid_dynamics.h"
 
 BOOST_AUTO_TEST_SUITE(torques)
 

@@ -14,7 +14,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "solver/modes/modes.h"
+#include "solver/linear/modes.h"
 
 namespace {
 

@@ -9,8 +9,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "solver/modes/modes.h"
-#include "solver/poses/pose_modes.h"
+#include "solver/linear/modes.h"
+#include "solver/manipulator/pose_modes.h"
 #include "tests/support/solver/table_1.h"
 
 namespace {

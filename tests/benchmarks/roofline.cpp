@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "solver/grnn/grnn.h"
-#include "solver/linalg/sparse_ldlt.h"
+#include "solver/linalg/factorization.h"
 
 // The widest instructions of the machine, as a library that is built for it would use them.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)

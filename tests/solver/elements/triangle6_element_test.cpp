@@ -1,9 +1,8 @@
-#include "solver/elements/triangle_element.h"
-
 #include <Eigen/Eigenvalues>
 #include <boost/test/unit_test.hpp>
 
-#include "solver/statics/statics.h"
+#include "solver/elements/triangle_element.h"
+#include "solver/linear/statics.h"
 
 BOOST_AUTO_TEST_SUITE(triangle6_element)
 

@@ -6,8 +6,6 @@
 #include <thread>
 #include <vector>
 
-#include "solver/linalg/refinement.h"
-
 BOOST_AUTO_TEST_SUITE(factorization)
 
 using namespace trammel::solver;

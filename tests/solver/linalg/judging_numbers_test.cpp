@@ -1,9 +1,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "solver/assembly/stiffness_factors.h"
-#include "solver/linalg/backward_error.h"
 #include "solver/linalg/dense_eigen.h"
+#include "solver/linear/element_operators.h"
 #include "solver/model/numbers.h"
 #include "tests/support/solver/frames.h"
 

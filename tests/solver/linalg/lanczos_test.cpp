@@ -1,6 +1,6 @@
-#include "solver/linalg/lanczos.h"
-
 #include <boost/test/unit_test.hpp>
+
+#include "solver/linalg/eigenpairs.h"
 
 BOOST_AUTO_TEST_SUITE(lanczos)
 

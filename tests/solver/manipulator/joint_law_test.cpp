@@ -1,8 +1,8 @@
-#include "solver/large_motion/manipulator/joint_law.h"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
+
+#include "solver/large/large_elastodynamics.h"
 
 BOOST_AUTO_TEST_SUITE(joint_law)
 

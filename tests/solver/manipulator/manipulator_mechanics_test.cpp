@@ -6,8 +6,8 @@
 #include <limits>
 #include <string>
 
-#include "solver/modes/modes.h"
-#include "solver/statics/statics.h"
+#include "solver/linear/modes.h"
+#include "solver/linear/statics.h"
 #include "tests/support/solver/table_1.h"
 
 BOOST_AUTO_TEST_SUITE(manipulator_mechanics)

@@ -6,7 +6,7 @@
 #include <limits>
 #include <string>
 
-#include "solver/mesh/platform_mesh.h"
+#include "solver/elements/platform_mesh.h"
 #include "tests/support/solver/table_1.h"
 
 BOOST_AUTO_TEST_SUITE(manipulator)

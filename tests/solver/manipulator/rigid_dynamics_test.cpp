@@ -1,12 +1,12 @@
 // ctest: labels=manipulator;dynamics
+#include "solver/manipulator/rigid_dynamics.h"
+
 #include <Eigen/Eigenvalues>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
 #include <random>
 
-#include "solver/manipulator/inverse_dynamics.h"
-#include "solver/manipulator/rigid_terms.h"
 #include "solver/manipulator/trajectory.h"
 #include "tests/support/solver/differences.h"
 #include "tests/support/solver/table_1.h"

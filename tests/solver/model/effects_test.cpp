@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/assembly/restrict_model_effects.h"
-#include "solver/modes/modes.h"
+#include "solver/linear/modes.h"
+#include "solver/linear/validate.h"
 #include "tests/support/solver/frames.h"
 
 BOOST_AUTO_TEST_SUITE(effects)

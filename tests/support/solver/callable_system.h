@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "solver/large_motion/elements/constrained_system.h"
+#include "solver/large/constrained_system.h"
 
 namespace trammel::testing {
 

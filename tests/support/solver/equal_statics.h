@@ -2,7 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 
-#include "solver/elastodynamics/elastodynamics.h"
+#include "solver/manipulator/elastodynamics.h"
 #include "solver/manipulator/manipulator.h"
 
 namespace trammel::solver {

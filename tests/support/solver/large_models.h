@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "solver/large_motion/elements/large_motion_model.h"
-#include "solver/large_motion/system/geometrically_exact_system.h"
+#include "solver/large/geometrically_exact_system.h"
+#include "solver/large/large_motion_model.h"
 #include "tests/support/solver/frames.h"
 
 /// Models in large motion that the tests share.

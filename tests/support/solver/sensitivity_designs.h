@@ -2,7 +2,7 @@
 
 #include <random>
 
-#include "solver/sensitivity/frequency_sensitivity.h"
+#include "solver/manipulator/frequency_sensitivity.h"
 #include "tests/support/solver/table_1.h"
 
 /// Designs, poses and parameters for tests of sensitivities.

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "solver/mesh/block_mesh.h"
+#include "solver/elements/block_mesh.h"
 
 namespace trammel::testing {
 

@@ -1,0 +1,298 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "solver/large/constrained_system.h"
+#include "solver/large/large_motion_model.h"
+#include "solver/model/model.h"
+#include "solver/model/numbers.h"
+
+namespace trammel::solver::large_motion {
+
+/// Of the parts that a constraint row joins, from which its penalty rho follows (see `KktMatrix`).
+struct RowScales {
+  double unit = 1;  ///< of the residual: 1 rad if all coordinates are rotations, otherwise the
+                    ///< model's size [m]
+  double stiffness = 0, mass = 0;  ///< the largest, in the unit of the row; the model's mean if the
+                                   ///< coordinates have none
+};
+
+class PenaltyScales {
+ public:
+  /// @param mass  diagonal of the mass matrix, one entry a coordinate [kg or kg m^2]
+  /// @param size  of the model [m]
+  PenaltyScales(const Model& model, const LargeMotionModel& large_motion, const Layout& layout,
+                const Eigen::VectorXd& mass, double size);
+
+  /// In a row of displacements rotations count, by their lever, if displacements have none.
+  /// @param lever  of the row's rotations, if others are displacements [m]
+  [[nodiscard]] RowScales of_row(std::span<const Index> coordinates, double lever) const;
+
+ private:
+  const Layout& layout_;
+  double size_;                ///< of the model [m]
+  Eigen::VectorXd stiffness_;  ///< of each coordinate [N/m or N m/rad]
+  Eigen::VectorXd mass_;       ///< of each coordinate [kg or kg m^2]
+  double mean_stiffness_, mean_mass_;
+};
+
+/// Coordinates that an element couples; -1: none.
+template <int N>
+using CoordinateIndices = Eigen::Matrix<Index, N, 1>;
+
+/// Values of an element's coordinates; what a support holds (beyond the vector) is zero.
+template <int N>
+Eigen::Matrix<double, N, 1> gather(const VectorXd& values, const CoordinateIndices<N>& where) {
+  Eigen::Matrix<double, N, 1> local(where.size());
+  for (Index i = 0; i < where.size(); ++i) {
+    const Index k = where[i];
+    local[i] = k >= 0 && k < values.size() ? values[k] : 0.0;
+  }
+  return local;
+}
+
+template <int N>
+void scatter(const Eigen::Matrix<double, N, 1>& local, const CoordinateIndices<N>& where,
+             Eigen::Ref<VectorXd> values) {
+  for (Index i = 0; i < where.size(); ++i) {
+    if (where[i] >= 0 && where[i] < values.size()) values[where[i]] += local[i];
+  }
+}
+
+/// Properties of the constraint rows and what each element couples.
+struct SystemRows {
+  std::vector<std::vector<Index>> blocks;  ///< of each element, for `KktMatrix`
+  VectorXd compliance;                     ///< c >= 0 of each row
+  VectorXd unit;                           ///< of each row: the model's size [m] or 1 rad
+};
+
+/// Elements of one type and their terms in the equations of `GeometricallyExactSystem`. An element
+/// has any of: constraint rows g(q, t) = C lambda (beams, bars, joints), an elastic energy
+/// (triangles, springs, the bending of beams), a load, a mass.
+template <class Element>
+class ElementGroup {
+ public:
+  static constexpr int N = Element::N, R = Element::R;
+  using Coordinates = typename Element::Coordinates;
+  using Rows = typename Element::Rows;
+  using Gradient = typename Element::Gradient;
+  using Square = typename Element::Square;
+
+  void add(Element element, const CoordinateIndices<N>& where) {
+    elements_.push_back(std::move(element));
+    where_.push_back(where);
+  }
+  [[nodiscard]] Index size() const { return static_cast<Index>(elements_.size()); }
+  [[nodiscard]] Index rows() const { return R * size(); }
+  [[nodiscard]] const Element& element(Index e) const { return elements_[to_size(e)]; }
+  [[nodiscard]] const CoordinateIndices<N>& coordinates(Index e) const {
+    return where_[to_size(e)];
+  }
+  [[nodiscard]] Index first_row(Index e) const { return first_row_ + R * e; }
+  template <class Function>
+  void for_each_coordinate(const Function& function) {
+    for (CoordinateIndices<N>& where : where_) std::ranges::for_each(where, function);
+  }
+  /// Rows are numbered one group after the other.
+  void set_first_row(Index row) { first_row_ = row; }
+
+  void append_masses(std::vector<Eigen::Triplet<double>>& masses) const {
+    if constexpr (kHasMass) {
+      for (Index e = 0; e < size(); ++e) {
+        const Square M = element(e).mass();
+        const CoordinateIndices<N>& where = coordinates(e);
+        for (Index i = 0; i < M.rows(); ++i) {
+          for (Index j = 0; j < M.cols(); ++j)
+            if (M(i, j) != 0) masses.emplace_back(where[i], where[j], M(i, j));
+        }
+      }
+    }
+  }
+
+  /// Sets the rows' properties and penalties from the parts that they join.
+  /// @param free  number of free coordinates; those from there on are held by supports
+  void connect(Index free, const PenaltyScales& scales, SystemRows& system) {
+    first_block_ = std::ssize(system.blocks);
+    for (Index e = 0; e < size(); ++e) {
+      std::vector<Index>& block = system.blocks.emplace_back();
+      for (const Index k : coordinates(e)) block.push_back(k < free ? k : -1);
+      if constexpr (R > 0) {
+        for (Index r = 0; r < R; ++r) block.push_back(free + first_row(e) + r);
+        const std::span<const Index> joined(coordinates(e).data(), where_[to_size(e)].size());
+        Element& own = elements_[to_size(e)];
+        system.compliance.segment<R>(first_row(e)) = own.compliance();
+        double lever = 0;
+        if constexpr (requires { own.offset; }) lever = own.offset.norm();
+        const RowScales row = scales.of_row(joined, lever);
+        system.unit.segment<R>(first_row(e)).setConstant(row.unit);
+        if constexpr (requires { own.stiffness_scale; }) {
+          own.stiffness_scale = row.stiffness;
+          own.mass_scale = row.mass;
+        }
+      }
+    }
+  }
+
+  /// Adds -f + G^T lambda, with strain-rate damping tau.
+  void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const {
+    if constexpr (R == 0 && !kIsElastic && !kIsLoad) return;
+    for (Index e = 0; e < size(); ++e) {
+      const Coordinates q = gather<N>(state.q, coordinates(e));
+      Coordinates f = Coordinates::Zero(q.size());
+      if constexpr (R > 0)
+        f += rows_at(e, q, state.t).gradient.transpose() * state.lambda.segment<R>(first_row(e));
+      if constexpr (kIsElastic)
+        f += element(e).forces(q, tau != 0 ? gather<N>(state.v, coordinates(e)) : q, tau);
+      if constexpr (kIsLoad) f -= state.load * element(e).load(q);
+      scatter<N>(f, coordinates(e), r);
+    }
+  }
+
+  /// Adds the derivative of the force residual with respect to the load factor.
+  void add_load_derivative(const State& state, Eigen::Ref<VectorXd> r) const {
+    if constexpr (kIsLoad) {
+      for (Index e = 0; e < size(); ++e) {
+        const Coordinates f = -element(e).load(gather<N>(state.q, coordinates(e)));
+        scatter<N>(f, coordinates(e), r);
+      }
+    }
+  }
+
+  // Ref is a view.
+  // NOLINTNEXTLINE(performance-unnecessary-value-param)
+  void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
+                           Eigen::Ref<VectorXd> rate) const {
+    if constexpr (R > 0) {
+      for (Index e = 0; e < size(); ++e) {
+        const RowValues rows = rows_at(e, gather<N>(state.q, coordinates(e)), state.t);
+        residual.segment<R>(first_row(e)) = rows.residual;
+        rate.segment<R>(first_row(e)) = rows.gradient * gather<N>(state.v, coordinates(e));
+        if constexpr (requires { element(e).time_rate(state.t); })
+          rate.segment<R>(first_row(e)) += element(e).time_rate(state.t);
+      }
+    }
+  }
+
+  void tangent(const State& state, double tau, const TangentCoefficients& coefficients,
+               KktMatrix& matrix) const {
+    for (Index e = 0; e < size(); ++e) {
+      const Coordinates q = gather<N>(state.q, coordinates(e));
+      const Square S = coordinate_matrix(state, e, q, tau, coefficients);
+      if constexpr (R > 0) {
+        const Gradient G = rows_at(e, q, state.t).gradient;
+        matrix.add(block(e), S, G, G, scaled_compliance(e, coefficients), penalty(e, coefficients));
+      } else {
+        matrix.add(block(e), S);
+      }
+    }
+  }
+
+  /// Strain energy except that of compliant rows [J].
+  [[nodiscard]] double energy(const State& state) const {
+    double sum = 0;
+    if constexpr (kIsElastic) {
+      for (Index e = 0; e < size(); ++e)
+        sum += element(e).energy(gather<N>(state.q, coordinates(e)));
+    }
+    return sum;
+  }
+
+  /// The same as `forces` between two states, doing exactly the work of the energy's change.
+  void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda,
+                                double tau, Eigen::Ref<VectorXd> r) const {
+    if constexpr (R == 0 && !kIsElastic && !kIsLoad) return;
+    for (Index e = 0; e < size(); ++e) {
+      const Coordinates q0 = gather<N>(from.q, coordinates(e));
+      const Coordinates q1 = gather<N>(to.q, coordinates(e));
+      Coordinates f = Coordinates::Zero(q0.size());
+      if constexpr (R > 0)
+        f.noalias() += discrete_gradient(e, from, to).transpose() * lambda.segment<R>(first_row(e));
+      if constexpr (kIsElastic)
+        f += element(e).discrete_gradient_forces(q0, q1, tau / (to.t - from.t));
+      if constexpr (kIsLoad) f -= (from.load + to.load) / 2 * element(e).load((q0 + q1) / 2);
+      scatter<N>(f, coordinates(e), r);
+    }
+  }
+
+  /// The derivative of `discrete_gradient_forces` and of the rows with respect to the second state,
+  /// up to terms of the step's square; `midpoint` has the mean coordinates.
+  void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
+                                 double tau, const TangentCoefficients& coefficients,
+                                 KktMatrix& matrix) const {
+    if constexpr (R == 0) {
+      tangent(midpoint, tau, coefficients, matrix);
+    } else {
+      for (Index e = 0; e < size(); ++e) {
+        const Gradient G = rows_at(e, gather<N>(to.q, coordinates(e)), to.t).gradient;
+        const Coordinates q = gather<N>(midpoint.q, coordinates(e));
+        matrix.add(block(e), coordinate_matrix(midpoint, e, q, tau, coefficients),
+                   discrete_gradient(e, from, to), G, scaled_compliance(e, coefficients),
+                   penalty(e, coefficients));
+      }
+    }
+  }
+
+ private:
+  static constexpr bool kIsElastic = requires(const Element& e, const Coordinates& q) {
+    e.forces(q, q, 0.0);
+  };
+  static constexpr bool kIsLoad = requires(const Element& e, const Coordinates& q) { e.load(q); };
+  static constexpr bool kHasMass = requires(const Element& e) { e.mass(); };
+
+  struct RowValues {
+    Rows residual;
+    Gradient gradient;
+  };
+
+  [[nodiscard]] Index block(Index e) const { return first_block_ + e; }
+
+  [[nodiscard]] RowValues rows_at(Index e, const Coordinates& q, double t) const {
+    RowValues rows;
+    element(e).constraint_residual(q, t, rows.residual, rows.gradient);
+    return rows;
+  }
+
+  [[nodiscard]] Square coordinate_matrix(const State& state, Index e, const Coordinates& q,
+                                         double tau,
+                                         const TangentCoefficients& coefficients) const {
+    const Element& own = element(e);
+    const double k = coefficients.stiffness;
+    Square S = Square::Zero(q.size(), q.size());
+    if constexpr (kIsElastic) S += own.tangent(q, k, tau * coefficients.damping);
+    if constexpr (requires(const Rows& lambda) { own.geometric_stiffness(q, lambda); })
+      S += k * own.geometric_stiffness(q, state.lambda.segment<R>(first_row(e)));
+    if constexpr (kIsLoad) S -= k * state.load * own.load_derivative(q);
+    if constexpr (kHasMass) S += coefficients.mass * own.mass();
+    return S;
+  }
+
+  [[nodiscard]] Gradient discrete_gradient(Index e, const State& from, const State& to) const {
+    const Coordinates q0 = gather<N>(from.q, coordinates(e));
+    const Coordinates q1 = gather<N>(to.q, coordinates(e));
+    if constexpr (requires { element(e).discrete_gradient(q0, q1); }) {
+      return element(e).discrete_gradient(q0, q1);
+    } else {
+      return rows_at(e, q1, to.t).gradient;
+    }
+  }
+
+  [[nodiscard]] Rows penalty(Index e, const TangentCoefficients& coefficients) const {
+    if (!coefficients.has_penalty) return Rows::Zero();
+    return element(e).penalty(coefficients);
+  }
+
+  [[nodiscard]] Rows scaled_compliance(Index e, const TangentCoefficients& coefficients) const {
+    return coefficients.compliance * element(e).compliance();
+  }
+
+  Index first_row_ = 0, first_block_ = 0;
+  std::vector<Element> elements_;
+  std::vector<CoordinateIndices<N>> where_;
+};
+
+}  // namespace trammel::solver::large_motion

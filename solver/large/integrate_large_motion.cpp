@@ -1,0 +1,212 @@
+#include "solver/large/integrate_large_motion.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <memory>
+#include <sstream>
+#include <vector>
+
+#include "solver/large/state_results.h"
+#include "solver/model/numbers.h"
+
+namespace trammel::solver::large_motion {
+
+namespace {
+
+void add_constraints(const ConstraintGaps& gaps, IntegrationSummary& summary) {
+  ConstraintGaps& largest = summary.constraints;
+  largest.position = nan_max(largest.position, gaps.position);
+  largest.rate = nan_max(largest.rate, gaps.rate);
+  largest.relative_position = nan_max(largest.relative_position, gaps.relative_position);
+}
+
+/// @param conservative  the system, for the energy-momentum method; null for generalized-alpha
+IntegrationSummary run(const ConstrainedSystem& system,
+                       const GeometricallyExactSystem* conservative, State& state,
+                       const TransientOptions& options, const Observer& observe) {
+  IntegrationSummary summary;
+  MotionResiduals residuals(system);
+  const Observer look = [&](const State& at) {
+    add_constraints(residuals.constraints(at), summary);
+    if (observe) observe(at);
+  };
+  TransientOptions from_state = options;
+  from_state.start = state.t;
+  const auto stepper = conservative
+                           ? make_energy_momentum(*conservative, from_state, state, look)
+                           : std::make_unique<ConstrainedStepper>(system, from_state, state, look);
+  static_cast<TransientSummary&>(summary) =
+      solver::integrate(*stepper, from_state, options.breakpoints, StepSizes::free);
+  state = stepper->state();
+  stepper->add_energy(summary.evidence);
+  summary.outcome = outcome_by_evidence(summary.outcome, summary.evidence,
+                                        {Residual::equation_of_motion, Residual::constraints});
+  summary.counters.factorizations = stepper->matrix().factorizations();
+  summary.counters.solves = stepper->matrix().solves();
+  return summary;
+}
+
+/// Of a start velocity; -1 where a support holds the node, or it has no rotation.
+Index coordinate_of(const GeometricallyExactSystem& system, const InitialVelocity& initial) {
+  const Index k = system.layout().node[static_cast<std::size_t>(initial.node)]
+                                      [static_cast<std::size_t>(initial.direction)];
+  return k < system.coordinates() ? k : -1;
+}
+
+/// A given velocity, but for one, that the constraints do not admit; null where they admit all.
+const InitialVelocity* refused_velocity(const GeometricallyExactSystem& system, const State& state,
+                                        const InitialVelocity* left_out = nullptr) {
+  constexpr double kRounding = 1e-6;
+  const VectorXd& scale = system.scale();
+  const double fastest =
+      state.v.size() > 0 ? state.v.cwiseQuotient(scale).lpNorm<Eigen::Infinity>() : 0.0;
+  for (const InitialVelocity& initial : system.large_motion().initial_velocities) {
+    const Index k = coordinate_of(system, initial);
+    if (k < 0 || &initial == left_out) continue;
+    const double missed = std::abs(state.v[k] - initial.value);
+    if (missed > kRounding * std::max(std::abs(initial.value), fastest * scale[k])) return &initial;
+  }
+  return nullptr;
+}
+
+constexpr std::array kVelocityUnits = {" m/s", " m/s", " rad/s"};
+
+/// A given velocity as text: "node B start with 3 m/s along x".
+std::string describe_start(const GeometricallyExactSystem& system, const InitialVelocity& initial) {
+  constexpr std::array kDirections = {" along x", " along y", ""};
+  const auto direction = static_cast<std::size_t>(initial.direction);
+  std::ostringstream text;
+  text << "node " << system.model().nodes[static_cast<std::size_t>(initial.node)].name
+       << " start with " << initial.value << kVelocityUnits[direction] << kDirections[direction];
+  return text.str();
+}
+
+/// Consistent start of a model: pose, start velocities, accelerations, multipliers.
+Outcome initialize_state(const GeometricallyExactSystem& system, State& state, double step) {
+  const std::vector<InitialVelocity>& initial_velocities = system.large_motion().initial_velocities;
+  for (const InitialVelocity& initial : initial_velocities) {
+    if (coordinate_of(system, initial) >= 0 || initial.value == 0) continue;
+    return {Status::singular,
+            "a start velocity is given where a support holds node " +
+                system.model().nodes[static_cast<std::size_t>(initial.node)].name +
+                ", or it has no rotation"};
+  }
+  const auto start_without = [&](const InitialVelocity* left_out, State& start) {
+    start = system.reference_state();
+    PrescribedVelocities given;
+    for (const InitialVelocity& initial : initial_velocities) {
+      const Index k = coordinate_of(system, initial);
+      if (k >= 0 && &initial != left_out) given.emplace_back(k, initial.value);
+    }
+    return make_consistent(system, start, given, step);
+  };
+  const Outcome consistent = start_without(nullptr, state);
+  const InitialVelocity* refused = consistent.solved() ? refused_velocity(system, state) : nullptr;
+  if (refused == nullptr) return consistent;
+  std::ostringstream message;
+  message.precision(9);
+  message << "the constraints do not let " << describe_start(system, *refused);
+  // The others determine it: a velocity that they leave free would not have been refused.
+  State admitted;
+  if (!start_without(refused, admitted).solved() || refused_velocity(system, admitted, refused)) {
+    message << ", nor do they admit the other given velocities together";
+  } else {
+    constexpr double kRounding = 1e-9;
+    const Index k = coordinate_of(system, *refused);
+    const VectorXd& scale = system.scale();
+    const double fastest = admitted.v.cwiseQuotient(scale).lpNorm<Eigen::Infinity>();
+    const double value = admitted.v[k];
+    message << (initial_velocities.size() > 1 ? ": with the other given velocities, " : ": ")
+            << (std::abs(value) < kRounding * fastest * scale[k] ? 0.0 : value)
+            << kVelocityUnits[static_cast<std::size_t>(refused->direction)] << " is admissible";
+  }
+  return {Status::singular, message.str()};
+}
+
+/// If two runs differ by their leading error alone, their combination meets the constraints far
+/// better than either state resembles the other.
+Outcome outcome_of_extrapolation(const IntegrationSummary& summary) {
+  constexpr double kLimit = 1e-3;
+  if (summary.constraints.relative_position <= kLimit) return {};
+  std::ostringstream message;
+  message << "the steps are too long to be extrapolated: what the two runs give together misses a "
+             "constraint by "
+          << summary.constraints.relative_position << " of the model's size or of 1 rad";
+  return {Status::not_converged, message.str()};
+}
+
+}  // namespace
+
+IntegrationSummary integrate(const ConstrainedSystem& system, State& state,
+                             const TransientOptions& options, const Observer& observe) {
+  return run(system, nullptr, state, options, observe);
+}
+
+IntegrationSummary integrate(const GeometricallyExactSystem& system, State& state,
+                             const TransientOptions& options, const Observer& observe) {
+  IntegrationSummary summary;
+  summary.outcome = initialize_state(system, state, options.step);
+  if (!summary.outcome.solved()) return summary;
+  const bool conserves = options.scheme.conserves_energy;
+  const double start = state.t;
+  MemberBalance balance;
+  Outcome recovered;
+  summary = run(system, conserves ? &system : nullptr, state, options, [&](const State& at) {
+    // What vibrates faster than a step starts with the acceleration of an implicit one.
+    if (at.t > start && !conserves) balance.add(system, at);
+    if (!observe) return;
+    if (at.t == start || !conserves) return observe(at);
+    // The multipliers of a step by energy-momentum are means, which alternate about the motion's.
+    State shown = at;
+    if (recovered.solved()) recovered = make_accelerations_consistent(system, shown, options.step);
+    observe(shown);
+  });
+  if (summary.outcome.solved()) summary.outcome = recovered;
+  if (!conserves) summary.evidence.add(Residual::equation_of_motion, balance.residual());
+  summary.outcome = outcome_by_evidence(summary.outcome, summary.evidence);
+  if (!summary.outcome.solved())
+    summary.outcome.reason += contradictory_drives(system, state, options.step);
+  return summary;
+}
+
+IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system, State& state,
+                                          const TransientOptions& options,
+                                          const Observer& observe) {
+  TransientOptions fixed = options;
+  fixed.adaptive.reset();
+  if (fixed.sample_times.empty())
+    fixed.sample_times = even_times(options.start, options.end, options.step);
+  std::vector<State> coarse;
+  const auto keep = [&](const State& s) { coarse.push_back(s); };
+  IntegrationSummary summary = integrate(system, state, fixed, keep);
+  if (!summary.outcome.solved()) return summary;
+  fixed.step /= 2;
+  fixed.steps_in_multiples_of *= 2;
+  summary.constraints = {};
+  std::size_t next = 0;
+  State extrapolated;
+  MotionResiduals residuals(system);
+  const auto combine = [&](const State& fine) {
+    const State& other = coarse[std::min(next++, coarse.size() - 1)];
+    extrapolated = fine;
+    extrapolated.q += (fine.q - other.q) / 3;
+    extrapolated.v += (fine.v - other.v) / 3;
+    extrapolated.lambda += (fine.lambda - other.lambda) / 3;
+    add_constraints(residuals.constraints(extrapolated), summary);
+    if (observe) observe(extrapolated);
+  };
+  const IntegrationSummary second = integrate(system, state, fixed, combine);
+  state = extrapolated;
+  summary.outcome = second.outcome;
+  summary.evidence.add(second.evidence);
+  summary.accepted += second.accepted;
+  summary.rejected += second.rejected;
+  summary.iterations += second.iterations;
+  summary.smallest_step = second.smallest_step;
+  summary.counters += second.counters;
+  if (summary.outcome.solved()) summary.outcome = outcome_of_extrapolation(summary);
+  return summary;
+}
+
+}  // namespace trammel::solver::large_motion

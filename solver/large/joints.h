@@ -1,0 +1,222 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+
+#include "solver/large/beam.h"
+#include "solver/large/large_motion_model.h"
+#include "solver/model/model.h"
+
+/// Joints, springs, bars and masses, with the same functions as `Beam`. Of a constraint row: g and
+/// its gradient G, the second derivative times the multipliers unless it is zero, and the discrete
+/// gradient D with D (q1 - q0) = g(q1) - g(q0) unless it is G (O. Gonzalez, J. Nonlinear Sci. 6,
+/// 1996).
+namespace trammel::solver::large_motion {
+
+/// Rigid rows; `rho` follows from the parts that are joined.
+template <int Coords, int Count>
+struct Joint : ElementSizes<Coords, Count> {
+  using typename ElementSizes<Coords, Count>::Rows;
+  double stiffness_scale = 1, mass_scale = 1;  ///< of what is joined, for rho [N/m], [kg]
+
+  [[nodiscard]] Rows compliance() const { return Rows::Zero(); }
+  [[nodiscard]] Rows penalty(const TangentCoefficients& coefficients) const {
+    return Rows::Constant(coefficients.stiffness * stiffness_scale +
+                          coefficients.mass * mass_scale);
+  }
+};
+
+/// Two nodes of one rigid body, u_b - u_a - (R(theta_a) - I) d = 0 (paper Eq. 20-24).
+/// Coordinates: ua (2), theta_a, ub (2).
+struct RigidLink : Joint<5, 2> {
+  Vector2d offset = Vector2d::Zero();  ///< d, from a to b when unloaded [m]
+
+  void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
+    const Vector2d normal = perpendicular(offset);
+    const double s = std::sin(q[2] / 2), sine = 2 * s * std::cos(q[2] / 2);
+    const double cosine_minus_one = -2 * s * s;
+    const Vector2d slope = (1 + cosine_minus_one) * normal - sine * offset;
+    residual = q.tail<2>() - q.head<2>() - cosine_minus_one * offset - sine * normal;
+    G << -Eigen::Matrix2d::Identity(), -slope, Eigen::Matrix2d::Identity();
+  }
+  [[nodiscard]] Square geometric_stiffness(const Coordinates& q, const Rows& lambda) const {
+    Square K = Square::Zero();
+    K(2, 2) = lambda.dot(rotated(offset, q[2]));
+    return K;
+  }
+  [[nodiscard]] Gradient discrete_gradient(const Coordinates& q0, const Coordinates& q1) const {
+    const double half = (q1[2] - q0[2]) / 2;
+    Gradient D;
+    D << -Eigen::Matrix2d::Identity(),
+        -sinc(half) * rotated(perpendicular(offset), (q0[2] + q1[2]) / 2),
+        Eigen::Matrix2d::Identity();
+    return D;
+  }
+};
+
+/// Node b slides along a line that rotates with node a (or is fixed where a is the ground),
+/// n(theta_a) . (x_b - x_a) = const. Coordinates: ua (2), theta_a, ub (2).
+struct SlidingJoint : Joint<5, 1> {
+  Vector2d normal = Vector2d::UnitY();  ///< n of the line when unloaded
+  Vector2d offset = Vector2d::Zero();   ///< x_b - x_a when unloaded [m]
+
+  void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
+    const Vector2d n = rotated(normal, q[2]);
+    const Vector2d relative_displacement = q.tail<2>() - q.head<2>();
+    const Vector2d change =
+        cosine_minus_one(q[2]) * normal + std::sin(q[2]) * perpendicular(normal);
+    residual[0] = n.dot(relative_displacement) + change.dot(offset);
+    G << -n.transpose(), perpendicular(n).dot(offset + relative_displacement), n.transpose();
+  }
+  [[nodiscard]] Square geometric_stiffness(const Coordinates& q, const Rows& lambda) const {
+    const Vector2d n = rotated(normal, q[2]), slope = lambda[0] * perpendicular(n);
+    Square K = Square::Zero();
+    K(2, 2) = -lambda[0] * n.dot(offset + q.tail<2>() - q.head<2>());
+    K.block<2, 1>(0, 2) = -slope;
+    K.block<1, 2>(2, 0) = -slope.transpose();
+    K.block<2, 1>(3, 2) = slope;
+    K.block<1, 2>(2, 3) = slope.transpose();
+    return K;
+  }
+  [[nodiscard]] Gradient discrete_gradient(const Coordinates& q0, const Coordinates& q1) const {
+    const Coordinates midpoint = (q0 + q1) / 2;
+    const double half = (q1[2] - q0[2]) / 2;
+    const Vector2d n = rotated(normal, midpoint[2]);
+    Gradient D;
+    D << -std::cos(half) * n.transpose(),
+        sinc(half) * perpendicular(n).dot(offset + midpoint.tail<2>() - midpoint.head<2>()),
+        std::cos(half) * n.transpose();
+    return D;
+  }
+};
+
+/// A coordinate that follows a law of time as seen from another (or the ground), u - u0 - law(t) =
+/// 0. Coordinates: u, u0.
+struct DrivenCoordinate : Joint<2, 1> {
+  TimeFunction law;
+
+  void constraint_residual(const Coordinates& q, double t, Rows& residual, Gradient& G) const {
+    residual[0] = q[0] - q[1] - law(t)[0];
+    G << 1, -1;
+  }
+  /// Partial derivative of g with respect to time.
+  [[nodiscard]] Rows time_rate(double t) const { return Rows(-law(t)[1]); }
+};
+
+/// A linear constraint, sum of factor * coordinate = 0. Either all coordinates are translations or
+/// all are rotations, because only such constraints hold in large motion.
+struct LinearRow : Joint<Eigen::Dynamic, 1> {
+  VectorXd factors;
+
+  void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
+    residual[0] = factors.dot(q);
+    G = factors.transpose();
+  }
+  [[nodiscard]] Rows penalty(const TangentCoefficients& coefficients) const {
+    return Joint::penalty(coefficients) / factors.squaredNorm();
+  }
+};
+
+/// Spring along the line between two nodes, g = |x_b - x_a| - rest, c = 1/k (0: a rigid rod).
+/// Coordinates: ua (2), ub (2).
+struct LineSpringElement : Joint<4, 1> {
+  Vector2d offset = Vector2d::Zero();  ///< x_b - x_a in the model's pose [m]
+  double initial_elongation = 0;       ///< |offset| - rest length [m]
+  double flexibility = 0;              ///< 1/k [m/N]
+
+  void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
+    const Vector2d relative_displacement = q.tail<2>() - q.head<2>(),
+                   current = offset + relative_displacement;
+    const double length = current.norm();
+    residual[0] =
+        relative_displacement.dot(current + offset) / (length + offset.norm()) + initial_elongation;
+    G << -current.transpose() / length, current.transpose() / length;
+  }
+  [[nodiscard]] Square geometric_stiffness(const Coordinates& q, const Rows& lambda) const {
+    const Vector2d current = offset + q.tail<2>() - q.head<2>();
+    const double length = current.norm();
+    const Eigen::Matrix2d k =
+        lambda[0] / length *
+        (Eigen::Matrix2d::Identity() - current * current.transpose() / (length * length));
+    Square K;
+    K << k, -k, -k, k;
+    return K;
+  }
+  [[nodiscard]] Gradient discrete_gradient(const Coordinates& q0, const Coordinates& q1) const {
+    const Vector2d from = offset + q0.tail<2>() - q0.head<2>();
+    const Vector2d to = offset + q1.tail<2>() - q1.head<2>();
+    const Vector2d mean = (from + to) / (from.norm() + to.norm());
+    Gradient D;
+    D << -mean.transpose(), mean.transpose();
+    return D;
+  }
+  [[nodiscard]] Rows compliance() const { return Rows::Constant(flexibility); }
+};
+
+/// Member without bending stiffness: a line spring of 1/k = h/EA with its mass, linear between the
+/// ends.
+struct Bar : LineSpringElement {
+  double total_mass = 0;  ///< [kg]
+  bool lumped = false;
+
+  [[nodiscard]] Square mass() const {
+    const double diagonal = total_mass / (lumped ? 2 : 3),
+                 off_diagonal = lumped ? 0 : total_mass / 6;
+    const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
+    return (Square() << diagonal * I, off_diagonal * I, off_diagonal * I, diagonal * I).finished();
+  }
+  /// Forces at the nodes of a distributed load [N/m].
+  [[nodiscard]] Coordinates distributed_load(const Vector2d& force_per_length) const {
+    return offset.norm() / 2 * force_per_length.replicate<2, 1>();
+  }
+  [[nodiscard]] Vector2d section_axis(const Coordinates& q, int) const {
+    return (offset + q.tail<2>() - q.head<2>()).normalized();
+  }
+};
+
+/// Linear spring between two coordinates, energy = k (q2 - q1)^2/2.
+struct CoordinateSpring : ElementSizes<2, 0> {
+  double stiffness = 0;  ///< k [N/m or N m/rad]
+
+  [[nodiscard]] Square matrix() const {
+    return (Square() << stiffness, -stiffness, -stiffness, stiffness).finished();
+  }
+  [[nodiscard]] double energy(const Coordinates& q) const { return q.dot(matrix() * q) / 2; }
+  [[nodiscard]] Coordinates forces(const Coordinates& q, const Coordinates& v, double tau) const {
+    return matrix() * (q + tau * v);
+  }
+  [[nodiscard]] Square tangent(const Coordinates&, double k, double d) const {
+    return (k + d) * matrix();
+  }
+  [[nodiscard]] Coordinates discrete_gradient_forces(const Coordinates& q0, const Coordinates& q1,
+                                                     double rate) const {
+    return forces((q0 + q1) / 2, q1 - q0, rate);
+  }
+};
+
+/// Mass or moment of inertia of one coordinate.
+struct PointInertia : ElementSizes<1, 0> {
+  double value = 0;  ///< [kg or kg m^2]
+
+  [[nodiscard]] Square mass() const { return Square(value); }
+};
+
+/// A force [N, N] and a moment [N m] that rotate with their node. Coordinates: (ux, uy, theta).
+struct FollowerForce : ElementSizes<3, 0> {
+  Vector3d force = Vector3d::Zero();  ///< in the model's pose
+
+  /// For a load factor of 1.
+  [[nodiscard]] Coordinates load(const Coordinates& q) const {
+    Coordinates f = force;
+    f.head<2>() = rotated(force.head<2>(), q[2]);
+    return f;
+  }
+  /// dload/dq, not symmetric.
+  [[nodiscard]] Square load_derivative(const Coordinates& q) const {
+    Square derivative = Square::Zero();
+    derivative.block<2, 1>(0, 2) = perpendicular(rotated(force.head<2>(), q[2]));
+    return derivative;
+  }
+};
+
+}  // namespace trammel::solver::large_motion

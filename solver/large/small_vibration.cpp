@@ -1,0 +1,317 @@
+#include "solver/large/small_vibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "solver/linalg/dense_eigen.h"
+#include "solver/model/numbers.h"
+
+namespace trammel::solver::large_motion {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+using Extended = KktMatrix::Extended;
+
+/// Below this share of |s| its real or imaginary part is round-off.
+constexpr double kRoundoffShare = 1e-7;
+/// Where w^2 of some modes is below this share of that of the next, K^-1 has few digits of the
+/// others.
+constexpr double kSoftShare = 1e-10;
+/// The lowest w^2 above them is known in K^-1 to some orders of magnitude; of what has no mass, to
+/// none.
+constexpr double kAlike = 1e6;
+/// How far from a mode's w^2 the matrix is factored that its vector is solved for with.
+constexpr double kAside = 1e-3;
+
+/// K - w2 M on the constraints, factored with penalties and again without, for exact products:
+/// those of stiff members would round off the stiffness of soft joints.
+class ShiftedStiffness {
+ public:
+  ShiftedStiffness(const GeometricallyExactSystem& system, const State& state, double w2)
+      : system_(system),
+        plain_(system.coordinates(), system.constraints(), system.blocks()),
+        factored_(system.coordinates(), system.constraints(), system.blocks()) {
+    TangentCoefficients coefficients;
+    coefficients.mass = -w2;
+    factored_.clear();
+    system.tangent(state, coefficients, factored_);
+    exists_ = factored_.factor(system.symmetric());
+    coefficients.has_penalty = false;
+    plain_.clear();
+    system.tangent(state, coefficients, plain_);
+  }
+
+  /// False if it is singular.
+  [[nodiscard]] bool exists() const { return exists_; }
+
+  /// (x, y) of K (x, y) = (f, 0), by iterative refinement until it stands still.
+  [[nodiscard]] Extended solve(const Extended& force) const {
+    constexpr double kEnough = 1e-13;
+    constexpr int kPasses = 30;  // corrections of ill-conditioned matrices do not shrink evenly
+    const Index n = system_.coordinates();
+    Extended x = Extended::Zero(n + system_.constraints());
+    last_correction_ = 1;
+    for (int pass = 0; pass < kPasses; ++pass) {
+      Extended residual = -plain_.multiply(x);
+      residual.head(n) += force;
+      VectorXd correction = residual.cast<double>();
+      factored_.solve(correction);
+      x += correction.cast<long double>();
+      // Motions over themselves, forces of constraints over what acts on the coordinates as well.
+      const auto size_of = [&](const VectorXd& values, const VectorXd& unit, Index begin) {
+        return values.segment(begin, unit.size()).cwiseProduct(unit).norm();
+      };
+      const VectorXd now = x.cast<double>(), unit = system_.scale().cwiseInverse();
+      const double motion = size_of(now, unit, 0);
+      const double forces =
+          size_of(now, system_.row_unit(), n) + size_of(force.cast<double>(), system_.scale(), 0);
+      const double share =
+          std::max(motion > 0 ? size_of(correction, unit, 0) / motion : 0,
+                   forces > 0 ? size_of(correction, system_.row_unit(), n) / forces : 0);
+      const bool stalled = pass > 1 && !(share < 0.5 * last_correction_);
+      last_correction_ = share;
+      if (share < kEps || (stalled && share < kEnough)) break;
+    }
+    return x;
+  }
+
+  /// True if the last solution is known to six digits: the factors have enough of the matrix's.
+  [[nodiscard]] bool converged() const { return last_correction_ < 1e-6; }
+
+  /// Row by row, K (x, y) = (w^2 M x, 0) for the real or the imaginary part of a mode; a coordinate
+  /// counts with at least a thousandth of the largest motion, as in row_balance.h, and a row with
+  /// at least 1e-9 of the largest of its kind.
+  [[nodiscard]] double residual(const Extended& mode, const Extended& inertia) const {
+    constexpr double kLeastRow = 1e-9;
+    const VectorXd& scale = system_.scale();
+    const Index n = scale.size();
+    Extended residual = plain_.multiply(mode);
+    VectorXd terms(mode.size()), size = mode.cast<double>().cwiseAbs();
+    auto motion = size.head(n);
+    motion = motion.cwiseMax(kLeastShare * motion.cwiseQuotient(scale).maxCoeff() * scale);
+    plain_.term_magnitudes(size, terms);
+    residual.head(n) -= inertia;
+    terms.head(n) += inertia.cast<double>().cwiseAbs();
+    VectorXd unit(mode.size());  // of forces and of the constraints' residuals
+    unit << scale.cwiseInverse(), system_.row_unit();
+    for (const auto& [begin, count] : {std::pair(Index{0}, n), std::pair(n, mode.size() - n)}) {
+      if (count == 0) continue;
+      auto kind = terms.segment(begin, count);
+      const auto own = unit.segment(begin, count);
+      kind += kLeastRow * kind.cwiseQuotient(own).maxCoeff() * own;
+    }
+    return largest_ratio(residual.cast<double>(), terms);
+  }
+
+  /// As `KktMatrix::energy_over_roundoff`.
+  [[nodiscard]] double energy_over_roundoff(const Extended& mode) const {
+    return plain_.energy_over_roundoff(mode);
+  }
+
+ private:
+  const GeometricallyExactSystem& system_;
+  KktMatrix plain_, factored_;
+  bool exists_ = false;
+  mutable double last_correction_ = 1;
+};
+
+/// L with M = L L^T and a column for each motion that has mass. Coordinates without mass, which
+/// have no mode, would leave eigenvalues of round-off.
+MatrixXd mass_factor(const MatrixXd& M) {
+  const VectorXd size = M.diagonal().cwiseMax(0).cwiseSqrt();
+  const VectorXd inverse = size.unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
+  const SymmetricEigenpairs pairs =
+      symmetric_eigenpairs((inverse.asDiagonal() * M * inverse.asDiagonal()).eval());
+  const double rounding = static_cast<double>(M.rows()) * kEps;  // of a unit diagonal
+  const Index rank = (pairs.value.array() > rounding).count();
+  return size.asDiagonal() * pairs.vector.rightCols(rank) *
+         pairs.value.tail(rank).cwiseSqrt().asDiagonal();
+}
+
+/// The modes by their |w^2|, ascending.
+struct Spectrum {
+  bool converged = false;
+  std::vector<std::complex<double>> w2;  // infinite for what constraints hold
+  std::vector<VectorXcd> x;
+  double shift = 0;
+};
+
+/// @param K  K - shift M
+/// @param L  of `mass_factor`
+Spectrum spectrum(const ShiftedStiffness& K, const MatrixXd& L, double shift, bool symmetric) {
+  const Index n = L.rows();
+  MatrixXd flexibility(n, L.cols());  // (K - shift M)^-1 (L, 0)
+  for (Index j = 0; j < L.cols(); ++j)
+    flexibility.col(j) = K.solve(L.col(j).cast<long double>()).head(n).cast<double>();
+  const MatrixXd A = L.transpose() * flexibility;
+  ComplexEigenpairs pairs;
+  if (symmetric) {
+    const SymmetricEigenpairs real = symmetric_eigenpairs((0.5 * (A + A.transpose())).eval());
+    pairs = {real.converged, real.value, real.vector};
+  } else {
+    pairs = eigenpairs(A);
+  }
+  Spectrum found;
+  found.converged = pairs.converged;
+  found.shift = shift;
+  if (!pairs.converged) return found;
+  // Motions that constraints hold have no mode.
+  const double held = 1e-4 * kEps * pairs.value.cwiseAbs().maxCoeff();
+  std::vector<std::pair<std::complex<double>, Index>> order;  // w^2 of each eigenvector
+  for (Index j = 0; j < pairs.value.size(); ++j)
+    if (std::abs(pairs.value[j]) > held) order.emplace_back(shift + 1.0 / pairs.value[j], j);
+  std::ranges::stable_sort(order, {}, [](const auto& mode) { return std::abs(mode.first); });
+  for (const auto& [w2, j] : order) {
+    found.w2.push_back(w2);
+    found.x.emplace_back(flexibility * pairs.vector.col(j));
+  }
+  return found;
+}
+
+/// w^2 of the lowest mode above those that are free or nearly so, 0 where none is.
+double lowest_above_soft(const Spectrum& modes) {
+  for (std::size_t k = 1; k < modes.w2.size(); ++k) {
+    const double above = std::abs(modes.w2[k]);
+    if (std::abs(modes.w2[k - 1]) < kSoftShare * above) return above;
+  }
+  return 0;
+}
+
+/// The same where K is singular to working precision, so that all modes of K^-1 are mixed with the
+/// free ones: with shifts from above all modes down to the lowest that is not free.
+double lowest_above_free(const GeometricallyExactSystem& system, const State& state,
+                         const MatrixXd& L, const Spectrum& mixed) {
+  constexpr double kNear = 1e-4;  // of the shift: known to more than ten digits
+  double shift = mixed.w2.empty() ? 0 : std::abs(mixed.w2.back());
+  for (int pass = 0; pass < 8 && shift > 0; ++pass) {
+    const ShiftedStiffness K(system, state, -shift);
+    if (!K.exists()) return 0;
+    double lowest = 0;
+    for (const std::complex<double> w2 : spectrum(K, L, -shift, system.symmetric()).w2) {
+      const double size = std::abs(w2);
+      if (size > kSoftShare * shift && (lowest == 0 || size < lowest)) lowest = size;
+    }
+    if (lowest > kNear * shift) return lowest;
+    shift = lowest;
+  }
+  return 0;
+}
+
+/// Inverse iteration with K - t M factored next to a real w^2, and w^2 by it. The matrix of all
+/// modes has the rounding of its lowest mode, and K^-1 leaves more of that in a higher one, by the
+/// ratio of both; here the higher one is the largest.
+Extended beside(const GeometricallyExactSystem& system, const State& state, const MatrixXd& M,
+                std::complex<double>& w2, Extended mode) {
+  const Index n = system.coordinates();
+  // Farther away if the factors' own errors are larger than the distance.
+  for (const double aside : {kAside, 0.03, 0.3}) {
+    const double t = w2.real() - aside * std::abs(w2);
+    const ShiftedStiffness K(system, state, t);
+    if (!K.exists()) continue;
+    const int passes = aside == kAside ? 4 : 20;  // each leaves this share of the other modes
+    for (int pass = 0; pass < passes; ++pass) {
+      const Extended inertia = M.cast<long double>() * mode.head(n);
+      const Extended next = K.solve(inertia);
+      if (!K.converged()) break;
+      const long double mass = next.head(n).dot(M.cast<long double>() * next.head(n));
+      w2 = static_cast<double>(t + next.head(n).dot(inertia) / mass);
+      mode = next / std::sqrt(mass);
+    }
+    if (K.converged()) break;
+  }
+  return mode;
+}
+
+}  // namespace
+
+SmallVibration small_vibration(const GeometricallyExactSystem& system, const State& state,
+                               Index count) {
+  const Index n = system.coordinates();
+  if (n > kMaxVibrationCoordinates)
+    throw ModelError("small vibration about a large displacement takes at most " +
+                     std::to_string(kMaxVibrationCoordinates) + " coordinates; the model has " +
+                     std::to_string(n));
+  SmallVibration found;
+  const ShiftedStiffness K(system, state, 0);
+  if (!K.exists()) {
+    found.outcome = {Status::singular, "the tangent is singular"};
+    return found;
+  }
+  const MatrixXd M = MatrixXd(system.mass()).topLeftCorner(n, n), L = mass_factor(M);
+  if (L.cols() == 0) {
+    found.outcome = {Status::singular, "nothing vibrates, for nothing that moves has mass"};
+    return found;
+  }
+  Spectrum modes = spectrum(K, L, 0, system.symmetric());
+  std::optional<ShiftedStiffness> stiffened;
+  double above = 0;
+  if (!modes.x.empty()) {
+    const Extended lowest = K.solve((M * modes.x.front().real()).cast<long double>());
+    above = K.energy_over_roundoff(lowest) <= 1 ? lowest_above_free(system, state, L, modes)
+                                                : lowest_above_soft(modes);
+  }
+  if (above > 0) {
+    stiffened.emplace(system, state, -above);
+    const Spectrum clear =
+        stiffened->exists() ? spectrum(*stiffened, L, -above, system.symmetric()) : Spectrum();
+    // Otherwise all that it is soft compared with has no mass.
+    const double next = lowest_above_soft(clear);
+    if (next > above / kAlike && next < kAlike * above) {
+      modes = clear;
+    } else {
+      stiffened.reset();
+    }
+  }
+  const ShiftedStiffness& shifted = stiffened ? *stiffened : K;
+  if (!modes.converged) {
+    found.outcome = {Status::not_converged, "the eigenvalues of the dense matrix"};
+    return found;
+  }
+  count = std::min(count, std::ssize(modes.w2));
+  found.frequency.resize(count);
+  found.growth_rate.resize(count);
+  found.roundoff.setZero(count);
+  for (Index k = 0; k < count; ++k) {
+    std::complex<double> w2 = modes.w2[to_size(k)];
+    const VectorXcd force = (w2 - modes.shift) * (M * modes.x[to_size(k)]);
+    Extended mode = shifted.solve(force.real().cast<long double>());
+    Extended imaginary = Extended::Zero(mode.size());
+    const bool is_soft = std::abs(w2) < kSoftShare * std::abs(modes.shift);
+    for (int pass = 0; is_soft && pass < 2; ++pass)
+      mode = shifted.solve(-modes.shift * (M.cast<long double>() * mode.head(n)));
+    if (is_soft && K.energy_over_roundoff(mode) <= 1) {
+      w2 = 0;
+    } else if (w2.imag() != 0) {
+      imaginary = shifted.solve(force.imag().cast<long double>());
+    } else {
+      mode = beside(system, state, M, w2, mode);
+    }
+    std::complex<double> s = std::sqrt(-w2);
+    if (std::abs(s.real()) < kRoundoffShare * std::abs(s)) s.real(0);
+    if (std::abs(s.imag()) < kRoundoffShare * std::abs(s)) s.imag(0);
+    found.frequency[k] = std::abs(s.imag()) / (2 * std::numbers::pi);
+    found.growth_rate[k] = std::abs(s.real());
+    if (w2 == 0.0) {
+      found.evidence.add(Residual::eigenvalue_equation, kEps * K.energy_over_roundoff(mode));
+      continue;
+    }
+    // The frequency is the root of the energy.
+    if (w2.imag() == 0) found.roundoff[k] = 0.5 / K.energy_over_roundoff(mode);
+    const Extended real = M.cast<long double>() * mode.head(n);
+    const Extended other = M.cast<long double>() * imaginary.head(n);
+    const long double a = w2.real(), b = w2.imag();
+    found.evidence.add(Residual::eigenvalue_equation,
+                       std::max(K.residual(mode, a * real - b * other),
+                                w2.imag() == 0 ? 0 : K.residual(imaginary, a * other + b * real)));
+  }
+  found.outcome = outcome_by_evidence(found.outcome, found.evidence);
+  return found;
+}
+
+}  // namespace trammel::solver::large_motion

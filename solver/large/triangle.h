@@ -1,0 +1,57 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+
+#include "solver/large/constrained_system.h"
+#include "solver/model/model.h"
+
+namespace trammel::solver::large_motion {
+
+/// Total-Lagrangian membrane triangle of a St. Venant-Kirchhoff material in plane stress, with 3 or
+/// 6 nodes (mid-sides 01, 12, 20): E = (H + H^T + H^T H)/2, H = du/dX, S = D E,
+/// energy = t A sum of w E:S/2. Coordinates: (ux, uy) of each node [m].
+template <int Nodes>
+class Triangle2d : public ElementSizes<2 * Nodes, 0> {
+  static_assert(Nodes == 3 || Nodes == 6);
+
+ public:
+  using typename ElementSizes<2 * Nodes, 0>::Coordinates;
+  using typename ElementSizes<2 * Nodes, 0>::Square;
+
+  /// @throws ModelError  if the triangle has no area.
+  Triangle2d(const Model& model, const Triangle& triangle);
+
+  [[nodiscard]] double energy(const Coordinates& q) const;
+  /// dEnergy/dq plus strain-rate damping, S = D (E + tau dE/dt).
+  [[nodiscard]] Coordinates forces(const Coordinates& q, const Coordinates& v, double tau) const;
+  /// stiffness K + damping tau K_material: the derivative of `forces` with v = 0.
+  [[nodiscard]] Square tangent(const Coordinates& q, double stiffness, double damping) const;
+  /// Forces f with f . (q1 - q0) = energy(q1) - energy(q0) where tau = 0 (J. C. Simo,
+  /// N. Tarnow, ZAMP 43, 1992); `rate` is tau over the step.
+  [[nodiscard]] Coordinates discrete_gradient_forces(const Coordinates& q0, const Coordinates& q1,
+                                                     double rate) const;
+  [[nodiscard]] const Square& mass() const { return mass_; }
+
+ private:
+  using Gradients = Eigen::Matrix<double, 2, Nodes>;
+  using Strain = Eigen::Vector3d;  ///< E11, E22, 2 E12
+  using Operator = Eigen::Matrix<double, 3, 2 * Nodes>;
+
+  /// A point of the integration rule.
+  struct Point {
+    Gradients gradients;
+    double volume = 0;  ///< thickness times area times weight [m^3]
+
+    [[nodiscard]] Eigen::Matrix2d displacement_gradient(const Coordinates& q) const;
+    [[nodiscard]] Operator strain_operator(const Eigen::Matrix2d& H) const;
+  };
+
+  [[nodiscard]] static Strain strain(const Eigen::Matrix2d& H);
+
+  Eigen::Matrix3d D_;
+  std::array<Point, Nodes == 3 ? 1 : 3> points_;
+  Square mass_;
+};
+
+}  // namespace trammel::solver::large_motion

@@ -1,0 +1,136 @@
+#include "solver/linear/buckling.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "solver/linalg/factorization.h"
+#include "solver/linear/element_operators.h"
+#include "solver/linear/row_balance.h"
+#include "solver/linear/second_order.h"
+#include "solver/linear/statics.h"
+#include "solver/model/numbers.h"
+
+namespace trammel::solver {
+namespace {
+
+/// Brackets the first load factor by inertia. Sylvester: K - t B has as many negative pivots as
+/// there are factors in (0, t).
+struct FirstFactor {
+  bool determined = false;  ///< false if no count can be relied on
+  bool exists = false;      ///< false if there is none up to `checked`
+  double below = 0;         ///< no factor lies below it, and the first one below four times it
+  double checked = 0;       ///< largest t whose inertia was counted
+};
+
+FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
+                                 Factorization& factorization, Counters& counters) {
+  constexpr int kHalvings = 200;  // 60 orders of magnitude
+  FirstFactor first;
+  // Entries of B over those of K scaled to a unit diagonal: `least` without round-off of the
+  // largest.
+  constexpr double kRoundoff = 1e4 * kEps;
+  const Eigen::VectorXd scale = K.diagonal().cwiseSqrt().cwiseInverse();
+  const SparseMatrix scaled = (scale.asDiagonal() * B * scale.asDiagonal()).cwiseAbs();
+  const double largest = scaled.nonZeros() > 0 ? scaled.coeffs().maxCoeff() : 0;
+  if (largest == 0) return {.determined = true};
+  double least = largest;
+  for (const double size : scaled.coeffs())
+    if (size > kRoundoff * largest) least = std::min(least, size);
+  // The loads dominate each entry a thousandfold, while ten digits are left of the stiffness that
+  // they do not change.
+  const double farthest = std::min(1e3 / least, 1e10 / largest);
+  double counted = 0;
+  const auto has_factor_below = [&](double t) -> std::optional<bool> {
+    for (const double share : {1.0, 0.93, 0.87}) {  // until no pivot comes near zero
+      counted = share * t;
+      ++counters.factorizations;
+      if (const std::optional<Index> count = factorization.inertia(shifted(K, B, counted)))
+        return *count > 0;
+    }
+    return {};
+  };
+  std::optional<bool> has = has_factor_below(farthest);
+  first.checked = counted;
+  double above = counted;
+  constexpr double ratio = 0.25;
+  for (int i = 0; has && *has && i < kHalvings; ++i) {
+    first.exists = true;
+    has = has_factor_below(ratio * above);
+    if (has && *has) above *= ratio;
+  }
+  first.below = 0.87 * ratio * above;
+  first.determined = has && !*has;
+  return first;
+}
+
+}  // namespace
+
+BucklingSolution solve_buckling(const System& system, const BucklingOptions& options) {
+  BucklingSolution solution;
+  const StaticSolution statics = solve_statics(system);
+  solution.counters = statics.counters;
+  solution.outcome = statics.outcome;
+  solution.evidence = statics.evidence;
+  if (!statics.outcome.solved() || statics.q.size() == 0) return solution;
+  solution.outcome = require_determined_stiffening(system);
+  if (!solution.outcome.solved()) return solution;
+  const Prestress forces =
+      forces_of(system, system.T * statics.q, system.load, body_forces(system));
+  const SparseMatrix softening = -geometric_stiffness(system, forces);
+  Factorization factorization;
+  const FirstFactor first =
+      bracket_first_factor(system.K, softening, factorization, solution.counters);
+  if (!first.determined) {
+    solution.outcome = {Status::not_converged,
+                        "the inertia of K + factor K_G is dominated by round-off"};
+    return solution;
+  }
+  solution.checked_factor = first.checked;
+  if (!first.exists) {
+    solution.evidence.add(Residual::mode_count, 0);
+    return solution;
+  }
+  Pencil pencil;
+  pencil.K = &system.K;
+  pencil.B = &softening;
+  pencil.indefinite = true;
+  // Without a shift the factors of members in large tension, negative and small, would have the
+  // largest 1/factor, and its round-off hides the others.
+  pencil.shift = first.below;
+  pencil.K_times = stiffness_operator(system);
+  pencil.K_products = [&system](const Eigen::MatrixXd& X) {
+    return strain_products(system, system.T * X);
+  };
+  factorization.compute(shifted(system.K, softening, pencil.shift));
+  ++solution.counters.factorizations;
+  const Eigen::MatrixXd no_null(system.K.rows(), 0);
+  const Eigenpairs pairs = lowest_eigenpairs(pencil, no_null, options.count, options.method,
+                                             factorization, solution.counters);
+  solution.outcome = pairs.outcome;
+  solution.load_factor = pairs.value;
+  solution.shape = pairs.vector;
+  solution.roundoff.resize(pairs.value.size());
+  const Prestress roundoff = prestress_roundoff(system, statics.q);
+  for (Index j = 0; j < pairs.value.size(); ++j) {
+    const Eigen::VectorXd x = pairs.vector.col(j);
+    const double elastic = strain_roundoff(system, system.T * x) / pairs.value[j];
+    const double geometric = geometric_energy_roundoff(system, softening, roundoff, x);
+    solution.roundoff[j] = elastic + geometric + pairs.error[j] + 4 * kEps;
+  }
+  RowBalance<double> rows(system, pairs.value.size());
+  rows.add_stiffness(system.T * pairs.vector);
+  rows.add(softening, pairs.vector * (-pairs.value).asDiagonal());
+  if (pairs.value.size() > 0)
+    solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());
+  if (!solution.outcome.solved()) return solution;
+  const double missed = miscounted_eigenvalues(system.K, softening, solution.load_factor,
+                                               std::move(factorization), pairs.check_shift);
+  const auto twice = static_cast<double>(dependent_vectors(system.K, solution.shape));
+  solution.evidence.add(Residual::mode_count, missed + twice);
+  solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
+  return solution;
+}
+
+}  // namespace trammel::solver

@@ -1,0 +1,215 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "solver/elements/frame_element.h"
+#include "solver/elements/triangle_element.h"
+#include "solver/linalg/factorization.h"
+#include "solver/linalg/forward_error.h"
+#include "solver/linear/constraints.h"
+#include "solver/linear/system.h"
+#include "solver/model/numbers.h"
+
+/// Strain energy, internal forces and their round-off straight from the elements' deformations
+/// d = B u, without an assembled stiffness: k = B^T C B with C diagonal and positive, so that what
+/// is added up are squares. Bending keeps its digits beside a stiff axial part; a rigid motion
+/// stores no energy but that of its own rounding.
+namespace trammel::solver {
+
+namespace detail {
+
+template <std::size_t n, class Vector>
+auto gather(const std::array<Index, n>& coordinates, const Vector& u) {
+  using Scalar = typename Vector::Scalar;
+  Eigen::Matrix<Scalar, static_cast<int>(n), 1> local;
+  for (std::size_t i = 0; i < n; ++i)
+    local[static_cast<Index>(i)] = coordinates[i] < 0 ? Scalar(0) : u[coordinates[i]];
+  return local;
+}
+
+/// eps |B|^T C |B| |u|: what rounding of an element's u changes in B^T C B u.
+template <class Matrix, class Rigidity, class Vector>
+auto force_roundoff(const Matrix& B, const Rigidity& c, const Vector& u) {
+  const auto size = (B.cwiseAbs() * u.cwiseAbs()).eval();
+  return (kEps * (B.cwiseAbs().transpose() * c.cwiseProduct(size))).eval();
+}
+
+/// Adds an element's values to those of its coordinates.
+template <std::size_t n, class Vector, class Sum>
+void scatter(const std::array<Index, n>& coordinates, const Vector& local, Sum&& u) {
+  for (std::size_t i = 0; i < n; ++i) {
+    if (coordinates[i] >= 0) u[coordinates[i]] += local[static_cast<Index>(i)];
+  }
+}
+
+}  // namespace detail
+
+/// Calls visit(coordinates, B, c) for every triangle, as `for_each_deformation` does.
+template <class Visit>
+void for_each_plate_deformation(const System& system, Visit&& visit) {
+  for (const Triangle& triangle : system.model.triangles) {
+    const Plate& plate = system.model.plates[to_size(triangle.plate)];
+    visit_nodes(system.model, triangle, [&]<std::size_t n>(const TriangleNodes<n>& nodes) {
+      const TriangleStiffness<n> k = triangle_stiffness(nodes, plate);
+      visit(system.coordinates.of_triangle<2 * n>(triangle), k.B, k.c);
+    });
+  }
+}
+
+/// Calls visit(coordinates, B, c) for every element: coordinates (array of n indices into u, -1
+/// for none), B (m x n) and the diagonal c (m) of its stiffness B^T diag(c) B.
+template <class Visit>
+void for_each_deformation(const System& system, Visit&& visit) {
+  for (const FrameElement& e : system.mesh.frame) {
+    const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
+    Vector3d c = frame_rigidity(e.section, member.theory, e.length);
+    if (!member.axially_flexible) c[0] = 0;
+    visit(e.coordinates, frame_deformation_matrix(e.direction, e.length), c);
+  }
+  for_each_plate_deformation(system, visit);
+  for (const SpringElement& spring : system.springs) {
+    visit(spring.coordinates, Eigen::RowVector2d(-1, 1),
+          Eigen::Matrix<double, 1, 1>(spring.stiffness));
+  }
+}
+
+/// Nodal forces in world axes of a uniform load per unit length [N/m, world axes] on an element.
+[[nodiscard]] Vector6d element_load(const FrameElement& element, const Vector2d& load);
+
+/// K u on the unconstrained coordinates.
+[[nodiscard]] Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u);
+
+/// What rounding of u changes in that: eps sum over elements of |B|^T C |B| |u|.
+[[nodiscard]] Eigen::VectorXd internal_force_roundoff(const System& system,
+                                                      const Eigen::VectorXd& u);
+
+/// U^T K U for the columns of U (u x k): twice the strain energies.
+[[nodiscard]] Eigen::MatrixXd strain_products(const System& system, const Eigen::MatrixXd& U);
+
+/// What rounding u to doubles can change in u^T K u: 2 eps sum over elements of |d|^T C |B| |u|.
+[[nodiscard]] double strain_roundoff(const System& system, const Eigen::VectorXd& u);
+
+/// Rounding level of the deformation energy: sum over elements of (|B| |u|)^T C (|B| |u|). A motion
+/// whose u^T K u is below about eps^2 times this does not deform anything.
+[[nodiscard]] double strain_magnitude(const System& system, const Eigen::VectorXd& u);
+
+/// (sxx, syy, sxy) of a triangle [Pa] at a point in area coordinates.
+/// @param corners  where they are; of a six-node triangle those of the model
+[[nodiscard]] Vector3d plate_stress(const System& system, const Triangle& triangle,
+                                    const Vector3d& at, const Eigen::VectorXd& u);
+
+/// What rounding of u changes in that, at most [Pa].
+[[nodiscard]] double plate_stress_roundoff(const System& system, const Triangle& triangle,
+                                           const Vector3d& at, const Eigen::VectorXd& u);
+
+/// K x from the elements' deformations.
+[[nodiscard]] Operator stiffness_operator(const System& system);
+
+/// Mass of a frame element in world axes.
+[[nodiscard]] inline Matrix6d world_mass(const FrameElement& e, const Member& member) {
+  if (e.is_bar()) return bar_mass(e.section, member.mass, e.length);
+  const Matrix6d R = frame_rotation(e.direction);
+  return R.transpose() * frame_mass(e.section, member.theory, member.mass, e.length) * R;
+}
+
+/// Calls visit(coordinates, mass matrix) for every triangle.
+template <class Visit>
+void for_each_plate_mass(const System& system, Visit&& visit) {
+  for (const Triangle& triangle : system.model.triangles) {
+    const Plate& plate = system.model.plates[to_size(triangle.plate)];
+    visit_nodes(system.model, triangle, [&]<std::size_t n>(const TriangleNodes<n>& nodes) {
+      visit(system.coordinates.of_triangle<2 * n>(triangle), triangle_mass(nodes, plate));
+    });
+  }
+}
+
+/// What has mass, on the unconstrained coordinates u, without an assembled mass matrix.
+
+/// Mass matrix of a point mass on (x, y, rotation) of its node; the inertia is about its own
+/// centre, which sits at `offset` from the node [m, world axes].
+template <Real T>
+[[nodiscard]] Eigen::Matrix3<T> point_inertia(const T& mass, const T& inertia,
+                                              const Vector2d& offset) {
+  Eigen::Matrix3<T> m = Eigen::Matrix3<T>::Zero();
+  m(0, 0) = m(1, 1) = mass;
+  m(0, 2) = m(2, 0) = -mass * offset.y();
+  m(1, 2) = m(2, 1) = mass * offset.x();
+  m(2, 2) = mass * offset.squaredNorm() + inertia;
+  return m;
+}
+
+/// Calls visit(coordinates, m) for every frame element, triangle, point mass and member end with
+/// inertia: coordinates (array of n indices into u, -1 for none) and m (n x n), world axes.
+template <class Visit>
+void for_each_inertia(const System& system, Visit&& visit) {
+  for (const FrameElement& e : system.mesh.frame) {
+    if (e.section.mass_per_length == 0 && e.section.inertia_per_length == 0) continue;
+    const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
+    visit(e.coordinates, world_mass(e, member));
+  }
+  for_each_plate_mass(system, visit);
+  for (const PointMass& point_mass : system.model.masses) {
+    visit(system.coordinates.node[static_cast<std::size_t>(point_mass.node)],
+          point_inertia(point_mass.mass, point_mass.inertia, point_mass.offset));
+  }
+  for (std::size_t i = 0; i < system.model.members.size(); ++i) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const double inertia = system.model.members[i].ends[end].inertia;
+      if (inertia == 0) continue;
+      visit(std::array<Index, 1>{system.coordinates.member_end[i][end]},
+            Eigen::Matrix<double, 1, 1>(inertia));
+    }
+  }
+}
+
+/// M a on the unconstrained coordinates [N, N m].
+[[nodiscard]] Eigen::VectorXd inertia_forces(const System& system, const Eigen::VectorXd& a);
+
+/// Sums symmetric element matrices of unconstrained coordinates to a matrix of the free ones,
+/// through T's rows. Entries at the same place are added in the order in which they came.
+class Projection {
+ public:
+  explicit Projection(const Constraints& constraints) : T_(constraints.T) {}
+
+  void reserve(std::size_t entries) { entries_.reserve(entries); }
+
+  template <std::size_t n, class Matrix>
+  void add(const std::array<Index, n>& coordinates, const Matrix& k) {
+    using Row = RowMajorMatrix::InnerIterator;
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t j = 0; j < n; ++j) {
+        const double value = k(static_cast<Index>(i), static_cast<Index>(j));
+        if (coordinates[i] < 0 || coordinates[j] < 0 || value == 0) continue;
+        for (Row a(T_, coordinates[i]); a; ++a) {
+          for (Row b(T_, coordinates[j]); b; ++b)
+            if (b.col() <= a.col()) add(a.col(), b.col(), a.value() * value * b.value());
+        }
+      }
+    }
+  }
+  /// Adds to an entry of the lower triangle.
+  void add(Index i, Index j, double value) {
+    entries_.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
+  }
+
+  /// Both triangles.
+  [[nodiscard]] SparseMatrix build() const {
+    SparseMatrix lower(T_.cols(), T_.cols());
+    lower.setFromTriplets(entries_.begin(), entries_.end());
+    return lower.selfadjointView<Eigen::Lower>();
+  }
+
+ private:
+  const RowMajorMatrix& T_;
+  std::vector<Eigen::Triplet<double>> entries_;
+};
+
+/// K of the free coordinates in factors: B T and C of all elements (strain.h), without the rows
+/// that have no rigidity.
+[[nodiscard]] StiffnessFactors stiffness_factors(const System& system);
+
+}  // namespace trammel::solver

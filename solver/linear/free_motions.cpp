@@ -1,0 +1,170 @@
+#include "solver/linear/free_motions.h"
+
+#include <Eigen/QR>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+#include <vector>
+
+#include "solver/linalg/dense_eigen.h"
+#include "solver/linalg/eigenpairs.h"
+#include "solver/linalg/factorization.h"
+#include "solver/linear/element_operators.h"
+#include "solver/linear/system.h"
+
+namespace trammel::solver {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kShift = 1e-12;  // of the diagonal
+/// Pivots below it make us look: those of a mechanism are rounding, 1.2e-9 in 1,152 coordinates
+/// where all of it has one sign.
+constexpr double kSmallPivot = 1e-8;
+constexpr double kDeformation = 1e-28;  // of the magnitude, (45 eps)^2: below it, nothing deforms
+constexpr Index kMaxModes = 48;
+
+}  // namespace
+
+ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization& K,
+                                       Counters& counters) {
+  const Index n = system.K.rows();
+  ZeroEnergyModes modes{MatrixXd(n, 0), true};
+  if (n == 0 || (K.exists() && K.smallest_pivot() > kSmallPivot)) return modes;
+  // Inverse iteration with K + t D on a block, D the diagonal of K, orthonormal in D.
+  VectorXd D = system.K.diagonal();
+  const double largest = D.maxCoeff();
+  D = D.unaryExpr([&](double d) { return d > 0 ? d : largest > 0 ? largest : 1; }).eval();
+  SparseMatrix shifted = system.K;
+  for (Index i = 0; i < n; ++i) shifted.coeffRef(i, i) += kShift * D[i];
+  Factorization factorization;
+  factorization.compute(shifted);
+  ++counters.factorizations;
+  const Operator shifted_K = [&,
+                              elastic = stiffness_operator(system)](const VectorXd& x) -> VectorXd {
+    return elastic(x) + kShift * D.cwiseProduct(x);
+  };
+  const VectorXd root = D.cwiseSqrt();
+  for (Index block = std::min<Index>(4, n);; block = std::min({3 * block, n, kMaxModes})) {
+    MatrixXd X = start_vectors(n, block);
+    for (int step = 0; step < 3; ++step) {
+      for (Index j = 0; j < block; ++j) {
+        const VectorXd b = D.cwiseProduct(X.col(j));
+        X.col(j) = refined_solve(shifted_K, factorization, b, counters).x;
+      }
+      const Eigen::HouseholderQR<MatrixXd> qr(root.asDiagonal() * X);
+      X = qr.householderQ() * MatrixXd::Identity(n, block);
+      X = root.cwiseInverse().asDiagonal() * X;
+    }
+    // Ritz vectors by rising strain energy; NaN if they did not converge.
+    X = X * symmetric_eigenpairs(strain_products(system, system.T * X)).vector;
+    if (!X.allFinite()) {
+      modes.all_found = false;
+      return modes;
+    }
+    Index count = 0;
+    while (count < block) {
+      const VectorXd u = system.T * X.col(count);
+      const double energy = strain_products(system, u)(0, 0);
+      // x^T D x = 1 stands for parts that nothing deforms, whatever they do.
+      if (!(energy <= kDeformation * std::max(1.0, strain_magnitude(system, u)))) break;
+      ++count;
+    }
+    modes.basis = X.leftCols(count);
+    modes.all_found = count < block || block == n;
+    if (modes.all_found || block == kMaxModes) return modes;
+  }
+}
+
+namespace {
+
+constexpr std::size_t kMaxEntries = 3;  // of one mode
+constexpr Index kMaxMotions = 6;
+/// Entries below this share of the largest are round-off, and so are differences of equal ones.
+constexpr double kRoundoff = 1e-6;
+
+using NamedRows = std::vector<std::pair<std::string, Index>>;
+
+/// The coordinates that have a name, and their rows of u.
+NamedRows named_rows(const System& system) {
+  const Model& model = system.model;
+  NamedRows rows;
+  const auto add = [&rows](const std::string& name, Index row) {
+    if (row >= 0) rows.emplace_back(name, row);
+  };
+  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    const std::string node = "node " + model.nodes[i].name;
+    const std::array<Index, 3>& of_node = system.coordinates.node[i];
+    add(node + " along x", of_node[0]);
+    add(node + " along y", of_node[1]);
+    add("rotation of " + node, of_node[2]);
+  }
+  for (std::size_t i = 0; i < model.members.size(); ++i) {
+    const std::array<Index, 2>& ends = system.coordinates.member_end[i];
+    add("rotation of the start of member " + model.members[i].name, ends[0]);
+    add("rotation of the end of member " + model.members[i].name, ends[1]);
+  }
+  return rows;
+}
+
+/// The first of the largest entries, but for round-off.
+Index first_largest(const VectorXd& x) {
+  const double enough = (1 - kRoundoff) * x.cwiseAbs().maxCoeff();
+  Index i = 0;
+  while (std::abs(x[i]) < enough) ++i;
+  return i;
+}
+
+/// Reduced echelon form of the columns: each has 1 where the others have 0.
+void reduce(MatrixXd& U) {
+  for (Index j = 0; j < U.cols(); ++j) {
+    const Index pivot = first_largest(U.col(j));
+    if (U(pivot, j) == 0) continue;
+    U.col(j) /= U(pivot, j);
+    for (Index k = 0; k < U.cols(); ++k)
+      if (k != j) U.col(k) -= U(pivot, k) * U.col(j);
+  }
+}
+
+std::string describe(const VectorXd& mode, const NamedRows& rows) {
+  VectorXd left = mode / mode[first_largest(mode)];
+  std::string text;
+  for (std::size_t entry = 0; entry < std::min(kMaxEntries, rows.size()); ++entry) {
+    const Index i = first_largest(left);
+    if (std::abs(left[i]) < kRoundoff) break;
+    char value[32];
+    std::snprintf(value, sizeof value, " %.3g", left[i]);
+    text += (entry > 0 ? ", " : "free motion: ") + rows[to_size(i)].first + value;
+    left[i] = 0;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string describe_mechanism(const System& system, const ZeroEnergyModes& modes) {
+  const NamedRows rows = named_rows(system);
+  const MatrixXd u = free_length_scales(system) * modes.basis;
+  MatrixXd U(std::ssize(rows), u.cols());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    U.row(static_cast<Index>(i)) = u.row(rows[i].second);
+  if (U.size() > 0) reduce(U);
+  std::string text;
+  for (Index j = 0; j < std::min(U.cols(), kMaxMotions); ++j)
+    text += (j > 0 ? "; " : "") + describe(U.col(j), rows);
+  if (U.cols() > kMaxMotions) text += "; and " + std::to_string(U.cols() - kMaxMotions) + " more";
+  if (!modes.all_found) text += "; and others";
+  return text;
+}
+
+Outcome require_held(const System& system, const Factorization& K, Counters& counters) {
+  const ZeroEnergyModes free = find_zero_energy_modes(system, K, counters);
+  if (free.count() == 0) return {};
+  return {Status::singular, describe_mechanism(system, free)};
+}
+
+}  // namespace trammel::solver

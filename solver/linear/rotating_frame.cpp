@@ -1,0 +1,340 @@
+#include "solver/linear/rotating_frame.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "solver/linalg/gyroscopic.h"
+#include "solver/linear/element_operators.h"
+#include "solver/linear/free_motions.h"
+#include "solver/linear/row_balance.h"
+#include "solver/linear/second_order.h"
+
+namespace trammel::solver {
+
+namespace {
+
+using Eigen::VectorXd;
+
+const Eigen::Matrix2d& perpendicular_matrix() {
+  static const Eigen::Matrix2d J = (Eigen::Matrix2d() << 0, -1, 1, 0).finished();
+  return J;
+}
+
+/// The part of a vector that leads away from the axis.
+Eigen::Matrix2d distance_projector(RotationAxis axis) {
+  return Eigen::Vector2d(axis == RotationAxis::x ? 0 : 1, axis == RotationAxis::y ? 0 : 1)
+      .asDiagonal();
+}
+
+/// Translation of a point mass's centre from (x, y, rotation) of its node.
+Eigen::Matrix<double, 2, 3> centre_of_mass_interpolation(const PointMass& point_mass) {
+  Eigen::Matrix<double, 2, 3> B;
+  B << Eigen::Matrix2d::Identity(), perpendicular_matrix() * point_mass.offset;
+  return B;
+}
+
+/// integral rho N^T A N of a frame element in its axes; lumped mass turns nothing.
+Matrix6d frame_mass_with(const Eigen::Matrix2d& A, const FrameElement& e, const Member& member) {
+  Matrix6d integral = Matrix6d::Zero();
+  if (member.mass == MassMatrix::lumped || e.is_bar()) {
+    const Matrix6d M = e.is_bar() ? bar_mass(e.section, member.mass, e.length)
+                                  : frame_mass(e.section, BeamTheory::euler_bernoulli,
+                                               MassMatrix::lumped, e.length);
+    for (const Index i : {0, 3}) {
+      for (const Index j : {0, 3}) integral.block<2, 2>(i, j) = M(i, j) * A;
+    }
+    return integral;
+  }
+  const double m = e.section.mass_per_length * e.length;
+  const double phi = shear_ratio(e.section, member.theory, e.length);
+  for (const LineQuadraturePoint& point : line_quadrature()) {
+    const Eigen::Matrix<double, 2, 6> N = frame_interpolation(phi, e.length, point.xi).topRows<2>();
+    integral += point.weight * m * N.transpose() * A * N;
+  }
+  return integral;
+}
+
+/// integral rho I N^T N of the rotation of a frame element's sections, in world axes.
+Matrix6d rotary_mass(FrameElement e, const Member& member) {
+  e.section.mass_per_length = 0;
+  return world_mass(e, member);
+}
+
+/// What a section of unit rotary inertia feels about an axis in the plane. Its points at a height y
+/// stand y (n cos a - d sin a) beside the axis of the member, d along and n across it, so that the
+/// square of their distance adds y^2 (2 moment a + stiffness a^2): the section turns across the
+/// axis.
+struct SectionPull {
+  double moment, stiffness;
+};
+SectionPull section_pull(const Eigen::Matrix2d& P, const Vector2d& d) {
+  const Vector2d n = perpendicular_matrix() * d;
+  return {-n.dot(P * d), d.dot(P * d) - n.dot(P * n)};
+}
+
+/// Calls visit(coordinates, S, G) for everything that has mass, in world axes.
+template <class Visit>
+void for_each_rotating_mass(const System& system, RotationAxis axis, Visit&& visit) {
+  const Model& model = system.model;
+  const Eigen::Matrix2d P = distance_projector(axis);
+  for (const FrameElement& e : system.mesh.frame) {
+    if (e.section.mass_per_length == 0) continue;
+    const Member& member = model.members[static_cast<std::size_t>(e.member)];
+    const Matrix6d R = frame_rotation(e.direction);
+    const auto world = [&](const Eigen::Matrix2d& A) -> Matrix6d {
+      return R.transpose() * frame_mass_with(A, e, member) * R;
+    };
+    const auto r = R.topLeftCorner<2, 2>();
+    Matrix6d S = world(r * P * r.transpose());
+    if (axis != RotationAxis::normal)
+      S += section_pull(P, e.direction).stiffness * rotary_mass(e, member);
+    visit(e.coordinates, S, world(perpendicular_matrix()));
+  }
+  for_each_plate_mass(system, [&](const auto& coordinates, const auto& m) {
+    auto S = m;
+    auto G = m;
+    for (Index i = 0; i < m.rows(); i += 2) {
+      for (Index j = 0; j < m.cols(); j += 2) {
+        S.template block<2, 2>(i, j) = m(i, j) * P;
+        G.template block<2, 2>(i, j) = m(i, j) * perpendicular_matrix();
+      }
+    }
+    visit(coordinates, S, G);
+  });
+  for (const PointMass& point_mass : model.masses) {
+    const Eigen::Matrix<double, 2, 3> B = centre_of_mass_interpolation(point_mass);
+    visit(system.coordinates.node[static_cast<std::size_t>(point_mass.node)],
+          (point_mass.mass * B.transpose() * P * B).eval(),
+          (point_mass.mass * B.transpose() * perpendicular_matrix() * B).eval());
+  }
+}
+
+}  // namespace
+
+SparseMatrix centrifugal_softening(const System& system, RotationAxis axis) {
+  Projection sum(system.constraints);
+  for_each_rotating_mass(system, axis, [&](const auto& coordinates, const auto& S, const auto&) {
+    sum.add(coordinates, S);
+  });
+  return sum.build();
+}
+
+SparseMatrix gyroscopic_matrix(const System& system) {
+  std::vector<Eigen::Triplet<double>> entries;
+  const RotationAxis normal = RotationAxis::normal;
+  for_each_rotating_mass(system, normal, [&](const auto& coordinates, const auto&, const auto& G) {
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+      for (std::size_t j = 0; j < coordinates.size(); ++j) {
+        const double g = G(static_cast<Index>(i), static_cast<Index>(j));
+        if (coordinates[i] >= 0 && coordinates[j] >= 0)
+          entries.emplace_back(coordinates[i], coordinates[j], g);
+      }
+    }
+  });
+  SparseMatrix on_u(system.T.rows(), system.T.rows());
+  on_u.setFromTriplets(entries.begin(), entries.end());
+  const SparseMatrix matrix = system.T.transpose() * on_u * system.T;
+  const SparseMatrix transposed = matrix.transpose();
+  return 0.5 * (matrix - transposed);  // skew to the last bit
+}
+
+VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, const VectorXd& u) {
+  // The interpolation holds the position of every point: the nodes' positions with no rotation.
+  VectorXd position = u;
+  for (std::size_t node = 0; node < system.coordinates.node.size(); ++node) {
+    const Vector2d arm = system.mesh.positions[node] - frame.centre;
+    position[system.coordinates.node[node][0]] += arm.x();
+    position[system.coordinates.node[node][1]] += arm.y();
+  }
+  const double w2 = frame.speed * frame.speed;
+  const Eigen::Matrix2d P = distance_projector(frame.axis);
+  VectorXd force = VectorXd::Zero(u.size());
+  for_each_rotating_mass(
+      system, frame.axis, [&](const auto& coordinates, const auto& S, const auto&) {
+        detail::scatter(coordinates, (w2 * (S * detail::gather(coordinates, position))).eval(),
+                        force);
+      });
+  for (const FrameElement& e : system.mesh.frame) {  // but for the sections' heights
+    if (frame.axis == RotationAxis::normal || e.section.inertia_per_length == 0) continue;
+    const Vector2d swept = e.length * (perpendicular_matrix() * e.direction);
+    Vector6d unit_turn;
+    unit_turn << 0, 0, 1, swept, 1;
+    const Member& member = system.model.members[to_size(e.member)];
+    const double moment = w2 * section_pull(P, e.direction).moment;
+    detail::scatter(e.coordinates, (moment * (rotary_mass(e, member) * unit_turn)).eval(), force);
+  }
+  for (const PointMass& point_mass : system.model.masses) {  // nor for the offset itself
+    detail::scatter(system.coordinates.node[to_size(point_mass.node)],
+                    (w2 * point_mass.mass * centre_of_mass_interpolation(point_mass).transpose() *
+                     P * point_mass.offset)
+                        .eval(),
+                    force);
+  }
+  return force;
+}
+
+BodyForces body_forces(const System& system, const RotatingFrame& frame, const VectorXd& u) {
+  BodyForces body = body_forces(system);
+  const Eigen::Matrix2d w2 = frame.speed * frame.speed * distance_projector(frame.axis);
+  for (std::size_t i = 0; i < system.mesh.frame.size(); ++i) {
+    const FrameElement& e = system.mesh.frame[i];
+    const auto position = [&](std::size_t end) -> Vector2d {
+      return system.mesh.positions[to_size(e.nodes[end])] +
+             Vector2d(u[e.coordinates[3 * end]], u[e.coordinates[3 * end + 1]]);
+    };
+    const Vector2d middle = (position(0) + position(1)) / 2;
+    body.element[i] += e.section.mass_per_length * w2 * (middle - frame.centre);
+  }
+  for (std::size_t i = 0; i < system.model.masses.size(); ++i) {
+    const PointMass& point_mass = system.model.masses[i];
+    const Vector2d position =
+        system.model.nodes[to_size(point_mass.node)].position + point_mass.offset +
+        centre_of_mass_interpolation(point_mass) *
+            detail::gather(system.coordinates.node[to_size(point_mass.node)], u);
+    body.point_mass[i] += point_mass.mass * w2 * (position - frame.centre);
+  }
+  return body;
+}
+
+namespace {
+
+using Eigen::MatrixXcd;
+using Eigen::MatrixXd;
+using Eigen::VectorXcd;
+
+/// Solves for the steady state; returns false if the forces do not settle or it does not exist.
+bool find_steady_state(const System& system, const RotatingOptions& options,
+                       StiffenedEquilibrium& steady, StaticState& state, Counters& counters) {
+  const RotatingFrame& frame = options.frame;
+  const VectorXd undeformed = VectorXd::Zero(system.T.rows());
+  const VectorXd rhs =
+      system.f + system.T.transpose() * centrifugal_forces(system, frame, undeformed);
+  // Forces in q, which the centrifugal forces of displacements u hold.
+  const auto forces = [&](const VectorXd& q, const VectorXd& u, const Prestress* before) {
+    return forces_of(system, system.T * q, system.load + centrifugal_forces(system, frame, u),
+                     body_forces(system, frame, u), before);
+  };
+  if (options.stiffening && options.prestress_at_steady_state) {
+    steady.iterate(
+        rhs,
+        [&](const VectorXd& q, const Prestress* before) { return forces(q, system.T * q, before); },
+        state);
+    return state.outcome.solved();
+  }
+  if (options.stiffening) {
+    if (!StiffenedEquilibrium(system, counters).solve(rhs, state)) return false;
+    state.forces = forces(state.q, undeformed, nullptr);
+  }
+  return steady.solve(rhs, state);
+}
+
+/// Equilibrium of the steady state: (K + K_G - W^2 S) q = f + W^2 f_c.
+double steady_backward_error(const System& system, const SparseMatrix& added, const VectorXd& q,
+                             const RotatingFrame& frame) {
+  RowBalance<double> rows(system);
+  rows.add_stiffness(system.T * q);
+  rows.add(added, q);
+  rows.add_load(-system.load);
+  rows.add_load(-centrifugal_forces(system, frame, VectorXd::Zero(system.T.rows())));
+  return rows.backward_error();
+}
+
+/// (K + K_G - W^2 S + s 2 W G + s^2 M) x = 0, s = growth rate + i w, of all modes.
+double mode_backward_error(const System& system, const SparseMatrix& added, const SparseMatrix& C,
+                           const MatrixXcd& x, const VectorXcd& s) {
+  const MatrixXcd u = system.T * x;
+  RowBalance<std::complex<double>> rows(system, x.cols());
+  rows.add_stiffness(u);
+  rows.add_inertia(u * s.cwiseProduct(s).asDiagonal());
+  rows.add(added, x);
+  rows.add(C, x * s.asDiagonal());
+  return rows.backward_error();
+}
+
+/// Modes missed or too many: of a stable state those below the last clear gap, of an unstable one
+/// all, as many as the rank of the mass matrix.
+double miscounted_modes(const GyroscopicPencil& pencil, const GyroscopicModes& modes, bool stable) {
+  const VectorXd& w = modes.omega;
+  if (stable) {
+    return miscounted_eigenvalues(
+        w, [&pencil](double omega) { return gyroscopic_sturm_count(pencil, omega); });
+  }
+  const double last = w.cwiseAbs2().maxCoeff() + modes.growth_rate.cwiseAbs2().maxCoeff();
+  const auto counted = Factorization().inertia(shifted(pencil.K, pencil.M, 1e4 * last));
+  return counted ? std::abs(static_cast<double>(*counted - w.size())) : kNaN;
+}
+
+GyroscopicModes gyroscopic_modes(const GyroscopicPencil& pencil, bool stable,
+                                 const RotatingOptions& options, Counters& counters) {
+  constexpr Index kLargestUnstable = 400;
+  if (stable) {
+    return stable_gyroscopic_modes(pencil, options.count, options.method, counters);
+  }
+  if (pencil.K.rows() <= kLargestUnstable) return all_gyroscopic_modes(pencil);
+  GyroscopicModes modes;
+  modes.outcome = {Status::not_converged,
+                   "the stiffness of the rotating frame is not positive definite, and the model "
+                   "is too large for the dense solution that this needs"};
+  return modes;
+}
+
+}  // namespace
+
+RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& options) {
+  RotatingModes result;
+  result.counters = system.counters;
+  if (system.K.rows() == 0) return result;
+  Factorization K;
+  K.compute(system.K);
+  ++result.counters.factorizations;
+  result.outcome = require_held(system, K, result.counters);
+  if (result.outcome.solved() && options.stiffening)
+    result.outcome = require_determined_stiffening(system);
+  if (!result.outcome.solved()) return result;
+  const double speed = options.frame.speed;
+  const SparseMatrix softening = -speed * speed * centrifugal_softening(system, options.frame.axis);
+  StiffenedEquilibrium steady(system, result.counters, &softening);
+  StaticState state{{}, VectorXd::Zero(system.K.rows()), {}, 0};
+  if (!find_steady_state(system, options, steady, state, result.counters)) {
+    result.outcome = {Status::not_converged, "the steady state of the rotating frame is not found"};
+    return result;
+  }
+  result.q = state.q;
+  const SparseMatrix& added = steady.added();
+  result.evidence.add(Residual::equilibrium,
+                      steady_backward_error(system, added, state.q, options.frame));
+  const bool has_gyroscopic_forces =
+      options.gyroscopic && options.frame.axis == RotationAxis::normal;
+  SparseMatrix C(system.K.rows(), system.K.cols());
+  if (has_gyroscopic_forces) {
+    C = 2 * speed * gyroscopic_matrix(system);
+    result.counters.count(Effect::gyroscopic, 1);
+  }
+  const GyroscopicPencil pencil{
+      system.K + added, C, system.M, [&](const VectorXd& x) { return steady.times(x); },
+      [&](const MatrixXd& X) -> MatrixXd {
+        return strain_products(system, system.T * X) + X.transpose() * (added * X);
+      }};
+  if (system.M.coeffs().isZero(0)) return result;  // nothing swings
+  const bool stable = steady.is_stable();
+  const GyroscopicModes modes = gyroscopic_modes(pencil, stable, options, result.counters);
+  result.outcome = modes.outcome;
+  const Index kept = std::min(options.count, modes.omega.size());
+  result.frequency = modes.omega.head(kept) / (2 * std::numbers::pi);
+  result.growth_rate = modes.growth_rate.head(kept);
+  result.shape = modes.shape.leftCols(kept);
+  result.stable = modes.growth_rate.size() == 0 || modes.growth_rate.maxCoeff() <= 0;
+  if (!result.outcome.solved()) return result;
+  if (kept > 0) {
+    VectorXcd exponent(kept);
+    exponent.real() = modes.growth_rate.head(kept);
+    exponent.imag() = modes.omega.head(kept);
+    result.evidence.add(Residual::eigenvalue_equation,
+                        mode_backward_error(system, added, C, result.shape, exponent));
+  }
+  result.evidence.add(Residual::mode_count, miscounted_modes(pencil, modes, stable));
+  result.outcome = outcome_by_evidence(result.outcome, result.evidence);
+  return result;
+}
+
+}  // namespace trammel::solver

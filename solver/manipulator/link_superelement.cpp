@@ -1,0 +1,110 @@
+#include "solver/manipulator/link_superelement.h"
+
+#include <cmath>
+#include <vector>
+
+#include "solver/linalg/dense_eigen.h"
+#include "solver/model/numbers.h"
+
+namespace trammel::solver {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// The member's elements, all alike, on (u v θ) of its n + 1 nodes.
+struct ElementChain {
+  Index elements;
+  FrameDeformation B;
+  Vector3d c;
+  Matrix6d m;
+
+  [[nodiscard]] MatrixXd mass_times(const MatrixXd& U) const {
+    MatrixXd F = MatrixXd::Zero(U.rows(), U.cols());
+    for (Index e = 0; e < elements; ++e) F.middleRows<6>(3 * e) += m * U.middleRows<6>(3 * e);
+    return F;
+  }
+  /// U^T K U from the deformations, which keep the digits of long waves.
+  [[nodiscard]] MatrixXd strain_products(const MatrixXd& U) const {
+    MatrixXd D(3 * elements, U.cols());
+    for (Index e = 0; e < elements; ++e) {
+      D.middleRows<3>(3 * e) = c.cwiseSqrt().asDiagonal() * B * U.middleRows<6>(3 * e);
+    }
+    return D.transpose() * D;
+  }
+};
+
+/// On all nodes, zero but at the given coordinates.
+MatrixXd motions_of(const std::vector<Index>& coordinates, const MatrixXd& values, Index size) {
+  MatrixXd U = MatrixXd::Zero(size, values.cols());
+  for (std::size_t i = 0; i < coordinates.size(); ++i)
+    U.row(coordinates[i]) = values.row(static_cast<Index>(i));
+  return U;
+}
+
+/// Modes of the coordinates with the rest held, strain energy 1, on all nodes, longest period
+/// first. Bending and stretching are not coupled: each by itself, so that zeros stay zeros.
+MatrixXd modes_of(const ElementChain& chain, const std::vector<Index>& coordinates) {
+  const Index size = 3 * (chain.elements + 1);
+  const auto count = static_cast<Index>(coordinates.size());
+  const MatrixXd unit = motions_of(coordinates, MatrixXd::Identity(count, count), size);
+  const MatrixXd K = chain.strain_products(unit);
+  const MatrixXd M = unit.transpose() * chain.mass_times(unit);
+  const VectorXd scale = K.diagonal().cwiseSqrt().cwiseInverse();
+  const SymmetricEigenpairs pairs = symmetric_eigenpairs(
+      scale.asDiagonal() * M * scale.asDiagonal(), scale.asDiagonal() * K * scale.asDiagonal());
+  const double zero = 1e-13 * pairs.value.cwiseAbs().maxCoeff();
+  const Index kept = (pairs.value.array() > zero).count();
+  return motions_of(coordinates,
+                    scale.asDiagonal() * pairs.vector.rightCols(kept).rowwise().reverse(), size);
+}
+
+double largest_off_diagonal(const MatrixXd& A) {
+  const VectorXd scale = A.diagonal().cwiseSqrt().cwiseInverse();
+  MatrixXd scaled = scale.asDiagonal() * A * scale.asDiagonal();
+  scaled.diagonal().setZero();
+  return scaled.size() > 0 ? scaled.cwiseAbs().maxCoeff() : 0;
+}
+
+}  // namespace
+
+LinkSuperelement condense(const Member& member, double length) {
+  const Index n = member.elements;
+  const double part = length / static_cast<double>(n);
+  const Section& section = member.section;
+  LinkSuperelement link;
+  ElementChain chain{n, frame_deformation_matrix(Vector2d(Vector2d::UnitX()), part),
+                     frame_rigidity(section, member.theory, part),
+                     frame_mass(section, member.theory, member.mass, part)};
+  if (!member.axially_flexible) chain.c[0] = 0;
+  // The static motion of a prismatic member is the interpolation of one element, exactly.
+  MatrixXd follows(3 * (n + 1), 6);
+  const double phi = shear_ratio(section, member.theory, length);
+  for (Index k = 0; k <= n; ++k) {
+    follows.middleRows<3>(3 * k) =
+        frame_interpolation(phi, length, static_cast<double>(k) / static_cast<double>(n));
+  }
+  std::vector<Index> axial, bending;
+  for (Index k = 1; k < n; ++k) {
+    if (member.axially_flexible) axial.push_back(3 * k);
+    bending.insert(bending.end(), {3 * k + 1, 3 * k + 2});
+  }
+  link.inside = std::ssize(axial) + std::ssize(bending);
+  MatrixXd X(3 * (n + 1), 0);
+  for (const auto& coordinates : {axial, bending}) {
+    if (coordinates.empty()) continue;
+    const MatrixXd modes = modes_of(chain, coordinates);
+    X.conservativeResize(Eigen::NoChange, X.cols() + modes.cols());
+    X.rightCols(modes.cols()) = modes;
+  }
+  const MatrixXd energy = chain.strain_products(X);
+  X = X * energy.diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
+  const MatrixXd images = chain.mass_times(X), inertia = X.transpose() * images;
+  link.coupling = std::max(largest_off_diagonal(energy), largest_off_diagonal(inertia));
+  link.mu = inertia.diagonal();
+  link.P = images.transpose() * follows;
+  link.m = follows.transpose() * chain.mass_times(follows);
+  return link;
+}
+
+}  // namespace trammel::solver

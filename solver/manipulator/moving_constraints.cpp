@@ -1,0 +1,178 @@
+#include "solver/manipulator/moving_constraints.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace trammel::solver {
+
+using Eigen::MatrixXd;
+
+namespace {
+
+/// Entries of T beyond this have cost four digits.
+constexpr double kLargestT = 1e4;
+/// An entry of T below this share of its row's largest is round-off of zero.
+constexpr double kVanishing = 1e-11;
+
+/// The part whose motion changes the row; null: none.
+const PartMotion* part_of(const System& start, const ConstraintRow& row,
+                          const NominalMotion& motion) {
+  if (row.source == ConstraintRow::Source::inextensible)
+    return &motion.part[to_size(start.mesh.frame[to_size(row.index)].member)];
+  if (row.source == ConstraintRow::Source::rigid_body)
+    return &motion.part[to_size(body_part(start.model, row.index))];
+  return nullptr;
+}
+
+/// The coefficient of a term in a row, or its derivative in time.
+double coefficient(const System& start, const ConstraintRow& row, std::size_t term,
+                   const NominalMotion& motion, int order) {
+  if (row.source == ConstraintRow::Source::inextensible) {
+    const FrameElement& e = start.mesh.frame[to_size(row.index)];
+    const Vector2d d = part_of(start, row, motion)->derivative(e.direction, order);
+    const auto local =
+        std::ranges::find(e.coordinates, row.terms[term].first) - e.coordinates.begin();
+    return (local >= 3 ? 1 : -1) * (local % 3 == 0 ? d.x() : d.y());
+  }
+  const Index first = row.terms.front().first;
+  const auto& coordinates = start.coordinates;
+  const bool arm_term = row.source == ConstraintRow::Source::rigid_body && term == 2 &&
+                        !coordinates.is_rotation[to_size(first)];
+  if (!arm_term) return order == 0 ? row.terms[term].second : 0.0;
+  const Index node = coordinates.node_of[to_size(first)];
+  const Index reference = start.model.rigid_bodies[to_size(row.index)].reference;
+  const Vector2d arm =
+      start.mesh.positions[to_size(node)] - start.mesh.positions[to_size(reference)];
+  const Vector2d now = part_of(start, row, motion)->derivative(arm, order);
+  return first == coordinates.node[to_size(node)][0] ? now.y() : -now.x();
+}
+
+}  // namespace
+
+MovingConstraints::MovingConstraints(const System& start, const NominalMotion& motion,
+                                     bool derivatives)
+    : constraints_(start.constraints), derivatives_(derivatives) {
+  for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
+    const bool turns = part_of(start, constraints_.rows[r], motion) != nullptr;
+    variable_ = variable_ || (constraints_.pivot[r] >= 0 && turns);
+  }
+  if (!variable_) return;
+  find_dependent_rows();
+  extend_pattern(start, motion);
+}
+
+/// Rows that T is solved from.
+void MovingConstraints::find_dependent_rows() {
+  dependent_row_of_.assign(to_size(constraints_.T.rows()), -1);
+  for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
+    const Index pivot = constraints_.pivot[r];
+    if (pivot < 0 || constraints_.rows[r].source == ConstraintRow::Source::support) continue;
+    dependent_row_of_[to_size(pivot)] = std::ssize(dependent_rows_);
+    dependent_rows_.push_back(r);
+  }
+  const auto columns = [](const std::vector<Index>& column_of, Index count) {
+    std::vector<Eigen::Triplet<double>> ones;
+    for (int u = 0; u < static_cast<int>(column_of.size()); ++u) {
+      const int column = static_cast<int>(column_of[to_size(u)]);
+      if (column >= 0) ones.emplace_back(u, column, 1.0);
+    }
+    RowMajorMatrix matrix(std::ssize(column_of), count);
+    matrix.setFromTriplets(ones.begin(), ones.end());
+    return matrix;
+  };
+  select_free_ = columns(constraints_.free, constraints_.T.cols());
+  select_dependent_ = columns(dependent_row_of_, std::ssize(dependent_rows_));
+}
+
+/// T with every entry that some pose needs: those that do not vanish at three turns of the parts in
+/// general position. Of the pattern alone, each node of an inextensible member would follow all
+/// before it; in numbers what they add cancels.
+void MovingConstraints::extend_pattern(const System& start, const NominalMotion& motion) {
+  auto& T = constraints_.T;
+  Eigen::ArrayXX<bool> needed(static_cast<Index>(dependent_rows_.size()), T.cols());
+  needed.setConstant(false);
+  NominalMotion general = motion;
+  double turn = 1;
+  for (int found = 0, trial = 0; found < 3 && trial < 100; ++trial) {
+    for (PartMotion& part : general.part) part.angle = 0.4 * std::sin(turn += std::numbers::phi);
+    const MatrixXd X = dependent_coordinates(start, general).cwiseAbs();
+    if (!(X.allFinite() && X.maxCoeff() < kLargestT)) continue;
+    ++found;
+    for (Index i = 0; i < X.rows(); ++i) {
+      needed.row(i) = needed.row(i) || X.row(i).array() > kVanishing * X.row(i).maxCoeff();
+    }
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  for (Index u = 0; u < T.rows(); ++u) {
+    const Index row = dependent_row_of_[to_size(u)], own = constraints_.free[to_size(u)];
+    for (Index q = 0; q < T.cols(); ++q) {
+      const bool enters = row >= 0 ? needed(row, q) : q == own;
+      if (enters) entries.emplace_back(static_cast<int>(u), static_cast<int>(q), T.coeff(u, q));
+    }
+  }
+  T.setFromTriplets(entries.begin(), entries.end());
+  T.makeCompressed();
+  T_dot_ = 0.0 * T;
+  T_ddot_ = T_dot_;
+}
+
+/// C^(order) times a matrix with a row for each coordinate: dependent row x column.
+MatrixXd MovingConstraints::product(const System& start, const NominalMotion& motion, int order,
+                                    const RowMajorMatrix& matrix) const {
+  MatrixXd sum = MatrixXd::Zero(std::ssize(dependent_rows_), matrix.cols());
+  for (Index i = 0; i < sum.rows(); ++i) {
+    const ConstraintRow& row = constraints_.rows[dependent_rows_[to_size(i)]];
+    for (std::size_t t = 0; t < row.terms.size(); ++t) {
+      const double c = coefficient(start, row, t, motion, order);
+      for (RowMajorMatrix::InnerIterator entry(matrix, row.terms[t].first); entry; ++entry)
+        sum(i, entry.col()) += c * entry.value();
+    }
+  }
+  return sum;
+}
+
+/// X of C_p X = - C_f, the eliminated coordinates of the free ones: row x q.
+MatrixXd MovingConstraints::dependent_coordinates(const System& start,
+                                                  const NominalMotion& motion) {
+  pivots_.compute(product(start, motion, 0, select_dependent_));
+  return pivots_.solve(-product(start, motion, 0, select_free_));
+}
+
+void MovingConstraints::store(const MatrixXd& values, RowMajorMatrix& target) const {
+  for (Index u = 0; u < target.rows(); ++u) {
+    const Index row = dependent_row_of_[to_size(u)];
+    if (row < 0) continue;
+    for (RowMajorMatrix::InnerIterator it(target, u); it; ++it) {
+      it.valueRef() = values(row, it.col());
+    }
+  }
+}
+
+Outcome MovingConstraints::move(const System& start, const NominalMotion& from,
+                                const NominalMotion& to) {
+  const bool changes = std::ranges::any_of(constraints_.rows, [&](const ConstraintRow& row) {
+    const PartMotion *before = part_of(start, row, from), *after = part_of(start, row, to);
+    return before != nullptr && *before != *after;
+  });
+  if (!variable_ || !changes) return {};
+  const MatrixXd X = dependent_coordinates(start, to);
+  if (!(X.allFinite() && X.cwiseAbs().maxCoeff() < kLargestT)) {
+    return {Status::singular,
+            "the coordinates that the constraints eliminated at the start do not suit this pose"};
+  }
+  for (const std::size_t r : dependent_rows_) {
+    ConstraintRow& row = constraints_.rows[r];
+    for (std::size_t t = 0; t < row.terms.size(); ++t) {
+      row.terms[t].second = coefficient(start, row, t, to, 0);
+    }
+  }
+  store(X, constraints_.T);
+  if (!derivatives_) return {};
+  store(pivots_.solve(-product(start, to, 1, constraints_.T)), T_dot_);
+  store(pivots_.solve(-product(start, to, 2, constraints_.T) - 2 * product(start, to, 1, T_dot_)),
+        T_ddot_);
+  return {};
+}
+
+}  // namespace trammel::solver

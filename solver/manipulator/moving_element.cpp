@@ -1,0 +1,196 @@
+#include "solver/manipulator/moving_element.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/linear/element_operators.h"
+#include "solver/model/model.h"
+#include "solver/model/quadrature.h"
+
+namespace trammel::solver {
+
+Vector2d PartMotion::derivative(const Vector2d& at_start, int order) const {
+  const Vector2d now = rotated(at_start, angle);
+  if (order == 0) return now;
+  if (order == 1) return rate * perpendicular(now);
+  return acceleration * perpendicular(now) - rate * rate * now;
+}
+
+NominalMotion nominal_motion(const Model& model, const InverseDynamics& dynamics,
+                             const Vector9d& from, const TrajectoryPoint& point,
+                             const Vector2d& gravity) {
+  const auto part = [&](Index i) {
+    return PartMotion{dynamics.q[i] - from[i], dynamics.q_dot[i], dynamics.q_ddot[i]};
+  };
+  NominalMotion motion;
+  motion.gravity = gravity;
+  for (Index limb = 0; limb < 3; ++limb) {
+    motion.part.push_back(part(limb));
+    motion.part.push_back(part(3 + limb));
+  }
+  motion.part.resize(to_size(body_part(model, std::ssize(model.rigid_bodies))), part(8));
+  for (Eigen::MatrixX2d& values : motion.node) values.resize(std::ssize(model.nodes), 2);
+  using Carrier = std::array<Vector2d, 3>;
+  const auto place = [&](Index node, const Vector2d& start, const Carrier& carrier,
+                         const PartMotion& turns) {
+    const Vector2d arm = model.nodes[to_size(node)].position - start;
+    for (int order = 0; order < 3; ++order) {
+      motion.node[to_size(order)].row(node) =
+          carrier[to_size(order)] + turns.derivative(arm, order);
+    }
+  };
+  for (Index limb = 0; limb < 3; ++limb) {
+    const Vector2d& A = model.nodes[to_size(limb)].position;
+    for (const Index node : {limb, 3 + limb})
+      place(node, A, {A, Vector2d::Zero(), Vector2d::Zero()}, motion.part[to_size(2 * limb)]);
+  }
+  // C1 C2 C3, P and the nodes of a plate turn with the platform.
+  const Carrier P = {point.pose.position(), point.velocity.head<2>(), point.acceleration.head<2>()};
+  for (Index node = 6; node < std::ssize(model.nodes); ++node)
+    place(node, from.segment<2>(6), P, motion.part.back());
+  return motion;
+}
+
+double largest_angular_velocity(const NominalMotion& motion) {
+  double largest = 0;
+  for (const PartMotion& part : motion.part) largest = std::max(largest, std::abs(part.rate));
+  return largest;
+}
+
+namespace {
+
+/// d/dangle of a rotation, times its inverse.
+const Eigen::Matrix3d& generator() {
+  static const Eigen::Matrix3d J = (Eigen::Matrix3d() << 0, -1, 0, 1, 0, 0, 0, 0, 0).finished();
+  return J;
+}
+
+/// Adds int rho N^T X and int rho N^T (J X - X J6), with X = J N - N J6 the derivative of
+/// W = R N R6^T; weights are rho times (1, 1, radius of gyration squared).
+void add_derivatives(const Eigen::Matrix<double, 3, 6>& N, const Vector3d& weights,
+                     MovingElement& element) {
+  Matrix6d J6 = Matrix6d::Zero();
+  J6.topLeftCorner<3, 3>() = J6.bottomRightCorner<3, 3>() = generator();
+  const Eigen::Matrix<double, 3, 6> X = generator() * N - N * J6;
+  const Eigen::Matrix<double, 3, 6> Y = generator() * X - X * J6;
+  element.first_derivative += N.transpose() * weights.asDiagonal() * X;
+  element.second_derivative += N.transpose() * weights.asDiagonal() * Y;
+}
+
+MovingElement frame_element(const FrameElement& e, const Member& member) {
+  MovingElement element;
+  element.coordinates = e.coordinates;
+  element.part = e.member;
+  element.axis = e.direction;
+  element.B = frame_deformation_matrix(Vector2d(Vector2d::UnitX()), e.length);
+  element.c = frame_rigidity(e.section, member.theory, e.length);
+  if (!member.axially_flexible) element.c[0] = 0;
+  element.m = e.is_bar() ? bar_mass(e.section, member.mass, e.length)
+                         : frame_mass(e.section, member.theory, member.mass, e.length);
+  if (e.is_bar() || member.mass == MassMatrix::lumped) return element;  // W does not turn
+  const double phi = shear_ratio(e.section, member.theory, e.length);
+  const double rotary = has_rotary_inertia(member.theory) ? e.section.inertia_per_length : 0.0;
+  for (const LineQuadraturePoint& point : line_quadrature()) {
+    const double w = point.weight * e.length;
+    add_derivatives(frame_interpolation(phi, e.length, point.xi),
+                    w * Vector3d(e.section.mass_per_length, e.section.mass_per_length, rotary),
+                    element);
+  }
+  return element;
+}
+
+void add_triangles(const System& system, std::vector<MovingElement>& elements) {
+  for (const Triangle& triangle : system.model.triangles) {
+    MovingElement element;
+    element.layout = MovingElement::Layout::triangle;
+    element.part = plate_part(system.model, triangle.plate);
+    if (triangle.quadratic()) throw ModelError("triangles of six nodes do not move yet");
+    const TrianglePoints points = corners(system.model, triangle);
+    element.coordinates = system.coordinates.of_triangle<6>(triangle);
+    const Plate& plate = system.model.plates[to_size(triangle.plate)];
+    const TriangleStiffness<3> k = triangle_stiffness(points, plate);
+    element.B = k.B;
+    element.c = k.c;
+    element.m = triangle_mass(points, plate);  // the interpolation is isotropic: W does not turn
+    elements.push_back(element);
+  }
+}
+
+void add_point_masses(const System& system, std::vector<MovingElement>& elements) {
+  const Model& model = system.model;
+  for (const PointMass& point_mass : model.masses) {
+    MovingElement element;
+    element.layout = MovingElement::Layout::point_mass;
+    const auto& node = system.coordinates.node[to_size(point_mass.node)];
+    std::copy(node.begin(), node.end(), element.coordinates.begin());
+    for (std::size_t b = 0; b < model.rigid_bodies.size(); ++b) {
+      const RigidBody& body = model.rigid_bodies[b];
+      if (body.reference == point_mass.node ||
+          std::ranges::count(body.attached, point_mass.node) > 0)
+        element.part = body_part(model, static_cast<Index>(b));
+    }
+    element.m.topLeftCorner<3, 3>() =
+        point_inertia(point_mass.mass, point_mass.inertia, point_mass.offset);
+    element.first_moment = point_mass.mass * point_mass.offset;
+    Eigen::Matrix<double, 3, 6> N = Eigen::Matrix<double, 3, 6>::Zero();
+    N(0, 0) = N(1, 1) = N(2, 2) = 1;
+    N(0, 2) = -point_mass.offset.y();
+    N(1, 2) = point_mass.offset.x();
+    add_derivatives(N, {point_mass.mass, point_mass.mass, point_mass.inertia}, element);
+    elements.push_back(element);
+  }
+}
+
+void add_scalars(const System& system, std::vector<MovingElement>& elements) {
+  const Model& model = system.model;
+  MovingElement scalar;
+  scalar.layout = MovingElement::Layout::scalar;
+  for (std::size_t i = 0; i < model.members.size(); ++i) {
+    for (std::size_t end = 0; end < 2; ++end) {
+      const double inertia = model.members[i].ends[end].inertia;
+      if (inertia == 0) continue;
+      MovingElement& element = elements.emplace_back(scalar);
+      element.coordinates[0] = system.coordinates.member_end[i][end];
+      element.part = static_cast<Index>(i);
+      element.m(0, 0) = inertia;
+    }
+  }
+  for (const SpringElement& spring : system.springs) {
+    MovingElement& element = elements.emplace_back(scalar);
+    std::copy(spring.coordinates.begin(), spring.coordinates.end(), element.coordinates.begin());
+    element.B.topLeftCorner<1, 2>() << -1, 1;
+    element.c[0] = spring.stiffness;
+  }
+}
+
+}  // namespace
+
+Vector2d MovingElement::direction(const NominalMotion& nominal) const {
+  const double angle = motion(nominal).angle;
+  return angle == 0 ? axis : rotated(axis, angle);
+}
+
+Matrix6d MovingElement::in_world(const Matrix6d& A, const Vector2d& direction) const {
+  Matrix6d turned = A;
+  to_world(turned, direction);
+  turned.transposeInPlace();
+  to_world(turned, direction);
+  return turned.transpose();
+}
+
+std::vector<MovingElement> moving_elements(const System& system,
+                                           const std::vector<LinkSuperelement>& links) {
+  std::vector<MovingElement> elements;
+  for (const FrameElement& e : system.mesh.frame) {
+    elements.push_back(frame_element(e, system.model.members[to_size(e.member)]));
+    if (!links.empty()) elements.back().m = links[to_size(e.member)].m;
+  }
+  add_triangles(system, elements);
+  add_point_masses(system, elements);
+  add_scalars(system, elements);
+  for (MovingElement& element : elements)
+    element.k = element.B.transpose() * element.c.asDiagonal() * element.B;
+  return elements;
+}
+
+}  // namespace trammel::solver

@@ -1,0 +1,398 @@
+#include "solver/manipulator/moving_system.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/linear/element_operators.h"
+#include "solver/manipulator/moving_element.h"
+
+namespace trammel::solver {
+
+namespace {
+
+using Eigen::VectorXd;
+
+NominalMotion motion_at_start(const Model& model) {
+  NominalMotion motion;
+  const Index nodes = std::ssize(model.nodes);
+  for (Eigen::MatrixX2d& values : motion.node) values.setZero(nodes, 2);
+  for (Index i = 0; i < nodes; ++i) motion.node[0].row(i) = model.nodes[to_size(i)].position;
+  motion.part.resize(to_size(body_part(model, std::ssize(model.rigid_bodies))));
+  return motion;
+}
+
+System assemble_at_start(Model model, const MovingSystemOptions& options) {
+  if (options.condensed) {
+    for (Member& member : model.members) member.elements = 1;
+  }
+  const Effects all = Effects::all();
+  return assemble(model, options.inertia ? all : all.without(Effect::inertia));
+}
+
+/// Condenses each member; equal ones once.
+std::vector<LinkSuperelement> condense_members(const Model& model, const Mesh& mesh) {
+  std::vector<LinkSuperelement> links;
+  const auto numbers = [&](std::size_t i) {
+    const Member& m = model.members[i];
+    const Section& s = m.section;
+    return std::tie(s.EA, s.EI, s.kappa_GA, s.mass_per_length, s.inertia_per_length, m.theory,
+                    m.mass, m.axially_flexible, m.elements, mesh.frame[i].length);
+  };
+  for (std::size_t i = 0; i < model.members.size(); ++i) {
+    std::size_t same = 0;
+    while (same < i && numbers(same) != numbers(i)) ++same;
+    links.push_back(same < i ? links[same] : condense(model.members[i], mesh.frame[i].length));
+  }
+  return links;
+}
+
+/// Calls visit(local, a, b, row, column) for the products T(a) A(local) T(b) of an element's matrix
+/// A that make up T^T A T, local = i + 6 j.
+template <class Visit>
+void for_each_contribution(const MovingElement& element, const RowMajorMatrix& T, Visit&& visit) {
+  for (int i = 0; i < 6; ++i) {
+    const Index u = element.coordinates[to_size(i)];
+    for (int j = 0; j < 6 && u >= 0; ++j) {
+      const Index w = element.coordinates[to_size(j)];
+      if (w < 0) continue;
+      for (int a = T.outerIndexPtr()[u]; a < T.outerIndexPtr()[u + 1]; ++a) {
+        for (int b = T.outerIndexPtr()[w]; b < T.outerIndexPtr()[w + 1]; ++b)
+          visit(i + 6 * j, a, b, T.innerIndexPtr()[a], T.innerIndexPtr()[b]);
+      }
+    }
+  }
+}
+
+/// Values of an element's coordinates, in its own axes.
+Vector6d gather_own(const MovingElement& element, const Vector2d& direction, const VectorXd& u) {
+  Eigen::Matrix<double, 1, 6> v = detail::gather(element.coordinates, u).transpose();
+  element.to_own(v, direction);
+  return v.transpose();
+}
+
+/// Adds an element's forces, in its own axes, to those of its coordinates.
+void scatter_own(const MovingElement& element, const Vector2d& direction, const Vector6d& force,
+                 VectorXd& u) {
+  Eigen::Matrix<double, 1, 6> f = force.transpose();
+  element.to_world(f, direction);
+  detail::scatter(element.coordinates, f.transpose().eval(), u);
+}
+
+}  // namespace
+
+MovingSystem::MovingSystem(const Model& model, const MovingSystemOptions& options)
+    : options_(options),
+      start_(assemble_at_start(model, options)),
+      motion_(motion_at_start(model)),
+      constraints_(start_, motion_, options.gyroscopic) {
+  if (options_.condensed) links_ = condense_members(model, start_.mesh);
+  elements_ = moving_elements(start_, links_);
+  find_spans();
+  find_pattern();
+  inertia_u_.setZero(start_.coordinates.size);
+  inertia_load_.setZero(K_.rows());
+  load_.setZero(K_.rows());
+  static_cast<void>(move_to(NominalMotion(motion_)));
+}
+
+void MovingSystem::find_spans() {
+  const Model& model = start_.model;
+  span_.resize(start_.mesh.positions.size());
+  for (Index i = 0; i < std::ssize(model.nodes); ++i) span_[to_size(i)].nodes = {i, i};
+  Index before = -1;
+  Index done = 0;
+  for (const FrameElement& e : start_.mesh.frame) {
+    const Member& member = model.members[to_size(e.member)];
+    done = e.member == before ? done + 1 : 1;
+    before = e.member;
+    if (done == member.elements) continue;  // its second node is the member's
+    span_[to_size(e.nodes[1])] = {member.nodes,
+                                  static_cast<double>(done) / static_cast<double>(member.elements)};
+  }
+}
+
+/// Every entry that some pose needs.
+void MovingSystem::find_pattern() {
+  const RowMajorMatrix& T = constraints_.T();
+  std::vector<Eigen::Triplet<double>> places;
+  for (int i = 0; i < static_cast<int>(T.cols()); ++i) places.emplace_back(i, i, 0.0);
+  for (const MovingElement& element : elements_) {
+    for_each_contribution(element, T, [&](int, int, int, int row, int column) {
+      places.emplace_back(row, column, 0.0);
+    });
+  }
+  K_.resize(T.cols(), T.cols());
+  K_.setFromTriplets(places.begin(), places.end());
+  K_.makeCompressed();
+  contributions_.reserve(places.size());
+  for (const MovingElement& element : elements_) {
+    first_contribution_.push_back(contributions_.size());
+    for_each_contribution(element, T, [&](int local, int a, int b, int row, int column) {
+      const int* const begin = K_.innerIndexPtr() + K_.outerIndexPtr()[column];
+      const int* const end = K_.innerIndexPtr() + K_.outerIndexPtr()[column + 1];
+      const auto place = std::lower_bound(begin, end, row) - K_.innerIndexPtr();
+      contributions_.push_back({local, a, b, static_cast<int>(place)});
+    });
+  }
+  first_contribution_.push_back(contributions_.size());
+  if (options_.inertia) M_ = K_;
+  if (options_.gyroscopic) C_gyroscopic_ = K_centrifugal_euler_ = K_T_dot_ = M_T_dot_ = K_;
+}
+
+Vector2d MovingSystem::at_mesh_node(Index mesh_node, const Eigen::MatrixX2d& values) const {
+  const auto& [nodes, s] = span_[to_size(mesh_node)];
+  return (1 - s) * values.row(nodes[0]).transpose() + s * values.row(nodes[1]).transpose();
+}
+
+/// Load of nominal inertia in the element's axes: the acceleration is an affine field, which the
+/// interpolation holds exactly; a mass off its node has a centripetal part.
+Vector6d MovingSystem::nominal_inertia(const MovingElement& element, const PartMotion& part,
+                                       const Vector2d& direction) const {
+  Eigen::Matrix<double, 1, 6> a = Eigen::Matrix<double, 1, 6>::Zero();
+  for (Index i = 0; i < 6; ++i) {
+    const Index u = element.coordinates[to_size(i)];
+    if (u < 0) continue;
+    const bool rotation =
+        element.layout == MovingElement::Layout::scalar || i % element.stride() == 2;
+    a[i] = rotation ? part.acceleration
+                    : at_mesh_node(start_.coordinates.node_of[to_size(u)],
+                                   motion_.node[2])[i % element.stride()];
+  }
+  element.to_own(a, direction);
+  Vector6d f = -element.m * a.transpose();
+  f.head<2>() += part.rate * part.rate * element.first_moment;
+  return f;
+}
+
+/// In the element's axes.
+Vector6d MovingSystem::weight(const MovingElement& element, const Vector2d& direction) const {
+  Eigen::Matrix<double, 1, 6> g = Eigen::Matrix<double, 1, 6>::Zero();
+  if (element.layout == MovingElement::Layout::scalar || motion_.gravity.isZero(0))
+    return Vector6d::Zero();
+  for (Index i = 0; i + 1 < 6; i += element.stride()) g.segment<2>(i) = motion_.gravity;
+  element.to_own(g, direction);
+  return element.m * g.transpose();
+}
+
+Outcome MovingSystem::move_to(const NominalMotion& motion) {
+  const Outcome outcome = constraints_.move(start_, motion_, motion);
+  if (!outcome.solved()) return outcome;
+  motion_ = motion;
+  for (SparseMatrix* A : {&K_, &M_, &C_gyroscopic_, &K_centrifugal_euler_, &K_T_dot_, &M_T_dot_})
+    std::fill_n(A->valuePtr(), A->nonZeros(), 0.0);
+  for (std::size_t e = 0; e < elements_.size(); ++e) add_matrices(e);
+  if (options_.condensed) return {};
+  inertia_u_.setZero();
+  load_u_ = motion_.load_factor * start_.load;
+  for (const MovingElement& element : elements_) add_loads(element);
+  inertia_load_.noalias() = constraints_.T().transpose() * inertia_u_;
+  load_.noalias() = constraints_.T().transpose() * load_u_;
+  return {};
+}
+
+void MovingSystem::add_loads(const MovingElement& element) {
+  const Vector2d direction = element.direction(motion_);
+  scatter_own(element, direction, nominal_inertia(element, element.motion(motion_), direction),
+              inertia_u_);
+  scatter_own(element, direction, weight(element, direction), load_u_);
+}
+
+void MovingSystem::add_matrices(std::size_t index) {
+  const MovingElement& element = elements_[index];
+  const Vector2d direction = element.direction(motion_);
+  const Matrix6d k = element.in_world(element.k, direction);
+  const Matrix6d m = element.in_world(element.m, direction);
+  const double* const T = constraints_.T().valuePtr();
+  double* const K = K_.valuePtr();
+  double* const M = options_.inertia ? M_.valuePtr() : nullptr;
+  for (std::size_t t = first_contribution_[index]; t < first_contribution_[index + 1]; ++t) {
+    const auto [local, a, b, destination] = contributions_[t];
+    const double factor = T[a] * T[b];
+    K[destination] += factor * k(local);
+    if (M != nullptr) M[destination] += factor * m(local);
+  }
+  if (options_.gyroscopic) add_gyroscopic(index, k, m);
+}
+
+void MovingSystem::add_gyroscopic(std::size_t index, const Matrix6d& k, const Matrix6d& m) {
+  const MovingElement& element = elements_[index];
+  const PartMotion part = element.motion(motion_);
+  const Vector2d direction = element.direction(motion_);
+  const Matrix6d first_derivative = element.in_world(element.first_derivative, direction);
+  const Matrix6d second_derivative = element.in_world(element.second_derivative, direction);
+  const Matrix6d c = 2 * part.rate * first_derivative;
+  const Matrix6d s =
+      part.acceleration * first_derivative + part.rate * part.rate * second_derivative;
+  const double* const T = constraints_.T().valuePtr();
+  const bool variable = constraints_.variable();
+  for (std::size_t t = first_contribution_[index]; t < first_contribution_[index + 1]; ++t) {
+    const Contribution& at = contributions_[t];
+    const double a = T[at.a];
+    const double b = T[at.b];
+    const double b_dot = variable ? constraints_.T_dot().valuePtr()[at.b] : 0;
+    const double b_ddot = variable ? constraints_.T_ddot().valuePtr()[at.b] : 0;
+    C_gyroscopic_.valuePtr()[at.destination] += a * (2 * m(at.local) * b_dot + c(at.local) * b);
+    K_centrifugal_euler_.valuePtr()[at.destination] +=
+        a * (m(at.local) * b_ddot + c(at.local) * b_dot + s(at.local) * b);
+    K_T_dot_.valuePtr()[at.destination] += a * k(at.local) * b_dot;
+    M_T_dot_.valuePtr()[at.destination] += a * m(at.local) * b_dot;
+  }
+}
+
+MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, const VectorXd& a,
+                                          const RayleighDamping& damping, bool with_inertia) const {
+  const auto& T = constraints_.T();
+  Forces forces;
+  forces.working = {.u = T * q, .load = load_u_, .drag = VectorXd::Zero(load_u_.size())};
+  if (with_inertia) forces.working.load += inertia_u_;
+  VectorXd u_dot = T * v;
+  VectorXd u_ddot = T * a;
+  if (options_.gyroscopic && constraints_.variable()) {
+    u_dot += constraints_.T_dot() * q;
+    u_ddot += 2 * (constraints_.T_dot() * v) + constraints_.T_ddot() * q;
+  }
+  forces.element.setZero(6, static_cast<Index>(start_.mesh.frame.size()));
+  forces.external = motion_.load_factor * start_.load;
+  forces.total = -forces.external;
+  for (std::size_t e = 0; e < elements_.size(); ++e) {
+    const MovingElement& element = elements_[e];
+    const PartMotion part = element.motion(motion_);
+    const Vector2d direction = element.direction(motion_);
+    const Vector6d u = gather_own(element, direction, forces.working.u);
+    const Vector6d velocity = gather_own(element, direction, u_dot);
+    const Vector6d strain_force = element.k * u, momentum = element.m * velocity;
+    const Vector6d strain_drag = damping.stiffness * (element.k * velocity);
+    const Vector6d mass_drag = damping.mass * momentum;
+    Vector6d inertia = element.m * gather_own(element, direction, u_ddot) + mass_drag;
+    if (options_.gyroscopic) {
+      inertia += 2 * part.rate * (element.first_derivative * velocity) +
+                 part.acceleration * (element.first_derivative * u) +
+                 part.rate * part.rate * (element.second_derivative * u);
+    }
+    if (with_inertia) inertia -= nominal_inertia(element, part, direction);
+    inertia -= weight(element, direction);
+    const Vector6d f = strain_force + strain_drag + inertia;
+    forces.working.strain += u.dot(strain_force) / 2;
+    forces.working.kinetic += velocity.dot(momentum) / 2;
+    scatter_own(element, direction, mass_drag + strain_drag, forces.working.drag);
+    scatter_own(element, direction, f, forces.total);
+    scatter_own(element, direction, -inertia, forces.external);
+    if (element.layout == MovingElement::Layout::frame)  // the frame elements come first
+      forces.element.col(static_cast<Index>(e)) = f;
+  }
+  return forces;
+}
+
+namespace {
+
+/// Below this ratio of pivot to diagonal the stiffness counts as singular.
+constexpr double kSingularPivotRatio = 1e-13;
+
+Model loaded_model(const ElastodynamicsOptions& options, double time) {
+  Model model = build_manipulator(options.design, at(options.path, time).pose);
+  if (!options.wrench.isZero(0)) model.loads.push_back({model.find_node("P"), options.wrench});
+  return model;
+}
+
+}  // namespace
+
+PathFollower::PathFollower(const ElastodynamicsOptions& options, double built_at)
+    : options_(options),
+      stands_still_(solver::stands_still(options.path)),
+      rigid_(rigid_manipulator(options.design)),
+      moving_(loaded_model(options, built_at),
+              {.inertia = options.elastic_inertia, .gyroscopic = options.gyroscopic}) {
+  rigid_.gravity = options.gravity;
+  start_ = inverse_dynamics(rigid_, at(options.path, built_at), wrench(built_at)).q;
+}
+
+bool PathFollower::update_to(double time) {
+  if (time == time_) return outcome_.solved();
+  if (stands_still_ && options_.load_history.constant() && !std::isnan(time_)) {
+    point_.time = time;
+  } else {
+    outcome_ = move_to(time, options_.gravity);
+    if (!outcome_.solved()) {
+      outcome_.reason = "at t = " + std::to_string(time) + " s: " + outcome_.reason;
+    }
+  }
+  time_ = time;
+  return outcome_.solved();
+}
+
+Outcome PathFollower::move_to(double time, const Vector2d& gravity) {
+  time_ = kNaN;
+  factored_ = false;
+  point_ = at(options_.path, time);
+  dynamics_ = inverse_dynamics(rigid_, point_, wrench(time));
+  if (!dynamics_.outcome.solved()) return dynamics_.outcome;
+  NominalMotion motion = nominal_motion(moving_.start().model, dynamics_, start_, point_, gravity);
+  motion.load_factor = options_.load_history.at(time);
+  return moving_.move_to(motion);
+}
+
+Vector3d PathFollower::wrench(double time) const {
+  return options_.load_history.at(time) * options_.wrench;
+}
+
+bool PathFollower::damped() const {
+  return options_.damping.mass != 0 || options_.damping.stiffness != 0;
+}
+
+VectorXd PathFollower::load() const {
+  VectorXd f = moving_.load();
+  if (options_.nominal_inertia) f += moving_.inertia_load();
+  return f;
+}
+
+void PathFollower::matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
+  K.coeffs() = moving_.K().coeffs();
+  M.coeffs().setZero();
+  if (options_.elastic_inertia) M.coeffs() = moving_.M().coeffs();
+  const auto [mass, stiffness] = options_.damping;
+  if (damped() || options_.gyroscopic)
+    C.coeffs() = mass * M.coeffs() + stiffness * moving_.K().coeffs();
+  if (damped()) counters_.count(Effect::damping, 1);
+  if (!options_.gyroscopic) return;
+  counters_.count(Effect::gyroscopic, 1);
+  C.coeffs() += moving_.gyroscopic_matrix().coeffs();
+  K.coeffs() += moving_.centrifugal_and_euler_matrix().coeffs() +
+                mass * moving_.M_T_dot().coeffs() + stiffness * moving_.K_T_dot().coeffs();
+}
+
+bool PathFollower::solve_statically(const VectorXd& f, VectorXd& q) {
+  if (!factored_) {
+    factored_ = true;
+    ++counters_.factorizations;
+    regular_ = stiffness_.factorize(moving_.K()) &&
+               stiffness_.smallest_to_largest_pivot() > kSingularPivotRatio;
+  }
+  if (!regular_) return false;
+  ++counters_.solves;
+  stiffness_.solve(f, q);
+  return true;
+}
+
+double PathFollower::energy_norm(const VectorXd& f) {
+  VectorXd q;
+  return solve_statically(f, q) ? std::sqrt(std::max(0.0, f.dot(q))) : kNaN;
+}
+
+Vector3d PathFollower::rigid_torque() const {
+  if (options_.nominal_inertia) return dynamics_.torque;
+  TrajectoryPoint still = point_;
+  still.velocity.setZero();
+  still.acceleration.setZero();
+  return inverse_dynamics(rigid_, still, wrench(point_.time)).torque;
+}
+
+Counters PathFollower::counters() const {
+  Counters all = counters_;
+  all.element_evaluations += moving_.element_evaluations();
+  all.effects = moving_.start().counters.effects;
+  for (std::size_t i = 0; i < kEffectCount; ++i) all.effects[i] += counters_.effects[i];
+  if (!options_.gravity.isZero(0)) all.count(Effect::gravity, 1);
+  return all;
+}
+
+}  // namespace trammel::solver

@@ -1,0 +1,165 @@
+#include "solver/motion/transient_start.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "solver/linalg/factorization.h"
+
+namespace trammel::solver {
+
+using Eigen::VectorXd;
+
+namespace {
+
+/// K q = f; the skew part of K, if any, by refinement.
+void solve_refined(const SparseMatrix& K, SparseLdlt& factor, const VectorXd& f, VectorXd& q,
+                   Counters& counters) {
+  VectorXd correction;
+  q.setZero();
+  for (int pass = 0; pass < 4; ++pass) {
+    VectorXd residual = f;
+    residual.noalias() -= K * q;
+    factor.solve(residual, correction);
+    q += correction;
+    ++counters.solves;
+  }
+}
+
+}  // namespace
+
+double smooth_span(const std::vector<double>& breakpoints, const TransientOptions& options) {
+  constexpr double kBefore = 0.999;  // at a jump the load has the value after it
+  double span = std::min(options.step, options.end - options.start);
+  for (const double time : breakpoints)
+    if (time > options.start) span = std::min(span, kBefore * (time - options.start));
+  return span;
+}
+
+Outcome start_quasi_statically(EquationMatrices& matrices, const TransientOptions& options,
+                               VectorXd& q, VectorXd& v, Counters& counters) {
+  constexpr std::array<double, 5> kSlope = {-25.0 / 12, 4, -3, 4.0 / 3, -0.25};
+  const double gap = smooth_span(matrices.breakpoints(), options) / 4;
+  SparseLdlt factor(SparseLdlt::Triangle::mean);
+  VectorXd f(q.size()), q_then(q.size());
+  v.setZero();
+  for (int i = 4; i >= 0; --i) {
+    const double time = options.start + i * gap;
+    matrices.update(time);
+    if (i == 4 || !matrices.constant()) {
+      ++counters.factorizations;
+      if (!factor.factorize(matrices.K()) || factor.smallest_to_largest_pivot() < kSingularMass) {
+        return {Status::singular, "the stiffness is singular: there is no quasi-static start"};
+      }
+    }
+    matrices.load(time, f);
+    solve_refined(matrices.K(), factor, f, q_then, counters);
+    v += (kSlope[static_cast<std::size_t>(i)] / gap) * q_then;
+  }
+  f.noalias() -= matrices.C() * v;
+  solve_refined(matrices.K(), factor, f, q, counters);
+  return {};
+}
+
+Outcome check_stability(const EquationMatrices& matrices, const TransientOptions& options,
+                        Counters& counters) {
+  const double limit = stability_limit(options.scheme);
+  if (!std::isfinite(limit) || matrices.M().rows() == 0) return {};
+  SparseLdlt factor(SparseLdlt::Triangle::mean);
+  ++counters.factorizations;
+  if (!factor.factorize(matrices.M()) || factor.smallest_to_largest_pivot() < kSingularMass) {
+    return {Status::singular,
+            "the mass is singular: a conditionally stable scheme has no stable step"};
+  }
+  VectorXd x(matrices.M().rows()), Kx;
+  for (Index i = 0; i < x.size(); ++i) x[i] = std::sin(1.0 + 3.7 * static_cast<double>(i));
+  double squared = 0;
+  for (int i = 0; i < 60; ++i) {
+    x /= std::sqrt(x.dot(matrices.M() * x));
+    Kx.noalias() = matrices.K() * x;
+    squared = std::max(squared, x.dot(Kx));
+    factor.solve(Kx, x);
+    ++counters.solves;
+    if (!(x.squaredNorm() > 0)) break;
+  }
+  const double phase = std::sqrt(squared) * options.step;
+  if (phase <= limit) return {};
+  std::ostringstream message;
+  message << "the step h = " << options.step
+          << " s is unstable: the fastest motion has w h = " << phase << ", the scheme bears "
+          << limit << "; take h below " << options.step * limit / phase << " s";
+  return {Status::not_converged, message.str()};
+}
+
+namespace {
+
+/// The least ratio of two diagonals where both are positive, so that what is added is small
+/// compared with every mass, also if a step lasts many periods.
+double least_ratio(const SparseMatrix& M, const SparseMatrix& added) {
+  double least = std::numeric_limits<double>::infinity();
+  const VectorXd mass = M.diagonal(), other = added.diagonal();
+  for (Index i = 0; i < mass.size(); ++i)
+    if (mass[i] > 0 && other[i] > 0) least = std::min(least, mass[i] / other[i]);
+  return least;
+}
+
+}  // namespace
+
+bool MasslessCoordinates::factor(const EquationMatrices& matrices, double h, Counters& counters) {
+  constexpr double kShare = 1e-8;
+  if (h == step_) return factored_;
+  matrices_ = &matrices;
+  counters_ = &counters;
+  step_ = h;
+  for (const bool damped : {true, false}) {
+    damped_ = damped;
+    if (damped && matrices.norm_C() == 0) continue;
+    const SparseMatrix& added = damped ? matrices.C() : matrices.K();
+    share_ = kShare * std::min(damped ? h : h * h, least_ratio(matrices.M(), added));
+    SparseMatrix sum = matrices.M();
+    sum += share_ * added;
+    ++counters.factorizations;
+    factored_ = factor_.factorize(sum) && factor_.smallest_to_largest_pivot() > kSingularMass;
+    if (factored_) break;
+  }
+  return factored_;
+}
+
+void MasslessCoordinates::balance(const VectorXd& residual, VectorXd& x) {
+  // (M + share B) s = residual moves masses as well, (M + share B) w = M s by as much alone.
+  factor_.solve(residual, s_);
+  const VectorXd image = matrices_->M() * s_;
+  factor_.solve(image, w_);
+  counters_->solves += 2;
+  x += share_ * (s_ - w_);
+}
+
+void MasslessCoordinates::settle(TransientState& state, const VectorXd& rate) {
+  const SparseMatrix &C = matrices_->C(), &K = matrices_->K();
+  const VectorXd residual = state.f - C * state.v - K * state.q;
+  balance(residual, damped_ ? state.v : state.q);
+  if (!damped_) balance(rate - K * state.v, state.v);
+  const VectorXd left = state.f - C * state.v - K * state.q;
+  factor_.solve(left, state.a);
+  factor_.solve(left - matrices_->M() * state.a, s_);
+  counters_->solves += 2;
+  state.a += s_;
+  accelerate(state, rate);
+}
+
+void MasslessCoordinates::follow(TransientState& state, const VectorXd& rate) {
+  if (!damped_) balance(rate - matrices_->K() * state.v, state.v);
+  accelerate(state, rate);
+}
+
+void MasslessCoordinates::accelerate(TransientState& state, const VectorXd& rate) {
+  if (damped_) {
+    balance(rate - matrices_->K() * state.v - matrices_->C() * state.a, state.a);
+  } else {
+    balance(-(matrices_->K() * state.a), state.a);
+  }
+}
+
+}  // namespace trammel::solver

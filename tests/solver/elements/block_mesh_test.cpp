@@ -1,0 +1,200 @@
+#include "solver/elements/block_mesh.h"
+
+#include <algorithm>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "solver/elements/triangle_element.h"
+#include "solver/linear/modes.h"
+#include "solver/linear/statics.h"
+#include "tests/support/solver/side_loads.h"
+
+BOOST_AUTO_TEST_SUITE(block_mesh)
+
+using namespace trammel::solver;
+using boost::test_tools::tolerance;
+using trammel::testing::side_loads;
+
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+/// NAFEMS LE1: a quarter between two ellipses.
+Block elliptic_quarter(Index cells) {
+  Block block;
+  block.corners = {Vector2d(2, 0), Vector2d(3.25, 0), Vector2d(0, 2.75), Vector2d(0, 1)};
+  block.sides[1] = Ellipse{{0, 0}, {3.25, 2.75}};
+  block.sides[3] = Ellipse{{0, 0}, {2, 1}};
+  block.cells = {cells, 2 * cells};
+  return block;
+}
+
+Block annulus_quarter(double inner, double outer, Index quarter, Index radial, Index around) {
+  const auto at = [&](double r, Index k) {
+    const double t = static_cast<double>(k % 4) * kPi / 2;
+    return Vector2d(r * std::cos(t), r * std::sin(t));
+  };
+  Block block;
+  block.corners = {at(inner, quarter), at(outer, quarter), at(outer, quarter + 1),
+                   at(inner, quarter + 1)};
+  block.sides[1] = Ellipse{{0, 0}, {outer, outer}};
+  block.sides[3] = Ellipse{{0, 0}, {inner, inner}};
+  block.cells = {radial, around};
+  return block;
+}
+
+double area(const Model& model) {
+  double sum = 0;
+  for (const Triangle& triangle : model.triangles) {
+    const double a = 1.0 / 6;  // degree 2: exact for the determinant of a six-node triangle
+    for (const Vector3d& at :
+         {Vector3d(4 * a, a, a), Vector3d(a, 4 * a, a), Vector3d(a, a, 4 * a)}) {
+      sum += interpolate(model, triangle, at).signed_area / 3;
+    }
+  }
+  return sum;
+}
+
+StaticSolution elliptic_membrane(Index cells, Index& D) {
+  Model model;
+  model.plates = {{"membrane", {210e9, 0, 0.3}, 0.1}};
+  Block block = elliptic_quarter(cells);
+  block.grading = {6, 12};  // fine at D
+  const BlockMesh mesh = mesh_blocks({block}, true);
+  const std::vector<Index> nodes = append(model, 0, mesh);
+  D = nodes[static_cast<std::size_t>(mesh.sides[0][0].front())];
+  for (const Index node : mesh.sides[0][0])
+    model.supports.push_back({"", nodes[static_cast<std::size_t>(node)], {false, true, false}});
+  for (const Index node : mesh.sides[0][2])
+    model.supports.push_back({"", nodes[static_cast<std::size_t>(node)], {true, false, false}});
+  model.edge_loads = side_loads(mesh, nodes, 0, 0, 1, {0, 0}, 10e6);
+  return solve_statics(assemble(model));
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(six_node_triangles_follow_the_ellipse_and_have_its_area) {
+  const double exact = kPi / 4 * (3.25 * 2.75 - 2 * 1);
+  double last = 0;
+  for (const Index cells : {2, 4, 8}) {
+    Model model;
+    model.plates = {{"p", {1, 1, 0}, 1}};
+    append(model, 0, mesh_blocks({elliptic_quarter(cells)}, true));
+    const double error = std::abs(area(model) / exact - 1);
+    BOOST_TEST(error < 1e-3);
+    if (last > 0) BOOST_TEST(last / error > 14);  // fourth order
+    last = error;
+  }
+}
+
+BOOST_AUTO_TEST_CASE(four_quarters_close_to_a_ring_without_a_seam) {
+  std::vector<Block> blocks;
+  for (Index k = 0; k < 4; ++k) blocks.push_back(annulus_quarter(1, 2, k, 2, 3));
+  for (const bool six : {false, true}) {
+    const BlockMesh mesh = mesh_blocks(blocks, six);
+    const std::size_t around = six ? 24 : 12;
+    const std::size_t across = six ? 5 : 3;
+    BOOST_TEST(mesh.positions.size() == around * across);
+    BOOST_TEST(mesh.triangles.size() == 4u * 2 * 2 * 3);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(grading_makes_the_last_cell_that_many_times_the_first) {
+  Block block;
+  block.corners = {Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1), Vector2d(0, 1)};
+  block.cells = {5, 1};
+  block.grading = {8, 1};
+  const BlockMesh mesh = mesh_blocks({block}, false);
+  const auto x = [&](std::size_t i) {
+    return mesh.positions[static_cast<std::size_t>(mesh.sides[0][0][i])].x();
+  };
+  BOOST_TEST((x(5) - x(4)) / (x(1) - x(0)) == 8, tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(a_mesh_is_joined_to_the_nodes_that_stand_at_its_places) {
+  Block block;
+  block.corners = {Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1), Vector2d(0, 1)};
+  block.cells = {2, 2};
+  Model model;
+  model.plates = {{"p", {1, 1, 0}, 1}};
+  model.nodes = {{"elsewhere", {3, 0}}, {"middle", {0.5, 0.5}}, {"corner", {1, 1 + 1e-13}}};
+  const std::vector<Index> nodes = append(model, 0, mesh_blocks({block}, false));
+  BOOST_TEST(model.nodes.size() == 3u + 9 - 2);
+  BOOST_TEST((std::count(nodes.begin(), nodes.end(), 1) == 1));
+  BOOST_TEST((std::count(nodes.begin(), nodes.end(), 2) == 1));
+  // A second plate beside the first shares the three nodes between them.
+  for (Vector2d& corner : block.corners) corner.x() += 1;
+  append(model, 0, mesh_blocks({block}, false));
+  BOOST_TEST(model.nodes.size() == 10u + 9 - 3);
+}
+
+BOOST_AUTO_TEST_CASE(a_corner_off_its_ellipse_and_a_block_without_cells_are_errors) {
+  Block block = elliptic_quarter(2);
+  block.corners[1] = {3, 0};
+  BOOST_CHECK_THROW((void)mesh_blocks({block}, true), ModelError);
+  block = elliptic_quarter(2);
+  block.cells = {0, 2};
+  BOOST_CHECK_THROW((void)mesh_blocks({block}, true), ModelError);
+}
+
+BOOST_AUTO_TEST_CASE(pressure_on_a_curved_side_adds_up_to_its_projection) {
+  const BlockMesh mesh = mesh_blocks({elliptic_quarter(4)}, true);
+  Model model;
+  model.plates = {{"membrane", {210e9, 1, 0.3}, 0.1}};
+  const std::vector<Index> nodes = append(model, 0, mesh);
+  model.edge_loads = side_loads(mesh, nodes, 0, 0, 1, {0, 0}, 10e6);
+  const System system = assemble(model);
+  Vector2d sum = Vector2d::Zero();
+  for (const auto& node : system.coordinates.node) {
+    sum += Vector2d(system.load[node[0]], system.load[node[1]]);
+  }
+  BOOST_TEST(sum.x() == 10e6 * 0.1 * 2.75, tolerance(1e-12));  // for any curve between its ends
+  BOOST_TEST(sum.y() == 10e6 * 0.1 * 3.25, tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(the_elliptic_membrane_le1_has_its_stress_at_D) {
+  Index D = 0;
+  const StaticSolution coarse = elliptic_membrane(8, D);
+  BOOST_TEST(coarse.node_stress(D, 1) == 92.65818e6, tolerance(1e-2));
+  const StaticSolution fine = elliptic_membrane(32, D);
+  BOOST_TEST(fine.node_stress(D, 1) == 92.65818e6, tolerance(8e-4));
+  BOOST_TEST(fine.displacement(D, 0) == -1.022085e-4, tolerance(1e-5));
+  BOOST_TEST(fine.equilibrium_residual < 1e-3);  // of 1e6 N
+}
+
+BOOST_AUTO_TEST_CASE(cooks_membrane_converges_to_the_extrapolated_value) {
+  Block block;
+  block.corners = {Vector2d(0, 0), Vector2d(48, 44), Vector2d(48, 60), Vector2d(0, 44)};
+  block.cells = {24, 24};
+  block.grading = {1, 1};
+  const BlockMesh mesh = mesh_blocks({block}, true);
+  Model model;
+  model.plates = {{"membrane", {1, 0, 1 / 3.0}, 1}};
+  const std::vector<Index> nodes = append(model, 0, mesh);
+  for (const Index node : mesh.sides[0][3])
+    model.supports.push_back({"", nodes[static_cast<std::size_t>(node)], {true, true, false}});
+  model.edge_loads = side_loads(mesh, nodes, 0, 0, 1, {0, 1 / 16.0}, 0);
+  const StaticSolution r = solve_statics(assemble(model));
+  const auto& side = mesh.sides[0][1];
+  const Index middle = nodes[static_cast<std::size_t>(side[(side.size() - 1) / 2])];
+  BOOST_TEST(r.displacement(middle, 1) == 23.96774, tolerance(5e-4));
+  BOOST_TEST(r.displacement(middle, 0) == -10.69536, tolerance(1e-3));
+}
+
+BOOST_AUTO_TEST_CASE(the_free_annulus_has_the_exact_frequencies_and_not_the_printed_ones) {
+  std::vector<Block> blocks;
+  for (Index k = 0; k < 4; ++k) blocks.push_back(annulus_quarter(1.8, 6, k, 12, 16));
+  Model model;
+  model.plates = {{"ring", {200e9, 8000, 0.3}, 0.06}};
+  append(model, 0, mesh_blocks(blocks, true));
+  const ModalSolution m = solve_modes(assemble(model), {14, EigenMethod::automatic});
+  BOOST_REQUIRE(m.outcome.solved());
+  BOOST_TEST(m.zero_energy_mode_count == 3);
+  const double exact[] = {125.6989658, 125.6989658, 224.2039408, 232.8686569,
+                          232.8686569, 262.7577989, 262.7577989, 335.2854689,
+                          335.2854689, 375.2882926, 375.2882926};
+  for (Index i = 0; i < 11; ++i) BOOST_TEST(m.frequency[i + 3] == exact[i], tolerance(3e-4));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,149 @@
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <limits>
+
+#include "solver/elements/block_mesh.h"
+#include "solver/linear/fields.h"
+
+BOOST_AUTO_TEST_SUITE(field_error)
+
+namespace t = trammel::solver;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+
+namespace {
+
+const t::Material kMaterial{7e10, 2700, 0.3};
+
+t::System membrane() {
+  return t::assemble(t::mesh_rectangle({0.8, 0.5, 4, false, 0.25}, {"p", kMaterial, 0.02}));
+}
+
+/// u = a x, v = 0, so that sxx = E a / (1 - nu^2), syy = nu sxx.
+t::MembraneFieldPoint stretched(double a, const Vector2d& p) {
+  const double sxx = kMaterial.E * a / (1 - kMaterial.nu * kMaterial.nu);
+  return {{a * p.x(), 0}, 0.5 * a, {sxx, kMaterial.nu * sxx, 0}};
+}
+
+VectorXd nodal_values(const t::System& system, double a) {
+  VectorXd q = VectorXd::Zero(system.K.rows());
+  for (std::size_t i = 0; i < system.model.nodes.size(); ++i) {
+    q[system.coordinates.node[i][0]] = a * system.model.nodes[i].position.x();
+  }
+  return q;
+}
+
+t::System beam(t::BeamTheory theory) {
+  t::Member member;
+  member.section.EA = 1e6;
+  member.section.EI = 1e3;
+  member.section.kappa_GA = 4e5;
+  member.end_section = member.section;
+  member.theory = theory;
+  return t::assemble(t::mesh_line({Vector2d(0, 0), Vector2d(1.6, 1.2), 3, 0.2}, member));
+}
+
+/// Pure bending: v = c s^2 / 2, θ = c s along the beam.
+t::BeamFieldPoint bent(double c, const Vector2d& p) {
+  const double s = p.norm();
+  return {0, c * s * s / 2, c * s, 0, 0, 1e3 * c};
+}
+
+VectorXd nodal_bending(const t::System& system, double c) {
+  VectorXd q(system.K.rows());
+  for (std::size_t i = 0; i < system.model.nodes.size(); ++i) {
+    const auto x = bent(c, system.model.nodes[i].position);
+    q[system.coordinates.node[i][0]] = -0.6 * x.deflection;
+    q[system.coordinates.node[i][1]] = 0.8 * x.deflection;
+    q[system.coordinates.node[i][2]] = x.rotation;
+  }
+  return q;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_membrane_whose_field_is_hit_has_no_error) {
+  const t::System system = membrane();
+  const auto exact = [](const Vector2d& p) {
+    auto point = stretched(1e-3, p);
+    point.displacement.y() = 1e-3 * p.x();  // so that there is a rotation to be relative to
+    point.stress[2] = kMaterial.E / 2.6 * 1e-3;
+    return point;
+  };
+  VectorXd q = nodal_values(system, 1e-3);
+  for (std::size_t i = 0; i < system.model.nodes.size(); ++i) {
+    q[system.coordinates.node[i][1]] = 1e-3 * system.model.nodes[i].position.x();
+  }
+  const t::MembraneErrors e = t::membrane_errors(system, q, exact);
+  BOOST_TEST(e.displacement < 1e-14);
+  BOOST_TEST(e.rotation < 1e-13);
+  BOOST_TEST(e.stress < 1e-13);
+  BOOST_TEST(e.energy < 1e-13);
+}
+
+BOOST_AUTO_TEST_CASE(one_per_cent_too_much_stretch_is_one_per_cent_of_error_in_every_norm) {
+  const t::System system = membrane();
+  const auto exact = [](const Vector2d& p) { return stretched(1e-3, p); };
+  const t::MembraneErrors e = t::membrane_errors(system, nodal_values(system, 1.01e-3), exact);
+  BOOST_TEST(e.displacement == 0.01, boost::test_tools::tolerance(1e-10));
+  BOOST_TEST(e.stress == 0.01, boost::test_tools::tolerance(1e-10));
+  BOOST_TEST(e.energy == 0.01, boost::test_tools::tolerance(1e-10));
+  BOOST_TEST(e.rotation == 1.0, boost::test_tools::tolerance(1e-10));  // exact 0.5e-3, found 0
+}
+
+BOOST_AUTO_TEST_CASE(the_energy_of_an_error_is_that_of_its_stresses) {
+  const t::System system = membrane();
+  const Eigen::Vector3d found = stretched(1e-3, {}).stress, exact(3e7, -5e7, 8e7);
+  const auto energy = [](const Eigen::Vector3d& s) {  // s^T C^-1 s
+    const double nu = kMaterial.nu;
+    Eigen::Matrix3d compliance;
+    compliance << 1, -nu, 0, -nu, 1, 0, 0, 0, 2 * (1 + nu);
+    return s.dot(compliance * s);
+  };
+  const t::MembraneErrors e =
+      t::membrane_errors(system, nodal_values(system, 1e-3), [&](const Vector2d& p) {
+        return t::MembraneFieldPoint{p, 1, exact};
+      });
+  BOOST_TEST(e.energy == std::sqrt(energy(found - exact) / energy(exact)),
+             boost::test_tools::tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(one_per_cent_too_much_bending_is_one_per_cent_of_error_in_every_norm) {
+  for (const auto theory : {t::BeamTheory::euler_bernoulli, t::BeamTheory::timoshenko}) {
+    const t::System system = beam(theory);
+    const auto exact = [](const Vector2d& p) { return bent(1e-3, p); };
+    const t::BeamErrors e = t::beam_errors(system, nodal_bending(system, 1.01e-3), exact);
+    for (const double error : {e.deflection, e.rotation, e.bending_moment, e.energy,
+                               e.nodal_deflection, e.nodal_rotation}) {
+      BOOST_TEST(error == 0.01, boost::test_tools::tolerance(1e-9));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_error_relative_to_nothing_is_not_a_number_and_no_pass) {
+  const t::System system = beam(t::BeamTheory::euler_bernoulli);
+  const auto exact = [](const Vector2d& p) { return bent(1e-3, p); };
+  const t::BeamErrors e = t::beam_errors(system, nodal_bending(system, 1e-3), exact);
+  BOOST_TEST(!std::isfinite(e.axial_force));  // exact is 0
+}
+
+BOOST_AUTO_TEST_CASE(a_missing_value_spoils_every_norm) {
+  const t::System system = membrane();
+  VectorXd q = nodal_values(system, 1e-3);
+  q[3] = std::numeric_limits<double>::quiet_NaN();
+  const auto exact = [](const Vector2d& p) { return stretched(1e-3, p); };
+  const t::MembraneErrors e = t::membrane_errors(system, q, exact);
+  BOOST_TEST(std::isnan(e.displacement));
+  BOOST_TEST(std::isnan(e.energy));
+
+  const t::System bar = beam(t::BeamTheory::timoshenko);
+  VectorXd bending = nodal_bending(bar, 1e-3);
+  bending[4] = std::numeric_limits<double>::quiet_NaN();
+  const t::BeamErrors b =
+      t::beam_errors(bar, bending, [](const Vector2d& p) { return bent(1e-3, p); });
+  BOOST_TEST(std::isnan(b.deflection));
+  BOOST_TEST(std::isnan(b.energy));
+  BOOST_TEST(std::isnan(b.nodal_deflection));
+}
+
+BOOST_AUTO_TEST_SUITE_END()

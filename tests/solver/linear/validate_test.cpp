@@ -1,0 +1,124 @@
+#include "solver/linear/validate.h"
+
+#include <boost/test/unit_test.hpp>
+#include <functional>
+#include <limits>
+
+#include "solver/linear/system.h"
+#include "tests/support/solver/frames.h"
+
+BOOST_AUTO_TEST_SUITE(validate)
+
+using namespace trammel::solver;
+using namespace trammel::testing;
+
+namespace {
+
+/// A model with one part of each kind.
+Model sound() {
+  Model model = cantilever(unit_section(), 1, 2);
+  model.nodes.push_back({"C", {1, 1}});
+  model.plates = {{"web", {1e9, 1, 0.3}, 0.1}};
+  model.triangles = {{0, {0, 1, 2, -1, -1, -1}}};
+  model.masses = {{1, 1, 0, {0, 0}}};
+  model.springs = {{"spring", {2, -1}, {1, 0, 0}}};
+  model.loads = {{1, {0, 1, 0}}};
+  return model;
+}
+
+std::string complaint(const std::function<void(Model&)>& spoil) {
+  Model model = sound();
+  spoil(model);
+  try {
+    (void)assemble(model);
+  } catch (const ModelError& error) {
+    return error.what();
+  }
+  return "no complaint";
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_sound_model_is_accepted) {
+  BOOST_TEST(complaint([](Model&) {}) == "no complaint");
+  const auto thin = [](Model& m) { m.nodes[2].position = {0.5, 3e-12}; };  // 1.5e-12 m2
+  BOOST_TEST(complaint(thin) == "no complaint");
+}
+
+BOOST_AUTO_TEST_CASE(the_middle_of_a_side_may_lie_off_it_but_fold_the_triangle_at_no_node) {
+  // Moved along its side and towards the third node, as shares of the ways there.
+  const auto moved = [](std::size_t k, double along, double inwards) {
+    return complaint([&](Model& m) {
+      const auto corner = [&](std::size_t i) { return m.nodes[i % 3].position; };
+      for (std::size_t i = 0; i < 3; ++i) {
+        m.triangles[0].nodes[3 + i] = static_cast<Index>(m.nodes.size());
+        m.nodes.push_back({"", (corner(i) + corner(i + 1)) / 2});
+      }
+      const Vector2d side = corner(k + 1) - corner(k), middle = m.nodes[3 + k].position;
+      m.nodes[3 + k].position += along * side + inwards * (corner(k + 2) - middle);
+    });
+  };
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (const double sign : {-1, 1}) {
+      BOOST_TEST(moved(k, sign * 0.24, 0) == "no complaint");  // det = 1 -+ 4 along at the ends
+      BOOST_TEST(moved(k, sign * 0.26, 0) ==
+                 "triangle 0 is folded by the middle nodes of its sides");
+    }
+    BOOST_TEST(moved(k, 0, 0.45) == "no complaint");  // det = 1 - 2 inwards on the whole side
+    BOOST_TEST(moved(k, 0, 0.55) == "triangle 0 is folded by the middle nodes of its sides");
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_triangle_that_folds_at_a_middle_alone_is_refused) {
+  const auto folded = [](Model& m) {  // det >= 0.2 at the corners, -0.2 at one middle
+    m.nodes[2].position = {0, 1};
+    m.triangles[0].nodes = {0, 1, 2, 3, 4, 5};
+    for (const Vector2d& p : {Vector2d(0.9, -0.05), Vector2d(0.5, 0.25), Vector2d(0, 0.5)})
+      m.nodes.push_back({"", p});
+  };
+  BOOST_TEST(complaint(folded) == "triangle 0 is folded by the middle nodes of its sides");
+}
+
+BOOST_AUTO_TEST_CASE(each_meaningless_thing_is_told_in_one_sentence) {
+  const auto says = [](const std::string& expected, const std::function<void(Model&)>& spoil) {
+    BOOST_TEST(complaint(spoil) == expected);
+  };
+  says("member AB has no length", [](Model& m) {
+    m.nodes[1].position = {0, 0};
+    m.triangles = {};
+  });
+  says("member AB names node 9, but the model has 3 nodes",
+       [](Model& m) { m.members[0].nodes[1] = 9; });
+  says("member AB must have at least one element", [](Model& m) { m.members[0].elements = 0; });
+  says("member AB must have a positive axial stiffness E A",
+       [](Model& m) { m.members[0].section.EA = m.members[0].end_section.EA = -1; });
+  says("member AB must have a positive axial stiffness E A",
+       [](Model& m) { m.members[0].section.EA = m.members[0].end_section.EA = kNaN; });
+  says("member AB has no bending stiffness E I, so it must be one element hinged at both ends",
+       [](Model& m) { m.members[0].section.EI = m.members[0].end_section.EI = 0; });
+  says("member AB has shear and must have a positive shear stiffness kappa G A",
+       [](Model& m) { m.members[0].theory = BeamTheory::timoshenko; });
+  says("triangle 0 (node A, node B, node C) has no area", [](Model& m) {
+    m.nodes[2].position = {2, 0};
+  });
+  says("plate web must have a positive Young's modulus",
+       [](Model& m) { m.plates[0].material.E = 0; });
+  says("plate web must have a Poisson's ratio between -1 and 1",
+       [](Model& m) { m.plates[0].material.nu = 1; });
+  says("the point mass at node B has a negative mass", [](Model& m) { m.masses[0].mass = -1; });
+  says("spring spring joins a node with itself", [](Model& m) { m.springs[0].nodes[1] = 2; });
+  says(
+      "the support of node C fixes its rotation, but it has none: no member ends there and no "
+      "rigid body holds it",
+      [](Model& m) { m.supports.push_back(clamp(2)); });
+  says("node C has no rotation: no member end is welded to it and no rigid body holds it",
+       [](Model& m) {
+         m.loads = {{2, {0, 0, 1}}};
+       });
+  says("node A has a position that is not a finite number",
+       [](Model& m) { m.nodes[0].position.x() = kNaN; });
+  says("the load at node B is not a finite number", [](Model& m) { m.loads[0].force[0] = kNaN; });
+  says("the model has no nodes", [](Model& m) { m = Model{}; });
+}
+
+BOOST_AUTO_TEST_SUITE_END()

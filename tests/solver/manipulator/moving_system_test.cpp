@@ -1,0 +1,337 @@
+#include "solver/manipulator/moving_system.h"
+
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "solver/linear/element_operators.h"
+#include "solver/manipulator/elastodynamics.h"
+#include "solver/manipulator/moving_element.h"
+#include "solver/model/quadrature.h"
+#include "solver/motion/modal_superposition.h"
+#include "tests/support/solver/table_1.h"
+
+BOOST_AUTO_TEST_SUITE(moving_system)
+
+using namespace trammel::solver;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+namespace {
+
+/// A circle whose platform turns as well: every part is in motion.
+Path waltz() {
+  std::vector<double> times;
+  std::vector<Pose> poses;
+  for (int i = 0; i <= 40; ++i) {
+    const double t = 0.02 * i;
+    times.push_back(t);
+    poses.push_back(
+        {0.25 + 0.03 * std::cos(6 * t), 0.144 + 0.02 * std::sin(6 * t), 0.2 * std::sin(5 * t)});
+  }
+  return make_spline(times, poses, SplineEnds::natural);
+}
+
+std::vector<ManipulatorDesign> designs() {
+  std::vector<ManipulatorDesign> all(4, table_1_design());
+  for (ManipulatorDesign& design : all) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      design.proximal[i].elements = 2;
+      design.distal[i].elements = 3;
+    }
+  }
+  all[1].platform.kind = PlatformKind::rigid;
+  all[1].platform_joint.fill({PlatformJointKind::welded});
+  all[2].platform.kind = PlatformKind::rigid;  // P off the centre of mass, printed inertias
+  for (Vector2d& c : all[2].geometry.platform) c += Vector2d(0.01, -0.005);
+  for (std::size_t i = 0; i < 3; ++i) {
+    all[2].proximal[i].inertia = all[2].distal[i].inertia = 0.00078;
+    all[2].distal[i].theory = BeamTheory::timoshenko;
+    all[2].distal[i].thickness = 0.03;  // so that sections turn with inertia of their own
+  }
+  all[2].active.fill({ActiveKind::sprung, 3});
+  all[3].platform.kind = PlatformKind::rigid;
+  for (std::size_t i = 0; i < 3; ++i) {
+    all[3].proximal[i].axially_flexible = all[3].distal[i].axially_flexible = false;
+  }
+  return all;
+}
+
+/// The system of a design on its way along a path.
+struct Walk {
+  ManipulatorDesign design;
+  Path path;
+  double start;
+  MovingSystem moving;
+
+  Walk(const ManipulatorDesign& d, const Path& p, double t, bool gyroscopic)
+      : design(d),
+        path(p),
+        start(t),
+        moving(build_manipulator(d, at(p, t).pose), {.gyroscopic = gyroscopic}) {}
+
+  Outcome go_to(double time) {
+    const RigidManipulator rigid = rigid_manipulator(design);
+    const Vector9d from = inverse_dynamics(rigid, at(path, start)).q;
+    const TrajectoryPoint point = at(path, time);
+    return moving.move_to(nominal_motion(moving.start().model, inverse_dynamics(rigid, point), from,
+                                         point, Vector2d(0.3, -9.81)));
+  }
+};
+
+/// A model at five times about now and its elastic displacements there; accelerations by the
+/// central difference of order 4.
+struct Moments {
+  double h = 0;
+  std::vector<System> systems;
+  std::vector<VectorXd> u;
+
+  template <class Quantity>
+  auto second(const Quantity& quantity) const {
+    constexpr std::array<double, 5> kWeight = {-1.0 / 12, 4.0 / 3, -2.5, 4.0 / 3, -1.0 / 12};
+    auto sum = (kWeight[0] / (h * h) * quantity(systems[0], u[0])).eval();
+    for (std::size_t k = 1; k < 5; ++k) sum += kWeight[k] / (h * h) * quantity(systems[k], u[k]);
+    return sum;
+  }
+};
+
+/// int rho W^T (W u).. dV of the links, on u.
+void add_links(const Moments& moments, VectorXd& force) {
+  const System& now = moments.systems[2];
+  for (std::size_t e = 0; e < now.mesh.frame.size(); ++e) {
+    const FrameElement& element = now.mesh.frame[e];
+    const Section& s = element.section;
+    const BeamTheory theory = now.model.members[static_cast<std::size_t>(element.member)].theory;
+    const double phi = shear_ratio(s, theory, element.length);
+    const double rotary = theory == BeamTheory::timoshenko ? s.inertia_per_length : 0;
+    for (const LineQuadraturePoint& p : line_quadrature()) {
+      const auto W = [&](const System& system) -> Eigen::Matrix<double, 3, 6> {
+        const Matrix6d T = frame_rotation(system.mesh.frame[e].direction);
+        return T.topLeftCorner<3, 3>().transpose() *
+               frame_interpolation(phi, element.length, p.xi) * T;
+      };
+      const Vector3d a = moments.second([&](const System& system, const VectorXd& u) -> Vector3d {
+        return W(system) * detail::gather(element.coordinates, u);
+      });
+      const Vector3d rho(s.mass_per_length, s.mass_per_length, rotary);
+      const Vector6d f = W(now).transpose() * (p.weight * element.length * rho).cwiseProduct(a);
+      for (std::size_t i = 0; i < 6; ++i) {
+        force[element.coordinates[i]] += f[static_cast<Index>(i)];
+      }
+    }
+  }
+}
+
+/// The same of triangles, lumps off their nodes, and inertia of link ends.
+void add_the_rest(const Moments& moments, VectorXd& force) {
+  const System& now = moments.systems[2];
+  const VectorXd a = moments.second([](const System&, const VectorXd& u) { return u; });
+  for_each_inertia(now, [&](const auto& coordinates, const auto& m) {
+    const bool frame = coordinates.size() == 6 && coordinates[2] >= 0 &&
+                       now.coordinates.is_rotation[static_cast<std::size_t>(coordinates[2])];
+    if (frame || coordinates.size() == 3) return;
+    const auto f = (m * detail::gather(coordinates, a)).eval();
+    for (std::size_t i = 0; i < coordinates.size(); ++i) {
+      force[coordinates[i]] += f[static_cast<Index>(i)];
+    }
+  });
+  for (std::size_t i = 0; i < now.model.masses.size(); ++i) {
+    const PointMass& point_mass = now.model.masses[i];
+    const auto& c = now.coordinates.node[static_cast<std::size_t>(point_mass.node)];
+    const Vector2d center =
+        moments.second([&](const System& system, const VectorXd& u) -> Vector2d {
+          const Vector2d r = system.model.masses[i].offset;
+          return Vector2d(u[c[0]] - u[c[2]] * r.y(), u[c[1]] + u[c[2]] * r.x());
+        });
+    force[c[0]] += point_mass.mass * center.x();
+    force[c[1]] += point_mass.mass * center.y();
+    force[c[2]] +=
+        point_mass.inertia * a[c[2]] +
+        point_mass.mass * (point_mass.offset.x() * center.y() - point_mass.offset.y() * center.x());
+  }
+}
+
+double difference(const MatrixXd& a, const MatrixXd& b) {
+  return (a - b).norm() / b.norm();
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(a_pose_reached_by_motion_has_the_matrices_of_a_model_built_there) {
+  for (const ManipulatorDesign& design : designs()) {
+    Walk walk(design, waltz(), 0.1, false);
+    for (const double time : {0.1, 0.33, 0.7}) {
+      BOOST_TEST_REQUIRE(walk.go_to(time).solved());
+      Model model = build_manipulator(design, at(walk.path, time).pose);
+      model.gravity = {0.3, -9.81};
+      const System built = assemble(model);
+      if (design.proximal[0].axially_flexible) {
+        BOOST_TEST(difference(walk.moving.K(), built.K) < 1e-13);
+        BOOST_TEST(difference(walk.moving.M(), built.M) < 1e-13);
+        BOOST_TEST(difference(walk.moving.load(), built.f) < 1e-12);
+        continue;
+      }
+      // other coordinates may have been eliminated: compare what does not depend on them
+      const VectorXd moved = all_modes(walk.moving.M(), walk.moving.K()).omega;
+      const VectorXd there = all_modes(built.M, built.K).omega;
+      BOOST_TEST((moved - there).cwiseQuotient(there).cwiseAbs().maxCoeff() < 1e-9);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_load_of_inertia_is_that_of_equation_14) {
+  // F = T_s^T (w^2 H7^T - alpha H8^T - H9^T R^T a_A), H7 = int rho (x, 0) N, H8 = int rho (0, x) N,
+  // H9 = int rho N, for every link by itself: clamped at one node, free at the other
+  const double length = 0.2;
+  const double angle = 0.7;
+  const double w = 3;
+  const double alpha = -11;
+  const Vector2d a_A(0.8, -1.7);
+  Model model;
+  const Vector2d d(std::cos(angle), std::sin(angle));
+  model.nodes = {{"A", {0, 0}}, {"B", length * d}};
+  Member member;
+  member.nodes = {0, 1};
+  member.section = member.end_section = link_section(table_1_design().proximal[0], length);
+  model.members = {member};
+  MovingSystem moving(model);
+  NominalMotion motion = moving.motion();
+  motion.part[0] = {0, w, alpha};
+  motion.node[2].row(0) = a_A;
+  motion.node[2].row(1) = a_A + alpha * length * Vector2d(-d.y(), d.x()) - w * w * length * d;
+  BOOST_TEST_REQUIRE(moving.move_to(motion).solved());
+
+  Eigen::RowVectorXd H7 = Eigen::RowVectorXd::Zero(6);
+  Eigen::RowVectorXd H8 = H7;
+  Eigen::Matrix<double, 2, 6> H9 = Eigen::Matrix<double, 2, 6>::Zero();
+  for (const LineQuadraturePoint& p : line_quadrature()) {
+    const double rho = p.weight * length * member.section.mass_per_length;
+    const Eigen::Matrix<double, 2, 6> N = frame_interpolation(0.0, length, p.xi).topRows<2>();
+    H7 += rho * p.xi * length * N.row(0);
+    H8 += rho * p.xi * length * N.row(1);
+    H9 += rho * N;
+  }
+  const Matrix6d T = frame_rotation(d);
+  const Vector6d F = T.transpose() * (w * w * H7.transpose() - alpha * H8.transpose() -
+                                      H9.transpose() * (T.topLeftCorner<2, 2>() * a_A));
+  BOOST_TEST((moving.inertia_load() - F).norm() < 1e-14 * F.norm());
+}
+
+BOOST_AUTO_TEST_CASE(nominal_inertia_carries_the_momentum_of_the_bodies) {
+  // sum of the loads over all nodes = - sum of m a over the bodies, by independent rigid dynamics
+  for (const ManipulatorDesign& design : designs()) {
+    if (design.proximal[0].inertia) continue;
+    Walk walk(design, waltz(), 0.1, false);
+    BOOST_TEST_REQUIRE(walk.go_to(0.4).solved());
+    const RigidManipulator rigid = rigid_manipulator(design);
+    const InverseDynamics dynamics = inverse_dynamics(rigid, at(walk.path, 0.4));
+    Vector2d momentum = rigid.platform.mass * dynamics.bodies[6].acceleration;
+    for (std::size_t i = 0; i < 3; ++i) {
+      momentum += rigid.proximal[i].mass * dynamics.bodies[i].acceleration +
+                  rigid.distal[i].mass * dynamics.bodies[3 + i].acceleration;
+    }
+    const VectorXd zero = VectorXd::Zero(walk.moving.K().rows());
+    const VectorXd with = walk.moving.forces(zero, zero, zero, {}, true).external;
+    const VectorXd without = walk.moving.forces(zero, zero, zero, {}, false).external;
+    Vector2d sum = Vector2d::Zero();
+    for (const auto& c : walk.moving.start().coordinates.node) {
+      sum += Vector2d(with[c[0]] - without[c[0]], with[c[1]] - without[c[1]]);
+    }
+    BOOST_TEST((sum + momentum).norm() < 1e-12 * momentum.norm());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(gyroscopic_terms_are_the_second_derivative_of_the_turning_interpolation) {
+  // u(x, t) = W(t) T(t) q(t) with a quadratic q(t); its acceleration at each mass point by
+  // differences in time, against M q.. + C q. + K q with the gyroscopic C and the centrifugal and
+  // Euler K
+  for (const ManipulatorDesign& design : designs()) {
+    if (!design.proximal[0].axially_flexible) continue;  // other coordinates may be eliminated
+    const Path path = waltz();
+    const double now = 0.41;  // between two knots of the path, where it is smooth
+    Walk walk(design, path, 0.1, true);
+    BOOST_TEST_REQUIRE(walk.go_to(now).solved());
+    const Index n = walk.moving.K().rows();
+    const VectorXd q0 = VectorXd::LinSpaced(n, -1, 2).array().sin();
+    const VectorXd q1 = VectorXd::LinSpaced(n, 5, -9).array().cos() * 20;
+    const VectorXd q2 = VectorXd::LinSpaced(n, 3, 8).array().sin() * 100;
+    const VectorXd force =
+        walk.moving.gyroscopic_matrix() * q1 + walk.moving.centrifugal_and_euler_matrix() * q0;
+
+    Moments moments{.h = 1e-3, .systems = {}, .u = {}};
+    for (int k = -2; k <= 2; ++k) {
+      const double t = k * moments.h;
+      moments.systems.push_back(assemble(build_manipulator(design, at(path, now + t).pose)));
+      moments.u.emplace_back(moments.systems.back().T * (q0 + t * q1 + t * t / 2 * q2));
+    }
+    VectorXd expected = VectorXd::Zero(moments.u[2].size());
+    add_links(moments, expected);
+    add_the_rest(moments, expected);
+    const VectorXd all = moments.systems[2].T.transpose() * expected;
+    const VectorXd difference = all - (walk.moving.M() * q2 + force);
+    BOOST_TEST(force.norm() > 1e-3 * all.norm());
+    BOOST_TEST(difference.norm() < 1e-6 * force.norm());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(an_elastic_displacement_that_all_parts_share_feels_no_gyroscopic_force) {
+  Walk walk(table_1_design(), waltz(), 0.1, true);
+  BOOST_TEST_REQUIRE(walk.go_to(0.4).solved());
+  const System& system = walk.moving.start();
+  VectorXd u = VectorXd::Zero(system.coordinates.size);
+  for (const auto& c : system.coordinates.node) u.segment<2>(c[0]) = Vector2d(0.3, -0.8);
+  // only the supports' rows do not follow; they do not enter the elements that do not touch them
+  VectorXd q(walk.moving.K().rows());
+  for (std::size_t i = 0; i < system.constraints.free.size(); ++i) {
+    if (system.constraints.free[i] >= 0) q[system.constraints.free[i]] = u[static_cast<Index>(i)];
+  }
+  const VectorXd damping = walk.moving.gyroscopic_matrix() * q;
+  const VectorXd stiffness = walk.moving.centrifugal_and_euler_matrix() * q;
+  const double scale = walk.moving.gyroscopic_matrix().norm();
+  for (std::size_t node = 6; node < 10; ++node) {  // C1 C2 C3, P
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Index i =
+          system.constraints.free[static_cast<std::size_t>(system.coordinates.node[node][k])];
+      BOOST_TEST(std::abs(damping[i]) < 1e-13 * scale);
+      BOOST_TEST(std::abs(stiffness[i]) < 1e-12 * scale);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_matrices_of_inextensible_links_grow_with_their_elements_and_not_faster) {
+  // by the pattern of the constraints alone each node followed all before it on its link
+  std::vector<double> entries;
+  for (const Index elements : {8, 16}) {
+    ManipulatorDesign design = designs()[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+      design.proximal[i].elements = design.distal[i].elements = elements;
+    }
+    const Walk walk(design, waltz(), 0.1, false);
+    entries.push_back(static_cast<double>(walk.moving.K().nonZeros()));
+  }
+  BOOST_TEST(entries[1] / entries[0] < 2.1);
+}
+
+BOOST_AUTO_TEST_CASE(a_pose_that_is_refused_leaves_no_trace) {
+  Walk walk(designs()[3], waltz(), 0.1, false);
+  MovingSystem& moving = walk.moving;
+  const NominalMotion before = moving.motion();
+  const VectorXd force = VectorXd::LinSpaced(moving.constraints().T.rows(), -1, 2);
+  const VectorXd multipliers = moving.constraints().multipliers(force);
+  int refused = 0;
+  for (std::size_t member = 0; member < moving.start().model.members.size(); ++member) {
+    const auto& ends = moving.start().model.members[member].nodes;
+    const Vector2d d = before.node[0].row(ends[1]) - before.node[0].row(ends[0]);
+    for (const double along : {0.0, 0.5}) {  // of x, of y: the other component is no pivot then
+      NominalMotion motion = before;
+      motion.part[member].angle = along * std::numbers::pi - std::atan2(d.y(), d.x());
+      refused += moving.move_to(motion).solved() ? 0 : 1;
+      BOOST_TEST_REQUIRE(moving.move_to(before).solved());
+      BOOST_TEST((moving.constraints().multipliers(force) - multipliers).norm() <
+                 1e-10 * multipliers.norm());
+    }
+  }
+  BOOST_TEST(refused > 0);
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,222 @@
+// ctest: timeout=300
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+
+#include "solver/manipulator/sensitivity_map.h"
+#include "tests/support/solver/sensitivity_designs.h"
+
+BOOST_AUTO_TEST_SUITE(sensitivity)
+
+using namespace trammel::solver;
+using Eigen::VectorXd;
+
+BOOST_AUTO_TEST_CASE(frequencies_grow_with_the_root_of_E_and_fall_with_that_of_density) {
+  const Pose pose{0.26, 0.15, 0.1};
+  for (const PlatformKind kind : {PlatformKind::rigid, PlatformKind::triangles}) {
+    ManipulatorDesign design = coarse_design();
+    design.platform.kind = kind;
+    const FrequencySensitivity s =
+        frequency_sensitivity(design, pose, {all(Kind::E), all(Kind::density)}, 8);
+    BOOST_TEST_REQUIRE(s.outcome.solved());
+    for (Index n = 0; n < 8; ++n) {
+      const double f = s.frequency[n];
+      BOOST_TEST(std::abs(s.derivative(n, 0) * 2 * 6.9e10 / f - 1) < 1e-11);
+      BOOST_TEST(std::abs(s.derivative(n, 1) * 2 * 2700 / f + 1) < 1e-11);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(bending_frequencies_of_massive_links_grow_with_their_thickness) {
+  // without a platform's mass and with axially rigid links: stiffness t^3, mass t
+  ManipulatorDesign design = coarse_design();
+  design.platform.kind = PlatformKind::rigid;
+  design.platform.mass = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    design.proximal[i].axially_flexible = design.distal[i].axially_flexible = false;
+  }
+  DesignParameter links = all(Kind::thickness);
+  links.platform = false;
+  const FrequencySensitivity s =
+      frequency_sensitivity(design, {0.26, 0.15, 0.1}, {links, all(Kind::width)}, 6);
+  for (Index n = 0; n < 6; ++n) {
+    BOOST_TEST(std::abs(s.derivative(n, 0) * 0.0015 / s.frequency[n] - 1) < 1e-10);
+    BOOST_TEST(std::abs(s.derivative(n, 1) * 0.03 / s.frequency[n]) < 1e-10);  // as wide, as heavy
+  }
+}
+
+BOOST_AUTO_TEST_CASE(what_every_link_does_alone_adds_up_to_what_they_do_together) {
+  std::vector<DesignParameter> parameters = {all(Kind::length)};
+  for (std::size_t limb = 0; limb < 3; ++limb) {
+    parameters.push_back(one_length(limb, true));
+    parameters.push_back(one_length(limb, false));
+  }
+  const FrequencySensitivity s =
+      frequency_sensitivity(coarse_design(), {0.27, 0.13, 0.05}, parameters, 6);
+  for (Index n = 0; n < 6; ++n) {
+    BOOST_TEST(s.sets[static_cast<std::size_t>(n)].count == 1);
+    const double together = s.derivative(n, 0);
+    BOOST_TEST(std::abs(s.derivative.row(n).tail(6).sum() - together) <
+               1e-9 * s.derivative.row(n).cwiseAbs().maxCoeff());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(holding_the_total_mass_is_not_holding_the_density) {
+  ManipulatorDesign by_density = coarse_design();
+  ManipulatorDesign by_total = coarse_design();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double mass = link_section(by_density.proximal[i], 0.2).mass_per_length * 0.2;
+    by_total.proximal[i].mass = by_total.distal[i].mass = mass;
+  }
+  const Pose pose{0.26, 0.15, 0.1};
+  const auto lengths = {all(Kind::length), all(Kind::density)};
+  const FrequencySensitivity a = frequency_sensitivity(by_density, pose, lengths, 6);
+  const FrequencySensitivity b = frequency_sensitivity(by_total, pose, lengths, 6);
+  for (Index n = 0; n < 6; ++n) {
+    BOOST_TEST(std::abs(a.frequency[n] / b.frequency[n] - 1) < 1e-12);
+    BOOST_TEST(a.derivative(n, 0) < b.derivative(n, 0));  // longer links are heavier, too
+    BOOST_TEST(b.derivative(n, 1) > a.derivative(n, 1));  // only the platform's density counts
+  }
+}
+
+BOOST_AUTO_TEST_CASE(at_the_symmetric_pose_each_limb_matters_alike) {
+  // Three-fold symmetry: pairs of equal frequencies, whose shapes the eigensolver mixes at will.
+  for (const double phi : {0.0, 0.3}) {
+    std::vector<DesignParameter> parameters;
+    for (std::size_t limb = 0; limb < 3; ++limb) parameters.push_back(one_length(limb, true));
+    parameters.push_back(all(Kind::length));
+    const FrequencySensitivity s =
+        frequency_sensitivity(coarse_design(), centred_pose(phi), parameters, 6);
+    BOOST_TEST_REQUIRE(s.outcome.solved());
+    bool pair = false;
+    for (const FrequencySet& set : s.sets) {
+      const double f = s.frequency[set.first];
+      const double below = set.first > 0 ? f - s.frequency[set.first - 1] : s.frequency.maxCoeff();
+      BOOST_TEST(s.gap[set.first] > 0);
+      BOOST_TEST(s.gap[set.first] * f < below * (1 + 1e-12));
+      if (set.count != 2) continue;
+      pair = true;
+      const double size = s.derivative.middleRows(set.first, 2).cwiseAbs().maxCoeff();
+      for (Index n = set.first; n < set.first + 2; ++n) {
+        BOOST_TEST(std::abs(s.derivative(n, 0) - s.derivative(n, 1)) < 1e-8 * size);
+        BOOST_TEST(std::abs(s.derivative(n, 0) - s.derivative(n, 2)) < 1e-8 * size);
+      }
+      // one limb splits the pair, all together keep it
+      BOOST_TEST(s.derivative(set.first + 1, 0) - s.derivative(set.first, 0) > 0.01 * size);
+      BOOST_TEST(std::abs(s.derivative(set.first + 1, 3) - s.derivative(set.first, 3)) <
+                 1e-8 * size);
+    }
+    BOOST_TEST(pair);
+    BOOST_TEST(s.derivative.allFinite());
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_set_cut_by_the_number_of_modes_keeps_its_lowest_derivative) {
+  const ManipulatorDesign design = coarse_design();
+  const DesignParameter parameter = one_length(0, true);
+  const FrequencySensitivity all_six =
+      frequency_sensitivity(design, centred_pose(), {parameter}, 6);
+  for (const FrequencySet& set : all_six.sets) {
+    if (set.count < 2) continue;
+    const FrequencySensitivity cut =
+        frequency_sensitivity(design, centred_pose(), {parameter}, set.first + 1);
+    const double size = all_six.derivative.cwiseAbs().maxCoeff();
+    BOOST_TEST(std::abs(cut.derivative(set.first, 0) - all_six.derivative(set.first, 0)) <
+               1e-8 * size);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(rigid_motions_stay_at_zero_whatever_the_lengths) {
+  ManipulatorDesign design = coarse_design();
+  design.active.fill({ActiveKind::free});
+  design.elbow.fill({ElbowKind::hinged});
+  const FrequencySensitivity s =
+      frequency_sensitivity(design, {0.26, 0.15, 0.1}, {all(Kind::length)}, 6);
+  BOOST_TEST_REQUIRE(s.outcome.solved());
+  BOOST_TEST(s.frequency.head(3).norm() == 0);
+  BOOST_TEST(s.derivative.topRows(3).norm() == 0);
+  BOOST_TEST(s.derivative.bottomRows(3).cwiseAbs().minCoeff() > 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_straight_limb_has_no_finite_derivative_and_no_nan_goes_unnamed) {
+  ManipulatorDesign design = coarse_design();
+  const Pose pose{0.25, 0.144, 0};
+  const Posture posture = inverse_kinematics(design.geometry, pose);
+  const double r = (posture.C[0] - design.geometry.base[0]).norm();
+  design.geometry.proximal[0] = design.geometry.distal[0] = r / 2;
+  const FrequencySensitivity s = frequency_sensitivity(design, pose, {one_length(0, true)}, 4);
+  BOOST_TEST((s.outcome.status == Status::singular));
+  BOOST_TEST(s.outcome.reason.find("straight") != std::string::npos);
+}
+
+BOOST_AUTO_TEST_CASE(modes_that_round_off_has_eaten_are_none_and_not_a_crash) {
+  // free actuators near a folded limb: eigenvalues without vectors were once read beyond their end
+  ManipulatorDesign design = coarse_design();
+  design.platform.kind = PlatformKind::rigid;
+  design.active.fill({ActiveKind::free});
+  const PoseGrid grid = reachable_grid(design.geometry, std::acos(-1.0) / 6, 41);
+  const Pose pose{grid.x0 + 11 * grid.dx, grid.y0 + 30 * grid.dy, grid.phi};
+  const FirstFrequency first = first_frequency(design, all(Kind::length), pose);
+  BOOST_TEST(first.outcome.solved() == std::isfinite(first.frequency));
+}
+
+BOOST_AUTO_TEST_CASE(the_map_covers_the_reach_and_agrees_with_single_poses) {
+  const ManipulatorDesign design = coarse_design(1);
+  const PoseGrid grid = reachable_grid(design.geometry, 0.1, 15);
+  const SensitivityMap map = map_first_frequency(design, all(Kind::length), grid);
+  BOOST_TEST(map.frequency.rows() == grid.rows);
+  Index reachable = 0;
+  for (Index j = 0; j < grid.rows; ++j) {
+    for (Index i = 0; i < grid.columns; ++i) {
+      const Pose pose{grid.x0 + static_cast<double>(i) * grid.dx,
+                      grid.y0 + static_cast<double>(j) * grid.dy, grid.phi};
+      const bool inside = inverse_kinematics(design.geometry, pose).outcome.solved();
+      BOOST_TEST(std::isfinite(map.frequency(j, i)) == inside);
+      reachable += inside ? 1 : 0;
+      if (!inside || (i + j) % 5 != 0) continue;
+      const FrequencySensitivity s = frequency_sensitivity(design, pose, {all(Kind::length)}, 1);
+      BOOST_TEST(map.frequency(j, i) == s.frequency[0]);
+      BOOST_TEST(map.derivative(j, i) == s.derivative(0, 0));
+    }
+  }
+  BOOST_TEST(reachable > grid.rows * grid.columns / 4);
+}
+
+BOOST_AUTO_TEST_CASE(the_boundary_of_the_reach_is_where_a_limb_is_straight_or_folded) {
+  ManipulatorGeometry geometry = coarse_design().geometry;
+  geometry.distal = {0.15, 0.2, 0.18};
+  std::size_t all = 0;
+  std::size_t points = 0;
+  for (const Polyline& arc : workspace_boundary(geometry, 0.2, 360)) {
+    all += arc.size();
+    for (const Vector2d& P : arc) {
+      const Vector2d inward = 1e-9 * (Vector2d(0.25, 0.144) - P).normalized();
+      bool found = false;  // on one side of the arc there is a pose, and it is nearly singular
+      for (const double side : {1.0, -1.0}) {
+        const Pose pose{P.x() + side * inward.x(), P.y() + side * inward.y(), 0.2};
+        const Posture posture = inverse_kinematics(geometry, pose);
+        if (!posture.outcome.solved()) continue;
+        found = found || jacobians(geometry, pose, posture).serial_distance < 1e-3;
+      }
+      points += found ? 0 : 1;
+    }
+  }
+  BOOST_TEST(all > 180U);  // half a turn of the three circles together at least
+  BOOST_TEST(points == 0U);
+}
+
+BOOST_AUTO_TEST_CASE(a_singular_curve_runs_where_the_parallel_distance_vanishes) {
+  const ManipulatorGeometry geometry = coarse_design().geometry;
+  const PoseGrid grid = reachable_grid(geometry, 0.1, 81);
+  const std::vector<Polyline> curve = parallel_singularities(geometry, grid);
+  BOOST_TEST(curve.size() > 20U);
+  for (const Polyline& segment : curve) {
+    for (const Vector2d& P : segment) {
+      const Pose pose{P.x(), P.y(), 0.1};
+      const Posture posture = inverse_kinematics(geometry, pose);
+      BOOST_TEST_REQUIRE(posture.outcome.solved());
+      BOOST_TEST(jacobians(geometry, pose, posture).parallel_distance < 1e-9);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_SUITE_END()

@@ -1,0 +1,143 @@
+#include "solver/motion/modal_superposition.h"
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/test/unit_test.hpp>
+#include <cmath>
+#include <numbers>
+
+#include "solver/linear/row_balance.h"
+
+BOOST_AUTO_TEST_SUITE(modal_superposition)
+
+using namespace trammel::solver;
+using std::numbers::pi;
+
+namespace {
+
+using Big = boost::multiprecision::cpp_bin_float_100;
+
+/// The response by its Taylor series in 100 digits, over pieces short enough to sum.
+ImpulseResponse in_long_digits(double omega, double decay, double t) {
+  const int pieces = 1 + static_cast<int>(std::max(omega, decay) * t / 4);
+  const Big w2 = Big(omega) * Big(omega);
+  const Big dt = Big(t) / pieces;
+  // y = (h1, h, h') and h2, under a unit load
+  Big y = 0;
+  Big v = 0;
+  Big sum = 0;
+  for (int p = 0; p < pieces; ++p) {
+    Big a = y;
+    Big b = v * dt;
+    Big next_y = a + b;
+    Big next_v = v;
+    Big integral = a * dt + b * dt / 2;
+    for (int k = 2; k < 120; ++k) {
+      const Big load = k == 2 ? Big(1) : Big(0);
+      const Big c = ((load - w2 * a) * dt * dt - 2 * Big(decay) * (k - 1) * b * dt) / (k * (k - 1));
+      next_y += c;
+      next_v += c * k / dt;
+      integral += c * dt / (k + 1);
+      a = b;
+      b = c;
+    }
+    sum += integral;
+    y = next_y;
+    v = next_v;
+  }
+  const Big dh = 1 - w2 * y - 2 * Big(decay) * v;
+  return {.dh = static_cast<double>(dh),
+          .h = static_cast<double>(v),
+          .h1 = static_cast<double>(y),
+          .h2 = static_cast<double>(sum)};
+}
+
+SparseMatrix sparse(const Eigen::MatrixXd& A) {
+  SparseMatrix S = A.sparseView();
+  S.makeCompressed();
+  return S;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(an_oscillator_keeps_its_digits_in_every_kind_of_damping) {
+  double worst = 0;
+  for (const double omega : {0.0, 1e-6, 1e-2, 0.9, 3.0, 50.0}) {
+    for (const double ratio :
+         {0.0, 1e-3, 0.1, 0.9, 1 - 1e-9, 1.0, 1 + 1e-9, 1.05, 1.16, 3.0, 1e4}) {
+      const double decay = omega > 0 ? omega * ratio : ratio;
+      for (const double t : {1e-5, 0.01, 0.3, 1.1, 7.0}) {
+        if (decay * t > 500) continue;
+        const ImpulseResponse r = impulse_response(omega, decay, t);
+        const ImpulseResponse exact = in_long_digits(omega, decay, t);
+        // against the envelopes of an undamped motion; a phase w t carries its own round-off
+        const double phase = 1 + omega * t;
+        const double h_size = std::min(t, 1 / std::max(omega, 1e-300));
+        worst = std::max({worst, std::abs(r.h - exact.h) / (h_size * phase),
+                          std::abs(r.dh - exact.dh) / phase,
+                          std::abs(r.h1 - exact.h1) / std::max(exact.h1, h_size * h_size) / phase,
+                          std::abs(r.h2 / exact.h2 - 1) / phase});
+      }
+    }
+  }
+  BOOST_TEST(worst < 2e-14);
+}
+
+BOOST_AUTO_TEST_CASE(a_free_mass_falls_by_half_a_t_squared) {
+  const SparseMatrix M = sparse(Eigen::MatrixXd::Constant(1, 1, 2.0));
+  const SparseMatrix K = sparse(Eigen::MatrixXd::Zero(1, 1));
+  const ModalBasis basis = all_modes(M, K);
+  const ModalResponse r = superpose(basis, Eigen::VectorXd::Zero(1), M,
+                                    step_load(Eigen::VectorXd::Constant(1, 2 * 9.81)), {0, 0.5, 2},
+                                    Eigen::VectorXd(), Eigen::VectorXd());
+  BOOST_TEST(std::abs(r.q(0, 1) - 0.5 * 9.81 * 0.25) < 1e-14);
+  BOOST_TEST(std::abs(r.v(0, 2) - 9.81 * 2) < 1e-13);
+}
+
+BOOST_AUTO_TEST_CASE(every_mode_is_orthogonal_and_massless_coordinates_have_none) {
+  const SparseMatrix M = sparse(Eigen::Vector4d(1, 2, 0, 3).asDiagonal());
+  const SparseMatrix K = sparse(
+      (Eigen::Matrix4d() << 2, -1, -1, 0, -1, 4, -2, -1, -1, -2, 5, -2, 0, -1, -2, 3).finished());
+  const ModalBasis basis = all_modes(M, K);
+  BOOST_TEST(basis.omega.size() == 3);
+  const Eigen::MatrixXd mass = basis.shape.transpose() * (M * basis.shape);
+  const Eigen::MatrixXd stiffness = basis.shape.transpose() * (K * basis.shape);
+  BOOST_TEST((mass - Eigen::Matrix3d::Identity()).norm() < 1e-12);
+  BOOST_TEST(
+      (stiffness - Eigen::MatrixXd(basis.omega.array().square().matrix().asDiagonal())).norm() <
+      1e-12);
+  BOOST_TEST(basis.omega[0] == 0);  // the four move together: K has rows that sum to zero
+}
+
+BOOST_AUTO_TEST_CASE(a_load_that_jumps_takes_the_value_after_the_jump) {
+  PiecewiseLinearLoad load;
+  load.pattern = Eigen::MatrixXd::Identity(1, 1);
+  load.time = {0, 1, 1, 3};
+  load.factor = (Eigen::MatrixXd(1, 4) << 2, 4, 10, 0).finished();
+  Eigen::VectorXd f(1);
+  const auto at = [&](double t) {
+    load.at(t, f);
+    return f[0];
+  };
+  BOOST_TEST(at(-1) == 2);
+  BOOST_TEST(at(0.5) == 3);
+  BOOST_TEST(at(std::nextafter(1, 0)) == 4, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(at(1) == 10);
+  BOOST_TEST(at(2) == 5);
+  BOOST_TEST(at(9) == 0);
+}
+
+BOOST_AUTO_TEST_CASE(a_coordinate_that_nothing_holds_and_no_mass_moves_is_singular_in_words) {
+  const SparseMatrix one = sparse(Eigen::Vector2d(1, 0).asDiagonal());
+  const ModalBasis basis = all_modes(one, one);
+  BOOST_TEST((basis.outcome.status == Status::singular));
+  BOOST_TEST(basis.outcome.reason == "a coordinate has neither stiffness nor mass");
+  BOOST_TEST(basis.omega.size() == 0);
+}
+
+BOOST_AUTO_TEST_CASE(numbers_that_overflow_have_no_modes) {
+  const SparseMatrix M = sparse(Eigen::Vector2d(1e300, 1e300).asDiagonal());
+  const SparseMatrix K = sparse(Eigen::Vector2d(1e308, 1e308).asDiagonal());
+  BOOST_TEST(!all_modes(M, K).outcome.solved());
+}
+
+BOOST_AUTO_TEST_SUITE_END()
