@@ -34,8 +34,8 @@ Beam some_beam() {
   return beam;
 }
 
-RigidLink some_link() {
-  RigidLink link;
+large_motion::RigidLink some_link() {
+  large_motion::RigidLink link;
   link.offset = Vector2d(0.3, -0.4);
   return link;
 }
