@@ -42,7 +42,8 @@ double number(const Quantities& quantities, const char* name) {
 
 BOOST_AUTO_TEST_CASE(every_combination_is_tried_on_every_variant) {
   const Quantities found =
-      tried({{"large-motion", {{"vary", {{"mass_damping_per_s", {0, 1, 2}}, {"spectral_radius", {0.5, 1}}}}}}});
+      tried({{"large-motion",
+              {{"vary", {{"mass_damping_per_s", {0, 1, 2}}, {"spectral_radius", {0.5, 1}}}}}}});
   BOOST_TEST(number(found, "attempted") == 12);
   BOOST_TEST(number(found, "attempted:pendulum") == 12);
   BOOST_TEST(number(found, "solved") == 12);

@@ -1,7 +1,6 @@
-#include "solver/elements/triangle_element.h"
-
 #include <boost/test/unit_test.hpp>
 
+#include "solver/elements/triangle_element.h"
 #include "solver/model/quadrature.h"
 
 BOOST_AUTO_TEST_SUITE(triangle_interpolation)
