@@ -46,8 +46,8 @@ struct BlockMesh {
 std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh,
                           const std::vector<Index>& corners = {});
 
-/// Meshes for the verification of orders: regular, or distorted in a pattern that repeats from cell
-/// to cell, so that refinement does not smooth it out.
+// Meshes for the verification of orders: regular, or distorted in a pattern that repeats from cell
+// to cell, so that refinement does not smooth it out.
 
 struct RectangleMesh {
   double length = 0;  ///< along x, from the origin [m]

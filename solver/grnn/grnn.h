@@ -49,7 +49,7 @@ struct Grnn {
 ///                     not a positive normal number.
 [[nodiscard]] Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries);
 
-/// The kernel weights of a GRNN, shared by prediction and cross-validation.
+// The kernel weights of a GRNN, shared by prediction and cross-validation.
 
 /// What each column is divided by; 1 where it is constant.
 [[nodiscard]] Eigen::VectorXd scale_of(const Eigen::MatrixXd& columns, InputScaling scaling);

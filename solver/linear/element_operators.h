@@ -127,7 +127,7 @@ void for_each_plate_mass(const System& system, Visit&& visit) {
   }
 }
 
-/// What has mass, on the unconstrained coordinates u, without an assembled mass matrix.
+// What has mass, on the unconstrained coordinates u, without an assembled mass matrix.
 
 /// Mass matrix of a point mass on (x, y, rotation) of its node; the inertia is about its own
 /// centre, which sits at `offset` from the node [m, world axes].

@@ -28,9 +28,9 @@ void add_edge_traction(System& system, const Traction& traction);
 /// On all frame elements that bend.
 void add_line_load(System& system, const LineLoad& load);
 
-/// How far a discrete solution is from a field that is known at every point: norms over the
-/// elements' interpolation, by quadrature. All errors are relative to the same norm of the exact
-/// field.
+// How far a discrete solution is from a field that is known at every point: norms over the
+// elements' interpolation, by quadrature. All errors are relative to the same norm of the exact
+// field.
 
 struct MembraneFieldPoint {
   Vector2d displacement = Vector2d::Zero();  ///< [m]

@@ -50,7 +50,7 @@ class RowBalance {
   Eigen::MatrixXd terms_, free_terms_;
 };
 
-/// Viscous damping: what its numbers mean, and its matrix.
+// Viscous damping: what its numbers mean, and its matrix.
 
 /// C = mass * M + stiffness * K (paper Eq. 19, where they are w1 and w2).
 struct RayleighDamping {

@@ -10,7 +10,7 @@ namespace trammel::solver {
 /// @throws ModelError  one sentence that names the part and what is wrong with it.
 void validate(const Model& model);
 
-/// Effects are taken out of a model before anything is assembled from it.
+// Effects are taken out of a model before anything is assembled from it.
 
 /// The effects that the parts have, as they are described. What belongs to an analysis rather than
 /// to parts (inertia, damping, gyroscopic forces, geometric stiffening, large displacement) is not

@@ -28,8 +28,8 @@ struct EffectEstimates {
   Counters counters;
 };
 
-/// What a motion would lose without an effect, to first order. Numbers without dimension: with the
-/// first angular frequency w1 and damping ratio z, how fast the path turns W, the time T.
+// What a motion would lose without an effect, to first order. Numbers without dimension: with the
+// first angular frequency w1 and damping ratio z, how fast the path turns W, the time T.
 
 /// Elastodynamics along a path, at some poses of it and where the response is largest. The
 /// quasi-static response q_s, K q_s = F + f, and its rates say what is left out as a small load

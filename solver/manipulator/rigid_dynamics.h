@@ -114,7 +114,7 @@ struct PropertyResiduals {
 [[nodiscard]] PropertyResiduals property_residuals(const RigidManipulator& manipulator,
                                                    const RigidTerms& terms);
 
-/// Motion of all bodies, torques and powers of the rigid manipulator on its path.
+// Motion of all bodies, torques and powers of the rigid manipulator on its path.
 
 /// Plane motion of one body; position, velocity and acceleration of its centre of mass.
 struct BodyMotion {

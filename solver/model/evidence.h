@@ -16,7 +16,7 @@ struct Outcome {
   [[nodiscard]] bool solved() const { return status == Status::solved; }
 };
 
-/// What speaks for a solution: residuals that finding it did not use.
+// What speaks for a solution: residuals that finding it did not use.
 
 /// Each is relative to the magnitudes of the terms that it is the sum of: rounding alone leaves a
 /// few eps, nonsense 1.

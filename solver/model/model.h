@@ -204,13 +204,13 @@ inline void require(bool condition, const std::string& message) {
   if (!condition) throw ModelError(message);
 }
 
-/// What a sentence calls a part of the model: its name, or its number where it has none.
+// What a sentence calls a part of the model: its name, or its number where it has none.
 
 [[nodiscard]] std::string node_label(const Model& model, Index node);
 [[nodiscard]] std::string member_label(const Model& model, Index member);
 [[nodiscard]] std::string part_label(const char* kind, const std::string& name, std::size_t index);
 
-/// Vectors in the plane.
+// Vectors in the plane.
 
 /// The component out of the plane of a x b: positive where b lies to the left of a.
 [[nodiscard]] inline double cross(const Vector2d& a, const Vector2d& b) {

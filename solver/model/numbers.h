@@ -24,8 +24,8 @@ inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   return std::isnan(a) || b <= a ? a : b;
 }
 
-/// Derivatives without differences: the functions that make elements out of a design are templates
-/// over `Real`, and d/dp of everything comes out of the very same lines.
+// Derivatives without differences: the functions that make elements out of a design are templates
+// over `Real`, and d/dp of everything comes out of the very same lines.
 
 /// A value and its derivative with respect to one parameter.
 using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;

@@ -59,8 +59,8 @@ class EquationMatrices {
   double norm_M_ = 0, norm_C_ = 0, norm_K_ = 0;
 };
 
-/// Loads whose factors are linear between given times, constant outside them, and jump if a time
-/// is given twice. At a jump a factor has the value after it.
+// Loads whose factors are linear between given times, constant outside them, and jump if a time
+// is given twice. At a jump a factor has the value after it.
 
 /// Between two of the times, or outside them: x = (1 - share) x[left] + share x[right].
 struct TimeInterval {
