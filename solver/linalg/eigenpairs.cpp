@@ -257,13 +257,18 @@ class Solver {
     values();
   }
 
-  /// In K - s B, against the columns before it; normalised.
+  /// In K - s B, against the columns before it; normalised. Again where most of it went: else a
+  /// second pass would only find rounding (Daniel, Gragg, Kaufman and Stewart 1976).
   void orthogonalise(MatrixXd& Y, Index j) const {
-    const VectorXd image = assembled(Y.col(j));
-    const VectorXd part = Y.leftCols(j).transpose() * image;
-    const double left = Y.col(j).dot(image) - part.squaredNorm();
-    Y.col(j) -= Y.leftCols(j) * part;
-    Y.col(j) /= std::sqrt(std::abs(left));
+    for (const bool first : {true, false}) {
+      const VectorXd image = assembled(Y.col(j));
+      const VectorXd part = Y.leftCols(j).transpose() * image;
+      const double whole = Y.col(j).dot(image), left = whole - part.squaredNorm();
+      Y.col(j) -= Y.leftCols(j) * part;
+      if (first && !(left > 0.5 * whole)) continue;
+      Y.col(j) /= std::sqrt(std::abs(left));
+      return;
+    }
   }
 
   /// Rayleigh quotients, ascending.

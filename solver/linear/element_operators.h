@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -181,12 +182,16 @@ class Projection {
   void add(const std::array<Index, n>& coordinates, const Matrix& k) {
     using Row = RowMajorMatrix::InnerIterator;
     for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < n; ++j) {
+      for (std::size_t j = 0; j <= i; ++j) {  // the matrix is symmetric
         const double value = k(static_cast<Index>(i), static_cast<Index>(j));
         if (coordinates[i] < 0 || coordinates[j] < 0 || value == 0) continue;
         for (Row a(T_, coordinates[i]); a; ++a) {
-          for (Row b(T_, coordinates[j]); b; ++b)
-            if (b.col() <= a.col()) add(a.col(), b.col(), a.value() * value * b.value());
+          for (Row b(T_, coordinates[j]); b; ++b) {
+            const double product = a.value() * value * b.value();
+            const Index row = std::max(a.col(), b.col()), column = std::min(a.col(), b.col());
+            if (i != j) add(row, column, row == column ? 2 * product : product);
+            if (i == j && b.col() <= a.col()) add(row, column, product);
+          }
         }
       }
     }

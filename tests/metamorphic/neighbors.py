@@ -156,8 +156,9 @@ def tails():
                              "ET": {"nodes": ["E", "T"], "section": "t"}},
                  "loads": {"O": {"node": "O", "force_N": [1, 0]}}}
         right = math.sqrt(spring / (mass * 1.2 ** 2 / 3)) / (2 * math.pi)
+        rounding = sys.float_info.epsilon * 3 * 1e13 * 1e-5 / 1.2 / spring  # of the arm's stiffness beside the spring's
         yield Neighbor("massless tail", f"{spring:g} N m/rad, tail of {length} m at {angle} rad", model,
-                       {"large-statics": {"vibration_modes": 1}}, "frequency_Hz", right, 2e-4)
+                       {"large-statics": {"vibration_modes": 1}}, "frequency_Hz", right, 1e-5 + 5 * rounding)
 
 
 def reduced_members():

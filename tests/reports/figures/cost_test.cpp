@@ -78,12 +78,4 @@ BOOST_AUTO_TEST_CASE(results_of_studies_alone_are_a_page_of_their_own) {
   BOOST_TEST(!contains(text, "Computing time of this report"));
 }
 
-/// 4 Gflop/s of 40, 5 GB/s of 10; its .8 operations a byte allow 8 Gflop/s.
-BOOST_AUTO_TEST_CASE(loops_stand_beside_what_core_and_memory_allow) {
-  const std::string row =
-      "<th scope=\"row\">A loop</th><td class=\"number\">4</td><td class=\"number\">10 %</td>"
-      "<td class=\"number\">5</td><td class=\"number\">50 %</td><td class=\"number\">50 %</td>";
-  BOOST_TEST(contains(page(), row));
-}
-
 BOOST_AUTO_TEST_SUITE_END()
