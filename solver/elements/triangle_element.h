@@ -60,10 +60,6 @@ template <std::size_t n>
   return points;
 }
 
-[[nodiscard]] inline TrianglePoints corners(const Model& model, const Triangle& triangle) {
-  return triangle_nodes<3>(model, triangle);
-}
-
 /// visit(all its nodes), three or six.
 template <class Visit>
 decltype(auto) visit_nodes(const Model& model, const Triangle& triangle, Visit&& visit) {

@@ -183,12 +183,6 @@ VectorXd SparseLdlt::solve_half_transposed(const VectorXd& y) const {
   return factors_->P.transpose() * x;
 }
 
-SparseMatrix SparseLdlt::square_root() const {
-  const VectorXd root = factors_->pivots.cwiseMax(0).cwiseSqrt();
-  const SparseMatrix U = root.asDiagonal() * SparseMatrix(factors_->ldlt.matrixU());
-  return U * factors_->P;
-}
-
 void Factorization::compute(const SparseMatrix& A) {
   scaling_ =
       A.diagonal().cwiseAbs().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 1.0; });

@@ -45,8 +45,6 @@ class SparseLdlt {
   /// y = D^(-1/2) L^-1 P b and x = P^T L^-T D^(-1/2) y, for a positive definite A.
   [[nodiscard]] Eigen::VectorXd solve_half(const Eigen::VectorXd& b) const;
   [[nodiscard]] Eigen::VectorXd solve_half_transposed(const Eigen::VectorXd& y) const;
-  /// R = D^(1/2) L^T P, so that R^T R = A; pivots below zero count as zero.
-  [[nodiscard]] SparseMatrix square_root() const;
 
  private:
   struct Factors;

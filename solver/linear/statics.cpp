@@ -195,7 +195,7 @@ void recover_triangles(const System& system, const VectorXd& u, StaticSolution& 
   const std::array<Vector3d, 6> points = triangle_node_coordinates();
   for (std::size_t i = 0; i < model.triangles.size(); ++i) {
     const Triangle& triangle = model.triangles[i];
-    const double size = std::abs(signed_area(corners(model, triangle)));
+    const double size = std::abs(signed_area(triangle_nodes<3>(model, triangle)));
     const auto stress = [&](const Vector3d& at) { return plate_stress(system, triangle, at, u); };
     solution.triangle_stress.row(static_cast<Index>(i)) = stress(Vector3d::Constant(1 / 3.0));
     for (std::size_t k = 0; k < (triangle.quadratic() ? 6 : 3); ++k) {

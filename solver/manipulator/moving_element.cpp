@@ -105,7 +105,7 @@ void add_triangles(const System& system, std::vector<MovingElement>& elements) {
     element.layout = MovingElement::Layout::triangle;
     element.part = plate_part(system.model, triangle.plate);
     if (triangle.quadratic()) throw ModelError("triangles of six nodes do not move yet");
-    const TrianglePoints points = corners(system.model, triangle);
+    const TrianglePoints points = triangle_nodes<3>(system.model, triangle);
     element.coordinates = system.coordinates.of_triangle<6>(triangle);
     const Plate& plate = system.model.plates[to_size(triangle.plate)];
     const TriangleStiffness<3> k = triangle_stiffness(points, plate);

@@ -2,7 +2,7 @@
 // two for their operations and bytes, which are counted from sizes. By hand:
 // build/release/tests/roofline
 #include <Eigen/Core>
-#include <Eigen/SparseCore>
+#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -79,7 +79,8 @@ void add_factorization(std::vector<LoopRate>& loops) {
   const SparseMatrix A = grid_laplacian(160);
   solver::SparseLdlt ldlt(solver::SparseLdlt::Triangle::lower);
   if (!ldlt.factorize(A)) return;
-  const SparseMatrix U = ldlt.square_root();  // (P^T L D^1/2)^T: entries of row i are column i of L
+  const Eigen::SimplicialLDLT<SparseMatrix> same(A);  // in an order of its own
+  const SparseMatrix U = same.matrixU();
   Eigen::VectorXd below = Eigen::VectorXd::Constant(A.rows(), -1);
   for (Index j = 0; j < U.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(U, j); it; ++it) ++below[it.row()];
