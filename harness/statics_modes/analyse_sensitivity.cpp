@@ -53,7 +53,7 @@ solver::FrequencySensitivity derive_by(const JsonView& method, const CaseModel& 
   return all;
 }
 
-/// Of parameters that elements have no derivatives of.
+/// Fills the columns of parameters without exact derivatives by differences.
 void differentiate_numerically(const CaseModel& case_model,
                                const std::vector<solver::DesignParameter>& parameters,
                                solver::FrequencySensitivity& result) {

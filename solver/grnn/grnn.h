@@ -51,9 +51,9 @@ struct Grnn {
 
 // The kernel weights of a GRNN, shared by prediction and cross-validation.
 
-/// What each column is divided by; 1 where it is constant.
+/// The divisor of each column; 1 for a constant one.
 [[nodiscard]] Eigen::VectorXd scale_of(const Eigen::MatrixXd& columns, InputScaling scaling);
-/// Sample x input, in scaled distances.
+/// The inputs in scaled distances, sample x input.
 [[nodiscard]] inline Eigen::MatrixXd scaled_inputs(const Grnn& network) {
   return network.inputs * network.scale.cwiseInverse().asDiagonal();
 }

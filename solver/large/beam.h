@@ -75,7 +75,7 @@ struct Beam : ElementSizes<12, 6> {
                                                      double rate) const {
     return forces((q0 + q1) / 2, q1 - q0, rate);
   }
-  /// Of bending [J].
+  /// Strain energy of bending [J].
   [[nodiscard]] double energy(const Coordinates& q) const;
   [[nodiscard]] Square mass() const;
   /// Forces at the nodes of a distributed load [N/m].

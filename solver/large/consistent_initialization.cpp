@@ -251,8 +251,8 @@ Outcome make_accelerations_consistent(const ConstrainedSystem& system, State& st
 
 PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& system,
                                              const Eigen::MatrixX3d& node, const VectorXd& member) {
-  // Of each coordinate the value that is set last. A map would take a noticeable part of the time
-  // of motions with damping, which request these velocities in every iteration.
+  // The value set last holds for a coordinate. A map would take a noticeable part of the time of
+  // motions with damping, which request these velocities in every iteration.
   VectorXd values = VectorXd::Constant(system.coordinates(), kNaN);
   const auto set = [&](Index k, double value) {
     if (k >= 0 && k < values.size()) values[k] = value;

@@ -136,7 +136,7 @@ class StepConvergence {
   [[nodiscard]] double last() const { return step_correction_ + projection_; }
 
  private:
-  /// What the same ratio makes of a correction; the correction itself if there was none before.
+  /// The next correction at the same rate of convergence; this one if there was none before.
   [[nodiscard]] double next_of(double correction, double previous) const {
     return count_ > 1 && correction < previous ? correction * (correction / previous) : correction;
   }
@@ -372,8 +372,8 @@ class EnergyMomentum final : public ConstrainedStepper {
  public:
   EnergyMomentum(const GeometricallyExactSystem& system, const TransientOptions& options,
                  const State& start, const Observer& observe)
-      // What Newton's method leaves is lost or gained energy: it iterates to a tenth of what is
-      // lost in storing the positions.
+      // A residual of Newton's method is lost or gained energy: it iterates to a tenth of the
+      // rounding of the positions.
       : ConstrainedStepper(system, options, start, observe,
                            {.relations = {.beta = 0.5, .gamma = 1},
                             .error_constant = 1.0 / 12,

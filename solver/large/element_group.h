@@ -14,7 +14,7 @@
 
 namespace trammel::solver::large_motion {
 
-/// Of the parts that a constraint row joins, from which its penalty rho follows (see `KktMatrix`).
+/// Scales of the parts that a constraint row joins; its penalty rho follows (see `KktMatrix`).
 struct RowScales {
   double unit = 1;  ///< of the residual: 1 rad if all coordinates are rotations, otherwise the
                     ///< model's size [m]

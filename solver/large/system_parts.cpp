@@ -351,7 +351,7 @@ class SystemBuilder {
     }
   }
 
-  /// How many elements and moments each coordinate takes part in.
+  /// Counts the elements and moments that use each coordinate.
   /// @throws ModelError  if a drive moves a coordinate to which nothing is joined.
   std::vector<int> count_uses() {
     std::vector<int> uses(to_size(layout_.total), 0);

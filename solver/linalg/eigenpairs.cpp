@@ -133,7 +133,7 @@ class Solver {
     return pairs.vector.rightCols((pairs.value.array() > zero).count()).rowwise().reverse();
   }
 
-  /// Of y -> F^-1 B F^-T y with F F^T = K - s B, in the complement of the known vectors.
+  /// Eigenvectors of F^-1 B F^-T, F F^T = K - s B, in the complement of the known vectors.
   [[nodiscard]] MatrixXd lanczos(Index count) const {
     const Index known_count = null_.cols() + X_.cols(), dimension = size_ - known_count;
     const Index wanted = std::min(count, dimension - 1);

@@ -241,31 +241,37 @@ Constraints build_constraints(const Model& model, const Discretisation& discreti
 }
 
 Eigen::VectorXd Constraints::multipliers(const Eigen::VectorXd& force) const {
-  // Square system of the kept rows and their pivots.
-  std::vector<Index> kept, number_of_pivot(to_size(T.rows()), -1);
+  // Square system of the kept rows and their pivots; supports, of one entry each, take what is
+  // left.
+  std::vector<Index> kept, supports, number_of_pivot(to_size(T.rows()), -1);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (pivot[i] < 0) continue;
-    number_of_pivot[to_size(pivot[i])] = std::ssize(kept);
-    kept.push_back(static_cast<Index>(i));
+    const bool is_support = rows[i].source == ConstraintRow::Source::support;
+    if (!is_support) number_of_pivot[to_size(pivot[i])] = std::ssize(kept);
+    (is_support ? supports : kept).push_back(static_cast<Index>(i));
   }
-  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(std::ssize(rows));
-  if (kept.empty()) return lambda;
-  const Index n = std::ssize(kept);
-  std::vector<Eigen::Triplet<double>> entries;
-  Eigen::VectorXd right(n);
-  for (Index k = 0; k < n; ++k) {
-    const auto row = to_size(kept[to_size(k)]);
-    right[k] = force[pivot[row]];
-    for (const auto& [u, c] : rows[row].terms) {
-      const Index equation = number_of_pivot[to_size(u)];
-      if (equation >= 0) entries.emplace_back(equation, k, c);
+  Eigen::VectorXd lambda = Eigen::VectorXd::Zero(std::ssize(rows)), left = force;
+  if (!kept.empty()) {
+    const Index n = std::ssize(kept);
+    std::vector<Eigen::Triplet<double>> entries;
+    Eigen::VectorXd right(n);
+    for (Index k = 0; k < n; ++k) {
+      const auto row = to_size(kept[to_size(k)]);
+      right[k] = force[pivot[row]];
+      for (const auto& [u, c] : rows[row].terms) {
+        const Index equation = number_of_pivot[to_size(u)];
+        if (equation >= 0) entries.emplace_back(equation, k, c);
+      }
     }
+    SparseMatrix matrix(n, n);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    SparseLu<double> lu;
+    if (!lu.factorize(matrix)) return lambda.setConstant(kNaN);
+    lambda(kept) = lu.solve(right);
   }
-  SparseMatrix matrix(n, n);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  SparseLu<double> lu;
-  if (!lu.factorize(matrix)) return lambda.setConstant(kNaN);
-  lambda(kept) = lu.solve(right);
+  for (const Index row : kept)
+    for (const auto& [u, c] : rows[to_size(row)].terms) left[u] -= c * lambda[row];
+  for (const Index row : supports) lambda[row] = left[pivot[to_size(row)]];
   return lambda;
 }
 

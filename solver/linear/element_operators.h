@@ -213,8 +213,8 @@ class Projection {
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
-/// K of the free coordinates in factors: B T and C of all elements (strain.h), without the rows
-/// that have no rigidity.
+/// K of the free coordinates in factors: B T and C of all elements (for_each_deformation), without
+/// the rows that have no rigidity.
 [[nodiscard]] StiffnessFactors stiffness_factors(const System& system);
 
 }  // namespace trammel::solver

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// L H of prestress.h.
+/// L H of geometric_stiffness.h.
 Eigen::Matrix3d geometric_rigidity(const FrameElement& e, BeamTheory theory, double N, double n) {
   Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
   H(0, 0) = N;

@@ -18,10 +18,10 @@ struct ModesOptions {
 /// Free vibration K x = w^2 M x (paper Eq. 28, 29), x^T M x = 1 (Eq. 33).
 ///
 /// Frequencies are Rayleigh quotients whose strain energy is summed over the elements' deformations
-/// (see strain.h), with vectors improved by inverse iteration with the same residuals: their
-/// round-off grows with the digits lost in taking the deformations from the displacements (about
-/// the square of the number of elements a wavelength), not with the condition number of K (its
-/// fourth power).
+/// (see element_operators.h), with vectors improved by inverse iteration with the same residuals:
+/// their round-off grows with the digits lost in taking the deformations from the displacements
+/// (about the square of the number of elements a wavelength), not with the condition number of K
+/// (its fourth power).
 struct ModalSolution {
   /// singular: a massless part moves freely; not_converged: fewer modes than the inertia count says
   Outcome outcome;

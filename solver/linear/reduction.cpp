@@ -207,7 +207,7 @@ System reduce_to_modes(const System& system, const ModalSolution& modes,
     counters.solves += 2;
     responses.push_back(answer);
   }
-  // Of unit strain energy, not of unit mass: coordinates without mass may respond too.
+  // They have unit strain energy, not unit mass: coordinates without mass may respond too.
   const MatrixXd beyond = beyond_modes(system.K, system.M, shape, responses);
   MatrixXd basis(shape.rows(), shape.cols() + beyond.cols());
   basis << shape, beyond;

@@ -19,7 +19,7 @@ struct StaticState {
 };
 
 /// K q = f, refined with residuals from the elements. If K has lost too many digits to be factored,
-/// q is solved for from the deformations of the elements and their forces (augmented_system.h).
+/// q is solved for from the deformations of the elements and their forces (forward_error.h).
 [[nodiscard]] StaticState solve_linear_statics(const System& system, Counters& counters);
 
 /// Not converged where a relative error of the displacements leaves less than one digit.

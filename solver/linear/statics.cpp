@@ -355,8 +355,8 @@ void add_members(const System& system, const ElasticState& state, const StaticSo
   }
 }
 
-/// Of springs and triangles; second-order forces of all but the members, whose section forces hold
-/// theirs.
+/// Forces of springs and triangles, and second-order forces of all but the members: the section
+/// forces of members include theirs.
 void add_other_elements(const System& system, const ElasticState& state, VectorXd& sum) {
   const auto add = [&](const auto& coordinates, const auto& B, const auto& c) {
     const auto deformation = (B * detail::gather(coordinates, state.u)).eval();

@@ -14,7 +14,8 @@ namespace trammel::solver {
 
 struct StaticsOptions {
   /// Second-order theory: (K + K_G) q = f with the geometric stiffness of the forces that the
-  /// solution has itself, so that tension stiffens and compression softens (see prestress.h).
+  /// solution has itself, so that tension stiffens and compression softens (see
+  /// geometric_stiffness.h).
   bool second_order = false;
 };
 
@@ -22,12 +23,11 @@ struct StaticsOptions {
 /// from a member's first to its second node, x along it and y to its left: tension is positive,
 /// EI v'' = M, dM/dx = -V, dV/dx = -q_y, dN/dx = -q_x.
 struct StaticSolution {
-  Outcome outcome;           ///< singular: the reason names the free motion in words
-  Eigen::VectorXd q;         ///< free coordinates; see node_motion
-  Prestress forces;          ///< second-order theory: of q, those that hold it
-  double amplification = 1;  ///< of what second-order theory adds, by the loads [-]
-  double estimated_correct_digits =
-      0;  ///< of the largest displacement: linear_solution.h, second_order.h
+  Outcome outcome;                      ///< singular: the reason names the free motion in words
+  Eigen::VectorXd q;                    ///< free coordinates; see node_motion
+  Prestress forces;                     ///< second-order theory: of q, those that hold it
+  double amplification = 1;             ///< of what second-order theory adds, by the loads [-]
+  double estimated_correct_digits = 0;  ///< of the largest displacement: second_order.h
   Eigen::MatrixX3d displacement;  ///< model node x (ux [m], uy [m], rotation [rad]); NaN rotation
                                   ///< where a node has none
   Eigen::MatrixX2d end_rotation;  ///< member x (first, second end) [rad]
@@ -107,7 +107,7 @@ struct ForceSum {
 
   void add(const Vector2d& at, const Vector2d& f, double m);
 };
-/// Of loads on the unconstrained coordinates and of the reactions of supports.
+/// Sums loads on the unconstrained coordinates and reactions of supports.
 /// @param position  of the nodes of the mesh [m]
 [[nodiscard]] ForceSum sum_forces(const System& system, const std::vector<Vector2d>& position,
                                   const Eigen::VectorXd& load, const StaticSolution& solution);

@@ -12,12 +12,8 @@ namespace trammel::solver {
 
 namespace {
 
-[[noreturn]] void fail(const std::string& what) {
-  throw ModelError(what);
-}
-
 void require(bool holds, const std::string& part, const char* what) {
-  if (!holds) fail(part + ' ' + what);
+  if (!holds) throw ModelError(part + ' ' + what);
 }
 
 /// Zero and positive; false for NaN and infinity.
@@ -55,8 +51,8 @@ class Validator {
  private:
   void known(Index node, const std::string& part) const {
     if (node < 0 || node >= static_cast<Index>(model_.nodes.size())) {
-      fail(part + " names node " + std::to_string(node) + ", but the model has " +
-           std::to_string(model_.nodes.size()) + " nodes");
+      throw ModelError(part + " names node " + std::to_string(node) + ", but the model has " +
+                       std::to_string(model_.nodes.size()) + " nodes");
     }
   }
 
@@ -127,15 +123,14 @@ class Validator {
     const Triangle& triangle = model_.triangles[i];
     const std::string part = "triangle " + std::to_string(i);
     on_plate(triangle.plate, triangle.nodes, triangle.quadratic() ? 6 : 3, part);
-    const TrianglePoints p = {position(triangle.nodes[0]), position(triangle.nodes[1]),
-                              position(triangle.nodes[2])};
+    const TrianglePoints p = triangle_nodes<3>(model_, triangle);
     const double longest = std::max(
         {(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()});
     if (triangle.quadratic()) curved(triangle, part);
     if (!(std::abs(signed_area(p)) > 1e-12 * longest)) {
-      fail(part + " (" + node_label(model_, triangle.nodes[0]) + ", " +
-           node_label(model_, triangle.nodes[1]) + ", " + node_label(model_, triangle.nodes[2]) +
-           ") has no area");
+      throw ModelError(part + " (" + node_label(model_, triangle.nodes[0]) + ", " +
+                       node_label(model_, triangle.nodes[1]) + ", " +
+                       node_label(model_, triangle.nodes[2]) + ") has no area");
     }
   }
 

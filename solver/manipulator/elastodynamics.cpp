@@ -239,8 +239,8 @@ class MotionSolver {
     return outcome;
   }
 
-  /// Where inextensible links move and the rates of T are left out, the work of free coordinates
-  /// depends on the axes.
+  /// The work of free coordinates depends on the axes if inextensible links move and the rates of T
+  /// are left out.
   [[nodiscard]] bool work_depends_on_axes() const {
     return !options_.gyroscopic && !follower_.stands_still() &&
            std::ranges::any_of(moving_.constraints().rows, [](const ConstraintRow& row) {
@@ -280,7 +280,7 @@ class MotionSolver {
     solution_.nominal.push_back(follower_.point());
     solution_.nominal.back().time = sample.time;
     solution_.energy.push_back(sample.energy);
-    // Where the load begins or jumps, coordinates without mass do not follow it yet.
+    // Coordinates without mass do not follow a load yet that begins or jumps.
     const std::vector<double>& jumps = options_.load_history.time;
     const bool jumps_here = std::ranges::find(jumps, sample.time) != jumps.end();
     const bool begins =
@@ -293,7 +293,7 @@ class MotionSolver {
     update_effect_numbers();
   }
 
-  /// Of P, as a row of displacements.
+  /// Displacement of P, as a row of displacements.
   [[nodiscard]] Vector3d quasi_static_displacement(const StaticSolution& state) {
     const Index P = moving_.start().model.find_node("P");
     if (!options_.elastic_inertia) return state.displacement.row(P);

@@ -31,7 +31,7 @@ struct ErrorNorm {
   template <class Algebra>
   double error(Algebra&, const State& y, const State&, const State& error, double) const {
     if (!error.allFinite()) return std::numeric_limits<double>::infinity();
-    // Of positions (first = 0) or velocities (3).
+    // Largest position (first = 0) or velocity (3).
     const auto size = [this](const State& x, Index first) {
       return x.segment<3>(first).cwiseProduct(Vector3d(1, 1, radius)).cwiseAbs().maxCoeff();
     };

@@ -68,7 +68,7 @@ template <class T>
 // How the natural frequencies of the manipulator change with its design (paper Eq. 30-35):
 //   d f / dp = (1 / 8 pi^2 f) x^T (dK/dp - (2 pi f)^2 dM/dp) x,   x^T M x = 1,
 // with the pose held, so that the joint angles move with the link lengths. dK/dp and dM/dp are
-// exact: dual numbers (dual.h) through the functions that the builder and the elements are made
+// exact: dual numbers (numbers.h) through the functions that the builder and the elements are made
 // of; for other parameters than those of sections and links (`is_seeded`) they are NaN. Whether a
 // link's mass is held as a total or follows from its density is the design's choice.
 

@@ -66,8 +66,9 @@ struct Posture {
 /// @throws ModelError  as `check_geometry`, or where the pose is not finite.
 [[nodiscard]] Posture inverse_kinematics(const ManipulatorGeometry& geometry, const Pose& pose);
 
-/// B_i of a limb within reach, by the same formulas. Over Dual (dual.h) it carries the derivative
-/// with respect to a link length, the pose held; infinite where the limb is straight or folded.
+/// B_i of a limb within reach, by the same formulas. Over Dual (numbers.h) it carries the
+/// derivative with respect to a link length, the pose held; infinite where the limb is straight or
+/// folded.
 template <Real T>
 [[nodiscard]] Eigen::Vector2<T> elbow_position(const Vector2d& A, const Vector2d& C,
                                                const T& proximal, const T& distal,

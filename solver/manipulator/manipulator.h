@@ -33,7 +33,7 @@ using ActiveJoint = Joint<ActiveKind>;
 using ElbowJoint = Joint<ElbowKind>;
 using PlatformJoint = Joint<PlatformJointKind>;
 
-/// A straight link of rectangular section. Over Dual (dual.h) it carries a derivative.
+/// A straight link of rectangular section. Over Dual (numbers.h) it carries a derivative.
 template <class T>
 struct LinkDesignOf {
   T thickness = T(0);  ///< in the plane [m]

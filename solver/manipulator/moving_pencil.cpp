@@ -186,7 +186,7 @@ void MovingPencil::measure_strain(const VectorBlock<rows>& X,
   measures.rounding *= 2 * kEps;
 }
 
-/// Row by row; none is judged by coordinates that are rounding of the others (backward_error.h),
+/// Row by row; none is judged by coordinates that are rounding of the others (dense_eigen.h),
 /// modes inside by the energy of the whole.
 template <int rows>
 void MovingPencil::measure_residual(const VectorBlock<rows>& X, const VectorBlock<rows>& MX,

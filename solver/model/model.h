@@ -20,7 +20,7 @@ namespace trammel::solver {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Isotropic linear elastic material. Over Dual (dual.h) it carries a derivative.
+/// Isotropic linear elastic material. Over Dual (numbers.h) it carries a derivative.
 template <class T>
 struct MaterialOf {
   T E = T(0);    ///< Young's modulus [Pa]

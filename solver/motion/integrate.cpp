@@ -125,7 +125,7 @@ class FreeSteps {
       size_ = std::min(options_.step, 2 * size_);
       return;
     }
-    // What a stop cut short does not shrink the next step.
+    // A step that a stop cut short does not shrink the next one.
     const double wanted = step.size * 0.85 / std::cbrt(std::max(error, 1e-6));
     size_ = std::clamp(wanted, 0.3 * step.size, std::max(1.8 * step.size, size_));
   }

@@ -39,7 +39,7 @@ struct TransientOptions {
   bool quasi_static_start = false;  ///< K q = f - C v with its velocity; otherwise from q0, v0
   Eigen::VectorXd q0, v0;           ///< empty: zero
 
-  // Of geometrically exact systems.
+  // Options of geometrically exact systems.
   std::vector<double> breakpoints;       ///< ascending; a step ends at each [s]
   int steps_in_multiples_of = 1;         ///< between stops; fixed steps only
   std::int64_t max_steps = 100'000'000;  ///< at most, rejected ones included

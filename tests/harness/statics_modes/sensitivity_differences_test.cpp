@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(every_variant_of_the_model_agrees_with_differences) {
     const Comparison thickness = compare(design, all(Kind::thickness), 1, 2e-2, 2);
     BOOST_TEST(thickness.worst < 1e-8);
     const Comparison single = compare(design, one_length(1, false), 1, 5e-3, 3);
-    BOOST_TEST(single.worst < 2e-8);  // shapes are rounded by the stiffness ratio of the links
+    BOOST_TEST(single.worst < 1e-8);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include "solver/elements/block_mesh.h"
 #include "solver/linear/fields.h"
+#include "tests/support/solver/frames.h"
 
 BOOST_AUTO_TEST_SUITE(consistent_load)
 
@@ -32,13 +33,7 @@ Vector3d resultant(const t::System& system) {
 }
 
 t::System inclined_beam(t::BeamTheory theory) {
-  t::Member member;
-  member.section.EA = 1e6;
-  member.section.EI = 1e3;
-  member.section.kappa_GA = 4e5;
-  member.end_section = member.section;
-  member.theory = theory;
-  t::Model model = t::mesh_line({Vector2d(0, 0), Vector2d(1.6, 1.2), 3, 0.2}, member);
+  t::Model model = trammel::testing::inclined_line(theory);
   model.supports.push_back({"start", 0, {true, true, true}});
   return t::assemble(model);
 }

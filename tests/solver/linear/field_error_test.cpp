@@ -4,6 +4,7 @@
 
 #include "solver/elements/block_mesh.h"
 #include "solver/linear/fields.h"
+#include "tests/support/solver/frames.h"
 
 BOOST_AUTO_TEST_SUITE(field_error)
 
@@ -34,13 +35,7 @@ VectorXd nodal_values(const t::System& system, double a) {
 }
 
 t::System beam(t::BeamTheory theory) {
-  t::Member member;
-  member.section.EA = 1e6;
-  member.section.EI = 1e3;
-  member.section.kappa_GA = 4e5;
-  member.end_section = member.section;
-  member.theory = theory;
-  return t::assemble(t::mesh_line({Vector2d(0, 0), Vector2d(1.6, 1.2), 3, 0.2}, member));
+  return t::assemble(trammel::testing::inclined_line(theory));
 }
 
 /// Pure bending: v = c s^2 / 2, θ = c s along the beam.

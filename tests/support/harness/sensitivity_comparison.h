@@ -9,7 +9,10 @@
 namespace trammel::solver {
 
 struct Comparison {
-  double worst = 0;  ///< largest error over the largest derivative of that mode
+  /// Largest error over the largest derivative of that mode. A derivative that happens to be nearly
+  /// zero counts as a thousandth of the largest one, both over the frequency: differences round off
+  /// by the frequency, not by its derivative.
+  double worst = 0;
   Index compared = 0;
   Index repeated = 0;  ///< poses with repeated frequencies
 };
@@ -20,7 +23,7 @@ inline Comparison compare(const ManipulatorDesign& design, const DesignParameter
   constexpr Index kModes = 6;
   std::mt19937_64 engine(seed);
   VectorXd error = VectorXd::Zero(kModes);
-  VectorXd largest = VectorXd::Zero(kModes);
+  VectorXd largest = VectorXd::Zero(kModes), frequency = largest;
   Comparison result;
   for (int i = 0; i < poses; ++i) {
     const bool symmetric = centred > 0 && i % centred == 0;
@@ -32,6 +35,7 @@ inline Comparison compare(const ManipulatorDesign& design, const DesignParameter
     if (!differences.outcome.solved()) throw ModelError(differences.outcome.reason);
     error = error.cwiseMax((s.derivative.col(0) - differences.derivative).cwiseAbs());
     largest = largest.cwiseMax(s.derivative.col(0).cwiseAbs());
+    frequency = frequency.cwiseMax(s.frequency);
     ++result.compared;
     for (const FrequencySet& set : s.sets) {
       if (set.count < 2) continue;
@@ -39,7 +43,8 @@ inline Comparison compare(const ManipulatorDesign& design, const DesignParameter
       break;
     }
   }
-  result.worst = error.cwiseQuotient(largest).maxCoeff();
+  const double scale = largest.cwiseQuotient(frequency).maxCoeff();
+  result.worst = error.cwiseQuotient(largest.cwiseMax(1e-3 * scale * frequency)).maxCoeff();
   return result;
 }
 

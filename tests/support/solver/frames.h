@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "solver/elements/block_mesh.h"
 #include "solver/model/model.h"
 
 /// Small frames that the tests of the solver share.
@@ -73,6 +74,17 @@ inline Model pinned_double_cross(Index elements_an_arm) {
     model.supports.push_back(pin(k + 1));
   }
   return model;
+}
+
+/// Three members of unequal length in line, of slope 3/4, without supports.
+inline Model inclined_line(BeamTheory theory) {
+  Member part;
+  part.section.EA = 1e6;
+  part.section.EI = 1e3;
+  part.section.kappa_GA = 4e5;
+  part.end_section = part.section;
+  part.theory = theory;
+  return mesh_line({Vector2d(0, 0), Vector2d(1.6, 1.2), 3, 0.2}, part);
 }
 
 }  // namespace trammel::testing
