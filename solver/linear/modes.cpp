@@ -56,8 +56,10 @@ double floating_shift(const System& system, const MatrixXd& Z, Counters& counter
 }
 
 /// Largest backward error of (K + K_G) x = w^2 M x over the modes, and the number of modes.
-void judge(const System& system, const SparseMatrix& K_G, ModalSolution& solution,
-           Factorization&& spent = {}, double shift_above = 0) {
+/// @param K  the sum of both
+/// @param K_G  empty without prestress
+void judge(const System& system, const SparseMatrix& K, const SparseMatrix& K_G,
+           ModalSolution& solution, Factorization&& spent = {}, double shift_above = 0) {
   if (!solution.outcome.solved()) return;
   const VectorXd w2 = (2 * std::numbers::pi * solution.frequency).cwiseAbs2();
   if (w2.size() > 0) {
@@ -65,11 +67,10 @@ void judge(const System& system, const SparseMatrix& K_G, ModalSolution& solutio
     RowBalance<double> rows(system, u.cols());
     rows.add_stiffness(u);
     rows.add_inertia(u * (-w2).asDiagonal());
-    rows.add(K_G, solution.shape);
+    if (K_G.nonZeros() > 0) rows.add(K_G, solution.shape);
     solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());
   }
-  const double missed =
-      miscounted_eigenvalues(system.K + K_G, system.M, w2, std::move(spent), shift_above);
+  const double missed = miscounted_eigenvalues(K, system.M, w2, std::move(spent), shift_above);
   const auto twice = static_cast<double>(dependent_vectors(system.M, solution.shape));
   solution.evidence.add(Residual::mode_count, missed + twice);
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
@@ -82,13 +83,14 @@ ModalSolution solve(const System& system, const ModesOptions& options,
   ModalSolution solution;
   solution.counters = system.counters;
   Counters& counters = solution.counters;
-  SparseMatrix K_G(system.K.rows(), system.K.cols());
+  SparseMatrix K_G(system.K.rows(), system.K.cols()), stiffened;
   if (system.K.rows() == 0) {  // nothing can move
-    judge(system, K_G, solution);
+    judge(system, system.K, K_G, solution);
     return solution;
   }
   if (state) K_G = geometric_stiffness(system, state->forces);
-  const SparseMatrix K = system.K + K_G;
+  if (state) stiffened = system.K + K_G;
+  const SparseMatrix& K = state ? stiffened : system.K;
   Factorization factorization;
   factorization.compute(shifted(K, system.M, 0));
   ++counters.factorizations;
@@ -106,8 +108,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
     return solution;
   }
   Eigenpairs pairs;
-  const bool swings = free.count() == 0 || has_elastic_inertia(system.M, free.basis);
-  if (swings) {
+  if (free.count() == 0 || has_elastic_inertia(system.M, free.basis)) {
     Pencil pencil;
     pencil.K = &K;
     pencil.B = &system.M;
@@ -117,10 +118,11 @@ ModalSolution solve(const System& system, const ModesOptions& options,
       ++counters.factorizations;
     }
     pencil.K_times = [&, elastic = stiffness_operator(system)](const VectorXd& x) -> VectorXd {
-      return elastic(x) + K_G * x;
+      return state ? VectorXd(elastic(x) + K_G * x) : elastic(x);
     };
     pencil.K_products = [&](const MatrixXd& X) -> MatrixXd {
-      return strain_products(system, system.T * X) + X.transpose() * (K_G * X);
+      const MatrixXd elastic = strain_products(system, system.T * X);
+      return state ? MatrixXd(elastic + X.transpose() * (K_G * X)) : elastic;
     };
     const Index elastic = std::max<Index>(0, options.count - free.count());
     pairs = lowest_eigenpairs(pencil, free.basis, elastic, options.method, factorization, counters);
@@ -136,13 +138,13 @@ ModalSolution solve(const System& system, const ModesOptions& options,
   for (Index j = 0; j < elastic; ++j) {
     const double w2 = pairs.value[j];
     const VectorXd x = pairs.vector.col(j);
-    const double rounding = strain_roundoff(system, system.T * x) +
-                            geometric_energy_roundoff(system, K_G, of_forces, x);
+    double rounding = strain_roundoff(system, system.T * x);
+    if (state) rounding += geometric_energy_roundoff(system, K_G, of_forces, x);
     solution.frequency[rigid + j] = std::sqrt(w2) / (2 * std::numbers::pi);
     solution.roundoff[rigid + j] = 0.5 * (rounding / w2 + pairs.error[j]) + 4 * kEps;
     solution.shape.col(rigid + j) = x;
   }
-  judge(system, K_G, solution, std::move(factorization), pairs.check_shift);
+  judge(system, K, K_G, solution, std::move(factorization), pairs.check_shift);
   return solution;
 }
 
