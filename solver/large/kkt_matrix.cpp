@@ -10,12 +10,6 @@
 
 namespace trammel::solver::large_motion {
 
-namespace {
-
-using Blocks = std::vector<std::vector<Index>>;
-
-}  // namespace
-
 struct KktMatrix::Factors {
   SparseLdlt ldlt{SparseLdlt::Triangle::upper, SparseLdlt::Ordering::natural};
   SparseLu<double> lu;
@@ -125,13 +119,19 @@ KktMatrix::Extended KktMatrix::multiply(const Extended& x) const {
   return permutation_.transpose() * Extended(matrix_.cast<long double>() * ordered);
 }
 
-Eigen::SparseMatrix<double> KktMatrix::constraint_gradient(const VectorXd& scale,
-                                                           const VectorXd& row_unit) const {
-  const Eigen::PermutationMatrix<Eigen::Dynamic> inverse(permutation_.inverse());
-  Eigen::SparseMatrix<double> all;
-  all = matrix_.twistedBy(inverse);
-  const Eigen::SparseMatrix<double> G = all.bottomLeftCorner(constraints_, coordinates_);
-  return row_unit.cwiseInverse().asDiagonal() * G * scale.asDiagonal();
+Eigen::MatrixXd KktMatrix::constraint_gradient(const VectorXd& scale,
+                                               const VectorXd& row_unit) const {
+  const Eigen::PermutationMatrix<Eigen::Dynamic> unknown(permutation_.inverse());
+  Eigen::MatrixXd G = Eigen::MatrixXd::Zero(constraints_, coordinates_);
+  for (Index k = 0; k < matrix_.cols(); ++k) {
+    const Index column = unknown.indices()[k];
+    if (column >= coordinates_) continue;
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix_, k); entry; ++entry) {
+      const Index row = unknown.indices()[entry.row()] - coordinates_;
+      if (row >= 0) G(row, column) = entry.value() * scale[column] / row_unit[row];
+    }
+  }
+  return G;
 }
 
 double KktMatrix::energy_over_roundoff(const Extended& x) const {

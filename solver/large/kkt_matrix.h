@@ -29,17 +29,14 @@ using Eigen::VectorXd;
 /// The pattern is set once; assembling, factoring and solving reuse its memory.
 class KktMatrix {
  public:
+  using Blocks = std::vector<std::vector<Index>>;
   using Extended = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
   /// @param blocks  each lists the unknowns that an element couples; rows are numbered from
   ///                `coordinates` on; every row belongs to one block only; unknowns below 0 or not
   ///                listed as free take no part.
-  KktMatrix(Index coordinates, Index constraints, const std::vector<std::vector<Index>>& blocks);
+  KktMatrix(Index coordinates, Index constraints, const Blocks& blocks);
   ~KktMatrix();
-  KktMatrix(const KktMatrix&) = delete;
-  KktMatrix& operator=(const KktMatrix&) = delete;
-  KktMatrix(KktMatrix&&) = delete;
-  KktMatrix& operator=(KktMatrix&&) = delete;
 
   void clear();
 
@@ -71,7 +68,8 @@ class KktMatrix {
     const Rows least = penalty.unaryExpr([](double x) { return x > 0 ? 1e-11 / x : 0; });
     const Rows compliance = c.cwiseProduct(E).cwiseMax(least);
     Eigen::Matrix<double, kSize, kSize> all(n + m, n + m);
-    all.template topLeftCorner<N, N>(n, n) = S + D.transpose() * penalty.asDiagonal() * G;
+    const Eigen::Matrix<double, N, M> penalized = D.transpose() * penalty.asDiagonal();
+    all.template topLeftCorner<N, N>(n, n) = S + penalized.lazyProduct(G);
     all.template topRightCorner<N, M>(n, m) = D.transpose() * E.asDiagonal();
     all.template bottomLeftCorner<M, N>(m, n) = E.asDiagonal() * G;
     all.template bottomRightCorner<M, M>(m, m) = (-compliance).asDiagonal();
@@ -97,8 +95,8 @@ class KktMatrix {
 
   /// G of the rows in units of their own and of the coordinates: G_rk scale_k / row_unit_r.
   /// @pre assembled without penalties
-  [[nodiscard]] Eigen::SparseMatrix<double> constraint_gradient(const VectorXd& scale,
-                                                                const VectorXd& row_unit) const;
+  [[nodiscard]] Eigen::MatrixXd constraint_gradient(const VectorXd& scale,
+                                                    const VectorXd& row_unit) const;
 
   /// Energy of a motion over the round-off error that the rounded entries leave in it: the square
   /// root of the sum of the squared terms, times 16 epsilon. Up to 1 the motion is free. The sum of
@@ -117,8 +115,8 @@ class KktMatrix {
  private:
   struct Factors;
 
-  void order(const std::vector<std::vector<Index>>& blocks);
-  void locate(const std::vector<std::vector<Index>>& blocks);
+  void order(const Blocks& blocks);
+  void locate(const Blocks& blocks);
 
   Index coordinates_ = 0, constraints_ = 0;
   Eigen::PermutationMatrix<Eigen::Dynamic> permutation_;  ///< of elimination

@@ -228,7 +228,7 @@ Index redundant_constraints(const GeometricallyExactSystem& system, const State&
   matrix.clear();
   system.tangent(state, coefficients, matrix);
   Eigen::SparseMatrix<double> columns =
-      matrix.constraint_gradient(system.scale(), system.row_unit()).transpose();
+      matrix.constraint_gradient(system.scale(), system.row_unit()).transpose().sparseView();
   VectorXd factor = VectorXd::Zero(columns.cols());
   for (Index r = 0; r < columns.cols(); ++r) {
     const double size = columns.col(r).norm();  // 0 for what supports hold at both ends

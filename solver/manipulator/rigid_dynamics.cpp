@@ -192,8 +192,8 @@ RigidTerms rigid_terms(const RigidManipulator& m, const Pose& pose, const Vector
     BodyTerms& body = terms.bodies[to_size(b)];
     body = {body_inertia(m, b), values_of(place.position), values_of(place.J), rates_of(place.J)};
     const Matrix93d momentum = body.J.transpose() * body.inertia.asDiagonal();
-    terms.M += momentum * body.J;
-    terms.C += momentum * body.J_dot;
+    terms.M += momentum.lazyProduct(body.J);
+    terms.C += momentum.lazyProduct(body.J_dot);
     terms.N -= momentum.leftCols<2>() * m.gravity;
   }
   const Eigen::Matrix<Dual, 9, 3> W = motion_map(m, q);

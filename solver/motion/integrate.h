@@ -84,10 +84,7 @@ struct StepReport {
 class Stepper {
  public:
   Stepper() = default;
-  Stepper(const Stepper&) = delete;
-  Stepper& operator=(const Stepper&) = delete;
-  Stepper(Stepper&&) = delete;
-  Stepper& operator=(Stepper&&) = delete;
+  Stepper& operator=(Stepper&&) = delete;  // nor are steppers copied
   virtual ~Stepper() = default;
 
   /// Prepares the steps up to the next stop.
