@@ -1,4 +1,4 @@
-#include "harness/analysis/analyse_comparison.h"
+#include "harness/analysis/analyse_study.h"
 
 namespace trammel::harness {
 

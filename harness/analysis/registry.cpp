@@ -3,27 +3,11 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "harness/analysis/analyse_comparison.h"
 #include "harness/analysis/analyse_model_probabilities.h"
-#include "harness/analysis/analyse_options.h"
 #include "harness/analysis/analyse_study.h"
 #include "harness/base/text.h"
-#include "harness/motion/analyse_elastodynamics.h"
-#include "harness/motion/analyse_forward_dynamics.h"
-#include "harness/motion/analyse_grnn.h"
-#include "harness/motion/analyse_harmonic.h"
-#include "harness/motion/analyse_inverse_dynamics.h"
-#include "harness/motion/analyse_kinematics.h"
-#include "harness/motion/analyse_large_motion.h"
-#include "harness/motion/analyse_transient.h"
-#include "harness/statics_modes/analyse_buckling.h"
-#include "harness/statics_modes/analyse_large_statics.h"
-#include "harness/statics_modes/analyse_manufactured.h"
-#include "harness/statics_modes/analyse_modes.h"
-#include "harness/statics_modes/analyse_properties.h"
-#include "harness/statics_modes/analyse_sensitivity.h"
-#include "harness/statics_modes/analyse_sensitivity_map.h"
-#include "harness/statics_modes/analyse_statics.h"
+#include "harness/motion/analyses.h"
+#include "harness/statics_modes/analyses.h"
 
 namespace trammel::harness {
 namespace {
@@ -61,7 +45,8 @@ const std::vector<AnalysisKind>& analysis_kinds() {
       {.name = "large-motion",
        .of_scene = analyse_large_motion,
        .effects = &large_motion_effects(),
-       .evidence = {Residual::equation_of_motion, Residual::constraints}},
+       .evidence = {Residual::equation_of_motion, Residual::constraints},
+       .has_own_times = true},
       {.name = "harmonic",
        .of_scene = analyse_harmonic,
        .effects = &harmonic_effects(),
