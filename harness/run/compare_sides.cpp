@@ -6,11 +6,12 @@
 #include <cmath>
 #include <limits>
 #include <set>
-#include <tuple>
 
 #include "harness/base/quantity.h"
+#include "harness/base/rows.h"
 #include "harness/base/text.h"
 #include "harness/base/timing.h"
+#include "harness/run/diff.h"
 #include "harness/run/stored_results.h"
 #include "harness/studies/mode_match.h"
 
@@ -286,24 +287,21 @@ void match_by_shape(const Runs& runs, const std::vector<const Document*>& docume
   std::erase_if(found.numbers, by_number);
 }
 
-/// "deflection[2] passes, failed before", at most three of them.
+/// Other endings, and at most three other verdicts of each side.
 void add_verdicts(const Runs& runs, const std::vector<std::string>& labels, ComparedRun& found) {
-  using Key = std::tuple<std::string, std::string, std::optional<int>>;
-  std::map<Key, results::Verdict> before;
-  for (const results::Check& check : runs.front()->checks)
-    before.emplace(Key{check.name, check.quantity, check.index}, check.verdict);
+  Entries first;
+  add_entries(*runs.front(), found.name, first);
   for (std::size_t s = 1; s < runs.size(); ++s) {
-    if (runs[s]->status != runs.front()->status)
-      found.remarks.push_back("ends " + to_string(runs[s]->status) + " in " + labels[s] + ", " +
-                              to_string(runs.front()->status) + " in " + labels.front());
-    std::set<std::string> said;
-    for (const results::Check& check : runs[s]->checks) {
-      const auto known = before.find({check.name, check.quantity, check.index});
-      if (known == before.end() || known->second == check.verdict) continue;
-      if (said.size() >= 3 || !said.insert(check.name).second) continue;
-      found.remarks.push_back("check " + check.name + ": " + to_string(check.verdict) + " in " +
-                              labels[s] + ", " + to_string(known->second) + " in " +
-                              labels.front());
+    Entries other;
+    add_entries(*runs[s], found.name, other);
+    std::set<std::string> checks;
+    for (const DiffRow& row : diff(first, other)) {
+      if (!row.in_both() || row.before->verdict == row.after->verdict) continue;
+      const std::string check = row.is_run() ? "" : row.after->check->name;
+      if (!row.is_run() && (checks.size() >= 3 || !checks.insert(check).second)) continue;
+      found.remarks.push_back(
+          fmt::format("{}{} in {}, {} in {}", row.is_run() ? "ends " : "check " + check + ": ",
+                      row.after->verdict, labels[s], row.before->verdict, labels.front()));
     }
   }
 }
@@ -338,13 +336,15 @@ ComparedRun compare_runs(const std::string& name, const Runs& runs,
 
 /// Relative errors against references by check entry.
 std::map<std::string, double> errors_of(const std::string& name, const results::Run& run) {
+  Entries entries;
+  add_entries(run, name, entries);
   std::map<std::string, double> errors;
-  for (const results::Check& check : run.checks) {
-    if (check.reference.empty() || !check.computed || !check.expected || *check.expected == 0)
+  for (const auto& [entry_name, entry] : entries) {
+    const results::Check* check = entry.check;
+    if (check == nullptr || check->reference.empty() || !check->computed || !check->expected ||
+        *check->expected == 0)
       continue;
-    const std::string key = fmt::format("{} {} {} {} {}", name, check.name, check.quantity,
-                                        check.statistic, check.index.value_or(-1));
-    errors[key] = std::abs(*check.computed - *check.expected) / std::abs(*check.expected);
+    errors[entry_name] = std::abs(*check->computed - *check->expected) / std::abs(*check->expected);
   }
   return errors;
 }
@@ -444,37 +444,31 @@ std::string words_of(const ComparedValue& value, const std::string& name, const 
   return text + " (" + number(from) + " to " + number(to) + (unit == "1" ? "" : " " + unit) + ")";
 }
 
-/// What has changed most in a run.
+/// What has changed most in a run: a mode, else a number, else a remark.
 std::string most_changed(const ComparedRun& run, const std::vector<ComparedSide>& sides) {
-  const ComparedModes* modes = nullptr;
-  for (const ComparedModes& one : run.modes)
-    if (one.changed && (modes == nullptr || one.share > modes->share)) modes = &one;
-  if (modes != nullptr)
-    return words_of(*modes, "the frequency of mode " + std::to_string(modes->modes[0].front()),
-                    "Hz", sides);
-  if (!run.numbers.empty() && run.numbers.front().changed) {
-    const ComparedNumber& number = run.numbers.front();
-    const std::string entry = number.entries > 1 ? "[" + std::to_string(number.index) + "]" : "";
-    return words_of(number, number.quantity + entry, unit_of(number.quantity), sides);
-  }
-  return run.remarks.empty() ? "" : run.remarks.front();
-}
-
-std::string runs_text(std::size_t n) {
-  return std::to_string(n) + (n == 1 ? " run" : " runs");
+  const auto mode = std::ranges::max_element(
+      run.modes, {}, [](const ComparedModes& m) { return m.changed ? m.share : -1; });
+  if (mode != run.modes.end() && mode->changed)
+    return words_of(*mode, fmt::format("the frequency of mode {}", mode->modes[0].front()), "Hz",
+                    sides);
+  if (run.numbers.empty() || !run.numbers.front().changed)
+    return run.remarks.empty() ? "" : run.remarks.front();
+  const ComparedNumber& number = run.numbers.front();
+  const std::string entry = number.entries > 1 ? fmt::format("[{}]", number.index) : "";
+  return words_of(number, number.quantity + entry, unit_of(number.quantity), sides);
 }
 
 /// What the same names have become.
 std::string conclusion_of_runs(const SideComparison& comparison) {
   const std::size_t all = comparison.same + comparison.within_noise + comparison.changed;
-  const std::string same = runs_text(comparison.same) + (comparison.same == 1 ? " is" : " are") +
-                           " the same bit for bit, " + std::to_string(comparison.within_noise) +
-                           (comparison.within_noise == 1 ? " differs" : " differ") +
-                           " by round-off";
+  const std::string same =
+      fmt::format("{} {} the same bit for bit, {} {} by round-off",
+                  count_of(comparison.same, "run"), comparison.same == 1 ? "is" : "are",
+                  comparison.within_noise, comparison.within_noise == 1 ? "differs" : "differ");
   if (comparison.changed == 0) return "Nothing has changed: " + same;
   const ComparedRun& first = comparison.runs.front();
   return fmt::format("{} of {} changed beyond round-off, most {}: {}; {}", comparison.changed,
-                     runs_text(all), first.name, most_changed(first, comparison.sides), same);
+                     count_of(all, "run"), first.name, most_changed(first, comparison.sides), same);
 }
 
 /// What one variant makes of another.
@@ -509,7 +503,7 @@ std::map<std::string, Runs> runs_by_name(std::vector<Side>& sides) {
   for (std::size_t s = 0; s < sides.size(); ++s)
     for (const results::Run& run : sides[s].results.runs) {
       const bool variants = sides[s].document.has_value();
-      Runs& runs = by_name[variants ? sides[0].label : run.case_id + ":" + run.variant];
+      Runs& runs = by_name[variants ? sides[0].label : name_of(run)];
       runs.resize(sides.size(), nullptr);
       runs[s] = &run;
     }
@@ -588,7 +582,8 @@ SideComparison compare_sides(std::vector<Side> sides, bool series) {
   comparison.conclusion =
       (documents.front() ? conclusion_of_variants(comparison) : conclusion_of_runs(comparison)) +
       time_text(comparison.sides) +
-      (lost > 0 ? "; " + runs_text(lost) + " without series, which the stores lack" : "") + ".";
+      (lost > 0 ? "; " + count_of(lost, "run") + " without series, which the stores lack" : "") +
+      ".";
   return comparison;
 }
 
