@@ -36,13 +36,17 @@ bool is_number(const std::string& text) {
   return !text.empty() && *end == '\0';
 }
 
-/// A spreadsheet would compute a text that starts with a sign, unless it is a number.
+/// A text in quotes (RFC 4180), unless it is a number. A text that a spreadsheet would compute gets
+/// an apostrophe in front.
 std::string csv_text(const Json& cell) {
   if (cell.is_null()) return "";
   if (cell.is_number_float()) return shortest(cell.get<double>());
   if (!cell.is_string() && !cell.is_array()) return cell.dump();
   const std::string text = table_cell(cell, "");
-  return is_number(text) ? text : csv_cell(text);
+  if (is_number(text)) return text;
+  std::string quoted = text.find_first_of("=+-@") == 0 ? "\"'" : "\"";
+  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
+  return quoted + "\"";
 }
 
 }  // namespace
@@ -100,7 +104,7 @@ std::string Rows::csv() const {
     for (std::size_t c = 0; c < cells.size(); ++c) text += (c > 0 ? "," : "") + text_of(cells[c]);
     text += '\n';
   };
-  add_line(columns_, [](const Column& column) { return csv_cell(column.key); });
+  add_line(columns_, [](const Column& column) { return csv_text(column.key); });
   for (const std::vector<Json>& row : rows_) add_line(row, csv_text);
   return text;
 }

@@ -93,9 +93,7 @@ int certify_command(const CommandOptions& options, const Renderers& /*renderers*
   const std::vector<Case> cases = select_cases(options);
   std::vector<Configuration> stored;
   for (const std::string& name : options.builds) {
-    const std::filesystem::path file = is_directory(std::filesystem::path(name))
-                                           ? std::filesystem::path(name) / "results.json"
-                                           : std::filesystem::path(name);
+    const std::filesystem::path file = results_path(name);
     stored.push_back({name, read_summary(file)});
     require_same_cases(cases, file, stored.back().results);
   }

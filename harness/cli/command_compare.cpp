@@ -14,7 +14,6 @@
 #include "harness/base/text.h"
 #include "harness/cli/commands.h"
 #include "harness/input/catalogue.h"
-#include "harness/input/schema.h"
 #include "harness/run/compare_sides.h"
 #include "harness/run/cost_results.h"
 #include "harness/run/results.h"
@@ -52,33 +51,6 @@ Side side_of(const Case& given, const std::string& variant) {
           patched(given, variant)};
 }
 
-bool is_json_file(const fs::path& file) {
-  std::error_code error;
-  return file.extension() == ".json" && fs::is_regular_file(file, error);
-}
-
-/// The results that a name means, read once.
-std::optional<Side> stored_side(const std::string& name) {
-  std::error_code error;
-  if (fs::is_directory(name, error))
-    return Side{name, read_summary(fs::path(name) / "results.json"), std::nullopt};
-  if (!is_json_file(name)) return std::nullopt;
-  Json json = read_json(name);
-  if (!json.is_object() || !json.contains("format") || !json.contains("runs")) return std::nullopt;
-  return Side{name, read_summary(name, std::move(json)), std::nullopt};
-}
-
-/// Why something cannot be compared with results.
-[[noreturn]] void refuse_beside_results(const std::string& name) {
-  if (!is_json_file(name)) (void)Catalogue().find_case(parted(name).first);
-  const Json json = is_json_file(name) ? read_json(name) : Json();
-  if (json.is_object() && !json.contains("model") && !json.contains("analysis")) {
-    const auto schema_error = find_schema_fault(json, "results");
-    if (schema_error) throw InputError(name, schema_error->pointer, schema_error->message);
-  }
-  throw InputError("expected variants alone or results alone (got both)");
-}
-
 std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
   std::vector<Side> sides;
   for (const std::string& name : names) {
@@ -109,18 +81,23 @@ std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
   return sides;
 }
 
+/// Results, each read once, or cases.
 std::vector<Side> sides_of(const std::vector<std::string>& names) {
   std::vector<Side> sides;
   std::vector<std::string> others;
   for (const std::string& name : names) {
-    if (std::optional<Side> side = stored_side(name)) {
-      sides.push_back(std::move(*side));
+    const fs::path file = results_path(name);
+    if (Json json = read_if_results(file); !json.is_null()) {
+      sides.push_back({name, read_summary(file, std::move(json)), std::nullopt});
     } else {
       others.push_back(name);
     }
   }
   if (sides.empty()) return sides_of_cases(names);
-  if (!others.empty()) refuse_beside_results(others.front());
+  if (!others.empty()) {
+    (void)load_named_case(parted(others.front()).first);  // reports what is wrong with it
+    throw InputError("expected variants alone or results alone (got both)");
+  }
   if (sides.size() < 2) throw InputError("expected two results (got one)");
   return sides;
 }
@@ -256,6 +233,17 @@ void print_costs(const std::optional<results::CostStudies>& a,
 }
 
 }  // namespace
+
+fs::path results_path(const std::string& name) {
+  return fs::is_directory(name) ? fs::path(name) / "results.json" : fs::path(name);
+}
+
+Json read_if_results(const fs::path& file) {
+  if (file.extension() != ".json") return nullptr;
+  Json json = read_json(file);
+  const bool is_results = json.is_object() && json.contains("format") && json.contains("runs");
+  return is_results ? json : Json();
+}
 
 int compare_command(const CommandOptions& options, const Renderers& renderers) {
   if (!options.html.empty()) require_drawing(renderers);

@@ -182,10 +182,9 @@ bool do_in_processes(const std::vector<std::function<void()>>& work, unsigned jo
 
 bool is_results_file(const std::string& name) {
   try {
-    const Json json = std::filesystem::is_regular_file(name) ? read_json(name) : Json();
-    return json.is_object() && json.contains("format") && json.contains("runs");
+    return !read_if_results(name).is_null();
   } catch (const InputError&) {
-    return false;  // told where it is read as a case
+    return false;  // reported when it is read as a case
   }
 }
 

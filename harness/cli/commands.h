@@ -74,6 +74,12 @@ Command export_command, solve_command, grade_command;
 /// @throws InputError  if one of them cannot be read.
 [[nodiscard]] std::vector<Case> select_cases(const CommandOptions& options);
 
+/// The results file that a name means: the file itself, or results.json in the folder.
+[[nodiscard]] std::filesystem::path results_path(const std::string& name);
+/// The JSON of a results file; null of a file that holds no results.
+/// @throws InputError  if a file named *.json cannot be read
+[[nodiscard]] Json read_if_results(const std::filesystem::path& file);
+
 /// The folder that computations are kept in.
 /// @throws InputError  if a link would lead out of `out`.
 [[nodiscard]] std::filesystem::path store_folder(const std::string& out, const std::string& store);
