@@ -9,6 +9,9 @@
 
 namespace trammel::harness {
 
+namespace {
+
+/// Insertions, deletions, substitutions and swaps of neighbors between two words.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -24,6 +27,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   }
   return row[b.size()];
 }
+
+}  // namespace
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
   if (word.size() > 200) return {};
@@ -81,14 +86,6 @@ std::string rounded(double value, int digits) {
 
 std::string percent(double share) {
   return rounded(100 * share, 3) + " %";
-}
-
-std::string csv_cell(std::string text) {
-  if (!text.empty() && std::string("=+-@").find(text.front()) != std::string::npos)
-    text.insert(0, "'");
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
 }
 
 std::string printable(std::string text, std::size_t length) {

@@ -10,7 +10,7 @@
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 #include "harness/base/progress.h"
-#include "harness/base/table.h"
+#include "harness/base/rows.h"
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
 #include "harness/printing/print_effects.h"
@@ -47,7 +47,7 @@ std::string ratio(double part, double whole) {
   return whole > 0 ? rounded(part / whole, 3) : "";
 }
 
-void add_row(Table& table, const std::string& what, const EffectRun& run, const EffectRun& full) {
+void add_row(Rows& table, const std::string& what, const EffectRun& run, const EffectRun& full) {
   if (!run.outcome.solved()) {
     table.add({what, "all", run.outcome.reason, "", "", "", ""});
     return;
@@ -60,8 +60,7 @@ void add_row(Table& table, const std::string& what, const EffectRun& run, const 
 }
 
 void print_singles(const EffectStudy& study) {
-  Table table(
-      {"left out", ">change [%]", "of", ">time", ">elements", ">factorizations", ">solves"});
+  Rows table({"left out", ">change [%]", "of", ">time", ">elements", ">factorizations", ">solves"});
   add_row(table, "nothing", study.full, study.full);
   for (const Ablation& ablation : study.singles) {
     const solver::Effects with_dependents = study.full.effects.without(ablation.run.effects);
@@ -81,7 +80,7 @@ void print_pairs(const EffectStudy& study) {
     }
     return 0.0;
   };
-  Table table({"pair", ">together [%]", ">one [%]", ">other [%]"});
+  Rows table({"pair", ">together [%]", ">one [%]", ">other [%]"});
   for (const Ablation& pair : study.pairs) {
     const double together = max_change(pair.run.changes).value;
     const double a = single(pair.effects[0]), b = single(pair.effects[1]);
@@ -360,8 +359,8 @@ std::vector<results::EffectScene> catalogue_effect_scenes(const std::filesystem:
 int labelled_effects_command(const EffectsCommand& command, const Renderers& renderers) {
   if (!command.out.empty()) require_drawing(renderers);
   std::vector<results::EffectScene> scenes;
-  Table table({"case", "chosen", ">off by [%]", ">allowed", ">minimal", ">beyond [%]",
-               ">whole [ms]", ">time", ">deciding"});
+  Rows table({"case", "chosen", ">off by [%]", ">allowed", ">minimal", ">beyond [%]", ">whole [ms]",
+              ">time", ">deciding"});
   bool within = true;
   Json rows = Json::array();
   for (const Case& given : Catalogue().load(command.labels)) {
@@ -428,8 +427,8 @@ int random_effects_command(const EffectsCommand& command, const Renderers& rende
     return status;
   }
   for (const std::string& miss : misses) std::cout << wrapped(miss, "  ");
-  Table table({"kind", ">scenes", ">within", ">minimal", ">unsolved", ">saving", ">no slower",
-               ">time", ">whole", ">quick"});
+  Rows table({"kind", ">scenes", ">within", ">minimal", ">unsolved", ">saving", ">no slower",
+              ">time", ">whole", ">quick"});
   const auto add = [&](const std::string& kind, const HitCounts& of) {
     table.add({kind, std::to_string(of.scenes), std::to_string(of.within),
                std::to_string(of.minimal), std::to_string(of.unsolved), std::to_string(of.saving),

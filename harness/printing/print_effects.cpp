@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "harness/base/table.h"
+#include "harness/base/rows.h"
 #include "harness/base/text.h"
 
 namespace trammel::harness {
@@ -37,7 +37,7 @@ void print_stated(const EffectChoice& choice) {
 void print_effects(const EffectChoice& choice, const std::string& analysis) {
   if (!choice.tolerance) return print_stated(choice);
   std::cout << "\nEffects, those that a tolerance of " << *choice.tolerance << " calls for\n";
-  Table table({"effect", "", ">number", "which is", ">change without [%]"});
+  Rows table({"effect", "", ">number", "which is", ">change without [%]"});
   for (const EffectReason& reason : choice.reasons) {
     table.add({std::string(solver::name_of(reason.effect)),
                reason.active       ? "on"
