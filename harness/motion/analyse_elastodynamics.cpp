@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "harness/readers/time_reader.h"
+#include "harness/readers/option_reader.h"
 #include "harness/scene/rigid_case_model.h"
 #include "harness/statics_modes/analyse_statics.h"
 #include "harness/statics_modes/range_warnings.h"

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "harness/readers/damping_reader.h"
+#include "harness/readers/option_reader.h"
 #include "harness/scene/outputs.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "harness/statics_modes/reduced_system.h"

@@ -5,7 +5,7 @@
 
 #include "harness/base/contains.h"
 #include "harness/readers/joint_reader.h"
-#include "harness/readers/time_reader.h"
+#include "harness/readers/option_reader.h"
 #include "harness/scene/draw_large.h"
 #include "harness/scene/tracking.h"
 #include "harness/statics_modes/range_warnings.h"

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "harness/readers/time_reader.h"
+#include "harness/readers/option_reader.h"
 #include "harness/scene/rigid_case_model.h"
 #include "harness/scene/tracking.h"
 #include "harness/statics_modes/step_result.h"

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <limits>
 
-#include "harness/readers/material_reader.h"
+#include "harness/readers/field_reader.h"
 #include "harness/statics_modes/manufactured.h"
 
 namespace trammel::harness {

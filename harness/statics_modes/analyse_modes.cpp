@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/readers/eigen_method.h"
+#include "harness/readers/option_reader.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "harness/statics_modes/rotating_state.h"
 #include "solver/linear/modes.h"

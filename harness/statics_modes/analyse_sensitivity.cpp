@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "harness/readers/design_parameter.h"
+#include "harness/readers/option_reader.h"
 #include "harness/scene/rigid_case_model.h"
 #include "harness/statics_modes/design_change.h"
 #include "harness/statics_modes/frequency_differences.h"

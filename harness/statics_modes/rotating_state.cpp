@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <complex>
 
-#include "harness/readers/eigen_method.h"
-#include "harness/readers/material_reader.h"
+#include "harness/readers/option_reader.h"
+#include "harness/readers/field_reader.h"
 
 namespace trammel::harness {
 namespace {
