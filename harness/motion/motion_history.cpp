@@ -6,9 +6,9 @@
 #include <numbers>
 #include <optional>
 
-#include "harness/readers/option_reader.h"
-#include "harness/readers/joint_reader.h"
 #include "harness/readers/field_reader.h"
+#include "harness/readers/joint_reader.h"
+#include "harness/readers/option_reader.h"
 #include "solver/linear/element_operators.h"
 #include "solver/linear/modes.h"
 #include "solver/linear/row_balance.h"

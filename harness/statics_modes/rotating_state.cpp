@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <complex>
 
-#include "harness/readers/option_reader.h"
 #include "harness/readers/field_reader.h"
+#include "harness/readers/option_reader.h"
 
 namespace trammel::harness {
 namespace {
