@@ -4,7 +4,7 @@
 #include <array>
 
 #include "harness/motion/analyse_elastodynamics.h"
-#include "harness/readers/time_reader.h"
+#include "harness/readers/option_reader.h"
 #include "solver/elements/frame_element.h"
 #include "solver/large/large_elastodynamics.h"
 #include "solver/linear/validate.h"

@@ -52,6 +52,12 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return best.empty() ? "" : "; did you mean '" + best + "'?";
 }
 
+std::string unknown_name(const std::string& expected, const std::string& name,
+                         const std::vector<std::string>& candidates) {
+  return "expected " + expected + " (got '" + printable(name) + "')" +
+         did_you_mean(name, candidates);
+}
+
 std::string quoted(const std::string& word) {
   return std::string("'").append(word).append("'");
 }

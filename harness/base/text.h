@@ -16,6 +16,10 @@ namespace trammel::harness {
 [[nodiscard]] std::string did_you_mean(const std::string& word,
                                        const std::vector<std::string>& candidates);
 
+/// "expected X (got 'name'); did you mean 'y'?"
+[[nodiscard]] std::string unknown_name(const std::string& expected, const std::string& name,
+                                       const std::vector<std::string>& candidates);
+
 /// "'word'"
 [[nodiscard]] std::string quoted(const std::string& word);
 

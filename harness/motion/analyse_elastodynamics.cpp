@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "harness/motion/analyses.h"
-#include "harness/readers/time_reader.h"
+#include "harness/readers/option_reader.h"
 #include "harness/scene/observables.h"
 #include "harness/scene/rigid_case_model.h"
 #include "harness/statics_modes/range_warnings.h"

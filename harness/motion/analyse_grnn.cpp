@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "harness/motion/analyses.h"
-#include "harness/readers/time_reader.h"
+#include "harness/readers/option_reader.h"
 #include "harness/scene/case_model.h"
 #include "harness/scene/rigid_case_model.h"
 #include "harness/scene/tracking.h"

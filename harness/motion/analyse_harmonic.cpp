@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "harness/motion/analyses.h"
-#include "harness/readers/damping_reader.h"
+#include "harness/readers/option_reader.h"
 #include "harness/scene/observables.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "harness/statics_modes/reduced_system.h"

@@ -5,7 +5,7 @@
 #include "harness/motion/analyses.h"
 #include "harness/motion/energy_recorder.h"
 #include "harness/readers/joint_reader.h"
-#include "harness/readers/time_reader.h"
+#include "harness/readers/option_reader.h"
 #include "harness/scene/drawing.h"
 #include "harness/scene/observables.h"
 #include "harness/scene/tracking.h"

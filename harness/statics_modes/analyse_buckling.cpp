@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "harness/readers/eigen_method.h"
+#include "harness/readers/option_reader.h"
 #include "harness/statics_modes/analyses.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "solver/linear/buckling.h"

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <complex>
 
-#include "harness/readers/eigen_method.h"
-#include "harness/readers/material_reader.h"
+#include "harness/readers/field_reader.h"
+#include "harness/readers/option_reader.h"
 #include "harness/scene/observables.h"
 #include "harness/statics_modes/analyses.h"
 #include "harness/statics_modes/range_warnings.h"

@@ -4,7 +4,7 @@
 
 #include "harness/base/numbers.h"
 #include "harness/base/text.h"
-#include "harness/readers/design_parameter.h"
+#include "harness/readers/option_reader.h"
 #include "harness/scene/rigid_case_model.h"
 #include "harness/statics_modes/analyses.h"
 #include "harness/statics_modes/frequency_differences.h"

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <limits>
 
-#include "harness/readers/material_reader.h"
+#include "harness/readers/field_reader.h"
 #include "harness/statics_modes/analyses.h"
 #include "solver/elements/block_mesh.h"
 #include "solver/linalg/factorization.h"
