@@ -13,7 +13,6 @@ here. Velocities at the start move no plane element, hence the path from rest; a
 to diverge", as forces are too small for its measures.
 """
 import math
-import os
 import sys
 
 from planar_manipulator import DEFAULT, DEPTH, Deck, geometry, run, store
@@ -94,7 +93,6 @@ def motion(speed, along, steps):
 
 def main():
     folder = sys.argv[1]
-    os.makedirs(folder, exist_ok=True)
     for speed in map(int, sys.argv[2:]):
         coarse, fine = (motion(speed, ALONG, steps) for steps in STEPS)
         size = max(map(abs, fine))

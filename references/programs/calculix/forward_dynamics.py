@@ -10,7 +10,6 @@ edges of the foot, along the link as it stands there: computed first with the an
 of places.
 """
 import math
-import os
 import sys
 
 from circle_motion import build
@@ -96,7 +95,6 @@ def motion(along, steps, angles=None):
 
 def main():
     folder = sys.argv[1]
-    os.makedirs(folder, exist_ok=True)
     coarse, fine = (motion(*mesh, motion(*mesh)[1])[0] for mesh in MESHES)
     change = max(abs(a - b) for a, b in zip(coarse, fine)) / max(map(abs, fine))
     store(folder, "calculix-forward-dynamics", "Flexible 3-RRR under the torques of rigid links from rest to rest: how far P is from the line, "

@@ -9,7 +9,6 @@ middles of both end faces are one node, and their outermost nodes keep their ang
 more: the same mesh in linear statics shows by how much, and that is stored as uncertainty.
 """
 import math
-import os
 import sys
 
 from planar_manipulator import DEFAULT, DEPTH, POSES, Deck, geometry, run, statics, store
@@ -65,7 +64,6 @@ def displacement(pose, large):
 
 def main():
     folder = sys.argv[1]
-    os.makedirs(folder, exist_ok=True)
     for pose in POSES:
         linear, large, rigid = displacement(pose, False), displacement(pose, True), statics("locked-welded-hinged", pose, 24)
         change = math.ceil(1e5 * math.dist(linear, rigid[:2]) / math.hypot(*linear)) / 1e5

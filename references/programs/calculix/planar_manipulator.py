@@ -11,14 +11,10 @@ platform is rigid, with the masses of an equilateral plate: a twelfth of it in e
 Each value comes from two meshes; their difference, rounded up, is what is stored as uncertainty (at least 2e-6, because ccx
 prints seven digits).
 """
-import json
 import math
-import os
-import subprocess
 import sys
-import tempfile
 
-from spatial_manipulator import DEFAULT, geometry
+from spatial_manipulator import DEFAULT, geometry, run, store
 
 POSES = {"centroid": DEFAULT["pose"], "start": (0.26, 0.144, 0.0), "turned": (0.26, 0.144, math.radians(10))}
 VARIANTS = [f"{a}-{e}-{p}" for a in ("locked", "sprung", "free") for e in ("welded", "hinged") for p in ("hinged", "welded")]
@@ -110,20 +106,6 @@ def build(variant, pose, n):
     return lines, p, turn
 
 
-def run(lines, totals=False):
-    """Rows of the .dat that begin with a number, in whole; with totals also those of three numbers."""
-    with tempfile.TemporaryDirectory() as folder:
-        with open(os.path.join(folder, "deck.inp"), "w", encoding="ascii") as file:
-            file.write("\n".join(lines) + "\n")
-        done = subprocess.run(["ccx", "deck"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-        if done.returncode or "*ERROR" in done.stdout:
-            raise RuntimeError([line for line in done.stdout.splitlines() if "ERROR" in line][:1])
-        with open(os.path.join(folder, "deck.dat"), encoding="ascii") as file:
-            rows = [line.split() for line in file]
-    return [[float(cell) for cell in row] for row in rows
-            if row and (row[0].isdigit() or totals and len(row) == 3 and row[0][-4:-2] in ("E+", "E-"))]
-
-
 def frequencies(variant, pose, n):
     """Eight elastic frequencies [Hz], and how many motions at 0 Hz come before them."""
     lines, _, _ = build(variant, pose, n)
@@ -139,17 +121,8 @@ def statics(variant, pose, n):
     return rows[0][1:3] + [rows[1][3]]
 
 
-def store(folder, name, title, unit, values, change, notes, place="references/programs/calculix/planar_manipulator.py"):
-    with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as file:
-        file.write(json.dumps({
-            "$schema": "../../../cases/schema/reference.schema.json", "id": name, "title": title, "kind": "code", "unit": unit,
-            "values": values, "uncertainty": {"relative": change}, "source": "calculix-2.20",
-            "place": place, "notes": notes}, indent=2) + "\n")
-
-
 def main():
     folder = sys.argv[1]
-    os.makedirs(folder, exist_ok=True)
     for variant in VARIANTS:
         for pose in POSES:
             (coarse, _), (fine, rigid) = (frequencies(variant, pose, n) for n in MESHES)

@@ -8,7 +8,6 @@ the middle of that face. Without Poisson's ratio the clamp holds no contraction 
 0.5 % of the force, which leaves 0.2 % in the soft way; here at 1e-9.
 """
 import math
-import os
 import sys
 
 from planar_manipulator import run, store
@@ -72,7 +71,6 @@ def tip(axis, nu, cells):
 
 def main():
     folder = sys.argv[1]
-    os.makedirs(folder, exist_ok=True)
     for axis, meshes in {"stiff": ((40, 2, 2), (80, 4, 4)), "soft": ((40, 2, 4), (60, 2, 8))}.items():
         for name, nu, (coarse, fine) in (("", 0.31, meshes), ("-without-contraction", 0.0, ((20, 2, 2), (40, 2, 2)))):
             rough, values = tip(axis, nu, coarse), tip(axis, nu, fine)
