@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "harness/base/processes.h"
 #include "harness/cli/command_run.h"
-#include "harness/grade/limited_program.h"
 
 namespace trammel::harness {
 
