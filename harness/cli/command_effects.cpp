@@ -29,17 +29,10 @@ std::string in_percent(double share) {
 }
 
 std::string kinds_of(const Changes& changes) {
-  std::vector<std::string> texts;
-  for (const auto& [kind, change] : changes) texts.push_back(kind + " " + in_percent(change.value));
   std::string text;
-  for (const std::string& word : texts) text += (text.empty() ? "" : ", ") + word;
+  for (const auto& [kind, change] : changes)
+    text += (text.empty() ? "" : ", ") + kind + " " + in_percent(change.value);
   return text;
-}
-
-std::string names_of(const std::vector<solver::Effect>& effects) {
-  std::vector<std::string> names;
-  for (const solver::Effect effect : effects) names.emplace_back(solver::name_of(effect));
-  return join(names, "and");
 }
 
 std::string ratio(double part, double whole) {
@@ -64,7 +57,7 @@ void print_singles(const EffectStudy& study) {
   add_row(table, "nothing", study.full, study.full);
   for (const Ablation& ablation : study.singles) {
     const solver::Effects with_dependents = study.full.effects.without(ablation.run.effects);
-    add_row(table, names_of(with_dependents.list()), ablation.run, study.full);
+    add_row(table, effect_names(with_dependents.list()), ablation.run, study.full);
   }
   add_row(table, "all but the chosen", study.chosen, study.full);
   table.print(std::cout, "  ");
@@ -88,7 +81,7 @@ void print_pairs(const EffectStudy& study) {
     const bool interact = std::isfinite(together) && std::isfinite(a) && std::isfinite(b) &&
                           (together > a + b + slack || together < std::max(a, b) - slack);
     if (!interact) continue;
-    table.add({names_of(pair.effects), in_percent(together), in_percent(a), in_percent(b)});
+    table.add({effect_names(pair.effects), in_percent(together), in_percent(a), in_percent(b)});
   }
   if (table.empty()) {
     std::cout << "\nNo pair interacts: two left out together change no more than the sum, and no "
@@ -100,7 +93,7 @@ void print_pairs(const EffectStudy& study) {
 }
 
 void print_verdict(const EffectStudy& study) {
-  std::cout << "\nChosen    " << effect_names(study.choice.chosen) << '\n';
+  std::cout << "\nChosen    " << effect_names(study.choice.chosen.list()) << '\n';
   const double off = max_change(study.chosen.changes).value;
   std::cout << "Within    " << (study.within_tolerance() ? "yes" : "no") << ": " << in_percent(off)
             << " % from the full model, where " << in_percent(study.tolerance)
@@ -113,7 +106,7 @@ void print_verdict(const EffectStudy& study) {
   for (const Ablation& ablation : study.from_chosen) {
     const double change = max_change(ablation.run.changes).value;
     if (change <= study.tolerance) {
-      std::cout << "; " << in_percent(change) << " % without " << names_of(ablation.effects)
+      std::cout << "; " << in_percent(change) << " % without " << effect_names(ablation.effects)
                 << ", overestimated";
     }
   }
@@ -131,22 +124,17 @@ Json names_json(const std::vector<solver::Effect>& effects) {
   return names;
 }
 
-Json counters_json(const solver::Counters& counters) {
-  return {{"element_evaluations", counters.element_evaluations},
-          {"factorizations", counters.factorizations},
-          {"solves", counters.solves}};
-}
-
 /// A run and its change from the full model, all of it where there is no solution.
 Json run_json(const EffectRun& run) {
   Json changes = Json::object();
   for (const auto& [kind, change] : run.changes) changes[kind] = number_or_null(change.value);
-  Json json = counters_json(run.counters);
-  json.update({{"status", run.outcome.solved() ? "solved" : run.outcome.reason},
-               {"change", number_or_null(max_change(run.changes).value)},
-               {"changes", changes},
-               {"cpu_s", run.cpu_s}});
-  return json;
+  return {{"status", run.outcome.solved() ? "solved" : run.outcome.reason},
+          {"change", number_or_null(max_change(run.changes).value)},
+          {"changes", changes},
+          {"cpu_s", run.cpu_s},
+          {"element_evaluations", run.counters.element_evaluations},
+          {"factorizations", run.counters.factorizations},
+          {"solves", run.counters.solves}};
 }
 
 Json ablations_json(const std::vector<Ablation>& ablations) {
@@ -179,7 +167,6 @@ Json study_json(const std::string& id, const EffectStudy& study, const std::stri
           {"beyond_tier", number_or_null(study.choice.beyond_tier)},
           {"load_over_buckling_load", number_or_null(study.load_over_buckling_load)},
           {"deciding_cpu_s", study.choice_cpu_s},
-          {"deciding", counters_json(study.choice.counters)},
           {"full_run", run_json(study.full)},
           {"chosen_run", run_json(study.chosen)},
           {"singles", ablations_json(study.singles)},
@@ -327,7 +314,7 @@ int effects_table_command(const EffectsCommand& command, const Renderers& render
     rows.push_back(study_json(id, study, analysis));
     scenes.push_back(scene_of(id, analysis, study));
     within = within && study.within_tolerance() && !study.is_beyond_tier();
-    table.add({id, effect_names(study.choice.chosen),
+    table.add({id, effect_names(study.choice.chosen.list()),
                in_percent(max_change(study.chosen.changes).value), in_percent(study.tolerance),
                study.is_minimal() ? "yes" : "no",
                study.choice.beyond_tier ? in_percent(*study.choice.beyond_tier) : "",
