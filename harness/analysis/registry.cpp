@@ -4,7 +4,6 @@
 #include <stdexcept>
 
 #include "harness/analysis/analyse_comparison.h"
-#include "harness/analysis/analyse_model_probabilities.h"
 #include "harness/analysis/analyse_options.h"
 #include "harness/analysis/analyse_study.h"
 #include "harness/base/text.h"
@@ -109,7 +108,7 @@ const std::vector<AnalysisKind>& analysis_kinds() {
        .without_model = "no model: references against each other"},
       {.name = "model-probabilities",
        .of_case = analyse_model_probabilities,
-       .without_model = "one for each reading of the case's manipulator"},
+       .without_model = "no model: stored probabilities of readings"},
       {.name = "study", .of_case = analyse_study, .without_model = "made by the analysis"},
       {.name = "options", .of_case = analyse_options, .without_model = "those of other cases"}};
   return kinds;

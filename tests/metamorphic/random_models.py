@@ -13,6 +13,7 @@ import tempfile
 
 from laws import differences
 from metamorphic import solve
+from transformations import multiply_loads
 
 SECONDS = 60
 LOAD_SHARE = 1e-5
@@ -101,21 +102,11 @@ def random_mechanism(rng):
     return {"model": model, "analysis": {"large-motion": analysis}}
 
 
-def with_small_loads(case, analysis):
-    """Returns the case with a share of its loads and weight."""
-    case = copy.deepcopy(case)
-    case["analysis"] = {analysis: {}}
-    for load in case["model"]["loads"].values():
-        load["force_N"] = [LOAD_SHARE * x for x in load["force_N"]]
-        load["moment_N_m"] *= LOAD_SHARE
-    if "gravity_m_s2" in case["model"]:
-        case["model"]["gravity_m_s2"] = [LOAD_SHARE * x for x in case["model"]["gravity_m_s2"]]
-    return case
-
-
 def nonlinear_differences(program, folder, case):
     """Returns what differs between statics and large statics under small loads."""
-    linear, large = (solve(program, folder, {case["id"]: with_small_loads(case, analysis)}, SECONDS)[case["id"]]
+    model = copy.deepcopy(case["model"])
+    multiply_loads(model, LOAD_SHARE)
+    linear, large = (solve(program, folder, {case["id"]: {**case, "model": model, "analysis": {analysis: {}}}}, SECONDS)[case["id"]]
                      for analysis in ("statics", "large-statics"))
     if linear["status"] != large["status"]:
         return [f"{case['id']}: statics {linear['status']}, large statics {large['status']}"]

@@ -58,8 +58,7 @@ def main():
               f"CalculiX, {what}", "N" if forces else "m", values, change if name == "rigid" else warp,
               "Actuators locked, elbows welded, platform on hinges; point after point from the start of the circle. " +
               (f"{MESHES[1]} elements along a link." if name == "rigid" else
-               "The uncertainty is what sections that warp at the elbows add to the linear displacement at most."),
-              "references/programs/calculix/circle.py")
+               "The uncertainty is what sections that warp at the elbows add to the linear displacement at most."))
     print("warp", warp, "mesh", change)
 
 

@@ -21,6 +21,8 @@ VARIANTS = [f"{a}-{e}-{p}" for a in ("locked", "sprung", "free") for e in ("weld
 SPRING = 10.0  # of a sprung actuator [N m/rad]
 MESHES = (24, 40)  # elements along a link
 DEPTH = 2
+E, G = DEFAULT["E"], DEFAULT["E"] / (2 * (1 + DEFAULT["nu"]))
+MATERIAL = ["*MATERIAL,NAME=M", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", f"{E},{E},{E},0,0,0,{G:.12g},{G:.12g}", f"{G:.12g}"]
 
 
 class Deck:
@@ -56,6 +58,12 @@ class Deck:
         self.rest += [f"*NSET,NSET=R{self.bodies}", *(f"{n}," for n in nodes),
                       f"*RIGID BODY,NSET=R{self.bodies},REF NODE={reference},ROT NODE={turn}", "*BOUNDARY", f"{turn},1,2"]
         return reference, turn
+
+    def mesh(self, elements, unused=()):
+        lines = ["*NODE,NSET=ALL"] + [f"{i + 1},{x:.12g},{y:.12g},0" for i, (x, y) in enumerate(self.nodes) if i + 1 not in unused]
+        for number, (kind, name, nodes) in enumerate(elements, 1):
+            lines += [f"*ELEMENT,TYPE={kind},ELSET={name}", ",".join(map(str, [number, *nodes]))]
+        return lines
 
     def hinge(self, own, other):
         for dof in (1, 2):
@@ -97,13 +105,7 @@ def build(variant, pose, n):
             follower = deck.node(*base[i])  # ccx 2.20 fails with a spring on the rotation of a rigid body itself
             deck.elements.append(("SPRING1", f"S{i}", [follower]))
             deck.rest += ["*BOUNDARY", f"{follower},2,3", "*EQUATION", "2", f"{follower},1,1.,{angle},3,-1.", f"*SPRING,ELSET=S{i}", "1", f"{SPRING!r}"]
-    lines = ["*NODE"] + [f"{i + 1},{x:.12g},{y:.12g},0" for i, (x, y) in enumerate(deck.nodes)]
-    for number, (kind, name, nodes) in enumerate(deck.elements, 1):
-        lines += [f"*ELEMENT,TYPE={kind},ELSET={name}", ",".join(map(str, [number, *nodes]))]
-    E, G = DEFAULT["E"], DEFAULT["E"] / (2 * (1 + DEFAULT["nu"]))
-    lines += deck.rest + ["*MATERIAL,NAME=M", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", f"{E},{E},{E},0,0,0,{G:.12g},{G:.12g}",
-                          f"{G:.12g}", "*DENSITY", f"{DEFAULT['rho']!r}", *deck.sections]
-    return lines, p, turn
+    return deck.mesh(deck.elements) + deck.rest + MATERIAL + ["*DENSITY", f"{DEFAULT['rho']!r}", *deck.sections], p, turn
 
 
 def frequencies(variant, pose, n):

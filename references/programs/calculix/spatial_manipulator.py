@@ -8,6 +8,7 @@ import json
 import math
 import os
 import subprocess
+import sys
 import tempfile
 
 DEFAULT = {
@@ -158,11 +159,9 @@ def build(r, mesh):
     return deck
 
 
-def run(lines, totals=False, keep=None):
+def run(lines, totals=False):
     """Rows of the .dat that begin with a number, in whole; with totals also those of three numbers."""
-    with tempfile.TemporaryDirectory() as temporary:
-        folder = keep or temporary
-        os.makedirs(folder, exist_ok=True)
+    with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "deck.inp"), "w", encoding="ascii") as file:
             file.write("\n".join(lines) + "\n")
         done = subprocess.run(["ccx", "deck"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
@@ -174,19 +173,20 @@ def run(lines, totals=False, keep=None):
             if row and (row[0].isdigit() or totals and len(row) == 3 and row[0][-4:-2] in ("E+", "E-"))]
 
 
-def store(folder, name, title, unit, values, change, notes, place="references/programs/calculix/planar_manipulator.py",
-          source="calculix-2.20"):
+def store(folder, name, title, unit, values, change, notes, place="", source="calculix-2.20", **more):
     """Writes a reference into a folder, which is made if need be."""
     os.makedirs(folder, exist_ok=True)
+    program = "/".join(["references/programs", *os.path.abspath(sys.argv[0]).split("/")[-2:]])
     with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as file:
         file.write(json.dumps({
             "$schema": "../../../../cases/schema/reference.schema.json", "id": name, "title": title, "kind": "code", "unit": unit,
-            "values": values, "uncertainty": {"relative": change}, "source": source, "place": place, "notes": notes}, indent=2) + "\n")
+            "values": values, "uncertainty": {"relative": change}, "source": source, "place": program + place, "notes": notes, **more},
+            indent=2) + "\n")
 
 
-def modes(reading, mesh=None, count=8, keep=None):
+def modes(reading, mesh=None, count=8):
     """Each mode's natural frequency [Hz], and whether it stays in the plane by its effective masses."""
-    number = run(build({**DEFAULT, **reading}, {**MESH, **(mesh or {})}).lines(count), keep=keep)
+    number = run(build({**DEFAULT, **reading}, {**MESH, **(mesh or {})}).lines(count))
     frequencies = [row[3] for row in number if len(row) == 5][:count]
     masses = [row[1:] for row in number if len(row) == 7][count:2 * count]  # the first block holds participation factors
     total = [max(sum(m[k] for m in masses), 1e-30) for k in range(6)]

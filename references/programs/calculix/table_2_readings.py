@@ -72,7 +72,7 @@ def main():
         store(folder, f"table-2-reading-{name}", f"Table 2 read as: {title}; six lowest frequencies by CalculiX", "Hz", [f for f, _ in fine[:6]],
               change, f"C3D20R, {FINE['along']} elements along a link and {FINE['across']} over its width, platform of "
               f"{3 * (FINE['plate'] + 1)**2} elements; modes in the plane or out of it: {planar}.",
-              f"references/programs/calculix/table_2_readings.py, reading {name}")
+              f", reading {name}")
 
 
 if __name__ == "__main__":
