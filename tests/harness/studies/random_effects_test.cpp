@@ -16,7 +16,7 @@ namespace {
 
 /// The scenes of random_scenes.py.
 std::vector<Document> random_scenes(int seed, const std::string& numbers) {
-  const testing::Folder folder;
+  const trammel::testing::Folder folder;
   const std::string path = folder.path().string();
   const std::string program = TRAMMEL_SOURCE_DIR "/tests/harness/studies/random_scenes.py";
   BOOST_REQUIRE(std::system(("python3 " + program + " " + path + " --seed " + std::to_string(seed) +
