@@ -16,6 +16,10 @@ AnalyseCase analyse_options;
 /// Records relative_difference and difference_percent of references from each other, by name.
 AnalyseCase analyse_comparison;
 
+/// Stored probabilities of readings of a model: log_evidence, class_count, class_entropy_bits ...
+/// of each printed row, a number for each discrepancy.
+AnalyseCase analyse_model_probabilities;
+
 /// The levels of a study, each with the inner analysis in the study's place.
 [[nodiscard]] std::vector<Level> study_levels(const Document& document);
 

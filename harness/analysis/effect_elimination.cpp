@@ -235,9 +235,8 @@ class Measurement {
     size_ = scales_of(model);
     const auto members = std::max<solver::Index>(std::ssize(model.members), 1);
     CaseModel coarse = scene, coarsest = scene;
-    const bool vibrates = kind.effects == &harmonic_effects() ||
-                          kind.effects == &transient_effects() ||
-                          kind.effects == &large_motion_effects();
+    const bool vibrates = kind.effects == &kHarmonicEffects || kind.effects == &kTransientEffects ||
+                          kind.effects == &kLargeMotionEffects;
     const solver::Index elements =
         vibrates ? 4 : 2 + analysis.get<solver::Index>("count", 0) / members;
     try_linearly_ = !scope.required.has(Effect::large_displacement);

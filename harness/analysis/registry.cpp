@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "harness/analysis/analyse_model_probabilities.h"
 #include "harness/analysis/analyse_study.h"
 #include "harness/base/text.h"
 #include "harness/motion/analyses.h"
@@ -32,29 +31,29 @@ const std::vector<AnalysisKind>& analysis_kinds() {
        .warns_of_crossing = true},
       {.name = "statics",
        .of_scene = analyse_statics,
-       .effects = &statics_effects(),
+       .effects = &kStaticsEffects,
        .evidence = {Residual::equilibrium},
        .warns_of_crossing = true},
       {.name = "buckling",
        .of_scene = analyse_buckling,
        .evidence = {Residual::equilibrium, Residual::mode_count}},
-      {.name = "modes", .of_scene = analyse_modes, .effects = &modes_effects(), .evidence = kModes},
+      {.name = "modes", .of_scene = analyse_modes, .effects = &kModesEffects, .evidence = kModes},
       {.name = "large-statics",
        .of_scene = analyse_large_statics,
        .evidence = {Residual::equilibrium, Residual::recovered_forces}},
       {.name = "large-motion",
        .of_scene = analyse_large_motion,
-       .effects = &large_motion_effects(),
+       .effects = &kLargeMotionEffects,
        .evidence = {Residual::equation_of_motion, Residual::constraints},
        .has_own_times = true},
       {.name = "harmonic",
        .of_scene = analyse_harmonic,
-       .effects = &harmonic_effects(),
+       .effects = &kHarmonicEffects,
        .evidence = {Residual::equilibrium},
        .of_points = {harmonic_sample, analyse_harmonic_at}},
       {.name = "transient",
        .of_scene = analyse_transient,
-       .effects = &transient_effects(),
+       .effects = &kTransientEffects,
        .evidence = {Residual::equation_of_motion}},
       {.name = "inverse-dynamics",
        .of_scene = analyse_inverse_dynamics,
@@ -68,7 +67,7 @@ const std::vector<AnalysisKind>& analysis_kinds() {
       {.name = "elastodynamics",
        .of_scene = analyse_elastodynamics,
        .needs_manipulator = true,
-       .effects = &elastodynamics_effects(),
+       .effects = &kElastodynamicsEffects,
        .evidence = {Residual::equation_of_motion},
        .warns_of_crossing = true},
       {.name = "sensitivity",
@@ -94,7 +93,7 @@ const std::vector<AnalysisKind>& analysis_kinds() {
        .without_model = "no model: references against each other"},
       {.name = "model-probabilities",
        .of_case = analyse_model_probabilities,
-       .without_model = "one for each reading of the case's manipulator"},
+       .without_model = "no model: stored probabilities of readings"},
       {.name = "study", .of_case = analyse_study, .without_model = "made by the analysis"},
       {.name = "options", .of_case = analyse_options, .without_model = "those of other cases"}};
   return kinds;

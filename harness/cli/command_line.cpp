@@ -280,7 +280,8 @@ class CommandLine {
   }
 
   void define_effects(CLI::App* sub) {
-    sub->add_option("case", effects_.name, "Name or file of a case whose analysis has effects");
+    sub->add_option("cases", effects_.names,
+                    "Names or files of cases whose analysis has effects; of several, a table");
     sub->add_option("--variant", effects_.variant, "This variant; 'base' is the case unpatched");
     sub->add_option("--tolerance", effects_.tolerance,
                     "Relative, where the case's effects are not automatic")
@@ -289,27 +290,20 @@ class CommandLine {
     sub->add_option("--repeats", effects_.repeats, "Measurements of time")
         ->check(CLI::Range(0, 1000))
         ->capture_default_str();
-    auto* random =
-        sub->add_option("--random", effects_.random, "Number of random models instead of a case")
-            ->check(CLI::Range(1, 100000));
-    auto* scene = sub->add_option("--model", effects_.scene, "Number of one random model");
-    sub->add_option("--seed", effects_.seed, "Seed of the random models")->capture_default_str();
-    auto* labels = sub->add_option("-L,--label", effects_.labels,
-                                   "Every case with one of these labels, in a table")
-                       ->allow_extra_args(false);
+    sub->add_option("-L,--label", effects_.labels,
+                    "Every case with one of these labels, in a table")
+        ->allow_extra_args(false);
     auto* out = sub->add_option("--out", effects_.out,
-                                "Also a page there: asked against obtained, and time (of many)");
+                                "Also a page there: asked against obtained, and time (of several)");
     add_option("--json", sub);
-    sub->callback([this, random, scene, labels, out] {
-      const bool many = random->count() > 0, one = scene->count() > 0, all = labels->count() > 0;
-      if (int(many) + int(one) + int(all) + int(!effects_.name.empty()) != 1) {
-        throw CLI::RequiredError("exactly one of a case, --label, --random and --model");
-      }
-      if (out->count() > 0 && !many && !all)
-        throw CLI::RequiredError("--random or --label beside --out");
-      command_ = [this, many, all] {
-        if (all) return labelled_effects_command(effects_, renderers_);
-        return many ? random_effects_command(effects_, renderers_) : effects_command(effects_);
+    sub->callback([this, out] {
+      if (effects_.labels.empty() == effects_.names.empty())
+        throw CLI::RequiredError("either cases or --label");
+      const bool one = effects_.names.size() == 1;
+      if (out->count() > 0 && one)
+        throw CLI::RequiredError("several cases or --label beside --out");
+      command_ = [this, one] {
+        return one ? effects_command(effects_) : effects_table_command(effects_, renderers_);
       };
     });
   }
