@@ -1,4 +1,6 @@
-#include "harness/analysis/analyse_comparison.h"
+#include "harness/analysis/analyse_study.h"
+
+#include "harness/results/results.h"
 
 namespace trammel::harness {
 
@@ -20,6 +22,30 @@ StepResult analyse_comparison(const Document& document, const References& refere
     }
   }
   return {};
+}
+
+StepResult analyse_model_probabilities(const Document& document, const References& references, bool,
+                                       Recorder& record) {
+  const JsonView id = JsonView(document)["analysis"]["model-probabilities"]["reference"];
+  const references::Reference& stored = references.get(id);
+  if (stored.probabilities.empty()) throw id.error("expected a reference with 'probabilities'");
+  StepResult result;
+  result.model_probabilities = results::read_model_probabilities(Json::parse(stored.probabilities));
+  const results::ModelProbabilities& found = *result.model_probabilities;
+  int excluded = 0;
+  for (const results::ExcludedReadings& some : found.excluded) excluded += some.readings;
+  record.add("reading_count", "", found.rows.front().readings);
+  record.add("excluded_reading_count", "", excluded);
+  for (const results::RowProbabilities& row : found.rows) {
+    record.add("log_evidence", row.row, row.log_evidence.value());
+    record.add("class_count", row.row, row.classes);
+    record.add("class_entropy_bits", row.row, row.entropy_bits.value());
+    record.add("credible_class_count", row.row, row.credible_classes);
+    record.add("largest_class_probability", row.row, row.leading.front().probability.value());
+    record.add("expected_information_bits", row.row,
+               row.further_numbers.front().expected_information_bits.value());
+  }
+  return result;
 }
 
 }  // namespace trammel::harness

@@ -1,8 +1,7 @@
-#include "harness/analysis/analyse_options.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -15,15 +14,22 @@
 namespace trammel::harness {
 namespace {
 
-/// What came of all options together.
-struct OptionCounts {
-  int tried = 0, solved = 0, singular = 0, not_converged = 0, refused = 0;
-  int not_finite = 0;          ///< solved, with a number that is none
-  int incomplete_reasons = 0;  ///< not solved, without the words that its reason must have
-  double disagreement = -1;    ///< of what must not change, over what round-off allows
+/// Outcomes of all combinations, by the names of their quantities.
+using OptionCounts = std::map<std::string, double>;
 
-  void disagree(double by) { disagreement = std::max(disagreement, by); }
-};
+OptionCounts no_outcomes() {
+  return {{"attempted", 0}, {"solved", 0},     {"singular", 0},   {"not_converged", 0},
+          {"refused", 0},   {"not_finite", 0}, {"unexplained", 0}};
+}
+
+/// Largest difference of results that must agree, over their round-off; absent without such
+/// results.
+constexpr const char* kDifference = "result_difference_over_roundoff";
+
+void disagree(double by, OptionCounts& counts) {
+  double& largest = counts[kDifference];
+  largest = std::max(largest, by);
+}
 
 /// The options of one kind of analysis.
 struct Options {
@@ -90,18 +96,19 @@ bool contains_all(const std::string& reason, const std::vector<std::string>& req
 
 void count(const AnalysisResult& result, const std::vector<std::string>& required_terms,
            OptionCounts& counts) {
+  const std::string& reason = result.outcome.reason;
   switch (result.outcome.status) {
     case solver::Status::solved:
-      ++counts.solved;
-      counts.not_finite += all_finite(result.quantities) ? 0 : 1;
+      ++counts["solved"];
+      counts["not_finite"] += all_finite(result.quantities) ? 0 : 1;
       return;
     case solver::Status::singular:
-      ++counts.singular;
-      counts.incomplete_reasons += result.outcome.reason.empty() ? 1 : 0;
+      ++counts["singular"];
+      counts["unexplained"] += reason.empty() ? 1 : 0;
       return;
     case solver::Status::not_converged:
-      ++counts.not_converged;
-      counts.incomplete_reasons += contains_all(result.outcome.reason, required_terms) ? 0 : 1;
+      ++counts["not_converged"];
+      counts["unexplained"] += contains_all(reason, required_terms) ? 0 : 1;
       return;
   }
 }
@@ -125,7 +132,7 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
     Document patched = document;
     patched.apply_patch(written.file, written.pointer, {{"analysis", {{kind, combination}}}});
     if (!seen.insert(computation_key(patched)).second) continue;
-    ++counts.tried;
+    ++counts["attempted"];
     try {
       patched.validate("case");
       AnalysisResult result = analyse(patched, references, {false});
@@ -134,12 +141,12 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
       if (!first) {
         first = std::move(result);
       } else if (result.outcome.status != first->outcome.status) {
-        counts.disagree(std::numeric_limits<double>::max());  // finite, so that it is recorded
+        disagree(std::numeric_limits<double>::max(), counts);  // finite, so that it is recorded
       } else {
-        counts.disagree(max_relative_difference(first->quantities, result.quantities));
+        disagree(max_relative_difference(first->quantities, result.quantities), counts);
       }
     } catch (const InputError&) {
-      ++counts.refused;  // in words, as any bad input
+      ++counts["refused"];  // in words, as any bad input
     }
   }
 }
@@ -160,29 +167,6 @@ std::vector<Document> computations_of(const Document& document, const JsonView& 
   return found;
 }
 
-void record_counts(const std::string& item, const OptionCounts& counts, Recorder& record) {
-  record.add("attempted", item, counts.tried);
-  record.add("solved", item, counts.solved);
-  record.add("singular", item, counts.singular);
-  record.add("not_converged", item, counts.not_converged);
-  record.add("refused", item, counts.refused);
-  record.add("not_finite", item, counts.not_finite);
-  record.add("unexplained", item, counts.incomplete_reasons);
-  if (counts.disagreement >= 0)
-    record.add("result_difference_over_roundoff", item, counts.disagreement);
-}
-
-void add(const OptionCounts& added, OptionCounts& all) {
-  all.tried += added.tried;
-  all.solved += added.solved;
-  all.singular += added.singular;
-  all.not_converged += added.not_converged;
-  all.refused += added.refused;
-  all.not_finite += added.not_finite;
-  all.incomplete_reasons += added.incomplete_reasons;
-  all.disagree(added.disagreement);
-}
-
 }  // namespace
 
 StepResult analyse_options(const Document& document, const References& references, bool,
@@ -190,10 +174,10 @@ StepResult analyse_options(const Document& document, const References& reference
   const JsonView place = JsonView(document)["analysis"]["options"];
   const std::string here = document.origin(place.pointer()).file;
   const Catalogue catalogue;
-  OptionCounts all;
+  OptionCounts all = no_outcomes();
   for (const auto& [name, choice] : place["cases"].entries()) {
     const Case tried = load_case(catalogue.find_base_case(name, here), catalogue);
-    OptionCounts own;
+    OptionCounts own = no_outcomes();
     std::set<std::string> seen;
     for (const std::string& variant : tried.variants()) {
       const Document whole = patched(tried, variant);
@@ -202,10 +186,16 @@ StepResult analyse_options(const Document& document, const References& reference
         run_combinations(added, place, references, seen, own);
       }
     }
-    record_counts(name, own, record);
-    add(own, all);
+    for (const auto& [quantity, number] : own) {
+      record.add(quantity, name, number);
+      if (quantity == kDifference) {
+        disagree(number, all);
+      } else {
+        all[quantity] += number;
+      }
+    }
   }
-  record_counts("", all, record);
+  for (const auto& [quantity, number] : all) record.add(quantity, number);
   return {};
 }
 

@@ -137,8 +137,8 @@ StepResult analyse_study(const Document& document, const References& references,
   for (const Level& level : study_levels(document)) {
     AnalysisResult found = analyse(level.document, references, {draw && !result.drawing});
     parameter.push_back(level.parameter);
-    record.add(study.get<std::string>("parameter", "parameter"), "", level.parameter);
-    record.add("status", "", status_code(found.outcome.status));
+    record.add(study.get<std::string>("parameter", "parameter"), level.parameter);
+    record.add("status", status_code(found.outcome.status));
     for (std::size_t k = 0; k < keep.size(); ++k) {
       const auto& [name, place] = keep[k];
       kept[k].push_back(found.outcome.solved() ? number_of(found.quantities, name, place)

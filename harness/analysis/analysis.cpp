@@ -30,24 +30,37 @@ class RoundingScope {
 
 StepResult analyse_scene(const AnalysisKind& kind, const JsonView& analysis,
                          const CaseModel& case_model, bool draw, Recorder& record) {
-  if (const auto* along_path = std::get_if<PathAnalysis>(&kind.of_scene))
+  if (case_model.path && !kind.has_own_times) {
+    for (const solver::TrajectoryPoint& point : case_model.motion) {
+      record.add("time_s", point.time);
+      record.add("pose_x_m", point.pose.x);
+      record.add("pose_y_m", point.pose.y);
+      record.add("pose_phi_rad", point.pose.phi);
+    }
+  }
+  if (const auto* along_path = std::get_if<AnalysePath*>(&kind.of_scene))
     return (*along_path)(analysis, case_model, draw, record);
-  return analyse_steps(std::get<StepAnalysis>(kind.of_scene), analysis, case_model, draw, record);
+  const auto at_step = [&](std::size_t step, bool drawn) {
+    return std::get<AnalyseStep*>(kind.of_scene)(analysis, case_model, step, drawn, record);
+  };
+  return analyse_steps(case_model, draw, at_step);
 }
 
 /// What was recorded counts where a solution was found, its residuals speak for it and every number
 /// is finite.
 AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& record) {
-  AnalysisResult result;
-  result.analysis = kind.name;
-  result.outcome = kind.evidence.empty()
-                       ? std::move(found.outcome)
-                       : solver::outcome_by_evidence(found.outcome, found.evidence, kind.evidence);
-  result.evidence = found.evidence;
-  result.drawing = std::move(found.drawing);
-  result.counters = found.counters;
-  result.timings = std::move(found.timings);
-  result.warnings = std::move(found.warnings);
+  AnalysisResult result{found.outcome,
+                        found.evidence,
+                        {},
+                        std::move(found.drawing),
+                        found.counters,
+                        std::move(found.timings),
+                        std::move(found.warnings),
+                        kind.name,
+                        {},
+                        {}};
+  if (!kind.evidence.empty())
+    result.outcome = solver::outcome_by_evidence(result.outcome, result.evidence, kind.evidence);
   if (result.outcome.solved() && !record.not_finite().empty()) {
     result.outcome = {solver::Status::not_converged,
                       record.not_finite() + " is not a finite number"};

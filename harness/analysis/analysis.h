@@ -1,18 +1,9 @@
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "harness/analysis/case_effects.h"
-#include "harness/base/quantity.h"
-#include "harness/base/timing.h"
-#include "harness/base/warning.h"
-#include "harness/input/document.h"
-#include "harness/input/reference_library.h"
-#include "harness/results/run_results.h"
-#include "harness/scene/drawing.h"
-#include "solver/linear/system.h"
-#include "solver/model/evidence.h"
+#include "harness/statics_modes/step_result.h"
 
 /// One computation: a case with its patches in, numbers out.
 namespace trammel::harness {

@@ -11,7 +11,7 @@
 #include "harness/base/errors.h"
 #include "harness/base/find_or_add.h"
 #include "harness/motion/analyse_elastodynamics.h"
-#include "harness/statics_modes/analyse_statics.h"
+#include "harness/scene/observables.h"
 #include "solver/large/large_elastodynamics.h"
 #include "solver/model/model.h"
 
@@ -171,9 +171,9 @@ class MeshedScene {
 
   StepResult run(const std::vector<std::size_t>& steps, Recorder& record) const {
     if (kind_.of_points.at != nullptr) return kind_.of_points.at(analysis_, scene_, steps, record);
-    if (const auto* along_path = std::get_if<PathAnalysis>(&kind_.of_scene))
+    if (const auto* along_path = std::get_if<AnalysePath*>(&kind_.of_scene))
       return (*along_path)(analysis_, scene_, false, record);
-    return std::get<StepAnalysis>(kind_.of_scene)(analysis_, scene_, steps.front(), false, record);
+    return std::get<AnalyseStep*>(kind_.of_scene)(analysis_, scene_, steps.front(), false, record);
   }
 
   const AnalysisKind& kind_;
@@ -235,9 +235,8 @@ class Measurement {
     size_ = scales_of(model);
     const auto members = std::max<solver::Index>(std::ssize(model.members), 1);
     CaseModel coarse = scene, coarsest = scene;
-    const bool vibrates = kind.effects == &harmonic_effects() ||
-                          kind.effects == &transient_effects() ||
-                          kind.effects == &large_motion_effects();
+    const bool vibrates = kind.effects == &kHarmonicEffects || kind.effects == &kTransientEffects ||
+                          kind.effects == &kLargeMotionEffects;
     const solver::Index elements =
         vibrates ? 4 : 2 + analysis.get<solver::Index>("count", 0) / members;
     try_linearly_ = !scope.required.has(Effect::large_displacement);
@@ -253,7 +252,7 @@ class Measurement {
     coarsest_.emplace(kind, analysis, std::move(coarsest), scope.applicable, size_);
     coarse_.emplace(kind, analysis, std::move(coarse), scope.applicable, size_);
     own_.emplace(kind, analysis, scene, scope.applicable, size_);
-    const bool one_by_one = std::holds_alternative<StepAnalysis>(kind.of_scene);
+    const bool one_by_one = std::holds_alternative<AnalyseStep*>(kind.of_scene);
     if (has_points_) every_step_ = kind.of_points.sample(analysis, scene);
     for (std::size_t step = 0; !has_points_ && step < (one_by_one ? scene.steps() : 1); ++step)
       every_step_.insert(step);
@@ -463,7 +462,8 @@ std::vector<double> changes_at_start(const JsonView& analysis, CaseModel scene,
     options.time.sample_times = {options.time.start};
     const solver::ElastodynamicsSolution solution = solver::solve_elastodynamics(options);
     if (!solution.outcome.solved()) return false;
-    record_solution(build_model(scene, 0), solution.state.front(), -1, record);
+    const solver::Model model = build_model(scene, 0);
+    StateRecorder(model, "elastodynamics").record({solution.state.front()}, record);
     return true;
   };
   const auto samples = [&](Effects active) {
@@ -494,7 +494,7 @@ std::optional<double> large_displacement_at_rest(const JsonView& analysis, const
     if (!solution.outcome.solved()) return std::nullopt;
     Recorder record;
     for (const solver::StaticSolution& state : solution.state)
-      record_solution(model, state, -1, record);
+      StateRecorder(model, "elastodynamics").record({state}, record);
     found.push_back(record.take_quantities());
   }
   return max_change(changes_between(found[0], found[1], scales_of(model))).value;

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "harness/motion/analyse_elastodynamics.h"
-#include "harness/readers/time_reader.h"
+#include "harness/readers/option_reader.h"
 #include "solver/elements/frame_element.h"
 #include "solver/large/large_elastodynamics.h"
 #include "solver/linear/validate.h"
@@ -100,30 +100,33 @@ bool is_loaded(const solver::Model& model) {
   return on_members || !model.loads.empty() || !model.edge_loads.empty();
 }
 
-EffectScope modes_at_rest_scope(const solver::Model& model) {
+/// Of analyses of vibration.
+EffectScope inertia_scope(const solver::Model& model) {
   EffectScope scope;
   scope.applicable = solver::applicable_effects(model).with(Effect::inertia);
   scope.required = Effects().with(Effect::inertia);
+  dependents_of(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
+  return scope;
+}
+
+EffectScope modes_at_rest_scope(const solver::Model& model) {
+  EffectScope scope = inertia_scope(model);
   if (is_loaded(model) || scope.applicable.has(Effect::gravity)) {
     scope.applicable = scope.applicable.with(Effect::geometric_stiffening);
   }
-  dependents_of(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
   dependents_of(scope, Effect::geometric_stiffening) = Effects().with(Effect::gravity);
   return scope;
 }
 
 /// Whatever the frame holds as it turns stays.
 EffectScope rotating_scope(const JsonView& rotating, const solver::Model& model) {
-  EffectScope scope;
-  scope.applicable =
-      solver::applicable_effects(model).with(Effect::inertia).with(Effect::geometric_stiffening);
-  scope.required = Effects().with(Effect::inertia);
+  EffectScope scope = inertia_scope(model);
+  scope.applicable = scope.applicable.with(Effect::geometric_stiffening);
   if (scope.applicable.has(Effect::gravity)) scope.required = scope.required.with(Effect::gravity);
   // Coriolis forces point out of the plane where the axis lies in it.
   if (rotating.get<std::string>("axis", "normal") == "normal") {
     scope.applicable = scope.applicable.with(Effect::gyroscopic);
   }
-  dependents_of(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
   return scope;
 }
 
@@ -158,13 +161,10 @@ bool has_mass_beside_members(const solver::Model& model) {
 }
 
 EffectScope vibration_scope(const JsonView& analysis, const solver::Model& model) {
-  EffectScope scope;
-  scope.applicable = solver::applicable_effects(model).with(Effect::inertia);
-  scope.required = Effects().with(Effect::inertia);
+  EffectScope scope = inertia_scope(model);
   if (scope.applicable.has(Effect::link_mass) && !has_mass_beside_members(model))
     scope.required = scope.required.with(Effect::link_mass);
   if (analysis.has("damping")) scope.applicable = scope.applicable.with(Effect::damping);
-  dependents_of(scope, Effect::link_mass) = Effects().with(Effect::rotary_inertia);
   return scope;
 }
 
@@ -184,6 +184,17 @@ EffectScope large_motion_scope(const JsonView& analysis, const solver::Model& mo
     scope.required = scope.required.with(effect);
   }
   return scope;
+}
+
+solver::EffectEstimates estimate_motion(const JsonView& analysis, const CaseModel& case_model,
+                                        const EffectScope& scope) {
+  if (const auto history = analysis.find("load_history")) {
+    throw history->error(
+        "expected no automatic effects beside it: a pulse may fall between "
+        "the times at which they are estimated");
+  }
+  return solver::estimate_motion_effects(read_elastodynamics(analysis, case_model),
+                                         scope.applicable);
 }
 
 std::vector<EffectKey> no_keys(const JsonView&) {
@@ -265,54 +276,24 @@ Effects& dependents_of(EffectScope& scope, Effect effect) {
   return scope.dependents[static_cast<std::size_t>(effect)];
 }
 
-const EffectRules& statics_effects() {
-  static const EffectRules rules = {
-      [](const JsonView&) -> std::vector<EffectKey> {
-        return {{Effect::geometric_stiffening, {"second_order"}, false}};
-      },
-      statics_scope, nullptr, 0};
-  return rules;
-}
+const EffectRules kStaticsEffects = {
+    [](const JsonView&) -> std::vector<EffectKey> {
+      return {{Effect::geometric_stiffening, {"second_order"}, false}};
+    },
+    statics_scope, nullptr, 0};
 
-const EffectRules& modes_effects() {
-  static const EffectRules rules = {modes_keys, modes_scope, nullptr, 1};
-  return rules;
-}
+const EffectRules kModesEffects = {modes_keys, modes_scope, nullptr, 1};
 
-const EffectRules& elastodynamics_effects() {
-  static const EffectRules rules = {
-      [](const JsonView&) -> std::vector<EffectKey> {
-        return {{Effect::inertia, {"effects", "elastic_inertia"}, true},
-                {Effect::gyroscopic, {"effects", "transformation_rate_terms"}, false}};
-      },
-      motion_scope,
-      [](const JsonView& analysis, const CaseModel& case_model, const EffectScope& scope) {
-        if (const auto history = analysis.find("load_history")) {
-          throw history->error(
-              "expected no automatic effects beside it: a pulse may fall between "
-              "the times at which they are estimated");
-        }
-        return solver::estimate_motion_effects(read_elastodynamics(analysis, case_model),
-                                               scope.applicable);
-      },
-      2};
-  return rules;
-}
+const EffectRules kElastodynamicsEffects = {
+    [](const JsonView&) -> std::vector<EffectKey> {
+      return {{Effect::inertia, {"effects", "elastic_inertia"}, true},
+              {Effect::gyroscopic, {"effects", "transformation_rate_terms"}, false}};
+    },
+    motion_scope, estimate_motion, 2};
 
-const EffectRules& harmonic_effects() {
-  static const EffectRules rules = {no_keys, harmonic_scope, nullptr, 3};
-  return rules;
-}
-
-const EffectRules& transient_effects() {
-  static const EffectRules rules = {no_keys, vibration_scope, nullptr, 3};
-  return rules;
-}
-
-const EffectRules& large_motion_effects() {
-  static const EffectRules rules = {no_keys, large_motion_scope, nullptr, 3};
-  return rules;
-}
+const EffectRules kHarmonicEffects = {no_keys, harmonic_scope, nullptr, 3};
+const EffectRules kTransientEffects = {no_keys, vibration_scope, nullptr, 3};
+const EffectRules kLargeMotionEffects = {no_keys, large_motion_scope, nullptr, 3};
 
 solver::Model first_model(const CaseModel& case_model) {
   const bool only_large = !case_model.joint_elements.line_springs.empty() ||

@@ -48,12 +48,8 @@ struct EffectRules {
   [[nodiscard]] const char* describe_required(solver::Effect effect) const;
 };
 
-[[nodiscard]] const EffectRules& statics_effects();
-[[nodiscard]] const EffectRules& modes_effects();
-[[nodiscard]] const EffectRules& elastodynamics_effects();
-[[nodiscard]] const EffectRules& harmonic_effects();
-[[nodiscard]] const EffectRules& transient_effects();
-[[nodiscard]] const EffectRules& large_motion_effects();
+extern const EffectRules kStaticsEffects, kModesEffects, kElastodynamicsEffects, kHarmonicEffects,
+    kTransientEffects, kLargeMotionEffects;
 
 /// The scene's model where its path starts; of what only large motion has, the bare one.
 [[nodiscard]] solver::Model first_model(const CaseModel& case_model);

@@ -3,27 +3,10 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "harness/analysis/analyse_comparison.h"
-#include "harness/analysis/analyse_model_probabilities.h"
-#include "harness/analysis/analyse_options.h"
 #include "harness/analysis/analyse_study.h"
 #include "harness/base/text.h"
-#include "harness/motion/analyse_elastodynamics.h"
-#include "harness/motion/analyse_forward_dynamics.h"
-#include "harness/motion/analyse_grnn.h"
-#include "harness/motion/analyse_harmonic.h"
-#include "harness/motion/analyse_inverse_dynamics.h"
-#include "harness/motion/analyse_kinematics.h"
-#include "harness/motion/analyse_large_motion.h"
-#include "harness/motion/analyse_transient.h"
-#include "harness/statics_modes/analyse_buckling.h"
-#include "harness/statics_modes/analyse_large_statics.h"
-#include "harness/statics_modes/analyse_manufactured.h"
-#include "harness/statics_modes/analyse_modes.h"
-#include "harness/statics_modes/analyse_properties.h"
-#include "harness/statics_modes/analyse_sensitivity.h"
-#include "harness/statics_modes/analyse_sensitivity_map.h"
-#include "harness/statics_modes/analyse_statics.h"
+#include "harness/motion/analyses.h"
+#include "harness/statics_modes/analyses.h"
 
 namespace trammel::harness {
 namespace {
@@ -48,28 +31,29 @@ const std::vector<AnalysisKind>& analysis_kinds() {
        .warns_of_crossing = true},
       {.name = "statics",
        .of_scene = analyse_statics,
-       .effects = &statics_effects(),
+       .effects = &kStaticsEffects,
        .evidence = {Residual::equilibrium},
        .warns_of_crossing = true},
       {.name = "buckling",
        .of_scene = analyse_buckling,
        .evidence = {Residual::equilibrium, Residual::mode_count}},
-      {.name = "modes", .of_scene = analyse_modes, .effects = &modes_effects(), .evidence = kModes},
+      {.name = "modes", .of_scene = analyse_modes, .effects = &kModesEffects, .evidence = kModes},
       {.name = "large-statics",
        .of_scene = analyse_large_statics,
        .evidence = {Residual::equilibrium, Residual::recovered_forces}},
       {.name = "large-motion",
        .of_scene = analyse_large_motion,
-       .effects = &large_motion_effects(),
-       .evidence = {Residual::equation_of_motion, Residual::constraints}},
+       .effects = &kLargeMotionEffects,
+       .evidence = {Residual::equation_of_motion, Residual::constraints},
+       .has_own_times = true},
       {.name = "harmonic",
        .of_scene = analyse_harmonic,
-       .effects = &harmonic_effects(),
+       .effects = &kHarmonicEffects,
        .evidence = {Residual::equilibrium},
        .of_points = {harmonic_sample, analyse_harmonic_at}},
       {.name = "transient",
        .of_scene = analyse_transient,
-       .effects = &transient_effects(),
+       .effects = &kTransientEffects,
        .evidence = {Residual::equation_of_motion}},
       {.name = "inverse-dynamics",
        .of_scene = analyse_inverse_dynamics,
@@ -83,7 +67,7 @@ const std::vector<AnalysisKind>& analysis_kinds() {
       {.name = "elastodynamics",
        .of_scene = analyse_elastodynamics,
        .needs_manipulator = true,
-       .effects = &elastodynamics_effects(),
+       .effects = &kElastodynamicsEffects,
        .evidence = {Residual::equation_of_motion},
        .warns_of_crossing = true},
       {.name = "sensitivity",
@@ -109,7 +93,7 @@ const std::vector<AnalysisKind>& analysis_kinds() {
        .without_model = "no model: references against each other"},
       {.name = "model-probabilities",
        .of_case = analyse_model_probabilities,
-       .without_model = "one for each reading of the case's manipulator"},
+       .without_model = "no model: stored probabilities of readings"},
       {.name = "study", .of_case = analyse_study, .without_model = "made by the analysis"},
       {.name = "options", .of_case = analyse_options, .without_model = "those of other cases"}};
   return kinds;

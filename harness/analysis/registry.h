@@ -12,13 +12,6 @@
 /// All analyses in one table: what each is called, computes and knows.
 namespace trammel::harness {
 
-/// Along the whole of it.
-using PathAnalysis = StepResult (*)(const JsonView& analysis, const CaseModel& case_model,
-                                    bool draw, Recorder& record);
-/// Of a case without a scene of its own.
-using CaseAnalysis = StepResult (*)(const Document& document, const References& references,
-                                    bool draw, Recorder& record);
-
 /// Of an analysis that goes through points of its own, as frequencies: at some of them alone.
 struct PointAnalysis {
   /// Those that show what happens between them.
@@ -29,17 +22,19 @@ struct PointAnalysis {
 
 struct AnalysisKind {
   const char* name;  ///< the key below "analysis"
-  std::variant<std::monostate, StepAnalysis, PathAnalysis> of_scene = {};
+  std::variant<std::monostate, AnalyseStep*, AnalysePath*> of_scene = {};
   bool needs_manipulator = false;
   const EffectRules* effects = nullptr;  ///< null: knows none
   /// In the place of `of_scene`, where that is empty or the case has no "model".
-  CaseAnalysis of_case = nullptr;
+  AnalyseCase* of_case = nullptr;
   const char* without_model = "";  ///< what stands for the model then, in words
   /// What a result must show before it counts as solved; empty: it solves no equation of its own.
   std::vector<solver::Residual> evidence = {};
   PointAnalysis of_points = {};
   /// Warns if a path crosses a parallel singularity between two of its points.
   bool warns_of_crossing = false;
+  /// Has times of its own, not those of the points of the path.
+  bool has_own_times = false;
 
   [[nodiscard]] bool needs_model(const Document& document) const;
 };

@@ -1,9 +1,12 @@
 #include "harness/base/processes.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/signalfd.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -21,9 +24,13 @@
 #include <new>
 #include <stdexcept>
 
+#include "harness/base/errors.h"
+#include "harness/base/stopwatch.h"
+
 namespace trammel::harness {
 namespace {
 
+namespace fs = std::filesystem;
 using Termination = ProcessOutcome::Termination;
 
 constexpr int kOutOfMemory = 12;  // the exit status of a process that could not allocate
@@ -63,26 +70,104 @@ std::atomic<bool> found_no_memory{false};
 
 std::size_t allowed_bytes = 0;  ///< to this process by the one that forked it; 0: nothing is said
 
+void limit(__rlimit_resource resource, std::size_t most) {
+  const rlimit both{most, most};
+  setrlimit(resource, &both);
+}
+
+/// Becomes a program that inherits only its folder and its output from this process.
+[[noreturn]] void become(const std::vector<char*>& words, const std::string& folder,
+                         const ProgramLimits& limits, int out) noexcept {
+  setsid();
+  sigset_t none;
+  sigemptyset(&none);
+  sigprocmask(SIG_SETMASK, &none, nullptr);
+  for (const int signal : {SIGXFSZ, SIGPIPE, SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
+  limit(RLIMIT_FSIZE, limits.disk_bytes);
+  limit(RLIMIT_CORE, 0);
+  dup2(open("/dev/null", O_RDONLY), STDIN_FILENO);
+  dup2(out, STDOUT_FILENO);
+  dup2(out, STDERR_FILENO);
+  close_range(STDERR_FILENO + 1, ~0U, 0);
+  setenv("TMPDIR", folder.c_str(), 1);
+  const bool there = chdir(folder.c_str()) == 0;
+  // Last, since this process may itself hold more, as under a sanitizer.
+  if (limits.memory_bytes > 0) limit(RLIMIT_AS, limits.memory_bytes);
+  if (there) execv(words.front(), words.data());
+  dprintf(STDERR_FILENO, "not started: %s\n", std::strerror(errno));
+  _exit(127);
+}
+
 struct Child {
   pid_t process = -1;
-  int answer = -1;  ///< read end of its pipe
+  int output = -1;  ///< read end of its pipe
   std::size_t task = 0;
   unsigned cpu_limit_s = 0;
-  std::string text;
+  std::size_t kept_bytes = std::string::npos;  ///< of the end of its output
+  std::string text = {};
+  Stopwatch watch = {};
 };
 
-/// What the child does. Signals that ask the program to stop are the parent's; with it, the child
-/// ends.
-[[noreturn]] void compute(const ProcessTask& task, std::size_t memory_bytes, pid_t parent,
-                          int out) noexcept {
+/// Forks a child that ends with this process.
+/// @param run  is called in the child with the write end of its pipe, and does not return
+/// @returns a child without a process if the system has no room; errno contains the reason
+Child start_child(const std::function<void(int out)>& run) {
+  Child child;
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) return child;
+  std::cout.flush();
+  std::fflush(nullptr);
+  const pid_t parent = getpid();
+  child.process = fork();
+  if (child.process == 0) {
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
+    if (getppid() != parent) _exit(1);
+    close(ends[0]);
+    run(ends[1]);
+  }
+  const int error = errno;
+  close(ends[1]);
+  child.output = ends[0];
+  if (child.process < 0) close(ends[0]);
+  errno = error;
+  return child;
+}
+
+/// Reads available output. @returns whether more may come
+bool drain(Child& child) {
+  std::array<char, 65536> buffer;  // without zeros, which would cost more than most answers
+  const ssize_t n = read(child.output, buffer.data(), buffer.size());
+  if (n > 0) child.text.append(buffer.data(), static_cast<std::size_t>(n));
+  if (child.text.size() > child.kept_bytes)
+    child.text.erase(0, child.text.size() - child.kept_bytes);
+  return n > 0 || (n < 0 && (errno == EINTR || errno == EAGAIN));
+}
+
+double seconds_of(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+}
+
+/// Awaits the end of a child.
+ProcessOutcome reap(const Child& child) {
+  int status = 0;
+  rusage used{};
+  while (wait4(child.process, &status, 0, &used) < 0 && errno == EINTR) {
+  }
+  const bool signalled = WIFSIGNALED(status);
+  return {signalled ? Termination::crashed : Termination::answered,
+          {},
+          signalled ? WTERMSIG(status) : WEXITSTATUS(status),
+          child.watch.wall_s(),
+          seconds_of(used.ru_utime) + seconds_of(used.ru_stime)};
+}
+
+/// Computes in the child. Signals that ask the program to stop are the parent's.
+[[noreturn]] void compute(const ProcessTask& task, std::size_t memory_bytes, int out) noexcept {
   end_without_memory(kOutOfMemory, "");
-  prctl(PR_SET_PDEATHSIG, SIGKILL);
-  if (getppid() != parent) _exit(1);
   const rlimit cpu{task.cpu_limit_s, task.cpu_limit_s + 1};
   setrlimit(RLIMIT_CPU, &cpu);
   alarm(kHangTimeoutFactor * task.cpu_limit_s);
-  const rlimit memory{memory_bytes, memory_bytes};
-  if (kLimitsMemory && memory_bytes > 0) setrlimit(RLIMIT_AS, &memory);
+  if (kLimitsMemory && memory_bytes > 0) limit(RLIMIT_AS, memory_bytes);
   allowed_bytes = memory_bytes;
   std::string text;
   try {
@@ -98,28 +183,66 @@ struct Child {
   _exit(0);
 }
 
-/// Awaits the end of a child that has closed its pipe.
+/// Awaits the end of a function's process, which has closed its pipe.
 ProcessOutcome outcome_of(Child& child) {
-  int status = 0;
-  rusage used{};
-  while (wait4(child.process, &status, 0, &used) < 0 && errno == EINTR) {
+  ProcessOutcome outcome = reap(child);
+  const int status = outcome.status;
+  const auto without_answer = [&](Termination termination, const std::string& reason) {
+    outcome.termination = termination;
+    outcome.text = reason;
+    return outcome;
+  };
+  if (outcome.termination == Termination::answered) {
+    outcome.text = std::move(child.text);
+    if (status == 0) return outcome;
+    if (status == kOutOfMemory)
+      return without_answer(Termination::out_of_memory, "more memory than there is");
+    return without_answer(Termination::crashed,
+                          fmt::format("the computation ended with status {}", status));
   }
-  if (WIFEXITED(status) && WEXITSTATUS(status) == 0)
-    return {Termination::answered, std::move(child.text)};
-  if (WIFEXITED(status) && WEXITSTATUS(status) == kOutOfMemory)
-    return {Termination::out_of_memory, "more memory than there is"};
-  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  if (signal == SIGXCPU || signal == SIGALRM ||
-      (signal == SIGKILL && cpu_time_s(used) >= child.cpu_limit_s))
-    return {Termination::timed_out,
-            "not done after " + std::to_string(child.cpu_limit_s) + " s of processor time"};
-  if (signal == SIGKILL)
-    return {Termination::out_of_memory, "killed from outside, as where memory runs short"};
-  if (signal == 0)
-    return {Termination::crashed,
-            "the computation ended with status " + std::to_string(WEXITSTATUS(status))};
-  return {Termination::crashed, "the computation crashed (signal " + std::to_string(signal) + ", " +
-                                    strsignal(signal) + ")"};
+  if (status == SIGXCPU || status == SIGALRM ||
+      (status == SIGKILL && outcome.cpu_s >= child.cpu_limit_s))
+    return without_answer(Termination::timed_out,
+                          fmt::format("not done after {} s of processor time", child.cpu_limit_s));
+  if (status == SIGKILL)
+    return without_answer(Termination::out_of_memory,
+                          "killed from outside, as where memory runs short");
+  return without_answer(Termination::crashed, fmt::format("the computation crashed (signal {}, {})",
+                                                          status, strsignal(status)));
+}
+
+/// Waits until a program ends or must be ended.
+Termination await(Child& child, const fs::path& folder, const ProgramLimits& limits) {
+  constexpr int tick_ms = 100;
+  const auto handle = static_cast<int>(syscall(SYS_pidfd_open, child.process, 0));
+  Termination termination = Termination::answered;
+  double looked_s = 0;
+  for (std::array<pollfd, 2> ready{{{handle, POLLIN, 0}, {child.output, POLLIN, 0}}};;) {
+    poll(ready.data(), ready.size(), tick_ms);
+    if (ready[1].fd >= 0 && ready[1].revents != 0 && !drain(child)) ready[1].fd = -1;
+    if (handle < 0 || ready[0].revents != 0) break;
+    const double now_s = child.watch.wall_s();
+    const bool looks = now_s - looked_s >= 1e-3 * tick_ms;
+    if (now_s > limits.wall_s) {
+      termination = Termination::timed_out;
+    } else if (looks && folder_bytes(folder, limits.disk_bytes) > limits.disk_bytes) {
+      termination = Termination::disk_full;
+    }
+    if (termination != Termination::answered) break;
+    if (looks) looked_s = now_s;
+  }
+  if (handle >= 0) close(handle);
+  return termination;
+}
+
+pid_t parent_of(const fs::path& process) {
+  std::string text;
+  std::getline(std::ifstream(process / "stat"), text);
+  const auto name_end = text.rfind(')');  // a name may hold anything
+  int parent = 0;
+  if (name_end != std::string::npos)
+    (void)std::sscanf(text.c_str() + name_end + 1, " %*c %d", &parent);
+  return parent;
 }
 
 /// The processes under way. As long as it lives, SIGINT and SIGTERM are read here instead of ending
@@ -138,7 +261,7 @@ class ProcessPool {
   ~ProcessPool() {
     for (const Child& child : children_) {
       kill(child.process, SIGKILL);
-      close(child.answer);
+      close(child.output);
       waitpid(child.process, nullptr, 0);
     }
     close(signals_);
@@ -151,29 +274,23 @@ class ProcessPool {
 
   /// @returns whether the system has room for another process; errno says why not
   bool start(std::size_t number, const ProcessTask& task, std::size_t memory_bytes) {
-    std::array<int, 2> ends{};
-    if (pipe(ends.data()) != 0) return false;
-    std::cout.flush();
-    std::fflush(nullptr);
-    const pid_t parent = getpid(), child = fork();
-    if (child == 0) {  // which needs what descriptors there are
-      for (const Child& other : children_) close(other.answer);
-      for (const int unused : {ends[0], signals_}) close(unused);
-      compute(task, memory_bytes, parent, ends[1]);
-    }
-    const int error = errno;
-    close(ends[1]);
-    if (child < 0) close(ends[0]);
-    errno = error;
-    if (child > 0) children_.push_back({child, ends[0], number, task.cpu_limit_s, {}});
-    return child > 0;
+    Child child = start_child([&](int out) {  // which needs what descriptors there are
+      for (const Child& other : children_) close(other.output);
+      close(signals_);
+      compute(task, memory_bytes, out);
+    });
+    if (child.process < 0) return false;
+    child.task = number;
+    child.cpu_limit_s = task.cpu_limit_s;
+    children_.push_back(std::move(child));
+    return true;
   }
 
   /// Takes in what there is of answers. @returns the signal where one came, else 0
   int wait(const std::function<void(std::size_t, const ProcessOutcome&)>& ended,
            const std::function<void()>& waiting) {
     std::vector<pollfd> ready = {{signals_, POLLIN, 0}};
-    for (const Child& child : children_) ready.push_back({child.answer, POLLIN, 0});
+    for (const Child& child : children_) ready.push_back({child.output, POLLIN, 0});
     constexpr int a_second = 1000;
     const int found = poll(ready.data(), ready.size(), a_second);
     if (found == 0 && waiting) waiting();
@@ -181,23 +298,16 @@ class ProcessPool {
     if (signalfd_siginfo came{}; ready[0].revents != 0)
       return read(signals_, &came, sizeof came) > 0 ? static_cast<int>(came.ssi_signo) : 0;
     for (std::size_t i = children_.size(); i-- > 0;) {
-      if (ready[i + 1].revents == 0 || is_under_way(children_[i])) continue;
+      if (ready[i + 1].revents == 0 || drain(children_[i])) continue;
       Child child = std::move(children_[i]);
       children_.erase(children_.begin() + static_cast<std::ptrdiff_t>(i));
-      close(child.answer);
+      close(child.output);
       ended(child.task, outcome_of(child));
     }
     return 0;
   }
 
  private:
-  static bool is_under_way(Child& child) {
-    std::array<char, 65536> buffer;  // as it comes: zeros would cost more than most answers
-    const ssize_t n = read(child.answer, buffer.data(), buffer.size());
-    if (n > 0) child.text.append(buffer.data(), static_cast<std::size_t>(n));
-    return n > 0 || (n < 0 && errno == EINTR);
-  }
-
   std::vector<Child> children_;
   sigset_t before_{};
   int signals_ = -1;
@@ -263,11 +373,71 @@ int run_in_processes(const std::vector<ProcessTask>& tasks, const ProcessOptions
   return 0;
 }
 
-double cpu_time_s(const rusage& used) {
-  const auto seconds = [](const timeval& time) {
-    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-  };
-  return seconds(used.ru_utime) + seconds(used.ru_stime);
+ProcessOutcome run_limited(const ProcessTask& task, const ProcessOptions& options) {
+  ProcessOutcome outcome;
+  const auto ended = [&](std::size_t, const ProcessOutcome& found) { outcome = found; };
+  if (const int signal = run_in_processes({task}, options, ended); signal != 0)
+    throw Interrupted(signal);
+  return outcome;
+}
+
+void adopt_descendants() {
+  prctl(PR_SET_CHILD_SUBREAPER, 1);
+}
+
+void end_descendants() {
+  for (bool found = true; found;) {
+    found = false;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator("/proc", error)) {
+      const int process = std::atoi(entry.path().filename().c_str());
+      if (process <= 0 || parent_of(entry.path()) != getpid()) continue;
+      found = true;
+      kill(process, SIGKILL);
+      waitpid(process, nullptr, 0);
+    }
+  }
+}
+
+std::size_t folder_bytes(const fs::path& folder, std::size_t enough) {
+  constexpr std::size_t entry_bytes = 4096;  // a million empty files are too much, too
+  std::size_t sum = 0;
+  std::error_code error;
+  for (fs::recursive_directory_iterator
+           entry(folder, fs::directory_options::skip_permission_denied, error),
+       end;
+       entry != end && !error && sum <= enough; entry.increment(error)) {
+    std::error_code unknown;
+    sum += entry_bytes;
+    if (!entry->is_symlink(unknown) && entry->is_regular_file(unknown)) {
+      const auto size = entry->file_size(unknown);
+      if (!unknown) sum += size;
+    }
+  }
+  return sum;
+}
+
+ProcessOutcome run_limited(const std::vector<std::string>& words, const fs::path& folder,
+                           const ProgramLimits& limits) {
+  adopt_descendants();
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+  Child child = start_child([&](int out) { become(arguments, folder.string(), limits, out); });
+  if (child.process < 0) return {Termination::not_started, {}, errno};
+  child.kept_bytes = 65536;
+  fcntl(child.output, F_SETFL, O_NONBLOCK);
+  const Termination termination = await(child, folder, limits);
+  if (termination != Termination::answered) kill(child.process, SIGKILL);
+  ProcessOutcome outcome = reap(child);
+  if (termination != Termination::answered) outcome.termination = termination;
+  end_descendants();
+  errno = 0;
+  while (drain(child) && errno == 0) {
+  }
+  close(child.output);
+  outcome.text = std::move(child.text);
+  return outcome;
 }
 
 }  // namespace trammel::harness

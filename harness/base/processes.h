@@ -1,14 +1,13 @@
 #pragma once
 
-#include <sys/resource.h>
-
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
-/// Computations in processes of their own: a crash, an endless loop or too much memory costs one of
-/// them, never the others.
+/// Functions and programs in separate processes: a crash, an endless loop or too much memory costs
+/// one of them.
 namespace trammel::harness {
 
 struct ProcessTask {
@@ -18,9 +17,13 @@ struct ProcessTask {
 
 /// How a process ended.
 struct ProcessOutcome {
-  enum class Termination { answered, timed_out, out_of_memory, crashed, not_started };
-  Termination termination = Termination::crashed;
-  std::string text;  ///< the answer, or the reason why there is none
+  enum class Termination { answered, timed_out, out_of_memory, disk_full, crashed, not_started };
+  Termination termination = Termination::not_started;
+  /// Of a function its answer, or the reason why there is none. Of a program the end of standard
+  /// output and error, at most 64 KiB.
+  std::string text;
+  int status = 0;  ///< exit status, number of the signal, or errno if it was not started
+  double wall_s = 0, cpu_s = 0;
 };
 
 struct ProcessOptions {
@@ -46,8 +49,32 @@ void end_without_memory(int status, const char* line);
     const std::vector<ProcessTask>& tasks, const ProcessOptions& options,
     const std::function<void(std::size_t task, const ProcessOutcome& outcome)>& ended);
 
-/// Processor time of the system and of the program itself.
-[[nodiscard]] double cpu_time_s(const rusage& used);
+/// Runs one function.
+/// @throws Interrupted  if SIGINT or SIGTERM came
+[[nodiscard]] ProcessOutcome run_limited(const ProcessTask& task, const ProcessOptions& options);
+
+/// Limits of a program that is not part of trammel.
+struct ProgramLimits {
+  double wall_s = 120;
+  std::size_t memory_bytes = 0;  ///< address space of each of its processes; 0: no limit
+  std::size_t disk_bytes = std::size_t{1} << 30;  ///< of each file, and of its folder as a whole
+};
+
+/// Runs a program in the folder, which is also its TMPDIR, in a separate session and without
+/// standard input; then kills it with all that it has started. It is `answered` with any exit
+/// status. This process must have no other children.
+/// @param words  the program's path, then its arguments
+[[nodiscard]] ProcessOutcome run_limited(const std::vector<std::string>& words,
+                                         const std::filesystem::path& folder,
+                                         const ProgramLimits& limits);
+
+/// Makes this process the parent of what its descendants leave behind, from now on.
+void adopt_descendants();
+/// Kills every child of this process, and what becomes its child by that.
+void end_descendants();
+
+/// Size of all files below a folder; counting stops above `enough`.
+[[nodiscard]] std::size_t folder_bytes(const std::filesystem::path& folder, std::size_t enough);
 
 /// From now on SIGINT and SIGTERM, where `run_in_processes` does not read them, end the program
 /// with this line on standard error and exit status 128 + signal. Where they were ignored they

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <type_traits>
 
 #include "harness/base/quantity.h"
 
@@ -18,6 +19,18 @@ class Recorder {
     quantity.values.push_back(value);
     if (roundoff >= 0) quantity.roundoff.push_back(roundoff);
     if (!std::isfinite(value) && not_finite_.empty()) not_finite_ = key(name, item);
+  }
+  /// A number of the whole model or motion.
+  template <class Number>
+    requires std::is_arithmetic_v<Number>
+  void add(const std::string& name, Number value) {
+    add(name, "", static_cast<double>(value));
+  }
+  /// One number for each item.
+  template <class Items, class Values>
+  void add_each(const std::string& name, const Items& items, const Values& values) {
+    auto value = std::begin(values);
+    for (const auto& item : items) add(name, item, *value++);
   }
   /// The analysis itself says that there is no number here: a gap between curves, a level of a
   /// study without solution. Written as null; only a check that asks for it fails.

@@ -9,6 +9,9 @@
 
 namespace trammel::harness {
 
+namespace {
+
+/// Insertions, deletions, substitutions and swaps of neighbors between two words.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -24,6 +27,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
   }
   return row[b.size()];
 }
+
+}  // namespace
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
   if (word.size() > 200) return {};
@@ -45,6 +50,12 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
   const std::string best = nearest(word, candidates);
   return best.empty() ? "" : "; did you mean '" + best + "'?";
+}
+
+std::string unknown_name(const std::string& expected, const std::string& name,
+                         const std::vector<std::string>& candidates) {
+  return "expected " + expected + " (got '" + printable(name) + "')" +
+         did_you_mean(name, candidates);
 }
 
 std::string quoted(const std::string& word) {
@@ -81,14 +92,6 @@ std::string rounded(double value, int digits) {
 
 std::string percent(double share) {
   return rounded(100 * share, 3) + " %";
-}
-
-std::string csv_cell(std::string text) {
-  if (!text.empty() && std::string("=+-@").find(text.front()) != std::string::npos)
-    text.insert(0, "'");
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
 }
 
 std::string printable(std::string text, std::size_t length) {

@@ -8,15 +8,16 @@
 /// Small words for messages.
 namespace trammel::harness {
 
-/// Number of single-character insertions, deletions, substitutions and swaps of neighbours.
-[[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
-
 /// The candidate that a misspelt word most likely meant; empty when none is near.
 [[nodiscard]] std::string nearest(const std::string& word,
                                   const std::vector<std::string>& candidates);
 
 /// "; did you mean 'x'?", or nothing when no candidate is near.
 [[nodiscard]] std::string did_you_mean(const std::string& word,
+                                       const std::vector<std::string>& candidates);
+
+/// "expected X (got 'name'); did you mean 'y'?"
+[[nodiscard]] std::string unknown_name(const std::string& expected, const std::string& name,
                                        const std::vector<std::string>& candidates);
 
 /// "'word'"
@@ -36,10 +37,6 @@ namespace trammel::harness {
 
 /// "12.3 %" of 0.123
 [[nodiscard]] std::string percent(double share);
-
-/// A text in quotes as CSV has them (RFC 4180). One that a spreadsheet would compute has an
-/// apostrophe in front.
-[[nodiscard]] std::string csv_cell(std::string text);
 
 /// Bytes that a terminal or a line cannot hold become '?', long text is cut.
 [[nodiscard]] std::string printable(std::string text, std::size_t length = 60);

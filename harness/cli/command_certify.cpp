@@ -1,5 +1,3 @@
-#include "harness/cli/command_certify.h"
-
 #include <algorithm>
 #include <cfenv>
 #include <filesystem>
@@ -9,8 +7,8 @@
 #include "harness/analysis/analysis.h"
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
-#include "harness/base/table.h"
-#include "harness/base/text.h"
+#include "harness/base/rows.h"
+#include "harness/cli/commands.h"
 #include "harness/results/fields.h"
 #include "harness/run/certification.h"
 #include "harness/run/results.h"
@@ -37,13 +35,13 @@ constexpr std::pair<const char*, int> kRounding[] = {{"to the nearest", FE_TONEA
                                                      {"downwards", FE_DOWNWARD},
                                                      {"towards zero", FE_TOWARDZERO}};
 
-std::vector<Configuration> computed(const std::vector<Case>& cases, const RunCommand& command) {
+std::vector<Configuration> computed(const std::vector<Case>& cases, const CommandOptions& given) {
   const References references;
   std::vector<Configuration> configurations;
   for (const auto& [name, mode] : kRounding) {
     RunOptions options;
-    options.jobs = command.jobs;
-    options.memory_bytes = command.memory_bytes;
+    options.jobs = given.jobs;
+    options.memory_bytes = given.memory_bytes;
     set_solver_rounding(mode);
     const std::vector<Run> runs =
         run_shown(cases, references, options, std::string("runs rounded ") + name);
@@ -53,33 +51,29 @@ std::vector<Configuration> computed(const std::vector<Case>& cases, const RunCom
   return configurations;
 }
 
-std::string digits_text(double digits) {
-  return digits >= 16 ? "all" : rounded(digits, 3);
-}
-
-void print(const Certification& certificate) {
-  Table rows({"configuration", ">checks", ">missing", ">digits (median)", ">fewest", "of"});
-  for (const ConfigurationRow& row : certificate.rows)
-    rows.add({row.name, std::to_string(row.checks), std::to_string(row.missing),
-              digits_text(row.median_digits), digits_text(row.fewest_digits), row.least_certain});
-  rows.print(std::cout, "");
-  std::cout << "digits of judged numbers that agree with those rounded to the nearest\n";
-  if (!certificate.tight.empty()) {
-    std::cout << "\nTolerances less than ten times the noise\n";
-    Table tight({"check", ">tolerance", ">noise", "configuration"});
-    for (const TightTolerance& one : certificate.tight)
-      tight.add({one.check, rounded(one.tolerance, 2), rounded(one.noise, 2), one.configuration});
-    tight.print(std::cout, "  ");
-  }
-  if (certificate.flips.empty()) {
+void print_certificate(const Json& certificate) {
+  const auto print_rows = [&](const char* title, const char* key,
+                              const std::vector<Column>& columns) {
+    std::cout << title;
+    Rows(columns, certificate[key]).print(std::cout, "  ");
+  };
+  print_rows("Digits of judged numbers that agree with those rounded to the nearest, of 16\n",
+             "configurations",
+             {{"configuration"},
+              {"checks"},
+              {"missing"},
+              {"median_digits", "digits (median)", 3},
+              {"fewest_digits", "fewest", 3},
+              {"fewest_of", "of"}});
+  if (!certificate["tight_tolerances"].empty())
+    print_rows("\nTolerances less than ten times the noise\n", "tight_tolerances",
+               {{"check"}, {"tolerance", "", 2}, {"noise", "", 2}, {"configuration"}});
+  if (certificate["flips"].empty()) {
     std::cout << "\nNo verdict differs, and none is missing.\n";
-    return;
+  } else {
+    print_rows("\nVerdicts and runs that differ or are missing\n", "flips",
+               {{"check", "check or run"}, {"from", "verdict"}, {"to", "is"}, {"configuration"}});
   }
-  std::cout << "\nVerdicts and runs that differ or are missing\n";
-  Table flips({"check or run", "verdict", "is", "configuration"});
-  for (const VerdictFlip& flip : certificate.flips)
-    flips.add({flip.check, flip.from, flip.to, flip.configuration});
-  flips.print(std::cout, "  ");
 }
 
 /// Results of another input differ by it, not by how they were computed.
@@ -95,26 +89,25 @@ void require_same_cases(const std::vector<Case>& cases, const std::filesystem::p
 
 }  // namespace
 
-int certify_command(const RunCommand& command, const std::vector<std::string>& builds) {
-  const std::vector<Case> cases = select_cases(command);
+int certify_command(const CommandOptions& options, const Renderers& /*renderers*/) {
+  const std::vector<Case> cases = select_cases(options);
   std::vector<Configuration> stored;
-  for (const std::string& name : builds) {
-    const std::filesystem::path file = is_directory(std::filesystem::path(name))
-                                           ? std::filesystem::path(name) / "results.json"
-                                           : std::filesystem::path(name);
+  for (const std::string& name : options.builds) {
+    const std::filesystem::path file = results_path(name);
     stored.push_back({name, read_summary(file)});
     require_same_cases(cases, file, stored.back().results);
   }
-  std::vector<Configuration> configurations = computed(cases, command);
+  std::vector<Configuration> configurations = computed(cases, options);
   for (Configuration& build : stored) configurations.push_back(std::move(build));
   const Certification certificate = certify(configurations);
   const bool any = std::ranges::any_of(certificate.rows,
                                        [](const ConfigurationRow& row) { return row.checks > 0; });
   if (!any) throw InputError("expected cases with checks, for there is nothing to certify");
-  if (command.json) {
-    std::cout << pretty(results::to_json(certificate), 2);
+  const Json json = results::to_json(certificate);
+  if (options.json) {
+    std::cout << pretty(json, 2);
   } else {
-    print(certificate);
+    print_certificate(json);
   }
   return certificate.flips.empty() ? 0 : 1;
 }

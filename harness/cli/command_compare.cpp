@@ -1,5 +1,3 @@
-#include "harness/cli/command_compare.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,11 +10,10 @@
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
-#include "harness/base/table.h"
+#include "harness/base/rows.h"
 #include "harness/base/text.h"
-#include "harness/cli/command_line.h"
+#include "harness/cli/commands.h"
 #include "harness/input/catalogue.h"
-#include "harness/input/schema.h"
 #include "harness/run/compare_sides.h"
 #include "harness/run/cost_results.h"
 #include "harness/run/results.h"
@@ -54,33 +51,6 @@ Side side_of(const Case& given, const std::string& variant) {
           patched(given, variant)};
 }
 
-bool is_json_file(const fs::path& file) {
-  std::error_code error;
-  return file.extension() == ".json" && fs::is_regular_file(file, error);
-}
-
-/// The results that a name means, read once.
-std::optional<Side> stored_side(const std::string& name) {
-  std::error_code error;
-  if (fs::is_directory(name, error))
-    return Side{name, read_summary(fs::path(name) / "results.json"), std::nullopt};
-  if (!is_json_file(name)) return std::nullopt;
-  Json json = read_json(name);
-  if (!json.is_object() || !json.contains("format") || !json.contains("runs")) return std::nullopt;
-  return Side{name, read_summary(name, std::move(json)), std::nullopt};
-}
-
-/// Why something cannot be compared with results.
-[[noreturn]] void refuse_beside_results(const std::string& name) {
-  if (!is_json_file(name)) (void)Catalogue().find_case(parted(name).first);
-  const Json json = is_json_file(name) ? read_json(name) : Json();
-  if (json.is_object() && !json.contains("model") && !json.contains("analysis")) {
-    const auto schema_error = find_schema_fault(json, "results");
-    if (schema_error) throw InputError(name, schema_error->pointer, schema_error->message);
-  }
-  throw InputError("expected variants alone or results alone (got both)");
-}
-
 std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
   std::vector<Side> sides;
   for (const std::string& name : names) {
@@ -111,154 +81,91 @@ std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
   return sides;
 }
 
+/// Results, each read once, or cases.
 std::vector<Side> sides_of(const std::vector<std::string>& names) {
   std::vector<Side> sides;
   std::vector<std::string> others;
   for (const std::string& name : names) {
-    if (std::optional<Side> side = stored_side(name)) {
-      sides.push_back(std::move(*side));
+    const fs::path file = results_path(name);
+    if (Json json = read_if_results(file); !json.is_null()) {
+      sides.push_back({name, read_summary(file, std::move(json)), std::nullopt});
     } else {
       others.push_back(name);
     }
   }
   if (sides.empty()) return sides_of_cases(names);
-  if (!others.empty()) refuse_beside_results(others.front());
+  if (!others.empty()) {
+    (void)load_named_case(parted(others.front()).first);  // reports what is wrong with it
+    throw InputError("expected variants alone or results alone (got both)");
+  }
   if (sides.size() < 2) throw InputError("expected two results (got one)");
   return sides;
 }
 
-std::string percent_text(const Number& percent) {
-  return percent ? rounded(*percent, 3) : "";
-}
-
-std::string share_text(const Number& share) {
-  return share ? percent_text(100 * *share) : "";
-}
-
-/// Time beside accuracy.
+/// Time next to accuracy.
 void print_sides(const SideComparison& comparison) {
+  std::vector<Column> columns = {{"label", "side"},
+                                 {"runs"},
+                                 {"cpu_s", "time [s]", 3},
+                                 {"relative_time", "of first", 3},
+                                 {"work"}};
   const bool errors = comparison.sides.front().median_error.has_value();
-  Table table(errors
-                  ? std::vector<std::string>{"side", ">runs", ">time [s]", ">of first", ">work",
-                                             ">error [%]", ">largest [%]", ">rank", ">over best"}
-                  : std::vector<std::string>{"side", ">runs", ">time [s]", ">of first", ">work"});
-  for (const ComparedSide& side : comparison.sides) {
-    std::vector<std::string> row = {side.label, std::to_string(side.runs), rounded(side.cpu_s, 3),
-                                    side.relative_time ? rounded(*side.relative_time, 3) : "",
-                                    std::to_string(side.work)};
-    if (errors) {
-      const auto& ratio = side.error_ratio;
-      const std::string over = ratio.empty() || !ratio[0]
-                                   ? ""
-                                   : fmt::format("{:.3g} ({:.3g} to {:.3g})", *ratio[0],
-                                                 ratio[1].value_or(NAN), ratio[2].value_or(NAN));
-      for (const std::string& cell : {share_text(side.median_error), share_text(side.largest_error),
-                                      std::to_string(side.rank), over})
-        row.push_back(cell);
-    }
-    table.add(row);
-  }
-  table.print(std::cout);
   if (errors)
-    std::cout << "error: median against references; over best: with an interval of 98 %, within "
+    columns.insert(columns.end(), {{"median_error", "error [%]", 3, 100},
+                                   {"largest_error", "largest [%]", 3, 100},
+                                   {"rank"},
+                                   {"error_ratio", "over best", 3}});
+  Rows(columns, to_json(comparison)["sides"]).print(std::cout);
+  if (errors)
+    std::cout << "error: median against references; over best: with the interval of 98 %, within "
                  "which\nsides share a rank\n";
 }
 
-std::string mode_numbers(const std::vector<std::size_t>& set) {
-  std::vector<std::string> numbers;
-  for (const std::size_t number : set) numbers.push_back(std::to_string(number));
-  return join(numbers, "and");
-}
-
-/// A table of what the first side has, and of cells for each further one: beside it where there are
-/// few, else below it.
-class SidesTable {
- public:
-  /// @param cells  heads of a side's cells; of the first side the first of them alone
-  SidesTable(std::vector<std::string> first, std::vector<std::string> cells,
-             const SideComparison& comparison)
-      : comparison_(comparison), below_(comparison.sides.size() > kBeside) {
-    width_ = cells.size();
-    blank_.resize(first.size());
-    if (below_) first.emplace_back("side");
-    for (std::size_t s = 0; s < (below_ ? 1 : comparison.sides.size()); ++s) {
-      if (!below_) cells.front() = ">" + comparison.sides[s].label;
-      const bool value_alone = s == 0 && !below_;
-      first.insert(first.end(), cells.begin(), value_alone ? cells.begin() + 1 : cells.end());
-    }
-    table_ = Table(first);
-  }
-
-  /// @param cells  of each side
-  void add(std::vector<std::string> first, std::vector<std::vector<std::string>> cells) {
-    if (!below_) {
-      cells.front().resize(1);
-      for (const auto& own : cells) first.insert(first.end(), own.begin(), own.end());
-      return table_.add(first);
-    }
-    for (std::size_t s = 0; s < cells.size(); ++s) {
-      std::vector<std::string> row = s == 0 ? first : blank_;
-      row.push_back(comparison_.sides[s].label);
-      cells[s].resize(width_);
-      row.insert(row.end(), cells[s].begin(), cells[s].end());
-      table_.add(row);
-    }
-  }
-
-  void print() const {
-    if (!table_.empty()) table_.print(std::cout);
-  }
-
- private:
-  static constexpr std::size_t kBeside = 4;
-  const SideComparison& comparison_;
-  bool below_;
-  std::size_t width_ = 0;
-  std::vector<std::string> blank_;
-  Table table_{{}};
-};
-
 void print_modes(const ComparedRun& run, const SideComparison& comparison) {
   if (run.modes.empty()) return;
-  SidesTable table({">mode"}, {">Hz", ">mode", ">percent", ">alike"}, comparison);
-  for (const results::ComparedModes& found : run.modes) {
-    std::vector<std::vector<std::string>> cells;
-    for (std::size_t s = 0; s < found.values.size(); ++s) {
-      if (!found.values[s]) {
-        cells.push_back({"no mode looks alike", "-", "", ""});
-        continue;
-      }
-      const std::string last = found.last[s] ? " to " + rounded(*found.last[s], 8) : "";
-      cells.push_back({rounded(*found.values[s], 8) + last, mode_numbers(found.modes[s]),
-                       percent_text(found.percent[s]), rounded(*found.alike[s], 4)});
+  Rows table({"mode", "side", "modes", {"Hz", "", 8}, {"percent", "", 3}, {"alike", "", 4}});
+  for (const results::ComparedModes& modes : run.modes)
+    for (std::size_t s = 0; s < modes.values.size(); ++s) {
+      Json frequencies = Json::array({number_or_null(modes.values[s])});
+      if (modes.last[s]) frequencies.push_back(*modes.last[s]);
+      table.add({s == 0 ? Json(modes.modes[0]) : Json(), comparison.sides[s].label,
+                 modes.modes[s].empty() ? Json("no mode looks alike") : Json(modes.modes[s]),
+                 frequencies, number_or_null(modes.percent[s]), number_or_null(modes.alike[s])});
     }
-    table.add({mode_numbers(found.modes[0])}, cells);
+  table.print(std::cout);
+  std::cout << "alike: 1 for the same shape (modal assurance criterion; of repeated modes the\n"
+               "subspaces are compared)\n";
+}
+
+/// Columns, then two for each side: the value, and its difference from the first in percent.
+std::vector<Column> with_sides(std::vector<Column> columns, const SideComparison& comparison) {
+  for (const ComparedSide& side : comparison.sides) {
+    columns.emplace_back(side.label.c_str(), "", 10);
+    columns.emplace_back((side.label + " [%]").c_str(), "", 3);
   }
-  table.print();
-  std::cout << "[Hz]; alike: 1 for the same shape (modal assurance criterion; of repeated modes\n"
-               "the subspaces are compared)\n";
+  return columns;
+}
+
+void add_row(std::vector<Json> cells, const results::ComparedValue& value, Rows& rows) {
+  for (std::size_t s = 0; s < value.values.size(); ++s) {
+    cells.push_back(number_or_null(value.values[s]));
+    cells.push_back(number_or_null(value.percent[s]));
+  }
+  rows.add(std::move(cells));
 }
 
 void print_numbers(const ComparedRun& run, const SideComparison& comparison) {
-  SidesTable table({"quantity", ">index"}, {">value", ">percent"}, comparison);
-  std::set<std::string> same;
-  for (const ComparedNumber& number : run.numbers) {
-    if (!number.changed) {
-      same.insert(number.quantity);
-      continue;
-    }
-    std::vector<std::vector<std::string>> cells;
-    for (std::size_t s = 0; s < number.values.size(); ++s) {
-      // What is nothing but round-off is a zero.
-      const double value = number.values[s].value_or(NAN);
-      cells.push_back({rounded(std::abs(value) <= number.noise ? 0 : value, 10),
-                       percent_text(number.percent[s])});
-    }
-    table.add({number.quantity, number.entries > 1 ? std::to_string(number.index) : ""}, cells);
+  Rows table(with_sides({"quantity", "index"}, comparison));
+  std::set<std::string> same, changed;
+  for (ComparedNumber number : run.numbers) {
+    (number.changed ? changed : same).insert(number.quantity);
+    if (!number.changed) continue;
+    for (Number& value : number.values)
+      if (value && std::abs(*value) <= number.noise) value = 0;  // only round-off
+    add_row({number.quantity, number.entries > 1 ? Json(number.index) : Json()}, number, table);
   }
-  table.print();
-  for (const ComparedNumber& number : run.numbers)
-    if (number.changed) same.erase(number.quantity);
+  if (!table.empty()) table.print(std::cout);
+  std::erase_if(same, [&](const std::string& name) { return changed.count(name) > 0; });
   if (!same.empty())
     std::cout << wrapped("Within round-off: " + join({same.begin(), same.end()}, "and"), "");
   for (const std::string& remark : run.remarks) std::cout << wrapped(remark, "");
@@ -276,26 +183,17 @@ void print(const SideComparison& comparison) {
   }
 }
 
-void print_csv(const SideComparison& comparison) {
-  std::cout << "run,quantity,index,changed,noise";
-  for (const ComparedSide& side : comparison.sides)
-    std::cout << ',' << csv_cell(side.label) << ',' << csv_cell(side.label + " [%]");
-  std::cout << "\n";
-  const auto line = [&](const std::string& run, const std::string& quantity,
-                        const std::string& index, const results::ComparedValue& value) {
-    const auto cell = [](const Number& number) { return number ? shortest(*number) : ""; };
-    std::cout << csv_cell(run) << ',' << csv_cell(quantity) << ',' << index << ','
-              << (value.changed ? "true," : "false,") << shortest(value.noise);
-    for (std::size_t s = 0; s < value.values.size(); ++s)
-      std::cout << ',' << cell(value.values[s]) << ',' << cell(value.percent[s]);
-    std::cout << "\n";
-  };
+std::string csv(const SideComparison& comparison) {
+  Rows rows(with_sides({"run", "quantity", "index", "changed", "noise"}, comparison));
   for (const ComparedRun& run : comparison.runs) {
-    for (const results::ComparedModes& found : run.modes)
-      line(run.name, "frequency_Hz", std::to_string(found.modes[0].front() - 1), found);
+    for (const results::ComparedModes& modes : run.modes)
+      add_row({run.name, "frequency_Hz", modes.modes[0].front() - 1, modes.changed, modes.noise},
+              modes, rows);
     for (const ComparedNumber& number : run.numbers)
-      line(run.name, number.quantity, std::to_string(number.index), number);
+      add_row({run.name, number.quantity, number.index, number.changed, number.noise}, number,
+              rows);
   }
+  return rows.csv();
 }
 
 /// The points of a study by the titles of its settings.
@@ -311,23 +209,21 @@ std::vector<CostPoint> named_points(const results::CostStudy& study,
   return points;
 }
 
-/// How near two measurements of the same studies come.
-void print_costs(const results::Results& a, const results::Results& b) {
-  if (!a.cost || !b.cost) return;
-  Table table({"study", ">on both fronts", ">of", ">same cheapest", ">of", ">median", ">largest"});
-  const results::CostStudies& others = *b.cost;
-  for (const results::CostStudy& study : a.cost->studies) {
-    const auto other = std::ranges::find_if(
-        others.studies,
-        [&](const results::CostStudy& candidate) { return candidate.id == study.id; });
-    if (other == others.studies.end()) continue;
+/// Agreement of two measurements of the same studies.
+void print_costs(const std::optional<results::CostStudies>& a,
+                 const std::optional<results::CostStudies>& b) {
+  if (!a || !b) return;
+  Rows table(
+      {"study", "on both fronts", "of", "same cheapest", "of targets", ">median", ">largest"});
+  for (const results::CostStudy& study : a->studies) {
+    const auto other = std::ranges::find(b->studies, study.id, &results::CostStudy::id);
+    if (other == b->studies.end()) continue;
     std::vector<std::string> titles;
-    const std::vector<CostPoint> points_a = named_points(study, titles);
-    const ParetoFrontAgreement both = compare_pareto_fronts(points_a, named_points(*other, titles));
-    table.add({study.id, std::to_string(both.shared), std::to_string(both.either),
-               std::to_string(both.same_cheapest), std::to_string(both.targets),
-               rounded(100 * both.median_difference, 2) + " % apart",
-               rounded(100 * both.largest_difference, 2) + " %"});
+    const std::vector<CostPoint> points = named_points(study, titles);
+    const ParetoFrontAgreement both = compare_pareto_fronts(points, named_points(*other, titles));
+    table.add({study.id, both.shared, both.either, both.same_cheapest, both.targets,
+               fmt::format("{:.2g} % apart", 100 * both.median_difference),
+               fmt::format("{:.2g} %", 100 * both.largest_difference)});
   }
   if (table.empty()) return;
   std::cout << "accuracy and computing time: settings on the Pareto fronts, the cheapest setting "
@@ -338,22 +234,33 @@ void print_costs(const results::Results& a, const results::Results& b) {
 
 }  // namespace
 
-int compare_command(const CompareCommand& command, const Renderers& renderers) {
-  if (!command.html.empty()) require_drawing(renderers);
-  std::vector<Side> sides = sides_of(command.sides);
-  const bool table = !command.json && !command.csv;
-  std::vector<results::Results> costs;
-  for (const Side& side : sides) {
-    costs.emplace_back();
-    costs.back().cost = side.results.cost;
+fs::path results_path(const std::string& name) {
+  return fs::is_directory(name) ? fs::path(name) / "results.json" : fs::path(name);
+}
+
+Json read_if_results(const fs::path& file) {
+  if (file.extension() != ".json") return nullptr;
+  Json json = read_json(file);
+  const bool is_results = json.is_object() && json.contains("format") && json.contains("runs");
+  return is_results ? json : Json();
+}
+
+int compare_command(const CommandOptions& options, const Renderers& renderers) {
+  if (!options.html.empty()) require_drawing(renderers);
+  std::vector<Side> sides = sides_of(options.words);
+  std::vector<std::optional<results::CostStudies>> costs;
+  for (const Side& side : sides) costs.push_back(side.results.cost);
+  const SideComparison comparison = compare_sides(std::move(sides), !options.html.empty());
+  if (options.json) {
+    std::cout << pretty(to_json(comparison));
+  } else if (options.csv) {
+    std::cout << csv(comparison);
+  } else {
+    print(comparison);
+    for (std::size_t s = 1; s < costs.size(); ++s) print_costs(costs.front(), costs[s]);
   }
-  const SideComparison comparison = compare_sides(std::move(sides), !command.html.empty());
-  if (command.json) std::cout << pretty(to_json(comparison));
-  if (command.csv) print_csv(comparison);
-  if (table) print(comparison);
-  for (std::size_t s = 1; table && s < costs.size(); ++s) print_costs(costs.front(), costs[s]);
-  if (!command.html.empty()) renderers.comparison(comparison, command.html);
-  return command.gate && comparison.changed > 0 ? 1 : 0;
+  if (!options.html.empty()) renderers.comparison(comparison, options.html);
+  return options.gate && comparison.changed > 0 ? 1 : 0;
 }
 
 }  // namespace trammel::harness

@@ -1,14 +1,16 @@
-#include "harness/cli/command_converge.h"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <iostream>
 
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
-#include "harness/base/table.h"
+#include "harness/base/rows.h"
 #include "harness/base/text.h"
+#include "harness/cli/commands.h"
 #include "harness/input/catalogue.h"
-#include "harness/printing/print_uncertainty.h"
+#include "harness/printing/print_runs.h"
 #include "harness/run/results.h"
 #include "harness/run/run.h"
 #include "harness/run/stored_results.h"
@@ -21,74 +23,80 @@ std::string note(const Convergence& found, std::size_t k) {
   return found.in_asymptotic_range[k] ? "asymptotic" : "";
 }
 
-/// The two-term law of the relative error in words.
-std::string law(const Convergence& found) {
-  const auto& [a, b] = found.two_term->coefficient;
-  return "error = " + rounded(a, 4) + " h^" + rounded(*found.series.theory) + " + " +
-         rounded(b, 4) + " h^" + rounded(*found.series.lower) + " within " +
-         rounded(100 * found.two_term->worst, 2) + " %";
+/// What follows from the levels, in words.
+std::string conclusion(const Convergence& found) {
+  const Series& series = found.series;
+  std::vector<std::string> parts;
+  if (series.theory)
+    parts.push_back("order by theory " + rounded(*series.theory) +
+                    (series.lower ? " and " + rounded(*series.lower) : ""));
+  if (found.two_term) {
+    const auto& [a, b] = found.two_term->coefficient;
+    parts.push_back(fmt::format("error = {:.4g} h^{} + {:.4g} h^{} within {:.2g} %", a,
+                                *series.theory, b, *series.lower, 100 * found.two_term->worst));
+  }
+  if (found.fitted_order) parts.push_back("fitted " + rounded(*found.fitted_order, 4));
+  if (found.richardson) {
+    parts.push_back("extrapolated " + shortest(*found.richardson));
+    if (series.exact)
+      parts.push_back(fmt::format(
+          "off by {:.2g}", std::abs(*found.richardson - *series.exact) / std::abs(*series.exact)));
+  } else if (series.values.size() > 2) {
+    parts.emplace_back("no value that it converges to");
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 void print(const Convergence& found) {
   const Series& series = found.series;
-  std::cout << "  " << (series.statistic.empty() ? "" : series.statistic + " of ")
-            << series.quantity;
-  if (series.statistic.empty()) std::cout << "[" << series.index << "]";
+  std::cout << "  "
+            << (series.statistic.empty() ? fmt::format("{}[{}]", series.quantity, series.index)
+                                         : series.statistic + " of " + series.quantity);
   if (series.exact)
     std::cout << ", exact " << shortest(*series.exact) << " (" << series.reference << ")";
   std::cout << '\n';
-  Table table({">" + series.sweep, ">value", ">error", ">order", ">GCI", ">safety factor", ""});
-  for (std::size_t k = 0; k < series.values.size(); ++k) {
-    table.add({rounded(series.parameter[k]), rounded(series.values[k], 12),
-               rounded(found.error[k], 3), rounded(found.order[k], 4), rounded(found.gci[k], 3),
-               rounded(found.factor[k], 3), note(found, k)});
-  }
+  Rows table({series.sweep.c_str(),
+              {"value", "", 12},
+              {"error", "", 3},
+              {"order", "", 4},
+              {"GCI", "", 3},
+              {"safety factor", "", 3},
+              ""});
+  for (std::size_t k = 0; k < series.values.size(); ++k)
+    table.add({series.parameter[k], series.values[k], found.error[k], found.order[k], found.gci[k],
+               found.factor[k], note(found, k)});
   table.print(std::cout, "    ");
-  std::string last;
-  if (series.theory) last += "order by theory " + rounded(*series.theory);
-  if (series.lower) last += " and " + rounded(*series.lower);
-  if (found.two_term) last += ", " + law(found);
-  if (found.fitted_order) last += ", fitted " + rounded(*found.fitted_order, 4);
-  if (found.richardson) {
-    last += std::string(last.empty() ? "" : ", ") + "extrapolated " + shortest(*found.richardson);
-    if (series.exact) {
-      last += ", off by " +
-              rounded(std::abs(*found.richardson - *series.exact) / std::abs(*series.exact), 2);
-    }
-  } else if (series.values.size() > 2) {
-    last += std::string(last.empty() ? "" : ", ") + "no value that it converges to";
-  }
-  std::cout << wrapped(last, "    ") << '\n';
+  std::cout << wrapped(conclusion(found), "    ") << '\n';
 }
 
 }  // namespace
 
-int converge_command(const std::string& name, const std::string& variant, unsigned jobs,
-                     bool json) {
-  const Case given = load_named_case(name);
+int converge_command(const CommandOptions& options, const Renderers& /*renderers*/) {
+  const Case given = load_named_case(options.word);
   if (!given.document.value().contains("sweeps")) {
     throw given.document.error("", "expected 'sweeps', which say what to refine");
   }
-  if (!variant.empty()) (void)patched(given, variant);
+  if (!options.variant.empty()) (void)patched(given, options.variant);
   const References references;
   const std::vector<Run> runs =
-      run_cases({given}, references, {variant, jobs, TrackedQuantities::all, {}});
+      run_cases({given}, references, {options.variant, options.jobs, TrackedQuantities::all, {}});
   require_complete(runs);
   for (const Run& run : runs) {
     if (run.error != Run::RunError::none) {
       std::cerr << run.reason << '\n';
       return run.error == Run::RunError::input ? 2 : 3;
     }
-    if (json) continue;
+    if (options.json) continue;
     std::cout << run.case_id << ":" << run.variant << "\n\n";
     for (const Convergence& found : run.convergence) print(found);
   }
   const int status = exit_status(runs) == 3 ? 3 : 0;
-  if (json) {
-    std::cout << pretty(to_json(results_of(runs, {given}, references)), kLineDepth);
+  const results::Results results = results_of(runs, {given}, references);
+  if (options.json) {
+    std::cout << pretty(to_json(results), kLineDepth);
     return status;
   }
-  print_numerical_uncertainty(numerical_uncertainty_of(runs), std::cout);
+  print_numerical_uncertainty(results);
   std::cout << "error: relative, of the exact value or else of the extrapolated one; GCI: grid\n"
                "convergence index with Roache's safety factor, 1.25 where the order is near "
                "theory, else 3\n";

@@ -1,5 +1,3 @@
-#include "harness/cli/command_cost.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,10 +8,10 @@
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
 #include "harness/base/progress.h"
-#include "harness/base/table.h"
+#include "harness/base/rows.h"
 #include "harness/base/text.h"
+#include "harness/cli/commands.h"
 #include "harness/input/catalogue.h"
-#include "harness/results/unfinished_folder.h"
 #include "harness/run/cost_results.h"
 #include "harness/run/output_lock.h"
 #include "harness/run/results.h"
@@ -26,7 +24,6 @@ namespace trammel::harness {
 namespace {
 
 namespace fs = std::filesystem;
-using MeasurementStatus = MeasuredSetting::MeasurementStatus;
 
 /// Studies of the catalogue that a word means: of that family, or of that name.
 std::vector<fs::path> studies_named(const std::string& word, std::vector<std::string>& known) {
@@ -53,7 +50,7 @@ fs::path find_one(const std::string& word, const std::vector<std::string>& known
   }
 }
 
-std::vector<CostStudy> read_studies(const CostCommand& command, SweepExtent extent,
+std::vector<CostStudy> read_studies(const CommandOptions& options, SweepExtent extent,
                                     const References& references) {
   std::vector<CostStudy> studies;
   std::set<fs::path> seen;
@@ -63,7 +60,7 @@ std::vector<CostStudy> read_studies(const CostCommand& command, SweepExtent exte
       studies.push_back(load_cost_study(file, extent, references));
     }
   };
-  for (const std::string& word : command.what) {
+  for (const std::string& word : options.words) {
     std::vector<std::string> known;
     const std::vector<fs::path> named = studies_named(word, known);
     std::ranges::for_each(named, add);
@@ -74,134 +71,104 @@ std::vector<CostStudy> read_studies(const CostCommand& command, SweepExtent exte
       continue;
     }
     any_case = true;
-    const std::string variant = command.variant.empty() ? kBaseVariant : command.variant;
-    studies.push_back(cost_study_of_sweeps(load_case(file), variant, command.sweeps, references));
+    const std::string variant = options.variant.empty() ? kBaseVariant : options.variant;
+    studies.push_back(cost_study_of_sweeps(load_case(file), variant, options.sweeps, references));
   }
-  if (!any_case && (!command.sweeps.empty() || !command.variant.empty())) {
+  if (!any_case && (!options.sweeps.empty() || !options.variant.empty())) {
     throw InputError("--sweep and --variant: expected a case beside them");
   }
-  if (!command.what.empty()) return studies;
+  if (!options.words.empty()) return studies;
   for (const fs::path& file : cost_study_files()) add(file);
   return studies;
 }
 
-std::string mark(const MeasuredSetting& measured, bool on_pareto_front) {
-  if (on_pareto_front) return "*";
-  return measured.status == MeasurementStatus::measured ? "" : to_string(measured.status);
-}
-
-void print_settings(const MeasuredStudy& measured) {
-  Table table({"setting", ">error", ">time", ">interval", ">cpu [s]", ">elements", ">factor.",
-               ">solves", ">steps", ""});
-  std::vector<std::string> reasons;
-  for (std::size_t i = 0; i < measured.settings.size(); ++i) {
-    const MeasuredSetting& measurement = measured.settings[i];
-    const bool on_pareto_front = has_setting(measured.pareto_front, i);
-    const std::string& title = measured.study.settings[i].title;
-    table.add(
-        {title, measurement.error ? rounded(measurement.error->get(measured.study.norm), 3) : "-",
-         rounded(measurement.relative.median, 3),
-         rounded(measurement.relative.low, 3) + " - " + rounded(measurement.relative.high, 3),
-         rounded(measurement.cpu_s, 3), std::to_string(measurement.counters.element_evaluations),
-         std::to_string(measurement.counters.factorizations),
-         std::to_string(measurement.counters.solves), std::to_string(measurement.counters.steps),
-         mark(measurement, on_pareto_front)});
-    if (!measurement.reason.empty()) reasons.push_back(title + ": " + measurement.reason);
+void print_settings(const results::CostStudy& study) {
+  std::vector<Column> columns = {"setting",   {"error", "", 3},        {"time", "", 3},
+                                 ">interval", {"cpu_s", "cpu [s]", 3}, ""};
+  for (const auto& counter : study.settings.front().counters)
+    columns.emplace_back(counter.first.c_str());
+  Rows table(columns);
+  std::string reasons;
+  for (const results::CostSetting& setting : study.settings) {
+    const std::string status = setting.measured() ? "" : setting.status;
+    std::vector<Json> row = {setting.title,
+                             number_or_null(study.error(setting)),
+                             number_or_null(setting.relative),
+                             setting.time
+                                 ? fmt::format("{:.3g} - {:.3g}", setting.time->relative_low,
+                                               setting.time->relative_high)
+                                 : "",
+                             setting.cpu_s,
+                             setting.pareto_optimal ? "*" : status};
+    for (const auto& counter : setting.counters) row.emplace_back(counter.second);
+    table.add(std::move(row));
+    if (!setting.reason.empty()) reasons += wrapped(setting.title + ": " + setting.reason, "    ");
   }
   table.print(std::cout, "  ");
-  for (const std::string& reason : reasons) std::cout << wrapped(reason, "    ");
+  std::cout << reasons;
 }
 
-void add_cheapest(const MeasuredStudy& measured, const std::vector<CostPoint>& points,
-                  const std::string& output, Table& table) {
-  const auto title = [&](std::size_t i) { return measured.study.settings[i].title; };
-  for (const double error : target_errors()) {
-    const auto found = cheapest(points, error);
-    const std::string target = error < 1e-3 ? rounded(error) : rounded(100 * error) + " %";
-    table.add({target, output, found ? title(found->setting) : "none of these",
-               found ? rounded(found->error, 2) : "", found ? rounded(found->time, 3) : ""});
-    for (const std::size_t tied : tied_settings(points, error))
-      table.add({"", "", "or " + title(tied), "", ""});
+void add_cheapest(const results::CostStudy& study, const results::CostOutput& output, Rows& table) {
+  for (const results::CheapestSetting& best : output.cheapest) {
+    const std::string target = error_text(best.error);
+    if (best.setting) {
+      const results::CostSetting& setting = study.settings[*best.setting];
+      table.add({target, output.title, setting.title, number_or_null(output.errors[*best.setting]),
+                 number_or_null(setting.relative)});
+    } else {
+      table.add({target, output.title, "none of these"});
+    }
+    for (const std::size_t tied : best.tied)
+      table.add({"", "", "or " + study.settings[tied].title});
   }
 }
 
-void print_cheapest(const MeasuredStudy& measured) {
-  const std::vector<StudyOutput>& outputs = measured.study.outputs;
-  const bool several = outputs.size() > 1;
-  Table table({">within", several ? "of" : "", "cheapest setting", ">error", ">time"});
-  for (std::size_t k = 0; k < outputs.size(); ++k)
-    add_cheapest(measured, output_points(measured, k), outputs[k].title, table);
-  if (several) add_cheapest(measured, output_points(measured, std::nullopt), "all at once", table);
-  table.print(std::cout, "  ");
-}
-
-void print(const MeasuredStudy& measured) {
-  const CostStudy& study = measured.study;
+void print(const results::CostStudy& study) {
   std::cout << study.family << ": " << study.title << '\n'
             << wrapped(fmt::format("Error ({}) against {}, {}; time relative to '{}'; * on the "
                                    "efficient front.",
-                                   to_string(study.norm), study.reference_description,
-                                   study.outputs.front().scale_description,
+                                   study.norm, study.reference_solution, study.scale,
                                    study.settings[study.baseline].title),
                        "  ");
-  print_settings(measured);
-  print_cheapest(measured);
-  std::cout << wrapped(measured.conclusion, "  ");
-  const ParetoFrontAgreement& both = measured.repeatability;
-  std::cout << wrapped(fmt::format("Odd and even repeats by themselves: {} of {} settings on both "
-                                   "fronts, {} of {} cheapest settings the same, times {} % apart "
-                                   "(median), {} % at most.",
-                                   both.shared, both.either, both.same_cheapest, both.targets,
-                                   rounded(100 * both.median_difference, 2),
-                                   rounded(100 * both.largest_difference, 2)),
-                       "  ")
+  print_settings(study);
+  results::CostOutput only{"", "", {}, study.cheapest};
+  for (const results::CostSetting& setting : study.settings)
+    only.errors.push_back(study.error(setting));
+  Rows table({">within",
+              study.outputs.empty() ? "" : "of",
+              "cheapest setting",
+              {"error", "", 2},
+              {"time", "", 3}});
+  if (study.outputs.empty()) add_cheapest(study, only, table);
+  for (const results::CostOutput& output : study.outputs) add_cheapest(study, output, table);
+  table.print(std::cout, "  ");
+  const results::Repeatability& both = study.repeatability;
+  std::cout << wrapped(study.conclusion, "  ")
+            << wrapped(
+                   fmt::format("Odd and even repeats by themselves: {} of {} settings on both "
+                               "fronts, {} of {} cheapest settings the same, times {:.2g} % apart "
+                               "(median), {:.2g} % at most.",
+                               both.on_both_fronts, both.on_either_front, both.same_cheapest,
+                               both.target_errors, 100 * both.median_difference.value_or(0),
+                               100 * both.largest_difference.value_or(0)),
+                   "  ")
             << '\n';
 }
 
-void print_search(const AccuracySearch& search) {
-  Table table({"tried", ">error", ""});
-  for (const TriedSetting& tried : search.tried)
-    table.add({tried.title, tried.reason.empty() ? rounded(tried.error, 2) : "-", tried.reason});
-  table.print(std::cout, "  ");
-  std::cout << wrapped(
-      fmt::format("Errors against {}, which the last refinement changed by {}.",
-                  search.study.reference_description, error_text(search.reference_change)),
-      "  ");
-  if (search.out_of_time)
-    std::cout << "  Not everything was tried: --time-limit gives the search more time.\n";
-}
-
-/// The cheapest setting within the accuracy, and the patch that makes a case compute so.
-void print_choice(const AccuracySearch& search, const MeasuredStudy& measured, double accuracy) {
-  const auto best = cheapest(measured.points, accuracy);
-  if (!best) {
-    std::cout << "No setting that was tried comes within " << error_text(accuracy) << ".\n";
-    return;
-  }
-  const auto title = [&](std::size_t i) { return "'" + measured.study.settings[i].title + "'"; };
-  std::vector<std::string> tied;
-  for (const std::size_t i : tied_settings(measured.points, accuracy)) tied.push_back(title(i));
-  std::string words = "Within " + error_text(accuracy) + ": " + title(best->setting);
-  if (!tied.empty()) words += "; in times that cannot be told from its, also " + join(tied, "and");
-  std::cout << wrapped(words + ". As a variant of the case:", "")
-            << search.patches[best->setting].dump(2) << '\n';
-}
-
-/// What was tried, and the patch of the cheapest setting within the accuracy; null where none is.
+/// What was tried, and the patch of the cheapest setting within the accuracy; null if none is.
 Json choice_json(const AccuracySearch& search, const MeasuredStudy& measured, double accuracy) {
+  Rows tried({"setting", "error", "reason"});
+  for (const TriedSetting& setting : search.tried)
+    tried.add({setting.title, number_or_null(setting.error), setting.reason});
   Json json = {{"accuracy", accuracy},
                {"reference_change", number_or_null(search.reference_change)},
                {"out_of_time", search.out_of_time},
-               {"tried", Json::array()},
+               {"tried", tried.json()},
                {"setting", nullptr},
                {"patch", nullptr},
                {"tied", Json::array()}};
-  for (const TriedSetting& tried : search.tried)
-    json["tried"].push_back({{"setting", tried.title},
-                             {"error", number_or_null(tried.error)},
-                             {"reason", tried.reason}});
-  const auto title = [&](std::size_t i) { return measured.study.settings[i].title; };
   if (const auto best = cheapest(measured.points, accuracy)) {
+    const auto title = [&](std::size_t i) { return measured.study.settings[i].title; };
     json["setting"] = title(best->setting);
     json["patch"] = search.patches[best->setting];
     for (const std::size_t i : tied_settings(measured.points, accuracy))
@@ -210,40 +177,55 @@ Json choice_json(const AccuracySearch& search, const MeasuredStudy& measured, do
   return json;
 }
 
-MeasuredStudy choose_setting(const CostCommand& command, const CostOptions& options,
+void print_choice(const AccuracySearch& search, const Json& choice) {
+  Rows({{"setting", "tried"}, {"error", "", 2}, {"reason"}}, choice["tried"])
+      .print(std::cout, "  ");
+  std::cout << wrapped(
+      fmt::format("Errors against {}, which the last refinement changed by {}.",
+                  search.study.reference_description, error_text(search.reference_change)),
+      "  ");
+  if (search.out_of_time)
+    std::cout << "  Not everything was tried: --time-limit gives the search more time.\n";
+  const std::string accuracy = error_text(choice["accuracy"]);
+  if (choice["setting"].is_null()) {
+    std::cout << "No setting that was tried comes within " << accuracy << ".\n";
+    return;
+  }
+  std::vector<std::string> tied;
+  for (const Json& title : choice["tied"]) tied.push_back(quoted(title));
+  std::string words = "Within " + accuracy + ": " + quoted(choice["setting"]);
+  if (!tied.empty()) words += "; in times that cannot be told from its, also " + join(tied, "and");
+  std::cout << wrapped(words + ". As a variant of the case:", "") << choice["patch"].dump(2)
+            << '\n';
+}
+
+MeasuredStudy choose_setting(const CommandOptions& options, const CostOptions& cost_options,
                              const References& references) {
-  if (command.what.size() != 1 || !command.sweeps.empty())
+  if (options.words.size() != 1 || !options.sweeps.empty())
     throw InputError("--accuracy: expected one case beside it, and no --sweep");
-  const Case given = load_case(find_one(command.what.front(), {}));
-  const fs::path store = store_folder(command.out, command.store);
+  const Case given = load_case(find_one(options.words.front(), {}));
+  const fs::path store = store_folder(options.out, options.store);
   AccuracySearch search;
   {
     Progress progress("settings tried");
     const auto show = [&](std::size_t tried) { progress.show(tried, 0); };
     const auto compute = [&](const Setting& setting, int time_limit_s) {
-      return run_or_find(setting, time_limit_s, references, store, command.resume);
+      return run_or_find(setting, time_limit_s, references, store, options.resume);
     };
-    search = search_accuracy(given, command.variant.empty() ? kBaseVariant : command.variant,
-                             {command.accuracy, command.quantities, command.time_limit_s}, compute,
+    search = search_accuracy(given, options.variant.empty() ? kBaseVariant : options.variant,
+                             {options.accuracy, options.quantities, options.time_limit_s}, compute,
                              show);
   }
-  if (!command.json) print_search(search);
   MeasuredStudy measured =
-      measure_or_find(search.study, options, references, store, command.resume);
-  if (command.json) {
-    std::cout << pretty(choice_json(search, measured, command.accuracy));
+      measure_or_find(search.study, cost_options, references, store, options.resume);
+  const Json choice = choice_json(search, measured, options.accuracy);
+  if (options.json) {
+    std::cout << pretty(choice);
   } else {
-    print(measured);
-    print_choice(search, measured, command.accuracy);
+    print(study_results(measured));
+    print_choice(search, choice);
   }
   return measured;
-}
-
-TimingOptions timing_of(const CostCommand& command) {
-  TimingOptions timing;
-  timing.repeats = command.repeats;
-  timing.seed = command.seed;
-  return timing;
 }
 
 }  // namespace
@@ -256,39 +238,38 @@ fs::path store_folder(const std::string& out, const std::string& store) {
   return folder;
 }
 
-int cost_command(const CostCommand& command, const Renderers& renderers) {
+int cost_command(const CommandOptions& options, const Renderers& renderers) {
   require_drawing(renderers);
-  const OutputLock lock(command.out);
+  const OutputLock lock(options.out);
   end_on_signals(kInterrupted);
   const References references;
-  const SweepExtent extent = command.quick ? SweepExtent::quick : SweepExtent::full;
-  CostOptions options{timing_of(command), {}};
+  const SweepExtent extent = options.quick ? SweepExtent::quick : SweepExtent::full;
+  CostOptions cost_options;
+  cost_options.timing.repeats = options.repeats;
+  cost_options.timing.seed = options.seed;
   std::vector<MeasuredStudy> measured;
   std::vector<CostStudy> studies;
-  if (command.accuracy > 0) {
-    measured.push_back(choose_setting(command, options, references));
+  if (options.accuracy > 0) {
+    measured.push_back(choose_setting(options, cost_options, references));
   } else {
-    studies = read_studies(command, extent, references);
+    studies = read_studies(options, extent, references);
   }
   for (CostStudy& study : studies) {
     {
       Progress progress("measurements");
-      options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
-      measured.push_back(measure_or_find(std::move(study), options, references,
-                                         store_folder(command.out, command.store), command.resume));
+      cost_options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
+      measured.push_back(measure_or_find(std::move(study), cost_options, references,
+                                         store_folder(options.out, options.store), options.resume));
     }
-    if (!command.json) print(measured.back());
+    if (!options.json) print(study_results(measured.back()));
   }
   results::Results results = results_of({}, {}, references);
-  results.cost = cost_results(measured, extent, options.timing);
-  const fs::path unfinished = fs::path(command.out) / results::kUnfinishedFolder;
-  fs::create_directories(unfinished);
-  write_results(results, unfinished);
-  const fs::path page = renderers.report(results, command.out, false);
-  const fs::path file = fs::path(command.out) / "results.json";
-  if (!command.json) {
+  results.cost = cost_results(measured, extent, cost_options.timing);
+  const fs::path page = write_pages(results, options.out, false, renderers);
+  const fs::path file = fs::path(options.out) / "results.json";
+  if (!options.json) {
     std::cout << "results in " << file.string() << "\npage in " << page.string() << std::endl;
-  } else if (command.accuracy == 0) {
+  } else if (options.accuracy == 0) {
     std::cout << read_text(file);
   }
   const bool any_lost = std::ranges::any_of(

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <map>
+#include <optional>
 #include <utility>
 
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 #include "harness/base/progress.h"
-#include "harness/base/table.h"
+#include "harness/base/rows.h"
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
 #include "harness/printing/print_effects.h"
@@ -20,7 +20,6 @@
 #include "harness/run/run_store.h"
 #include "harness/run/stored_results.h"
 #include "harness/studies/effect_study.h"
-#include "harness/studies/random_scenes.h"
 
 namespace trammel::harness {
 namespace {
@@ -30,24 +29,17 @@ std::string in_percent(double share) {
 }
 
 std::string kinds_of(const Changes& changes) {
-  std::vector<std::string> texts;
-  for (const auto& [kind, change] : changes) texts.push_back(kind + " " + in_percent(change.value));
   std::string text;
-  for (const std::string& word : texts) text += (text.empty() ? "" : ", ") + word;
+  for (const auto& [kind, change] : changes)
+    text += (text.empty() ? "" : ", ") + kind + " " + in_percent(change.value);
   return text;
-}
-
-std::string names_of(const std::vector<solver::Effect>& effects) {
-  std::vector<std::string> names;
-  for (const solver::Effect effect : effects) names.emplace_back(solver::name_of(effect));
-  return join(names, "and");
 }
 
 std::string ratio(double part, double whole) {
   return whole > 0 ? rounded(part / whole, 3) : "";
 }
 
-void add_row(Table& table, const std::string& what, const EffectRun& run, const EffectRun& full) {
+void add_row(Rows& table, const std::string& what, const EffectRun& run, const EffectRun& full) {
   if (!run.outcome.solved()) {
     table.add({what, "all", run.outcome.reason, "", "", "", ""});
     return;
@@ -60,12 +52,11 @@ void add_row(Table& table, const std::string& what, const EffectRun& run, const 
 }
 
 void print_singles(const EffectStudy& study) {
-  Table table(
-      {"left out", ">change [%]", "of", ">time", ">elements", ">factorizations", ">solves"});
+  Rows table({"left out", ">change [%]", "of", ">time", ">elements", ">factorizations", ">solves"});
   add_row(table, "nothing", study.full, study.full);
   for (const Ablation& ablation : study.singles) {
     const solver::Effects with_dependents = study.full.effects.without(ablation.run.effects);
-    add_row(table, names_of(with_dependents.list()), ablation.run, study.full);
+    add_row(table, effect_names(with_dependents.list()), ablation.run, study.full);
   }
   add_row(table, "all but the chosen", study.chosen, study.full);
   table.print(std::cout, "  ");
@@ -81,7 +72,7 @@ void print_pairs(const EffectStudy& study) {
     }
     return 0.0;
   };
-  Table table({"pair", ">together [%]", ">one [%]", ">other [%]"});
+  Rows table({"pair", ">together [%]", ">one [%]", ">other [%]"});
   for (const Ablation& pair : study.pairs) {
     const double together = max_change(pair.run.changes).value;
     const double a = single(pair.effects[0]), b = single(pair.effects[1]);
@@ -89,7 +80,7 @@ void print_pairs(const EffectStudy& study) {
     const bool interact = std::isfinite(together) && std::isfinite(a) && std::isfinite(b) &&
                           (together > a + b + slack || together < std::max(a, b) - slack);
     if (!interact) continue;
-    table.add({names_of(pair.effects), in_percent(together), in_percent(a), in_percent(b)});
+    table.add({effect_names(pair.effects), in_percent(together), in_percent(a), in_percent(b)});
   }
   if (table.empty()) {
     std::cout << "\nNo pair interacts: two left out together change no more than the sum, and no "
@@ -101,7 +92,7 @@ void print_pairs(const EffectStudy& study) {
 }
 
 void print_verdict(const EffectStudy& study) {
-  std::cout << "\nChosen    " << effect_names(study.choice.chosen) << '\n';
+  std::cout << "\nChosen    " << effect_names(study.choice.chosen.list()) << '\n';
   const double off = max_change(study.chosen.changes).value;
   std::cout << "Within    " << (study.within_tolerance() ? "yes" : "no") << ": " << in_percent(off)
             << " % from the full model, where " << in_percent(study.tolerance)
@@ -114,7 +105,7 @@ void print_verdict(const EffectStudy& study) {
   for (const Ablation& ablation : study.from_chosen) {
     const double change = max_change(ablation.run.changes).value;
     if (change <= study.tolerance) {
-      std::cout << "; " << in_percent(change) << " % without " << names_of(ablation.effects)
+      std::cout << "; " << in_percent(change) << " % without " << effect_names(ablation.effects)
                 << ", overestimated";
     }
   }
@@ -123,66 +114,6 @@ void print_verdict(const EffectStudy& study) {
     std::cout << "Time      " << ratio(study.chosen.cpu_s, study.full.cpu_s)
               << " of the full model's " << rounded(1e3 * study.full.cpu_s, 3)
               << " ms; to decide took " << rounded(1e3 * study.choice_cpu_s, 3) << " ms\n";
-  }
-}
-
-/// What the random scenes of one kind come to.
-struct HitCounts {
-  std::size_t scenes = 0, unsolved = 0, within = 0, minimal = 0;
-  /// Of scenes that take more than 10 ms where a costly effect is left out: deciding and running
-  /// is no slower than running the whole; and of the others, deciding takes at most 15 % of it.
-  std::size_t saving = 0, faster = 0, whole_ones = 0, quick = 0;
-  double time_s = 0, whole_s = 0;
-
-  HitCounts& operator+=(const HitCounts& other) {
-    for (const auto count :
-         {&HitCounts::scenes, &HitCounts::unsolved, &HitCounts::within, &HitCounts::minimal,
-          &HitCounts::saving, &HitCounts::faster, &HitCounts::whole_ones, &HitCounts::quick})
-      this->*count += other.*count;
-    time_s += other.time_s;
-    whole_s += other.whole_s;
-    return *this;
-  }
-};
-
-void count_time(const EffectStudy& study, HitCounts& counts) {
-  constexpr double kLong_s = 0.01, kCostly = 0.1, kQuick = 0.15;
-  const double whole = study.full.cpu_s, run = study.chosen.cpu_s, decide = study.choice_cpu_s;
-  if (whole < kLong_s) return;
-  if (run > (1 - kCostly) * whole) {
-    ++counts.whole_ones;
-    if (decide <= kQuick * whole) ++counts.quick;
-    return;
-  }
-  ++counts.saving;
-  if (decide + run <= whole) ++counts.faster;
-  counts.time_s += decide + run;
-  counts.whole_s += whole;
-}
-
-void count_result(const EffectStudy& study, const std::string& name, HitCounts& counts,
-                  std::vector<std::string>& misses) {
-  if (!study.full.outcome.solved()) {
-    ++counts.unsolved;
-    return;
-  }
-  ++counts.scenes;
-  count_time(study, counts);
-  if (study.within_tolerance()) ++counts.within;
-  if (study.is_minimal()) ++counts.minimal;
-  if (!study.within_tolerance()) {
-    misses.push_back(name + ": off by " + in_percent(max_change(study.chosen.changes).value) +
-                     " % (" + kinds_of(study.chosen.changes) + ") with " +
-                     effect_names(study.choice.chosen));
-  }
-  if (study.is_minimal()) return;
-  for (const Ablation& ablation : study.from_chosen) {
-    const double change = max_change(ablation.run.changes).value;
-    if (change > study.tolerance) continue;
-    const auto& reason = study.choice.reasons[static_cast<std::size_t>(ablation.effects.front())];
-    misses.push_back(name + ": could do without " + names_of(ablation.effects) + ", " +
-                     in_percent(change) + " %; decided by " +
-                     in_percent(reason.change.value_or(0)) + " %");
   }
 }
 
@@ -240,13 +171,6 @@ Json study_json(const std::string& id, const EffectStudy& study, const std::stri
           {"singles", ablations_json(study.singles)},
           {"pairs", ablations_json(study.pairs)},
           {"from_chosen", ablations_json(study.from_chosen)}};
-}
-
-Json counts_json(const std::string& kind, const HitCounts& of) {
-  return {{"kind", kind},           {"scenes", of.scenes},     {"within", of.within},
-          {"minimal", of.minimal},  {"unsolved", of.unsolved}, {"saving", of.saving},
-          {"no_slower", of.faster}, {"time_s", of.time_s},     {"whole_time_s", of.whole_s},
-          {"whole", of.whole_ones}, {"quick", of.quick}};
 }
 
 results::EffectScene scene_of(const std::string& id, const std::string& analysis,
@@ -307,15 +231,29 @@ EffectScenes scenes_of(const EffectCase& given, const std::filesystem::path& sto
   return scenes_or_find(given.document, measure, store, resume);
 }
 
+Document effect_document(const Case& given, const EffectsCommand& command) {
+  return patched(given, command.variant.empty() ? kBaseVariant : command.variant);
+}
+
+/// The named cases, or those with the labels whose analysis knows effects.
+std::vector<Document> effect_documents(const EffectsCommand& command) {
+  std::vector<Document> documents;
+  for (const std::string& name : command.names)
+    documents.push_back(effect_document(load_named_case(name), command));
+  if (!command.names.empty()) return documents;
+  for (const Case& given : Catalogue().load(command.labels)) {
+    documents.push_back(effect_document(given, command));
+    if (!knows_effects(documents.back())) documents.pop_back();
+  }
+  if (documents.empty())
+    throw InputError("expected a case with these labels whose analysis knows effects");
+  return documents;
+}
+
 }  // namespace
 
 int effects_command(const EffectsCommand& command) {
-  const bool random = command.name.empty();
-  const Document document = [&] {
-    if (random) return random_scene(command.seed, command.scene);
-    const Case given = load_named_case(command.name);
-    return patched(given, command.variant.empty() ? kBaseVariant : command.variant);
-  }();
+  const Document document = effect_document(load_named_case(command.names.front()), command);
   const EffectStudy study = study_effects(document, {command.tolerance, true, command.repeats});
   const Json& json = document.value();
   const std::string id = json.at("id").get<std::string>();
@@ -326,7 +264,6 @@ int effects_command(const EffectsCommand& command) {
     return status;
   }
   std::cout << id << ": " << json.at("title").get<std::string>() << '\n';
-  if (random) std::cout << pretty(json);
   print_effects(study.choice, analysis_kind(document));
   if (study.load_over_buckling_load)
     std::cout << "\nLoads     " << percent(*study.load_over_buckling_load)
@@ -357,30 +294,33 @@ std::vector<results::EffectScene> catalogue_effect_scenes(const std::filesystem:
   return scenes;
 }
 
-int labelled_effects_command(const EffectsCommand& command, const Renderers& renderers) {
+int effects_table_command(const EffectsCommand& command, const Renderers& renderers) {
   if (!command.out.empty()) require_drawing(renderers);
   std::vector<results::EffectScene> scenes;
-  Table table({"case", "chosen", ">off by [%]", ">allowed", ">minimal", ">beyond [%]",
-               ">whole [ms]", ">time", ">deciding"});
+  Rows table({"case", "chosen", ">off by [%]", ">allowed", ">minimal", ">beyond [%]", ">full [ms]",
+              ">time", ">deciding"});
   bool within = true;
   Json rows = Json::array();
-  for (const Case& given : Catalogue().load(command.labels)) {
-    const Document document = patched(given, kBaseVariant);
-    if (!knows_effects(document)) continue;
-    const EffectStudy study = study_effects(document, {command.tolerance, false, command.repeats});
+  const std::vector<Document> documents = effect_documents(command);
+  std::optional<Progress> progress("scenes");
+  for (std::size_t i = 0; i < documents.size(); ++i) {
+    const EffectStudy study =
+        study_effects(documents[i], {command.tolerance, false, command.repeats});
+    progress->show(i + 1, documents.size());
     if (!study.full.outcome.solved()) continue;
-    rows.push_back(study_json(given.id(), study, analysis_kind(document)));
-    scenes.push_back(scene_of(given.id(), analysis_kind(document), study));
+    const auto id = documents[i].value().at("id").get<std::string>();
+    const std::string analysis = analysis_kind(documents[i]);
+    rows.push_back(study_json(id, study, analysis));
+    scenes.push_back(scene_of(id, analysis, study));
     within = within && study.within_tolerance() && !study.is_beyond_tier();
-    table.add({given.id(), effect_names(study.choice.chosen),
+    table.add({id, effect_names(study.choice.chosen.list()),
                in_percent(max_change(study.chosen.changes).value), in_percent(study.tolerance),
                study.is_minimal() ? "yes" : "no",
                study.choice.beyond_tier ? in_percent(*study.choice.beyond_tier) : "",
                rounded(1e3 * study.full.cpu_s, 3), ratio(study.chosen.cpu_s, study.full.cpu_s),
                ratio(study.choice_cpu_s, study.full.cpu_s)});
   }
-  if (rows.empty())
-    throw InputError("expected a case with these labels whose analysis knows effects");
+  progress.reset();
   write_page(command, std::move(scenes), renderers);
   if (command.json) {
     std::cout << pretty(rows, 3);
@@ -390,61 +330,6 @@ int labelled_effects_command(const EffectsCommand& command, const Renderers& ren
   std::cout << "beyond: by large displacement, which the analysis does not have; time, deciding: "
                "relative to the full model\n";
   return within ? 0 : 1;
-}
-
-int random_effects_command(const EffectsCommand& command, const Renderers& renderers) {
-  if (!command.out.empty()) require_drawing(renderers);
-  std::vector<results::EffectScene> scenes;
-  std::map<std::string, HitCounts> kinds;
-  std::vector<std::string> misses;
-  HitCounts all;
-  {
-    Progress progress("scenes");
-    for (std::uint64_t n = 0; n < command.random; ++n) {
-      const Document document = random_scene(command.seed, n);
-      const std::string id = document.value().at("id").get<std::string>();
-      const EffectStudy study = study_effects(document, {command.tolerance, false, 0});
-      if (study.full.outcome.solved())
-        scenes.push_back(scene_of(id, analysis_kind(document), study));
-      HitCounts one;
-      count_result(study, id, one, misses);
-      kinds[document.value().at("title").get<std::string>()] += one;
-      all += one;
-      progress.show(n + 1, command.random);
-    }
-  }
-  Json each = results::effect_scenes_to_json(scenes);
-  write_page(command, std::move(scenes), renderers);
-  const auto share = [&](std::size_t hits) {
-    return static_cast<double>(hits) / static_cast<double>(all.scenes);
-  };
-  const int status = share(all.within) >= 0.995 && share(all.minimal) >= 0.9 ? 0 : 1;
-  if (command.json) {
-    Json rows = Json::array();
-    for (const auto& [kind, counts] : kinds) rows.push_back(counts_json(kind, counts));
-    rows.push_back(counts_json("all", all));
-    std::cout << pretty(
-        {{"seed", command.seed}, {"kinds", rows}, {"misses", misses}, {"scenes", each}}, 2);
-    return status;
-  }
-  for (const std::string& miss : misses) std::cout << wrapped(miss, "  ");
-  Table table({"kind", ">scenes", ">within", ">minimal", ">unsolved", ">saving", ">no slower",
-               ">time", ">whole", ">quick"});
-  const auto add = [&](const std::string& kind, const HitCounts& of) {
-    table.add({kind, std::to_string(of.scenes), std::to_string(of.within),
-               std::to_string(of.minimal), std::to_string(of.unsolved), std::to_string(of.saving),
-               std::to_string(of.faster), ratio(of.time_s, of.whole_s),
-               std::to_string(of.whole_ones), std::to_string(of.quick)});
-  };
-  for (const auto& [kind, counts] : kinds) add(kind, counts);
-  add("all", all);
-  table.print(std::cout, "");
-  std::cout
-      << "seed " << command.seed
-      << "; of those over 10 ms: saving more than a tenth of the whole model's time by what is "
-         "left out, deciding and running no slower than it, their time over its; the others, "
-         "and where deciding takes at most 15 % of it\n";
-  return status;
 }
 
 }  // namespace trammel::harness

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
@@ -12,15 +11,13 @@
 namespace trammel::harness {
 
 struct EffectsCommand {
-  std::string name, variant;        ///< of a case; or
-  std::uint64_t seed = 1;           ///< of random scenes:
-  std::uint64_t random = 0;         ///< so many of them,
-  std::uint64_t scene = 0;          ///< or this one
-  std::vector<std::string> labels;  ///< or every case of the catalogue with one of these
-  double tolerance = 0.01;          ///< where the case does not give one
-  int repeats = 7;                  ///< of each measurement of time
-  bool json = false;                ///< instead of tables
-  std::string out;                  ///< folder of a page of many scenes; empty: none
+  std::vector<std::string> names;   ///< names or files of cases; or
+  std::vector<std::string> labels;  ///< every case of the catalogue with one of these
+  std::string variant;
+  double tolerance = 0.01;  ///< where the case does not give one
+  int repeats = 7;          ///< of each measurement of time
+  bool json = false;        ///< instead of tables
+  std::string out;          ///< folder of a page of many scenes; empty: none
 };
 
 /// To find what choosing effects comes to in each scene of the catalogue, into the store.
@@ -32,11 +29,10 @@ struct EffectsCommand {
 [[nodiscard]] std::vector<results::EffectScene> catalogue_effect_scenes(
     const std::filesystem::path& store, bool resume);
 
-/// What each effect is worth in one scene. @returns the exit status
+/// Prints the contribution of each effect in one case. @returns the exit status
 int effects_command(const EffectsCommand& command);
-/// Hit rate of automatic effects: 1 below 99 % within tolerance or 90 % minimal.
-int random_effects_command(const EffectsCommand& command, const Renderers& renderers);
-/// A table of what the labelled cases call for: 1 where one is beyond its tolerance.
-int labelled_effects_command(const EffectsCommand& command, const Renderers& renderers);
+/// Prints a table of the effects that several cases require. @returns 1 where one is beyond its
+/// tolerance
+int effects_table_command(const EffectsCommand& command, const Renderers& renderers);
 
 }  // namespace trammel::harness

@@ -1,12 +1,11 @@
-#include "harness/cli/command_export.h"
-
 #include <algorithm>
 #include <cmath>
 #include <iostream>
 #include <set>
 
 #include "harness/base/json_file.h"
-#include "harness/base/processes.h"
+#include "harness/cli/commands.h"
+#include "harness/export/exported_case.h"
 #include "harness/export/matrix_files.h"
 #include "harness/input/catalogue.h"
 #include "harness/run/run.h"
@@ -34,30 +33,32 @@ Json quantities_json(const Case& given, const Quantities& quantities) {
 
 }  // namespace
 
-int export_command(const std::string& name, const ExportCommand& command) {
-  ExportChoice choice = command.choice;
-  if (command.level >= 0) choice.level = static_cast<std::size_t>(command.level);
-  const Case given = load_named_case(name);
-  if (!command.matrices.empty()) {
+int export_command(const CommandOptions& options, const Renderers& /*renderers*/) {
+  ExportChoice choice;
+  if (!options.variant.empty()) choice.variant = options.variant;
+  if (!options.sweeps.empty()) choice.sweep = options.sweeps.front();
+  if (options.level >= 0) choice.level = static_cast<std::size_t>(options.level);
+  const Case given = load_named_case(options.word);
+  if (!options.matrices.empty()) {
     const Document document = chosen_document(given, choice);
-    write_matrices(document, exported_scene(document), command.matrices);
-    if (command.out.empty()) return 0;
+    write_matrices(document, exported_scene(document), options.matrices);
+    if (options.out.empty()) return 0;
   }
   const std::string text = pretty(export_case(given, choice));
-  if (command.out.empty()) {
+  if (options.out.empty()) {
     std::cout << text;
   } else {
-    write_file(command.out, text);
+    write_file(options.out, text);
   }
   return 0;
 }
 
-int solve_command(const std::string& case_file, const std::string& result_file) {
-  const Case given = load_case(case_file);
-  RunOptions options;
-  options.variant = kBaseVariant;
-  options.memory_bytes = memory_limit_bytes();
-  const std::vector<Run> runs = run_cases({given}, References(), options);
+int solve_command(const CommandOptions& options, const Renderers& /*renderers*/) {
+  const Case given = load_case(options.word);
+  RunOptions run_options;
+  run_options.variant = kBaseVariant;
+  run_options.memory_bytes = options.memory_bytes;
+  const std::vector<Run> runs = run_cases({given}, References(), run_options);
   require_complete(runs);
   const Run& run = runs.front();
   require_no_error(run);
@@ -65,7 +66,7 @@ int solve_command(const std::string& case_file, const std::string& result_file) 
     for (const Warning& warning : run.result.warnings)
       std::cerr << "trammel: " << given.id() << ": warning: " << warning.text() << '\n';
   }
-  write_file(result_file, pretty({{"status", run.status},
+  write_file(options.out, pretty({{"status", run.status},
                                   {"reason", run.reason},
                                   {"quantities", quantities_json(given, run.result.quantities)},
                                   {"solver", {{"name", "trammel"}, {"version", TRAMMEL_VERSION}}},

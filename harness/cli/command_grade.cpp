@@ -1,9 +1,7 @@
-#include "harness/cli/command_grade.h"
-
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <map>
 
@@ -12,11 +10,11 @@
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
 #include "harness/base/progress.h"
-#include "harness/base/table.h"
 #include "harness/base/text.h"
-#include "harness/cli/command_cost.h"
+#include "harness/cli/commands.h"
 #include "harness/grade/grade.h"
 #include "harness/input/catalogue.h"
+#include "harness/printing/print_runs.h"
 #include "harness/results/run_grade.h"
 #include "harness/run/output_lock.h"
 #include "harness/run/results.h"
@@ -36,52 +34,26 @@ class Descendants {
   Descendants& operator=(const Descendants&) = delete;
 };
 
-/// As many as show a relative difference, from 6 on.
-int digits_to_tell(double difference) {
-  const double digits = std::ceil(-std::log10(std::abs(difference))) + 1;
-  return digits > 6 && digits < 15 ? static_cast<int>(digits) : digits >= 15 ? 15 : 6;
-}
-
 /// Watches over the judging itself and says nothing of a code.
 bool is_control(const Case& one) {
   const std::vector<std::string> labels = one.labels();
   return contains(labels, "control");
 }
 
-/// "1e-09", "[0.62, 0.65]"; an end that is open stays empty.
-std::string allowed(const results::Tolerance& tolerance) {
-  const auto text = [](const results::Number& end) { return end ? rounded(*end, 3) : ""; };
-  return tolerance.symmetric ? text(tolerance.high)
-                             : "[" + text(tolerance.low) + ", " + text(tolerance.high) + "]";
+/// Why a run has no check that decides.
+std::string reason_of(const results::Run& run, Grade grade) {
+  if (!run.reason.empty()) return run.reason;
+  for (const results::Check& check : run.checks)
+    if (grade == Grade::not_given || check.verdict == Verdict::error)
+      return check.name + ": " + check.message;
+  return "";
 }
 
-/// The check that decides, or the reason.
-std::string explained(const results::Run& run, Grade grade) {
-  const results::Check* check = results::telling_check(run);
-  if (grade == Grade::not_given) return run.checks.empty() ? "" : run.checks.front().message;
-  if (grade != Grade::agrees && grade != Grade::off && grade != Grade::not_judged) {
-    if (!run.reason.empty()) return run.reason;
-    const auto broken = std::ranges::find_if(run.checks, [](const results::Check& candidate) {
-      return candidate.verdict == Verdict::error;
-    });
-    return broken == run.checks.end() ? "" : broken->name + ": " + broken->message;
-  }
-  if (check == nullptr) return run.reason;
-  if (!check->difference || !check->computed || !check->expected || !check->tolerance)
-    return check->name + (check->message.empty() ? "" : ": " + check->message);
-  // A recorded difference says why a number far from the expected one agrees.
-  const bool recorded = check->expectation == results::Expectation::known_discrepancy;
-  const std::string entry = check->index ? fmt::format("[{}]", *check->index) : "";
-  const int digits = digits_to_tell(*check->difference / *check->expected);
-  return fmt::format("{}: {}{} {}, expected {}: {} {:+.3g}, {} {}", check->name, check->quantity,
-                     entry, rounded(*check->computed, digits), rounded(*check->expected, digits),
-                     check->measure, *check->difference, recorded ? "recorded" : "allowed",
-                     allowed(*check->tolerance));
-}
-
-/// A row a run, then how many of which grade.
+/// A row for each run with the check that decides, then the number of runs with each grade.
 void print_grades(const std::vector<results::Run>& runs) {
-  Table table({"grade", "case", ">given", ">time", "what decides"});
+  std::vector<Column> columns = {"grade", "case", ">given", {"time_s", "time [s]", 2}};
+  std::ranges::move(check_columns(), std::back_inserter(columns));
+  Rows table(columns);
   std::map<Grade, std::size_t> counts;
   for (const results::Run& run : runs) {
     const Grade grade = results::grade_of(run);
@@ -89,20 +61,23 @@ void print_grades(const std::vector<results::Run>& runs) {
     const auto missing = std::ranges::count_if(run.checks, [](const auto& check) {
       return check.verdict == Verdict::not_given || check.verdict == Verdict::error;
     });
-    const auto all = static_cast<std::ptrdiff_t>(run.checks.size());
-    table.add({to_string(grade),
-               run.case_id + (run.variant == kBaseVariant ? "" : ":" + run.variant),
-               fmt::format("{} of {}", all - missing, all), rounded(run.cost.wall_s, 2) + " s",
-               printable(explained(run, grade), 160)});
+    std::vector<Json> row = {
+        to_string(grade), run.case_id + (run.variant == kBaseVariant ? "" : ":" + run.variant),
+        fmt::format("{} of {}", std::ssize(run.checks) - missing, run.checks.size()),
+        run.cost.wall_s};
+    const bool is_judged = grade == Grade::agrees || grade == Grade::off;
+    const std::vector<Json> cells =
+        is_judged ? check_cells(*results::telling_check(run))
+                  : std::vector<Json>{"", printable(reason_of(run, grade), 160)};
+    row.insert(row.end(), cells.begin(), cells.end());
+    table.add(std::move(row));
   }
   table.print(std::cout);
-  std::cout << runs.size() << (runs.size() == 1 ? " run:" : " runs:");
-  const char* separator = " ";
-  for (const auto& [grade, count] : counts) {
-    std::cout << separator << count << ' ' << to_string(grade);
-    separator = ", ";
-  }
-  std::cout << '\n';
+  std::vector<std::string> parts;
+  for (const auto& [grade, count] : counts)
+    parts.push_back(fmt::format("{} {}", count, to_string(grade)));
+  std::cout << count_of(runs.size(), "run") << ": " << fmt::format("{}", fmt::join(parts, ", "))
+            << '\n';
 }
 
 results::Solver solver_name(const std::vector<Run>& runs, const std::string& command,
@@ -115,31 +90,31 @@ results::Solver solver_name(const std::vector<Run>& runs, const std::string& com
 
 }  // namespace
 
-int grade_command(const GradeCommand& grade, const RunCommand& run, const Renderers& renderers) {
-  Adapter adapter{adapter_words(grade.command), std::filesystem::absolute(grade.out) / "calls",
-                  grade.limits};
-  adapter.limits.memory_bytes = run.memory_bytes;
-  const bool all = run.cases.empty() && run.labels.empty();
-  std::vector<Case> cases = all ? Catalogue().load() : select_cases(run);
-  if (run.cases.empty()) std::erase_if(cases, is_control);
-  const OutputLock lock(grade.out);
+int grade_command(const CommandOptions& options, const Renderers& renderers) {
+  Adapter adapter{adapter_words(options.adapter),
+                  std::filesystem::absolute(options.out) / "calls",
+                  {options.max_time_s, options.memory_bytes, options.max_disk_bytes}};
+  const bool all = options.words.empty() && options.labels.empty();
+  std::vector<Case> cases = all ? Catalogue().load() : select_cases(options);
+  if (options.words.empty()) std::erase_if(cases, is_control);
+  const OutputLock lock(options.out);
   end_on_signals(kInterrupted);
   const References references;
   const Descendants ended;
   Progress progress("runs");
-  RunOptions options{run.variant, run.jobs, TrackedQuantities::named, {}};
-  options.progress = [&](std::size_t done, std::size_t of) { progress.show(done, of); };
-  options.store = store_folder(run.out, run.store);
-  options.resume = run.resume;
-  options.solver = solver_of(adapter);
-  const std::vector<Run> runs = run_cases(cases, references, options);
+  RunOptions run_options{options.variant, options.jobs, TrackedQuantities::named, {}};
+  run_options.progress = [&](std::size_t done, std::size_t of) { progress.show(done, of); };
+  run_options.store = store_folder(options.out, options.store);
+  run_options.resume = options.resume;
+  run_options.solver = solver_of(adapter);
+  const std::vector<Run> runs = run_cases(cases, references, run_options);
   results::Results found = results_of(runs, cases, references);
-  found.solver = solver_name(runs, grade.command, adapter.words.front());
+  found.solver = solver_name(runs, options.adapter, adapter.words.front());
   found.uncertainty_coverage.reset();  // it is a matter of trammel's own refinements
-  const auto file = write_results(found, grade.out);
-  renderers.junit(found, std::filesystem::path(grade.out) / "junit.xml");
-  const auto page = renderers.codes({file}, grade.out);
-  if (run.json) {
+  const auto file = write_results(found, options.out);
+  renderers.junit(found, std::filesystem::path(options.out) / "junit.xml");
+  const auto page = renderers.codes({file}, options.out);
+  if (options.json) {
     std::cout << read_text(file);
   } else {
     print_grades(found.runs);

@@ -1,63 +1,65 @@
-#include "harness/cli/command_history.h"
-
-#include <algorithm>
 #include <iostream>
 
 #include "harness/base/json_file.h"
-#include "harness/base/table.h"
-#include "harness/base/text.h"
+#include "harness/base/rows.h"
+#include "harness/cli/commands.h"
 #include "harness/run/history.h"
 
 namespace trammel::harness {
 namespace {
 
-void print_changes(const std::vector<HistoryChange>& changes, const std::string& title) {
+void print_changes(const Json& changes, const std::string& title) {
   if (changes.empty()) return;
   std::cout << title << '\n';
-  Table table({"what", "verdict", ">before", ">now", "since commit", "of"});
-  const auto text = [](const results::Number& value) { return value ? rounded(*value, 10) : "-"; };
-  for (const HistoryChange& change : changes)
-    table.add(
-        {change.name,
-         change.of_verdict() ? change.verdict_before + " to " + change.verdict : change.verdict,
-         text(change.before), text(change.after), change.commit, change.date});
-  table.print(std::cout, "  ");
+  Rows({{"name", "what"},
+        {"verdict_before", "verdict"},
+        {"verdict", "now"},
+        {"before", "", 10},
+        {"after", "", 10},
+        {"commit", "since commit"},
+        {"date", "of"}},
+       changes)
+      .print(std::cout, "  ");
 }
 
-void print(const History& history) {
-  constexpr std::size_t kNewest = 12;
-  Table table({">call", "date", "commit", "machine", ">runs", ">checks", ">failures", ">time [s]",
-               ">work"});
-  const std::size_t all = history.calls.size();
-  for (std::size_t i = all > kNewest ? all - kNewest : 0; i < all; ++i) {
-    const HistoryCall& call = history.calls[i];
-    table.add({std::to_string(call.id), call.date, call.commit, call.machine,
-               std::to_string(call.runs), std::to_string(call.checks),
-               std::to_string(call.failures), call.cpu_s > 0 ? rounded(call.cpu_s, 3) : "-",
-               std::to_string(call.work)});
-  }
-  table.print(std::cout);
-  const std::string since = "call " + std::to_string(history.since);
-  if (history.since == 0) {
+void print_history(const Json& history) {
+  constexpr std::ptrdiff_t kNewest = 12;
+  const Json& calls = history["calls"];
+  const auto count = std::min(kNewest, std::ssize(calls));
+  Rows({{"id", "call"},
+        {"date"},
+        {"commit"},
+        {"machine"},
+        {"runs"},
+        {"checks"},
+        {"failures"},
+        {"cpu_s", "time [s]", 3},
+        {"work"}},
+       Json(calls.end() - count, calls.end()))
+      .print(std::cout);
+  const std::string since = "call " + history["since"].dump();
+  if (history["since"] == 0) {
     std::cout << "No green call before the newest to compare with.\n";
-  } else if (history.changes.empty() && history.work.empty()) {
+  } else if (history["changes"].empty() && history["work"].empty()) {
     std::cout << "Nothing has changed since " << since << ", the last green one.\n";
   }
-  print_changes(history.changes, "Changed since " + since + ", the last green one:");
-  print_changes(history.work, "Counted work changed since " + since + ":");
-  for (const HistoryDrift& drift : history.drifts)
-    std::cout << "Slow drift in " << drift.steps << " steps: " << drift.name << ", "
-              << rounded(drift.first, 10) << " to " << rounded(drift.last, 10) << '\n';
+  print_changes(history["changes"], "Changed since " + since + ", the last green one:");
+  print_changes(history["work"], "Counted work changed since " + since + ":");
+  if (history["drifts"].empty()) return;
+  std::cout << "Slow drifts:\n";
+  Rows({{"name"}, {"steps"}, {"first", "", 10}, {"last", "", 10}}, history["drifts"])
+      .print(std::cout, "  ");
 }
 
 }  // namespace
 
-int history_command(const std::string& file, bool json) {
-  const History history = read_history(file);
-  if (json) {
-    std::cout << pretty(results::history_to_json(history), 3);
+int history_command(const CommandOptions& options, const Renderers& /*renderers*/) {
+  const History history = read_history(options.word);
+  const Json json = results::history_to_json(history);
+  if (options.json) {
+    std::cout << pretty(json, 3);
   } else {
-    print(history);
+    print_history(json);
   }
   return history.calls.empty() || history.calls.back().green() ? 0 : 1;
 }

@@ -1,13 +1,18 @@
-#include "harness/cli/command_list.h"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <iostream>
 
 #include "harness/analysis/analysis.h"
 #include "harness/analysis/registry.h"
 #include "harness/analysis/size_estimate.h"
+#include "harness/base/data_root.h"
+#include "harness/base/errors.h"
 #include "harness/base/json_file.h"
-#include "harness/base/table.h"
+#include "harness/base/rows.h"
 #include "harness/base/text.h"
+#include "harness/cli/commands.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/check.h"
 #include "harness/input/json_view.h"
@@ -22,98 +27,80 @@
 namespace trammel::harness {
 namespace {
 
-std::string family_of(const Case& given) {
-  return given.document.value().value("family", "");
-}
-
-std::string text_of(const Case& given, const char* key) {
-  return given.document.value().value(key, "");
-}
-
-Json summary(const Case& given) {
-  return {{"id", given.id()},
-          {"title", given.title()},
-          {"family", family_of(given)},
-          {"labels", given.labels()},
-          {"analysis", analysis_kind(given.document)},
-          {"variants", given.variants()},
-          {"file", given.file.string()}};
-}
-
-std::string count_of(std::size_t count, const char* what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
-
 std::string describe_model(const Document& document) {
   const char* without_model = find_analysis(analysis_kind(document)).without_model;
   if (!document.value().contains("model") && *without_model != 0) return without_model;
   const CaseModel case_model = read_case_model(document);
   const solver::Model model = build_bare_model(case_model, 0);
-  std::string text;
+  std::string text = "planar model";
   if (case_model.manipulator) {
-    const auto& platform = case_model.manipulator->platform;
-    text = platform.kind == solver::PlatformDesign::Kind::rigid
-               ? "3-RRR manipulator with a rigid platform"
-               : "3-RRR manipulator with a platform of triangles";
+    const bool rigid = case_model.manipulator->platform.kind == solver::PlatformDesign::Kind::rigid;
     const solver::Pose& pose = case_model.motion.front().pose;
-    text += case_model.path ? ", along " + count_of(case_model.motion.size(), "pose")
-                            : ", at x = " + shortest(pose.x) + " m, y = " + shortest(pose.y) +
-                                  " m, phi = " + shortest(pose.phi) + " rad";
-  } else {
-    text = "planar model";
+    text = fmt::format("3-RRR manipulator with {}, ",
+                       rigid ? "a rigid platform" : "a platform of triangles");
+    text += case_model.path
+                ? "along " + count_of(case_model.motion.size(), "pose")
+                : fmt::format("at x = {} m, y = {} m, phi = {} rad", pose.x, pose.y, pose.phi);
   }
   solver::Index elements = 0;
   for (const solver::Member& member : model.members) elements += member.elements;
   text += "; " + count_of(model.nodes.size(), "node") + ", " +
           count_of(model.members.size(), "member") + " in " +
           count_of(static_cast<std::size_t>(elements), "element");
-  if (!model.triangles.empty()) text += ", " + count_of(model.triangles.size(), "triangle");
-  if (!model.masses.empty()) text += ", " + count_of(model.masses.size(), "point mass");
-  if (!model.springs.empty()) text += ", " + count_of(model.springs.size(), "spring");
-  const solver::large_motion::LargeMotionModel& more = case_model.joint_elements;
-  if (!more.line_springs.empty()) text += ", " + count_of(more.line_springs.size(), "line spring");
-  if (!more.sliders.empty()) text += ", " + count_of(more.sliders.size(), "slider");
-  if (!model.loads.empty()) text += ", " + count_of(model.loads.size(), "load");
-  if (!model.edge_loads.empty()) {
-    text += ", " + count_of(model.edge_loads.size(), "loaded side") + " of triangles";
-  }
+  const std::pair<std::size_t, const char*> parts[] = {
+      {model.triangles.size(), "triangle"},
+      {model.masses.size(), "point mass"},
+      {model.springs.size(), "spring"},
+      {case_model.joint_elements.line_springs.size(), "line spring"},
+      {case_model.joint_elements.sliders.size(), "slider"},
+      {model.loads.size(), "load"},
+      {model.edge_loads.size(), "edge load"}};
+  for (const auto& [count, noun] : parts)
+    if (count > 0) text += ", " + count_of(count, noun);
   return text;
 }
 
 std::string describe_windows(const Check& check) {
   if (check.windows.empty()) return "reported, not judged";
-  if (check.symmetric) return "within " + shortest(check.windows[0].high);
+  if (check.symmetric) return fmt::format("within {}", check.windows[0].high);
   std::vector<std::string> each;
-  for (const Window& window : check.windows) {
+  for (const Window& window : check.windows)
     each.push_back("[" + shortest(window.low) + ", " + shortest(window.high) + "]");
-  }
   return "in " + join(each, "and");
 }
 
 std::string describe_check(const Check& check) {
   std::string text = check.statistic.empty() ? "" : check.statistic + " of ";
   text += check.quantity;
-  if (!check.index.empty()) {
-    std::vector<std::string> each;
-    for (const std::size_t i : check.index) each.push_back(std::to_string(i));
-    text += "[" + join(each, "and") + "]";
-  }
+  if (!check.index.empty()) text += fmt::format("[{}]", fmt::join(check.index, ", "));
   if (!check.reference.empty()) text += " against " + check.reference;
   if (!check.against_quantity.empty()) text += " against " + check.against_quantity;
   if (!check.against_variant.empty()) text += " of variant " + check.against_variant;
-  if (check.order && check.order->two_term_within) {
-    return text + ", a law of two orders along sweep " + check.order->sweep + " within " +
-           shortest(*check.order->two_term_within) + " of the errors";
-  }
-  if (check.order) {
-    return text + ", order along sweep " + check.order->sweep + " within " +
-           shortest(check.order->within) + " of theory";
-  }
+  if (check.order && check.order->two_term_within)
+    return text + fmt::format(", a law of two orders along sweep {} within {} of the errors",
+                              check.order->sweep, *check.order->two_term_within);
+  if (check.order)
+    return text + fmt::format(", order along sweep {} within {} of theory", check.order->sweep,
+                              check.order->within);
   text += check.windows.empty() ? ", " : std::string(", ") + to_string(check.measure) + " ";
   text += describe_windows(check);
-  if (check.expectation == Expectation::known_discrepancy)
-    text += " (does not agree; recorded range)";
-  return text;
+  return check.expectation == Expectation::known_discrepancy
+             ? text + " (does not agree; recorded range)"
+             : text;
+}
+
+/// Title, source and remarks of a reference.
+void print_reference(const CitedReference& cited) {
+  const auto& [reference, source] = cited;
+  std::cout << "  " << reference.id << "  (" << to_string(reference.kind) << ", "
+            << count_of(reference.values.size(), "value") << " in " << reference.unit << ")\n"
+            << wrapped(reference.title, "      ")
+            << wrapped(source.text + ", " + reference.place +
+                           (source.doi.empty() ? "" : ", doi:" + source.doi),
+                       "      ")
+            << wrapped(reference.derivation, "      ") << wrapped(reference.notes, "      ");
+  for (const std::string& erratum : reference.errata)
+    std::cout << wrapped("Erratum: " + erratum, "      ");
 }
 
 void describe_effects(const Case& given) {
@@ -141,55 +128,80 @@ void describe_inputs(const Case& given, const References& references) {
   const Document base = patched(given, kBaseVariant);
   if (!base.value().contains("uncertainty")) return;
   std::cout << "\nInput uncertainties\n";
-  Table table({"input", ">half width", "", "why"});
-  for (const StatedInput& input : stated_inputs(base, references)) {
-    table.add({input.name, rounded(input.half_width),
-               input.nominal ? "in the literal reading alone" : "", input.why});
-  }
+  Rows table({"input", "half width", "", "why"});
+  for (const StatedInput& input : stated_inputs(base, references))
+    table.add({input.name, input.half_width, input.nominal ? "in the literal reading alone" : "",
+               input.why});
   table.print(std::cout, "  ");
 }
 
-void describe_references(const References& references) {
-  const auto used = references.used();
-  if (used.empty()) return;
-  std::cout << "\nReferences\n";
-  for (const auto& [id, cited] : used) {
-    const references::Reference& reference = cited.reference;
-    std::cout << "  " << id << "  (" << to_string(reference.kind) << ", "
-              << count_of(reference.values.size(), "value") << " in " << reference.unit << ")\n"
-              << wrapped(reference.title, "      ")
-              << wrapped(cited.source.text + ", " + reference.place +
-                             (cited.source.doi.empty() ? "" : ", doi:" + cited.source.doi),
-                         "      ");
-    for (const std::string& erratum : reference.errata) {
-      std::cout << wrapped("Erratum: " + erratum, "      ");
+void describe_sweeps(const Case& given) {
+  const auto sweeps = JsonView(given.document).find("sweeps");
+  if (!sweeps) return;
+  std::cout << "\nSweeps\n";
+  for (const auto& [sweep, place] : sweeps->entries()) {
+    std::cout << "  " << sweep << "  " << place["values"].json().dump();
+    if (place.has("theory_order")) {
+      std::cout << ", order " << shortest(place.number("theory_order"));
+      if (place.has("lower_order")) std::cout << " and " << shortest(place.number("lower_order"));
+      std::cout << " by theory";
     }
+    std::cout << '\n';
   }
 }
 
-void print_analyses() {
-  for (const AnalysisKind& kind : analysis_kinds()) {
-    std::cout << kind.name << '\n';
-    Table table({"quantity", "unit", "meaning"});
-    for (const results::QuantityDefinition& one : results::quantity_definitions())
-      if (one.is_of(kind.name)) table.add({one.name, unit_of(one.name), one.meaning});
-    table.print(std::cout, "  ");
-  }
-  std::cout << "A colon is followed by what the quantity is of: a node, a member and its end, ...\n"
-               "Times and poses stand beside quantities along a trajectory; a study gives the\n"
-               "quantities of its analysis. './trammel quantities CASE' names those of a case.\n";
+/// A row for each value.
+Rows value_rows(const std::vector<CitedReference>& all) {
+  Rows rows({"id", "title", "kind", "unit", "index", "value", "uncertainty", "printed", "source",
+             "place", "notes"});
+  for (const auto& [reference, source] : all)
+    for (std::size_t i = 0; i < reference.values.size(); ++i)
+      rows.add({reference.id, reference.title, to_string(reference.kind), reference.unit, i,
+                reference.values[i], reference.uncertainty[i],
+                reference.printed.empty() ? "" : reference.printed[i], source.text, reference.place,
+                reference.notes});
+  return rows;
 }
 
-Json analyses_json() {
+Json references_json(const std::vector<CitedReference>& all) {
   Json json = Json::array();
-  for (const AnalysisKind& kind : analysis_kinds())
-    for (const results::QuantityDefinition& one : results::quantity_definitions())
-      if (one.is_of(kind.name))
-        json.push_back({{"analysis", kind.name},
-                        {"quantity", one.name},
-                        {"unit", unit_of(one.name)},
-                        {"meaning", one.meaning}});
+  for (const auto& [reference, source] : all) {
+    Json& row = json.emplace_back(Json{{"id", reference.id},
+                                       {"title", reference.title},
+                                       {"kind", to_string(reference.kind)},
+                                       {"unit", reference.unit},
+                                       {"values", reference.values},
+                                       {"uncertainty", reference.uncertainty},
+                                       {"source", source.text},
+                                       {"place", reference.place}});
+    const std::pair<const char*, Json> rare[] = {{"printed", reference.printed},
+                                                 {"notes", reference.notes},
+                                                 {"derivation", reference.derivation},
+                                                 {"errata", reference.errata}};
+    for (const auto& [key, value] : rare)
+      if (value != "" && value != Json::array()) row[key] = value;
+  }
   return json;
+}
+
+void print_values(const CitedReference& cited) {
+  const references::Reference& reference = cited.reference;
+  print_reference(cited);
+  Rows table({"index", {"value", ">value [" + reference.unit + "]"}, {"uncertainty", "", 2}});
+  for (std::size_t i = 0; i < reference.values.size(); ++i)
+    table.add({i, reference.printed.empty() ? shortest(reference.values[i]) : reference.printed[i],
+               reference.uncertainty[i]});
+  table.print(std::cout, "  ");
+}
+
+/// The quantities of all analyses.
+Rows analysis_rows() {
+  Rows rows({"analysis", "quantity", "unit", "meaning"});
+  for (const AnalysisKind& kind : analysis_kinds())
+    for (const results::QuantityDefinition& definition : results::quantity_definitions())
+      if (definition.is_of(kind.name))
+        rows.add({kind.name, definition.name, unit_of(definition.name), definition.meaning});
+  return rows;
 }
 
 /// Of a quantity of the case, which in a study may be one of the analysis that is studied.
@@ -204,99 +216,109 @@ std::string meaning_of(const std::string& name, const Document& document) {
   return found == nullptr ? "" : found->meaning;
 }
 
+/// The quantities of a case, which is computed.
+Rows quantity_rows(const Case& given) {
+  const Document document = patched(given, kBaseVariant);
+  Rows rows({"quantity", "entries", "unit", "meaning"});
+  for (const auto& [name, quantity] : solution_of(given, kBaseVariant).quantities)
+    rows.add({name, quantity.values.size(), unit_of(name), meaning_of(name, document)});
+  return rows;
+}
+
 }  // namespace
 
-int list_cases(const std::vector<std::string>& labels, bool json) {
-  const std::vector<Case> cases = Catalogue().load(labels);
-  if (json) {
-    Json all = Json::array();
-    for (const Case& test_case : cases) all.push_back(summary(test_case));
-    std::cout << pretty(all);
-    return 0;
+int list_command(const CommandOptions& options, const Renderers& /*renderers*/) {
+  Rows rows(
+      {{"id", "case"}, {"title"}, {"family"}, {"labels"}, {"analysis"}, {"variants"}, {"file"}});
+  const std::vector<Case> cases = Catalogue().load(options.labels);
+  for (const Case& given : cases)
+    rows.add({given.id(), given.title(), given.document.value().value("family", ""), given.labels(),
+              analysis_kind(given.document), given.variants(), given.file.string()});
+  if (options.json) {
+    std::cout << pretty(rows.json());
+  } else {
+    Rows({{"id", "case"}, {"analysis"}, {"variants", "", 0}, {"labels"}, {"title"}}, rows.json())
+        .print(std::cout);
+    std::cout << count_of(cases.size(), "case") << '\n';
   }
-  Table table({"case", "analysis", ">variants", "labels", "title"});
-  for (const Case& test_case : cases) {
-    std::string labels_text;
-    for (const std::string& label : test_case.labels()) {
-      labels_text += (labels_text.empty() ? "" : ",") + label;
-    }
-    table.add({test_case.id(), analysis_kind(test_case.document),
-               std::to_string(test_case.variants().size()), labels_text, test_case.title()});
-  }
-  table.print(std::cout);
-  std::cout << count_of(cases.size(), "case") << '\n';
   return 0;
 }
 
-int describe_case(const std::string& name, bool json) {
-  const Case given = load_named_case(name);
-  if (json) {
+int describe_command(const CommandOptions& options, const Renderers& /*renderers*/) {
+  const Case given = load_named_case(options.word);
+  if (options.json) {
     Json document = given.document.value();
     document["file"] = given.file.string();
     std::cout << pretty(document);
     return 0;
   }
-  require_fits(patched(given, kBaseVariant));
-  const References references;
-  std::cout << given.id() << ": " << given.title() << '\n';
-  std::cout << wrapped(text_of(given, "description"), "  ");
-  std::cout << "\nModel     " << describe_model(patched(given, kBaseVariant)) << '\n';
-  std::cout << "Analysis  " << analysis_kind(given.document) << " "
-            << given.document.value().at("analysis").begin()->dump() << '\n';
-  std::cout << "File      " << given.file.string() << '\n';
+  const Document base = patched(given, kBaseVariant);
+  require_fits(base);
+  std::cout << given.id() << ": " << given.title() << '\n'
+            << wrapped(given.document.value().value("description", ""), "  ") << "\nModel     "
+            << describe_model(base) << "\nAnalysis  " << analysis_kind(given.document) << " "
+            << given.document.value().at("analysis").begin()->dump() << "\nFile      "
+            << given.file.string() << '\n';
   if (given.variants().size() > 1) {
     std::cout << "\nVariants\n";
-    Table table({"name", "what it changes"});
-    for (const std::string& variant : given.variants()) {
+    Rows table({"name", "what it changes"});
+    for (const std::string& variant : given.variants())
       if (variant != kBaseVariant) table.add({variant, given.variant_title(variant)});
-    }
     table.print(std::cout, "  ");
   }
-  if (const auto sweeps = JsonView(given.document).find("sweeps")) {
-    std::cout << "\nSweeps\n";
-    for (const auto& [sweep, place] : sweeps->entries()) {
-      std::cout << "  " << sweep << "  " << place["values"].json().dump();
-      if (place.has("theory_order")) {
-        std::cout << ", order " << shortest(place.number("theory_order"));
-        if (place.has("lower_order")) std::cout << " and " << shortest(place.number("lower_order"));
-        std::cout << " by theory";
-      }
-      std::cout << '\n';
-    }
-  }
+  const References references;
+  describe_sweeps(given);
   describe_effects(given);
   describe_inputs(given, references);
   describe_checks(given, references);
-  describe_references(references);
+  const auto used = references.used();
+  if (!used.empty()) std::cout << "\nReferences\n";
+  for (const auto& item : used) print_reference(item.second);
   return 0;
 }
 
-int quantities_command(const std::string& name, bool json) {
-  if (name.empty()) {
-    if (json) {
-      std::cout << pretty(analyses_json(), 1);
-    } else {
-      print_analyses();
-    }
+int quantities_command(const CommandOptions& options, const Renderers& /*renderers*/) {
+  const bool all = options.word.empty();
+  const Rows rows = all ? analysis_rows() : quantity_rows(load_named_case(options.word));
+  if (options.json) {
+    std::cout << pretty(rows.json(), 1);
     return 0;
   }
-  const Case given = load_named_case(name);
-  const Document document = patched(given, kBaseVariant);
-  const AnalysisResult result = solution_of(given, kBaseVariant);
-  Table table({"quantity", ">entries", "unit", "meaning"});
-  Json rows = Json::array();
-  for (const auto& [quantity, found] : result.quantities) {
-    const std::string unit = unit_of(quantity), meaning = meaning_of(quantity, document);
-    table.add({quantity, std::to_string(found.values.size()), unit, meaning});
-    rows.push_back({{"quantity", quantity},
-                    {"entries", found.values.size()},
-                    {"unit", unit},
-                    {"meaning", meaning}});
+  rows.print(std::cout);
+  if (all)
+    std::cout
+        << "A colon is followed by what the quantity is of: a node, a member and its end, ...\n"
+           "Times and poses stand beside quantities along a trajectory; a study gives the\n"
+           "quantities of its analysis. './trammel quantities CASE' names those of a case.\n";
+  return 0;
+}
+
+int references_command(const CommandOptions& options, const Renderers& /*renderers*/) {
+  const auto files = references::reference_files((data_root() / "references" / "values").string());
+  const References library;
+  std::vector<std::string> known, names = options.words;
+  for (const auto& item : files) known.push_back(item.first);
+  for (const std::string& name : names.empty() ? known : names) {
+    if (files.count(name) == 0)
+      throw InputError("expected a stored reference (got " + quoted(printable(name)) + ")" +
+                       did_you_mean(name, known));
+    (void)library.add(files.at(name));
   }
-  if (json) {
-    std::cout << pretty(rows, 1);
+  std::vector<CitedReference> all;
+  for (const auto& [id, reference] : library.used()) all.push_back(reference);
+  if (options.csv) {
+    std::cout << value_rows(all).csv();
+  } else if (options.json) {
+    std::cout << pretty(references_json(all));
+  } else if (!names.empty()) {
+    std::ranges::for_each(all, print_values);
   } else {
-    table.print(std::cout, "");
+    Rows table({"reference", "kind", "values", "unit", "source", "title"});
+    for (const auto& [reference, source] : all)
+      table.add({reference.id, to_string(reference.kind), reference.values.size(), reference.unit,
+                 reference.source, reference.title});
+    table.print(std::cout);
+    std::cout << count_of(all.size(), "reference") << '\n';
   }
   return 0;
 }

@@ -1,5 +1,3 @@
-#include "harness/cli/command_shards.h"
-
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -7,7 +5,7 @@
 
 #include "harness/base/embedded_text.h"
 #include "harness/base/text.h"
-#include "harness/cli/command_cost.h"
+#include "harness/cli/commands.h"
 #include "harness/run/output_lock.h"
 #include "harness/run/shards.h"
 
@@ -17,44 +15,44 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The cases and labels as words of a command line, each after a blank.
-std::string words_of(const RunCommand& command) {
+std::string words_of(const CommandOptions& options) {
   std::string words;
-  for (const std::string& name : command.cases) words += " " + shell_quoted(name);
-  for (const std::string& label : command.labels) words += " -L " + shell_quoted(label);
+  for (const std::string& name : options.words) words += " " + shell_quoted(name);
+  for (const std::string& label : options.labels) words += " -L " + shell_quoted(label);
   return words;
 }
 
 }  // namespace
 
-int merge_command(const std::vector<std::string>& folders, RunCommand command,
-                  const Renderers& renderers) {
+int merge_command(const CommandOptions& options, const Renderers& renderers) {
+  CommandOptions run = options;
   {
-    const OutputLock lock(command.out);
-    const Json selection =
-        merge_shards({folders.begin(), folders.end()}, store_folder(command.out, command.store));
-    selection.at("cases").get_to(command.cases);
-    selection.at("labels").get_to(command.labels);
-    selection.at("variant").get_to(command.variant);
+    const OutputLock lock(options.out);
+    const Json selection = merge_shards({options.words.begin(), options.words.end()},
+                                        store_folder(options.out, options.store));
+    selection.at("cases").get_to(run.words);
+    selection.at("labels").get_to(run.labels);
+    selection.at("variant").get_to(run.variant);
   }
-  command.resume = command.any_machine = true;
-  return run_command(command, renderers);
+  run.resume = run.any_machine = true;
+  return run_command(run, renderers);
 }
 
-int slurm_command(const SlurmCommand& slurm, const RunCommand& command) {
+int slurm_command(const CommandOptions& options, const Renderers& /*renderers*/) {
   const auto option = [](const char* name, const std::string& value) {
     return value.empty() ? "" : std::string(name) + shell_quoted(value);
   };
   const std::string costs =
-      command.costs.empty() ? "" : fs::absolute(command.costs).lexically_normal().string();
+      options.costs.empty() ? "" : fs::absolute(options.costs).lexically_normal().string();
   std::cout << fmt::format(
-      fmt::runtime(embedded_text("slurm.sh.in")), fmt::arg("count", slurm.shards),
-      fmt::arg("jobs", command.jobs),
+      fmt::runtime(embedded_text("slurm.sh.in")), fmt::arg("count", options.shard_count),
+      fmt::arg("jobs", options.jobs),
       fmt::arg("program", shell_quoted(fs::read_symlink("/proc/self/exe").string())),
-      fmt::arg("out", shell_quoted(fs::absolute(command.out).lexically_normal().string())),
-      fmt::arg("words", words_of(command)),
-      fmt::arg("variant", option(" --variant ", command.variant)),
+      fmt::arg("out", shell_quoted(fs::absolute(options.out).lexically_normal().string())),
+      fmt::arg("words", words_of(options)),
+      fmt::arg("variant", option(" --variant ", options.variant)),
       fmt::arg("costs", option(" --costs ", costs)),
-      fmt::arg("time", slurm.time.empty() ? "" : option("--time=", slurm.time) + " "));
+      fmt::arg("time", options.job_time.empty() ? "" : option("--time=", options.job_time) + " "));
   return 0;
 }
 

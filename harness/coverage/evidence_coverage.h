@@ -1,13 +1,26 @@
 #pragma once
 
+#include <set>
+#include <string>
 #include <vector>
 
+#include "harness/base/json.h"
 #include "harness/input/case.h"
 #include "harness/input/reference_library.h"
 #include "harness/results/results.h"
 
 /// What of the program is verified by what kind of evidence, and what by none.
 namespace trammel::harness {
+
+/// A key ("slider.rail"), or a value of an enumeration ("beam = timoshenko"), below "model",
+/// "analysis" and "effects". Keys inside a definition of the schema carry its name.
+using CaseFeatures = std::set<std::string>;
+
+/// All that a case can use.
+[[nodiscard]] CaseFeatures features_of_schema();
+
+/// @param document  resolved, and obeys the schema
+[[nodiscard]] CaseFeatures features_of(const Json& document);
 
 /// From the catalogue's data alone: a row for each key and value of the case schema, for each pair
 /// of an analysis and a part, element or joint that a case has, and for each quantity that an

@@ -9,14 +9,14 @@
 #include "harness/base/content_hash.h"
 #include "harness/base/quantity.h"
 #include "harness/base/text.h"
-#include "harness/export/mechanism.h"
 #include "harness/export/model_writer.h"
 #include "harness/input/check.h"
+#include "harness/readers/field_reader.h"
 #include "harness/readers/joint_reader.h"
-#include "harness/readers/material_reader.h"
 #include "harness/results/quantity_definitions.h"
 #include "harness/scene/tracking.h"
 #include "harness/scene/with_model_errors.h"
+#include "solver/manipulator/rigid_dynamics.h"
 #include "trammel_build.h"
 
 namespace trammel::harness {
@@ -77,17 +77,15 @@ Json stated_analysis(const Document& document, solver::Effects chosen) {
 WrittenNames written_names(const Document& document) {
   const JsonView model = JsonView(document)["model"];
   WrittenNames names;
-  if (const auto materials = model.find("materials"))
-    for (const auto& [name, place] : materials->entries())
-      names.materials.emplace_back(name, read_material(place));
+  for (const auto& [name, place] : model.entries("materials"))
+    names.materials.emplace_back(name, read_material(place));
   for (const char* key : {"material", "platform_material"}) {
     if (model.has("manipulator") && model["manipulator"].has(key))
       names.materials.emplace_back(std::string("manipulator-") + key,
                                    read_material(model["manipulator"][key]));
   }
-  if (const auto loads = model.find("loads"))
-    for (const auto& [name, place] : loads->entries())
-      if (place.has("node")) names.loads.push_back(name);
+  for (const auto& [name, place] : model.entries("loads"))
+    if (place.has("node")) names.loads.push_back(name);
   return names;
 }
 
@@ -95,8 +93,7 @@ WrittenNames written_names(const Document& document) {
 std::set<std::string> lost_parts(const Document& document, const solver::Model& model) {
   std::set<std::string> lost;
   if (!JsonView(document).has("model")) return lost;
-  if (const auto edges = JsonView(document)["model"].find("edges"))
-    for (const auto& edge : edges->entries()) lost.insert(edge.first);
+  for (const auto& edge : JsonView(document)["model"].entries("edges")) lost.insert(edge.first);
   for (const solver::Member& member : model.members)
     if (is_tapered(member))
       lost.insert({member.name, member.name + ".start", member.name + ".end"});
@@ -153,6 +150,49 @@ Json plain_model(const Document& document, const ExportedScene& scene) {
       document, [&] { return model_json(scene.model, scene.joints, written_names(document)); });
 }
 
+Json body(double mass, double inertia, const solver::BodyMotion& start) {
+  return {{"mass_kg", mass},
+          {"inertia_kg_m2", inertia},
+          {"center_m", {start.position.x(), start.position.y()}},
+          {"angle_rad", start.angle}};
+}
+
+Json joint(const std::string& first, const std::string& second, const Eigen::Vector2d& at) {
+  return {{"bodies", {first, second}}, {"position_m", {at.x(), at.y()}}};
+}
+
+Json row(const Eigen::Vector3d& v) {
+  return {v.x(), v.y(), v.z()};
+}
+
+/// The rigid manipulator in plain words: bodies (mass, inertia, centre and angle at the first point
+/// of the path), joints (which bodies, where then) and the path of P as a table over time.
+Json mechanism_json(const CaseModel& case_model) {
+  const solver::RigidManipulator rigid = solver::rigid_manipulator(*case_model.manipulator);
+  const solver::TrajectoryPoint& first = case_model.motion.front();
+  const solver::InverseDynamics start = solver::inverse_dynamics(rigid, first);
+  const solver::Posture posture = solver::inverse_kinematics(rigid.geometry, first.pose);
+  Json bodies = Json::object(), joints = Json::object();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string n = std::to_string(i + 1);
+    const std::string proximal = "A" + n + "-B" + n, distal = "B" + n + "-C" + n;
+    bodies[proximal] = body(rigid.proximal[i].mass, rigid.proximal[i].inertia, start.bodies[i]);
+    bodies[distal] = body(rigid.distal[i].mass, rigid.distal[i].inertia, start.bodies[3 + i]);
+    joints["A" + n] = joint("ground", proximal, rigid.geometry.base[i]);
+    joints["B" + n] = joint(proximal, distal, posture.B[i]);
+    joints["C" + n] = joint(distal, "platform", posture.C[i]);
+  }
+  bodies["platform"] = body(rigid.platform.mass, rigid.platform.inertia, start.bodies[6]);
+  Json path = {{"time_s", Json::array()}};
+  for (const solver::TrajectoryPoint& point : case_model.motion) {
+    path["time_s"].push_back(point.time);
+    path["pose_m_rad"].push_back(row({point.pose.x, point.pose.y, point.pose.phi}));
+    path["velocity_per_s"].push_back(row(point.velocity));
+    path["acceleration_per_s2"].push_back(row(point.acceleration));
+  }
+  return {{"bodies", bodies}, {"joints", joints}, {"path", path}};
+}
+
 /// With the model of what vibrates at the first point of the path, where something does.
 Json mechanism_of(const Document& document) {
   const CaseModel case_model = read_case_model(document);
@@ -179,10 +219,8 @@ void name_recorded_nodes(const solver::Model& model, Json& analysis) {
 Document chosen_document(const Case& given, const ExportChoice& choice) {
   Document document = patched(given, choice.variant);
   if (!choice.level) return document;
-  const auto sweeps = JsonView(document).find("sweeps");
   std::vector<std::string> names;
-  if (sweeps)
-    for (const auto& sweep : sweeps->entries()) names.push_back(sweep.first);
+  for (const auto& sweep : JsonView(document).entries("sweeps")) names.push_back(sweep.first);
   const std::string name = choice.sweep.empty() && names.size() == 1 ? names[0] : choice.sweep;
   if (!contains(names, name)) {
     throw document.error("/sweeps", "expected the name of a sweep (got '" + printable(name) +

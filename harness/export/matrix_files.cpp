@@ -8,7 +8,7 @@
 #include "harness/analysis/analysis.h"
 #include "harness/base/json_file.h"
 #include "harness/export/vtk_files.h"
-#include "harness/readers/damping_reader.h"
+#include "harness/readers/option_reader.h"
 #include "harness/scene/with_model_errors.h"
 #include "solver/large/large_motion_model.h"
 #include "solver/linear/row_balance.h"

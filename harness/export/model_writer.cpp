@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
-#include "harness/export/section_table.h"
 #include "harness/readers/member_chain.h"
+#include "harness/readers/model_fields.h"
 #include "solver/elements/frame_element.h"
 #include "solver/elements/triangle_element.h"
 #include "solver/model/numbers.h"
@@ -18,9 +19,181 @@ namespace {
 using solver::Index;
 using solver::Model;
 
-Json point(const Eigen::Vector2d& p) {
-  return {p.x(), p.y()};
+/// A quotient and its neighbours: among them are all x with x * divisor == product.
+std::array<double, 3> quotients(double product, double divisor) {
+  const double x = product / divisor, beyond = std::numeric_limits<double>::infinity();
+  return {x, std::nextafter(x, 0), std::nextafter(x, beyond)};
 }
+
+/// x with gives(x), or the first.
+template <class Gives>
+double first_that(const std::array<double, 3>& candidates, const Gives& gives) {
+  for (const double x : candidates)
+    if (gives(x)) return x;
+  return candidates.front();
+}
+
+/// One that both stiffness and rotary inertia are products of, or else the stiffness.
+double second_moment(const solver::Section& section, const solver::Material& material) {
+  const auto candidates = quotients(section.EI, material.E);
+  const auto stiff = [&](double I) { return material.E * I == section.EI; };
+  for (const double I : candidates)
+    if (stiff(I) && material.rho * I == section.inertia_per_length) return I;
+  return first_that(candidates, stiff);
+}
+
+double shear_coefficient(const solver::Section& section, const solver::Material& material) {
+  const double G = material.E / (2 * (1 + material.nu));
+  const auto gives = [&](double k) { return k * G * section.area == section.kappa_GA; };
+  constexpr double kRectangle = 5.0 / 6.0;
+  if (gives(kRectangle)) return kRectangle;
+  return first_that(quotients(section.kappa_GA / section.area, G), gives);
+}
+
+bool nearly(double a, double b) {
+  return std::abs(a - b) <= 4 * solver::kEps * std::abs(b);
+}
+
+/// Materials and sections of a built model as a case file has them: each once, by name.
+class SectionTable {
+ public:
+  /// @param known  materials of the case with their names, which are kept where a section is made
+  ///               of one to round-off
+  explicit SectionTable(std::vector<std::pair<std::string, solver::Material>> known)
+      : materials_(std::move(known)), used_(materials_.size(), false) {}
+
+  /// The name that the section has from now on. Area, second moment, shear coefficient and half
+  /// depth are those that give its stiffnesses again to the last bit, where there are such.
+  [[nodiscard]] std::string name_of(const solver::Section& section);
+  [[nodiscard]] std::string name_of(const solver::Material& material);
+
+  /// Those that have a part.
+  [[nodiscard]] std::vector<std::pair<std::string, solver::Material>> materials() const;
+  [[nodiscard]] const Json& sections() const { return sections_; }
+
+ private:
+  [[nodiscard]] solver::Material material_of(const solver::Section& section) const;
+
+  std::vector<std::pair<std::string, solver::Material>> materials_;
+  std::vector<bool> used_;
+  Json sections_ = Json::object();
+};
+
+solver::Material SectionTable::material_of(const solver::Section& section) const {
+  const double A = section.area, mass = section.mass_per_length;
+  solver::Material made;
+  for (const auto& [name, material] : materials_) {
+    if (!nearly(material.E * A, section.EA)) continue;
+    const bool exactly = material.E * A == section.EA;
+    if (exactly ? material.rho * A == mass : nearly(material.rho * A, mass)) return material;
+    made = material;
+  }
+  if (made.E == 0) {
+    made.E = first_that(quotients(section.EA, A), [&](double E) { return E * A == section.EA; });
+  }
+  made.rho = first_that(quotients(mass, A), [&](double rho) { return rho * A == mass; });
+  return made;
+}
+
+std::string SectionTable::name_of(const solver::Material& material) {
+  std::size_t i = 0;
+  const auto same = [&](const solver::Material& m) {
+    return m.E == material.E && m.rho == material.rho && m.nu == material.nu;
+  };
+  while (i < materials_.size() && !same(materials_[i].second)) ++i;
+  if (i == materials_.size()) {
+    materials_.emplace_back("material-" + std::to_string(i + 1), material);
+    used_.push_back(false);
+  }
+  used_[i] = true;
+  return materials_[i].first;
+}
+
+std::string SectionTable::name_of(const solver::Section& section) {
+  const solver::Material material = material_of(section);
+  Json made = {{"material", name_of(material)},
+               {"area_m2", section.area},
+               {"second_moment_m4", second_moment(section, material)},
+               {"shear_coefficient", shear_coefficient(section, material)}};
+  const double I = made["second_moment_m4"].get<double>(), W = section.section_modulus;
+  if (I > 0 && W > 0 && std::isfinite(W)) {
+    made["half_depth_m"] = first_that(quotients(I, W), [&](double c) { return I / c == W; });
+  }
+  for (const auto& [name, known] : sections_.items())
+    if (known == made) return name;
+  std::string name = "section-" + std::to_string(sections_.size() + 1);
+  sections_[name] = std::move(made);
+  return name;
+}
+
+std::vector<std::pair<std::string, solver::Material>> SectionTable::materials() const {
+  std::vector<std::pair<std::string, solver::Material>> used;
+  for (std::size_t i = 0; i < materials_.size(); ++i)
+    if (used_[i]) used.push_back(materials_[i]);
+  return used;
+}
+
+/// Writes the fields of a part as the JSON object that `FieldReader` reads.
+struct FieldWriter {
+  const std::vector<std::string>& node;  ///< names by index
+  SectionTable& table;
+  Json json = Json::object();
+
+  template <class T>
+  void required(const char* key, const T& member) {
+    json[key] = json_of(member);
+  }
+  template <class T>
+  void defaulted(const char* key, const T& member) {
+    required(key, member);
+  }
+  template <class T>
+  void optional(const char* key, const T& member) {
+    if (!is_empty(member)) required(key, member);
+  }
+
+  template <class T>
+  [[nodiscard]] static bool is_empty(const T& value) {
+    return value == T{};
+  }
+  [[nodiscard]] static bool is_empty(double value) { return value == 0 || std::isnan(value); }
+  [[nodiscard]] static bool is_empty(const Eigen::Vector2d& pair) { return pair.isZero(0); }
+  [[nodiscard]] static bool is_empty(NodeNames<Index> node) { return node.indices < 0; }
+
+  /// An enumeration by its word; JSON's own conversion of numbers and of vectors.
+  template <class T>
+  [[nodiscard]] static Json json_of(const T& value) {
+    if constexpr (std::is_enum_v<T>) {
+      return kWords<T>.at(static_cast<std::size_t>(value));
+    } else {
+      return value;
+    }
+  }
+  [[nodiscard]] static Json json_of(const std::array<solver::MemberEnd, 2>& ends) {
+    Json both = Json::array();
+    for (const solver::MemberEnd& end : ends) {
+      const bool sprung = end.fixity == solver::EndFixity::sprung;
+      both.push_back(sprung ? Json{{"spring_N_m_per_rad", end.stiffness}} : json_of(end.fixity));
+    }
+    return both;
+  }
+  [[nodiscard]] Json json_of(const solver::Section& section) const {
+    return table.name_of(section);
+  }
+  [[nodiscard]] Json json_of(const solver::Material& material) const {
+    return table.name_of(material);
+  }
+  [[nodiscard]] Json json_of(NodeNames<Index> name) const {
+    return node[solver::to_size(name.indices)];
+  }
+  template <class Indices>
+  [[nodiscard]] Json json_of(NodeNames<Indices> nodes) const {
+    Json names = Json::array();
+    for (const Index index : nodes.indices)
+      if (index >= 0) names.push_back(node[solver::to_size(index)]);
+    return names;
+  }
+};
 
 /// Parts of one kind, by name. (Json would look through all of them at each.)
 class Parts {
@@ -43,16 +216,6 @@ class Parts {
   Json json_ = Json::object();
   std::set<std::string> names_;
 };
-
-const char* name_of(solver::BeamTheory theory) {
-  return std::array{"euler-bernoulli", "rayleigh", "shear",
-                    "timoshenko"}[static_cast<std::size_t>(theory)];
-}
-
-Json end_json(const solver::MemberEnd& end) {
-  if (end.fixity == solver::EndFixity::sprung) return {{"spring_N_m_per_rad", end.stiffness}};
-  return end.fixity == solver::EndFixity::hinged ? "hinged" : "welded";
-}
 
 /// Tapered members become chains of members of one element, which keep what the element has.
 void cut_tapers(Model& model) {
@@ -89,97 +252,71 @@ class ModelWriter {
   }
 
   Json write(const solver::large_motion::LargeMotionModel& joints) {
-    Json parts = Json::object();
-    nodes(parts);
-    members(parts);
-    plates(parts);
-    bodies(parts);
-    supports(parts);
-    pins(parts);
-    large_motion(joints, parts);
-    loads(parts);
-    if (!model_.gravity.isZero(0)) parts["gravity_m_s2"] = point(model_.gravity);
-    Json model = {{"materials", table_.materials()}, {"sections", table_.sections()}};
-    for (const char* key : {"materials", "sections"})
-      if (model[key].empty()) model.erase(key);
-    model.update(parts);
+    Parts nodes("nodes");
+    for (std::size_t i = 0; i < node_.size(); ++i) nodes.add(node_[i], model_.nodes[i].position);
+    nodes.put_into(parts_);
+    add("members", model_.members);
+    add_plates();
+    add("rigid_bodies", model_.rigid_bodies);
+    add("point_masses", model_.masses);
+    add("springs", model_.springs);
+    add_supports();
+    add("pins", pins());
+    add("sliders", joints.sliders);
+    add("axial_springs", joints.line_springs);
+    add("follower_loads", joints.follower_loads);
+    add("loads", loads(), names_.loads);
+    if (!model_.gravity.isZero(0)) parts_["gravity_m_s2"] = model_.gravity;
+    Json model = Json::object();
+    Parts materials("materials");
+    for (const auto& [name, material] : table_.materials()) materials.add(name, json_of(material));
+    materials.put_into(model);
+    if (!table_.sections().empty()) model["sections"] = table_.sections();
+    model.update(parts_);
     return model;
   }
 
  private:
-  [[nodiscard]] const std::string& name(Index node) const { return node_[solver::to_size(node)]; }
-
-  void nodes(Json& model) const {
-    Parts nodes("nodes");
-    for (std::size_t i = 0; i < node_.size(); ++i)
-      nodes.add(node_[i], point(model_.nodes[i].position));
-    nodes.put_into(model);
+  template <class T>
+  [[nodiscard]] Json json_of(T part) {
+    FieldWriter writer{node_, table_};
+    fields(writer, part);
+    return std::move(writer.json);
   }
 
-  void members(Json& model) {
-    Parts members("members");
-    for (const solver::Member& m : model_.members) {
-      Json member = {{"nodes", {name(m.nodes[0]), name(m.nodes[1])}},
-                     {"section", table_.name_of(m.section)},
-                     {"beam", name_of(m.theory)},
-                     {"elements", m.elements},
-                     {"ends", {end_json(m.ends[0]), end_json(m.ends[1])}}};
-      if (m.mass == solver::MassMatrix::lumped) member["mass_matrix"] = "lumped";
-      if (!m.axially_flexible) member["axial"] = "inextensible";
-      if (!m.load.isZero(0)) member["load_N_per_m"] = point(m.load);
-      if (m.ends[0].inertia != 0 || m.ends[1].inertia != 0)
-        member["end_inertia_kg_m2"] = {m.ends[0].inertia, m.ends[1].inertia};
-      members.add(m.name, std::move(member));
+  /// @param names  of the first parts, which have none themselves
+  template <class T>
+  void add(const char* kind, const std::vector<T>& parts,
+           const std::vector<std::string>& names = {}) {
+    Parts written(kind);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      std::string name = i < names.size() ? names[i] : "";
+      if constexpr (requires { parts[i].name; }) name = parts[i].name;
+      written.add(name, json_of(parts[i]));
     }
-    members.put_into(model);
+    written.put_into(parts_);
   }
 
-  void plates(Json& model) {
+  void add_plates() {
     std::vector<Json> triangles(model_.plates.size(), Json::array());
     for (const solver::Triangle& triangle : model_.triangles) {
       Json names = Json::array();
       for (const Index node : triangle.nodes)
-        if (node >= 0) names.push_back(name(node));
+        if (node >= 0) names.push_back(node_[solver::to_size(node)]);
       triangles[solver::to_size(triangle.plate)].push_back(std::move(names));
     }
     Parts plates("plates");
     for (std::size_t i = 0; i < model_.plates.size(); ++i) {
-      const solver::Plate& plate = model_.plates[i];
       if (triangles[i].empty()) continue;
-      plates.add(plate.name, {{"material", table_.name_of(plate.material)},
-                              {"thickness_m", plate.thickness},
-                              {"triangles", std::move(triangles[i])}});
+      Json plate = json_of(model_.plates[i]);
+      plate["triangles"] = std::move(triangles[i]);
+      plates.add(model_.plates[i].name, std::move(plate));
     }
-    plates.put_into(model);
-  }
-
-  void bodies(Json& model) const {
-    Parts bodies("rigid_bodies"), masses("point_masses"), springs("springs");
-    for (const solver::RigidBody& body : model_.rigid_bodies) {
-      Json attached = Json::array();
-      for (const Index node : body.attached) attached.push_back(name(node));
-      bodies.add(body.name, {{"reference", name(body.reference)}, {"nodes", attached}});
-    }
-    for (const solver::PointMass& mass : model_.masses) {
-      masses.add("", {{"node", name(mass.node)},
-                      {"mass_kg", mass.mass},
-                      {"inertia_kg_m2", mass.inertia},
-                      {"offset_m", point(mass.offset)}});
-    }
-    for (const solver::Spring& spring : model_.springs) {
-      Json nodes = {name(spring.nodes[0])};
-      if (spring.nodes[1] >= 0) nodes.push_back(name(spring.nodes[1]));
-      springs.add(spring.name, {{"nodes", nodes},
-                                {"stiffness_N_per_m", point(spring.stiffness.head<2>())},
-                                {"rotational_stiffness_N_m_per_rad", spring.stiffness.z()}});
-    }
-    bodies.put_into(model);
-    masses.put_into(model);
-    springs.put_into(model);
+    plates.put_into(parts_);
   }
 
   /// Of each node what all its supports hold together.
-  void supports(Json& model) const {
+  void add_supports() {
     std::map<Index, std::array<bool, 3>> held;
     for (const solver::Support& support : model_.supports)
       for (std::size_t k = 0; k < 3; ++k) held[support.node][k] |= support.fixed[k];
@@ -187,21 +324,21 @@ class ModelWriter {
     for (const auto& [node, fixed] : held) {
       Json motions = Json::array();
       for (std::size_t k = 0; k < 3; ++k)
-        if (fixed[k]) motions.push_back(std::array{"x", "y", "rotation"}[k]);
-      if (!motions.empty()) supports.add(name(node), std::move(motions));
+        if (fixed[k]) motions.push_back(kWords<NodeMotion>[k]);
+      if (!motions.empty()) supports.add(node_[solver::to_size(node)], std::move(motions));
     }
-    supports.put_into(model);
+    supports.put_into(parts_);
   }
 
   /// u_a = u_b in x, and then in y.
-  void pins(Json& model) const {
+  [[nodiscard]] std::vector<Pin> pins() const {
     using Kind = solver::Coordinate::Kind;
     const auto ties = [](const solver::LinearConstraint& tie, Kind kind) {
       return tie.terms.size() == 2 && tie.terms[0].first.kind == kind &&
              tie.terms[1].first.kind == kind && tie.terms[0].second == 1 &&
              tie.terms[1].second == -1;
     };
-    Parts pins("pins");
+    std::vector<Pin> pins;
     const std::vector<solver::LinearConstraint>& all = model_.constraints;
     for (std::size_t i = 0; i < all.size(); i += 2) {
       const bool is_pin = i + 1 < all.size() && ties(all[i], Kind::x) &&
@@ -209,46 +346,14 @@ class ModelWriter {
                           all[i].terms[0].first.node == all[i + 1].terms[0].first.node &&
                           all[i].terms[1].first.node == all[i + 1].terms[1].first.node;
       solver::require(is_pin, "a case file has no words for its constraint '" + all[i].name + "'");
-      pins.add(all[i].name,
-               {{"nodes", {name(all[i].terms[0].first.node), name(all[i].terms[1].first.node)}}});
+      pins.push_back({all[i].name, {all[i].terms[0].first.node, all[i].terms[1].first.node}});
     }
-    pins.put_into(model);
+    return pins;
   }
 
-  [[nodiscard]] Json load_json(Index node, const Eigen::Vector3d& force) const {
-    Json load = {{"node", name(node)}, {"force_N", point(force.head<2>())}};
-    if (force.z() != 0) load["moment_N_m"] = force.z();
-    return load;
-  }
-
-  void large_motion(const solver::large_motion::LargeMotionModel& joints, Json& model) const {
-    Parts sliders("sliders"), springs("axial_springs"), followers("follower_loads");
-    for (const solver::large_motion::Slider& one : joints.sliders) {
-      Json slider = {{"node", name(one.node)},
-                     {"direction_rad", one.direction},
-                     {"keeps_angle", one.keeps_angle}};
-      if (one.rail >= 0) slider["rail"] = name(one.rail);
-      sliders.add(one.name, std::move(slider));
-    }
-    for (const solver::large_motion::LineSpring& one : joints.line_springs) {
-      Json spring = {{"nodes", {name(one.nodes[0]), name(one.nodes[1])}},
-                     {"stiffness_N_per_m", one.stiffness}};
-      if (!std::isnan(one.rest_length)) spring["rest_length_m"] = one.rest_length;
-      springs.add(one.name, std::move(spring));
-    }
-    for (const solver::large_motion::FollowerLoad& one : joints.follower_loads)
-      followers.add("", load_json(one.node, one.force));
-    sliders.put_into(model);
-    springs.put_into(model);
-    followers.put_into(model);
-  }
-
-  void loads(Json& model) const {
-    Parts loads("loads");
-    for (std::size_t i = 0; i < model_.loads.size(); ++i) {
-      const std::string written = i < names_.loads.size() ? names_.loads[i] : "";
-      loads.add(written, load_json(model_.loads[i].node, model_.loads[i].force));
-    }
+  /// Of nodes, and then the forces of loads on edges summed at their nodes.
+  [[nodiscard]] std::vector<solver::NodalLoad> loads() const {
+    std::vector<solver::NodalLoad> loads = model_.loads;
     std::map<Index, Eigen::Vector3d> of_edges;
     for (const solver::EdgeLoad& load : model_.edge_loads) {
       const std::array<Eigen::Vector2d, 3> forces = solver::edge_forces(model_, load);
@@ -258,14 +363,15 @@ class ModelWriter {
             forces[i];
       }
     }
-    for (const auto& [node, force] : of_edges) loads.add("", load_json(node, force));
-    loads.put_into(model);
+    for (const auto& [node, force] : of_edges) loads.push_back({node, force});
+    return loads;
   }
 
   const Model& model_;
   const WrittenNames& names_;
   SectionTable table_;
   std::vector<std::string> node_;  ///< names, each its own
+  Json parts_ = Json::object();
 };
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace trammel::harness {
 namespace {
 
 namespace fs = std::filesystem;
-using Ending = ProgramOutcome::Ending;
+using Ending = ProcessOutcome::Termination;
 
 constexpr int kCannot = 4;  // the exit status of an adapter whose code has no such thing
 constexpr std::size_t kMaxKeptBytes = std::size_t{16} << 20;  // of the folder of a call
@@ -38,9 +38,9 @@ void end_as(Computation& computation, const char* status, const std::string& rea
 }
 
 /// What the ending of the program says, where it is not the answer that does.
-bool ended_without_answer(const ProgramOutcome& outcome, const ProgramLimits& limits,
+bool ended_without_answer(const ProcessOutcome& outcome, const ProgramLimits& limits,
                           Computation& computation) {
-  switch (outcome.ending) {
+  switch (outcome.termination) {
     case Ending::timed_out:
       end_as(computation, "timed-out", "not done after " + shortest(limits.wall_s) + " s");
       return true;
@@ -51,17 +51,18 @@ bool ended_without_answer(const ProgramOutcome& outcome, const ProgramLimits& li
     case Ending::not_started:
       end_as(computation, "error", std::string("not started: ") + std::strerror(outcome.status));
       return true;
-    case Ending::signalled:
+    case Ending::out_of_memory:
+    case Ending::crashed:
       end_as(computation, "crashed",
              "signal " + std::to_string(outcome.status) + ", " + strsignal(outcome.status) +
-                 last_line(outcome.output));
+                 last_line(outcome.text));
       return true;
-    case Ending::exited:
+    case Ending::answered:
       break;
   }
   if (outcome.status == 0 || outcome.status == kCannot) return false;
   end_as(computation, "crashed",
-         "exit status " + std::to_string(outcome.status) + last_line(outcome.output));
+         "exit status " + std::to_string(outcome.status) + last_line(outcome.text));
   return true;
 }
 
@@ -81,7 +82,7 @@ void call(const Adapter& adapter, const fs::path& folder, const Json& json,
   std::vector<std::string> words = adapter.words;
   words.push_back((folder / "case.json").string());
   words.push_back((folder / "result.json").string());
-  const ProgramOutcome outcome = run_limited(words, folder, adapter.limits);
+  const ProcessOutcome outcome = run_limited(words, folder, adapter.limits);
   computation.wall_s += outcome.wall_s;
   computation.cpu_s += outcome.cpu_s;
   try {
@@ -99,7 +100,7 @@ void call(const Adapter& adapter, const fs::path& folder, const Json& json,
     fs::remove_all(folder, error);
     fs::create_directories(folder, error);
   }
-  if (fs::is_directory(folder, error)) write_file(folder / "output.txt", outcome.output);
+  if (fs::is_directory(folder, error)) write_file(folder / "output.txt", outcome.text);
 }
 
 /// The sweeps whose orders are judged, level by level; a level without solution stays empty.

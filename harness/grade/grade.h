@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "harness/grade/limited_program.h"
+#include "harness/base/processes.h"
 #include "harness/run/run.h"
 
 /// Other codes in place of trammel's solver, by adapters: `adapter CASE.json RESULT.json`.

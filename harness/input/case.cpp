@@ -56,8 +56,7 @@ void check_names(const Case& given) {
     throw root["id"].error("expected the file's name, '" + printable(stem) + "' (got '" +
                            printable(given.id()) + "')");
   }
-  if (!root.has("variants")) return;
-  for (const auto& [name, variant] : root["variants"].entries()) {
+  for (const auto& [name, variant] : root.entries("variants")) {
     if (name == kBaseVariant) {
       throw variant.error("expected another name: 'base' is the case itself");
     }
@@ -69,14 +68,11 @@ void check_indicators(const Case& given) {
   const JsonView root(given.document);
   if (!root.has("stress_suite")) return;
   std::vector<std::string> names;
-  if (const auto checks = root.find("checks")) {
-    for (const auto& entry : checks->entries()) names.push_back(entry.first);
-  }
+  for (const auto& entry : root.entries("checks")) names.push_back(entry.first);
   for (const auto& [number, place] : root["stress_suite"]["indicators"].entries()) {
     const auto name = place.get<std::string>();
     if (contains(names, name)) continue;
-    throw place.error("expected the name of a check of the case (got '" + printable(name) + "')" +
-                      did_you_mean(name, names));
+    throw place.error(unknown_name("the name of a check of the case", name, names));
   }
 }
 
@@ -163,9 +159,7 @@ Document patched(const Case& given, const std::string& variant) {
   if (variant != kBaseVariant) {
     const std::vector<std::string> names = given.variants();
     if (!contains(names, variant)) {
-      throw InputError(file, "/variants",
-                       "expected the name of a variant (got '" + printable(variant) + "')" +
-                           did_you_mean(variant, names));
+      throw InputError(file, "/variants", unknown_name("the name of a variant", variant, names));
     }
     Json patch = given.document.value().at("variants").at(variant);
     patch.erase("title");

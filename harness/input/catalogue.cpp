@@ -60,10 +60,10 @@ fs::path Catalogue::by_name(const std::string& name) const {
   return found == files_.end() || found->first != id ? fs::path() : fs::path(found->second);
 }
 
-std::string Catalogue::nearest_name(const std::string& name) const {
+std::vector<std::string> Catalogue::names() const {
   std::vector<std::string> names;
   for (const auto& item : files_) names.push_back(item.first);
-  return did_you_mean(name, names);
+  return names;
 }
 
 std::vector<fs::path> Catalogue::runnable_files() const {
@@ -81,8 +81,7 @@ fs::path Catalogue::find_case(const std::string& name_or_file) const {
   if (looks_like_file && fs::exists(file, error)) return file;
   if (fs::path found = by_name(name_or_file); !found.empty()) return found;
   if (looks_like_file) throw InputError(name_or_file + ": expected a readable file");
-  throw InputError("expected a case of the catalogue or a file (got '" + printable(name_or_file) +
-                   "')" + nearest_name(name_or_file));
+  throw InputError(unknown_name("a case of the catalogue or a file", name_or_file, names()));
 }
 
 fs::path Catalogue::find_base_case(const std::string& name_or_file, const fs::path& from) const {
@@ -93,8 +92,8 @@ fs::path Catalogue::find_base_case(const std::string& name_or_file, const fs::pa
   if (fs::is_regular_file(beside, error)) return beside;
   if (fs::path found = by_name(name_or_file); !found.empty()) return found;
   throw InputError(from.string(), "/extends",
-                   "expected a file relative to this one or a case of the catalogue (got '" +
-                       printable(name_or_file) + "')" + nearest_name(name_or_file));
+                   unknown_name("a file relative to this one or a case of the catalogue",
+                                name_or_file, names()));
 }
 
 std::vector<Case> Catalogue::load(const std::vector<std::string>& labels) const {
@@ -112,8 +111,7 @@ std::vector<Case> Catalogue::load(const std::vector<std::string>& labels) const 
   }
   for (const std::string& label : labels) {
     if (known.count(label) > 0) continue;
-    throw InputError("expected a label of the catalogue (got '" + printable(label) + "')" +
-                     did_you_mean(label, {known.begin(), known.end()}));
+    throw InputError(unknown_name("a label of the catalogue", label, {known.begin(), known.end()}));
   }
   return chosen;
 }

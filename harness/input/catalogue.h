@@ -36,7 +36,7 @@ class Catalogue {
 
  private:
   [[nodiscard]] std::filesystem::path by_name(const std::string& name) const;
-  [[nodiscard]] std::string nearest_name(const std::string& name) const;
+  [[nodiscard]] std::vector<std::string> names() const;
   [[nodiscard]] bool has_analysis(const std::filesystem::path& file, int depth = 0) const;
 
   std::vector<std::pair<std::string, std::string>> files_;  ///< by id, which is the file's name

@@ -12,13 +12,13 @@
 namespace trammel::harness {
 namespace {
 
+constexpr std::array<std::string_view, 4> kMeasures = {"relative", "absolute", "ratio", "value"};
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 void require_variant(const JsonView& place, const std::vector<std::string>& variants) {
   const auto name = place.get<std::string>();
   if (contains(variants, name)) return;
-  throw place.error("expected a variant of the case (got '" + printable(name) + "')" +
-                    did_you_mean(name, variants));
+  throw place.error(unknown_name("a variant of the case", name, variants));
 }
 
 /// The one key of those that is there.
@@ -71,8 +71,7 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
   if (!sweeps.contains(order.sweep)) {
     std::vector<std::string> names;
     for (const auto& item : sweeps.items()) names.push_back(item.key());
-    throw place["sweep"].error("expected a sweep of the case (got '" + printable(order.sweep) +
-                               "')" + did_you_mean(order.sweep, names));
+    throw place["sweep"].error(unknown_name("a sweep of the case", order.sweep, names));
   }
   const Json& sweep = sweeps.at(order.sweep);
   const Json own = followed(sweep, quantity);
@@ -130,12 +129,6 @@ void require_discrepancy(const JsonView& place, const Check& check) {
   }
 }
 
-Measure read_measure(const std::string& word) {
-  if (word == "relative") return Measure::relative;
-  if (word == "absolute") return Measure::absolute;
-  return word == "ratio" ? Measure::ratio : Measure::value;
-}
-
 /// The decimal number that a sum of decimal numbers is: 0.033 for 0.038 - 0.005.
 double decimal(double sum) {
   return std::isfinite(sum) ? std::strtod(rounded(sum, 15).c_str(), nullptr) : sum;
@@ -175,7 +168,7 @@ void read_expectation(const JsonView& place, Check& check) {
     throw place.error(is_value ? "expected 'within' beside '" + key + "'"
                                : "expected '" + measure + "' beside 'within' (got '" + key + "')");
   }
-  check.measure = read_measure(measure);
+  check.measure = static_cast<Measure>(std::ranges::find(kMeasures, measure) - kMeasures.begin());
   check.windows =
       is_value ? windows_around(place[key], place.number("within")) : read_windows(place[key]);
   require_discrepancy(place[key], check);
@@ -234,11 +227,6 @@ void read_criterion(const JsonView& place, const Document& document, Check& chec
   }
 }
 
-Role read_role(const std::string& word) {
-  if (word == "validation") return Role::validation;
-  return word == "regression" ? Role::regression : Role::verification;
-}
-
 Check read_check(const std::string& name, const JsonView& place, const Document& document) {
   Check check;
   check.name = name;
@@ -251,7 +239,7 @@ Check read_check(const std::string& name, const JsonView& place, const Document&
   check.reference_index = place.indices("reference_index");
   check.against_variant = place.get<std::string>("against_variant", "");
   check.against_quantity = place.get<std::string>("against_quantity", "");
-  check.role = read_role(place.text("role"));
+  check.role = place["role"].get<Role>();
   read_criterion(place, document, check);
   require_target(place, check);
   if (const auto control = place.find("negative_control")) {
@@ -295,22 +283,17 @@ bool applies(const JsonView& place, const std::string& variant,
 std::vector<Check> read_checks(const Document& document, const std::string& variant,
                                const std::vector<std::string>& variants) {
   std::vector<Check> checks;
-  const auto places = JsonView(document).find("checks");
-  if (!places) return checks;
-  for (const auto& [name, place] : places->entries()) {
+  for (const auto& [name, place] : JsonView(document).entries("checks"))
     if (applies(place, variant, variants)) checks.push_back(read_check(name, place, document));
-  }
   return checks;
 }
 
 const char* to_string(Role role) {
-  constexpr std::array names = {"verification", "validation", "regression"};
-  return names[static_cast<std::size_t>(role)];
+  return kWords<Role>[static_cast<std::size_t>(role)];
 }
 
 const char* to_string(Measure measure) {
-  constexpr std::array names = {"relative", "absolute", "ratio", "bound"};
-  return names[static_cast<std::size_t>(measure)];
+  return measure == Measure::value ? "bound" : kMeasures[static_cast<std::size_t>(measure)].data();
 }
 
 }  // namespace trammel::harness

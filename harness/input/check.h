@@ -11,6 +11,8 @@
 namespace trammel::harness {
 
 enum class Role { verification, validation, regression };
+template <>
+inline constexpr std::array kWords<Role> = {"verification", "validation", "regression"};
 
 /// What is measured of a computed value: its difference from the expected one relative to that, the
 /// difference itself, their ratio, or the value.

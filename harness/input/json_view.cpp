@@ -44,6 +44,11 @@ std::vector<std::pair<std::string, JsonView>> JsonView::entries() const {
   return found;
 }
 
+std::vector<std::pair<std::string, JsonView>> JsonView::entries(const std::string& key) const {
+  const auto found = find(key);
+  return found ? found->entries() : std::vector<std::pair<std::string, JsonView>>();
+}
+
 std::vector<std::size_t> JsonView::indices(const std::string& key) const {
   const auto stated = find(key);
   if (!stated) return {};

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -7,6 +9,10 @@
 #include "harness/input/document.h"
 
 namespace trammel::harness {
+
+/// The words of a case for an enumeration, in the order of its values.
+template <class Enum>
+inline constexpr std::array<const char*, 0> kWords{};
 
 /// A place in a document that has passed its schema: reads values, and complains about them by
 /// their file and pointer.
@@ -21,11 +27,18 @@ class JsonView {
   [[nodiscard]] std::optional<JsonView> find(const std::string& key) const;
   /// Entries of an object, with their names; of an array, named by their numbers.
   [[nodiscard]] std::vector<std::pair<std::string, JsonView>> entries() const;
+  /// Those of the value of a key; none where the key is missing.
+  [[nodiscard]] std::vector<std::pair<std::string, JsonView>> entries(const std::string& key) const;
   [[nodiscard]] std::size_t size() const { return json_->size(); }
 
   template <class T>
   [[nodiscard]] T get() const {
-    return json_->template get<T>();
+    if constexpr (std::is_enum_v<T>) {
+      const auto word = std::ranges::find(kWords<T>, json_->template get<std::string>());
+      return static_cast<T>(word - kWords<T>.begin());
+    } else {
+      return json_->template get<T>();
+    }
   }
   template <class T>
   [[nodiscard]] T get(const std::string& key, const T& otherwise) const {

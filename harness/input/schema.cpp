@@ -5,7 +5,6 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "harness/input/schema_diagnostics.h"
 #include "harness/input/schema_rules.h"
 
 namespace trammel::harness {

@@ -1,5 +1,3 @@
-#include "harness/input/schema_diagnostics.h"
-
 #include <rapidjson/stringbuffer.h>
 #include <rapidjson/writer.h>
 
@@ -7,6 +5,7 @@
 
 #include "harness/base/contains.h"
 #include "harness/base/text.h"
+#include "harness/input/schema_rules.h"
 
 namespace trammel::harness {
 namespace {

@@ -8,6 +8,10 @@
 #include <cstdlib>
 #include <new>
 #include <string>
+#include <vector>
+
+#include "harness/base/json.h"
+#include "harness/input/schema.h"
 
 /// Schemas as rapidjson reads them: five times faster than nlohmann's reader, whose time on the
 /// 85 kB of the case schema a user waits for. rapidjson's own validator takes 20 million
@@ -45,6 +49,17 @@ using SchemaDocument = rapidjson::GenericDocument<rapidjson::UTF8<>, SchemaPool,
 
 /// Whether "type" is, or is among others, the one named.
 [[nodiscard]] bool wants(const SchemaRule& rule, const char* type);
+
+/// A value and the rules, all those of an anyOf, that it breaks.
+struct BrokenRules {
+  const Json* value = nullptr;
+  std::vector<std::string> path;  ///< of keys and indices, from the root
+  std::vector<const SchemaRule*> rules;
+};
+
+/// What the schema wants instead, in words.
+/// @param schema  root of the schema document
+[[nodiscard]] SchemaFault explain(const SchemaRule& schema, const BrokenRules& broken);
 
 [[nodiscard]] inline std::string text_of(const SchemaRule& value) {
   return {value.GetString(), value.GetStringLength()};

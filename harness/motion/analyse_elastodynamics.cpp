@@ -4,9 +4,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "harness/readers/time_reader.h"
+#include "harness/motion/analyses.h"
+#include "harness/readers/option_reader.h"
+#include "harness/scene/observables.h"
 #include "harness/scene/rigid_case_model.h"
-#include "harness/statics_modes/analyse_statics.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "solver/large/large_elastodynamics.h"
 #include "solver/linear/modes.h"
@@ -22,7 +23,7 @@ void record_deflection(const solver::ElastodynamicsSolution& solution, Recorder&
   const bool moves = solution.tangential_error.allFinite();
   for (solver::Index i = 0; i < solution.deflection.rows(); ++i) {
     record.add("deflection_m", "P", solution.deflection.row(i).norm());
-    record.add("platform_rotation_rad", "", solution.platform_rotation[i]);
+    record.add("platform_rotation_rad", solution.platform_rotation[i]);
     if (!moves) continue;
     record.add("tangential_error_m", "P", solution.tangential_error[i]);
     record.add("normal_error_m", "P", solution.normal_error[i]);
@@ -30,14 +31,11 @@ void record_deflection(const solver::ElastodynamicsSolution& solution, Recorder&
 }
 
 void record_torques(const solver::ElastodynamicsSolution& solution, Recorder& record) {
-  for (solver::Index joint = 0; joint < 3; ++joint) {
-    const std::string name = "A" + std::to_string(joint + 1);
-    for (solver::Index i = 0; i < solution.torque.rows(); ++i) {
-      record.add("torque_N_m", name, solution.torque(i, joint));
-      record.add("rigid_torque_N_m", name, solution.rigid_torque(i, joint));
-      record.add("elastic_torque_N_m", name,
-                 solution.torque(i, joint) - solution.rigid_torque(i, joint));
-    }
+  for (solver::Index i = 0; i < solution.torque.rows(); ++i) {
+    const Eigen::RowVector3d torque = solution.torque.row(i), rigid = solution.rigid_torque.row(i);
+    record.add_each("torque_N_m", kActiveJoints, torque);
+    record.add_each("rigid_torque_N_m", kActiveJoints, rigid);
+    record.add_each("elastic_torque_N_m", kActiveJoints, Eigen::RowVector3d(torque - rigid));
   }
 }
 
@@ -49,40 +47,27 @@ void record_energy(const solver::ElastodynamicsSolution& solution, bool quasi_st
   quasi_static |= !solution.energy.empty() && std::isnan(solution.energy.front().work);
   double size = 0;
   for (const solver::MotionEnergy& energy : solution.energy) {
-    record.add("kinetic_energy_J", "", energy.kinetic);
-    record.add("strain_energy_J", "", energy.strain);
+    record.add("kinetic_energy_J", energy.kinetic);
+    record.add("strain_energy_J", energy.strain);
     if (quasi_static) continue;
-    record.add("load_work_J", "", energy.work);
-    record.add("dissipated_energy_J", "", energy.dissipated);
+    record.add("load_work_J", energy.work);
+    record.add("dissipated_energy_J", energy.dissipated);
     size = std::max({size, energy.kinetic, energy.strain, std::abs(energy.work)});
   }
   if (quasi_static || !(size > 0)) return;
   for (const solver::MotionEnergy& energy : solution.energy) {
-    record.add("energy_drift", "", (energy.total() - solution.energy.front().total()) / size);
+    record.add("energy_drift", (energy.total() - solution.energy.front().total()) / size);
   }
 }
 
-/// How far P is from where it would be without elastic inertia and damping, over the largest
-/// deflection that it would have there.
-void record_excess(const solver::ElastodynamicsSolution& solution, Recorder& record) {
-  const Eigen::MatrixX2d& slow = solution.quasi_static_deflection;
-  if (!slow.allFinite()) return;  // a mechanism has no quasi-static position
-  const double size = slow.rowwise().norm().maxCoeff();
-  if (!(size > 0)) return;
-  for (solver::Index i = 0; i < slow.rows(); ++i) {
-    record.add("dynamic_to_quasi_static_difference", "P",
-               (solution.deflection.row(i) - slow.row(i)).norm() / size);
-  }
-}
-
-/// Largest distance of P between two solutions at each sample, over the largest deflection.
-void record_distance(const char* name, const solver::ElastodynamicsSolution& a,
-                     const solver::ElastodynamicsSolution& b, Recorder& record) {
-  const double size = a.deflection.rowwise().norm().maxCoeff();
-  if (a.deflection.rows() != b.deflection.rows() || !(size > 0)) return;
-  for (solver::Index i = 0; i < a.deflection.rows(); ++i) {
-    record.add(name, "P", (a.deflection.row(i) - b.deflection.row(i)).norm() / size);
-  }
+/// Records the distance of P between two solutions at each sample, over the largest deflection of
+/// the first.
+void record_distance(const char* name, const Eigen::MatrixX2d& a, const Eigen::MatrixX2d& b,
+                     Recorder& record) {
+  const double size = a.rowwise().norm().maxCoeff();
+  if (a.rows() != b.rows() || !(size > 0)) return;
+  for (solver::Index i = 0; i < a.rows(); ++i)
+    record.add(name, "P", (a.row(i) - b.row(i)).norm() / size);
 }
 
 solver::ElastodynamicsSolution solve(const solver::ElastodynamicsOptions& options,
@@ -98,11 +83,13 @@ void record_step_errors(solver::ElastodynamicsOptions options, bool large_displa
   if (!options.elastic_inertia || options.modal_superposition) return;
   if (solver::stands_still(options.path) && !options.gyroscopic && !large_displacement) {
     options.modal_superposition = true;
-    record_distance("integration_error", solver::solve_elastodynamics(options), solution, record);
+    record_distance("integration_error", solver::solve_elastodynamics(options).deflection,
+                    solution.deflection, record);
     options.modal_superposition = false;
   }
   options.time.step /= 2;
-  record_distance("step_change", solve(options, large_displacement), solution, record);
+  record_distance("step_change", solve(options, large_displacement).deflection, solution.deflection,
+                  record);
 }
 
 /// What the damping means: modes from some frequency on do not vibrate at all.
@@ -110,7 +97,7 @@ void record_damping(const solver::RayleighDamping& damping, const solver::System
                     Recorder& record) {
   const double above = solver::overdamped_above(damping) / (2 * std::numbers::pi);
   if (!std::isfinite(above)) return;
-  record.add("overdamped_above_Hz", "", above);
+  record.add("overdamped_above_Hz", above);
   const std::optional<solver::Index> below = solver::sturm_count(start, above);
   record.add_or_gap("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
 }
@@ -120,20 +107,20 @@ void record_summary(const solver::ElastodynamicsSolution& solution, Recorder& re
   const solver::ElastodynamicsEffects& effects = solution.effects;
   const solver::TransientSummary& summary = solution.summary;
   if (summary.accepted > 0) {  // neither quasi-static nor of superposed modes
-    record.add("steps", "", static_cast<double>(summary.accepted));
-    record.add("rejected_steps", "", static_cast<double>(summary.rejected));
-    record.add("smallest_step_s", "", summary.smallest_step);
-    record.add("largest_step_s", "", summary.largest_step);
+    record.add("steps", summary.accepted);
+    record.add("rejected_steps", summary.rejected);
+    record.add("smallest_step_s", summary.smallest_step);
+    record.add("largest_step_s", summary.largest_step);
   }
   if (std::isnan(effects.first_frequency)) return;  // quasi-static, or of large displacement
-  if (summary.accepted > 0) record.add("step_residual", "", summary.largest_residual);
-  record.add("first_frequency_Hz", "", effects.first_frequency);
-  record.add("damping_ratio", "", effects.damping_ratio);
+  if (summary.accepted > 0) record.add("step_residual", summary.largest_residual);
+  record.add("first_frequency_Hz", effects.first_frequency);
+  record.add("damping_ratio", effects.damping_ratio);
   if (std::isfinite(effects.nominal_inertia)) {
-    record.add("nominal_inertia_number", "", effects.nominal_inertia);
+    record.add("nominal_inertia_number", effects.nominal_inertia);
   }
-  record.add("elastic_inertia_number", "", effects.elastic_inertia);
-  record.add("transformation_rate_number", "", effects.gyroscopic);
+  record.add("elastic_inertia_number", effects.elastic_inertia);
+  record.add("transformation_rate_number", effects.gyroscopic);
 }
 
 /// Moments of the motion: the nominal pose, and what links and platform deflect from there.
@@ -210,25 +197,27 @@ StepResult analyse_elastodynamics(const JsonView& analysis, const CaseModel& cas
   const solver::ElastodynamicsOptions options = read_elastodynamics(analysis, case_model);
   const bool large = case_model.effects.has(solver::Effect::large_displacement);
   const solver::ElastodynamicsSolution solution = solve(options, large);
-  StepResult result{
-      solution.outcome, solution.summary.counters, std::nullopt, {}, solution.evidence};
+  StepResult result{solution.outcome, solution.summary.counters, solution.evidence};
   const solver::System start = solver::assemble(build_model(case_model, 0));
   if (draw) result.drawing = draw_model(start, true);
   if (!solution.outcome.solved()) return result;
+  const StateRecorder recorder(start.model, "elastodynamics");
   for (std::size_t i = 0; i < solution.state.size(); ++i) {
-    record_path(case_model, i, record);
-    record_solution(start.model, solution.state[i], -1, record);
+    recorder.record({solution.state[i]}, record);
     if (!large) warn_of_rotation(largest_rotation(solution.state[i]), result.warnings);
     warn_of_strain(start.model, solution.state[i], result.warnings);
     if (large) continue;
-    record.add("equilibrium_residual_N", "", solution.state[i].equilibrium_residual);
-    record.add("moment_residual_N_m", "", solution.state[i].moment_residual);
+    record.add("equilibrium_residual_N", solution.state[i].equilibrium_residual);
+    record.add("moment_residual_N_m", solution.state[i].moment_residual);
   }
   if (!large) warn_of_redundancy(start, result.warnings);
   record_deflection(solution, record);
   record_torques(solution, record);
   record_energy(solution, !options.elastic_inertia, record);
-  if (options.elastic_inertia) record_excess(solution, record);
+  // A mechanism has no quasi-static position.
+  const Eigen::MatrixX2d& slow = solution.quasi_static_deflection;
+  if (options.elastic_inertia && slow.allFinite())
+    record_distance("dynamic_to_quasi_static_difference", slow, solution.deflection, record);
   if (analysis.get("step_errors", false)) record_step_errors(options, large, solution, record);
   if (options.elastic_inertia) record_damping(options.damping, start, record);
   record_summary(solution, record);

@@ -1,8 +1,7 @@
-#include "harness/motion/analyse_forward_dynamics.h"
-
 #include <cmath>
 #include <numbers>
 
+#include "harness/motion/analyses.h"
 #include "harness/scene/rigid_case_model.h"
 #include "solver/manipulator/forward_dynamics.h"
 #include "solver/manipulator/rigid_dynamics.h"
@@ -14,50 +13,28 @@ double turned(double from, double to) {
   return std::remainder(to - from, 2 * std::numbers::pi);
 }
 
-void record_motion(const solver::TrajectoryPoint& moved, Recorder& record) {
-  record.add("motion_x_m", "", moved.pose.x);
-  record.add("motion_y_m", "", moved.pose.y);
-  record.add("motion_phi_rad", "", moved.pose.phi);
-  record.add("motion_velocity_x_m_per_s", "", moved.velocity.x());
-  record.add("motion_velocity_y_m_per_s", "", moved.velocity.y());
-  record.add("motion_velocity_phi_rad_per_s", "", moved.velocity.z());
-}
-
-/// How far the motion is from the path that its torques were computed for.
-void record_errors(const solver::TrajectoryPoint& nominal, const solver::TrajectoryPoint& moved,
-                   Recorder& record) {
-  record.add("position_error_m", "",
-             std::hypot(moved.pose.x - nominal.pose.x, moved.pose.y - nominal.pose.y));
-  record.add("orientation_error_rad", "", std::abs(turned(nominal.pose.phi, moved.pose.phi)));
-  record.add("velocity_error_m_per_s", "", (moved.velocity - nominal.velocity).head<2>().norm());
-}
-
 /// Constant torques and a constant load have potentials: kinetic and potential energy less the
 /// work done since the start stay what they were, relative to the most that was ever kinetic.
 void record_energy(const solver::RigidManipulator& m, const solver::ForwardDynamics& found,
                    const Eigen::Vector3d& torque, const Eigen::Vector3d& wrench, Recorder& record) {
-  std::vector<double> kinetic, change;
-  double work = 0, start = 0, max_kinetic = 0;
+  std::vector<double> energies;
+  double work = 0, max_kinetic = 0;
   solver::InverseDynamics before;
-  for (std::size_t k = 0; k < found.motion.size(); ++k) {
-    const solver::TrajectoryPoint& point = found.motion[k];
+  for (const solver::TrajectoryPoint& point : found.motion) {
     const solver::InverseDynamics now = solver::inverse_dynamics(m, point);
-    if (k > 0) {
+    if (!energies.empty()) {
       for (solver::Index i = 0; i < 3; ++i) work += torque(i) * turned(before.q(i), now.q(i));
       work += wrench.head<2>().dot(now.q.segment<2>(6) - before.q.segment<2>(6)) +
               wrench(2) * (now.q(8) - before.q(8));
     }
-    const double energy = now.kinetic_energy + now.potential_energy - work;
-    if (k == 0) start = energy;
-    kinetic.push_back(now.kinetic_energy);
-    change.push_back(energy - start);
+    record.add("kinetic_energy_J", now.kinetic_energy);
+    energies.push_back(now.kinetic_energy + now.potential_energy - work);
     max_kinetic = std::max(max_kinetic, now.kinetic_energy);
     before = now;
   }
-  for (std::size_t k = 0; k < kinetic.size(); ++k) {
-    record.add("kinetic_energy_J", "", kinetic[k]);
-    record.add("energy_residual", "", max_kinetic > 0 ? change[k] / max_kinetic : change[k]);
-  }
+  for (const double energy : energies)
+    record.add("energy_residual",
+               (energy - energies.front()) / (max_kinetic > 0 ? max_kinetic : 1));
 }
 
 }  // namespace
@@ -94,14 +71,24 @@ StepResult analyse_forward_dynamics(const JsonView& analysis, const CaseModel& c
   result.evidence = found.evidence;
   if (draw) result.drawing = draw_manipulator(manipulator.geometry, case_model.motion);
   for (std::size_t step = 0; step < found.motion.size(); ++step) {
-    record_path(case_model, step, record);
-    record_motion(found.motion[step], record);
-    if (!given) record_errors(case_model.motion[step], found.motion[step], record);
+    const solver::TrajectoryPoint& moved = found.motion[step];
+    record.add("motion_x_m", moved.pose.x);
+    record.add("motion_y_m", moved.pose.y);
+    record.add("motion_phi_rad", moved.pose.phi);
+    record.add("motion_velocity_x_m_per_s", moved.velocity.x());
+    record.add("motion_velocity_y_m_per_s", moved.velocity.y());
+    record.add("motion_velocity_phi_rad_per_s", moved.velocity.z());
+    if (given) continue;  // the torques were not computed for the path
+    const solver::TrajectoryPoint& nominal = case_model.motion[step];
+    record.add("position_error_m",
+               std::hypot(moved.pose.x - nominal.pose.x, moved.pose.y - nominal.pose.y));
+    record.add("orientation_error_rad", std::abs(turned(nominal.pose.phi, moved.pose.phi)));
+    record.add("velocity_error_m_per_s", (moved.velocity - nominal.velocity).head<2>().norm());
   }
   if (given) record_energy(manipulator, found, constant, wrench, record);
-  record.add("steps", "", static_cast<double>(found.steps));
-  record.add("rejected_steps", "", static_cast<double>(found.rejected));
-  record.add("evaluations", "", static_cast<double>(found.evaluations));
+  record.add("steps", found.steps);
+  record.add("rejected_steps", found.rejected);
+  record.add("evaluations", found.evaluations);
   return result;
 }
 

@@ -1,18 +1,139 @@
-#include "harness/motion/analyse_grnn.h"
-
+#include <Eigen/Core>
 #include <algorithm>
 #include <boost/math/interpolators/makima.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <string>
+#include <vector>
 
-#include "harness/motion/grnn_samples.h"
+#include "harness/motion/analyses.h"
+#include "harness/readers/option_reader.h"
+#include "harness/scene/case_model.h"
 #include "harness/scene/rigid_case_model.h"
+#include "harness/scene/tracking.h"
+#include "harness/statics_modes/step_result.h"
 #include "solver/grnn/grnn_validation.h"
+#include "solver/large/state_results.h"
 #include "solver/manipulator/forward_dynamics.h"
 #include "solver/manipulator/rigid_dynamics.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::harness {
 namespace {
+
+struct GrnnOutput {
+  std::string quantity;  ///< angle, velocity; empty for samples without a meaning
+  std::string unit;      ///< as quantities' names carry it: "_rad"; empty where there is none
+  std::string item;      ///< A1, ... or the number of the column
+};
+
+struct GrnnSamples {
+  Eigen::MatrixXd inputs;           ///< sample x input
+  Eigen::MatrixXd outputs;          ///< sample x output
+  std::vector<GrnnOutput> columns;  ///< of the outputs
+};
+
+/// The paper's samples (Section 4.3): inputs are the torques of the inverse dynamics at each point
+/// of the scene's path, outputs the angles and velocities of the active joints. Angles are
+/// continued over the jump at pi.
+struct PathSamples {
+  solver::Outcome outcome;  ///< of the first point without a solution
+  GrnnSamples samples;
+};
+
+/// @throws InputError  where rows are not equally long.
+Eigen::MatrixXd read_rows(const JsonView& rows) {
+  const std::size_t columns = rows[0].size();
+  Eigen::MatrixXd matrix(static_cast<solver::Index>(rows.size()),
+                         static_cast<solver::Index>(columns));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Json& row = rows.json()[i];  // there may be 100,000
+    if (row.size() != columns) {
+      throw rows[i].error("expected " + std::to_string(columns) + " numbers as in the first row");
+    }
+    for (std::size_t j = 0; j < columns; ++j) {
+      matrix(static_cast<solver::Index>(i), static_cast<solver::Index>(j)) = row[j].get<double>();
+    }
+  }
+  return matrix;
+}
+
+/// Samples as a case gives them, "inputs" and "outputs".
+/// @throws InputError  where rows are not equally long, or not equally many.
+GrnnSamples read_samples(const JsonView& samples) {
+  GrnnSamples read{read_rows(samples["inputs"]), read_rows(samples["outputs"]), {}};
+  if (read.inputs.rows() != read.outputs.rows()) {
+    throw samples["outputs"].error("expected as many rows as inputs have, " +
+                                   std::to_string(read.inputs.rows()));
+  }
+  for (solver::Index j = 0; j < read.outputs.cols(); ++j) {
+    read.columns.push_back({"", "", std::to_string(j + 1)});
+  }
+  return read;
+}
+
+PathSamples samples_of_path(const solver::RigidManipulator& manipulator,
+                            const CaseModel& case_model) {
+  const auto count = static_cast<solver::Index>(case_model.motion.size());
+  PathSamples result;
+  GrnnSamples& samples = result.samples;
+  samples.inputs.resize(count, 3);
+  samples.outputs.resize(count, 6);
+  for (const char* joint : {"A1", "A2", "A3"}) samples.columns.push_back({"angle", "_rad", joint});
+  for (const char* joint : {"A1", "A2", "A3"}) {
+    samples.columns.push_back({"velocity", "_rad_per_s", joint});
+  }
+  for (solver::Index k = 0; k < count; ++k) {
+    const solver::TrajectoryPoint& point = case_model.motion[solver::to_size(k)];
+    const solver::InverseDynamics found =
+        solver::inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose));
+    if (!found.outcome.solved()) {
+      result.outcome = outcome_at_path_point(case_model, solver::to_size(k), found.outcome);
+      return result;
+    }
+    samples.inputs.row(k) = found.torque.transpose();
+    for (solver::Index i = 0; i < 3; ++i) {
+      const double angle = found.q(i);
+      const double before = k > 0 ? samples.outputs(k - 1, i) : angle;
+      samples.outputs(k, i) = before + std::remainder(angle - before, 2 * std::numbers::pi);
+      samples.outputs(k, 3 + i) = found.q_dot(i);
+    }
+  }
+  return result;
+}
+
+/// The same torques on flexible links, geometrically exact: angles and velocities become theirs.
+/// @param place  "flexible_links" of the case
+/// @throws InputError  as `add_tracking`, and where points of the path are not evenly spaced.
+void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamples& path) {
+  solver::Model model = build_bare_model(case_model, 0);
+  solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
+  large_motion.strain_rate_damping = place.get("strain_rate_damping_s", 0.0);
+  add_tracking(place, Tracking::torques, case_model, model, large_motion);
+  release_driven_actuators(place, case_model, large_motion, model);
+  const solver::large_motion::GeometricallyExactSystem system(model, large_motion);
+  solver::TransientOptions options;
+  options.scheme = solver::generalized_alpha(0.9);
+  options.end = case_model.motion.back().time;
+  options.step = place.number("step_s");
+  require_step_count(place["step_s"], options.end);
+  const double output_step =
+      case_model.motion.size() > 1 ? case_model.motion[1].time : options.step;
+  options.sample_times = solver::even_times(0, options.end, output_step);
+  Eigen::MatrixXd& outputs = path.samples.outputs;
+  const Eigen::RowVector3d start = outputs.row(0).head<3>();
+  solver::Index k = 0;
+  path.outcome =
+      integrate_tracking(case_model, system, options, [&](const solver::large_motion::State& now) {
+        const bool on_time =
+            k < outputs.rows() &&
+            std::abs(now.t - case_model.motion[solver::to_size(k)].time) < options.step / 2;
+        if (!on_time) throw place.error("expected a path with points evenly spaced in time");
+        const Eigen::MatrixX3d q = node_motion(system, now.q), v = node_motion(system, now.v);
+        outputs.row(k++) << start + q.col(2).head<3>().transpose(), v.col(2).head<3>().transpose();
+      }).outcome;
+}
 
 solver::InputScaling read_scaling(const JsonView& analysis) {
   const auto word = analysis.get<std::string>("scaling", "none");
@@ -56,15 +177,15 @@ void choose_sigma(const JsonView& analysis, solver::Grnn& network, Recorder& rec
               : solver::default_grid(network, count),
         read_validation(search));
     network.sigma = found.sigma;
-    record.add("cross_validation_error", "", found.error);
-    record.add("sigma_bracketed", "", found.bracketed ? 1 : 0);
-    record.add("sigmas_tried", "", static_cast<double>(found.evaluations));
+    record.add("cross_validation_error", found.error);
+    record.add("sigma_bracketed", found.bracketed ? 1 : 0);
+    record.add("sigmas_tried", found.evaluations);
     for (solver::Index k = 0; k < found.grid.size(); ++k) {
-      record.add("grid_sigma", "", found.grid(k));
-      record.add("grid_error", "", found.grid_error(k));
+      record.add("grid_sigma", found.grid(k));
+      record.add("grid_error", found.grid_error(k));
     }
   }
-  record.add("sigma", "", network.sigma);
+  record.add("sigma", network.sigma);
 }
 
 struct Parts {
@@ -114,9 +235,9 @@ void record_part(const std::string& part, const std::vector<solver::Index>& whic
       record.add(part + "_" + column.quantity + "_error" + column.unit, column.item, own(i, j));
     }
   }
-  record.add(part + "_rms_error", "", rms(own, scales));
+  record.add(part + "_rms_error", rms(own, scales));
   const Eigen::MatrixXd of_range = own * scales.range.cwiseInverse().asDiagonal();
-  record.add(part + "_largest_error_of_range", "", of_range.cwiseAbs().maxCoeff());
+  record.add(part + "_largest_error_of_range", of_range.cwiseAbs().maxCoeff());
 }
 
 /// Against the two predictors that know nothing of smoothing: the mean of the training samples, and
@@ -190,7 +311,7 @@ void record_predictions(const GrnnSamples& samples, const Eigen::MatrixXd& predi
       record.add("predicted_" + column.quantity + column.unit, column.item, predicted(k, j));
     }
   }
-  for (const bool trains_here : trains) record.add("in_training_set", "", trains_here ? 1 : 0);
+  for (const bool trains_here : trains) record.add("in_training_set", trains_here ? 1 : 0);
 }
 
 /// Where the platform would be with the predicted angles of the active joints, by forward
@@ -266,9 +387,6 @@ StepResult analyse_grnn(const JsonView& analysis, const CaseModel& case_model, b
   }
   const Eigen::MatrixXd error = predicted - samples.outputs;
   const OutputScales scales(samples.outputs);
-  for (std::size_t step = 0; step < case_model.motion.size(); ++step) {
-    record_path(case_model, step, record);
-  }
   record_predictions(samples, predicted, trains, record);
   record_positions(manipulator.geometry, case_model, predicted, record);
   record_part("training", parts.training, samples, error, scales, record);
@@ -277,7 +395,7 @@ StepResult analyse_grnn(const JsonView& analysis, const CaseModel& case_model, b
     record_skill(network, samples, parts.held_out, rms(rows(error, parts.held_out), scales), scales,
                  record);
   }
-  if (!spline) record.add("kernel_evaluations", "", static_cast<double>(train));
+  if (!spline) record.add("kernel_evaluations", train);
   if (draw) {
     result.drawing = draw_manipulator(manipulator.geometry, case_model.motion);
     if (spline) return result;

@@ -1,10 +1,13 @@
-#include "harness/motion/analyse_harmonic.h"
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 #include <optional>
+#include <utility>
 
-#include "harness/readers/damping_reader.h"
-#include "harness/scene/outputs.h"
+#include "harness/motion/analyses.h"
+#include "harness/readers/option_reader.h"
+#include "harness/scene/observables.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "harness/statics_modes/reduced_system.h"
 #include "solver/linear/modes.h"
@@ -12,112 +15,20 @@
 namespace trammel::harness {
 namespace {
 
-/// The steady response of one system, by outputs.
-class Response {
- public:
-  Response(const solver::System& system, const solver::HarmonicDamping& damping)
-      : system_(system), response_(system, damping) {}
-
-  [[nodiscard]] const solver::HarmonicSolver& of_system() const { return response_; }
-
-  /// @returns the response; empty at a resonance without damping
-  Eigen::VectorXcd record_at(double frequency, const std::vector<Output>& outputs,
-                             Recorder& record) const {
-    Eigen::VectorXcd q = response_.at(frequency);
-    record.add("frequency_Hz", "", frequency);
-    solver::HarmonicAmplitudes amplitudes;
-    if (q.size() > 0) amplitudes = response_.amplitudes(q, frequency);
-    for (const Output& output : outputs) {
-      if (q.size() == 0) {
-        record.add_gap(output.name, "");
-      } else {
-        record.add(output.name, "", amplitude_of(output, system_.model, amplitudes, frequency));
-      }
-    }
-    return q;
-  }
-
-  void add_evidence(const Eigen::VectorXcd& q, double frequency, StepResult& result) const {
-    if (q.size() == 0) return;
-    result.evidence.add(solver::Residual::equilibrium, response_.backward_error(q, frequency));
-    for (const Eigen::VectorXd& part : {Eigen::VectorXd(q.real()), Eigen::VectorXd(q.imag())})
-      warn_of_rotation(largest_rotation(system_, system_.T * part), result.warnings);
-  }
-
-  /// A gap at a resonance that nothing bounds.
-  /// @param resonances  natural frequencies within [low, high] [Hz]
-  /// @param bounded  all of them
-  /// @returns its frequency
-  double record_peak(double low, double high, const std::vector<double>& resonances, bool bounded,
-                     const Output& output, Recorder& record) const {
-    for (const double resonance : resonances) {
-      if (bounded || !is_pole(resonance, high, output)) continue;
-      record.add_gap(output.prefixed("peak_"), "");
-      record.add("peak_frequency_Hz", output.name, resonance);
-      return resonance;
-    }
-    const solver::HarmonicPeak found = solver::harmonic_peak(
-        response_, low, high, resonances, [&](const Eigen::VectorXcd& q, double frequency) {
-          return amplitude(output, q, frequency);
-        });
-    record.add(output.prefixed("peak_"), "", found.amplitude);
-    record.add("peak_frequency_Hz", output.name, found.frequency);
-    return found.frequency;
-  }
-
-  /// The shape in phase with the load and a quarter of a turn behind it, at a frequency.
-  void draw_at(double frequency, Drawing& drawing) const {
-    const Eigen::VectorXcd q = response_.at(frequency);
-    if (q.size() == 0) return;
-    char text[64];
-    std::snprintf(text, sizeof text, "%.4g Hz, ", frequency);
-    drawing.shapes.push_back(
-        draw_shape(system_, q.real(), std::string(text) + "in phase with the loads"));
-    drawing.shapes.push_back(
-        draw_shape(system_, -q.imag(), std::string(text) + "a quarter turn behind"));
-  }
-
- private:
-  /// Whether the amplitude grows as 1 / distance on the way to a frequency.
-  [[nodiscard]] bool is_pole(double frequency, double high, const Output& output) const {
-    const double unit = frequency > 0 ? frequency : high;
-    const auto size_at = [&](double distance) {
-      const double near = frequency + distance * unit;
-      const Eigen::VectorXcd q = response_.at(near);
-      return q.size() == 0 ? 0.0 : amplitude(output, q, near);
-    };
-    return size_at(1e-6) > 10 * size_at(1e-4);
-  }
-
-  [[nodiscard]] double amplitude(const Output& output, const Eigen::VectorXcd& q,
-                                 double frequency) const {
-    return amplitude_of(output, system_.model, response_.amplitudes(q, frequency), frequency);
-  }
-
-  const solver::System& system_;
-  solver::HarmonicSolver response_;
-};
-
-/// How many frequencies.
-std::size_t points_of(const JsonView& analysis) {
-  return static_cast<std::size_t>(analysis.get<solver::Index>("points", 101));
-}
-
-/// The case's system and its response.
+/// The case's system and its steady response.
 class HarmonicScene {
  public:
   HarmonicScene(const JsonView& analysis, const CaseModel& case_model, std::size_t step)
-      : low_(analysis.number("from_Hz")),
-        high_(analysis.number("to_Hz")),
-        points_(points_of(analysis)),
+      : low(analysis.number("from_Hz")),
+        high(analysis.number("to_Hz")),
+        points(static_cast<std::size_t>(analysis.get<solver::Index>("points", 101))),
         damped_(case_model.effects.has(solver::Effect::damping) && analysis.has("damping")) {
     if (case_model.path) throw analysis.error("expected a model at one place");
-    if (!(high_ > low_)) throw analysis["to_Hz"].error("expected more than 'from_Hz'");
+    if (!(high > low)) throw analysis["to_Hz"].error("expected more than 'from_Hz'");
     ReducedSystem reduced = reduced_system(
         analysis, solver::assemble(build_model(case_model, step), case_model.effects),
         Weight::left_out);
     system = std::move(reduced.system);
-    outcome_ = reduced.outcome;
     outputs = read_outputs(analysis["outputs"], system.model);
     try {
       const auto damping = damped_ ? read_damping(analysis) : solver::HarmonicDamping();
@@ -126,67 +37,127 @@ class HarmonicScene {
     } catch (const solver::ModelError& error) {
       throw(analysis.has("damping") ? analysis["damping"] : analysis).error(error.what());
     }
+    outcome = reduced.outcome.solved() ? response->outcome() : reduced.outcome;
   }
 
-  [[nodiscard]] StepResult result() const {
-    return {outcome_.solved() ? response->of_system().outcome() : outcome_, {}, std::nullopt};
-  }
-
+  /// Records a gap at a resonance without damping.
   void record_at(std::size_t point, bool with_evidence, Recorder& record,
                  StepResult& result) const {
-    const double share = static_cast<double>(point) / static_cast<double>(points_ - 1);
-    const double frequency = low_ + (high_ - low_) * share;
-    const Eigen::VectorXcd q = response->record_at(frequency, outputs, record);
-    if (with_evidence) response->add_evidence(q, frequency, result);
+    const double share = static_cast<double>(point) / static_cast<double>(points - 1);
+    const double frequency = low + (high - low) * share;
+    const Eigen::VectorXcd q = response->at(frequency);
+    record.add("frequency_Hz", frequency);
+    const ModelState amplitudes = q.size() > 0 ? amplitudes_of(q, frequency) : ModelState();
+    for (const Output& output : outputs) {
+      if (q.size() == 0) {
+        record.add_gap(output.name, "");
+      } else {
+        record.add(output.name, output.value(system.model, amplitudes));
+      }
+    }
     if (damped_) result.counters.count(solver::Effect::damping, 1);
+    if (!with_evidence || q.size() == 0) return;
+    result.evidence.add(solver::Residual::equilibrium, response->backward_error(q, frequency));
+    for (const Eigen::VectorXd& part : {Eigen::VectorXd(q.real()), Eigen::VectorXd(q.imag())})
+      warn_of_rotation(largest_rotation(system, system.T * part), result.warnings);
   }
 
-  /// Of every output.
+  /// Records the peak of every output.
   /// @returns the frequency of the first
   double record_peaks(Recorder& record, std::vector<Warning>& warnings) const {
-    if (outputs.empty()) return low_;
-    std::optional<double> first;
+    if (outputs.empty()) return low;
     std::optional<std::vector<double>> resonances = frequencies_in_range();
     if (!resonances) {
       add_warning(warnings, {"the number of natural frequencies found in the range", 0, "",
                              "a narrow peak between two of 65 frequencies may have been missed"});
-      const Eigen::VectorXd damped = response->of_system().frequencies();
+      const Eigen::VectorXd damped = response->frequencies();
       resonances.emplace(damped.begin(), damped.end());
     }
-    for (const Output& output : outputs) {
-      const double at = response->record_peak(low_, high_, *resonances, bounded_, output, record);
-      if (!first) first = at;
-    }
-    return first.value_or(low_);
+    std::vector<double> peaks;
+    for (const Output& output : outputs) peaks.push_back(record_peak(*resonances, output, record));
+    return peaks.front();
   }
 
   /// Natural frequencies within the range [Hz]; nothing where they are not found.
   [[nodiscard]] std::optional<std::vector<double>> frequencies_in_range() const {
     // Where the end of the range is one of them to the last digits, a little beyond it.
     for (const double beyond : {1e-9, 1e-6}) {
-      const auto count = solver::sturm_count(system, high_ * (1 + beyond));
+      const auto count = solver::sturm_count(system, high * (1 + beyond));
       if (!count) continue;
       if (*count == 0) return std::vector<double>();
       const solver::ModalSolution modes = solver::solve_modes(system, {.count = *count});
       if (!modes.outcome.solved()) return std::nullopt;
       std::vector<double> found;
       for (const double frequency : modes.frequency)
-        if (frequency >= low_ && frequency <= high_) found.push_back(frequency);
+        if (frequency >= low && frequency <= high) found.push_back(frequency);
       return found;
     }
     return std::nullopt;
   }
 
+  /// The shape in phase with the load and a quarter of a turn behind it, at a frequency.
+  void draw_at(double frequency, Drawing& drawing) const {
+    const Eigen::VectorXcd q = response->at(frequency);
+    if (q.size() == 0) return;
+    const std::string label = fmt::format("{:.4g} Hz, ", frequency);
+    drawing.shapes.push_back(draw_shape(system, q.real(), label + "in phase with the loads"));
+    drawing.shapes.push_back(draw_shape(system, -q.imag(), label + "a quarter turn behind"));
+  }
+
+  double low, high;  ///< [Hz]
+  std::size_t points;
   solver::System system;
   std::vector<Output> outputs;
-  std::optional<Response> response;
+  std::optional<solver::HarmonicSolver> response;
+  solver::Outcome outcome;
 
  private:
-  double low_, high_;
-  std::size_t points_;
+  /// Records a gap at a resonance that nothing bounds.
+  /// @param resonances  natural frequencies within the range [Hz]
+  /// @returns the frequency of the peak
+  double record_peak(const std::vector<double>& resonances, const Output& output,
+                     Recorder& record) const {
+    for (const double resonance : resonances) {
+      if (bounded_ || !is_pole(resonance, output)) continue;
+      record.add_gap("peak_" + output.name, "");
+      record.add("peak_frequency_Hz", output.name, resonance);
+      return resonance;
+    }
+    const solver::HarmonicPeak found = solver::harmonic_peak(
+        *response, low, high, resonances, [&](const Eigen::VectorXcd& q, double frequency) {
+          return output.value(system.model, amplitudes_of(q, frequency));
+        });
+    record.add("peak_" + output.name, found.amplitude);
+    record.add("peak_frequency_Hz", output.name, found.frequency);
+    return found.frequency;
+  }
+
+  /// Returns true if the amplitude grows as 1 / distance on the way to a frequency.
+  [[nodiscard]] bool is_pole(double frequency, const Output& output) const {
+    const double unit = frequency > 0 ? frequency : high;
+    const auto size_at = [&](double distance) {
+      const double near = frequency + distance * unit;
+      const Eigen::VectorXcd q = response->at(near);
+      return q.size() == 0 ? 0.0 : output.value(system.model, amplitudes_of(q, near));
+    };
+    return size_at(1e-6) > 10 * size_at(1e-4);
+  }
+
+  [[nodiscard]] ModelState amplitudes_of(const Eigen::VectorXcd& q, double frequency) const {
+    const double omega = 2 * std::numbers::pi * frequency;
+    solver::HarmonicAmplitudes found = response->amplitudes(q, frequency);
+    ModelState state;
+    state.velocity = omega * found.displacement;
+    state.acceleration = omega * omega * found.displacement;
+    state.displacement = std::move(found.displacement);
+    state.resultant_start = std::move(found.resultant_start);
+    state.resultant_end = std::move(found.resultant_end);
+    state.member_stress = std::move(found.member_stress);
+    return state;
+  }
+
   bool damped_;
   bool bounded_ = false;  ///< every resonance, by Rayleigh damping
-  solver::Outcome outcome_;
 };
 
 }  // namespace
@@ -194,13 +165,13 @@ class HarmonicScene {
 std::set<std::size_t> harmonic_sample(const JsonView& analysis, const CaseModel& case_model) {
   constexpr std::size_t kStride = 4;
   const HarmonicScene scene(analysis, case_model, 0);
-  const double low = analysis.number("from_Hz"), high = analysis.number("to_Hz");
-  const std::size_t points = points_of(analysis);
+  const std::size_t points = scene.points;
   const std::optional<std::vector<double>> frequencies = scene.frequencies_in_range();
   std::set<std::size_t> sample = {points - 1};
   for (std::size_t i = 0; i < points; i += frequencies ? kStride : 1) sample.insert(i);
   for (const double frequency : frequencies.value_or(std::vector<double>())) {
-    const double share = (frequency - low) / (high - low) * static_cast<double>(points - 1);
+    const double share =
+        (frequency - scene.low) / (scene.high - scene.low) * static_cast<double>(points - 1);
     const auto before = static_cast<std::size_t>(share);
     sample.insert({before, std::min(before + 1, points - 1)});
   }
@@ -210,30 +181,29 @@ std::set<std::size_t> harmonic_sample(const JsonView& analysis, const CaseModel&
 StepResult analyse_harmonic_at(const JsonView& analysis, const CaseModel& case_model,
                                const std::vector<std::size_t>& points, Recorder& record) {
   const HarmonicScene scene(analysis, case_model, 0);
-  StepResult result = scene.result();
+  StepResult result{scene.outcome, {}};
   if (!result.outcome.solved()) return result;
   for (const std::size_t point : points)
     scene.record_at(point, point == points.front(), record, result);
-  result.counters += scene.response->of_system().counters();
+  result.counters += scene.response->counters();
   return result;
 }
 
 StepResult analyse_harmonic(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
                             bool draw, Recorder& record) {
   const HarmonicScene scene(analysis, case_model, step);
-  const Response& response = *scene.response;
-  StepResult result = scene.result();
+  StepResult result{scene.outcome, {}};
   if (draw) result.drawing = draw_model(scene.system, case_model.manipulator.has_value());
   if (!result.outcome.solved()) return result;
-  const std::size_t points = points_of(analysis);
-  for (std::size_t point = 0; point < points; ++point) scene.record_at(point, true, record, result);
+  for (std::size_t point = 0; point < scene.points; ++point)
+    scene.record_at(point, true, record, result);
   if (needs_forces(scene.outputs)) warn_of_redundancy(scene.system, result.warnings);
-  const double at = scene.record_peaks(record, result.warnings);
-  if (result.drawing && !scene.outputs.empty()) response.draw_at(at, *result.drawing);
-  for (const double frequency : response.of_system().frequencies())
-    record.add("natural_frequency_Hz", "", frequency);
-  record.add("degrees_of_freedom", "", static_cast<double>(scene.system.K.rows()));
-  result.counters += response.of_system().counters();
+  const double peak = scene.record_peaks(record, result.warnings);
+  if (result.drawing && !scene.outputs.empty()) scene.draw_at(peak, *result.drawing);
+  for (const double frequency : scene.response->frequencies())
+    record.add("natural_frequency_Hz", frequency);
+  record.add("degrees_of_freedom", scene.system.K.rows());
+  result.counters += scene.response->counters();
   return result;
 }
 

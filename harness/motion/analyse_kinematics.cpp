@@ -1,7 +1,6 @@
-#include "harness/motion/analyse_kinematics.h"
-
 #include <algorithm>
 
+#include "harness/motion/analyses.h"
 #include "harness/scene/rigid_case_model.h"
 
 namespace trammel::harness {
@@ -19,22 +18,18 @@ StepResult analyse_kinematics(const JsonView&, const CaseModel& case_model, std:
   const solver::HoldingTorques holding =
       solver::holding_torques(at, wrench_on_platform(case_model, pose));
   result.outcome = holding.outcome;
-  static const std::array<std::string, 3> active = {"A1", "A2", "A3"}, elbow = {"B1", "B2", "B3"},
-                                          distal = {"B1-C1", "B2-C2", "B3-C3"};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto row = static_cast<solver::Index>(i);
-    record.add("active_angle_rad", active[i], posture.active[i]);
-    record.add("passive_angle_rad", elbow[i], posture.passive[i]);
-    record.add("elbow_sine", elbow[i], posture.elbow_sine[i]);
-    record.add("holding_torque_N_m", active[i], holding.torque[row]);
-    record.add("distal_tension_N", distal[i], holding.tension[row]);
-  }
+  record.add_each("active_angle_rad", kActiveJoints, posture.active);
+  record.add_each("passive_angle_rad", kElbows, posture.passive);
+  record.add_each("elbow_sine", kElbows, posture.elbow_sine);
+  record.add_each("holding_torque_N_m", kActiveJoints, holding.torque);
+  const std::array<std::string, 3> distal = {"B1-C1", "B2-C2", "B3-C3"};
+  record.add_each("distal_tension_N", distal, holding.tension);
   const double reach =
       *std::ranges::max_element(geometry.proximal) + *std::ranges::max_element(geometry.distal);
   result.evidence.add(solver::Residual::constraints, posture.closure_error / reach);
-  record.add("closure_error_m", "", posture.closure_error);
-  record.add("parallel_singularity_distance", "", at.parallel_distance);
-  record.add("serial_singularity_distance", "", at.serial_distance);
+  record.add("closure_error_m", posture.closure_error);
+  record.add("parallel_singularity_distance", at.parallel_distance);
+  record.add("serial_singularity_distance", at.serial_distance);
   return result;
 }
 

@@ -1,12 +1,13 @@
-#include "harness/motion/analyse_large_motion.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "harness/base/contains.h"
+#include "harness/base/numbers.h"
+#include "harness/motion/analyses.h"
+#include "harness/motion/energy_recorder.h"
 #include "harness/readers/joint_reader.h"
-#include "harness/readers/time_reader.h"
-#include "harness/scene/draw_large.h"
+#include "harness/readers/option_reader.h"
+#include "harness/scene/drawing.h"
+#include "harness/scene/observables.h"
 #include "harness/scene/tracking.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "solver/large/equilibrium.h"
@@ -89,111 +90,76 @@ solver::TransientOptions read_large_motion_options(const JsonView& analysis) {
   return options;
 }
 
-/// Writes down each state that the integrator shows.
+/// Displacements R^T (arm + moved) - arm as a node that moves and turns observes them; NaN for the
+/// node itself.
+Eigen::MatrixX3d observed_from(solver::Index eye, const solver::Model& model,
+                               const Eigen::MatrixX3d& motion) {
+  Eigen::MatrixX3d relative = motion.rowwise() - motion.row(eye);
+  const double turn = motion(eye, 2), c = std::cos(turn), s = std::sin(turn);
+  // R^T - 1 by the half angle.
+  const double less = -2 * std::sin(turn / 2) * std::sin(turn / 2);
+  for (solver::Index node = 0; node < relative.rows(); ++node) {
+    const Eigen::Vector2d arm =
+        model.nodes[solver::to_size(node)].position - model.nodes[solver::to_size(eye)].position;
+    const Eigen::Vector2d moved = relative.row(node).head<2>().transpose();
+    relative(node, 0) = c * moved.x() + s * moved.y() + less * arm.x() + s * arm.y();
+    relative(node, 1) = c * moved.y() - s * moved.x() + less * arm.y() - s * arm.x();
+  }
+  relative.row(eye).setConstant(kNaN);
+  return relative;
+}
+
+/// Reactions in the directions that supports hold, NaN in the others.
+Eigen::MatrixX3d support_reactions(const GeometricallyExactSystem& system, const State& state) {
+  Eigen::MatrixX3d reaction = reactions(system, state);
+  for (std::size_t i = 0; i < system.model().supports.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      if (!system.model().supports[i].fixed[k])
+        reaction(static_cast<solver::Index>(i), static_cast<solver::Index>(k)) = kNaN;
+  return reaction;
+}
+
+/// Records each state that the integrator shows.
 class MotionRecorder {
  public:
   MotionRecorder(const GeometricallyExactSystem& system, OutputSelection selection,
                  Recorder& record)
-      : system_(system), selection_(std::move(selection)), record_(record) {}
+      : system_(system),
+        selection_(std::move(selection)),
+        states_(system.model(), "large-motion", {}, &selection_.nodes),
+        record_(record) {}
 
   void look(const State& state) {
-    record_.add("time_s", "", state.t);
-    const Eigen::MatrixX3d motion = node_motion(system_, state.q);
-    const Eigen::MatrixX3d velocity = node_motion(system_, state.v);
-    for (const solver::Index node : selection_.nodes) look_at(node, motion, velocity);
-    for (const Angle& angle : selection_.angles) look_at(angle, motion, velocity);
-    look_at_forces(state);
-    look_at_energy(state);
-  }
-
-  [[nodiscard]] double energy_drift() const {
-    return max_kinetic_ > 0 ? drift_ / max_kinetic_ : 0.0;
-  }
-
- private:
-  void look_at(solver::Index node, const Eigen::MatrixX3d& motion,
-               const Eigen::MatrixX3d& velocity) {
-    const solver::Node& named = system_.model().nodes[solver::to_size(node)];
-    const Eigen::RowVector3d u = motion.row(node), v = velocity.row(node);
-    record_.add("position_x_m", named.name, named.position.x() + u[0]);
-    record_.add("position_y_m", named.name, named.position.y() + u[1]);
-    record_.add("velocity_x_m_per_s", named.name, v[0]);
-    record_.add("velocity_y_m_per_s", named.name, v[1]);
-    if (!std::isnan(u[2])) {
-      record_.add("rotation_rad", named.name, u[2]);
-      record_.add("angular_velocity_rad_per_s", named.name, v[2]);
+    record_.add("time_s", state.t);
+    ModelState now;
+    now.displacement = node_motion(system_, state.q);
+    now.velocity = node_motion(system_, state.v);
+    now.reaction = support_reactions(system_, state);
+    if (selection_.seen_from >= 0)
+      now.relative = observed_from(selection_.seen_from, system_.model(), now.displacement);
+    states_.record(now, record_);
+    for (const Angle& angle : selection_.angles) {
+      const auto component_of = [&](const Eigen::MatrixX3d& values) {
+        return values(angle.node, 2) - (angle.from >= 0 ? values(angle.from, 2) : 0.0);
+      };
+      record_.add("angle_rad", angle.name, angle.start + component_of(now.displacement));
+      record_.add("angle_rate_rad_per_s", angle.name, component_of(now.velocity));
     }
-    if (selection_.seen_from >= 0 && node != selection_.seen_from) look_from(node, motion);
-  }
-
-  void look_from(solver::Index node, const Eigen::MatrixX3d& motion) {
-    const std::vector<solver::Node>& nodes = system_.model().nodes;
-    const solver::Node& named = nodes[solver::to_size(node)];
-    const solver::Index eye = selection_.seen_from;
-    const Eigen::Vector2d arm = named.position - nodes[solver::to_size(eye)].position;
-    const Eigen::Vector2d moved = (motion.row(node) - motion.row(eye)).head<2>().transpose();
-    const double turn = motion(eye, 2);
-    const double c = std::cos(turn), s = std::sin(turn);
-    // R^T (arm + moved) - arm, with R^T - 1 by the half angle.
-    const double less = -2 * std::sin(turn / 2) * std::sin(turn / 2);
-    record_.add("relative_x_m", named.name,
-                c * moved.x() + s * moved.y() + less * arm.x() + s * arm.y());
-    record_.add("relative_y_m", named.name,
-                c * moved.y() - s * moved.x() + less * arm.y() - s * arm.x());
-    if (!std::isnan(motion(node, 2))) {
-      record_.add("relative_rotation_rad", named.name, motion(node, 2) - turn);
-    }
-  }
-
-  void look_at(const Angle& angle, const Eigen::MatrixX3d& motion,
-               const Eigen::MatrixX3d& velocity) {
-    const auto component_of = [&](const Eigen::MatrixX3d& values) {
-      return values(angle.node, 2) - (angle.from >= 0 ? values(angle.from, 2) : 0.0);
-    };
-    record_.add("angle_rad", angle.name, angle.start + component_of(motion));
-    record_.add("angle_rate_rad_per_s", angle.name, component_of(velocity));
-  }
-
-  void look_at_forces(const State& state) {
-    const Eigen::MatrixX3d reaction = reactions(system_, state);
-    for (std::size_t i = 0; i < system_.model().supports.size(); ++i) {
-      const solver::Support& support = system_.model().supports[i];
-      if (!contains(selection_.nodes, support.node)) {
-        continue;
-      }
-      const auto row = static_cast<solver::Index>(i);
-      if (support.fixed[0]) record_.add("reaction_x_N", support.name, reaction(row, 0));
-      if (support.fixed[1]) record_.add("reaction_y_N", support.name, reaction(row, 1));
-      if (support.fixed[0] && support.fixed[1]) {
-        record_.add("reaction_N", support.name, std::hypot(reaction(row, 0), reaction(row, 1)));
-      }
-      if (support.fixed[2]) record_.add("reaction_moment_N_m", support.name, reaction(row, 2));
-    }
-    for (std::size_t i = 0; i < system_.large_motion().drives.size(); ++i) {
-      const solver::large_motion::Drive& drive = system_.large_motion().drives[i];
-      record_.add(drive.direction == 2 ? "drive_torque_N_m" : "drive_force_N", drive.name,
-                  drive_force(system_, state, static_cast<solver::Index>(i)));
-    }
+    record_drives(system_, state, record_);
     for (const solver::large_motion::Torque& torque : system_.large_motion().torques)
       record_.add("torque_N_m", torque.name, torque.law(state.t));
-  }
-
-  void look_at_energy(const State& state) {
     const solver::large_motion::Energy energy = system_.energy(state);
-    record_.add("kinetic_energy_J", "", energy.kinetic);
-    record_.add("strain_energy_J", "", energy.strain);
-    record_.add("total_energy_J", "", energy.total());
-    if (first_) start_energy_ = energy.total();
-    first_ = false;
-    drift_ = std::max(drift_, std::abs(energy.total() - start_energy_));
-    max_kinetic_ = std::max(max_kinetic_, energy.kinetic);
+    energy_.record(energy.kinetic, energy.strain, energy.total(), record_);
   }
 
+  [[nodiscard]] double energy_drift() const { return energy_.drift(); }
+
+ private:
   const GeometricallyExactSystem& system_;
   OutputSelection selection_;
+  StateRecorder states_;
+  EnergyRecorder energy_;
   Recorder& record_;
-  bool first_ = true;
-  double start_energy_ = 0, drift_ = 0, max_kinetic_ = 0;
 };
 
 void require_path_to_the_end(const JsonView& analysis, const solver::Path& path) {
@@ -212,8 +178,8 @@ void record_deflection(const GeometricallyExactSystem& system, const State& stat
   const Eigen::Vector2d now =
       system.model().nodes[solver::to_size(p)].position + motion.row(p).head<2>().transpose();
   const solver::Pose pose = solver::at(path, state.t).pose;
-  record.add("pose_x_m", "", pose.x);
-  record.add("pose_y_m", "", pose.y);
+  record.add("pose_x_m", pose.x);
+  record.add("pose_y_m", pose.y);
   record.add("deflection_x_m", "P", now.x() - pose.x);
   record.add("deflection_y_m", "P", now.y() - pose.y);
   record.add("deflection_m", "P", std::hypot(now.x() - pose.x, now.y() - pose.y));
@@ -232,13 +198,13 @@ solver::large_motion::IntegrationSummary integrate_motion(
 
 void record_summary(const solver::large_motion::IntegrationSummary& summary,
                     const MotionRecorder& log, Recorder& record) {
-  record.add("steps", "", static_cast<double>(summary.accepted));
-  record.add("rejected_steps", "", static_cast<double>(summary.rejected));
-  record.add("newton_iterations", "", static_cast<double>(summary.iterations));
-  record.add("smallest_step_s", "", summary.smallest_step);
-  record.add("constraint_residual", "", summary.constraints.position);
-  record.add("constraint_rate_residual", "", summary.constraints.rate);
-  record.add("energy_drift", "", log.energy_drift());
+  record.add("steps", summary.accepted);
+  record.add("rejected_steps", summary.rejected);
+  record.add("newton_iterations", summary.iterations);
+  record.add("smallest_step_s", summary.smallest_step);
+  record.add("constraint_residual", summary.constraints.position);
+  record.add("constraint_rate_residual", summary.constraints.rate);
+  record.add("energy_drift", log.energy_drift());
 }
 
 }  // namespace

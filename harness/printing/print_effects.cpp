@@ -2,26 +2,25 @@
 
 #include <iostream>
 
-#include "harness/base/table.h"
+#include "harness/base/rows.h"
 #include "harness/base/text.h"
 
 namespace trammel::harness {
 
-std::string effect_names(solver::Effects effects) {
+std::string effect_names(const std::vector<solver::Effect>& effects) {
   std::vector<std::string> names;
-  for (const solver::Effect effect : effects.list()) names.emplace_back(solver::name_of(effect));
+  for (const solver::Effect effect : effects) names.emplace_back(solver::name_of(effect));
   return names.empty() ? "none" : join(names, "and");
 }
 
 namespace {
 
 std::string names_where(const EffectChoice& choice, bool active, bool applicable) {
-  std::vector<std::string> names;
-  for (const EffectReason& reason : choice.reasons) {
+  std::vector<solver::Effect> effects;
+  for (const EffectReason& reason : choice.reasons)
     if (reason.active == active && (active || reason.applicable == applicable))
-      names.emplace_back(solver::name_of(reason.effect));
-  }
-  return names.empty() ? "none" : join(names, "and");
+      effects.push_back(reason.effect);
+  return effect_names(effects);
 }
 
 /// What the case's parts or its own list say, in three lines.
@@ -37,7 +36,7 @@ void print_stated(const EffectChoice& choice) {
 void print_effects(const EffectChoice& choice, const std::string& analysis) {
   if (!choice.tolerance) return print_stated(choice);
   std::cout << "\nEffects, those that a tolerance of " << *choice.tolerance << " calls for\n";
-  Table table({"effect", "", ">number", "which is", ">change without [%]"});
+  Rows table({"effect", "", ">number", "which is", ">change without [%]"});
   for (const EffectReason& reason : choice.reasons) {
     table.add({std::string(solver::name_of(reason.effect)),
                reason.active       ? "on"

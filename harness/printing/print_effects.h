@@ -11,6 +11,6 @@ namespace trammel::harness {
 void print_effects(const EffectChoice& choice, const std::string& analysis);
 
 /// "axial-flexibility, shear and gravity", or "none".
-[[nodiscard]] std::string effect_names(solver::Effects effects);
+[[nodiscard]] std::string effect_names(const std::vector<solver::Effect>& effects);
 
 }  // namespace trammel::harness

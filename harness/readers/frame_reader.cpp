@@ -4,12 +4,8 @@
 #include <limits>
 #include <numbers>
 
-#include "harness/readers/material_reader.h"
 #include "harness/readers/member_chain.h"
 #include "harness/readers/plate_reader.h"
-#include "harness/readers/symbol_table.h"
-#include "solver/large/large_motion_model.h"
-#include "solver/model/model.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::harness {
@@ -63,19 +59,9 @@ solver::Section read_section(const JsonView& section, const SymbolTable& symbols
   return read;
 }
 
-solver::MemberEnd read_end(const JsonView& end) {
-  if (end.json().is_object()) {
-    return {solver::EndFixity::sprung, end.number("spring_N_m_per_rad"), 0};
-  }
-  return {
-      end.get<std::string>() == "hinged" ? solver::EndFixity::hinged : solver::EndFixity::welded, 0,
-      0};
-}
-
 solver::Taper read_taper(const JsonView& place, const SymbolTable& symbols) {
-  const auto name = place.get<std::string>("taper", "linear-depth-and-width");
-  if (name == "exponential") return solver::Taper::exponential;
-  if (name == "linear-area-and-inertia") return solver::Taper::linear_area_and_inertia;
+  const auto taper = place.get("taper", solver::Taper::linear_depth_and_width);
+  if (taper != solver::Taper::linear_depth_and_width) return taper;
   const std::string& first = symbols.section_shape.at(place.text("section"));
   const std::string& second = symbols.section_shape.at(place.text("end_section"));
   if (first != second || first.empty()) {
@@ -83,7 +69,7 @@ solver::Taper read_taper(const JsonView& place, const SymbolTable& symbols) {
         "expected two rectangles or two circles, or 'taper' as 'linear-area-and-inertia' or "
         "'exponential' beside it: no depth and width are known that could vary");
   }
-  return solver::Taper::linear_depth_and_width;
+  return taper;
 }
 
 solver::Member read_member(const std::string& name, const JsonView& place,
@@ -91,55 +77,33 @@ solver::Member read_member(const std::string& name, const JsonView& place,
                            solver::Index elements) {
   solver::Member member;
   member.name = name;
-  member.nodes = {symbols.find_node(place["nodes"][0]), symbols.find_node(place["nodes"][1])};
+  member.elements = elements;
+  const FieldReader reader(place, &symbols);
+  fields(reader, member);
   const Eigen::Vector2d span = nodes[solver::to_size(member.nodes[1])].position -
                                nodes[solver::to_size(member.nodes[0])].position;
   if (!(span.norm() > 0)) {
     throw place["nodes"].error("expected two nodes apart from each other (got the same place)");
   }
-  member.section = look_up(symbols.section, place["section"], "a section");
   member.end_section = member.section;
   if (place.has("taper") && !place.has("end_section")) {
     throw place["taper"].error("expected an 'end_section' beside it");
   }
   if (place.has("end_section")) {
-    member.end_section = look_up(symbols.section, place["end_section"], "a section");
+    reader.optional("end_section", member.end_section);
     member.taper = read_taper(place, symbols);
   }
-  member.theory = read_beam_theory(place);
-  member.mass = read_mass_matrix(place);
-  member.elements = place.get<solver::Index>("elements", elements);
-  member.axially_flexible = read_axial(place);
-  if (place.has("ends")) member.ends = {read_end(place["ends"][0]), read_end(place["ends"][1])};
-  if (const auto inertia = place.find("end_inertia_kg_m2")) {
-    for (std::size_t end = 0; end < 2; ++end)
-      member.ends[end].inertia = (*inertia)[end].get<double>();
-  }
-  if (place.has("load_N_per_m")) member.load = read_point(place["load_N_per_m"]);
   return member;
 }
 
-std::array<bool, 3> read_motions(const JsonView& place) {
-  std::array<bool, 3> fixed{};
-  for (const auto& entry : place.entries()) {
-    const auto motion = entry.second.get<std::string>();
-    fixed[motion == "x" ? 0 : motion == "y" ? 1 : 2] = true;
-  }
-  return fixed;
-}
-
-MemberChain read_chain(const JsonView& place) {
-  MemberChain chain;
-  if (const auto center = place.find("arc_center_m")) chain.arc_center = read_point(*center);
-  if (const auto held = place.find("restrained_motions")) chain.held = read_motions(*held);
-  return chain;
-}
-
-void read_members(const JsonView& members, const SymbolTable& symbols, solver::Index elements,
-                  solver::Model& structure) {
-  for (const auto& [name, place] : members.entries()) {
+void read_members(const JsonView& model, const SymbolTable& symbols, solver::Model& structure) {
+  const auto elements = model.get<solver::Index>("elements", 1);
+  for (const auto& [name, place] : model.entries("members")) {
     const solver::Member member = read_member(name, place, symbols, structure.nodes, elements);
-    const MemberChain chain = read_chain(place);
+    MemberChain chain;
+    const FieldReader reader(place);
+    if (place.has("arc_center_m")) reader.optional("arc_center_m", chain.arc_center.emplace());
+    reader.optional("restrained_motions", chain.held);
     if (!chain.needed()) {
       structure.members.push_back(member);
       continue;
@@ -155,71 +119,36 @@ void read_members(const JsonView& members, const SymbolTable& symbols, solver::I
   }
 }
 
-solver::RigidBody read_rigid_body(const std::string& name, const JsonView& place,
-                                  const SymbolTable& symbols) {
-  solver::RigidBody body{name, symbols.find_node(place["reference"]), {}};
-  for (const auto& entry : place["nodes"].entries()) {
-    body.attached.push_back(symbols.find_node(entry.second));
-    if (body.attached.back() == body.reference) {
-      throw entry.second.error("expected a node other than the reference");
-    }
-  }
-  return body;
+void require_others(const JsonView& place, const solver::RigidBody& body) {
+  const auto same = std::ranges::find(body.attached, body.reference);
+  if (same == body.attached.end()) return;
+  throw place["nodes"][static_cast<std::size_t>(same - body.attached.begin())].error(
+      "expected a node other than the reference");
 }
 
-solver::PointMass read_point_mass(const JsonView& place, const SymbolTable& symbols) {
-  solver::PointMass mass;
-  mass.node = symbols.find_node(place["node"]);
-  mass.mass = place.number("mass_kg");
-  mass.inertia = place.get("inertia_kg_m2", 0.0);
-  if (place.has("offset_m")) mass.offset = read_point(place["offset_m"]);
-  return mass;
-}
-
-solver::Spring read_spring(const std::string& name, const JsonView& place,
-                           const SymbolTable& symbols) {
-  solver::Spring spring;
-  spring.name = name;
-  for (std::size_t i = 0; i < place["nodes"].size(); ++i) {
-    spring.nodes[i] = symbols.find_node(place["nodes"][i]);
-  }
-  if (const auto along = place.find("stiffness_N_per_m")) {
-    spring.stiffness.head<2>() = read_point(*along);
-  }
-  spring.stiffness.z() = place.get("rotational_stiffness_N_m_per_rad", 0.0);
-  return spring;
-}
-
-void read_pin(const std::string& name, const JsonView& place, const SymbolTable& symbols,
-              solver::Model& model) {
-  std::array<solver::Index, 2> nodes{};
-  for (std::size_t i = 0; i < 2; ++i) nodes[i] = symbols.find_node(place["nodes"][i]);
-  const double apart = (model.nodes[solver::to_size(nodes[0])].position -
-                        model.nodes[solver::to_size(nodes[1])].position)
+void add_pin(const JsonView& place, const Pin& pin, solver::Model& model) {
+  const double apart = (model.nodes[solver::to_size(pin.nodes[0])].position -
+                        model.nodes[solver::to_size(pin.nodes[1])].position)
                            .norm();
   constexpr double kRoundoff = 1e-12;  // of coordinates that were computed, over the model's size
   if (apart > kRoundoff * solver::box_diagonal(model)) {
     throw place["nodes"].error("expected two nodes in one place (got " + shortest(apart) +
                                " m between them)");
   }
-  solver::add_pin(model, name, nodes);
+  solver::add_pin(model, pin.name, pin.nodes);
 }
 
-/// Calls `read(name, place)` for every entry of an object that may be missing.
-template <class Read>
-void each(const JsonView& model, const char* key, const Read& read) {
-  const auto places = model.find(key);
-  if (!places) return;
-  for (const auto& [name, place] : places->entries()) read(name, place);
+void require_force(const JsonView& load) {
+  if (!load.has("force_N") && !load.has("moment_N_m"))
+    throw load.error("the load is empty; expected 'force_N' or 'moment_N_m'");
 }
 
 /// Every node on an edge; motions that are already taken away are left out.
-void support_edge(const std::string& name, const JsonView& place, const Edge& edge,
+void support_edge(const JsonView& place, const solver::Support& all, const Edge& edge,
                   solver::Model& model) {
-  const std::array<bool, 3> fixed = read_motions(place);
-  if (fixed[2]) throw place.error("expected x and y alone: a plate's nodes have no rotation");
+  if (all.fixed[2]) throw place.error("expected x and y alone: a plate's nodes have no rotation");
   for (const solver::Index node : nodes_of(edge)) {
-    solver::Support support{name, node, fixed};
+    solver::Support support{all.name, node, all.fixed};
     for (const solver::Support& other : model.supports) {
       if (other.node != node) continue;
       for (std::size_t k = 0; k < 3; ++k) support.fixed[k] = support.fixed[k] && !other.fixed[k];
@@ -230,16 +159,21 @@ void support_edge(const std::string& name, const JsonView& place, const Edge& ed
 
 /// Those of nodes first: they keep their reactions where an edge is supported as well.
 void read_supports(const JsonView& model, const SymbolTable& symbols, solver::Model& structure) {
-  each(model, "supports", [&](const std::string& name, const JsonView& place) {
-    if (symbols.edge.count(name) > 0) return;
-    const char* what = symbols.edge.empty() ? "a node" : "a node or edge";
-    structure.supports.push_back(
-        {name, look_up(symbols.node, name, place, what), read_motions(place)});
-  });
-  each(model, "supports", [&](const std::string& name, const JsonView& place) {
-    const auto edge = symbols.edge.find(name);
-    if (edge != symbols.edge.end()) support_edge(name, place, edge->second, structure);
-  });
+  for (const bool of_edges : {false, true}) {
+    for (const auto& [name, place] : model.entries("supports")) {
+      const auto edge = symbols.edge.find(name);
+      if (of_edges != (edge != symbols.edge.end())) continue;
+      solver::Support support{name};
+      FieldReader::read(place, support.fixed);
+      if (of_edges) {
+        support_edge(place, support, edge->second, structure);
+      } else {
+        const char* what = symbols.edge.empty() ? "a node" : "a node or edge";
+        support.node = look_up(symbols.node, name, place, what);
+        structure.supports.push_back(support);
+      }
+    }
+  }
 }
 
 void read_load(const JsonView& place, const SymbolTable& symbols, solver::Model& model) {
@@ -256,7 +190,8 @@ void read_load(const JsonView& place, const SymbolTable& symbols, solver::Model&
   if (on_edge && !place.has("traction_Pa") && !place.has("normal_Pa"))
     throw place.error("the load is empty; expected 'traction_Pa' or 'normal_Pa'");
   if (on_edge) return read_edge_load(place, symbols, model);
-  model.loads.push_back({symbols.find_node(place["node"]), read_force(place)});
+  model.loads.push_back(read_part<solver::NodalLoad>(place, &symbols));
+  require_force(place);
 }
 
 SymbolTable read_symbols(const JsonView& model, solver::Model& structure) {
@@ -266,55 +201,68 @@ SymbolTable read_symbols(const JsonView& model, solver::Model& structure) {
         .second;
   };
   for (std::size_t i = 0; i < structure.nodes.size(); ++i) add(i);
-  each(model, "nodes", [&](const std::string& name, const JsonView& place) {
+  for (const auto& [name, place] : model.entries("nodes")) {
     if (name.empty()) throw place.error("the name of the node is empty; expected a name");
     structure.nodes.push_back({name, read_point(place)});
     if (!add(structure.nodes.size() - 1)) {
       throw place.error("expected another name: the manipulator has a node of that name");
     }
-  });
-  each(model, "materials", [&](const std::string& name, const JsonView& place) {
+  }
+  symbols.node.erase("");
+  for (const auto& [name, place] : model.entries("materials"))
     symbols.material.emplace(name, read_material(place));
-  });
-  each(model, "sections", [&](const std::string& name, const JsonView& place) {
+  for (const auto& [name, place] : model.entries("sections")) {
     symbols.section.emplace(name, read_section(place, symbols));
     symbols.section_shape[name] = place.has("rectangle") ? "rectangle"
                                   : place.has("circle")  ? "circle"
                                                          : "";
-  });
+  }
   return symbols;
+}
+
+solver::large_motion::LargeMotionModel read_joint_elements(const JsonView& model,
+                                                           const SymbolTable& symbols) {
+  using namespace solver::large_motion;
+  LargeMotionModel joints;
+  joints.sliders = read_parts<Slider>(model, "sliders", symbols,
+                                      [](const JsonView& place, const Slider& slider) {
+                                        if (slider.rail == slider.node)
+                                          throw place["rail"].error("expected another node");
+                                      });
+  joints.line_springs = read_parts<LineSpring>(model, "axial_springs", symbols);
+  joints.follower_loads = read_parts<FollowerLoad>(model, "follower_loads", symbols,
+                                                   [](const JsonView& place, const FollowerLoad&) {
+                                                     if (!place.has("node"))
+                                                       throw place.error("expected 'node'");
+                                                     require_force(place);
+                                                   });
+  return joints;
 }
 
 }  // namespace
 
-solver::Model read_structure(const JsonView& model, const std::vector<solver::Node>& before) {
-  solver::Model structure;
+Structure read_structure(const JsonView& model, const std::vector<solver::Node>& before) {
+  Structure read;
+  solver::Model& structure = read.model;
   structure.nodes = before;
   SymbolTable symbols = read_symbols(model, structure);
-  const solver::Index elements = model.get<solver::Index>("elements", 1);
-  if (const auto members = model.find("members"))
-    read_members(*members, symbols, elements, structure);
+  read_members(model, symbols, structure);
   read_plates(model, symbols, structure);
-  each(model, "rigid_bodies", [&](const std::string& name, const JsonView& place) {
-    structure.rigid_bodies.push_back(read_rigid_body(name, place, symbols));
-  });
-  each(model, "point_masses", [&](const std::string&, const JsonView& place) {
-    structure.masses.push_back(read_point_mass(place, symbols));
-  });
-  each(model, "springs", [&](const std::string& name, const JsonView& place) {
-    structure.springs.push_back(read_spring(name, place, symbols));
-  });
+  structure.rigid_bodies =
+      read_parts<solver::RigidBody>(model, "rigid_bodies", symbols, require_others);
+  structure.masses = read_parts<solver::PointMass>(model, "point_masses", symbols);
+  structure.springs = read_parts<solver::Spring>(model, "springs", symbols);
   read_supports(model, symbols, structure);
-  each(model, "pins", [&](const std::string& name, const JsonView& place) {
-    read_pin(name, place, symbols, structure);
+  (void)read_parts<Pin>(model, "pins", symbols, [&](const JsonView& place, const Pin& pin) {
+    add_pin(place, pin, structure);
   });
-  each(model, "loads",
-       [&](const std::string&, const JsonView& place) { read_load(place, symbols, structure); });
-  if (model.has("gravity_m_s2")) structure.gravity = read_point(model["gravity_m_s2"]);
+  for (const auto& [name, place] : model.entries("loads")) read_load(place, symbols, structure);
+  FieldReader(model).optional("gravity_m_s2", structure.gravity);
   check_meshed_nodes(model, before.size(), structure);
+  read.joints = read_joint_elements(model, symbols);
   structure.nodes.erase(structure.nodes.begin(),
                         structure.nodes.begin() + static_cast<solver::Index>(before.size()));
-  return structure;
+  return read;
 }
 
 }  // namespace trammel::harness

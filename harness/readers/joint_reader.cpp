@@ -3,9 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "harness/base/text.h"
-#include "harness/readers/material_reader.h"
-#include "harness/readers/time_reader.h"
+#include "harness/readers/field_reader.h"
+#include "harness/readers/option_reader.h"
 
 namespace trammel::harness {
 namespace {
@@ -18,36 +17,7 @@ solver::Index find_node_by_name(const std::string& word, const JsonView& place,
   for (const solver::Node& node : built.nodes) {
     if (!node.name.empty()) names.push_back(node.name);
   }
-  throw place.error("expected the name of a node (got '" + printable(word) + "')" +
-                    did_you_mean(word, names));
-}
-
-solver::large_motion::Slider read_slider(const std::string& name, const JsonView& place,
-                                         const solver::Model& built) {
-  solver::large_motion::Slider slider{name, find_node(place["node"], built), -1,
-                                      place.number("direction_rad"),
-                                      place.get("keeps_angle", false)};
-  if (place.has("rail")) {
-    slider.rail = find_node(place["rail"], built);
-    if (slider.rail == slider.node) throw place["rail"].error("expected another node");
-  }
-  return slider;
-}
-
-solver::large_motion::LineSpring read_line_spring(const std::string& name, const JsonView& place,
-                                                  const solver::Model& built) {
-  solver::large_motion::LineSpring spring;
-  spring.name = name;
-  for (std::size_t i = 0; i < 2; ++i) spring.nodes[i] = find_node(place["nodes"][i], built);
-  spring.stiffness = place.number("stiffness_N_per_m");
-  spring.rest_length = place.get("rest_length_m", spring.rest_length);
-  return spring;
-}
-
-solver::large_motion::FollowerLoad read_follower(const JsonView& place,
-                                                 const solver::Model& built) {
-  if (!place.has("node")) throw place.error("expected 'node'");
-  return {find_node(place["node"], built), read_force(place)};
+  throw place.error(unknown_name("the name of a node", word, names));
 }
 
 solver::large_motion::TimeFunction spin_up(double speed, double duration) {
@@ -98,34 +68,10 @@ solver::Index find_node(const JsonView& name, const solver::Model& built) {
   return find_node_by_name(name.get<std::string>(), name, built);
 }
 
-solver::large_motion::LargeMotionModel read_joint_elements(const JsonView& model,
-                                                           const solver::Model& built) {
-  solver::large_motion::LargeMotionModel large_motion;
-  if (const auto sliders = model.find("sliders")) {
-    for (const auto& [name, place] : sliders->entries()) {
-      large_motion.sliders.push_back(read_slider(name, place, built));
-    }
-  }
-  if (const auto springs = model.find("axial_springs")) {
-    for (const auto& [name, place] : springs->entries()) {
-      large_motion.line_springs.push_back(read_line_spring(name, place, built));
-    }
-  }
-  if (const auto loads = model.find("follower_loads")) {
-    for (const auto& entry : loads->entries()) {
-      large_motion.follower_loads.push_back(read_follower(entry.second, built));
-    }
-  }
-  return large_motion;
-}
-
 void read_drives(const JsonView& analysis, const solver::Model& built,
                  solver::large_motion::LargeMotionModel& large_motion) {
-  const auto drives = analysis.find("drives");
-  if (!drives) return;
-  for (const auto& [name, place] : drives->entries()) {
-    const std::string motion = place.text("motion");
-    const int direction = motion == "x" ? 0 : motion == "y" ? 1 : 2;
+  for (const auto& [name, place] : analysis.entries("drives")) {
+    const auto direction = static_cast<int>(place["motion"].get<NodeMotion>());
     large_motion.drives.push_back(
         {name, find_node(place["node"], built), direction, read_law(place["law"])});
   }
@@ -149,9 +95,7 @@ void read_history(const JsonView& analysis, const solver::Model& built,
     large_motion.load_history = [history](double t) { return history.at(t); };
     large_motion.load_breakpoints = history.bends();
   }
-  const auto starts = analysis.find("initial_velocities");
-  if (!starts) return;
-  for (const auto& [name, place] : starts->entries()) {
+  for (const auto& [name, place] : analysis.entries("initial_velocities")) {
     const solver::Index node = find_node_by_name(name, place, built);
     int direction = 0;
     for (const char* key : {"x_m_per_s", "y_m_per_s", "rotation_rad_per_s"}) {

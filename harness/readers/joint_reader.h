@@ -6,13 +6,6 @@
 
 namespace trammel::harness {
 
-/// Reads /model/sliders, line_springs and follower_loads.
-/// @param model  the place /model
-/// @param built  what the names of nodes are looked up in
-/// @throws InputError  where a name leads nowhere.
-[[nodiscard]] solver::large_motion::LargeMotionModel read_joint_elements(
-    const JsonView& model, const solver::Model& built);
-
 /// Adds the drives of a large-statics or large-motion analysis, and of the second its damping, its
 /// history of the loads and its start.
 /// @throws InputError  where a name leads nowhere.

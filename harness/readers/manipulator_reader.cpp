@@ -1,24 +1,9 @@
 #include "harness/readers/manipulator_reader.h"
 
-#include <map>
-
-#include "harness/readers/material_reader.h"
-#include "harness/readers/trajectory_reader.h"
+#include "harness/readers/field_reader.h"
 
 namespace trammel::harness {
 namespace {
-
-std::array<Eigen::Vector2d, 3> read_vertices(const JsonView& vertices) {
-  return {read_point(vertices[0]), read_point(vertices[1]), read_point(vertices[2])};
-}
-
-std::array<double, 3> read_lengths(const JsonView& lengths) {
-  if (lengths.json().is_number()) {
-    const double length = lengths.get<double>();
-    return {length, length, length};
-  }
-  return {lengths[0].get<double>(), lengths[1].get<double>(), lengths[2].get<double>()};
-}
 
 /// Exactly one of two keys that say the same in two ways.
 bool has_first(const JsonView& place, const char* first, const char* second) {
@@ -30,78 +15,99 @@ bool has_first(const JsonView& place, const char* first, const char* second) {
 }
 
 solver::ManipulatorGeometry read_geometry(const JsonView& manipulator) {
-  const JsonView links = manipulator["links"];
   const JsonView platform = manipulator["platform"];
+  const FieldReader reader(manipulator), links(manipulator["links"]);
   solver::ManipulatorGeometry geometry;
-  geometry.base = has_first(manipulator, "base_side_m", "base_m")
-                      ? solver::equilateral_base(manipulator.number("base_side_m"))
-                      : read_vertices(manipulator["base_m"]);
-  geometry.platform = has_first(platform, "side_m", "vertices_m")
-                          ? solver::equilateral_platform(platform.number("side_m"))
-                          : read_vertices(platform["vertices_m"]);
-  geometry.proximal = read_lengths(links["proximal_length_m"]);
-  geometry.distal = read_lengths(links["distal_length_m"]);
-  geometry.working_mode = manipulator.get("working_mode", std::array<int, 3>{-1, -1, -1});
+  if (has_first(manipulator, "base_side_m", "base_m"))
+    geometry.base = solver::equilateral_base(manipulator.number("base_side_m"));
+  reader.optional("base_m", geometry.base);
+  if (has_first(platform, "side_m", "vertices_m"))
+    geometry.platform = solver::equilateral_platform(platform.number("side_m"));
+  FieldReader(platform).optional("vertices_m", geometry.platform);
+  links.required("proximal_length_m", geometry.proximal);
+  links.required("distal_length_m", geometry.distal);
+  reader.optional("working_mode", geometry.working_mode);
   return geometry;
 }
 
-/// A number, or a word that stands for "as computed".
-std::optional<double> read_printed(const JsonView& part, const char* key) {
-  const auto value = part.find(key);
-  if (!value || value->json().is_string()) return std::nullopt;
-  return value->get<double>();
+/// What all links have, and then what is different for some.
+void read_link(const JsonView& place, solver::LinkDesign& link) {
+  const FieldReader reader(place);
+  reader.optional("thickness_m", link.thickness);
+  reader.optional("width_m", link.width);
+  reader.optional("shear_coefficient", link.shear_coefficient);
+  reader.optional("beam", link.theory);
+  reader.optional("mass_matrix", link.mass_matrix);
+  reader.optional("elements", link.elements);
+  Axial axial = link.axially_flexible ? Axial::flexible : Axial::inextensible;
+  reader.optional("axial", axial);
+  link.axially_flexible = axial == Axial::flexible;
+  reader.optional("mass_kg", link.mass);
+  reader.optional("inertia_kg_m2", link.inertia);
 }
 
-solver::LinkDesign read_link(const JsonView& links, const char* which,
-                             const solver::Material& material) {
-  const auto difference = links.find(which);
-  const auto at = [&](const char* key) -> const JsonView& {
-    return difference && difference->has(key) ? *difference : links;
-  };
-  solver::LinkDesign link;
-  link.thickness = at("thickness_m").number("thickness_m");
-  link.width = at("width_m").number("width_m");
-  link.material = material;
-  link.shear_coefficient = at("shear_coefficient").get("shear_coefficient", 5.0 / 6.0);
-  link.theory = read_beam_theory(at("beam"));
-  link.mass_matrix = read_mass_matrix(at("mass_matrix"));
-  link.elements = at("elements").get<solver::Index>("elements", 1);
-  link.axially_flexible = read_axial(at("axial"));
-  link.mass = read_printed(at("mass_kg"), "mass_kg");
-  link.inertia = read_printed(at("inertia_kg_m2"), "inertia_kg_m2");
-  return link;
-}
-
-solver::PlatformDesign read_platform(const JsonView& manipulator) {
-  const JsonView platform = manipulator["platform"];
+solver::PlatformDesign read_platform(const JsonView& place) {
+  const FieldReader reader(place);
   solver::PlatformDesign design;
-  design.kind = platform.text("kind") == "rigid" ? solver::PlatformDesign::Kind::rigid
-                                                 : solver::PlatformDesign::Kind::triangles;
-  design.thickness = platform.number("thickness_m");
-  design.material = read_material(
-      manipulator[manipulator.has("platform_material") ? "platform_material" : "material"]);
-  design.refinements = platform.get("refinements", 0);
-  design.six_nodes = platform.get<std::string>("element", "three-node") == "six-node";
-  design.pin_radius = platform.get("pin_radius_m", 0.0);
-  design.mass = read_printed(platform, "mass_kg");
-  design.inertia = read_printed(platform, "inertia_kg_m2");
+  reader.required("kind", design.kind);
+  reader.required("thickness_m", design.thickness);
+  reader.optional("refinements", design.refinements);
+  design.six_nodes = place.get<std::string>("element", "") == "six-node";
+  reader.optional("pin_radius_m", design.pin_radius);
+  reader.optional("mass_kg", design.mass);
+  reader.optional("inertia_kg_m2", design.inertia);
   return design;
 }
 
-template <class Kind>
-std::array<solver::Joint<Kind>, 3> read_joints(const JsonView& joints, const char* key,
-                                               const std::map<std::string, Kind>& kinds) {
-  const JsonView choice = joints[key];
-  std::array<solver::Joint<Kind>, 3> read;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const JsonView item = choice.json().is_array() ? choice[i] : choice;
-    if (item.json().is_object()) {
-      read[i] = {Kind::sprung, item.number("spring_N_m_per_rad")};
-    } else {
-      read[i] = {kinds.at(item.get<std::string>()), 0};
-    }
+solver::Pose read_pose(const JsonView& pose) {
+  return {pose.number("x_m"), pose.number("y_m"), pose.number("phi_rad")};
+}
+
+solver::Circle read_circle(const JsonView& place) {
+  const FieldReader reader(place);
+  solver::Circle circle;
+  reader.required("center_m", circle.center);
+  reader.required("radius_m", circle.radius);
+  reader.optional("angular_speed_rad_s", circle.angular_speed);
+  reader.optional("phi_rad", circle.phi);
+  return circle;
+}
+
+solver::Spline read_spline(const JsonView& spline) {
+  std::vector<double> times;
+  std::vector<solver::Pose> poses;
+  for (const auto& [index, knot] : spline.entries("knots")) {
+    times.push_back(knot.number("time_s"));
+    poses.push_back(read_pose(knot));
   }
-  return read;
+  if (times.front() != 0) {
+    throw spline["knots"][0].error("expected the first knot at 0 s (got " +
+                                   shortest(times.front()) + " s)");
+  }
+  return solver::make_spline(times, poses, spline.get("ends", solver::SplineEnds::natural));
+}
+
+/// A circle, a line, a motion from rest to rest, or a spline through poses.
+solver::Path read_path(const std::string& kind, const JsonView& place) {
+  if (kind == "circle") return read_circle(place);
+  if (kind == "spline") return read_spline(place);
+  const solver::Pose from = read_pose(place["from"]);
+  const solver::Pose to = read_pose(place["to"]);
+  const double duration = place.number("duration_s");
+  if (kind == "line") return solver::Line{from, to, duration};
+  return solver::RestToRest{from, to, duration};
+}
+
+/// A path, and its points at the times 0, step, 2 step, ...
+PlatformMotion read_trajectory(const JsonView& trajectory) {
+  const auto [kind, place] = trajectory.entries().front();
+  try {
+    const solver::Path path = read_path(kind, place);
+    return {path,
+            solver::sample(path, place["points"].get<solver::Index>(), place.number("step_s"))};
+  } catch (const solver::ModelError& error) {
+    throw place.error(std::string("expected a path that has a meaning: ") + error.what());
+  }
 }
 
 }  // namespace
@@ -114,23 +120,24 @@ solver::ManipulatorDesign read_manipulator(const JsonView& manipulator) {
   } catch (const solver::ModelError& error) {
     throw manipulator.error(std::string("expected a geometry that has a meaning: ") + error.what());
   }
-  const solver::Material material = read_material(manipulator["material"]);
-  design.proximal.fill(read_link(manipulator["links"], "proximal", material));
-  design.distal.fill(read_link(manipulator["links"], "distal", material));
-  design.platform = read_platform(manipulator);
-  const JsonView joints = manipulator["joints"];
-  design.active = read_joints<solver::ActiveKind>(
-      joints, "active",
-      {{"locked", solver::ActiveKind::locked}, {"free", solver::ActiveKind::free}});
-  design.elbow = read_joints<solver::ElbowKind>(
-      joints, "elbow",
-      {{"welded", solver::ElbowKind::welded}, {"hinged", solver::ElbowKind::hinged}});
-  design.platform_joint =
-      read_joints<solver::PlatformJointKind>(joints, "platform",
-                                             {{"hinged", solver::PlatformJointKind::hinged},
-                                              {"welded", solver::PlatformJointKind::welded},
-                                              {"eq25-mean", solver::PlatformJointKind::eq25_mean},
-                                              {"eq25-sum", solver::PlatformJointKind::eq25_sum}});
+  const JsonView links = manipulator["links"];
+  solver::LinkDesign link;
+  link.material = read_material(manipulator["material"]);
+  link.elements = 1;
+  read_link(links, link);
+  design.proximal.fill(link);
+  design.distal.fill(link);
+  if (links.has("proximal"))
+    for (solver::LinkDesign& each : design.proximal) read_link(links["proximal"], each);
+  if (links.has("distal"))
+    for (solver::LinkDesign& each : design.distal) read_link(links["distal"], each);
+  design.platform = read_platform(manipulator["platform"]);
+  const bool own = manipulator.has("platform_material");
+  design.platform.material = own ? read_material(manipulator["platform_material"]) : link.material;
+  const FieldReader joints(manipulator["joints"]);
+  joints.required("active", design.active);
+  joints.required("elbow", design.elbow);
+  joints.required("platform", design.platform_joint);
   return design;
 }
 
@@ -139,11 +146,9 @@ PlatformMotion read_platform_motion(const JsonView& model,
   PlatformMotion motion;
   const bool single = has_first(model, "pose", "trajectory");
   if (single) {
-    const JsonView pose = model["pose"];
-    motion.points = {{0, {pose.number("x_m"), pose.number("y_m"), pose.number("phi_rad")}}};
+    motion.points = {{0, read_pose(model["pose"])}};
   } else {
-    Trajectory trajectory = read_trajectory(model["trajectory"]);
-    motion = {std::move(trajectory.path), std::move(trajectory.motion)};
+    motion = read_trajectory(model["trajectory"]);
   }
   for (std::size_t i = 0; i < motion.points.size(); ++i) {
     std::string reason;

@@ -6,7 +6,6 @@
 #include <optional>
 #include <set>
 
-#include "harness/readers/material_reader.h"
 #include "solver/elements/block_mesh.h"
 #include "solver/model/model.h"
 #include "solver/model/numbers.h"
@@ -69,9 +68,7 @@ std::optional<solver::Ellipse> read_curve(const JsonView& edge) {
 class Outline {
  public:
   Outline(const JsonView& model, const SymbolTable& symbols, const solver::Model& structure) {
-    const auto edges = model.find("edges");
-    if (!edges) return;
-    for (const auto& [name, place] : edges->entries()) {
+    for (const auto& [name, place] : model.entries("edges")) {
       if (symbols.node.count(name) > 0) {
         throw place.error("expected another name: there is a node of that name");
       }
@@ -166,7 +163,7 @@ solver::Block read_block(const JsonView& place, const SymbolTable& symbols, cons
 
 void mesh_plate(const JsonView& place, const SymbolTable& symbols, const Outline& outline,
                 solver::Index plate, solver::Model& structure, Sides& sides) {
-  const bool six_nodes = place.get<std::string>("element", "three-node") == "six-node";
+  const bool six_nodes = place.get<std::string>("element", "") == "six-node";
   const auto divisions = place.get<solver::Index>("divisions", 1);
   std::vector<solver::Block> blocks;
   std::vector<JsonView> places;
@@ -194,8 +191,8 @@ void read_plate(const std::string& name, const JsonView& place, const SymbolTabl
     throw place.error("expected exactly one of 'triangles' and 'blocks'");
   }
   const auto plate = static_cast<solver::Index>(structure.plates.size());
-  structure.plates.push_back({name, look_up(symbols.material, place["material"], "a material"),
-                              place.number("thickness_m")});
+  structure.plates.push_back(read_part<solver::Plate>(place, &symbols));
+  structure.plates.back().name = name;
   if (place.has("blocks")) return mesh_plate(place, symbols, outline, plate, structure, sides);
   for (const char* key : {"element", "divisions"}) {
     if (place.has(key)) throw place[key].error("expected it beside 'blocks' only");
@@ -224,11 +221,8 @@ Edge find_edge(const JsonView& place, const std::vector<solver::Index>& corners,
 void read_plates(const JsonView& model, SymbolTable& symbols, solver::Model& structure) {
   const Outline outline(model, symbols, structure);
   Sides sides;
-  if (const auto plates = model.find("plates")) {
-    for (const auto& [name, place] : plates->entries()) {
-      read_plate(name, place, symbols, outline, structure, sides);
-    }
-  }
+  for (const auto& [name, place] : model.entries("plates"))
+    read_plate(name, place, symbols, outline, structure, sides);
   for (const auto& [name, corners] : outline.corners()) {
     symbols.edge.emplace(name, find_edge(model["edges"][name], corners, sides));
   }
@@ -248,8 +242,9 @@ std::vector<solver::Index> nodes_of(const Edge& edge) {
 void read_edge_load(const JsonView& place, const SymbolTable& symbols, solver::Model& structure) {
   const Edge& edge = look_up(symbols.edge, place["edge"], "an edge");
   solver::EdgeLoad load;
-  if (const auto traction = place.find("traction_Pa")) load.traction = read_point(*traction);
-  load.normal = place.get("normal_Pa", 0.0);
+  const FieldReader reader(place);
+  reader.optional("traction_Pa", load.traction);
+  reader.optional("normal_Pa", load.normal);
   for (const Edge::Piece& piece : edge.pieces) {
     if (piece.plate < 0) {
       throw place["edge"].error("expected an edge with a plate on one side (it has two)");

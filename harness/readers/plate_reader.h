@@ -1,6 +1,6 @@
 #pragma once
 
-#include "harness/readers/symbol_table.h"
+#include "harness/readers/field_reader.h"
 
 /// Plates: triangle by triangle, or meshed from blocks. A block is a quadrilateral between four
 /// named nodes; where an edge names the way between two of them, it may be an arc of an ellipse,

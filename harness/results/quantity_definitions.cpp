@@ -1,5 +1,6 @@
 #include "harness/results/quantity_definitions.h"
 
+#include <map>
 #include <sstream>
 
 #include "harness/base/contains.h"
@@ -49,9 +50,15 @@ bool QuantityDefinition::is_of(const std::string& analysis) const {
 
 const QuantityDefinition* find_quantity_definition(const std::string& name,
                                                    const std::string& analysis) {
-  const std::string head = name.substr(0, name.find(':'));
-  for (const QuantityDefinition& one : quantity_definitions())
-    if (one.head() == head && (analysis.empty() || one.is_of(analysis))) return &one;
+  static const auto by_head = [] {
+    std::map<std::string, std::vector<const QuantityDefinition*>> table;
+    for (const QuantityDefinition& one : quantity_definitions()) table[one.head()].push_back(&one);
+    return table;
+  }();
+  const auto found = by_head.find(name.substr(0, name.find(':')));
+  if (found == by_head.end()) return nullptr;
+  for (const QuantityDefinition* one : found->second)
+    if (analysis.empty() || one->is_of(analysis)) return one;
   return nullptr;
 }
 

@@ -419,6 +419,9 @@ StressSuiteEntry read_stress_suite(const Json& json) {
 Environment read_environment(const Json& json) {
   return from_json<Environment>(json);
 }
+ModelProbabilities read_model_probabilities(const Json& json) {
+  return from_json<ModelProbabilities>(json);
+}
 CostStudies read_cost_studies(const Json& json) {
   return from_json<CostStudies>(json);
 }

@@ -186,6 +186,7 @@ struct Results {
 [[nodiscard]] StressSuiteEntry read_stress_suite(const nlohmann::ordered_json& json);
 [[nodiscard]] Environment read_environment(const nlohmann::ordered_json& json);
 [[nodiscard]] CostStudies read_cost_studies(const nlohmann::ordered_json& json);
+[[nodiscard]] ModelProbabilities read_model_probabilities(const nlohmann::ordered_json& json);
 
 /// Fills in titles that are left out with the names.
 /// @throws std::runtime_error  with the JSON pointer of what does not fit the rest.

@@ -1,30 +1,52 @@
 #include "harness/run/claims.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
 
+#include "harness/analysis/analysis.h"
 #include "harness/base/contains.h"
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"
 #include "harness/base/statistic.h"
+#include "harness/base/text.h"
+#include "harness/results/quantity_definitions.h"
 
 namespace trammel::harness {
 namespace {
 
+using results::PaperItem;
+
 constexpr const char* kClaimsFile = "varalakshmi-2017.json";
+
+// Verdicts of interpretations.
+constexpr const char *kConfirms = "confirms", *kContradicts = "contradicts",
+                     *kConfirmsInPart = "confirms in part", *kInconclusive = "inconclusive",
+                     *kNotMeasured = "not measured";
+// Verdicts of claims; kNotMeasured is one, too.
+constexpr const char *kConfirmed = "confirmed", *kConfirmedInPart = "confirmed in part",
+                     *kContradicted = "contradicted", *kCannotBeDecided = "cannot be decided";
+
+using Verdicts = std::set<std::string>;
+
+/// An interpretation while it is evaluated.
+struct Interpretation : results::ClaimInterpretation {
+  bool incomplete = false;  ///< a run or a number that it asks for is missing
+};
 
 /// Which values a window holds; one side may take all that the other's window does not.
 struct Rule {
   std::optional<Window> confirms, contradicts;
-  InterpretationVerdict otherwise = InterpretationVerdict::undecided;
+  std::string otherwise = kInconclusive;
   bool jointly = false;  ///< the entries of one check count as one
 
-  [[nodiscard]] InterpretationVerdict verdict_of_value(double value) const {
-    if (confirms && confirms->contains(value)) return InterpretationVerdict::confirms;
-    if (contradicts && contradicts->contains(value)) return InterpretationVerdict::contradicts;
+  [[nodiscard]] std::string verdict_of_value(double value) const {
+    if (confirms && confirms->contains(value)) return kConfirms;
+    if (contradicts && contradicts->contains(value)) return kContradicts;
     return otherwise;
   }
 };
@@ -40,8 +62,7 @@ Window read_window(const JsonView& interval) {
 Rule read_rule(const JsonView& interpretation) {
   Rule rule;
   rule.jointly = interpretation.get("require_all_entries", false);
-  const auto read = [&](const char* key, std::optional<Window>& window,
-                        InterpretationVerdict verdict) {
+  const auto read = [&](const char* key, std::optional<Window>& window, const char* verdict) {
     if (!interpretation.has(key)) return;
     if (!interpretation[key].json().is_string()) {
       window = read_window(interpretation[key]);
@@ -49,8 +70,8 @@ Rule read_rule(const JsonView& interpretation) {
       rule.otherwise = verdict;
     }
   };
-  read("confirms", rule.confirms, InterpretationVerdict::confirms);
-  read("contradicts", rule.contradicts, InterpretationVerdict::contradicts);
+  read("confirms", rule.confirms, kConfirms);
+  read("contradicts", rule.contradicts, kContradicts);
   if (!rule.confirms && !rule.contradicts) {
     throw interpretation.error("expected a window in 'confirms' or 'contradicts'");
   }
@@ -140,42 +161,35 @@ void add_quantity(const JsonView& interpretation, const Run& run, Interpretation
   }
 }
 
-/// One verdict for each entry, or for each check: it confirms where all its entries do, and
-/// contradicts where one does.
-std::vector<InterpretationVerdict> verdicts_of(const Rule& rule,
-                                               const std::vector<results::ClaimEntry>& entries) {
-  std::vector<InterpretationVerdict> verdicts;
-  const results::ClaimEntry* before = nullptr;
-  for (const results::ClaimEntry& entry : entries) {
-    const InterpretationVerdict verdict = rule.verdict_of_value(entry.value);
-    const bool same = rule.jointly && before && before->case_id == entry.case_id &&
-                      before->variant == entry.variant && before->name == entry.name;
-    before = &entry;
-    if (!same) {
-      verdicts.push_back(verdict);
-    } else if (verdicts.back() != InterpretationVerdict::contradicts &&
-               verdict != InterpretationVerdict::confirms) {
-      verdicts.back() = verdict;
-    }
+/// Verdicts of the entries. If they count jointly, those of one check have one verdict: it confirms
+/// if all of them do, and contradicts if one does.
+Verdicts verdicts_of(const Rule& rule, const std::vector<results::ClaimEntry>& entries) {
+  std::map<std::string, std::string> by_check;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const results::ClaimEntry& entry = entries[i];
+    const std::string verdict = rule.verdict_of_value(entry.value);
+    const std::string check = entry.case_id + ":" + entry.variant + " " + entry.name;
+    const std::string key = rule.jointly ? check : std::to_string(i);
+    std::string& joint = by_check.emplace(key, verdict).first->second;
+    if (joint != kContradicts && verdict != kConfirms) joint = verdict;
   }
+  Verdicts verdicts;
+  for (const auto& item : by_check) verdicts.insert(item.second);
   return verdicts;
 }
 
-InterpretationVerdict verdict_of(const Rule& rule,
-                                 const std::vector<results::ClaimEntry>& entries) {
-  const std::vector<InterpretationVerdict> each = verdicts_of(rule, entries);
-  const std::set<InterpretationVerdict> verdicts(each.begin(), each.end());
-  if (verdicts.empty()) return InterpretationVerdict::not_measured;
+std::string verdict_of(const Rule& rule, const std::vector<results::ClaimEntry>& entries) {
+  const Verdicts verdicts = verdicts_of(rule, entries);
+  if (verdicts.empty()) return kNotMeasured;
   if (verdicts.size() == 1) return *verdicts.begin();
-  if (verdicts.count(InterpretationVerdict::confirms) > 0) return InterpretationVerdict::in_part;
-  return InterpretationVerdict::undecided;
+  return verdicts.count(kConfirms) > 0 ? kConfirmsInPart : kInconclusive;
 }
 
-Interpretation evaluate_interpretation(const std::string& name, const JsonView& interpretation,
+Interpretation evaluate_interpretation(const JsonView& interpretation,
                                        const std::vector<Run>& runs) {
   Interpretation found;
-  found.name = name;
-  found.what = interpretation.text("description");
+  found.verdict = kNotMeasured;
+  found.description = interpretation.text("description");
   found.metric = interpretation.text("metric");
   const bool by_check = interpretation.has("check") || interpretation.has("reference");
   if (by_check == interpretation.has("quantity")) {
@@ -196,59 +210,43 @@ Interpretation evaluate_interpretation(const std::string& name, const JsonView& 
   return found;
 }
 
-ClaimVerdict verdict_of(const std::vector<Interpretation>& interpretations, bool alternatives) {
-  std::set<InterpretationVerdict> verdicts;
+std::string verdict_of(const std::vector<Interpretation>& interpretations, bool alternatives) {
+  Verdicts verdicts;
   for (const Interpretation& interpretation : interpretations) {
-    if (interpretation.incomplete) return ClaimVerdict::not_measured;
+    if (interpretation.incomplete) return kNotMeasured;
     verdicts.insert(interpretation.verdict);
   }
-  verdicts.erase(InterpretationVerdict::not_measured);
-  if (verdicts.empty()) return ClaimVerdict::not_measured;
-  if (verdicts.size() == 1) {
-    switch (*verdicts.begin()) {
-      case InterpretationVerdict::confirms:
-        return ClaimVerdict::confirmed;
-      case InterpretationVerdict::contradicts:
-        return ClaimVerdict::contradicted;
-      case InterpretationVerdict::in_part:
-        return alternatives ? ClaimVerdict::cannot_be_decided : ClaimVerdict::confirmed_in_part;
-      default:
-        return ClaimVerdict::cannot_be_decided;
-    }
-  }
-  const bool some = verdicts.count(InterpretationVerdict::confirms) +
-                        verdicts.count(InterpretationVerdict::in_part) >
-                    0;
-  return some && !alternatives ? ClaimVerdict::confirmed_in_part : ClaimVerdict::cannot_be_decided;
+  verdicts.erase(kNotMeasured);
+  if (verdicts.empty()) return kNotMeasured;
+  if (verdicts == Verdicts{kConfirms}) return kConfirmed;
+  if (verdicts == Verdicts{kContradicts}) return kContradicted;
+  const bool some = verdicts.count(kConfirms) + verdicts.count(kConfirmsInPart) > 0;
+  return some && !alternatives ? kConfirmedInPart : kCannotBeDecided;
 }
 
-ClaimVerdict read_verdict(const std::string& word) {
-  if (word == "confirmed") return ClaimVerdict::confirmed;
-  if (word == "confirmed-in-part") return ClaimVerdict::confirmed_in_part;
-  if (word == "contradicted") return ClaimVerdict::contradicted;
-  return word == "not-measured" ? ClaimVerdict::not_measured : ClaimVerdict::cannot_be_decided;
-}
-
-Claim evaluate_claim(const std::string& id, const JsonView& claim, const std::vector<Run>& runs) {
-  Claim found;
+results::Claim evaluate_claim(const std::string& id, const JsonView& claim,
+                              const std::vector<Run>& runs) {
+  results::Claim found;
   found.id = id;
   found.claim = claim.text("claim");
   found.place = claim.text("place");
   found.conclusion = claim.text("conclusion");
-  found.expected = read_verdict(claim.text("expected"));
+  found.expected = claim.text("expected");
+  std::ranges::replace(found.expected, '-', ' ');
   if (claim.has("interpretations") == claim.has("undecidable")) {
     throw claim.error("expected either 'interpretations' or why it is 'undecidable'");
   }
   if (claim.has("undecidable")) {
     found.undecidable = claim.text("undecidable");
-    found.verdict = ClaimVerdict::cannot_be_decided;
+    found.verdict = kCannotBeDecided;
     return found;
   }
-  for (const auto& [name, interpretation] : claim["interpretations"].entries()) {
-    found.interpretations.push_back(evaluate_interpretation(name, interpretation, runs));
-  }
-  found.verdict = verdict_of(found.interpretations,
-                             claim.get<std::string>("combine_as", "parts") == "alternatives");
+  std::vector<Interpretation> interpretations;
+  for (const auto& item : claim["interpretations"].entries())
+    interpretations.push_back(evaluate_interpretation(item.second, runs));
+  found.verdict =
+      verdict_of(interpretations, claim.get<std::string>("combine_as", "parts") == "alternatives");
+  found.interpretations.assign(interpretations.begin(), interpretations.end());
   return found;
 }
 
@@ -266,14 +264,79 @@ bool rests_on(const JsonView& interpretation, const Case& test_case) {
   return false;
 }
 
-}  // namespace
-
-bool ClaimSet::as_expected() const {
-  return std::ranges::all_of(claims, [](const Claim& claim) { return claim.as_expected(); });
+void require_member(const JsonView& place, const Json& object, const std::string& what) {
+  const auto name = place.get<std::string>();
+  if (object.contains(name)) return;
+  throw place.error("expected a " + what + " (got '" + printable(name) + "')");
 }
 
-int exit_status(const ClaimSet& claim_set) {
-  return claim_set.as_expected() ? 0 : 1;
+PaperItem::Counterpart read_counterpart(const JsonView& place, const Catalogue& catalogue) {
+  const Case shown = load_case(catalogue.find_case(place.text("case")), catalogue);
+  PaperItem::Counterpart counterpart{shown.id(), place.get<std::string>("variant", ""),
+                                     place.get<std::string>("quantity", ""),
+                                     place.get<std::string>("figure", ""), ""};
+  const Json& json = shown.document.value();
+  if (!counterpart.variant.empty())
+    require_member(place["variant"], json.value("variants", Json::object()), "variant of the case");
+  if (!counterpart.figure.empty())
+    require_member(place["figure"], json.value("figures", Json::object()), "figure of the case");
+  if (!counterpart.quantity.empty() &&
+      results::find_quantity_definition(counterpart.quantity, analysis_kind(shown.document)) ==
+          nullptr)
+    throw place["quantity"].error("expected a quantity of the case's analysis");
+  return counterpart;
+}
+
+PaperItem read_item(const std::string& id, const JsonView& place, const Json& claims,
+                    const Catalogue& catalogue) {
+  PaperItem item{id, place.text("section"), place.text("what")};
+  item.reason = place.get<std::string>("reason", "");
+  item.note = place.get<std::string>("note", "");
+  if (const auto shown = place.find("shown_by"))
+    for (const auto& entry : shown->entries())
+      item.shown_by.push_back(read_counterpart(entry.second, catalogue));
+  if (const auto stated = place.find("claims")) {
+    for (const auto& entry : stated->entries()) {
+      require_member(entry.second, claims, "claim");
+      item.claims.push_back(entry.second.get<std::string>());
+    }
+  }
+  if (item.shown_by.empty() && item.claims.empty() && item.reason.empty())
+    throw place.error("expected 'shown_by', 'claims' or 'reason'");
+  return item;
+}
+
+/// "12 checks pass, 6 do not agree (as recorded)", or "computed, not judged".
+std::string verdict_of(const results::Results& results, const PaperItem::Counterpart& counterpart) {
+  int passed = 0, discrepancies = 0, other = 0;
+  bool computed = false;
+  for (const results::Run& run : results.runs) {
+    if (run.case_id != counterpart.case_id ||
+        (!counterpart.variant.empty() && run.variant != counterpart.variant))
+      continue;
+    computed = true;
+    for (const results::Check& check : run.checks) {
+      if (!counterpart.quantity.empty() && check.quantity != counterpart.quantity) continue;
+      if (check.verdict == results::Verdict::recorded) continue;
+      const bool holds = check.verdict == results::Verdict::pass;
+      const bool agrees = check.expectation != results::Expectation::known_discrepancy;
+      ++(!holds ? other : agrees ? passed : discrepancies);
+    }
+  }
+  if (!computed) return "not computed";
+  std::vector<std::string> parts;
+  if (passed > 0)
+    parts.push_back(fmt::format("{} {}", passed, passed > 1 ? "checks pass" : "check passes"));
+  if (discrepancies > 0)
+    parts.push_back(fmt::format("{} do not agree (as recorded)", discrepancies));
+  if (other > 0) parts.push_back(fmt::format("{} fail", other));
+  return parts.empty() ? "computed, not judged" : join(parts, "and");
+}
+
+}  // namespace
+
+int exit_status(const results::Claims& claims) {
+  return claims.as_recorded ? 0 : 1;
 }
 
 Document load_claims() {
@@ -300,43 +363,30 @@ std::vector<Case> cases_of(const Document& claim_set, const std::vector<Case>& c
   return cases;
 }
 
-ClaimSet evaluate_claims(const Document& document, const std::vector<Run>& runs) {
+results::Claims evaluate_claims(const Document& document, const std::vector<Run>& runs) {
   const JsonView root(document);
-  ClaimSet claim_set{root.text("title"), root.text("source"), {}};
-  for (const auto& [id, claim] : root["claims"].entries()) {
-    claim_set.claims.push_back(evaluate_claim(id, claim, runs));
-  }
-  return claim_set;
+  results::Claims found;
+  found.title = root.text("title");
+  for (const auto& [id, claim] : root["claims"].entries())
+    found.claims.push_back(evaluate_claim(id, claim, runs));
+  found.as_recorded = std::ranges::all_of(
+      found.claims, [](const results::Claim& claim) { return claim.verdict == claim.expected; });
+  return found;
 }
 
-std::string to_text(ClaimVerdict verdict) {
-  constexpr std::array texts = {"confirmed", "confirmed in part", "contradicted",
-                                "cannot be decided", "not measured"};
-  return texts[static_cast<std::size_t>(verdict)];
+std::vector<PaperItem> load_paper_items(const Document& claim_set, const Catalogue& catalogue) {
+  std::vector<PaperItem> items;
+  const auto stated = JsonView(claim_set).find("items");
+  if (!stated) return items;
+  for (const auto& [id, place] : stated->entries())
+    items.push_back(read_item(id, place, claim_set.value().at("claims"), catalogue));
+  return items;
 }
 
-std::string to_text(InterpretationVerdict verdict) {
-  constexpr std::array texts = {"confirms", "contradicts", "confirms in part", "inconclusive",
-                                "not measured"};
-  return texts[static_cast<std::size_t>(verdict)];
-}
-
-results::Claims claim_results(const ClaimSet& claim_set) {
-  results::Claims out{claim_set.title, claim_set.as_expected(), {}};
-  for (const Claim& claim : claim_set.claims) {
-    out.claims.push_back({claim.id,
-                          claim.claim,
-                          claim.place,
-                          to_text(claim.verdict),
-                          to_text(claim.expected),
-                          claim.conclusion,
-                          claim.undecidable,
-                          {}});
-    for (const Interpretation& found : claim.interpretations)
-      out.claims.back().interpretations.push_back(
-          {found.what, found.metric, found.unit, to_text(found.verdict), found.entries});
-  }
-  return out;
+void judge_paper_items(const results::Results& results, std::vector<PaperItem>& items) {
+  for (PaperItem& item : items)
+    for (PaperItem::Counterpart& counterpart : item.shown_by)
+      counterpart.verdict = verdict_of(results, counterpart);
 }
 
 }  // namespace trammel::harness

@@ -1,71 +1,42 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
+#include "harness/input/catalogue.h"
 #include "harness/results/results.h"
 #include "harness/run/run.h"
 
-/// A publication's claims: from results, by the rules of cases/paper/claims/, to a
-/// verdict for each claim.
+/// A publication: its claims, with a verdict for each by the rules of cases/paper/claims/, and its
+/// items (equations, tables, figures), with the cases that show them.
 namespace trammel::harness {
 
-/// What the entries of an interpretation come to.
-enum class InterpretationVerdict { confirms, contradicts, in_part, undecided, not_measured };
-enum class ClaimVerdict {
-  confirmed,
-  confirmed_in_part,
-  contradicted,
-  cannot_be_decided,
-  not_measured
-};
-
-struct Interpretation {
-  std::string name, what, metric;
-  std::string unit;  ///< of the values: 1 for ratios
-  std::vector<results::ClaimEntry> entries;
-  bool incomplete = false;  ///< a run or a number that it asks for is not there
-  InterpretationVerdict verdict = InterpretationVerdict::not_measured;
-};
-
-struct Claim {
-  std::string id, claim, place, conclusion, undecidable;
-  std::vector<Interpretation> interpretations;
-  ClaimVerdict verdict = ClaimVerdict::not_measured;
-  ClaimVerdict expected = ClaimVerdict::not_measured;
-  [[nodiscard]] bool as_expected() const { return verdict == expected; }
-};
-
-struct ClaimSet {
-  std::string title, source;
-  std::vector<Claim> claims;
-  /// Every verdict is the one that is recorded.
-  [[nodiscard]] bool as_expected() const;
-};
-
-/// 0 where every verdict is the one that is recorded, else 1.
-[[nodiscard]] int exit_status(const ClaimSet& claim_set);
+/// 0 if every verdict is the recorded one, else 1.
+[[nodiscard]] int exit_status(const results::Claims& claims);
 
 /// The claims of the catalogue, cases/paper/claims/varalakshmi-2017.json.
-/// @throws InputError  where it cannot be read or breaks its schema.
+/// @throws InputError  if the file cannot be read or breaks its schema.
 [[nodiscard]] Document load_claims();
 
-/// The cases that the interpretations of claims look at, by name or by the references of their
+/// The cases that the interpretations of claims refer to, by name or by the references of their
 /// checks.
 /// @param catalogue  all cases
 [[nodiscard]] std::vector<Case> cases_of(const Document& claim_set,
                                          const std::vector<Case>& catalogue);
 
-/// Interpretations of cases that were not run do not count; a claim without any that does is not
+/// Interpretations of cases that were not run do not count. A claim without any that does is not
 /// measured, and neither is one that misses a single number of a case that was.
-/// @throws InputError  where a rule contradicts itself.
-[[nodiscard]] ClaimSet evaluate_claims(const Document& claim_set, const std::vector<Run>& runs);
+/// @throws InputError  if a rule contradicts itself.
+[[nodiscard]] results::Claims evaluate_claims(const Document& claim_set,
+                                              const std::vector<Run>& runs);
 
-/// "confirmed in part"
-[[nodiscard]] std::string to_text(ClaimVerdict verdict);
-[[nodiscard]] std::string to_text(InterpretationVerdict verdict);
+/// The items of cases/paper/claims, in the order of the publication, without verdicts.
+/// @throws InputError  for an unknown case, variant, quantity, figure or claim, and for an item
+/// with
+///                     neither a counterpart, a claim nor a reason.
+[[nodiscard]] std::vector<results::PaperItem> load_paper_items(const Document& claim_set,
+                                                               const Catalogue& catalogue);
 
-/// What results.json says of it.
-[[nodiscard]] results::Claims claim_results(const ClaimSet& claim_set);
+/// Fills in how the checks of each counterpart were judged.
+void judge_paper_items(const results::Results& results, std::vector<results::PaperItem>& items);
 
 }  // namespace trammel::harness

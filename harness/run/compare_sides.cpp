@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <numeric>
 #include <set>
-#include <tuple>
 
 #include "harness/base/quantity.h"
+#include "harness/base/rows.h"
 #include "harness/base/text.h"
 #include "harness/base/timing.h"
+#include "harness/run/diff.h"
 #include "harness/run/stored_results.h"
 #include "harness/studies/mode_match.h"
 
@@ -46,11 +49,9 @@ std::string series_of(const std::string& name) {
 std::map<std::string, double> series_scales(const Runs& runs) {
   std::map<std::string, double> scales;
   for (const results::Run* run : runs)
-    for (const auto& [name, values] : run->quantities) {
-      double& scale = scales[series_of(name)];
-      for (const Number& value : values)
-        if (value) scale = std::max(scale, std::abs(*value));
-    }
+    for (const auto& [name, values] : run->quantities)
+      for (double& scale = scales[series_of(name)]; const Number& value : values)
+        scale = std::max(scale, std::abs(value.value_or(0)));
   return scales;
 }
 
@@ -86,19 +87,21 @@ double allowed_by_checks(const results::Run& run, const std::string& name, std::
   return allowed;
 }
 
-/// What is to be said of values whose `noise` is known.
+/// Infinite if only one of them has a value.
+double distance(const Number& a, const Number& b) {
+  if (a && b) return std::abs(*b - *a);
+  return a || b ? std::numeric_limits<double>::infinity() : 0;
+}
+
+/// Fills in changes and percent of values whose `noise` is known.
 /// @param scale  the largest value of the series
 void judge(ComparedValue& value, double scale) {
-  constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const Number first = value.values.front();
   value.percent.assign(value.values.size(), Number());
   for (std::size_t s = 1; s < value.values.size(); ++s) {
     const Number other = value.values[s];
-    const double difference = first && other   ? std::abs(*other - *first)
-                              : first || other ? kInfinite
-                                               : 0;
-    if (difference > 0)
-      value.share = std::max(value.share, scale > 0 ? difference / scale : kInfinite);
+    const double difference = distance(first, other);
+    if (difference > 0) value.share = std::max(value.share, difference / scale);
     value.changed = value.changed || difference > value.noise;
     if (first && other && std::abs(*first) > value.noise)
       value.percent[s] =
@@ -127,20 +130,15 @@ ComparedNumber compare_entry(const std::string& name, std::size_t i, const Runs&
 std::vector<ComparedNumber> compare_entries(const std::string& name, const Runs& runs,
                                             double scale) {
   const Numbers& first = *runs.front()->quantity(name);
-  std::vector<std::size_t> entries;
-  if (first.size() <= kFewEntries) {
-    for (std::size_t i = 0; i < first.size(); ++i) entries.push_back(i);
-  } else {
-    std::pair<double, std::size_t> worst{-1, 0};
-    for (const results::Run* run : runs)
-      for (std::size_t i = 0; i < first.size(); ++i) {
-        const Number other = (*run->quantity(name))[i];
-        const double away =
-            first[i] && other ? std::abs(*other - *first[i]) : (first[i] || other ? HUGE_VAL : 0);
-        if (away > worst.first) worst = {away, i};
-      }
-    entries.push_back(worst.second);
-  }
+  std::vector<std::size_t> entries(first.size());
+  std::iota(entries.begin(), entries.end(), 0);
+  if (entries.size() > kFewEntries)
+    entries = {*std::ranges::max_element(entries, {}, [&](std::size_t i) {
+      double largest = 0;
+      for (const results::Run* run : runs)
+        largest = std::max(largest, distance(first[i], (*run->quantity(name))[i]));
+      return largest;
+    })};
   std::vector<ComparedNumber> found;
   for (const std::size_t i : entries) found.push_back(compare_entry(name, i, runs, scale));
   return found;
@@ -157,16 +155,15 @@ void add_numbers(const Runs& runs, const std::vector<std::string>& labels, Compa
     std::vector<std::string> without, sizes;
     for (std::size_t s = 0; s < runs.size(); ++s) {
       const Numbers* values = runs[s]->quantity(name);
-      if (values == nullptr) without.push_back(labels[s]);
-      if (values != nullptr) sizes.push_back(std::to_string(values->size()));
+      values ? sizes.push_back(std::to_string(values->size())) : without.push_back(labels[s]);
     }
     if (!without.empty()) {
       absent[join(without, "and")].push_back(name);
     } else if (std::set(sizes.begin(), sizes.end()).size() > 1) {
       found.remarks.push_back(name + " has " + join(sizes, "and") + " entries");
     } else {
-      for (ComparedNumber& number : compare_entries(name, runs, scales.at(series_of(name))))
-        found.numbers.push_back(std::move(number));
+      std::ranges::move(compare_entries(name, runs, scales.at(series_of(name))),
+                        std::back_inserter(found.numbers));
     }
   }
   for (const auto& [sides, missing] : absent)
@@ -266,44 +263,40 @@ std::vector<ComparedModes> compare_modes(const Runs& runs,
   return rows;
 }
 
+/// Compares frequencies by the shapes of their modes instead of by number, if they have changed or
+/// are those of variants.
 void match_by_shape(const Runs& runs, const std::vector<const Document*>& documents,
                     ComparedRun& found) {
-  const auto is_frequency = [](const ComparedNumber& number) {
-    return number.quantity == "frequency_Hz";
+  const auto by_number = [](const ComparedNumber& number) {
+    return number.quantity == "frequency_Hz" || number.quantity == "frequency_gap";
   };
-  const bool there = std::ranges::all_of(
-      runs, [](const results::Run* run) { return run->quantity("frequency_Hz") != nullptr; });
-  const bool changed = std::ranges::any_of(
-      found.numbers, [&](const auto& n) { return is_frequency(n) && n.changed; });
+  const bool changed = std::ranges::any_of(found.numbers, [](const ComparedNumber& number) {
+    return number.quantity == "frequency_Hz" && number.changed;
+  });
   const bool computed = documents.front() != nullptr;
-  if (!there || (!changed && !computed)) return;
-  if (computed && found.info.analysis != "modes") return;
+  if (computed ? found.info.analysis != "modes" : !changed) return;
+  if (std::ranges::any_of(runs,
+                          [](const auto* run) { return run->quantity("frequency_Hz") == nullptr; }))
+    return;
   found.modes = compare_modes(runs, documents);
-  if (found.modes.empty()) return;
-  const auto by_number = [&](const ComparedNumber& number) {
-    return is_frequency(number) || number.quantity == "frequency_gap";
-  };
-  std::erase_if(found.numbers, by_number);
+  if (!found.modes.empty()) std::erase_if(found.numbers, by_number);
 }
 
-/// "deflection[2] passes, failed before", at most three of them.
+/// Other endings, and at most three other verdicts of each side.
 void add_verdicts(const Runs& runs, const std::vector<std::string>& labels, ComparedRun& found) {
-  using Key = std::tuple<std::string, std::string, std::optional<int>>;
-  std::map<Key, results::Verdict> before;
-  for (const results::Check& check : runs.front()->checks)
-    before.emplace(Key{check.name, check.quantity, check.index}, check.verdict);
+  Entries first;
+  add_entries(*runs.front(), found.name, first);
   for (std::size_t s = 1; s < runs.size(); ++s) {
-    if (runs[s]->status != runs.front()->status)
-      found.remarks.push_back("ends " + to_string(runs[s]->status) + " in " + labels[s] + ", " +
-                              to_string(runs.front()->status) + " in " + labels.front());
-    std::set<std::string> said;
-    for (const results::Check& check : runs[s]->checks) {
-      const auto known = before.find({check.name, check.quantity, check.index});
-      if (known == before.end() || known->second == check.verdict) continue;
-      if (said.size() >= 3 || !said.insert(check.name).second) continue;
-      found.remarks.push_back("check " + check.name + ": " + to_string(check.verdict) + " in " +
-                              labels[s] + ", " + to_string(known->second) + " in " +
-                              labels.front());
+    Entries other;
+    add_entries(*runs[s], found.name, other);
+    std::set<std::string> checks;
+    for (const DiffRow& row : diff(first, other)) {
+      if (!row.in_both() || row.before->verdict == row.after->verdict) continue;
+      const std::string check = row.is_run() ? "" : row.after->check->name;
+      if (!row.is_run() && (checks.size() >= 3 || !checks.insert(check).second)) continue;
+      found.remarks.push_back(
+          fmt::format("{}{} in {}, {} in {}", row.is_run() ? "ends " : "check " + check + ": ",
+                      row.after->verdict, labels[s], row.before->verdict, labels.front()));
     }
   }
 }
@@ -338,13 +331,15 @@ ComparedRun compare_runs(const std::string& name, const Runs& runs,
 
 /// Relative errors against references by check entry.
 std::map<std::string, double> errors_of(const std::string& name, const results::Run& run) {
+  Entries entries;
+  add_entries(run, name, entries);
   std::map<std::string, double> errors;
-  for (const results::Check& check : run.checks) {
-    if (check.reference.empty() || !check.computed || !check.expected || *check.expected == 0)
+  for (const auto& [entry_name, entry] : entries) {
+    const results::Check* check = entry.check;
+    if (check == nullptr || check->reference.empty() || !check->computed || !check->expected ||
+        *check->expected == 0)
       continue;
-    const std::string key = fmt::format("{} {} {} {} {}", name, check.name, check.quantity,
-                                        check.statistic, check.index.value_or(-1));
-    errors[key] = std::abs(*check.computed - *check.expected) / std::abs(*check.expected);
+    errors[entry_name] = std::abs(*check->computed - *check->expected) / std::abs(*check->expected);
   }
   return errors;
 }
@@ -382,27 +377,22 @@ class Totals {
   }
 
  private:
-  /// Those that cannot be told from the better one before them share its rank.
+  /// Sides that cannot be distinguished from the first of a rank share it.
   static void rank(const std::vector<Timing>& errors, std::vector<ComparedSide>& sides) {
-    constexpr std::size_t kFewest = 7;  // that an interval can be told from
+    constexpr std::size_t kFewest = 7;  // errors that give an interval
+    const bool has_interval = errors.front().cpu_s.size() >= kFewest;
     std::vector<std::size_t> order(sides.size());
-    for (std::size_t s = 0; s < order.size(); ++s) order[s] = s;
-    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
-      return sides[a].median_error < sides[b].median_error;
-    });
-    std::size_t head = order.front();  // of those that share a rank
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](std::size_t s) { return sides[s].median_error; });
+    std::size_t head = 0;  // place of the first of a rank
     for (std::size_t place = 0; place < order.size(); ++place) {
       ComparedSide& side = sides[order[place]];
-      bool apart = place > 0;
-      if (errors.front().cpu_s.size() >= kFewest) {
+      if (has_interval) {
         const RelativeTime ratio = relative_time(errors[order[place]], errors[order.front()]);
         side.error_ratio = {ratio.median, ratio.low, ratio.high};
-        apart = apart && relative_time(errors[order[place]], errors[head]).low > 1;
-      } else {
-        apart = false;
+        if (relative_time(errors[order[place]], errors[order[head]]).low > 1) head = place;
       }
-      if (apart) head = order[place];
-      side.rank = place == 0 ? 1 : apart ? place + 1 : sides[order[place - 1]].rank;
+      side.rank = head + 1;
     }
   }
 
@@ -427,54 +417,45 @@ ComparedSide side_of(const Side& side) {
 /// "frequency of mode 3 by +12 % (81.2 to 91.1 Hz)"
 std::string words_of(const ComparedValue& value, const std::string& name, const std::string& unit,
                      const std::vector<ComparedSide>& sides) {
-  std::size_t worst = 1;
-  const auto away = [&](std::size_t s) {
-    const Number a = value.values.front(), b = value.values[s];
-    return a && b ? std::abs(*b - *a) : a || b ? HUGE_VAL : 0;
-  };
-  for (std::size_t s = 2; s < value.values.size(); ++s)
-    if (away(s) > away(worst)) worst = s;
-  const Number from = value.values.front(), to = value.values[worst];
+  const Number from = value.values.front();
+  const auto worst = std::ranges::max_element(value.values.begin() + 1, value.values.end(), {},
+                                              [&](const Number& n) { return distance(from, n); });
+  const std::size_t side = static_cast<std::size_t>(worst - value.values.begin());
   int digits = 4;
-  while (from && to && digits < 12 && rounded(*from, digits) == rounded(*to, digits)) ++digits;
+  while (from && *worst && digits < 12 && rounded(*from, digits) == rounded(**worst, digits))
+    ++digits;
   const auto number = [&](const Number& n) { return n ? rounded(*n, digits) : "none"; };
-  std::string text = name;
-  if (value.percent[worst]) text += fmt::format(" by {:+.3g} %", *value.percent[worst]);
-  if (sides.size() > 2) text += " in " + sides[worst].label;
-  return text + " (" + number(from) + " to " + number(to) + (unit == "1" ? "" : " " + unit) + ")";
+  return fmt::format("{}{}{} ({} to {}{})", name,
+                     value.percent[side] ? fmt::format(" by {:+.3g} %", *value.percent[side]) : "",
+                     sides.size() > 2 ? " in " + sides[side].label : "", number(from),
+                     number(*worst), unit == "1" ? "" : " " + unit);
 }
 
-/// What has changed most in a run.
+/// What has changed most in a run: a mode, else a number, else a remark.
 std::string most_changed(const ComparedRun& run, const std::vector<ComparedSide>& sides) {
-  const ComparedModes* modes = nullptr;
-  for (const ComparedModes& one : run.modes)
-    if (one.changed && (modes == nullptr || one.share > modes->share)) modes = &one;
-  if (modes != nullptr)
-    return words_of(*modes, "the frequency of mode " + std::to_string(modes->modes[0].front()),
-                    "Hz", sides);
-  if (!run.numbers.empty() && run.numbers.front().changed) {
-    const ComparedNumber& number = run.numbers.front();
-    const std::string entry = number.entries > 1 ? "[" + std::to_string(number.index) + "]" : "";
-    return words_of(number, number.quantity + entry, unit_of(number.quantity), sides);
-  }
-  return run.remarks.empty() ? "" : run.remarks.front();
-}
-
-std::string runs_text(std::size_t n) {
-  return std::to_string(n) + (n == 1 ? " run" : " runs");
+  const auto mode = std::ranges::max_element(
+      run.modes, {}, [](const ComparedModes& m) { return m.changed ? m.share : -1; });
+  if (mode != run.modes.end() && mode->changed)
+    return words_of(*mode, fmt::format("the frequency of mode {}", mode->modes[0].front()), "Hz",
+                    sides);
+  if (run.numbers.empty() || !run.numbers.front().changed)
+    return run.remarks.empty() ? "" : run.remarks.front();
+  const ComparedNumber& number = run.numbers.front();
+  const std::string entry = number.entries > 1 ? fmt::format("[{}]", number.index) : "";
+  return words_of(number, number.quantity + entry, unit_of(number.quantity), sides);
 }
 
 /// What the same names have become.
 std::string conclusion_of_runs(const SideComparison& comparison) {
   const std::size_t all = comparison.same + comparison.within_noise + comparison.changed;
-  const std::string same = runs_text(comparison.same) + (comparison.same == 1 ? " is" : " are") +
-                           " the same bit for bit, " + std::to_string(comparison.within_noise) +
-                           (comparison.within_noise == 1 ? " differs" : " differ") +
-                           " by round-off";
+  const std::string same =
+      fmt::format("{} {} the same bit for bit, {} {} by round-off",
+                  count_of(comparison.same, "run"), comparison.same == 1 ? "is" : "are",
+                  comparison.within_noise, comparison.within_noise == 1 ? "differs" : "differ");
   if (comparison.changed == 0) return "Nothing has changed: " + same;
   const ComparedRun& first = comparison.runs.front();
   return fmt::format("{} of {} changed beyond round-off, most {}: {}; {}", comparison.changed,
-                     runs_text(all), first.name, most_changed(first, comparison.sides), same);
+                     count_of(all, "run"), first.name, most_changed(first, comparison.sides), same);
 }
 
 /// What one variant makes of another.
@@ -509,7 +490,7 @@ std::map<std::string, Runs> runs_by_name(std::vector<Side>& sides) {
   for (std::size_t s = 0; s < sides.size(); ++s)
     for (const results::Run& run : sides[s].results.runs) {
       const bool variants = sides[s].document.has_value();
-      Runs& runs = by_name[variants ? sides[0].label : run.case_id + ":" + run.variant];
+      Runs& runs = by_name[variants ? sides[0].label : name_of(run)];
       runs.resize(sides.size(), nullptr);
       runs[s] = &run;
     }
@@ -588,7 +569,8 @@ SideComparison compare_sides(std::vector<Side> sides, bool series) {
   comparison.conclusion =
       (documents.front() ? conclusion_of_variants(comparison) : conclusion_of_runs(comparison)) +
       time_text(comparison.sides) +
-      (lost > 0 ? "; " + runs_text(lost) + " without series, which the stores lack" : "") + ".";
+      (lost > 0 ? "; " + count_of(lost, "run") + " without series, which the stores lack" : "") +
+      ".";
   return comparison;
 }
 

@@ -55,6 +55,8 @@ results::CostOutput output_results(const MeasuredStudy& measured,
   return out;
 }
 
+}  // namespace
+
 results::CostStudy study_results(const MeasuredStudy& measured) {
   const CostStudy& study = measured.study;
   results::CostStudy out;
@@ -87,8 +89,6 @@ results::CostStudy study_results(const MeasuredStudy& measured) {
   out.conclusion = measured.conclusion;
   return out;
 }
-
-}  // namespace
 
 results::CostStudies cost_results(const std::vector<MeasuredStudy>& studies, SweepExtent extent,
                                   const TimingOptions& timing) {

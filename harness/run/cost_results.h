@@ -7,6 +7,8 @@
 
 namespace trammel::harness {
 
+[[nodiscard]] results::CostStudy study_results(const MeasuredStudy& measured);
+
 /// What results.json says of accuracy and computing time.
 [[nodiscard]] results::CostStudies cost_results(const std::vector<MeasuredStudy>& studies,
                                                 SweepExtent extent, const TimingOptions& timing);

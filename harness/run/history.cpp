@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 
 #include "harness/base/errors.h"
-#include "harness/base/quantity.h"
+#include "harness/base/json.h"
+#include "harness/run/diff.h"
 
 namespace trammel::harness {
 namespace {
@@ -25,7 +27,9 @@ CREATE TABLE entry (call INTEGER, name INTEGER, verdict TEXT, value REAL, noise 
 CREATE INDEX entry_name ON entry (name, call);
 PRAGMA user_version = 1;)";
 
-/// A file of SQLite, and statements that end with it.
+using Row = std::vector<Json>;
+
+/// A file of SQLite.
 class Database {
  public:
   Database(const fs::path& file, bool create) : file_(file.string()) {
@@ -34,7 +38,7 @@ class Database {
     if (status != SQLITE_OK) {
       const std::string reason = sqlite3_errmsg(handle_);
       sqlite3_close(handle_);
-      throw InputError(file_ + ": expected a history (" + reason + ")");
+      fail(reason);
     }
     sqlite3_busy_timeout(handle_, 60'000);
   }
@@ -43,106 +47,71 @@ class Database {
   Database& operator=(const Database&) = delete;
 
   void execute(const char* sql) { check(sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr)); }
-  void check(int status) const {
-    if (status != SQLITE_OK && status != SQLITE_ROW && status != SQLITE_DONE)
-      throw InputError(file_ + ": expected a history (" + sqlite3_errmsg(handle_) + ")");
+
+  /// Executes one statement with these values. @returns its rows
+  std::vector<Row> query(const char* sql, const Row& values = {}) {
+    sqlite3_stmt* prepared = nullptr;
+    check(sqlite3_prepare_v2(handle_, sql, -1, &prepared, nullptr));
+    const std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> statement(prepared,
+                                                                          sqlite3_finalize);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      bind(prepared, static_cast<int>(i) + 1, values[i]);
+    std::vector<Row> rows;
+    while (check(sqlite3_step(prepared)) == SQLITE_ROW) {
+      Row& row = rows.emplace_back();
+      for (int i = 0; i < sqlite3_column_count(prepared); ++i) row.push_back(cell(prepared, i));
+    }
+    return rows;
   }
   [[nodiscard]] std::int64_t last_id() const { return sqlite3_last_insert_rowid(handle_); }
-  [[nodiscard]] sqlite3* handle() const { return handle_; }
-  [[nodiscard]] const std::string& file() const { return file_; }
+
+  /// Requires a history, or no table yet. @returns whether there are tables
+  bool has_tables() {
+    const Json format = query("PRAGMA user_version").front().front();
+    const bool is_empty = query("SELECT count(*) FROM sqlite_master").front().front() == 0;
+    if (format != kFormat && (format != 0 || !is_empty))
+      throw InputError(fmt::format("{}: expected a history of format {}", file_, kFormat));
+    return format != 0;
+  }
 
  private:
+  [[noreturn]] void fail(const std::string& reason) const {
+    throw InputError(file_ + ": expected a history (" + reason + ")");
+  }
+  int check(int status) const {
+    if (status != SQLITE_OK && status != SQLITE_ROW && status != SQLITE_DONE)
+      fail(sqlite3_errmsg(handle_));
+    return status;
+  }
+  static void bind(sqlite3_stmt* statement, int place, const Json& value) {
+    if (value.is_string()) {
+      const std::string text = value.get<std::string>();
+      sqlite3_bind_text(statement, place, text.data(), static_cast<int>(text.size()),
+                        SQLITE_TRANSIENT);
+    } else if (value.is_number_float()) {
+      sqlite3_bind_double(statement, place, value.get<double>());
+    } else if (value.is_number()) {
+      sqlite3_bind_int64(statement, place, value.get<std::int64_t>());
+    } else {
+      sqlite3_bind_null(statement, place);
+    }
+  }
+  static Json cell(sqlite3_stmt* statement, int i) {
+    switch (sqlite3_column_type(statement, i)) {
+      case SQLITE_INTEGER:
+        return sqlite3_column_int64(statement, i);
+      case SQLITE_FLOAT:
+        return sqlite3_column_double(statement, i);
+      case SQLITE_TEXT:
+        return reinterpret_cast<const char*>(sqlite3_column_text(statement, i));
+      default:
+        return nullptr;
+    }
+  }
+
   std::string file_;
   sqlite3* handle_ = nullptr;
 };
-
-class Statement {
- public:
-  Statement(Database& database, const char* sql) : database_(database) {
-    database.check(sqlite3_prepare_v2(database.handle(), sql, -1, &handle_, nullptr));
-  }
-  ~Statement() { sqlite3_finalize(handle_); }
-  Statement(const Statement&) = delete;
-  Statement& operator=(const Statement&) = delete;
-
-  /// Does it once with these values.
-  template <class... Values>
-  void run(const Values&... values) {
-    sqlite3_reset(handle_);
-    int place = 0;
-    (bind(++place, values), ...);
-    step();
-  }
-  /// @returns whether there is a row
-  bool step() {
-    const int status = sqlite3_step(handle_);
-    database_.check(status);
-    return status == SQLITE_ROW;
-  }
-  [[nodiscard]] std::int64_t integer(int i) const { return sqlite3_column_int64(handle_, i); }
-  [[nodiscard]] results::Number number(int i) const {
-    if (sqlite3_column_type(handle_, i) == SQLITE_NULL) return std::nullopt;
-    return sqlite3_column_double(handle_, i);
-  }
-  [[nodiscard]] std::string text(int i) const {
-    const unsigned char* text = sqlite3_column_text(handle_, i);
-    return text == nullptr ? "" : reinterpret_cast<const char*>(text);
-  }
-
- private:
-  void bind(int place, const std::string& text) {
-    sqlite3_bind_text(handle_, place, text.data(), static_cast<int>(text.size()), SQLITE_TRANSIENT);
-  }
-  void bind(int place, std::int64_t number) { sqlite3_bind_int64(handle_, place, number); }
-  void bind(int place, std::size_t number) { bind(place, static_cast<std::int64_t>(number)); }
-  void bind(int place, double number) { sqlite3_bind_double(handle_, place, number); }
-  void bind(int place, const results::Number& number) {
-    number ? sqlite3_bind_double(handle_, place, *number) : sqlite3_bind_null(handle_, place);
-  }
-
-  Database& database_;
-  sqlite3_stmt* handle_ = nullptr;
-};
-
-int format_of(Database& database) {
-  Statement statement(database, "PRAGMA user_version");
-  statement.step();
-  const auto format = static_cast<int>(statement.integer(0));
-  Statement tables(database, "SELECT count(*) FROM sqlite_master");
-  tables.step();
-  if (format != kFormat && (format != 0 || tables.integer(0) > 0))
-    throw InputError(database.file() + ": expected a history of format " + std::to_string(kFormat));
-  return format;
-}
-
-/// Verdict and value of a check entry at a time.
-struct State {
-  std::string verdict;
-  results::Number value;
-  double noise = 0;
-
-  [[nodiscard]] bool same_bits(const State& other) const {
-    return verdict == other.verdict && value == other.value;
-  }
-  [[nodiscard]] bool differs(const State& other) const {
-    if (verdict != other.verdict || value.has_value() != other.value.has_value()) return true;
-    return value && !(std::abs(*value - *other.value) <= std::max(noise, other.noise));
-  }
-};
-
-/// What is round-off of a check's value: 1e-9 of it, or a millionth of its tolerance. How well
-/// others were computed is no value to be followed.
-double noise_of(const results::Check& check) {
-  if (is_diagnostic(check.quantity)) return HUGE_VAL;
-  double width = 0;
-  if (check.tolerance)
-    for (const results::Number& end : {check.tolerance->low, check.tolerance->high})
-      width = std::max(width, std::abs(end.value_or(0)));
-  const double size =
-      std::max(std::abs(check.computed.value_or(0)), std::abs(check.expected.value_or(0)));
-  if (check.measure == "relative") width *= size;
-  return std::max(1e-9 * size, 1e-6 * width);
-}
 
 std::size_t work_of(const results::Run& run) {
   std::size_t work = 0;
@@ -155,54 +124,25 @@ bool is_failure(const results::Check& check) {
          check.verdict == results::Verdict::not_run;
 }
 
-std::string name_of(const results::Run& run) {
-  return run.case_id + ":" + run.variant;
-}
+using Course = std::vector<std::pair<std::int64_t, Entry>>;  ///< by call
 
-std::map<std::string, State> states_of(const results::Run& run) {
-  std::map<std::string, State> states;
-  for (const results::Check& check : run.checks) {
-    std::string name = name_of(run) + " " + check.name + " " + check.quantity;
-    if (check.index) name += fmt::format("[{}]", *check.index);
-    while (states.count(name) > 0) name += "'";
-    states[name] = {results::to_string(check.verdict), check.computed, noise_of(check)};
-  }
-  return states;
-}
-
-using Course = std::vector<std::pair<std::int64_t, State>>;  ///< by call
-
-std::map<std::string, Course> courses_of(Database& database) {
+/// @param sql  selects name, call, verdict, value and noise, in the order of the calls
+std::map<std::string, Course> courses_of(Database& database, const char* sql) {
   std::map<std::string, Course> courses;
-  Statement rows(database,
-                 "SELECT text, call, verdict, value, noise FROM entry JOIN name ON name.id = "
-                 "entry.name ORDER BY entry.rowid");
-  while (rows.step())
-    courses[rows.text(0)].push_back(
-        {rows.integer(1), {rows.text(2), rows.number(3), rows.number(4).value_or(0)}});
+  for (const Row& row : database.query(sql)) {
+    const results::Number value =
+        row[3].is_null() ? results::Number() : results::Number(row[3].get<double>());
+    courses[row[0].get<std::string>()].push_back(
+        {row[1].get<std::int64_t>(), {row[2].get<std::string>(), value, row[4].get<double>()}});
+  }
   return courses;
 }
 
-/// Numbers of names, each written once.
-class Names {
- public:
-  explicit Names(Database& database)
-      : database_(database), insert_(database, "INSERT INTO name (text) VALUES (?)") {
-    Statement rows(database, "SELECT text, id FROM name");
-    while (rows.step()) known_[rows.text(0)] = rows.integer(1);
-  }
-  std::int64_t id(const std::string& text) {
-    const auto found = known_.find(text);
-    if (found != known_.end()) return found->second;
-    insert_.run(text);
-    return known_[text] = database_.last_id();
-  }
-
- private:
-  Database& database_;
-  Statement insert_;
-  std::map<std::string, std::int64_t> known_;
-};
+std::map<std::string, Course> entry_courses(Database& database) {
+  return courses_of(database,
+                    "SELECT text, call, verdict, value, noise FROM entry JOIN name ON name.id = "
+                    "entry.name ORDER BY entry.rowid");
+}
 
 void add_call(Database& database, const results::Results& results) {
   std::size_t checks = 0, failures = 0, work = 0;
@@ -216,82 +156,76 @@ void add_call(Database& database, const results::Results& results) {
   const bool all_new =
       std::ranges::none_of(results.runs, [](const results::Run& run) { return run.was_stored; });
   const results::Environment& from = results.environment;
-  Statement(database, "INSERT INTO call VALUES (NULL, ?, ?, ?, ?, ?, ?, ?, ?, ?)")
-      .run(from.date, from.commit, from.processor, from.trammel, results.runs.size(), checks,
-           failures, all_new ? results::Number(cpu_s) : results::Number(), work);
+  database.query("INSERT INTO call VALUES (NULL, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                 {from.date, from.commit, from.processor, from.trammel, results.runs.size(), checks,
+                  failures, all_new ? Json(cpu_s) : Json(), work});
 }
 
-/// Entries that are other than before, also those that a run no longer has.
-void add_entries(Database& database, const results::Results& results, std::int64_t call) {
-  const std::map<std::string, Course> before = courses_of(database);
-  const auto last = [](const auto& item) -> const State& { return item.second.back().second; };
-  Names names(database);
-  Statement entry(database, "INSERT INTO entry VALUES (?, ?, ?, ?, ?)");
-  Statement cost(database, "INSERT INTO cost VALUES (?, ?, ?, ?)");
-  const auto write = [&](const std::string& name, const State& state) {
-    entry.run(call, names.id(name), state.verdict, state.value, state.noise);
+/// The entries of a call: of each course the last that is not newer.
+Entries entries_at(const std::map<std::string, Course>& courses, std::int64_t call) {
+  Entries entries;
+  for (const auto& [name, course] : courses)
+    for (const auto& [since, entry] : course)
+      if (since <= call) entries[name] = entry;
+  return entries;
+}
+
+/// Adds the entries that have changed, also those that a run no longer has.
+void write_entries(Database& database, const results::Results& results, std::int64_t call) {
+  const auto insert = [&](const std::string& name, const char* sql, Row values) {
+    database.query("INSERT OR IGNORE INTO name (text) VALUES (?)", {name});
+    values.insert(values.begin(), call);
+    values.emplace_back(name);
+    database.query(sql, values);
   };
-  for (const results::Run& run : results.runs) {
-    // What an earlier call has measured is no second measurement.
-    if (!run.was_stored) cost.run(call, names.id(name_of(run)), run.cost.cpu_s, work_of(run));
-    const std::map<std::string, State> now = states_of(run);
-    for (const auto& [name, state] : now) {
-      const auto known = before.find(name);
-      if (known == before.end() || !last(*known).same_bits(state)) write(name, state);
-    }
-    const std::string own = name_of(run) + " ";
-    for (auto old = before.lower_bound(own); old != before.end() && old->first.rfind(own, 0) == 0;
-         ++old)
-      if (now.count(old->first) == 0 && last(*old).verdict != "gone")
-        write(old->first, {"gone", std::nullopt, 0});
+  const Entries before = entries_at(entry_courses(database), call), now = entries_of(results);
+  for (const DiffRow& row : diff(before, now)) {
+    const std::string run = row.name.substr(0, row.name.find(' '));
+    if (now.count(run) == 0 || row.name == run) continue;
+    const Entry gone{"gone", std::nullopt, 0};
+    const Entry& entry = row.after ? *row.after : gone;
+    const bool same =
+        row.before && row.before->verdict == entry.verdict && row.before->value == entry.value;
+    if (!same)
+      insert(row.name, "INSERT INTO entry SELECT ?, id, ?, ?, ? FROM name WHERE text = ?",
+             {entry.verdict, number_or_null(entry.value), entry.noise});
   }
+  for (const results::Run& run : results.runs)  // a stored run was measured by an earlier call
+    if (!run.was_stored)
+      insert(name_of(run), "INSERT INTO cost SELECT ?, id, ?, ? FROM name WHERE text = ?",
+             {run.cost.cpu_s, work_of(run)});
 }
 
 std::vector<HistoryCall> calls_of(Database& database) {
   std::vector<HistoryCall> calls;
-  Statement rows(
-      database,
-      "SELECT id, date, commit_id, machine, runs, checks, failures, cpu_s, work FROM call "
-      "ORDER BY id");
-  const auto size = [&](int i) { return static_cast<std::size_t>(rows.integer(i)); };
-  while (rows.step())
-    calls.push_back({rows.integer(0), rows.text(1), rows.text(2), rows.text(3), size(4), size(5),
-                     size(6), size(8), rows.number(7).value_or(0)});
+  for (const Row& row : database.query("SELECT id, date, commit_id, machine, runs, checks, "
+                                       "failures, work, cpu_s FROM call ORDER BY id"))
+    calls.push_back({row[0].get<std::int64_t>(), row[1].get<std::string>(),
+                     row[2].get<std::string>(), row[3].get<std::string>(),
+                     row[4].get<std::size_t>(), row[5].get<std::size_t>(),
+                     row[6].get<std::size_t>(), row[7].get<std::size_t>(),
+                     row[8].is_null() ? 0 : row[8].get<double>()});
   return calls;
 }
 
-/// Counted work as courses of values without noise.
-std::map<std::string, Course> work_courses(Database& database) {
-  std::map<std::string, Course> courses;
-  Statement rows(database,
-                 "SELECT text, call, work FROM cost JOIN name ON name.id = cost.name ORDER BY "
-                 "cost.rowid");
-  while (rows.step()) courses[rows.text(0)].push_back({rows.integer(1), {"", rows.number(2), 0}});
-  return courses;
-}
-
-/// What differs from how it stood at a call, with the first call after it that had that.
+/// What differs from the entries of a call, with the first call after it that had that.
 std::vector<HistoryChange> changes_since(std::int64_t since,
                                          const std::map<std::string, Course>& courses,
                                          const std::vector<HistoryCall>& calls) {
   std::vector<HistoryChange> changes;
-  for (const auto& [name, course] : courses) {
-    const auto later =
-        std::ranges::find_if(course, [&](const auto& step) { return step.first > since; });
-    if (later == course.begin() || later == course.end()) continue;  // new, or as it was
-    const State& before = std::prev(later)->second;
-    const State& now = course.back().second;
-    if (!now.differs(before)) continue;
-    auto first = later;  // since when it has been other than before without a break
-    for (auto step = later; step != course.end(); ++step)
-      if (!step->second.differs(before)) first = std::next(step);
-    const auto call =
-        std::ranges::find_if(calls, [&](const HistoryCall& c) { return c.id == first->first; });
-    changes.push_back(
-        {name, before.verdict, now.verdict, before.value, now.value, call->commit, call->date});
+  const Entries before = entries_at(courses, since), now = entries_at(courses, calls.back().id);
+  for (const DiffRow& row : diff(before, now)) {
+    if (!row.in_both() || !row.after->differs(*row.before)) continue;
+    std::int64_t first = 0;  // call since when it has differed without a break; 0: not yet
+    for (const auto& [call, entry] : courses.at(row.name)) {
+      const bool differs = call > since && entry.differs(*row.before);
+      first = !differs ? 0 : first == 0 ? call : first;
+    }
+    const HistoryCall& call = *std::ranges::find(calls, first, &HistoryCall::id);
+    changes.push_back({row.name, row.before->verdict, row.after->verdict, row.before->value,
+                       row.after->value, call.commit, call.date});
   }
-  std::ranges::stable_sort(
-      changes, [](const auto& a, const auto& b) { return a.of_verdict() && !b.of_verdict(); });
+  std::ranges::stable_partition(changes, &HistoryChange::of_verdict);
   return changes;
 }
 
@@ -302,11 +236,11 @@ std::vector<HistoryDrift> drifts_of(const std::map<std::string, Course>& courses
   for (const auto& [name, course] : courses) {
     std::vector<double> values;
     bool slow = true;
-    for (const auto& [call, state] : course) {
-      slow = slow && state.value && state.verdict == course.front().second.verdict;
+    for (const auto& [call, entry] : course) {
+      slow = slow && entry.value && entry.verdict == course.front().second.verdict;
       if (!slow) break;
-      if (!values.empty() && std::abs(*state.value - values.back()) <= state.noise) continue;
-      values.push_back(*state.value);
+      if (!values.empty() && std::abs(*entry.value - values.back()) <= entry.noise) continue;
+      values.push_back(*entry.value);
     }
     if (!slow || values.size() < kLeast + 1) continue;
     for (std::size_t i = 1; i < values.size(); ++i) {
@@ -327,24 +261,27 @@ std::vector<HistoryDrift> drifts_of(const std::map<std::string, Course>& courses
 void append_history(const fs::path& file, const results::Results& results) {
   Database database(file, true);
   database.execute("BEGIN IMMEDIATE");
-  if (format_of(database) == 0) database.execute(kTables);
+  if (!database.has_tables()) database.execute(kTables);
   add_call(database, results);
-  add_entries(database, results, database.last_id());
+  write_entries(database, results, database.last_id());
   database.execute("COMMIT");
 }
 
 History read_history(const fs::path& file) {
   Database database(file, false);
-  if (format_of(database) == 0)
+  if (!database.has_tables())
     throw InputError(file.string() + ": expected a history (found an empty file)");
   History history;
   history.calls = calls_of(database);
   for (std::size_t i = 0; i + 1 < history.calls.size(); ++i)
     if (history.calls[i].green()) history.since = history.calls[i].id;
-  const auto courses = courses_of(database);
+  const auto courses = entry_courses(database);
   if (history.since > 0) {
     history.changes = changes_since(history.since, courses, history.calls);
-    history.work = changes_since(history.since, work_courses(database), history.calls);
+    const auto work = courses_of(database,
+                                 "SELECT text, call, '', work, 0 FROM cost JOIN name ON name.id = "
+                                 "cost.name ORDER BY cost.rowid");
+    history.work = changes_since(history.since, work, history.calls);
   }
   history.drifts = drifts_of(courses);
   return history;

@@ -180,6 +180,7 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
     case Termination::not_started:
       expected("", "a system that has room for its process");
       break;
+    case Termination::disk_full:  // is a limit of other programs
     case Termination::crashed:
       mark_failed(task.run,
                   "a fault of trammel itself: " + task.run.case_id + ":" + task.run.variant + ": " +

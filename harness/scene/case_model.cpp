@@ -6,7 +6,6 @@
 
 #include "harness/base/text.h"
 #include "harness/readers/frame_reader.h"
-#include "harness/readers/joint_reader.h"
 #include "harness/readers/manipulator_reader.h"
 #include "harness/scene/with_model_errors.h"
 #include "solver/large/large_motion_model.h"
@@ -59,21 +58,16 @@ void check_part_names(const JsonView& model, const solver::Model& bare) {
       if (plate.name != "platform") names.claim(plate.name, *manipulator);
   }
   std::set<std::string> loaded;  // several point masses of a node share a name
-  if (const auto masses = model.find("point_masses")) {
-    for (const auto& [name, place] : masses->entries())
-      if (loaded.insert(place.text("node")).second) names.claim("at-" + place.text("node"), place);
-  }
+  for (const auto& [name, place] : model.entries("point_masses"))
+    if (loaded.insert(place.text("node")).second) names.claim("at-" + place.text("node"), place);
   const auto all = model.get<solver::Index>("elements", 1);
-  if (const auto members = model.find("members")) {
-    for (const auto& [name, place] : members->entries()) {
-      for (const char* suffix : {"", ".start", ".end"}) names.claim(name + suffix, place);
-      if (!place.has("arc_center_m") && !place.has("restrained_motions")) continue;
-      const auto count = place.get<solver::Index>("elements", all);
-      for (solver::Index i = 1; i <= count; ++i) names.claim(name + "." + std::to_string(i), place);
-    }
+  for (const auto& [name, place] : model.entries("members")) {
+    for (const char* suffix : {"", ".start", ".end"}) names.claim(name + suffix, place);
+    if (!place.has("arc_center_m") && !place.has("restrained_motions")) continue;
+    const auto count = place.get<solver::Index>("elements", all);
+    for (solver::Index i = 1; i <= count; ++i) names.claim(name + "." + std::to_string(i), place);
   }
-  if (const auto plates = model.find("plates"))
-    for (const auto& [name, place] : plates->entries()) names.claim(name, place);
+  for (const auto& [name, place] : model.entries("plates")) names.claim(name, place);
 }
 
 }  // namespace
@@ -106,8 +100,9 @@ CaseModel read_case_model(const Document& document) {
             ? solver::build_manipulator(*case_model.manipulator, case_model.motion.front().pose)
             : solver::Model();
     check_part_names(model, bare);
-    case_model.structure = read_structure(model, bare.nodes);
-    case_model.joint_elements = read_joint_elements(model, build_bare_model(case_model, 0));
+    Structure structure = read_structure(model, bare.nodes);
+    case_model.structure = std::move(structure.model);
+    case_model.joint_elements = std::move(structure.joints);
   });
   return case_model;
 }
@@ -156,17 +151,16 @@ InputError model_error(const Document& document, const solver::ModelError& error
   const std::string text = error.what(), message = "expected a model that has a meaning: " + text;
   const JsonView model = JsonView(document)["model"];
   const JsonView analysis = JsonView(document)["analysis"].entries().front().second;
-  for (const auto& [kind, parts] : {std::pair("drive", analysis.find("drives")),
-                                    {"line spring", model.find("axial_springs")},
-                                    {"slider", model.find("sliders")},
-                                    {"rigid body", model.find("rigid_bodies")},
-                                    {"member", model.find("members")},
-                                    {"support", model.find("supports")},
-                                    {"plate", model.find("plates")},
-                                    {"spring", model.find("springs")},
-                                    {"node", model.find("nodes")}}) {
-    if (!parts) continue;
-    for (const auto& [name, part] : parts->entries())
+  for (const auto& [kind, parts] : {std::pair("drive", analysis.entries("drives")),
+                                    {"line spring", model.entries("axial_springs")},
+                                    {"slider", model.entries("sliders")},
+                                    {"rigid body", model.entries("rigid_bodies")},
+                                    {"member", model.entries("members")},
+                                    {"support", model.entries("supports")},
+                                    {"plate", model.entries("plates")},
+                                    {"spring", model.entries("springs")},
+                                    {"node", model.entries("nodes")}}) {
+    for (const auto& [name, part] : parts)
       if (mentions(text, solver::part_label(kind, name, 0))) return part.error(message);
   }
   if (text.rfind("drive ", 0) == 0 && analysis.has("track"))

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/large/geometrically_exact_system.h"
 #include "solver/linear/system.h"
 #include "solver/manipulator/kinematics.h"
 #include "solver/manipulator/trajectory.h"
@@ -73,5 +74,14 @@ void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawin
 /// A rigid manipulator at the first point and, where there are more, at moments of its path.
 [[nodiscard]] Drawing draw_manipulator(const solver::ManipulatorGeometry& geometry,
                                        const std::vector<solver::TrajectoryPoint>& motion);
+
+/// The model in its own pose; nothing where there are more nodes than a picture can show.
+[[nodiscard]] std::optional<Drawing> draw_large_model(
+    const solver::large_motion::GeometricallyExactSystem& system, bool is_manipulator);
+
+/// Where the drawing's nodes are at coordinates q.
+[[nodiscard]] Drawing::Pose draw_large_pose(
+    const solver::large_motion::GeometricallyExactSystem& system, const Eigen::VectorXd& q,
+    const std::string& label);
 
 }  // namespace trammel::harness

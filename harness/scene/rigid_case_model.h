@@ -1,10 +1,19 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "harness/scene/case_model.h"
 #include "solver/manipulator/rigid_dynamics.h"
 
 /// What the analyses of the rigid manipulator take from a scene.
 namespace trammel::harness {
+
+/// Names of the manipulator's parts in quantities.
+inline const std::vector<std::string> kActiveJoints = {"A1", "A2", "A3"},
+                                      kElbows = {"B1", "B2", "B3"},
+                                      kBodies = {"A1-B1", "A2-B2", "A3-B3",   "B1-C1",
+                                                 "B2-C2", "B3-C3", "platform"};
 
 /// The bodies of the scene's manipulator, and gravity.
 /// @throws InputError  where there is no manipulator, or something stands beside it that rigid

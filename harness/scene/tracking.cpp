@@ -5,6 +5,7 @@
 #include "harness/scene/rigid_case_model.h"
 #include "solver/large/consistent_initialization.h"
 #include "solver/large/large_elastodynamics.h"
+#include "solver/large/state_results.h"
 #include "solver/manipulator/rigid_dynamics.h"
 #include "solver/model/numbers.h"
 
@@ -82,6 +83,14 @@ void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& cas
                                            static_cast<solver::Index>(i))});
     }
   }
+}
+
+void record_drives(const solver::large_motion::GeometricallyExactSystem& system,
+                   const solver::large_motion::State& state, Recorder& record) {
+  const std::vector<solver::large_motion::Drive>& drives = system.large_motion().drives;
+  for (std::size_t i = 0; i < drives.size(); ++i)
+    record.add(drives[i].direction == 2 ? "drive_torque_N_m" : "drive_force_N", drives[i].name,
+               drive_force(system, state, static_cast<solver::Index>(i)));
 }
 
 void release_driven_actuators(const JsonView& analysis, const CaseModel& case_model,

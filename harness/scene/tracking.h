@@ -1,5 +1,6 @@
 #pragma once
 
+#include "harness/base/recorder.h"
 #include "harness/input/json_view.h"
 #include "harness/scene/case_model.h"
 #include "solver/large/geometrically_exact_system.h"
@@ -20,6 +21,10 @@ enum class Tracking { angles, torques };
 ///                     for torques, where rigid dynamics would leave something out.
 void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& case_model,
                   const solver::Model& model, solver::large_motion::LargeMotionModel& large_motion);
+
+/// Records the torques and forces of the drives.
+void record_drives(const solver::large_motion::GeometricallyExactSystem& system,
+                   const solver::large_motion::State& state, Recorder& record);
 
 /// Takes away what holds the actuators that are driven or under a torque.
 /// @throws InputError  where one is free: no link is joined to it.

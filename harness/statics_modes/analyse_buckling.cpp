@@ -1,8 +1,7 @@
-#include "harness/statics_modes/analyse_buckling.h"
-
 #include <cmath>
 
-#include "harness/readers/eigen_method.h"
+#include "harness/readers/option_reader.h"
+#include "harness/statics_modes/analyses.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "solver/linear/buckling.h"
 
@@ -34,7 +33,7 @@ StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_mode
   const solver::System system = solver::assemble(build_model(case_model, step));
   const solver::BucklingSolution buckling =
       solver::solve_buckling(system, read_buckling_options(analysis));
-  StepResult result{buckling.outcome, buckling.counters, std::nullopt, {}, buckling.evidence};
+  StepResult result{buckling.outcome, buckling.counters, buckling.evidence};
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!buckling.outcome.solved()) return result;
   if (system.K.rows() == 0) {
@@ -58,7 +57,7 @@ StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_mode
                                          rounded(buckling.checked_factor, 3)
                                    : "the loads change no stiffness, or there are none"});
   warn_of_taper(system.model, result.warnings);
-  record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
+  record.add("degrees_of_freedom", system.K.rows());
   return result;
 }
 

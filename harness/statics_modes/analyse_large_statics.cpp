@@ -1,14 +1,12 @@
-#include "harness/statics_modes/analyse_large_statics.h"
-
 #include <algorithm>
 
 #include "harness/base/text.h"
 #include "harness/readers/joint_reader.h"
-#include "harness/scene/draw_large.h"
+#include "harness/scene/drawing.h"
+#include "harness/scene/observables.h"
 #include "harness/scene/tracking.h"
-#include "harness/statics_modes/analyse_statics.h"
+#include "harness/statics_modes/analyses.h"
 #include "harness/statics_modes/range_warnings.h"
-#include "harness/statics_modes/rotating_state.h"
 #include "solver/large/equilibrium.h"
 #include "solver/large/small_vibration.h"
 #include "solver/large/state_results.h"
@@ -35,18 +33,14 @@ solver::large_motion::StaticPathOptions read_large_statics_options(const JsonVie
 
 void record_point(const GeometricallyExactSystem& system, const PathPoint& point, Recorder& record,
                   std::vector<Warning>& warnings) {
-  record.add("load_factor", "", point.state.load);
-  const solver::StaticSolution solution = static_solution(system, point.state);
-  record_solution(system.model(), solution, -1, record);
+  record.add("load_factor", point.state.load);
+  const ModelState solution{static_solution(system, point.state)};
+  StateRecorder(system.model(), "large-statics").record(solution, record);
   warn_of_strain(system.model(), solution, warnings);
-  for (std::size_t i = 0; i < system.large_motion().drives.size(); ++i) {
-    const solver::large_motion::Drive& drive = system.large_motion().drives[i];
-    record.add(drive.direction == 2 ? "drive_torque_N_m" : "drive_force_N", drive.name,
-               drive_force(system, point.state, static_cast<solver::Index>(i)));
-  }
-  record.add("newton_iterations", "", static_cast<double>(point.newton.correction.size()));
+  record_drives(system, point.state, record);
+  record.add("newton_iterations", point.newton.correction.size());
   if (point.unstable_directions >= 0) {
-    record.add("unstable_directions", "", static_cast<double>(point.unstable_directions));
+    record.add("unstable_directions", point.unstable_directions);
   }
 }
 
@@ -64,17 +58,17 @@ void record_vibration(const GeometricallyExactSystem& system, const PathPoint& p
 void record_events(const std::vector<PathEvent>& events, Recorder& record) {
   for (const PathEvent& event : events) {
     const bool limit = event.kind == PathEvent::Kind::limit_point;
-    record.add(limit ? "limit_load_factor" : "bifurcation_load_factor", "", event.load);
+    record.add(limit ? "limit_load_factor" : "bifurcation_load_factor", event.load);
   }
 }
 
 /// How the last solution was found, iteration by iteration.
 void record_newton(const solver::large_motion::NewtonResult& newton, Recorder& record) {
   for (std::size_t i = 0; i < newton.correction.size(); ++i) {
-    record.add("newton_iteration", "", static_cast<double>(i + 1));
-    record.add("newton_correction", "", newton.correction[i]);
+    record.add("newton_iteration", i + 1);
+    record.add("newton_correction", newton.correction[i]);
     if (i < newton.force_residual.size())
-      record.add("newton_residual_N_m", "", newton.force_residual[i]);
+      record.add("newton_residual_N_m", newton.force_residual[i]);
   }
 }
 

@@ -1,13 +1,15 @@
-#include "harness/statics_modes/analyse_modes.h"
-
 #include <algorithm>
 #include <cmath>
+#include <complex>
 
-#include "harness/readers/eigen_method.h"
+#include "harness/readers/field_reader.h"
+#include "harness/readers/option_reader.h"
+#include "harness/scene/observables.h"
+#include "harness/statics_modes/analyses.h"
 #include "harness/statics_modes/range_warnings.h"
-#include "harness/statics_modes/rotating_state.h"
 #include "solver/linear/modes.h"
 #include "solver/linear/reduction.h"
+#include "solver/linear/rotating_frame.h"
 #include "solver/manipulator/pose_modes.h"
 #include "solver/model/numbers.h"
 
@@ -116,8 +118,77 @@ class ShapeTracker {
   Eigen::MatrixXd last_;  ///< translation x mode of the first point, as it now looks
 };
 
+solver::RotationAxis read_axis(const JsonView& rotating) {
+  const std::string axis = rotating.get<std::string>("axis", "normal");
+  if (axis == "x") return solver::RotationAxis::x;
+  return axis == "y" ? solver::RotationAxis::y : solver::RotationAxis::normal;
+}
+
+/// A moment of the motion at which its largest part is at its largest.
+Eigen::VectorXd snapshot(const Eigen::VectorXcd& shape) {
+  solver::Index largest = 0;
+  shape.cwiseAbs().maxCoeff(&largest);
+  const std::complex<double> turn = std::conj(shape[largest]) / std::abs(shape[largest]);
+  return (turn * shape).real();
+}
+
+/// All that the case states, without the effects and the speed.
+solver::RotatingOptions read_rotating_options(const JsonView& modes) {
+  const JsonView rotating = modes["rotating"];
+  solver::RotatingOptions options;
+  options.count = modes["count"].get<solver::Index>();
+  options.method = read_eigen_method(modes);
+  options.frame.axis = read_axis(rotating);
+  if (rotating.has("center_m")) options.frame.centre = read_point(rotating["center_m"]);
+  options.prestress_at_steady_state =
+      rotating.get<std::string>("prestress_configuration", "deformed") == "deformed";
+  return options;
+}
+
+/// Modes in a steadily rotating frame, key "rotating" of the modes: at one speed, or one number a
+/// speed. Not solved: the first speed without a steady state.
+/// @param effects  of which Coriolis forces and stiffening by tension are decided here
+StepResult analyse_rotating(const JsonView& modes, const solver::System& system,
+                            solver::Effects effects, bool draw, Recorder& record) {
+  const Json& stated = modes["rotating"]["angular_speed_rad_s"].json();
+  const bool several = stated.is_array();
+  const auto speeds =
+      several ? stated.get<std::vector<double>>() : std::vector{stated.get<double>()};
+  solver::RotatingOptions options = read_rotating_options(modes);
+  options.gyroscopic = effects.has(solver::Effect::gyroscopic);
+  options.stiffening = effects.has(solver::Effect::geometric_stiffening);
+  StepResult result{{}, system.counters};
+  if (draw) result.drawing = draw_model(system, false);
+  const StateRecorder recorder(system.model, "modes");
+  for (const double speed : speeds) {
+    options.frame.speed = speed;
+    const solver::RotatingModes found = solver::solve_rotating_modes(system, options);
+    solver::Counters step_counters = found.counters;  // which begin with the system's
+    step_counters.element_evaluations = 0;
+    for (std::size_t i = 0; i < solver::kEffectCount; ++i)
+      step_counters.effects[i] -= system.counters.effects[i];
+    result.counters += step_counters;
+    result.outcome = found.outcome;
+    result.evidence.add(found.evidence);
+    if (!found.outcome.solved()) return result;
+    record.add("angular_speed_rad_s", speed);
+    record_frequencies(found.frequency, found.growth_rate, several, record);
+    record.add("stable", found.stable ? 1 : 0);
+    ModelState state;
+    state.displacement = solver::node_motion(system, found.q);
+    recorder.record(state, record);
+    if (!result.drawing || several) continue;
+    for (solver::Index i = 0; i < std::min(found.frequency.size(), kMaxDrawnShapes); ++i) {
+      result.drawing->shapes.push_back(draw_shape(system, snapshot(found.shape.col(i)),
+                                                  mode_label(i, found.frequency[i], "Hz")));
+    }
+  }
+  record.add("degrees_of_freedom", system.K.rows());
+  return result;
+}
+
 StepResult analyse_modes_at(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
-                            bool draw, Recorder& record, ShapeTracker* tracker = nullptr) {
+                            bool draw, ShapeTracker* tracker, Recorder& record) {
   if (analysis.has("rotating")) {
     refuse(analysis, "count_below_Hz", "rotating", "it counts the modes of the model at rest");
     refuse(analysis, "reduction", "rotating", "it has no Coriolis forces");
@@ -129,7 +200,7 @@ StepResult analyse_modes_at(const JsonView& analysis, const CaseModel& case_mode
   const solver::System system = condensed(
       analysis, case_model, solver::assemble(build_model(case_model, step), case_model.effects));
   const solver::ModalSolution modes = modes_of(analysis, case_model, system);
-  StepResult result{modes.outcome, modes.counters, std::nullopt, {}, modes.evidence};
+  StepResult result{modes.outcome, modes.counters, modes.evidence};
   if (draw) result.drawing = draw_modes(case_model, system, modes);
   if (!modes.outcome.solved()) return result;
   if (modes.frequency.size() == 0) {
@@ -147,34 +218,9 @@ StepResult analyse_modes_at(const JsonView& analysis, const CaseModel& case_mode
     record.add_or_gap("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
   }
   if (tracker != nullptr) tracker->record(system, modes, record);
-  record.add("rigid_body_modes", "", static_cast<double>(modes.zero_energy_mode_count));
-  record.add("degrees_of_freedom", "", static_cast<double>(system.K.rows()));
+  record.add("rigid_body_modes", modes.zero_energy_mode_count);
+  record.add("degrees_of_freedom", system.K.rows());
   return result;
-}
-
-StepResult analyse_modes_alone(const JsonView& analysis, const CaseModel& case_model,
-                               std::size_t step, bool draw, Recorder& record) {
-  return analyse_modes_at(analysis, case_model, step, draw, record);
-}
-
-/// Point by point, as `analyse_steps`.
-StepResult track_modes(const JsonView& analysis, const CaseModel& case_model, bool draw,
-                       Recorder& record) {
-  refuse(analysis, "rotating", "track_shapes", "it has a model at one place");
-  if (!case_model.path) throw analysis["track_shapes"].error("expected a trajectory");
-  ShapeTracker tracker;
-  StepResult all;
-  for (std::size_t step = 0; step < case_model.steps() && all.outcome.solved(); ++step) {
-    record_path(case_model, step, record);
-    StepResult found =
-        analyse_modes_at(analysis, case_model, step, draw && step == 0, record, &tracker);
-    all.counters += found.counters;
-    all.evidence.add(found.evidence);
-    if (found.drawing) all.drawing = std::move(found.drawing);
-    if (!found.outcome.solved())
-      all.outcome = outcome_at_path_point(case_model, step, found.outcome);
-  }
-  return all;
 }
 
 /// Whether the links are condensed in less time than they save, and the joints' matrices, which are
@@ -220,7 +266,6 @@ StepResult analyse_modes_of_poses(const JsonView& analysis, const CaseModel& cas
     result.drawing = draw_modes(case_model, first, solver::solve_modes(first, options));
   }
   for (std::size_t step = 0; step < poses.size(); ++step) {
-    record_path(case_model, step, record);
     result.evidence.add(modes.evidence[step]);
     if (!modes.outcome[step].solved()) {
       result.outcome = outcome_at_path_point(case_model, step, modes.outcome[step]);
@@ -230,9 +275,9 @@ StepResult analyse_modes_of_poses(const JsonView& analysis, const CaseModel& cas
     const auto found = modes.frequency.rows() - modes.frequency.col(column).array().isNaN().count();
     record_modes(modes.frequency.col(column).head(found), modes.roundoff.col(column).head(found),
                  true, record);
-    record.add("rigid_body_modes", "", static_cast<double>(modes.zero_energy_mode_count[step]));
-    record.add("degrees_of_freedom", "", static_cast<double>(modes.free_coordinates));
-    record.add("uncondensed_poses", "", static_cast<double>(modes.by_itself));
+    record.add("rigid_body_modes", modes.zero_energy_mode_count[step]);
+    record.add("degrees_of_freedom", modes.free_coordinates);
+    record.add("uncondensed_poses", modes.by_itself);
   }
   return result;
 }
@@ -241,10 +286,17 @@ StepResult analyse_modes_of_poses(const JsonView& analysis, const CaseModel& cas
 
 StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, bool draw,
                          Recorder& record) {
-  if (analysis.get("track_shapes", false)) return track_modes(analysis, case_model, draw, record);
-  return follows_pose(analysis, case_model)
-             ? analyse_modes_of_poses(analysis, case_model, draw, record)
-             : analyse_steps(analyse_modes_alone, analysis, case_model, draw, record);
+  const bool tracks = analysis.get("track_shapes", false);
+  if (tracks) {
+    refuse(analysis, "rotating", "track_shapes", "it has a model at one place");
+    if (!case_model.path) throw analysis["track_shapes"].error("expected a trajectory");
+  } else if (follows_pose(analysis, case_model)) {
+    return analyse_modes_of_poses(analysis, case_model, draw, record);
+  }
+  ShapeTracker tracker;
+  return analyse_steps(case_model, draw, [&](std::size_t step, bool drawn) {
+    return analyse_modes_at(analysis, case_model, step, drawn, tracks ? &tracker : nullptr, record);
+  });
 }
 
 }  // namespace trammel::harness

@@ -1,7 +1,6 @@
-#include "harness/statics_modes/analyse_properties.h"
-
 #include <cmath>
 
+#include "harness/statics_modes/analyses.h"
 #include "solver/elements/frame_element.h"
 #include "solver/elements/triangle_element.h"
 #include "solver/model/model.h"

@@ -1,10 +1,10 @@
-#include "harness/statics_modes/analyse_sensitivity.h"
-
 #include <cmath>
+#include <iterator>
+#include <optional>
 
-#include "harness/readers/design_parameter.h"
+#include "harness/readers/option_reader.h"
 #include "harness/scene/rigid_case_model.h"
-#include "harness/statics_modes/design_change.h"
+#include "harness/statics_modes/analyses.h"
 #include "harness/statics_modes/frequency_differences.h"
 #include "solver/manipulator/frequency_sensitivity.h"
 
@@ -26,52 +26,49 @@ std::vector<Named> read_parameters(const JsonView& analysis, const CaseModel& ca
   return read;
 }
 
-/// Differences of each parameter in turn: extrapolated, or one quotient where the method has a
-/// step.
-solver::FrequencySensitivity derive_by(const JsonView& method, const CaseModel& case_model,
-                                       const std::vector<solver::DesignParameter>& parameters,
-                                       solver::Index count) {
+/// Derivatives by differences: extrapolated, or one quotient if the method has a step.
+FrequencyDifferences differences_of(const std::optional<JsonView>& method,
+                                    const CaseModel& case_model,
+                                    const solver::DesignParameter& parameter, solver::Index count) {
   const solver::ManipulatorDesign& design = *case_model.manipulator;
   const solver::Pose& pose = case_model.motion.front().pose;
+  if (!method || method->json().is_string())
+    return differentiate_frequencies(design, pose, parameter, count);
+  const auto [name, numbers] = method->entries().front();
+  return difference_quotient(design, pose, parameter, count, numbers.number("relative_step"),
+                             name == "central-difference");
+}
+
+/// Exact derivatives, and differences for the parameters that do not have them; or differences
+/// alone.
+solver::FrequencySensitivity derive(const JsonView& analysis, const CaseModel& case_model,
+                                    const std::vector<solver::DesignParameter>& parameters,
+                                    bool exactly) {
+  const auto method = analysis.find("method");
+  auto count = analysis["count"].get<solver::Index>();
   solver::FrequencySensitivity all;
+  if (exactly) {
+    all = solver::frequency_sensitivity(*case_model.manipulator, case_model.motion.front().pose,
+                                        parameters, count);
+    count = all.frequency.size();
+  }
   for (std::size_t p = 0; p < parameters.size() && all.outcome.solved(); ++p) {
-    FrequencyDifferences one;
-    if (method.json() == "extrapolated-differences") {
-      one = differentiate_frequencies(design, pose, parameters[p], count);
-    } else {
-      const auto [name, numbers] = method.entries().front();
-      one = difference_quotient(design, pose, parameters[p], count, numbers.number("relative_step"),
-                                name == "central-difference");
-    }
+    if (exactly && solver::is_seeded(parameters[p].kind)) continue;
+    const FrequencyDifferences one = differences_of(method, case_model, parameters[p], count);
     all.counters += one.counters;
     all.outcome = one.outcome;
     all.evidence.add(one.evidence);
-    all.frequency = one.frequency;
-    all.derivative.conservativeResize(one.derivative.size(), static_cast<solver::Index>(p) + 1);
+    if (!all.outcome.solved()) break;
+    if (!exactly) {
+      all.frequency = one.frequency;
+      all.derivative.conservativeResize(one.derivative.size(), std::ssize(parameters));
+    }
     all.derivative.col(static_cast<solver::Index>(p)) = one.derivative;
+    if (exactly && !one.derivative.allFinite())
+      all.outcome = {solver::Status::singular,
+                     "a limb is straight or folded: no step leaves it in reach"};
   }
   return all;
-}
-
-/// Fills the columns of parameters without exact derivatives by differences.
-void differentiate_numerically(const CaseModel& case_model,
-                               const std::vector<solver::DesignParameter>& parameters,
-                               solver::FrequencySensitivity& result) {
-  for (std::size_t p = 0; p < parameters.size() && result.outcome.solved(); ++p) {
-    if (solver::is_seeded(parameters[p].kind)) continue;
-    const FrequencyDifferences found =
-        differentiate_frequencies(*case_model.manipulator, case_model.motion.front().pose,
-                                  parameters[p], result.frequency.size());
-    result.outcome = found.outcome;
-    result.evidence.add(found.evidence);
-    result.counters += found.counters;
-    if (!result.outcome.solved()) return;
-    result.derivative.col(static_cast<solver::Index>(p)) = found.derivative;
-    if (!found.derivative.allFinite()) {
-      result.outcome = {solver::Status::singular,
-                        "a limb is straight or folded: no step leaves it in reach"};
-    }
-  }
 }
 
 /// Error of the derivative against extrapolated differences, as a share of frequency over
@@ -80,8 +77,8 @@ void record_differences(const CaseModel& case_model, const Named& named,
                         const solver::FrequencySensitivity& found, solver::Index column,
                         Recorder& record, StepResult& result) {
   const solver::Index count = found.frequency.size();
-  const FrequencyDifferences differences = differentiate_frequencies(
-      *case_model.manipulator, case_model.motion.front().pose, named.parameter, count);
+  const FrequencyDifferences differences =
+      differences_of(std::nullopt, case_model, named.parameter, count);
   if (!differences.outcome.solved()) {
     result.outcome = differences.outcome;
     return;
@@ -105,27 +102,19 @@ StepResult analyse_sensitivity(const JsonView& analysis, const CaseModel& case_m
   std::vector<solver::DesignParameter> parameters;
   parameters.reserve(named.size());
   for (const Named& one : named) parameters.push_back(one.parameter);
-  const auto count = analysis["count"].get<solver::Index>();
   const auto method = analysis.find("method");
   const bool exactly = !method || method->json() == "energies";
-  solver::FrequencySensitivity found;
-  if (exactly) {
-    found = solver::frequency_sensitivity(*case_model.manipulator, case_model.motion.front().pose,
-                                          parameters, count);
-    differentiate_numerically(case_model, parameters, found);
-  } else {
-    found = derive_by(*method, case_model, parameters, count);
-  }
-  StepResult result{found.outcome, found.counters, std::nullopt, {}, found.evidence};
+  const solver::FrequencySensitivity found = derive(analysis, case_model, parameters, exactly);
+  StepResult result{found.outcome, found.counters, found.evidence};
   if (draw) result.drawing = draw_model(solver::assemble(build_model(case_model, 0)), true);
   if (!found.outcome.solved()) return result;
   for (solver::Index i = 0; i < found.frequency.size(); ++i) {
-    record.add("frequency_Hz", "", found.frequency[i]);
-    if (exactly && std::isfinite(found.gap[i])) record.add("frequency_gap", "", found.gap[i]);
+    record.add("frequency_Hz", found.frequency[i]);
+    if (exactly && std::isfinite(found.gap[i])) record.add("frequency_gap", found.gap[i]);
   }
   for (const solver::FrequencySet& set : found.sets) {
     for (solver::Index i = 0; i < set.count; ++i) {
-      record.add("multiplicity", "", static_cast<double>(set.count));
+      record.add("multiplicity", set.count);
     }
   }
   for (std::size_t p = 0; p < named.size(); ++p) {

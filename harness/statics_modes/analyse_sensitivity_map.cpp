@@ -1,14 +1,13 @@
-#include "harness/statics_modes/analyse_sensitivity_map.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "harness/base/numbers.h"
 #include "harness/base/text.h"
-#include "harness/readers/design_parameter.h"
+#include "harness/readers/option_reader.h"
 #include "harness/scene/rigid_case_model.h"
-#include "harness/statics_modes/design_change.h"
+#include "harness/statics_modes/analyses.h"
+#include "harness/statics_modes/frequency_differences.h"
 #include "solver/manipulator/sensitivity_map.h"
 
 namespace trammel::harness {
@@ -43,15 +42,6 @@ double for_map(double value) {
   return std::round(value / unit) * unit;
 }
 
-void record_position(const solver::SensitivityMap& map, solver::Index j, solver::Index i,
-                     const std::string& quantity, const std::string& item, Recorder& record) {
-  const solver::Pose pose = map.grid.pose(j, i);
-  record.add("position_x_m", item, for_map(pose.x));
-  record.add("position_y_m", item, for_map(pose.y));
-  record.add("frequency_Hz", item, for_map(map.frequency(j, i)));
-  record.add(quantity, item, for_map(map.derivative(j, i)));
-}
-
 /// @param positions  record each of them, too
 Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
                  const std::string& item, double margin, bool positions, Recorder& record) {
@@ -61,7 +51,13 @@ Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
     for (solver::Index i = 0; i < map.grid.columns; ++i) {
       const double rate = map.derivative(j, i);
       if (!std::isfinite(rate)) continue;  // out of reach, or on its boundary
-      if (positions) record_position(map, j, i, quantity, item, record);
+      if (positions) {
+        const solver::Pose pose = map.grid.pose(j, i);
+        record.add("position_x_m", item, for_map(pose.x));
+        record.add("position_y_m", item, for_map(pose.y));
+        record.add("frequency_Hz", item, for_map(map.frequency(j, i)));
+        record.add(quantity, item, for_map(rate));
+      }
       reading.mean_frequency += map.frequency(j, i);
       reading.mean += rate;
       ++count;

@@ -5,7 +5,6 @@
 #include <limits>
 #include <vector>
 
-#include "harness/statics_modes/design_change.h"
 #include "solver/linear/modes.h"
 #include "solver/manipulator/frequency_sensitivity.h"
 
@@ -19,6 +18,43 @@ using solver::Index;
 using solver::ManipulatorDesign;
 using solver::ModalSolution;
 using solver::Pose;
+using solver::Vector2d;
+using Kind = DesignParameter::Kind;
+
+/// Calls visit(value) for each number of links, platform and joints that the parameter names.
+template <class Visit>
+void for_each_value(ManipulatorDesign& design, const DesignParameter& parameter, Visit&& visit) {
+  const Kind kind = parameter.kind;
+  const bool length = kind == Kind::length;
+  const auto meet = [&visit](double* x) {
+    if (x != nullptr) visit(*x);
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (kind == Kind::active_stiffness && design.active[i].kind == solver::ActiveKind::sprung)
+      visit(design.active[i].stiffness);
+    if (kind == Kind::elbow_stiffness && design.elbow[i].kind == solver::ElbowKind::sprung)
+      visit(design.elbow[i].stiffness);
+    if (kind == Kind::platform_joint_stiffness &&
+        design.platform_joint[i].kind == solver::PlatformJointKind::sprung)
+      visit(design.platform_joint[i].stiffness);
+    if (parameter.proximal[i])
+      meet(length ? &design.geometry.proximal[i]
+                  : solver::detail::link_number(design.proximal[i], kind));
+    if (parameter.distal[i])
+      meet(length ? &design.geometry.distal[i]
+                  : solver::detail::link_number(design.distal[i], kind));
+  }
+  if (parameter.platform) meet(solver::detail::number(design.platform, kind));
+}
+
+double side(const std::array<Vector2d, 3>& triangle) {
+  return (triangle[1] - triangle[0]).norm();
+}
+
+void grow(std::array<Vector2d, 3>& triangle, const Vector2d& about, double change) {
+  const double factor = change / side(triangle);
+  for (Vector2d& corner : triangle) corner += factor * (corner - about);
+}
 
 constexpr int kRows = 7;
 constexpr double kRatio = 1.6;
@@ -144,6 +180,55 @@ class Differences {
 };
 
 }  // namespace
+
+DesignInPose perturbed(const ManipulatorDesign& design, const solver::Pose& pose,
+                       const DesignParameter& parameter, double change) {
+  DesignInPose changed{design, pose};
+  ManipulatorDesign& result = changed.design;
+  switch (parameter.kind) {
+    case Kind::base_side:
+      grow(result.geometry.base, design.geometry.base[0], change);
+      break;
+    case Kind::platform_side:
+      grow(result.geometry.platform, Vector2d::Zero(), change);
+      break;
+    case Kind::platform_mass:
+      result.platform.mass = solver::platform_mass(design).mass + change;
+      break;
+    case Kind::platform_inertia:
+      result.platform.inertia = parameter_value(design, parameter) + change;
+      break;
+    case Kind::orientation:
+      changed.pose.phi += change;
+      break;
+    default:
+      for_each_value(result, parameter, [change](double& x) { x += change; });
+  }
+  return changed;
+}
+
+double parameter_value(const ManipulatorDesign& design, const DesignParameter& parameter) {
+  ManipulatorDesign copy = design;
+  double largest = 0;
+  switch (parameter.kind) {
+    case Kind::base_side:
+      return side(design.geometry.base);
+    case Kind::platform_side:
+      return side(design.geometry.platform);
+    case Kind::platform_mass:
+      return solver::platform_mass(design).mass;
+    case Kind::platform_inertia: {
+      if (design.platform.kind != solver::PlatformKind::rigid) return 0;
+      const solver::PlatformMass mass = solver::platform_mass(design);
+      return design.platform.inertia.value_or(mass.inertia + mass.mass * mass.center.squaredNorm());
+    }
+    case Kind::orientation:
+      return 1;
+    default:
+      for_each_value(copy, parameter, [&](double& x) { largest = std::max(largest, x); });
+      return largest;
+  }
+}
 
 FrequencyDifferences differentiate_frequencies(const ManipulatorDesign& design, const Pose& pose,
                                                const DesignParameter& parameter, Index count,

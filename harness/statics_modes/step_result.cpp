@@ -10,6 +10,15 @@ std::string mode_label(solver::Index mode, double number, const char* unit) {
   return fmt::format("mode {}, {:.4g} {}", mode + 1, number, unit);
 }
 
+void record_frequencies(const Eigen::VectorXd& frequency, const Eigen::VectorXd& growth_rate,
+                        bool several, Recorder& record, const Eigen::VectorXd& roundoff) {
+  for (solver::Index i = 0; i < frequency.size(); ++i) {
+    const std::string item = several ? std::to_string(i + 1) : "";
+    record.add("frequency_Hz", item, frequency[i], roundoff.size() > 0 ? roundoff[i] : -1);
+    record.add("growth_rate_per_s", item, growth_rate[i]);
+  }
+}
+
 namespace {
 
 /// The first drawing stays, and holds those of later points of the path as moments.
@@ -26,14 +35,13 @@ void add_moment(const CaseModel& case_model, std::size_t step, Drawing found,
 
 }  // namespace
 
-StepResult analyse_steps(StepAnalysis analyse_step, const JsonView& analysis,
-                         const CaseModel& case_model, bool draw, Recorder& record) {
+StepResult analyse_steps(
+    const CaseModel& case_model, bool draw,
+    const std::function<StepResult(std::size_t step, bool draw)>& analyse_step) {
   StepResult all;
   const std::size_t stride = std::max<std::size_t>(case_model.steps() / 24, 1);
   for (std::size_t step = 0; step < case_model.steps(); ++step) {
-    record_path(case_model, step, record);
-    const bool drawn = draw && step % stride == 0;
-    StepResult found = analyse_step(analysis, case_model, step, drawn, record);
+    StepResult found = analyse_step(step, draw && step % stride == 0);
     all.counters += found.counters;
     all.evidence.add(found.evidence);
     add_warnings(all.warnings, found.warnings);
@@ -43,15 +51,6 @@ StepResult analyse_steps(StepAnalysis analyse_step, const JsonView& analysis,
     break;
   }
   return all;
-}
-
-void record_path(const CaseModel& case_model, std::size_t step, Recorder& record) {
-  if (!case_model.path) return;
-  const solver::TrajectoryPoint& point = case_model.motion[step];
-  record.add("time_s", "", point.time);
-  record.add("pose_x_m", "", point.pose.x);
-  record.add("pose_y_m", "", point.pose.y);
-  record.add("pose_phi_rad", "", point.pose.phi);
 }
 
 solver::Outcome outcome_at_path_point(const CaseModel& case_model, std::size_t step,

@@ -7,7 +7,7 @@
 #include "harness/base/data_root.h"
 #include "harness/base/json_file.h"
 #include "harness/base/statistic.h"
-#include "harness/base/table.h"
+#include "harness/base/rows.h"
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
 #include "harness/judge/tracked_quantity.h"

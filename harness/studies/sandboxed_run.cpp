@@ -1,7 +1,6 @@
 #include "harness/studies/sandboxed_run.h"
 
 #include <array>
-#include <cmath>
 #include <exception>
 
 #include "harness/analysis/analysis.h"
@@ -38,16 +37,9 @@ Json answer(const Setting& setting, const References& references) {
   return json;
 }
 
-std::vector<double> numbers(const Json& list) {
-  std::vector<double> values;
-  for (const Json& value : list)
-    values.push_back(value.is_null() ? std::nan("") : value.get<double>());
-  return values;
-}
-
 SandboxedRun read_answer(const std::string& text) {
   SandboxedRun sandboxed;
-  const Json json = Json::parse(text, nullptr, false);
+  const Json json = Json::from_cbor(text, true, false);
   if (json.is_discarded()) {
     sandboxed.reason = "the computation ended without an answer";
     return sandboxed;
@@ -61,9 +53,8 @@ SandboxedRun read_answer(const std::string& text) {
     sandboxed.reason = json.at("failure").get<std::string>();
     return sandboxed;
   }
-  for (const Json& list : json.at("values")) sandboxed.values.push_back(numbers(list));
-  for (const auto& item : json.at("quantities").items())
-    sandboxed.quantities[item.key()] = numbers(item.value());
+  sandboxed.values = json.at("values").get<Observations>();
+  sandboxed.quantities = json.at("quantities").get<decltype(sandboxed.quantities)>();
   sandboxed.termination = SandboxedRun::Termination::solved;
   return sandboxed;
 }
@@ -72,21 +63,20 @@ SandboxedRun read_answer(const std::string& text) {
 
 SandboxedRun run_sandboxed(const Setting& setting, int time_limit_s, const References& references,
                            const std::function<void()>& waiting) {
+  const auto work = [&] {
+    const std::vector<std::uint8_t> bytes = Json::to_cbor(answer(setting, references));
+    return std::string(bytes.begin(), bytes.end());
+  };
+  const ProcessOutcome outcome =
+      run_limited({work, static_cast<unsigned>(time_limit_s)}, {1, memory_limit_bytes(), waiting});
+  if (outcome.termination == ProcessOutcome::Termination::answered)
+    return read_answer(outcome.text);
   SandboxedRun sandboxed;
-  const auto end = [&](std::size_t, const ProcessOutcome& outcome) {
-    if (outcome.termination == ProcessOutcome::Termination::answered) {
-      sandboxed = read_answer(outcome.text);
-      return;
-    }
-    sandboxed.reason = outcome.text;
-    if (outcome.termination != ProcessOutcome::Termination::timed_out) return;
+  sandboxed.reason = outcome.text;
+  if (outcome.termination == ProcessOutcome::Termination::timed_out) {
     sandboxed.termination = SandboxedRun::Termination::timed_out;
     sandboxed.cpu_s = time_limit_s;
-  };
-  const auto work = [&] { return answer(setting, references).dump(-1, ' ', true); };
-  const int signal = run_in_processes({{work, static_cast<unsigned>(time_limit_s)}},
-                                      {1, memory_limit_bytes(), waiting}, end);
-  if (signal != 0) throw Interrupted(signal);
+  }
   return sandboxed;
 }
 

@@ -59,9 +59,8 @@ std::vector<double> expand(const Json& stated, const std::string& file, const ch
   } else {
     fail(file, pointer, "a number or " + std::to_string(count) + " of them, one a value");
   }
-  for (const double value : half_widths) {
+  for (const double value : half_widths)
     if (!(value >= 0)) fail(file, pointer, "numbers that are not negative");
-  }
   return half_widths;
 }
 
@@ -81,9 +80,7 @@ std::vector<double> read_uncertainty(const Json& json, const Reference& referenc
     }
     return half_widths;
   }
-  if (reference.printed.empty()) {
-    fail(file, "/", "'uncertainty', or 'printed' digits that tell it");
-  }
+  if (reference.printed.empty()) fail(file, "/", "'uncertainty', or 'printed' digits that tell it");
   std::vector<double> half_widths;
   for (std::size_t i = 0; i < reference.printed.size(); ++i) {
     // Where the digits are in another unit or corrected, they say nothing about the value.
@@ -143,6 +140,7 @@ Reference read_reference(const Json& json, const std::string& name) {
   read.printed = optional<std::vector<std::string>>(json, name, "printed", "an array of texts");
   read.errata = optional<std::vector<std::string>>(json, name, "errata", "an array of texts");
   read.notes = optional<std::string>(json, name, "notes", "text");
+  if (json.contains("probabilities")) read.probabilities = json.at("probabilities").dump();
   if (json.contains("derivation")) read.derivation = describe_derivation(json.at("derivation"));
   if (read.values.empty()) fail(name, "/values", "at least one number");
   if (!read.printed.empty() && read.printed.size() != read.values.size()) {

@@ -24,6 +24,8 @@ struct Reference {
   std::string derivation;            ///< program and arguments in words; empty where none
   std::vector<std::string> errata;   ///< what is wrong with the source, and how it was shown
   std::string notes;
+  /// Probabilities of readings of a model, as JSON text; empty if the values are all.
+  std::string probabilities;
 };
 
 [[nodiscard]] const char* to_string(ReferenceKind kind);

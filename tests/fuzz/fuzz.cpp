@@ -15,8 +15,8 @@
 
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
+#include "harness/base/rows.h"
 #include "harness/base/stopwatch.h"
-#include "harness/base/table.h"
 #include "tests/fuzz/target.h"
 
 // Runs the program's own readers and analyses on inputs that are wrong in a way, many in each of a
@@ -155,15 +155,14 @@ std::size_t tell(Board& board, const Maker& make, const std::string& what, const
               << "): " << to_string(outcome) << ": " << board[i].message.data() << "\n  "
               << input.how << '\n';
   }
-  std::vector<std::string> head = {"kind", ">inputs"};
-  for (std::size_t i = 1; i < kOutcomes; ++i)
-    head.push_back(std::string(">") + to_string(Outcome(i)));
-  harness::Table table(head);
+  std::vector<harness::Column> columns = {"kind", "inputs"};
+  for (std::size_t i = 1; i < kOutcomes; ++i) columns.emplace_back(to_string(Outcome(i)));
+  harness::Rows table(columns);
   for (const auto& [kind, count] : counts) {
     std::size_t inputs = 0;
     for (const std::size_t n : count) inputs += n;
-    std::vector<std::string> row = {kind, std::to_string(inputs)};
-    for (std::size_t i = 1; i < kOutcomes; ++i) row.push_back(std::to_string(count[i]));
+    std::vector<harness::Json> row = {kind, inputs};
+    for (std::size_t i = 1; i < kOutcomes; ++i) row.emplace_back(count[i]);
     table.add(row);
   }
   table.print(std::cout);

@@ -9,8 +9,7 @@
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
-#include "harness/cli/command_compare.h"
-#include "harness/cli/command_line.h"
+#include "harness/cli/commands.h"
 #include "harness/input/catalogue.h"
 #include "harness/judge/evaluate_check.h"
 #include "harness/run/claims.h"
@@ -87,7 +86,7 @@ void take_claims(const fs::path& file) {
     run.result = analyse(patched(some, kBaseVariant), References(), {false});
     runs.push_back(std::move(run));
   }
-  (void)results::claims_to_json(claim_results(evaluate_claims(claims, runs)));
+  (void)results::claims_to_json(evaluate_claims(claims, runs));
 }
 
 void take_results(const fs::path& file, const fs::path& sample) {
@@ -96,8 +95,8 @@ void take_results(const fs::path& file, const fs::path& sample) {
   } catch (const std::runtime_error& error) {
     throw InputError(error.what());  // read by the reports, which do not know the harness
   }
-  CompareCommand compare;
-  compare.sides = {file.string(), sample.string()};
+  CommandOptions compare;
+  compare.words = {file.string(), sample.string()};
   (void)compare_command(compare, {});
 }
 

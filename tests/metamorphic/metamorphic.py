@@ -112,13 +112,14 @@ def main():
     parser.add_argument("--sample", type=int, help="number of computations, drawn by the seed, without slow cases")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--cases", default="", help="regular expression of CASE:VARIANT, CASE:VARIANT:LEVEL")
+    parser.add_argument("--folder", type=pathlib.Path, default=CASES, help="folder of the cases")
     parser.add_argument("--transformations", nargs="*", default=list(ALL), choices=list(ALL))
     parser.add_argument("--limit", type=float, default=60, help="longest time of one run [s]")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="computations at a time")
     parser.add_argument("--keep", type=pathlib.Path, help="folder for transformed cases that differ")
     options = parser.parse_args()
     exceptions = json.loads((HERE / "exceptions.json").read_text())
-    order = [c for c in computations(CASES) if re.search(options.cases, c.name)]
+    order = [c for c in computations(options.folder) if re.search(options.cases, c.name)]
     random.Random(options.seed).shuffle(order)
     if options.sample:
         order = [c for c in order if not c.is_slow][:options.sample]

@@ -6,22 +6,24 @@ import json
 import math
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 
+from metamorphic import run_program
 from store import read_run
 
 STEEL = {"steel": {"E_Pa": 2e11, "rho_kg_m3": 7800, "nu": 0.3}}
 BAR = {"b": {"material": "steel", "rectangle": {"thickness_m": 0.1, "width_m": 0.05}}}
 
 
-def run(*command):
-    return subprocess.run(command, capture_output=True, text=True, check=False)
-
-
 def turned(point, angle):
     return [math.cos(angle) * point[0] - math.sin(angle) * point[1], math.sin(angle) * point[0] + math.cos(angle) * point[1]]
+
+
+def cantilever(turn=0.0, **member):
+    """Returns a cantilever of 2 m, turned about its clamp A."""
+    return {"materials": STEEL, "sections": BAR, "nodes": {"A": [0, 0], "B": turned([2, 0], turn)},
+            "supports": {"A": ["x", "y", "rotation"]}, "members": {"AB": {"nodes": ["A", "B"], "section": "b", **member}}}
 
 
 class Neighbor:
@@ -165,10 +167,7 @@ def reduced_members():
     """Section forces of a reduced cantilever under line loads at 0 Hz: q L at the clamp."""
     for axial, across, elements, modes, turn in ((40, -300, 8, 2, 0), (40, -300, 8, 0, 0.6), (-7, 1e3, 4, 1, -1.1), (1e4, 1, 16, 4, 2.5),
                                                  (0, 50, 2, 1, 0.2)):
-        model = {"materials": STEEL, "sections": BAR, "nodes": {"A": [0, 0], "B": turned([2, 0], turn)},
-                 "supports": {"A": ["x", "y", "rotation"]},
-                 "members": {"AB": {"nodes": ["A", "B"], "section": "b", "elements": elements,
-                                    "load_N_per_m": turned([axial, across], turn)}}}
+        model = cantilever(turn, elements=elements, load_N_per_m=turned([axial, across], turn))
         analysis = {"harmonic": {"from_Hz": 0, "to_Hz": 1, "points": 2, "reduction": {"fixed_interface_modes": modes},
                                  "outputs": ["axial_force_N:AB.start", "shear_force_N:AB.start"]}}
         for output, load in (("axial_force_N:AB.start", axial), ("shear_force_N:AB.start", across)):
@@ -221,16 +220,14 @@ def redundant():
 
 def coarse():
     """Meshes that are too coarse for the highest mode or for a taper."""
-    cantilever = {"materials": STEEL, "sections": BAR, "nodes": {"A": [0, 0], "B": [2, 0]}, "supports": {"A": ["x", "y", "rotation"]}}
     tip = {"t": {"material": "steel", "rectangle": {"thickness_m": 0.01, "width_m": 0.05}}}
     for elements, modes, warned in ((1, 1, True), (1, 3, True), (2, 4, True), (16, 3, False), (32, 4, False)):
-        member = {"AB": {"nodes": ["A", "B"], "section": "b", "elements": elements}}
-        yield Neighbor("coarse mesh", f"modes, {elements} elements, {modes} modes", dict(cantilever, members=member),
+        yield Neighbor("coarse mesh", f"modes, {elements} elements, {modes} modes", cantilever(elements=elements),
                        {"modes": {"count": modes}}, "warning", "dimensionless wave number" if warned else "none")
     for elements, kind, warned in ((1, "statics", True), (2, "statics", True), (2, "buckling", True), (1, "modes", True),
                                    (64, "statics", False)):
-        member = {"AB": {"nodes": ["A", "B"], "section": "b", "end_section": "t", "elements": elements}}
-        model = dict(cantilever, members=member, sections=BAR | tip, loads={"p": {"node": "B", "force_N": [-1, 0]}})
+        model = cantilever(end_section="t", elements=elements)
+        model.update(sections=BAR | tip, loads={"p": {"node": "B", "force_N": [-1, 0]}})
         options = {"statics": {}, "buckling": {"count": 1}, "modes": {"count": 1}}[kind]
         yield Neighbor("coarse mesh", f"{kind} of a taper, {elements} elements", model, {kind: options}, "warning",
                        "ratio of stiffness at the ends of an element" if warned else "none")
@@ -250,10 +247,7 @@ def pulses():
         model = {
             "nodes": {"G": [0, 0], "H": [1, 0]},
             "supports": {"G": ["y"], "H": ["x", "y"]},
-            "point_masses": {
-                "G": {"node": "G", "mass_kg": mass, "inertia_kg_m2": 1},
-                "H": {"node": "H", "mass_kg": 1, "inertia_kg_m2": 1},
-            },
+            "point_masses": {n: {"node": n, "mass_kg": m, "inertia_kg_m2": 1} for n, m in (("G", mass), ("H", 1))},
             "loads": {"l": {"node": "G", "force_N": [force, 0]}},
         }
         for step in (0.01, 0.003):
@@ -271,13 +265,7 @@ def bases():
     for modes, share in enumerate((0.6131, 0.1883, 0.0647, 0.0331, 0.0200), 1):
         held += share
         turn = 0.4 * modes
-        model = {
-            "materials": STEEL,
-            "sections": BAR,
-            "nodes": {"A": [0, 0], "B": turned([2, 0], turn)},
-            "supports": {"A": ["x", "y", "rotation"]},
-            "members": {"AB": {"nodes": ["A", "B"], "section": "b", "elements": 128, "axial": "inextensible"}},
-        }
+        model = cantilever(turn, elements=128, axial="inextensible")
         analysis = {
             "transient": {
                 "duration_s": 0.01,
@@ -329,20 +317,12 @@ def tensions():
         (1e8, 1e-3, 2, 2.2),
     ):
         nodes = {"A": [0, 0], "B": [length, 0], "C": [0, 1], "D": [length, 1]}
-        model = {
-            "materials": STEEL,
-            "sections": BAR,
-            "nodes": {n: turned(p, turn) for n, p in nodes.items()},
-            "members": {
-                "AB": {"nodes": ["A", "B"], "section": "b", "elements": 8},
-                "CD": {"nodes": ["C", "D"], "section": "b", "elements": 8},
-            },
-            "supports": {n: ["x", "y", "rotation"] for n in "AC"},
-            "loads": {
-                "push": {"node": "B", "force_N": turned([-push, 0], turn)},
-                "pull": {"node": "D", "force_N": turned([pull, 0], turn)},
-            },
-        }
+        model = cantilever()
+        model["nodes"] = {n: turned(p, turn) for n, p in nodes.items()}
+        model["members"] = {pair: {"nodes": list(pair), "section": "b", "elements": 8} for pair in ("AB", "CD")}
+        model["supports"]["C"] = model["supports"]["A"]
+        loads = {"push": ("B", -push), "pull": ("D", pull)}
+        model["loads"] = {name: {"node": node, "force_N": turned([force, 0], turn)} for name, (node, force) in loads.items()}
         yield Neighbor(
             "buckling with large tension",
             f"pull {pull:g} N, push {push:g} N, {length} m, turned {turn} rad",
@@ -370,13 +350,13 @@ def main():
                                              "analysis": neighbor.analysis}))
         refused = {f"n{i}": files[i] for i, n in enumerate(neighbors) if n.quantity == "refusal"}
         solved = [file for file in files if file not in refused.values()]
-        answer = run(sys.argv[1], "run", *solved, "--out", folder / "out")
+        answer = run_program(sys.argv[1], "run", *solved, "--out", folder / "out")
         if not (folder / "out" / "results.json").exists():
             print(answer.stderr)
             return 1
         runs = {r["case"]: r for r in json.loads((folder / "out" / "results.json").read_text())["runs"]}
         for name, file in refused.items():  # one bad file refuses the call
-            answer = run(sys.argv[1], "run", file)
+            answer = run_program(sys.argv[1], "run", file)
             message = answer.stderr.partition(": ")[2].strip()
             runs[name] = {"status": f"exit status {answer.returncode}", "refused": message}
         print("| kind | neighbor | obtained | right |\n|---|---|---|---|")

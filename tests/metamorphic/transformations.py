@@ -399,8 +399,6 @@ def rescale(base, power):
         model, analysis = plane_only(case)
         if analysis_value(analysis, "drives") or analysis_value(analysis, "rotating_frame"):
             raise Skip("the unit of a law depends on its motion")
-        if "model-probabilities" in analysis:
-            raise Skip("the frequencies that were observed are references in Hz")
         model = {key: visit(value, "") for key, value in model.items() if key not in ("nodes", "gravity_m_s2")}
         if "nodes" in case["model"]:
             model["nodes"] = {k: [c * factor("at_m") for c in p] for k, p in case["model"]["nodes"].items()}
@@ -454,16 +452,18 @@ def scale_loads(case):
     if "statics" not in analysis or analysis["statics"].get("second_order") or "effects" in case:
         raise Skip("the analysis is not linear in the loads")
 
-    def visit(value):
-        for key, item in value.items() if isinstance(value, dict) else []:
-            if key in ("force_N", "load_N_per_m", "traction_Pa", "gravity_m_s2"):
-                value[key] = [2 * f for f in item]
-            elif key in ("moment_N_m", "normal_Pa"):
-                value[key] = 2 * item
-            else:
-                visit(item)
-    visit(model)
+    multiply_loads(model, 2)
     return case, Law(loads=2.0)
+
+
+def multiply_loads(value, factor):
+    for key, item in value.items() if isinstance(value, dict) else []:
+        if key in ("force_N", "load_N_per_m", "traction_Pa", "gravity_m_s2"):
+            value[key] = [factor * f for f in item]
+        elif key in ("moment_N_m", "normal_Pa"):
+            value[key] = factor * item
+        else:
+            multiply_loads(item, factor)
 
 
 ALL = {"rotate": rotate, "translate": translate, "mirror": mirror, "rename": rename, "reverse": reverse,

@@ -126,7 +126,7 @@ class Build:
         archives = [w for w in words if w.endswith(".a") and w in self.rule and w != target]
         return {w for w in words if w.endswith(".o")}.union(*(self.objects(a) for a in archives))
 
-    def compile(self, name, option=""):
+    def compile(self, name):
         """Compiles an object from the copy of the sources. @returns  errors"""
         entry, made = self.rule[name], self.out / "objects" / name
         made.parent.mkdir(parents=True, exist_ok=True)
@@ -139,7 +139,7 @@ class Build:
         command = entry["command"].replace(f"-I{ROOT} ", f"-I{self.tree} ").replace(f" -c {source}", "")
         command = re.sub(r" -M[DTF]( \S+\.o(\.d)?)?", "", command).replace(f"-o {name}", f"-o {made}")
         command = command.replace(" -O3 ", " -O1 ")  # the same bits, which are compared, in half the time
-        command += f" -w -include {self.tree}/tests/mutation/fault.h {option} -c {copy}"
+        command += f" -w -include {self.tree}/tests/mutation/fault.h -c {copy}"
         done = subprocess.run(command, shell=True, cwd=self.folder, capture_output=True, text=True)
         return done.stderr if done.returncode != 0 else ""
 

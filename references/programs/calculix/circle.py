@@ -8,7 +8,6 @@ triangles of its own material, large; the forces on the ground of each. Large on
 sections that warp at the elbows, is measured here at each point.
 """
 import math
-import os
 import sys
 
 import large_displacement
@@ -38,7 +37,6 @@ def response(pose, large, flexible):
 
 def main():
     folder = sys.argv[1]
-    os.makedirs(folder, exist_ok=True)
     found, warp, change = {}, 0.0, 0.0
     for pose in poses():
         coarse, fine = (statics(VARIANT, pose, n)[:2] for n in MESHES)
@@ -60,8 +58,7 @@ def main():
               f"CalculiX, {what}", "N" if forces else "m", values, change if name == "rigid" else warp,
               "Actuators locked, elbows welded, platform on hinges; point after point from the start of the circle. " +
               (f"{MESHES[1]} elements along a link." if name == "rigid" else
-               "The uncertainty is what sections that warp at the elbows add to the linear displacement at most."),
-              "references/programs/calculix/circle.py")
+               "The uncertainty is what sections that warp at the elbows add to the linear displacement at most."))
     print("warp", warp, "mesh", change)
 
 

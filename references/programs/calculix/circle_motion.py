@@ -13,10 +13,9 @@ here. Velocities at the start move no plane element, hence the path from rest; a
 to diverge", as forces are too small for its measures.
 """
 import math
-import os
 import sys
 
-from planar_manipulator import DEFAULT, DEPTH, Deck, geometry, run, store
+from planar_manipulator import DEFAULT, DEPTH, MATERIAL, Deck, E, geometry, run, store
 
 STIFF, ALONG, STEPS = 1e3, 4, (400, 800)
 RADIUS, CENTER = 0.01, (0.25, 0.144)
@@ -58,13 +57,8 @@ def build(along):
     for i in range(3):
         q, r = corners[i], corners[(i + 1) % 3]
         elements.append(("CPS6", "PLATFORM", [p, q, r, between[p, q], between[q, r], between[p, r]]))
-    lines = ["*NODE,NSET=ALL"] + [f"{i + 1},{x:.12g},{y:.12g},0" for i, (x, y) in enumerate(deck.nodes) if i + 1 not in same]
-    for number, (kind, name, nodes) in enumerate(elements, 1):
-        lines += [f"*ELEMENT,TYPE={kind},ELSET={name}", ",".join(map(str, [number, *nodes]))]
-    E, G = DEFAULT["E"], DEFAULT["E"] / (2 * (1 + DEFAULT["nu"]))
-    lines += ["*MATERIAL,NAME=M", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", f"{E},{E},{E},0,0,0,{G:.12g},{G:.12g}", f"{G:.12g}",
-                        "*DENSITY", f"{2 * DEFAULT['rho']!r}", *deck.sections, "*MATERIAL,NAME=STIFF", "*ELASTIC", f"{E * STIFF},0.",
-                        "*DENSITY", f"{DEFAULT['rho'] * DEFAULT['plate_thickness'] / DEFAULT['width']!r}", "*SOLID SECTION,ELSET=PLATFORM,MATERIAL=STIFF", f"{DEFAULT['width']!r}"]
+    lines = deck.mesh(elements, same) + MATERIAL + ["*DENSITY", f"{2 * DEFAULT['rho']!r}", *deck.sections,
+                        "*MATERIAL,NAME=STIFF", "*ELASTIC", f"{E * STIFF},0.", "*DENSITY", f"{DEFAULT['rho'] * DEFAULT['plate_thickness'] / DEFAULT['width']!r}", "*SOLID SECTION,ELSET=PLATFORM,MATERIAL=STIFF", f"{DEFAULT['width']!r}"]
     return lines, feet, p
 
 
@@ -94,7 +88,6 @@ def motion(speed, along, steps):
 
 def main():
     folder = sys.argv[1]
-    os.makedirs(folder, exist_ok=True)
     for speed in map(int, sys.argv[2:]):
         coarse, fine = (motion(speed, ALONG, steps) for steps in STEPS)
         size = max(map(abs, fine))
@@ -102,8 +95,7 @@ def main():
         store(folder, f"calculix-motion-{speed}", f"Flexible 3-RRR along the circle at {speed} rad/s, from rest: how far P is from the path, x "
               f"and y, at {POINTS} times, by CalculiX", "m", fine, math.ceil(1e5 * change) / 1e5,
               f"CPS8R, {ALONG} elements along a link and {DEPTH} through it, {STEPS[1]} steps; {STEPS[0]} change the values by the uncertainty, "
-              "of the largest. Actuators driven, elbows and platform on hinges, rigid platform, no damping.",
-              "references/programs/calculix/circle_motion.py")
+              "of the largest. Actuators driven, elbows and platform on hinges, rigid platform, no damping.")
         print(speed, change, fine, flush=True)
 
 

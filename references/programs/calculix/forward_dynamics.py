@@ -10,7 +10,6 @@ edges of the foot, along the link as it stands there: computed first with the an
 of places.
 """
 import math
-import os
 import sys
 
 from circle_motion import build
@@ -96,13 +95,12 @@ def motion(along, steps, angles=None):
 
 def main():
     folder = sys.argv[1]
-    os.makedirs(folder, exist_ok=True)
     coarse, fine = (motion(*mesh, motion(*mesh)[1])[0] for mesh in MESHES)
     change = max(abs(a - b) for a, b in zip(coarse, fine)) / max(map(abs, fine))
     store(folder, "calculix-forward-dynamics", "Flexible 3-RRR under the torques of rigid links from rest to rest: how far P is from the line, "
           f"x and y, at {POINTS} times, by CalculiX", "m", fine, math.ceil(1e5 * change) / 1e5,
           f"CPS8R, {MESHES[1][0]} elements along a link and {DEPTH} through it, {MESHES[1][1]} steps; {MESHES[0][0]} elements and {MESHES[0][1]} steps "
-          "change the values by the uncertainty, of the largest. Elbows and platform on hinges, rigid platform, no damping.", "references/programs/calculix/forward_dynamics.py")
+          "change the values by the uncertainty, of the largest. Elbows and platform on hinges, rigid platform, no damping.")
     print(change, fine, flush=True)
 
 

@@ -9,10 +9,9 @@ middles of both end faces are one node, and their outermost nodes keep their ang
 more: the same mesh in linear statics shows by how much, and that is stored as uncertainty.
 """
 import math
-import os
 import sys
 
-from planar_manipulator import DEFAULT, DEPTH, POSES, Deck, geometry, run, statics, store
+from planar_manipulator import DEFAULT, DEPTH, MATERIAL, POSES, Deck, E, geometry, run, statics, store
 
 STIFF = 1e3
 ALONG = 16
@@ -42,14 +41,9 @@ def build(pose, flexible=False):
     platform = [[p, ends[i], ends[(i + 1) % 3]] for i in range(3)]
     elements = [(kind, name, [same.get(n, n) for n in nodes]) for kind, name, nodes in deck.elements] + [
         ("CPS3", name, t) for name, triangles in (("JOINTS", joints), ("PLATFORM", platform)) for t in triangles]
-    lines = ["*NODE"] + [f"{i + 1},{x:.12g},{y:.12g},0" for i, (x, y) in enumerate(deck.nodes)]
-    for number, (kind, name, nodes) in enumerate(elements, 1):
-        lines += [f"*ELEMENT,TYPE={kind},ELSET={name}", ",".join(map(str, [number, *nodes]))]
-    E, G = DEFAULT["E"], DEFAULT["E"] / (2 * (1 + DEFAULT["nu"]))
     plate, width = ((E, DEFAULT["nu"]), DEFAULT["plate_thickness"]) if flexible else ((E * STIFF, 0.0), DEFAULT["width"])
-    return lines + deck.rest + [
-        "*MATERIAL,NAME=M", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", f"{E},{E},{E},0,0,0,{G:.12g},{G:.12g}", f"{G:.12g}", *deck.sections,
-        "*MATERIAL,NAME=STIFF", "*ELASTIC", f"{E * STIFF},0.", "*SOLID SECTION,ELSET=JOINTS,MATERIAL=STIFF", f"{DEFAULT['width']!r}",
+    return deck.mesh(elements) + deck.rest + MATERIAL + [
+        *deck.sections, "*MATERIAL,NAME=STIFF", "*ELASTIC", f"{E * STIFF},0.", "*SOLID SECTION,ELSET=JOINTS,MATERIAL=STIFF", f"{DEFAULT['width']!r}",
         "*MATERIAL,NAME=PLATE", "*ELASTIC,TYPE=ENGINEERING CONSTANTS",  # contracts in its plane alone: out of it, ccx hinders that
         "{0},{0},{0},{1},0,0,{2:.12g},{2:.12g}".format(*plate, plate[0] / 2 / (1 + plate[1])), f"{plate[0] / 2 / (1 + plate[1]):.12g}",
         "*SOLID SECTION,ELSET=PLATFORM,MATERIAL=PLATE", f"{width!r}"], p, feet
@@ -65,7 +59,6 @@ def displacement(pose, large):
 
 def main():
     folder = sys.argv[1]
-    os.makedirs(folder, exist_ok=True)
     for pose in POSES:
         linear, large, rigid = displacement(pose, False), displacement(pose, True), statics("locked-welded-hinged", pose, 24)
         change = math.ceil(1e5 * math.dist(linear, rigid[:2]) / math.hypot(*linear)) / 1e5

@@ -11,20 +11,18 @@ platform is rigid, with the masses of an equilateral plate: a twelfth of it in e
 Each value comes from two meshes; their difference, rounded up, is what is stored as uncertainty (at least 2e-6, because ccx
 prints seven digits).
 """
-import json
 import math
-import os
-import subprocess
 import sys
-import tempfile
 
-from spatial_manipulator import DEFAULT, geometry
+from spatial_manipulator import DEFAULT, geometry, run, store
 
 POSES = {"centroid": DEFAULT["pose"], "start": (0.26, 0.144, 0.0), "turned": (0.26, 0.144, math.radians(10))}
 VARIANTS = [f"{a}-{e}-{p}" for a in ("locked", "sprung", "free") for e in ("welded", "hinged") for p in ("hinged", "welded")]
 SPRING = 10.0  # of a sprung actuator [N m/rad]
 MESHES = (24, 40)  # elements along a link
 DEPTH = 2
+E, G = DEFAULT["E"], DEFAULT["E"] / (2 * (1 + DEFAULT["nu"]))
+MATERIAL = ["*MATERIAL,NAME=M", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", f"{E},{E},{E},0,0,0,{G:.12g},{G:.12g}", f"{G:.12g}"]
 
 
 class Deck:
@@ -60,6 +58,12 @@ class Deck:
         self.rest += [f"*NSET,NSET=R{self.bodies}", *(f"{n}," for n in nodes),
                       f"*RIGID BODY,NSET=R{self.bodies},REF NODE={reference},ROT NODE={turn}", "*BOUNDARY", f"{turn},1,2"]
         return reference, turn
+
+    def mesh(self, elements, unused=()):
+        lines = ["*NODE,NSET=ALL"] + [f"{i + 1},{x:.12g},{y:.12g},0" for i, (x, y) in enumerate(self.nodes) if i + 1 not in unused]
+        for number, (kind, name, nodes) in enumerate(elements, 1):
+            lines += [f"*ELEMENT,TYPE={kind},ELSET={name}", ",".join(map(str, [number, *nodes]))]
+        return lines
 
     def hinge(self, own, other):
         for dof in (1, 2):
@@ -101,27 +105,7 @@ def build(variant, pose, n):
             follower = deck.node(*base[i])  # ccx 2.20 fails with a spring on the rotation of a rigid body itself
             deck.elements.append(("SPRING1", f"S{i}", [follower]))
             deck.rest += ["*BOUNDARY", f"{follower},2,3", "*EQUATION", "2", f"{follower},1,1.,{angle},3,-1.", f"*SPRING,ELSET=S{i}", "1", f"{SPRING!r}"]
-    lines = ["*NODE"] + [f"{i + 1},{x:.12g},{y:.12g},0" for i, (x, y) in enumerate(deck.nodes)]
-    for number, (kind, name, nodes) in enumerate(deck.elements, 1):
-        lines += [f"*ELEMENT,TYPE={kind},ELSET={name}", ",".join(map(str, [number, *nodes]))]
-    E, G = DEFAULT["E"], DEFAULT["E"] / (2 * (1 + DEFAULT["nu"]))
-    lines += deck.rest + ["*MATERIAL,NAME=M", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", f"{E},{E},{E},0,0,0,{G:.12g},{G:.12g}",
-                          f"{G:.12g}", "*DENSITY", f"{DEFAULT['rho']!r}", *deck.sections]
-    return lines, p, turn
-
-
-def run(lines, totals=False):
-    """Rows of the .dat that begin with a number, in whole; with totals also those of three numbers."""
-    with tempfile.TemporaryDirectory() as folder:
-        with open(os.path.join(folder, "deck.inp"), "w", encoding="ascii") as file:
-            file.write("\n".join(lines) + "\n")
-        done = subprocess.run(["ccx", "deck"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-        if done.returncode or "*ERROR" in done.stdout:
-            raise RuntimeError([line for line in done.stdout.splitlines() if "ERROR" in line][:1])
-        with open(os.path.join(folder, "deck.dat"), encoding="ascii") as file:
-            rows = [line.split() for line in file]
-    return [[float(cell) for cell in row] for row in rows
-            if row and (row[0].isdigit() or totals and len(row) == 3 and row[0][-4:-2] in ("E+", "E-"))]
+    return deck.mesh(deck.elements) + deck.rest + MATERIAL + ["*DENSITY", f"{DEFAULT['rho']!r}", *deck.sections], p, turn
 
 
 def frequencies(variant, pose, n):
@@ -139,17 +123,8 @@ def statics(variant, pose, n):
     return rows[0][1:3] + [rows[1][3]]
 
 
-def store(folder, name, title, unit, values, change, notes, place="references/programs/calculix/planar_manipulator.py"):
-    with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as file:
-        file.write(json.dumps({
-            "$schema": "../../../cases/schema/reference.schema.json", "id": name, "title": title, "kind": "code", "unit": unit,
-            "values": values, "uncertainty": {"relative": change}, "source": "calculix-2.20",
-            "place": place, "notes": notes}, indent=2) + "\n")
-
-
 def main():
     folder = sys.argv[1]
-    os.makedirs(folder, exist_ok=True)
     for variant in VARIANTS:
         for pose in POSES:
             (coarse, _), (fine, rigid) = (frequencies(variant, pose, n) for n in MESHES)

@@ -8,7 +8,6 @@ the middle of that face. Without Poisson's ratio the clamp holds no contraction 
 0.5 % of the force, which leaves 0.2 % in the soft way; here at 1e-9.
 """
 import math
-import os
 import sys
 
 from planar_manipulator import run, store
@@ -72,7 +71,6 @@ def tip(axis, nu, cells):
 
 def main():
     folder = sys.argv[1]
-    os.makedirs(folder, exist_ok=True)
     for axis, meshes in {"stiff": ((40, 2, 2), (80, 4, 4)), "soft": ((40, 2, 4), (60, 2, 8))}.items():
         for name, nu, (coarse, fine) in (("", 0.31, meshes), ("-without-contraction", 0.0, ((20, 2, 2), (40, 2, 2)))):
             rough, values = tip(axis, nu, coarse), tip(axis, nu, fine)
@@ -80,7 +78,7 @@ def main():
             store(folder, f"calculix-princeton-{axis}{name}", f"Princeton beam, bent about its {axis} axis, as a solid of Poisson's "
                   f"ratio {nu:g}: by CalculiX, deflection of its tip", "m", values[1::2], math.ceil(change * 1e6) / 1e6,
                   f"C3D20R, {fine[0]} along, {fine[1]} over the depth, {fine[2]} over the width; {coarse[0]} x {coarse[1]} x {coarse[2]} "
-                  "change the values by the uncertainty.", "references/programs/calculix/princeton_beam.py")
+                  "change the values by the uncertainty.")
 
 
 if __name__ == "__main__":

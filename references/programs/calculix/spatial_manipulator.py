@@ -4,9 +4,11 @@ modes(reading) writes a deck, runs ccx and returns natural frequencies [Hz] and 
 A joint is a rigid body of the end faces of the links, and of a square patch in a corner of the plate; a hinge is two such
 bodies that only turn against each other about z.
 """
+import json
 import math
 import os
 import subprocess
+import sys
 import tempfile
 
 DEFAULT = {
@@ -76,7 +78,7 @@ class Deck:
         for dof in dofs:
             self.rest += ["*EQUATION", "2", f"{a},{dof},1.,{b},{dof},-1."]
 
-    def text(self, count):
+    def lines(self, count):
         lines = ["*NODE"] + [f"{i + 1},{x:.12g},{y:.12g},{z:.12g}" for i, (x, y, z) in enumerate(self.nodes)]
         for name in dict.fromkeys(name for name, _ in self.elements):
             lines.append(f"*ELEMENT,TYPE={'MASS' if name[0] == 'M' else 'C3D20R'},ELSET={name}")
@@ -84,7 +86,7 @@ class Deck:
                 if own == name:
                     row = [str(v) for v in [number, *nodes]]
                     lines += [",".join(row[:16]) + ("," if len(row) > 16 else "")] + ([",".join(row[16:])] if len(row) > 16 else [])
-        return "\n".join(lines + self.rest + ["*STEP", "*FREQUENCY", str(count), "*END STEP"]) + "\n"
+        return lines + self.rest + ["*STEP", "*FREQUENCY", str(count), "*END STEP"]
 
 
 def link(deck, name, r, mesh, p, q):
@@ -157,20 +159,34 @@ def build(r, mesh):
     return deck
 
 
-def modes(reading, mesh=None, count=8, keep=None):
-    """Each mode's natural frequency [Hz], and whether it stays in the plane by its effective masses."""
-    with tempfile.TemporaryDirectory() as temporary:
-        folder = keep or temporary
-        os.makedirs(folder, exist_ok=True)
+def run(lines, totals=False):
+    """Rows of the .dat that begin with a number, in whole; with totals also those of three numbers."""
+    with tempfile.TemporaryDirectory() as folder:
         with open(os.path.join(folder, "deck.inp"), "w", encoding="ascii") as file:
-            file.write(build({**DEFAULT, **reading}, {**MESH, **(mesh or {})}).text(count))
+            file.write("\n".join(lines) + "\n")
         done = subprocess.run(["ccx", "deck"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
-        errors = [line for line in done.stdout.splitlines() if "*ERROR" in line]
-        if errors or done.returncode:
-            raise RuntimeError(errors[0] if errors else done.stdout[-300:])
+        if done.returncode or "*ERROR" in done.stdout:
+            raise RuntimeError([line for line in done.stdout.splitlines() if "ERROR" in line][:1] or done.stdout[-300:])
         with open(os.path.join(folder, "deck.dat"), encoding="ascii") as file:
             rows = [line.split() for line in file]
-    number = [[float(cell) for cell in row] for row in rows if row and row[0].isdigit()]
+    return [[float(cell) for cell in row] for row in rows
+            if row and (row[0].isdigit() or totals and len(row) == 3 and row[0][-4:-2] in ("E+", "E-"))]
+
+
+def store(folder, name, title, unit, values, change, notes, place="", source="calculix-2.20", **more):
+    """Writes a reference into a folder, which is made if need be."""
+    os.makedirs(folder, exist_ok=True)
+    program = "/".join(["references/programs", *os.path.abspath(sys.argv[0]).split("/")[-2:]])
+    with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as file:
+        file.write(json.dumps({
+            "$schema": "../../../../cases/schema/reference.schema.json", "id": name, "title": title, "kind": "code", "unit": unit,
+            "values": values, "uncertainty": {"relative": change}, "source": source, "place": program + place, "notes": notes, **more},
+            indent=2) + "\n")
+
+
+def modes(reading, mesh=None, count=8):
+    """Each mode's natural frequency [Hz], and whether it stays in the plane by its effective masses."""
+    number = run(build({**DEFAULT, **reading}, {**MESH, **(mesh or {})}).lines(count))
     frequencies = [row[3] for row in number if len(row) == 5][:count]
     masses = [row[1:] for row in number if len(row) == 7][count:2 * count]  # the first block holds participation factors
     total = [max(sum(m[k] for m in masses), 1e-30) for k in range(6)]

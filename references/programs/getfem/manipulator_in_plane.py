@@ -9,7 +9,6 @@ of the end section and its mean rotation (the first moment of what it moves alon
 and to contract. The platform is rigid. GetFEM assembles stiffness, mass and the weights of end sections; the algebra is scipy's.
 Each value comes from two meshes; their difference, rounded up, is stored as uncertainty (at least 1e-8).
 """
-import json
 import math
 import os
 import sys
@@ -21,7 +20,7 @@ import scipy.sparse as sp
 import scipy.sparse.linalg
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../calculix"))
-from planar_manipulator import DEFAULT, POSES, SPRING, VARIANTS, geometry  # noqa: E402
+from planar_manipulator import DEFAULT, POSES, SPRING, VARIANTS, geometry, store  # noqa: E402
 
 MESHES = ((6, 4), (8, 5))  # elements along a link, and their degree
 PLATE_E = 69e6  # [Pa] where the platform is a plate: as soft as the links
@@ -42,9 +41,8 @@ def matrices(length, degree):
     return K.full(), DEFAULT["rho"] * width[0] * M.full(), field.basic_dof_nodes(), weights.full()
 
 
-def link(elements, degree, rigid=False):
-    """K and M of a link along x, whose first six unknowns are ux, uy, rotation of its two ends. rigid: end sections neither warp
-    nor contract.
+def link(elements, degree):
+    """K and M of a link along x, whose first six unknowns are ux, uy, rotation of its two ends.
 
     The unknowns of each section are its mean displacement, mean rotation, and how it warps: those of nodes lose seven digits, as
     thin rectangles are so much stiffer through the thickness than in bending."""
@@ -70,7 +68,7 @@ def link(elements, degree, rigid=False):
         for at in range(0, size - n, degree * n):
             total[at:at + len(A), at:at + len(A)] += A
     ends = [0, 1, 2, size - n, size - n + 1, size - n + 2]
-    between = range(n, size - n) if rigid else sorted(set(range(size)) - set(ends))
+    between = sorted(set(range(size)) - set(ends))
     return [A.tocsc()[[*ends, *between]][:, [*ends, *between]] for A in whole]
 
 
@@ -164,17 +162,8 @@ def add(*scaled):
     return total
 
 
-def store(folder, name, title, unit, values, change, notes):
-    with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as file:
-        file.write(json.dumps({
-            "$schema": "../../../../cases/schema/reference.schema.json", "id": name, "title": title, "kind": "code", "unit": unit,
-            "values": values, "uncertainty": {"relative": change}, "source": "getfem-5.4.2",
-            "place": "references/programs/getfem/manipulator_in_plane.py", "notes": notes}, indent=2) + "\n")
-
-
 def main():
     folder = sys.argv[1]
-    os.makedirs(folder, exist_ok=True)
     links = [link(*mesh) for mesh in MESHES]
     mesh = ("FEM_QK, {} elements of degree {} a link; {} of degree {} change the values by no more than the uncertainty. "
             "Poses {}, one after the other.").format(*MESHES[1], *MESHES[0], ", ".join(POSES))
@@ -192,11 +181,8 @@ def main():
             change = max(abs(u - v) / (abs(v) if unit == "Hz" else max(map(abs, b[i // step * step:][:step])))
                          for i, (u, v) in enumerate(zip(a, b)))
             change = math.ceil(1e8 * max(change, 1e-8)) / 1e8
-            store(folder, f"getfem-{variant}-{kind}", title, unit, [float(f"{v:.12g}") for v in b], change, mesh)
+            store(folder, f"getfem-{variant}-{kind}", title, unit, [float(f"{v:.12g}") for v in b], change, mesh, source="getfem-5.4.2")
             print(variant, kind, change, fine[0].frequencies()[1], flush=True)
-    free, held = (Manipulator(VARIANTS[0], "start", one) for one in (links[1], link(*MESHES[1], rigid=True)))
-    print("end sections that neither warp nor contract:", held.displacement()[0] / free.displacement()[0] - 1,
-          [b / a - 1 for a, b in zip(free.frequencies()[0], held.frequencies()[0])])
 
 
 if __name__ == "__main__":

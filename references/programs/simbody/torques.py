@@ -13,7 +13,7 @@ import sys
 import tempfile
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../calculix"))
-from spatial_manipulator import DEFAULT, geometry  # noqa: E402
+from spatial_manipulator import DEFAULT, geometry, store  # noqa: E402
 
 POINTS, SPEEDS, RADIUS, CENTER = 8, (1, 10, 50), 0.01, (0.25, 0.144)
 
@@ -61,17 +61,11 @@ def torques(adapter, speed):
 
 def main():
     adapter, folder = sys.argv[1:]
-    os.makedirs(folder, exist_ok=True)
     for speed in SPEEDS:
         name = f"simbody-circle-torques-{speed}"
-        with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as file:
-            file.write(json.dumps({
-                "$schema": "../../../../cases/schema/reference.schema.json", "id": name,
-                "title": f"Rigid 3-RRR along the circle at {speed} rad/s: torques of A1, A2, A3 at {POINTS} points, by Simbody", "kind": "code",
-                "unit": "N m", "values": torques(adapter, speed), "uncertainty": {"relative": 1e-12}, "source": "simbody-3.7",
-                "place": "references/programs/simbody/torques.py",
-                "notes": "Seven rigid bodies, nine pins; forces of prescribed accelerations (findMotionForces). Positions and velocities "
-                         "are projected on the constraints to 1e-13."}, indent=2) + "\n")
+        store(folder, name, f"Rigid 3-RRR along the circle at {speed} rad/s: torques of A1, A2, A3 at {POINTS} points, by Simbody", "N m",
+              torques(adapter, speed), 1e-12, "Seven rigid bodies, nine pins; forces of prescribed accelerations (findMotionForces). Positions "
+              "and velocities are projected on the constraints to 1e-13.", source="simbody-3.7")
 
 
 if __name__ == "__main__":

@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(a_signal_while_drawing_or_timing_says_how_to_go_on) {
   BOOST_TEST(told() == "trammel: interrupted; the same command does what is missing\n");
   BOOST_TEST(status_of("cost cantilever.json --repeats 10000", "sleep 1") == 143);
   BOOST_TEST(contains(told(), "with --resume"));
-  BOOST_TEST(status_of("effects --random 100000", "sleep 1") == 143);
+  BOOST_TEST(status_of("effects scene-soft-platform --repeats 1000", "sleep 1") == 143);
   BOOST_TEST(told() == "trammel: interrupted; the same command begins anew\n");
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 
-#include "harness/coverage/case_features.h"
 #include "harness/results/quantity_definitions.h"
 #include "tests/support/harness/support.h"
 

@@ -68,7 +68,7 @@ const Json ratio = {{"description", "tip over target"},
                     {"confirms", {0.9, 1.1}},
                     {"contradicts", {1.5, nullptr}}};
 
-ClaimVerdict verdict(const Document& document, const std::vector<Run>& runs) {
+std::string verdict(const Document& document, const std::vector<Run>& runs) {
   return evaluate_claims(document, runs).claims.at(0).verdict;
 }
 
@@ -76,41 +76,41 @@ ClaimVerdict verdict(const Document& document, const std::vector<Run>& runs) {
 
 BOOST_AUTO_TEST_CASE(numbers_and_rules_alone_decide_a_claim) {
   const Document document = claims_of({{"r", ratio}}, "confirmed");
-  BOOST_TEST((verdict(document, {bend(1, 1.05)}) == ClaimVerdict::confirmed));
-  BOOST_TEST((verdict(document, {bend(2, 3)}) == ClaimVerdict::contradicted));
-  BOOST_TEST((verdict(document, {bend(1, 3)}) == ClaimVerdict::confirmed_in_part));
-  BOOST_TEST((verdict(document, {bend(1.2, 1.3)}) == ClaimVerdict::cannot_be_decided));
-  BOOST_TEST((verdict(document, {}) == ClaimVerdict::not_measured));
+  BOOST_TEST((verdict(document, {bend(1, 1.05)}) == "confirmed"));
+  BOOST_TEST((verdict(document, {bend(2, 3)}) == "contradicted"));
+  BOOST_TEST((verdict(document, {bend(1, 3)}) == "confirmed in part"));
+  BOOST_TEST((verdict(document, {bend(1.2, 1.3)}) == "cannot be decided"));
+  BOOST_TEST((verdict(document, {}) == "not measured"));
 }
 
 BOOST_AUTO_TEST_CASE(a_verdict_that_no_longer_follows_is_seen) {
   const Document document = claims_of({{"r", ratio}}, "confirmed");
-  BOOST_TEST(evaluate_claims(document, {bend(1, 1)}).as_expected());
-  BOOST_TEST(!evaluate_claims(document, {bend(1, 2)}).as_expected());
-  BOOST_TEST(!evaluate_claims(document, {}).as_expected());
+  BOOST_TEST(evaluate_claims(document, {bend(1, 1)}).as_recorded);
+  BOOST_TEST(!evaluate_claims(document, {bend(1, 2)}).as_recorded);
+  BOOST_TEST(!evaluate_claims(document, {}).as_recorded);
 }
 
 BOOST_AUTO_TEST_CASE(one_verdict_that_no_longer_follows_spoils_the_set) {
-  ClaimSet set = evaluate_claims(claims_of({{"r", ratio}}, "confirmed"), {bend(1, 1)});
-  set.claims.push_back(set.claims.front());
-  BOOST_TEST(set.as_expected());
-  set.claims.back().verdict = ClaimVerdict::contradicted;
-  BOOST_TEST(!set.as_expected());
+  Json json = claims_of({{"r", ratio}}, "confirmed").value();
+  json["claims"]["2"] = json["claims"]["1"];
+  json["claims"]["2"]["expected"] = "contradicted";
+  const Document document = Document::from_json("claims.json", json);
+  BOOST_TEST(!evaluate_claims(document, {bend(1, 1)}).as_recorded);
 }
 
 BOOST_AUTO_TEST_CASE(a_claim_that_misses_a_number_is_not_measured) {
   const Document document = claims_of({{"r", ratio}}, "confirmed");
   Run broken = bend(1, 1);
   broken.status = "error";
-  BOOST_TEST((verdict(document, {broken}) == ClaimVerdict::not_measured));
+  BOOST_TEST((verdict(document, {broken}) == "not measured"));
   Run other = bend(1, 1);
   other.case_id = "buckle";
-  BOOST_TEST((verdict(document, {other}) == ClaimVerdict::not_measured));
+  BOOST_TEST((verdict(document, {other}) == "not measured"));
   Run half = bend(1, 1);
   half.check_results[1].computed.reset();
-  BOOST_TEST((verdict(document, {half}) == ClaimVerdict::not_measured));
+  BOOST_TEST((verdict(document, {half}) == "not measured"));
   half.check_results[1].computed = std::nan("");
-  BOOST_TEST((verdict(document, {half}) == ClaimVerdict::not_measured));
+  BOOST_TEST((verdict(document, {half}) == "not measured"));
 }
 
 BOOST_AUTO_TEST_CASE(an_interpretation_that_misses_a_number_has_no_verdict_of_its_own) {
@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(an_interpretation_that_misses_a_number_has_no_verdict_of_it
   half.check_results[1].computed.reset();
   const auto found = evaluate_claims(claims_of({{"r", ratio}}, "confirmed"), {half});
   BOOST_TEST(
-      (found.claims.at(0).interpretations.at(0).verdict == InterpretationVerdict::not_measured));
+      (found.claims.at(0).interpretations.at(0).verdict == "not measured"));
 }
 
 BOOST_AUTO_TEST_CASE(what_one_interpretation_misses_no_other_makes_up_for) {
@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(what_one_interpretation_misses_no_other_makes_up_for) {
   Run half = bend(1, 1);
   half.check_results[1].computed.reset();
   BOOST_TEST((verdict(claims_of({{"r", ratio}, {"s", other}}, "contradicted"), {half}) ==
-              ClaimVerdict::not_measured));
+              "not measured"));
 }
 
 BOOST_AUTO_TEST_CASE(the_exit_status_says_whether_all_verdicts_are_the_recorded_ones) {
@@ -142,8 +142,8 @@ BOOST_AUTO_TEST_CASE(a_relative_difference_is_one_of_what_is_expected) {
   relative["confirms"] = {0.45, 0.55};
   relative["contradicts"] = {0.6, nullptr};
   const Document document = claims_of({{"r", relative}}, "confirmed");
-  BOOST_TEST((verdict(document, {bend(1.5, 1.5)}) == ClaimVerdict::confirmed));
-  BOOST_TEST((verdict(document, {bend(3, 3)}) == ClaimVerdict::contradicted));
+  BOOST_TEST((verdict(document, {bend(1.5, 1.5)}) == "confirmed"));
+  BOOST_TEST((verdict(document, {bend(3, 3)}) == "contradicted"));
 }
 
 BOOST_AUTO_TEST_CASE(alternatives_that_differ_decide_nothing_where_parts_confirm_in_part) {
@@ -151,9 +151,9 @@ BOOST_AUTO_TEST_CASE(alternatives_that_differ_decide_nothing_where_parts_confirm
   second["check"] = "tip-y";
   const Json both = {{"x", ratio}, {"y", second}};
   const std::vector<Run> runs = {bend(1, 1)};
-  BOOST_TEST((verdict(claims_of(both, "confirmed"), runs) == ClaimVerdict::confirmed_in_part));
+  BOOST_TEST((verdict(claims_of(both, "confirmed"), runs) == "confirmed in part"));
   BOOST_TEST((verdict(claims_of(both, "confirmed", "alternatives"), runs) ==
-              ClaimVerdict::cannot_be_decided));
+              "cannot be decided"));
   second["check"] = "tip*";
   BOOST_TEST(evaluate_claims(claims_of({{"all", second}}, "confirmed"), runs)
                  .claims[0]
@@ -166,9 +166,9 @@ BOOST_AUTO_TEST_CASE(entries_that_count_jointly_confirm_only_together) {
   jointly["require_all_entries"] = true;
   jointly["contradicts"] = "otherwise";
   const Document document = claims_of({{"r", jointly}}, "confirmed");
-  BOOST_TEST((verdict(document, {bend(1, 1)}) == ClaimVerdict::confirmed));
-  BOOST_TEST((verdict(document, {bend(1, 3)}) == ClaimVerdict::contradicted));
-  BOOST_TEST((verdict(document, {bend(3, 1)}) == ClaimVerdict::contradicted));
+  BOOST_TEST((verdict(document, {bend(1, 1)}) == "confirmed"));
+  BOOST_TEST((verdict(document, {bend(1, 3)}) == "contradicted"));
+  BOOST_TEST((verdict(document, {bend(3, 1)}) == "contradicted"));
 }
 
 BOOST_AUTO_TEST_CASE(what_confirms_may_be_all_that_does_not_contradict) {
@@ -176,22 +176,22 @@ BOOST_AUTO_TEST_CASE(what_confirms_may_be_all_that_does_not_contradict) {
   away["confirms"] = "otherwise";
   away["contradicts"] = {-1, 1};
   const Document document = claims_of({{"r", away}}, "confirmed");
-  BOOST_TEST(evaluate_claims(document, {bend(-3, 2)}).as_expected());
-  BOOST_TEST(!evaluate_claims(document, {}).as_expected());
-  BOOST_TEST(!evaluate_claims(document, {bend(0.5, 0.5)}).as_expected());
+  BOOST_TEST(evaluate_claims(document, {bend(-3, 2)}).as_recorded);
+  BOOST_TEST(!evaluate_claims(document, {}).as_recorded);
+  BOOST_TEST(!evaluate_claims(document, {bend(0.5, 0.5)}).as_recorded);
 }
 
 BOOST_AUTO_TEST_CASE(steps_of_a_quantity_say_whether_it_grows) {
   const Json grows = {{"description", "growth"},    {"case", "bend"},
                       {"quantity", "frequency_Hz"}, {"metric", "steps"},
                       {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
-  const ClaimSet found = evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {bend(1, 1)});
-  const Interpretation& reading = found.claims[0].interpretations[0];
+  const results::Claims found = evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {bend(1, 1)});
+  const results::ClaimInterpretation& reading = found.claims[0].interpretations[0];
   BOOST_REQUIRE(reading.entries.size() == 2U);
   BOOST_TEST(reading.entries[0].value == 2);
   BOOST_TEST(reading.entries[1].value == -1);
   BOOST_TEST(reading.unit == "Hz");
-  BOOST_TEST((reading.verdict == InterpretationVerdict::in_part));
+  BOOST_TEST((reading.verdict == "confirms in part"));
 }
 
 BOOST_AUTO_TEST_CASE(
@@ -201,8 +201,8 @@ BOOST_AUTO_TEST_CASE(
                       {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
   Run run = bend(1, 1);
   run.result.quantities["frequency_Hz"] = {{1, std::nan(""), 2}, {}};
-  const ClaimSet found = evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {run});
-  BOOST_TEST((found.claims[0].verdict == ClaimVerdict::not_measured));
+  const results::Claims found = evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {run});
+  BOOST_TEST((found.claims[0].verdict == "not measured"));
   BOOST_TEST(found.claims[0].interpretations[0].entries.size() == 2U);
   for (const results::ClaimEntry& entry : found.claims[0].interpretations[0].entries) {
     BOOST_TEST(std::isfinite(entry.value));
@@ -228,12 +228,12 @@ BOOST_AUTO_TEST_CASE(a_rule_that_contradicts_itself_is_refused) {
 
 BOOST_AUTO_TEST_CASE(the_catalogue_has_eleven_claims_and_knows_their_cases) {
   const Document document = load_claims();
-  const ClaimSet found = evaluate_claims(document, {});
+  const results::Claims found = evaluate_claims(document, {});
   BOOST_TEST(found.claims.size() == 11U);
-  for (const Claim& claim : found.claims) {
+  for (const results::Claim& claim : found.claims) {
     const bool undecidable = !claim.undecidable.empty();
     BOOST_TEST((claim.verdict ==
-                (undecidable ? ClaimVerdict::cannot_be_decided : ClaimVerdict::not_measured)));
+                (undecidable ? "cannot be decided" : "not measured")));
   }
   // No reading names a case or a check that is not there.
   const std::vector<Case> catalogue = Catalogue().load();
@@ -253,7 +253,7 @@ BOOST_AUTO_TEST_CASE(the_catalogue_has_eleven_claims_and_knows_their_cases) {
 
 BOOST_AUTO_TEST_CASE(what_results_say_of_the_claims_obeys_their_schema) {
   const Document document = claims_of({{"r", ratio}}, "confirmed");
-  const Json json = results::claims_to_json(claim_results(evaluate_claims(document, {bend(1, 2)})));
+  const Json json = results::claims_to_json(evaluate_claims(document, {bend(1, 2)}));
   BOOST_TEST(json["claims"][0]["verdict"] == "confirmed in part");
   BOOST_TEST(json["as_recorded"] == false);
   Json results = {{"format", 1}, {"claims", json}};

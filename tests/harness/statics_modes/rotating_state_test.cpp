@@ -1,5 +1,3 @@
-#include "harness/statics_modes/rotating_state.h"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>

@@ -2,7 +2,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "harness/statics_modes/design_change.h"
+#include "harness/statics_modes/frequency_differences.h"
 #include "tests/support/harness/sensitivity_comparison.h"
 
 BOOST_AUTO_TEST_SUITE(sensitivity_differences)

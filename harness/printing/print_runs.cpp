@@ -1,0 +1,196 @@
+#include "harness/printing/print_runs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+
+#include "harness/base/find_or_add.h"
+#include "harness/base/numbers.h"
+#include "harness/base/quantity.h"
+#include "harness/base/text.h"
+#include "harness/judge/check_result.h"
+#include "harness/results/run_grade.h"
+
+namespace trammel::harness {
+namespace {
+
+using results::Number;
+using results::Numbers;
+
+/// The worst entry of a check: the first one that fails, else the one that uses most of its
+/// tolerance.
+struct CheckSummary {
+  const results::Check* worst = nullptr;
+  std::size_t entries = 0;
+};
+
+std::vector<CheckSummary> summarise_checks(const results::Run& run) {
+  std::vector<CheckSummary> summaries;
+  const auto rank = [](const results::Check& check) {
+    return std::pair(fails_gate(check.verdict), results::tolerance_share(check));
+  };
+  for (const results::Check& check : run.checks) {
+    const auto is_same = [&](const CheckSummary& known) { return known.worst->name == check.name; };
+    CheckSummary& summary = find_or_add(summaries, is_same, {&check, 0});
+    ++summary.entries;
+    if (rank(check) > rank(*summary.worst)) summary.worst = &check;
+  }
+  return summaries;
+}
+
+/// Digits that distinguish the ends of a range from each other and from the judged number.
+int digits_of(const results::Check& check) {
+  constexpr int kLeast = 3, kMost = 12;
+  if (!check.tolerance || check.tolerance->symmetric) return kLeast;
+  const Number low = check.tolerance->low, high = check.tolerance->high,
+               judged = check.measure == "bound" ? check.computed : check.difference;
+  const auto differ = [](const Number& a, const Number& b, int digits) {
+    return !a || !b || *a == *b || rounded(*a, digits) != rounded(*b, digits);
+  };
+  int digits = kLeast;
+  while (digits < kMost && !(differ(low, high, digits) && differ(low, judged, digits) &&
+                             differ(judged, high, digits)))
+    ++digits;
+  return digits;
+}
+
+std::string tolerance_text(const results::Check& check) {
+  if (!check.tolerance) return "";
+  const auto& [low, high, is_symmetric] = *check.tolerance;
+  const auto text = [&](const Number& end) { return rounded(*end, digits_of(check)); };
+  if (is_symmetric) return "+-" + text(high);
+  if (!low) return high ? "at most " + text(high) : "";
+  return high ? "[" + text(low) + ", " + text(high) + "]" : "at least " + text(low);
+}
+
+std::string verdict_text(const results::Check& check) {
+  const bool is_recorded = check.verdict == Verdict::pass && check.known_discrepancy();
+  return is_recorded ? "does not agree" : to_string(check.verdict);
+}
+
+/// All values of short quantities, of others the range.
+void print_quantities(const results::Run& run) {
+  constexpr std::size_t kMostRows = 30, kMostValues = 6;
+  Rows table({"quantity", "entries", {"values", "", 8}});
+  std::size_t rows = 0;
+  for (const auto& [name, values] : run.quantities) {
+    if (values.empty() || is_diagnostic(name) || ++rows > kMostRows) continue;
+    Json cells = Json::array();
+    for (const Number& value : values) cells.push_back(number_or_null(value));
+    if (values.size() > kMostValues) {
+      const auto [low, high] = std::ranges::minmax(values);
+      cells = fmt::format("{:.6g} ... {:.6g}", low.value_or(kNaN), high.value_or(kNaN));
+    }
+    table.add({name, values.size(), cells});
+  }
+  if (!table.empty()) table.print(std::cout, "  ");
+  if (rows > kMostRows) std::cout << "  and " << rows - kMostRows << " more in results.json\n";
+}
+
+}  // namespace
+
+std::vector<Column> check_columns() {
+  return {"verdict",           "check",       "quantity", {"computed", "", 8},
+          {"expected", "", 8}, ">difference", ">allowed"};
+}
+
+std::vector<Json> check_cells(const results::Check& check, bool with_index) {
+  const std::string index = check.index && with_index ? fmt::format("[{}]", *check.index) : "",
+                    statistic = check.statistic.empty() ? "" : check.statistic + " ";
+  return {verdict_text(check),
+          check.name,
+          statistic + check.quantity + index,
+          number_or_null(check.computed),
+          number_or_null(check.expected),
+          check.difference ? rounded(*check.difference, digits_of(check)) : "",
+          tolerance_text(check)};
+}
+
+void print_run(const results::Run& run) {
+  std::cout << run.case_id << (run.variant == "base" ? "" : ":" + run.variant) << "  "
+            << to_string(run.status) << ", " << rounded(run.cost.wall_s, 2) << " s\n"
+            << wrapped(run.reason, "  ");
+  for (const std::string& warning : run.warnings) std::cout << wrapped("warning: " + warning, "  ");
+  if (run.checks.empty()) return print_quantities(run);
+  Rows table(check_columns());
+  std::string messages;
+  for (const CheckSummary& summary : summarise_checks(run)) {
+    const results::Check& check = *summary.worst;
+    table.add(check_cells(check, summary.entries > 1));
+    const bool is_printed = check.quantity == "status" && !run.reason.empty();
+    if (fails_gate(check.verdict) && !check.message.empty() && !is_printed)
+      messages += wrapped(check.name + ": " + check.message, "    ");
+  }
+  table.print(std::cout, "  ");
+  std::cout << messages;
+}
+
+void print_validation(const results::Run& run) {
+  if (!run.uncertainty) return;
+  std::cout << "  validation (ASME V&V 20), standard uncertainties in the quantity's unit; inputs "
+               "by derivatives and by "
+            << run.uncertainty->samples << " samples\n";
+  Rows({{"reference"},
+        {"index", "entry"},
+        {"simulation", "S"},
+        {"expected", "D"},
+        {"difference", "E", 4},
+        {"u_num", "", 2},
+        {"u_input", "", 3},
+        {"u_input_sampled", "sampled", 3},
+        {"u_reference", "u_D", 2},
+        {"dominant_input", "most from"},
+        {"dominant_share", "share [%]", 3, 100}},
+       to_json(run).at("uncertainty").at("comparisons"))
+      .print(std::cout, "    ");
+  for (const results::Comparison& comparison : run.uncertainty->comparisons)
+    std::cout << wrapped(
+        fmt::format("{}[{}]: {}; with nominal lengths taken literally: {}", comparison.reference,
+                    comparison.index, comparison.conclusion, comparison.all_inputs.conclusion),
+        "    ");
+}
+
+void print_numerical_uncertainty(const results::Results& results) {
+  if (!results.uncertainty_coverage) return;
+  const results::UncertaintyCoverage& found = *results.uncertainty_coverage;
+  std::cout << fmt::format(
+      "the numerical uncertainty (GCI) covers the exact value on {} of {} levels ({}), median GCI "
+      "over error {}",
+      found.covered, found.levels, percent(found.coverage.value_or(kNaN)),
+      rounded(found.median_ratio.value_or(kNaN), 3));
+  if (!found.passes)
+    std::cout << ": FAIL, expected at least " << percent(found.min_coverage.value_or(kNaN))
+              << " and at most " << rounded(found.max_median_ratio.value_or(kNaN));
+  std::cout << '\n';
+}
+
+void print_summary(const results::Results& results) {
+  std::map<std::string, std::size_t> verdicts, validations;
+  std::size_t checks = 0, comparisons = 0;
+  for (const results::Run& run : results.runs) {
+    checks += run.checks.size();
+    for (const results::Check& check : run.checks) ++verdicts[verdict_text(check)];
+    if (!run.uncertainty) continue;
+    comparisons += run.uncertainty->comparisons.size();
+    for (const results::Comparison& comparison : run.uncertainty->comparisons)
+      ++validations[comparison.verdict];
+  }
+  const auto stored = std::ranges::count_if(results.runs, &results::Run::was_stored);
+  std::cout << count_of(results.runs.size(), "run");
+  if (stored > 0) std::cout << " (" << stored << " of them stored by an earlier call)";
+  std::cout << fmt::format(", {}: {} pass, {} do not agree (as recorded), {} fail",
+                           count_of(checks, "check"), verdicts["pass"], verdicts["does not agree"],
+                           verdicts["fail"]);
+  for (const char* rare : {"error", "not-run", "recorded"})
+    if (verdicts[rare] > 0) std::cout << ", " << verdicts[rare] << ' ' << rare;
+  std::cout << '\n';
+  print_numerical_uncertainty(results);
+  if (comparisons == 0) return;
+  std::cout << comparisons << " comparisons with the paper (ASME V&V 20)";
+  for (const auto& [verdict, count] : validations) std::cout << ", " << count << ' ' << verdict;
+  std::cout << '\n';
+}
+
+}  // namespace trammel::harness

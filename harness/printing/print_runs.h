@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "harness/base/rows.h"
+#include "harness/results/results.h"
+
+/// Runs and their checks, as several commands print them to standard output.
+namespace trammel::harness {
+
+/// Columns and cells of a check: verdict, name, quantity, numbers and tolerance.
+[[nodiscard]] std::vector<Column> check_columns();
+[[nodiscard]] std::vector<Json> check_cells(const results::Check& check, bool with_index = true);
+
+/// Status, warnings and the worst entry of each check; of a run without checks its quantities.
+void print_run(const results::Run& run);
+
+/// The validation comparison (ASME V&V 20) of a run as a table, if it has one.
+void print_validation(const results::Run& run);
+
+/// Hit rate and width of the bands of numerical uncertainty in one line, if exact values exist.
+void print_numerical_uncertainty(const results::Results& results);
+
+/// Counts of runs, verdicts and validation comparisons.
+void print_summary(const results::Results& results);
+
+}  // namespace trammel::harness

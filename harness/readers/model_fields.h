@@ -1,0 +1,150 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "harness/input/json_view.h"
+#include "solver/large/large_motion_model.h"
+#include "solver/linalg/eigenpairs.h"
+#include "solver/manipulator/manipulator.h"
+#include "solver/manipulator/trajectory.h"
+#include "solver/model/model.h"
+
+/// Keys and members of the parts of a planar model, each listed once. `FieldReader`, the writer of
+/// exported cases and a test that compares them with the schema visit the same list:
+///
+///   io.required(key, member);   always written
+///   io.defaulted(key, member);  optional in the schema, and always written
+///   io.optional(key, member);   written unless it is zero, empty or the first of several words
+///
+/// Ranges and documentation of the keys are in cases/schema/case.schema.json alone; units are in
+/// the keys.
+namespace trammel::harness {
+
+template <>
+inline constexpr std::array kWords<solver::BeamTheory> = {"euler-bernoulli", "rayleigh", "shear",
+                                                          "timoshenko"};
+template <>
+inline constexpr std::array kWords<solver::MassMatrix> = {"consistent", "lumped"};
+template <>
+inline constexpr std::array kWords<solver::EndFixity> = {"welded", "hinged"};
+template <>
+inline constexpr std::array kWords<solver::Taper> = {"linear-area-and-inertia",
+                                                     "linear-depth-and-width", "exponential"};
+template <>
+inline constexpr std::array kWords<solver::PlatformKind> = {"rigid", "triangles"};
+template <>
+inline constexpr std::array kWords<solver::ActiveKind> = {"locked", "free"};
+template <>
+inline constexpr std::array kWords<solver::ElbowKind> = {"welded", "hinged"};
+template <>
+inline constexpr std::array kWords<solver::PlatformJointKind> = {"hinged", "welded", "",
+                                                                 "eq25-mean", "eq25-sum"};
+template <>
+inline constexpr std::array kWords<solver::SplineEnds> = {"natural", "at-rest", "periodic"};
+template <>
+inline constexpr std::array kWords<solver::EigenMethod> = {"automatic", "dense", "sparse"};
+/// Whether a member stretches.
+enum class Axial { flexible, inextensible };
+template <>
+inline constexpr std::array kWords<Axial> = {"flexible", "inextensible"};
+/// Motions of a node.
+enum class NodeMotion { x, y, rotation };
+template <>
+inline constexpr std::array kWords<NodeMotion> = {"x", "y", "rotation"};
+
+/// Indices that a case states as names of nodes.
+template <class Indices>
+struct NodeNames {
+  Indices& indices;
+};
+
+template <class Io>
+void fields(Io& io, solver::Material& material) {
+  io.required("E_Pa", material.E);
+  io.required("rho_kg_m3", material.rho);
+  io.required("nu", material.nu);
+}
+
+template <class Io>
+void fields(Io& io, solver::Member& member) {
+  io.required("nodes", NodeNames{member.nodes});
+  io.required("section", member.section);
+  io.defaulted("beam", member.theory);
+  io.defaulted("elements", member.elements);
+  io.defaulted("ends", member.ends);
+  io.optional("mass_matrix", member.mass);
+  Axial axial = member.axially_flexible ? Axial::flexible : Axial::inextensible;
+  io.optional("axial", axial);
+  member.axially_flexible = axial == Axial::flexible;
+  io.optional("load_N_per_m", member.load);
+  Eigen::Vector2d inertia(member.ends[0].inertia, member.ends[1].inertia);
+  io.optional("end_inertia_kg_m2", inertia);
+  member.ends[0].inertia = inertia[0];
+  member.ends[1].inertia = inertia[1];
+}
+
+template <class Io>
+void fields(Io& io, solver::Plate& plate) {
+  io.required("material", plate.material);
+  io.required("thickness_m", plate.thickness);
+}
+
+template <class Io>
+void fields(Io& io, solver::RigidBody& body) {
+  io.required("reference", NodeNames{body.reference});
+  io.required("nodes", NodeNames{body.attached});
+}
+
+template <class Io>
+void fields(Io& io, solver::PointMass& mass) {
+  io.required("node", NodeNames{mass.node});
+  io.required("mass_kg", mass.mass);
+  io.defaulted("inertia_kg_m2", mass.inertia);
+  io.defaulted("offset_m", mass.offset);
+}
+
+template <class Io>
+void fields(Io& io, solver::Spring& spring) {
+  io.required("nodes", NodeNames{spring.nodes});
+  io.defaulted("stiffness_N_per_m", spring.stiffness.head<2>());
+  io.defaulted("rotational_stiffness_N_m_per_rad", spring.stiffness.z());
+}
+
+/// Two nodes in one place that move together.
+struct Pin {
+  std::string name;
+  std::array<solver::Index, 2> nodes{};
+};
+template <class Io>
+void fields(Io& io, Pin& pin) {
+  io.required("nodes", NodeNames{pin.nodes});
+}
+
+template <class Io>
+void fields(Io& io, solver::large_motion::Slider& slider) {
+  io.required("node", NodeNames{slider.node});
+  io.required("direction_rad", slider.direction);
+  io.defaulted("keeps_angle", slider.keeps_angle);
+  io.optional("rail", NodeNames{slider.rail});
+}
+
+template <class Io>
+void fields(Io& io, solver::large_motion::LineSpring& spring) {
+  io.required("nodes", NodeNames{spring.nodes});
+  io.required("stiffness_N_per_m", spring.stiffness);
+  io.optional("rest_length_m", spring.rest_length);
+}
+
+/// Loads on nodes, which follow them or not.
+template <class Io, class Load>
+requires requires(Load load) {
+  load.node, load.force;
+}
+void fields(Io& io, Load& load) {
+  io.optional("node", NodeNames{load.node});
+  io.defaulted("force_N", load.force.template head<2>());
+  io.optional("moment_N_m", load.force.z());
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,182 @@
+#include "harness/readers/option_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "harness/readers/field_reader.h"
+
+namespace trammel::harness {
+
+template <>
+inline constexpr std::array kWords<solver::DesignParameter::Kind> = {"length",
+                                                                     "thickness",
+                                                                     "width",
+                                                                     "E",
+                                                                     "density",
+                                                                     "poisson_ratio",
+                                                                     "base_side",
+                                                                     "platform_side",
+                                                                     "platform_mass",
+                                                                     "platform_inertia",
+                                                                     "active_stiffness",
+                                                                     "elbow_stiffness",
+                                                                     "platform_joint_stiffness",
+                                                                     "orientation"};
+
+namespace {
+
+using Kind = solver::DesignParameter::Kind;
+
+solver::TimeScheme scheme_of(const std::string& name, const JsonView& numbers) {
+  if (name == "hht") return solver::hht_alpha(numbers.number("alpha"));
+  if (name == "generalized-alpha")
+    return solver::generalized_alpha(numbers.number("spectral_radius"));
+  return solver::newmark(numbers.number("beta"), numbers.number("gamma"));
+}
+
+std::size_t count_of(const JsonView& modal, std::optional<solver::Index> known) {
+  if (!modal.has("modes")) throw modal.error("expected the key 'modes': how many have the ratio");
+  const JsonView stated = modal["modes"];
+  if (!stated.json().is_string()) return stated.get<std::size_t>();
+  if (known) return static_cast<std::size_t>(*known);
+  throw stated.error("expected a number: all modes are known with 'modal-superposition' only");
+}
+
+}  // namespace
+
+solver::TimeScheme read_time_scheme(const JsonView& scheme) {
+  if (scheme.json().is_string()) {
+    return scheme.get<std::string>() == "linear-acceleration" ? solver::linear_acceleration()
+                                                              : solver::average_acceleration();
+  }
+  const auto [name, numbers] = scheme.entries().front();
+  try {
+    return scheme_of(name, numbers);
+  } catch (const solver::ModelError& error) {
+    throw numbers.error(std::string("expected a scheme that has a meaning: ") + error.what());
+  }
+}
+
+void require_step_count(const JsonView& step, double duration) {
+  const double steps = std::ceil(duration / step.get<double>() * (1 - 1e-12));
+  if (steps <= 1e7) return;
+  throw step.error("expected at most ten million steps (got " + rounded(steps, 3) + ")");
+}
+
+solver::RayleighDamping read_rayleigh(const std::optional<JsonView>& damping) {
+  if (!damping) return {};
+  return {.mass = damping->get("mass_per_s", 0.0), .stiffness = damping->get("stiffness_s", 0.0)};
+}
+
+solver::LoadHistory read_load_history(const JsonView& analysis) {
+  const auto history = analysis.find("load_history");
+  if (!history) return {};
+  const auto time = (*history)["time_s"].get<std::vector<double>>();
+  const auto factor = (*history)["factor"].get<std::vector<double>>();
+  if (factor.size() != time.size()) {
+    throw(*history)["factor"].error("expected " + std::to_string(time.size()) +
+                                    " numbers, one for each time (got " +
+                                    std::to_string(factor.size()) + ")");
+  }
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    if (time[i] < time[i - 1]) throw(*history)["time_s"][i].error("expected times that ascend");
+  }
+  return {time, factor};
+}
+
+solver::TransientOptions read_time_options(const JsonView& analysis) {
+  solver::TransientOptions options;
+  options.step = analysis.number("step_s");
+  if (const auto scheme = analysis.find("scheme")) options.scheme = read_time_scheme(*scheme);
+  if (const auto adaptive = analysis.find("error_control")) {
+    const FieldReader reader(*adaptive);
+    solver::ErrorControl& control = options.adaptive.emplace();
+    reader.optional("relative", control.relative);
+    reader.optional("absolute", control.absolute);
+    reader.optional("finest_level", control.finest_level);
+  }
+  return options;
+}
+
+solver::HarmonicDamping read_damping(const JsonView& analysis, std::optional<solver::Index> modes) {
+  solver::HarmonicDamping read;
+  const auto damping = analysis.find("damping");
+  if (!damping) return read;
+  read.rayleigh = read_rayleigh(damping->find("rayleigh"));
+  const auto modal = damping->find("modal");
+  if (!modal) return read;
+  const JsonView ratio = (*modal)["ratio"];
+  if (!ratio.json().is_array()) {
+    read.modal_ratio.assign(count_of(*modal, modes), ratio.get<double>());
+  } else if (modal->has("modes")) {
+    throw(*modal)["modes"].error("expected it beside one ratio only (got a ratio for each mode)");
+  } else {
+    read.modal_ratio = ratio.get<std::vector<double>>();
+  }
+  if (modes && std::ssize(read.modal_ratio) > *modes) {
+    throw modal->error("expected at most " + std::to_string(*modes) + " modes (got " +
+                       std::to_string(read.modal_ratio.size()) + ")");
+  }
+  return read;
+}
+
+solver::EigenMethod read_eigen_method(const JsonView& analysis) {
+  return analysis.get("eigensolver", solver::EigenMethod::automatic);
+}
+
+solver::DesignParameter read_design_parameter(const JsonView& parameter) {
+  solver::DesignParameter read{.kind = parameter["property"].get<Kind>()};
+  if (read.kind > Kind::poisson_ratio) {
+    for (const char* key : {"links", "platform"})
+      if (parameter.has(key)) throw parameter[key].error("expected it beside a property of links");
+    return read;
+  }
+  read.platform = parameter.get("platform", false);
+  if (const auto links = parameter.find("links")) {
+    read.proximal.fill(false);
+    read.distal.fill(false);
+    for (const auto& entry : links->entries()) {
+      const auto link = entry.second.get<std::string>();  // "A1-B1" or "B1-C1"
+      (link[0] == 'A' ? read.proximal : read.distal)[static_cast<std::size_t>(link[1] - '1')] =
+          true;
+    }
+  }
+  const bool platform_has = read.kind != Kind::length && read.kind != Kind::width;
+  if (read.platform && !platform_has) {
+    throw parameter["platform"].error(
+        "expected the thickness, E, density or Poisson's ratio of the platform");
+  }
+  const auto any = [](const std::array<bool, 3>& selected) {
+    return std::ranges::count(selected, true) > 0;
+  };
+  if (!any(read.proximal) && !any(read.distal) && !read.platform) {
+    throw parameter.error("expected a link, or the platform");
+  }
+  return read;
+}
+
+std::string sensitivity_name(Kind kind) {
+  switch (kind) {
+    case Kind::E:
+      return "sensitivity_Hz_per_Pa";
+    case Kind::density:
+      return "sensitivity_Hz_m3_per_kg";
+    case Kind::poisson_ratio:
+      return "sensitivity_Hz";
+    case Kind::platform_mass:
+      return "sensitivity_Hz_per_kg";
+    case Kind::platform_inertia:
+      return "sensitivity_Hz_per_kg_m2";
+    case Kind::active_stiffness:
+    case Kind::elbow_stiffness:
+    case Kind::platform_joint_stiffness:
+      return "sensitivity_Hz_rad_per_N_m";
+    case Kind::orientation:
+      return "sensitivity_Hz_per_rad";
+    default:
+      return "sensitivity_Hz_per_m";
+  }
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,76 @@
+#include "harness/run/diff.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/base/quantity.h"
+
+namespace trammel::harness {
+namespace {
+
+std::string entry_name(const results::Check& check) {
+  std::string name = check.name;
+  if (!check.quantity.empty()) name += " " + check.quantity;
+  if (check.index && check.expected && check.against_variant.empty())
+    name += fmt::format("[{}]", *check.index);
+  return check.statistic.empty() ? name : name + " " + check.statistic;
+}
+
+/// 1e-9 of the value, or a millionth of its tolerance. Changes of diagnostic quantities, such as
+/// residuals, are always round-off.
+double noise_of(const results::Check& check) {
+  if (is_diagnostic(check.quantity)) return HUGE_VAL;
+  double width = 0;
+  if (check.tolerance)
+    for (const results::Number& end : {check.tolerance->low, check.tolerance->high})
+      width = std::max(width, std::abs(end.value_or(0)));
+  const double size =
+      std::max(std::abs(check.computed.value_or(0)), std::abs(check.expected.value_or(0)));
+  if (check.measure == "relative") width *= size;
+  return std::max(1e-9 * size, 1e-6 * width);
+}
+
+}  // namespace
+
+bool Entry::differs(const Entry& other) const {
+  if (verdict != other.verdict || value.has_value() != other.value.has_value()) return true;
+  return value && !(std::abs(*value - *other.value) <= std::max(noise, other.noise));
+}
+
+std::string name_of(const results::Run& run) {
+  return run.case_id + ":" + run.variant;
+}
+
+void add_entries(const results::Run& run, const std::string& name, Entries& entries) {
+  entries.emplace(name, Entry{to_string(run.status), {}, 0, &run, nullptr});
+  for (const results::Check& check : run.checks) {
+    const std::string common = name + " " + entry_name(check);
+    std::string unique = common;
+    for (int n = 2; entries.count(unique) > 0; ++n) unique = fmt::format("{} #{}", common, n);
+    entries.emplace(unique,
+                    Entry{to_string(check.verdict), check.computed, noise_of(check), &run, &check});
+  }
+}
+
+Entries entries_of(const results::Results& results) {
+  Entries entries;
+  for (const results::Run& run : results.runs) add_entries(run, name_of(run), entries);
+  return entries;
+}
+
+std::vector<DiffRow> diff(const Entries& before, const Entries& after) {
+  std::map<std::string, DiffRow> rows;
+  for (const auto& [name, entry] : before) rows[name] = {name, &entry, nullptr};
+  for (const auto& [name, entry] : after) {
+    DiffRow& row = rows[name];
+    row.name = name;
+    row.after = &entry;
+  }
+  std::vector<DiffRow> all;
+  for (auto& item : rows) all.push_back(std::move(item.second));
+  return all;
+}
+
+}  // namespace trammel::harness

@@ -1,0 +1,96 @@
+#include "harness/readers/model_fields.h"
+
+#include <boost/test/unit_test.hpp>
+#include <set>
+
+#include "harness/base/data_root.h"
+#include "harness/base/json_file.h"
+
+BOOST_AUTO_TEST_SUITE(model_fields)
+
+/// The lists of fields and words, and cases/schema/case.schema.json.
+using namespace trammel;
+using namespace trammel::harness;
+
+namespace {
+
+using Names = std::set<std::string>;
+
+const Json& schema() {
+  static const Json json = read_json(data_root() / "cases/schema/case.schema.json");
+  return json;
+}
+
+/// The keys of a list of fields.
+struct FieldList {
+  Names required_keys, keys;
+
+  template <class T>
+  void optional(const char* key, const T&) {
+    keys.insert(key);
+  }
+  template <class T>
+  void defaulted(const char* key, const T&) {
+    keys.insert(key);
+  }
+  template <class T>
+  void required(const char* key, const T&) {
+    keys.insert(key);
+    required_keys.insert(key);
+  }
+};
+
+/// @param read_alone  keys that are read and never written, and so have no place in the list
+template <class T>
+void check_fields(const std::string& definition, const Names& read_alone = {}) {
+  const Json& rule = schema()["definitions"][definition];
+  FieldList list;
+  T part{};
+  fields(list, part);
+  BOOST_TEST((rule.value("required", Names()) == list.required_keys), definition);
+  Names stated;
+  for (const auto& property : rule["properties"].items()) stated.insert(property.key());
+  list.keys.insert(read_alone.begin(), read_alone.end());
+  BOOST_TEST((stated == list.keys), definition);
+}
+
+template <class Enum>
+void check_words(const std::string& pointer) {
+  Names words(kWords<Enum>.begin(), kWords<Enum>.end());
+  words.erase("");
+  BOOST_TEST((schema()[JsonPointer("/definitions" + pointer + "/enum")].get<Names>() == words),
+             pointer);
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(fields_are_those_of_the_schema) {
+  check_fields<solver::Material>("material");
+  check_fields<solver::Member>("member",
+                               {"end_section", "taper", "arc_center_m", "restrained_motions"});
+  check_fields<solver::Plate>("plate", {"triangles", "blocks", "element", "divisions"});
+  check_fields<solver::RigidBody>("rigid_body");
+  check_fields<solver::PointMass>("point_mass");
+  check_fields<solver::Spring>("spring");
+  check_fields<Pin>("pin");
+  check_fields<solver::large_motion::Slider>("slider");
+  check_fields<solver::large_motion::LineSpring>("axial_spring");
+  check_fields<solver::NodalLoad>("load", {"edge", "traction_Pa", "normal_Pa"});
+}
+
+BOOST_AUTO_TEST_CASE(words_are_those_of_the_schema) {
+  check_words<solver::BeamTheory>("/beam");
+  check_words<solver::MassMatrix>("/mass_matrix");
+  check_words<Axial>("/axial");
+  check_words<NodeMotion>("/motions/items");
+  check_words<solver::Taper>("/member/properties/taper");
+  check_words<solver::EndFixity>("/member/properties/ends/items/anyOf/0");
+  check_words<solver::PlatformKind>("/platform/properties/kind");
+  check_words<solver::ActiveKind>("/active_joint/anyOf/0");
+  check_words<solver::ElbowKind>("/elbow_joint/anyOf/0");
+  check_words<solver::PlatformJointKind>("/platform_joint/anyOf/0");
+  check_words<solver::SplineEnds>("/trajectory/properties/spline/properties/ends");
+  check_words<solver::EigenMethod>("/eigensolver");
+}
+
+BOOST_AUTO_TEST_SUITE_END()
