@@ -1,11 +1,8 @@
 #!/usr/bin/env python3
-"""Do verdicts and digits depend on compiler, optimization or rounding? Builds trammel in other ways, runs
-the catalogue with each, and lets `trammel certify` put them beside ways of rounding.
+"""Builds trammel in other ways, runs the catalogue with each, and compares by `trammel certify`, also with ways of rounding.
 
-Without optimization only the cases that take less than a tenth of a second are run. What OUT has of the
-same sources is not built or run again; builds take some ten minutes each on two cores, the rest half
-an hour. With --write the page's section and result.json, from which it is made, become what was found. Exit
-status 1 where a verdict differs, is missing, or a run ends otherwise.
+Builds and results of the same sources in OUT are used again; a build takes some ten minutes on two cores, the rest half an hour.
+With --write the page's section and result.json are replaced. Exit status 1 if a verdict differs or is missing, or a run fails.
 """
 import argparse
 import json

@@ -2,12 +2,11 @@
 """Which model the authors of Table 2 may have run: probabilities of all readings, given each printed row.
 
     model_probabilities.py TRAMMEL OUT      writes OUT/table-2-models.json and OUT/table-2-models-planar.json
-
-model_probabilities.json has the factors of which each combination is a reading, all equally probable, and the readings in space
-(table_2_readings.py). Evidence is a Gaussian integral (Kass and Raftery, J. Am. Stat. Assoc. 90, 1995) over cells of the unknowns, linear
-in them: thickness within its printed digits, mesh between one element a link and four, one stiffness of all sprung joints (its logarithm),
-and the pose, centered or on a circle. Frequencies in the plane are trammel's. A row is any choice of a reading's lowest frequencies.
 """
+# model_probabilities.json has the factors of which each combination is a reading, all equally probable, and the readings in space
+# (table_2_readings.py). Evidence is a Gaussian integral (Kass and Raftery, J. Am. Stat. Assoc. 90, 1995) over cells of the unknowns, linear
+# in them: thickness within its printed digits, mesh between one element a link and four, one stiffness of all sprung joints (its logarithm),
+# and the pose, centered or on a circle. Frequencies in the plane are trammel's. A row is any choice of a reading's lowest frequencies.
 import concurrent.futures
 import itertools
 import json

@@ -165,8 +165,7 @@ def column(modes, draw):
 
 
 def near_singular(_, draw):
-    """Returns a manipulator along a path to within 0.001 to 0.1 of a singularity: of a limb that is stretched out, or
-    of distal links that meet in P."""
+    """Returns a manipulator on a path to within 0.001 to 0.1 of a singularity: limb stretched out, or distal links meeting in P."""
     length = draw.uniform(0.18, 0.22)
     bar = Bar(draw, length, (0.004, 0.1), (0.05, 0.3), is_link=True)
     side, near = draw.uniform(0.15, 0.22), draw.logarithmic(1e-3, 0.1)
