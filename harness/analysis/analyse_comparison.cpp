@@ -1,5 +1,4 @@
 #include "harness/analysis/analyse_study.h"
-
 #include "harness/results/results.h"
 
 namespace trammel::harness {

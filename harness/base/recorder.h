@@ -22,10 +22,8 @@ class Recorder {
   }
   /// A number of the whole model or motion.
   template <class Number>
-    requires std::is_arithmetic_v<Number>
-  void add(const std::string& name, Number value) {
-    add(name, "", static_cast<double>(value));
-  }
+  requires std::is_arithmetic_v<Number>
+  void add(const std::string& name, Number value) { add(name, "", static_cast<double>(value)); }
   /// One number for each item.
   template <class Items, class Values>
   void add_each(const std::string& name, const Items& items, const Values& values) {

@@ -117,8 +117,7 @@ BOOST_AUTO_TEST_CASE(an_interpretation_that_misses_a_number_has_no_verdict_of_it
   Run half = bend(1, 1);
   half.check_results[1].computed.reset();
   const auto found = evaluate_claims(claims_of({{"r", ratio}}, "confirmed"), {half});
-  BOOST_TEST(
-      (found.claims.at(0).interpretations.at(0).verdict == "not measured"));
+  BOOST_TEST((found.claims.at(0).interpretations.at(0).verdict == "not measured"));
 }
 
 BOOST_AUTO_TEST_CASE(what_one_interpretation_misses_no_other_makes_up_for) {
@@ -126,8 +125,8 @@ BOOST_AUTO_TEST_CASE(what_one_interpretation_misses_no_other_makes_up_for) {
   other["check"] = "tip-y";
   Run half = bend(1, 1);
   half.check_results[1].computed.reset();
-  BOOST_TEST((verdict(claims_of({{"r", ratio}, {"s", other}}, "contradicted"), {half}) ==
-              "not measured"));
+  BOOST_TEST(
+      (verdict(claims_of({{"r", ratio}, {"s", other}}, "contradicted"), {half}) == "not measured"));
 }
 
 BOOST_AUTO_TEST_CASE(the_exit_status_says_whether_all_verdicts_are_the_recorded_ones) {
@@ -152,8 +151,7 @@ BOOST_AUTO_TEST_CASE(alternatives_that_differ_decide_nothing_where_parts_confirm
   const Json both = {{"x", ratio}, {"y", second}};
   const std::vector<Run> runs = {bend(1, 1)};
   BOOST_TEST((verdict(claims_of(both, "confirmed"), runs) == "confirmed in part"));
-  BOOST_TEST((verdict(claims_of(both, "confirmed", "alternatives"), runs) ==
-              "cannot be decided"));
+  BOOST_TEST((verdict(claims_of(both, "confirmed", "alternatives"), runs) == "cannot be decided"));
   second["check"] = "tip*";
   BOOST_TEST(evaluate_claims(claims_of({{"all", second}}, "confirmed"), runs)
                  .claims[0]
@@ -185,7 +183,8 @@ BOOST_AUTO_TEST_CASE(steps_of_a_quantity_say_whether_it_grows) {
   const Json grows = {{"description", "growth"},    {"case", "bend"},
                       {"quantity", "frequency_Hz"}, {"metric", "steps"},
                       {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
-  const results::Claims found = evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {bend(1, 1)});
+  const results::Claims found =
+      evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {bend(1, 1)});
   const results::ClaimInterpretation& reading = found.claims[0].interpretations[0];
   BOOST_REQUIRE(reading.entries.size() == 2U);
   BOOST_TEST(reading.entries[0].value == 2);
@@ -232,8 +231,7 @@ BOOST_AUTO_TEST_CASE(the_catalogue_has_eleven_claims_and_knows_their_cases) {
   BOOST_TEST(found.claims.size() == 11U);
   for (const results::Claim& claim : found.claims) {
     const bool undecidable = !claim.undecidable.empty();
-    BOOST_TEST((claim.verdict ==
-                (undecidable ? "cannot be decided" : "not measured")));
+    BOOST_TEST((claim.verdict == (undecidable ? "cannot be decided" : "not measured")));
   }
   // No reading names a case or a check that is not there.
   const std::vector<Case> catalogue = Catalogue().load();

@@ -1,8 +1,7 @@
-#include "harness/run/claims.h"
-
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 
+#include "harness/run/claims.h"
 #include "tests/support/harness/support.h"
 
 BOOST_AUTO_TEST_SUITE(paper_items)
