@@ -61,15 +61,15 @@ int solve_command(const std::string& case_file, const std::string& result_file) 
   require_complete(runs);
   const Run& run = runs.front();
   require_no_error(run);
-  if (run.result.outcome.solved()) {
-    for (const Warning& warning : run.result.warnings)
-      std::cerr << "trammel: " << given.id() << ": warning: " << warning.text() << '\n';
+  if (run.is_solved()) {
+    for (const std::string& warning : run.warnings)
+      std::cerr << "trammel: " << given.id() << ": warning: " << warning << '\n';
   }
-  write_file(result_file, pretty({{"status", run.status},
+  write_file(result_file, pretty({{"status", to_string(run.status)},
                                   {"reason", run.reason},
-                                  {"quantities", quantities_json(given, run.result.quantities)},
+                                  {"quantities", quantities_json(given, run.quantities)},
                                   {"solver", {{"name", "trammel"}, {"version", TRAMMEL_VERSION}}},
-                                  {"cost", {{"seconds", run.wall_s}}}}));
+                                  {"cost", {{"seconds", run.cost.wall_s}}}}));
   return 0;
 }
 

@@ -132,9 +132,9 @@ int grade_command(const GradeCommand& grade, const RunCommand& run, const Render
   options.store = store_folder(run.out, run.store);
   options.resume = run.resume;
   options.solver = solver_of(adapter);
-  const std::vector<Run> runs = run_cases(cases, references, options);
-  results::Results found = results_of(runs, cases, references);
-  found.solver = solver_name(runs, grade.command, adapter.words.front());
+  results::Results found =
+      results_of(run_cases(cases, references, options), cases, references, options.store);
+  found.solver = solver_name(found.runs, grade.command, adapter.words.front());
   found.uncertainty_coverage.reset();  // it is a matter of trammel's own refinements
   const auto file = write_results(found, grade.out);
   renderers.junit(found, std::filesystem::path(grade.out) / "junit.xml");
@@ -145,7 +145,7 @@ int grade_command(const GradeCommand& grade, const RunCommand& run, const Render
     print_grades(found.runs);
     std::cout << "results in " << file.string() << ", page in " << page.string() << std::endl;
   }
-  require_complete(runs);
+  require_complete(found.runs);
   const bool failure = std::ranges::any_of(
       found.runs, [](const results::Run& one) { return is_failure(results::grade_of(one)); });
   return failure ? 1 : 0;

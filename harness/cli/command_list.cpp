@@ -142,8 +142,8 @@ void describe_inputs(const Case& given, const References& references) {
   if (!base.value().contains("uncertainty")) return;
   std::cout << "\nInput uncertainties\n";
   Table table({"input", ">half width", "", "why"});
-  for (const StatedInput& input : stated_inputs(base, references)) {
-    table.add({input.name, rounded(input.half_width),
+  for (const results::UncertainInput& input : stated_inputs(base, references)) {
+    table.add({input.name, rounded(*input.half_width),
                input.nominal ? "in the literal reading alone" : "", input.why});
   }
   table.print(std::cout, "  ");
@@ -282,7 +282,7 @@ int quantities_command(const std::string& name, bool json) {
   }
   const Case given = load_named_case(name);
   const Document document = patched(given, kBaseVariant);
-  const AnalysisResult result = solution_of(given, kBaseVariant);
+  const Run result = solution_of(given, kBaseVariant);
   Table table({"quantity", ">entries", "unit", "meaning"});
   Json rows = Json::array();
   for (const auto& [quantity, found] : result.quantities) {

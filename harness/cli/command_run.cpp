@@ -22,6 +22,7 @@
 #include "harness/export/vtk_files.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/schema.h"
+#include "harness/judge/uncertainty_summary.h"
 #include "harness/printing/print_uncertainty.h"
 #include "harness/results/unfinished_folder.h"
 #include "harness/run/claims.h"
@@ -52,9 +53,9 @@ Selection load(const std::vector<std::filesystem::path>& files, const Catalogue&
       Run run;
       run.case_id = file.stem().string();
       run.variant = kBaseVariant;
-      run.status = "error";
+      run.status = results::Status::error;
       run.reason = one_line(error.what());
-      run.error = Run::RunError::input;
+      run.fault = results::Fault::input;
       selection.broken.push_back(std::move(run));
     }
   }
@@ -104,7 +105,7 @@ struct CheckSummary {
 
 std::vector<CheckSummary> summarise_checks(const Run& run) {
   std::vector<CheckSummary> told;
-  for (const CheckResult& check_result : run.check_results) {
+  for (const CheckResult& check_result : run.checks) {
     const auto is_same = [&](const CheckSummary& one) {
       return one.worst->name == check_result.name;
     };
@@ -121,8 +122,8 @@ std::vector<CheckSummary> summarise_checks(const Run& run) {
 /// Digits that tell the ends of a window from each other and from what lies between them.
 int digits_of(const CheckResult& check_result) {
   constexpr int least = 3, most = 12;
-  if (!check_result.window || check_result.symmetric) return least;
-  const double low = check_result.window->low, high = check_result.window->high;
+  if (!check_result.tolerance || check_result.tolerance->symmetric) return least;
+  const double low = *check_result.tolerance->low, high = *check_result.tolerance->high;
   const auto judged =
       check_result.measure == "bound" ? check_result.computed : check_result.difference;
   const auto apart = [](double a, double b, int digits) {
@@ -138,13 +139,13 @@ int digits_of(const CheckResult& check_result) {
 }
 
 std::string tolerance_text(const CheckResult& check_result) {
-  if (!check_result.window) return "";
-  if (check_result.symmetric) return "+-" + rounded(check_result.window->high, 3);
+  if (!check_result.tolerance) return "";
+  const results::Tolerance& tolerance = *check_result.tolerance;
+  if (tolerance.symmetric) return "+-" + rounded(*tolerance.high, 3);
   const int digits = digits_of(check_result);
-  const std::string low = rounded(check_result.window->low, digits),
-                    high = rounded(check_result.window->high, digits);
-  if (!std::isfinite(check_result.window->low)) return "at most " + high;
-  if (!std::isfinite(check_result.window->high)) return "at least " + low;
+  const std::string low = rounded(*tolerance.low, digits), high = rounded(*tolerance.high, digits);
+  if (!tolerance.low) return "at most " + high;
+  if (!tolerance.high) return "at least " + low;
   return "[" + low + ", " + high + "]";
 }
 
@@ -161,7 +162,7 @@ void print_quantities(const Run& run) {
   constexpr std::size_t most = 30, whole = 6;
   Table table({"quantity", ">entries", "values"});
   std::size_t told = 0, left = 0;
-  for (const auto& [name, quantity] : run.result.quantities) {
+  for (const auto& [name, quantity] : run.quantities) {
     const std::vector<double>& values = quantity.values;
     if (values.empty() || is_diagnostic(name)) continue;
     if (told == most) {
@@ -183,10 +184,9 @@ void print_quantities(const Run& run) {
 
 void print_run(const Run& run) {
   std::cout << run.case_id << (run.variant == kBaseVariant ? "" : ":" + run.variant) << "  "
-            << run.status << ", " << rounded(run.wall_s, 2) << " s\n";
+            << to_string(run.status) << ", " << rounded(run.cost.wall_s, 2) << " s\n";
   if (!run.reason.empty()) std::cout << wrapped(run.reason, "  ");
-  for (const Warning& warning : run.result.warnings)
-    std::cout << wrapped("warning: " + warning.text(), "  ");
+  for (const std::string& warning : run.warnings) std::cout << wrapped("warning: " + warning, "  ");
   Table table(
       {"verdict", "check", "quantity", ">computed", ">expected", ">difference", ">allowed"});
   std::vector<std::string> messages;
@@ -216,9 +216,8 @@ void print_summary(const std::vector<Run>& runs) {
   std::map<std::string, std::size_t> verdicts;
   std::size_t checks = 0;
   for (const Run& run : runs) {
-    checks += run.check_results.size();
-    for (const CheckResult& check_result : run.check_results)
-      ++verdicts[verdict_text(check_result)];
+    checks += run.checks.size();
+    for (const CheckResult& check_result : run.checks) ++verdicts[verdict_text(check_result)];
   }
   const auto stored = std::ranges::count_if(runs, [](const Run& run) { return run.was_stored; });
   std::cout << runs.size() << (runs.size() == 1 ? " run" : " runs");
@@ -229,7 +228,7 @@ void print_summary(const std::vector<Run>& runs) {
   for (const char* rare : {"error", "not-run", "recorded"})
     if (verdicts[rare] > 0) std::cout << ", " << verdicts[rare] << ' ' << rare;
   std::cout << '\n';
-  print_numerical_uncertainty(numerical_uncertainty_of(runs), std::cout);
+  print_numerical_uncertainty(summarise_numerical_uncertainty(runs), std::cout);
   print_validation_summary(runs, std::cout);
 }
 
@@ -237,12 +236,12 @@ void print_summary(const std::vector<Run>& runs) {
 void print_measurements(const std::vector<Run>& runs) {
   double checks = 0, failures = 0, share = 0, cpu_s = 0;
   for (const Run& run : runs) {
-    cpu_s += run.cpu_s;
-    for (const CheckResult& check : run.check_results) {
+    cpu_s += run.cost.cpu_s;
+    for (const CheckResult& check : run.checks) {
       ++checks;
       failures += fails_gate(check.verdict) ? 1 : 0;
-      const bool limited = check.window && check.difference && std::isfinite(check.window->low) &&
-                           std::isfinite(check.window->high);
+      const bool limited =
+          check.tolerance && check.difference && check.tolerance->low && check.tolerance->high;
       if (limited) share = std::max(share, 1 + severity(check));
     }
   }
@@ -260,7 +259,7 @@ void print_measurements(const std::vector<Run>& runs) {
 void print_run_errors(const std::vector<Run>& runs) {
   std::vector<std::string> told;
   for (const Run& run : runs) {
-    if (run.error == Run::RunError::none) continue;
+    if (run.fault == results::Fault::none) continue;
     // Variants of one case often have one and the same fault.
     if (contains(told, run.reason)) continue;
     told.push_back(run.reason);
@@ -298,7 +297,7 @@ Selection select(const RunCommand& command) {
 
 void print_failed_runs(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
-    if (fails_gate(run) && run.error == Run::RunError::none) print_run(run);
+    if (fails_gate(run) && run.fault == results::Fault::none) print_run(run);
   }
 }
 
@@ -338,8 +337,7 @@ bool do_in_processes(const std::vector<std::function<void()>>& work, unsigned jo
 }
 
 /// The page of these results, and where it is.
-void write_page(results::Results found, const std::vector<Run>& runs, const RunCommand& command,
-                const Renderers& renderers) {
+void write_page(results::Results& found, const RunCommand& command, const Renderers& renderers) {
   if (!command.history.empty()) {
     append_history(command.history, found);
     found.history = read_history(command.history);
@@ -348,9 +346,9 @@ void write_page(results::Results found, const std::vector<Run>& runs, const RunC
   std::filesystem::create_directories(unfinished);
   write_all(found, unfinished, renderers);
   const auto page = renderers.report(found, command.out, command.single_file);
-  print_summary(runs);
+  print_summary(found.runs);
   std::cout << "report in " << page.string() << std::endl;
-  print_run_errors(runs);
+  print_run_errors(found.runs);
 }
 
 /// The page of some cases: without the cost studies and the claims, which rest on the catalogue.
@@ -359,11 +357,13 @@ int report_cases(const RunCommand& command, const Renderers& renderers) {
   const OutputLock lock(command.out);
   end_on_signals(kReportInterrupted);
   const References references;
-  const std::vector<Run> runs = compute(selection, references, command);
+  std::vector<Run> runs = compute(selection, references, command);
   require_complete(runs);
   print_failed_runs(runs);
-  write_page(results_of(runs, selection.cases, references), runs, command, renderers);
-  return exit_status(runs);
+  results::Results found = results_of(std::move(runs), selection.cases, references,
+                                      store_folder(command.out, command.store));
+  write_page(found, command, renderers);
+  return exit_status(found.runs);
 }
 
 bool is_results_file(const std::string& name) {
@@ -440,14 +440,15 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
   const OutputLock lock(command.out);
   end_on_signals(kInterrupted);
   const References references;
-  const std::vector<Run> runs = compute(selection, references, command);
+  const results::Results found =
+      results_of(compute(selection, references, command), selection.cases, references,
+                 store_folder(command.out, command.store));
+  const std::vector<Run>& runs = found.runs;
   for (const Run& run : runs) {
-    if (command.json || run.error != Run::RunError::none || run.interrupted_by != 0) continue;
+    if (command.json || run.fault != results::Fault::none || run.interrupted_by != 0) continue;
     print_run(run);
     if (runs.size() == 1) print_validation(run, std::cout);
   }
-  const bool with_series = command.vtk || !command.history.empty();
-  const results::Results found = results_of(runs, selection.cases, references, with_series);
   const auto results = write_all(found, command.out, renderers);
   if (command.json) {
     std::cout << read_text(results);
@@ -457,8 +458,7 @@ int run_command(const RunCommand& command, const Renderers& renderers) {
   }
   if (command.measurements) print_measurements(runs);
   if (command.vtk)
-    for (const results::Run& run : found.runs)
-      write_vtk(run, std::filesystem::path(command.out) / "vtk");
+    for (const Run& run : runs) write_vtk(run, std::filesystem::path(command.out) / "vtk");
   print_run_errors(runs);
   require_complete(runs);
   if (!command.history.empty()) append_history(command.history, found);
@@ -479,7 +479,7 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   const Catalogue catalogue;
   const Selection selection = select(command);
   const References references;
-  const std::vector<Run> runs = compute(selection, references, command);
+  std::vector<Run> runs = compute(selection, references, command);
   require_complete(runs);
   print_failed_runs(runs);
   const std::filesystem::path store = store_folder(command.out, command.store);
@@ -490,10 +490,10 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   std::vector<std::string> error_messages;
   results::CostStudies cost =
       quick_cost(references, store, command.resume || measured, error_messages);
-  results::Results results = results_of(runs, selection.cases, references);
+  results::Results results = results_of(std::move(runs), selection.cases, references, store);
   results.cost = std::move(cost);
   const Document claims = load_claims();
-  const ClaimSet claim_set = evaluate_claims(claims, runs);
+  const ClaimSet claim_set = evaluate_claims(claims, results.runs);
   results.claims = claim_results(claim_set);
   results.claims->items = load_paper_items(claims, catalogue);
   judge_paper_items(results, results.claims->items);
@@ -501,14 +501,15 @@ int report_command(const RunCommand& command, const Renderers& renderers) {
   add_reasons(results.coverage);
   count_series(results, results.coverage);
   results.effect_scenes = catalogue_effect_scenes(store, command.resume || measured);
-  write_page(std::move(results), runs, command, renderers);
+  write_page(results, command, renderers);
   for (const std::string& error_message : error_messages) std::cerr << error_message << '\n';
   for (const Claim& claim : claim_set.claims) {
     if (claim.as_expected()) continue;
     std::cerr << "claim " << claim.id << ": expected the recorded verdict, "
               << to_text(claim.expected) << " (got " << to_text(claim.verdict) << ")\n";
   }
-  return std::max({exit_status(runs), error_messages.empty() ? 0 : 2, exit_status(claim_set)});
+  return std::max(
+      {exit_status(results.runs), error_messages.empty() ? 0 : 2, exit_status(claim_set)});
 }
 
 }  // namespace trammel::harness

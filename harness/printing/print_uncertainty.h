@@ -17,6 +17,6 @@ void print_validation_summary(const std::vector<Run>& runs, std::ostream& out);
 
 /// Hit rate of the bands of numerical uncertainty, and how wide they are, in one line; nothing
 /// where no exact value tells.
-void print_numerical_uncertainty(const NumericalUncertaintySummary& summary, std::ostream& out);
+void print_numerical_uncertainty(const results::UncertaintyCoverage& summary, std::ostream& out);
 
 }  // namespace trammel::harness

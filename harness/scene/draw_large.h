@@ -13,7 +13,7 @@ namespace trammel::harness {
     const solver::large_motion::GeometricallyExactSystem& system, bool is_manipulator);
 
 /// Where the drawing's nodes are at coordinates q.
-[[nodiscard]] Drawing::Pose draw_large_pose(
+[[nodiscard]] results::Pose draw_large_pose(
     const solver::large_motion::GeometricallyExactSystem& system, const Eigen::VectorXd& q,
     const std::string& label);
 
