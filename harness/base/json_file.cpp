@@ -35,7 +35,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
     return add(value);
   }
   bool string(string_t& value) override { return add(std::move(value)); }
-  bool binary(binary_t&) override { return false; }
+  bool binary(binary_t& value) override { return add(std::move(value)); }
   bool start_object(std::size_t) override { return open(Json::object()); }
   bool end_object() override { return close(); }
   bool start_array(std::size_t) override { return open(Json::array()); }
@@ -149,6 +149,12 @@ Json parse_json(const std::string& text, const std::string& name) {
   return reader.take();
 }
 
+Json parse_cbor(const std::string& bytes) {
+  StrictReader reader("CBOR");
+  Json::sax_parse(bytes, &reader, Json::input_format_t::cbor);
+  return reader.take();
+}
+
 std::string read_text(const std::filesystem::path& file) {
   constexpr std::uintmax_t most = std::uintmax_t{1} << 28;
   std::error_code error;
@@ -187,7 +193,11 @@ void put_line(const Json& json, std::string& text) {
 }
 
 void put(const Json& json, std::size_t depth, std::size_t deepest, std::string& text) {
-  const auto line = [&](std::size_t spaces) { text.append(1, '\n').append(spaces, ' '); };
+  // Text of a limited depth, as of results, has many lines: their indentation would be 2 % of it.
+  const std::size_t most = deepest < kMaxDepth ? 1 : kMaxDepth;
+  const auto line = [&](std::size_t spaces) {
+    text.append(1, '\n').append(std::min(spaces, most), ' ');
+  };
   const bool nested = json.is_structured() && std::ranges::any_of(json, [](const Json& item) {
                         return item.is_structured();
                       });

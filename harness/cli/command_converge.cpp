@@ -25,46 +25,45 @@ std::string note(const Convergence& found, std::size_t k) {
 
 /// What follows from the levels, in words.
 std::string conclusion(const Convergence& found) {
-  const Series& series = found.series;
   std::vector<std::string> parts;
-  if (series.theory)
-    parts.push_back("order by theory " + rounded(*series.theory) +
-                    (series.lower ? " and " + rounded(*series.lower) : ""));
+  if (found.theory_order)
+    parts.push_back("order by theory " + rounded(*found.theory_order) +
+                    (found.lower_order ? " and " + rounded(*found.lower_order) : ""));
   if (found.two_term) {
-    const auto& [a, b] = found.two_term->coefficient;
-    parts.push_back(fmt::format("error = {:.4g} h^{} + {:.4g} h^{} within {:.2g} %", a,
-                                *series.theory, b, *series.lower, 100 * found.two_term->worst));
+    const results::Numbers& of = found.two_term->coefficients;
+    parts.push_back(fmt::format("error = {:.4g} h^{} + {:.4g} h^{} within {:.2g} %", *of[0],
+                                *found.theory_order, *of[1], *found.lower_order,
+                                100 * *found.two_term->max_relative_misfit));
   }
   if (found.fitted_order) parts.push_back("fitted " + rounded(*found.fitted_order, 4));
   if (found.richardson) {
     parts.push_back("extrapolated " + shortest(*found.richardson));
-    if (series.exact)
+    if (found.exact)
       parts.push_back(fmt::format(
-          "off by {:.2g}", std::abs(*found.richardson - *series.exact) / std::abs(*series.exact)));
-  } else if (series.values.size() > 2) {
+          "off by {:.2g}", std::abs(*found.richardson - *found.exact) / std::abs(*found.exact)));
+  } else if (found.values.size() > 2) {
     parts.emplace_back("no value that it converges to");
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
 void print(const Convergence& found) {
-  const Series& series = found.series;
   std::cout << "  "
-            << (series.statistic.empty() ? fmt::format("{}[{}]", series.quantity, series.index)
-                                         : series.statistic + " of " + series.quantity);
-  if (series.exact)
-    std::cout << ", exact " << shortest(*series.exact) << " (" << series.reference << ")";
+            << (found.statistic.empty() ? fmt::format("{}[{}]", found.quantity, found.index)
+                                        : found.statistic + " of " + found.quantity);
+  if (found.exact)
+    std::cout << ", exact " << shortest(*found.exact) << " (" << found.reference << ")";
   std::cout << '\n';
-  Rows table({series.sweep.c_str(),
+  Rows table({found.sweep.c_str(),
               {"value", "", 12},
               {"error", "", 3},
               {"order", "", 4},
               {"GCI", "", 3},
               {"safety factor", "", 3},
               ""});
-  for (std::size_t k = 0; k < series.values.size(); ++k)
-    table.add({series.parameter[k], series.values[k], found.error[k], found.order[k], found.gci[k],
-               found.factor[k], note(found, k)});
+  for (std::size_t k = 0; k < found.values.size(); ++k)
+    table.add({*found.parameter[k], *found.values[k], *found.error[k], *found.order[k],
+               *found.gci[k], *found.safety_factor[k], note(found, k)});
   table.print(std::cout, "    ");
   std::cout << wrapped(conclusion(found), "    ") << '\n';
 }
@@ -82,9 +81,9 @@ int converge_command(const CommandOptions& options, const Renderers& /*renderers
       run_cases({given}, references, {options.variant, options.jobs, TrackedQuantities::all, {}});
   require_complete(runs);
   for (const Run& run : runs) {
-    if (run.error != Run::RunError::none) {
+    if (run.fault != results::Fault::none) {
       std::cerr << run.reason << '\n';
-      return run.error == Run::RunError::input ? 2 : 3;
+      return run.fault == results::Fault::input ? 2 : 3;
     }
     if (options.json) continue;
     std::cout << run.case_id << ":" << run.variant << "\n\n";

@@ -62,15 +62,15 @@ int solve_command(const CommandOptions& options, const Renderers& /*renderers*/)
   require_complete(runs);
   const Run& run = runs.front();
   require_no_error(run);
-  if (run.result.outcome.solved()) {
-    for (const Warning& warning : run.result.warnings)
-      std::cerr << "trammel: " << given.id() << ": warning: " << warning.text() << '\n';
+  if (run.is_solved()) {
+    for (const std::string& warning : run.warnings)
+      std::cerr << "trammel: " << given.id() << ": warning: " << warning << '\n';
   }
-  write_file(options.out, pretty({{"status", run.status},
+  write_file(options.out, pretty({{"status", to_string(run.status)},
                                   {"reason", run.reason},
-                                  {"quantities", quantities_json(given, run.result.quantities)},
+                                  {"quantities", quantities_json(given, run.quantities)},
                                   {"solver", {{"name", "trammel"}, {"version", TRAMMEL_VERSION}}},
-                                  {"cost", {{"seconds", run.wall_s}}}}));
+                                  {"cost", {{"seconds", run.cost.wall_s}}}}));
   return 0;
 }
 

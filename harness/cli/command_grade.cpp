@@ -107,9 +107,9 @@ int grade_command(const CommandOptions& options, const Renderers& renderers) {
   run_options.store = store_folder(options.out, options.store);
   run_options.resume = options.resume;
   run_options.solver = solver_of(adapter);
-  const std::vector<Run> runs = run_cases(cases, references, run_options);
-  results::Results found = results_of(runs, cases, references);
-  found.solver = solver_name(runs, options.adapter, adapter.words.front());
+  results::Results found =
+      results_of(run_cases(cases, references, run_options), cases, references, run_options.store);
+  found.solver = solver_name(found.runs, options.adapter, adapter.words.front());
   found.uncertainty_coverage.reset();  // it is a matter of trammel's own refinements
   const auto file = write_results(found, options.out);
   renderers.junit(found, std::filesystem::path(options.out) / "junit.xml");
@@ -120,7 +120,7 @@ int grade_command(const CommandOptions& options, const Renderers& renderers) {
     print_grades(found.runs);
     std::cout << "results in " << file.string() << ", page in " << page.string() << std::endl;
   }
-  require_complete(runs);
+  require_complete(found.runs);
   const bool failure = std::ranges::any_of(
       found.runs, [](const results::Run& one) { return is_failure(results::grade_of(one)); });
   return failure ? 1 : 0;

@@ -129,8 +129,8 @@ void describe_inputs(const Case& given, const References& references) {
   if (!base.value().contains("uncertainty")) return;
   std::cout << "\nInput uncertainties\n";
   Rows table({"input", "half width", "", "why"});
-  for (const StatedInput& input : stated_inputs(base, references))
-    table.add({input.name, input.half_width, input.nominal ? "in the literal reading alone" : "",
+  for (const results::UncertainInput& input : stated_inputs(base, references))
+    table.add({input.name, *input.half_width, input.nominal ? "in the literal reading alone" : "",
                input.why});
   table.print(std::cout, "  ");
 }

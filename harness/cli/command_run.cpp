@@ -48,9 +48,9 @@ Selection load(const std::vector<std::filesystem::path>& files, const Catalogue&
       Run run;
       run.case_id = file.stem().string();
       run.variant = kBaseVariant;
-      run.status = "error";
+      run.status = results::Status::error;
       run.reason = one_line(error.what());
-      run.error = Run::RunError::input;
+      run.fault = results::Fault::input;
       selection.broken.push_back(std::move(run));
     }
   }
@@ -95,7 +95,7 @@ std::vector<Run> compute(const Selection& selection, const References& reference
 void print_measurements(const results::Results& results) {
   std::size_t checks = 0, failures = 0;
   double share = 0, cpu_s = 0;
-  for (const results::Run& run : results.runs) {
+  for (const Run& run : results.runs) {
     cpu_s += run.cost.cpu_s;
     for (const results::Check& check : run.checks) {
       ++checks;
@@ -119,7 +119,7 @@ void print_measurements(const results::Results& results) {
 void print_run_errors(const std::vector<Run>& runs) {
   std::vector<std::string> told;
   for (const Run& run : runs) {
-    if (run.error == Run::RunError::none) continue;
+    if (run.fault == results::Fault::none) continue;
     // Variants of one case often have one and the same fault.
     if (contains(told, run.reason)) continue;
     told.push_back(run.reason);
@@ -241,9 +241,8 @@ int compute_shard(const CommandOptions& options) {
 
 /// Adds the studies of the catalogue: cost, claims, coverage, effects.
 /// @returns the exit status of the studies
-int add_studies(results::Results& results, const std::vector<Run>& runs,
-                const std::vector<Case>& cases, const References& references,
-                const CommandOptions& options) {
+int add_studies(results::Results& results, const std::vector<Case>& cases,
+                const References& references, const CommandOptions& options) {
   const std::filesystem::path store = store_folder(options.out, options.store);
   const bool resume = !options.fresh;
   std::vector<std::function<void()>> studies = quick_cost_work(references, store, resume);
@@ -253,7 +252,7 @@ int add_studies(results::Results& results, const std::vector<Run>& runs,
   std::vector<std::string> error_messages;
   results.cost = quick_cost(references, store, resume || measured, error_messages);
   const Document document = load_claims();
-  results.claims = evaluate_claims(document, runs);
+  results.claims = evaluate_claims(document, results.runs);
   results.claims->items = load_paper_items(document, Catalogue());
   judge_paper_items(results, results.claims->items);
   results.coverage = evidence_coverage(cases, references);
@@ -293,27 +292,24 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
   const OutputLock lock(options.out);
   end_on_signals(kInterrupted);
   const References references;
-  const std::vector<Run> runs = compute(selection, references, options);
-  // Without checks the series are printed.
-  const bool with_series =
-      options.vtk || !options.history.empty() ||
-      std::ranges::any_of(runs, [](const Run& run) { return run.check_results.empty(); });
-  const results::Results results = results_of(runs, selection.cases, references, with_series);
+  const results::Results results =
+      results_of(compute(selection, references, options), selection.cases, references,
+                 store_folder(options.out, options.store));
+  const std::vector<Run>& runs = results.runs;
   const std::filesystem::path out = options.out, file = write_results(results, out);
   renderers.junit(results, out / "junit.xml");
   if (options.json) {
     std::cout << read_text(file);
   } else {
-    for (std::size_t i = 0; i < runs.size(); ++i)
-      if (runs[i].error == Run::RunError::none && runs[i].interrupted_by == 0)
-        print_run(results.runs[i]);
-    if (runs.size() == 1) print_validation(results.runs.front());
+    for (const Run& run : runs)
+      if (run.fault == results::Fault::none && run.interrupted_by == 0) print_run(run);
+    if (runs.size() == 1) print_validation(runs.front());
     print_summary(results);
     std::cout << "results in " << file.string() << std::endl;
   }
   if (options.measurements) print_measurements(results);
   if (options.vtk)
-    for (const results::Run& run : results.runs) write_vtk(run, out / "vtk");
+    for (const Run& run : runs) write_vtk(run, out / "vtk");
   print_run_errors(runs);
   require_complete(runs);
   if (!options.history.empty()) append_history(options.history, results);
@@ -334,14 +330,15 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
   const OutputLock lock(options.out);
   end_on_signals("trammel: interrupted; the same command does what is missing\n");
   const References references;
-  const std::vector<Run> runs = compute(selection, references, resuming);
-  require_complete(runs);
-  results::Results results = results_of(runs, selection.cases, references);
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    if (fails_gate(runs[i]) && runs[i].error == Run::RunError::none) print_run(results.runs[i]);
+  std::vector<Run> computed = compute(selection, references, resuming);
+  require_complete(computed);
+  results::Results results = results_of(std::move(computed), selection.cases, references,
+                                        store_folder(options.out, options.store));
+  const std::vector<Run>& runs = results.runs;
+  for (const Run& run : runs)
+    if (fails_gate(run) && run.fault == results::Fault::none) print_run(run);
   const bool catalogue = options.words.empty() && options.labels.empty();
-  const int status =
-      catalogue ? add_studies(results, runs, selection.cases, references, options) : 0;
+  const int status = catalogue ? add_studies(results, selection.cases, references, options) : 0;
   if (!options.history.empty()) {
     append_history(options.history, results);
     results.history = read_history(options.history);

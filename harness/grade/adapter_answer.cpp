@@ -43,8 +43,7 @@ Quantity read_quantity(const Json& given, const Json& asked, const std::string& 
 
 }  // namespace
 
-void read_adapter_answer(const std::filesystem::path& file, const Json& asked,
-                         Computation& computation) {
+void read_adapter_answer(const std::filesystem::path& file, const Json& asked, Run& run) {
   const std::string name = file.filename().string();
   std::error_code error;
   const auto bytes = std::filesystem::file_size(file, error);
@@ -53,17 +52,17 @@ void read_adapter_answer(const std::filesystem::path& file, const Json& asked,
   const Json json = parse_json(read_text(file), name);
   if (const auto fault = find_schema_fault(json, "adapter_result"))
     throw InputError(name, fault->pointer, fault->message);
-  computation.status = json.at("status").get<std::string>();
-  std::ranges::replace(computation.status, '_', '-');
-  computation.reason = one_line(json.value("reason", ""));
+  auto status = json.at("status").get<std::string>();
+  std::ranges::replace(status, '_', '-');
+  run.status = results::read_status(status);
+  run.reason = one_line(json.value("reason", ""));
   if (json.contains("solver")) {
     const Json& solver = json.at("solver");
-    computation.solver = {
-        solver.at("name").get<std::string>(), solver.value("version", ""), {}, {}};
+    run.solver = {solver.at("name").get<std::string>(), solver.value("version", ""), {}, {}};
     if (solver.contains("element_order") && !solver.at("element_order").is_null())
-      computation.solver.element_order = solver.at("element_order").get<double>();
+      run.solver.element_order = solver.at("element_order").get<double>();
     if (solver.contains("digits") && !solver.at("digits").is_null())
-      computation.solver.digits = solver.at("digits").get<int>();
+      run.solver.digits = solver.at("digits").get<int>();
   }
   std::vector<std::string> known;
   for (const Json& one : asked.at("quantities")) known.push_back(one.at("name"));
@@ -72,11 +71,11 @@ void read_adapter_answer(const std::filesystem::path& file, const Json& asked,
     const std::string pointer = (JsonPointer("/quantities") / item.key()).to_string();
     const InputError unknown(name, pointer,
                              "expected a quantity of trammel" + did_you_mean(item.key(), known));
-    computation.result.quantities[item.key()] =
+    run.quantities[item.key()] =
         read_quantity(item.value(), asked_quantity(asked, item.key(), unknown), name, pointer);
   }
   if (json.contains("cost") && json.at("cost").contains("seconds"))
-    computation.result.timings = {{"solver", json.at("cost").at("seconds").get<double>(), 1}};
+    run.cost.timings = {{"solver", json.at("cost").at("seconds").get<double>(), 1}};
 }
 
 }  // namespace trammel::harness

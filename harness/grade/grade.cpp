@@ -19,6 +19,7 @@ namespace trammel::harness {
 namespace {
 
 namespace fs = std::filesystem;
+using results::Status;
 using Ending = ProcessOutcome::Termination;
 
 constexpr int kCannot = 4;  // the exit status of an adapter whose code has no such thing
@@ -32,28 +33,27 @@ std::string last_line(const std::string& output) {
   return last.empty() ? "" : ": " + printable(last, 200);
 }
 
-void end_as(Computation& computation, const char* status, const std::string& reason) {
-  computation.status = status;
-  computation.reason = reason;
+void end_as(Run& run, results::Status status, const std::string& reason) {
+  run.status = status;
+  run.reason = reason;
 }
 
 /// What the ending of the program says, where it is not the answer that does.
-bool ended_without_answer(const ProcessOutcome& outcome, const ProgramLimits& limits,
-                          Computation& computation) {
+bool ended_without_answer(const ProcessOutcome& outcome, const ProgramLimits& limits, Run& run) {
   switch (outcome.termination) {
     case Ending::timed_out:
-      end_as(computation, "timed-out", "not done after " + shortest(limits.wall_s) + " s");
+      end_as(run, Status::timed_out, "not done after " + shortest(limits.wall_s) + " s");
       return true;
     case Ending::disk_full:
-      end_as(computation, "crashed",
+      end_as(run, Status::crashed,
              "more than " + std::to_string(limits.disk_bytes >> 20) + " MiB on disk");
       return true;
     case Ending::not_started:
-      end_as(computation, "error", std::string("not started: ") + std::strerror(outcome.status));
+      end_as(run, Status::error, std::string("not started: ") + std::strerror(outcome.status));
       return true;
     case Ending::out_of_memory:
     case Ending::crashed:
-      end_as(computation, "crashed",
+      end_as(run, Status::crashed,
              "signal " + std::to_string(outcome.status) + ", " + strsignal(outcome.status) +
                  last_line(outcome.text));
       return true;
@@ -61,7 +61,7 @@ bool ended_without_answer(const ProcessOutcome& outcome, const ProgramLimits& li
       break;
   }
   if (outcome.status == 0 || outcome.status == kCannot) return false;
-  end_as(computation, "crashed",
+  end_as(run, Status::crashed,
          "exit status " + std::to_string(outcome.status) + last_line(outcome.text));
   return true;
 }
@@ -73,8 +73,7 @@ std::string without_file(const std::string& message) {
 }
 
 /// One call in its folder, of which the files stay unless they are many.
-void call(const Adapter& adapter, const fs::path& folder, const Json& json,
-          Computation& computation) {
+void call(const Adapter& adapter, const fs::path& folder, const Json& json, Run& run) {
   std::error_code error;
   fs::remove_all(folder, error);
   fs::create_directories(folder);
@@ -83,18 +82,18 @@ void call(const Adapter& adapter, const fs::path& folder, const Json& json,
   words.push_back((folder / "case.json").string());
   words.push_back((folder / "result.json").string());
   const ProcessOutcome outcome = run_limited(words, folder, adapter.limits);
-  computation.wall_s += outcome.wall_s;
-  computation.cpu_s += outcome.cpu_s;
+  run.cost.wall_s += outcome.wall_s;
+  run.cost.cpu_s += outcome.cpu_s;
   try {
-    if (!ended_without_answer(outcome, adapter.limits, computation)) {
+    if (!ended_without_answer(outcome, adapter.limits, run)) {
       const bool cannot = outcome.status == kCannot;
-      if (cannot) end_as(computation, "cannot", "exit status 4 without a reason");
+      if (cannot) end_as(run, Status::cannot, "exit status 4 without a reason");
       if (!cannot || fs::exists(folder / "result.json", error))
-        read_adapter_answer(folder / "result.json", json.at("export"), computation);
-      if (cannot) computation.status = "cannot";
+        read_adapter_answer(folder / "result.json", json.at("export"), run);
+      if (cannot) run.status = Status::cannot;
     }
   } catch (const InputError& broken) {
-    end_as(computation, "error", one_line(broken.what()));
+    end_as(run, Status::error, one_line(broken.what()));
   }
   if (folder_bytes(folder, kMaxKeptBytes) > kMaxKeptBytes) {
     fs::remove_all(folder, error);
@@ -104,24 +103,24 @@ void call(const Adapter& adapter, const fs::path& folder, const Json& json,
 }
 
 /// The sweeps whose orders are judged, level by level; a level without solution stays empty.
-std::vector<Sweep> swept(const Adapter& adapter, const fs::path& folder, const Case& owner,
-                         const std::string& variant, const Document& document,
-                         const std::vector<Check>& checks, Computation& computation) {
+std::vector<results::Sweep> swept(const Adapter& adapter, const fs::path& folder, const Case& owner,
+                                  const std::string& variant, const Document& document,
+                                  const std::vector<Check>& checks, Run& run) {
   std::set<std::string> names;
   for (const Check& check : checks)
     if (check.order) names.insert(check.order->sweep);
-  std::vector<Sweep> sweeps;
+  std::vector<results::Sweep> sweeps;
   for (const std::string& name : names) {
-    Sweep sweep{name, {}};
+    results::Sweep sweep{name, {}};
     for (const Level& level : levels(document, name)) {
-      Computation found;
+      Run found;
       const std::size_t number = sweep.levels.size();
       call(adapter, folder / (name + "-" + std::to_string(number)),
            export_case(owner, {variant, name, number}), found);
-      computation.wall_s += found.wall_s;
-      computation.cpu_s += found.cpu_s;
-      if (found.status != "solved") found.result.quantities.clear();
-      sweep.levels.push_back({level.parameter, std::move(found.result.quantities)});
+      run.cost.wall_s += found.cost.wall_s;
+      run.cost.cpu_s += found.cost.cpu_s;
+      if (!found.is_solved()) found.quantities.clear();
+      sweep.levels.push_back({level.parameter, std::move(found.quantities)});
     }
     sweeps.push_back(std::move(sweep));
   }
@@ -167,18 +166,17 @@ OtherSolver solver_of(const Adapter& adapter) {
   for (const std::string& word : adapter.words) solver.hash += " " + word + " " + file_hash(word);
   solver.compute = [adapter](const Case& owner, const std::string& variant,
                              const Document& document, const std::vector<Check>& checks,
-                             bool with_sweeps, Computation& computation) {
+                             bool with_sweeps, Run& run) {
     const fs::path folder = adapter.folder / owner.id() / variant;
     Json json;
     try {
       json = export_case(owner, {variant});
     } catch (const InputError& refused) {
-      return end_as(computation, "not-exported", without_file(one_line(refused.what())));
+      return end_as(run, Status::not_exported, without_file(one_line(refused.what())));
     }
-    call(adapter, folder, json, computation);
-    computation.result.analysis = analysis_kind(document);
-    if (computation.status == "solved" && with_sweeps && computation.solver.element_order)
-      computation.sweeps = swept(adapter, folder, owner, variant, document, checks, computation);
+    call(adapter, folder, json, run);
+    if (run.is_solved() && with_sweeps && run.solver.element_order)
+      run.sweeps = swept(adapter, folder, owner, variant, document, checks, run);
   };
   // Wall time is what limits an adapter; this ends one whose watcher has failed.
   solver.time_limit_s = static_cast<unsigned>(std::min(64 * adapter.limits.wall_s + 1, 1e7));

@@ -18,7 +18,6 @@ CheckResult start_check_result(const Check& check) {
   entry.against_quantity = check.against_quantity;
   entry.role = to_string(check.role);
   entry.measure = to_string(check.measure);
-  entry.symmetric = check.symmetric;
   entry.expectation = check.expectation;
   entry.why = check.why;
   return entry;
@@ -47,13 +46,11 @@ bool fails_gate(Verdict verdict) {
 double severity(const CheckResult& entry) {
   if (entry.verdict == Verdict::error) return std::numeric_limits<double>::infinity();
   const double value = entry.difference.value_or(entry.computed.value_or(0));
-  if (!entry.window) return std::abs(value);
-  const Window& window = *entry.window;
-  if (std::isinf(window.low) || std::isinf(window.high)) {
-    return std::isinf(window.low) ? value - window.high : window.low - value;
-  }
-  const double half = (window.high - window.low) / 2;
-  return (std::abs(value - (window.low + half)) - half) / (half > 0 ? half : 1);
+  if (!entry.tolerance) return std::abs(value);
+  const auto& [low, high, symmetric] = *entry.tolerance;
+  if (!low || !high) return low ? *low - value : value - *high;
+  const double half = (*high - *low) / 2;
+  return (std::abs(value - (*low + half)) - half) / (half > 0 ? half : 1);
 }
 
 }  // namespace trammel::harness

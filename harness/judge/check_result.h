@@ -15,18 +15,8 @@ namespace trammel::harness {
 
 using results::Verdict;
 
-/// The judgement of one entry of a check, or of the check as a whole where it has no single one.
-struct CheckResult : results::Check {
-  std::optional<Window> window;  ///< the tolerance with infinite ends
-  bool symmetric = false;
-};
-
-/// A solver other than trammel's, as it names itself.
-struct SolverIdentity {
-  std::string name, version;
-  std::optional<double> element_order;  ///< of convergence in the element size
-  std::optional<int> digits;            ///< significant ones that it prints
-};
+/// The judgement of one entry of a check, or of a check that has no entries.
+using CheckResult = results::Check;
 
 /// What a run's checks are judged with.
 struct CheckContext {
@@ -37,7 +27,7 @@ struct CheckContext {
   /// Quantities of another variant of the case; null where it has none.
   std::function<const Quantities*(const std::string& variant)> variant;
   /// Null: trammel's own. Of another, what is missing is not given instead of an error.
-  const SolverIdentity* other_solver = nullptr;
+  const results::SolverIdentity* other_solver = nullptr;
 };
 
 /// A judgement that carries the check's name, role and reasons; an error until it is filled in.

@@ -9,6 +9,8 @@
 namespace trammel::harness {
 namespace {
 
+using results::Number;
+
 /// A tenth: of the order, for neighbours to agree and for theory to be met.
 constexpr double kOrderTolerance = 0.1;
 
@@ -49,37 +51,36 @@ double order_of_errors(double coarse, double fine, double h_coarse, double h_fin
 /// Works on the levels that have a value.
 class ConvergenceStudy {
  public:
-  explicit ConvergenceStudy(const Series& series) : series_(series) {
+  explicit ConvergenceStudy(Convergence& series) : series_(series) {
     for (std::size_t i = 0; i < series.values.size(); ++i) {
-      if (!std::isfinite(series.values[i])) {
-        result_.broken = result_.broken || !level_.empty();
+      if (!series.values[i]) {
+        series.broken = series.broken || !level_.empty();
         continue;
       }
       level_.push_back(i);
-      v_.push_back(series.values[i]);
+      v_.push_back(*series.values[i]);
       h_.push_back(series.size[i]);
-      roundoff_.push_back(std::max(series.roundoff[i], std::numeric_limits<double>::epsilon()));
+      roundoff_.push_back(std::max(*series.roundoff[i], std::numeric_limits<double>::epsilon()));
     }
   }
 
-  Convergence run() {
+  void run() {
     observe();
     extrapolate();
     measure_errors();
     find_range();
-    if (!series_.lower) result_.fitted_order = slope(h_, error_, in_range_);
-    result_.series = series_;
-    spread(result_.error, error_);
-    spread(result_.order, order_);
-    spread(result_.gci, gci_);
-    spread(result_.factor, factor_);
-    spread(result_.in_asymptotic_range, in_range_);
-    spread(result_.at_roundoff_floor, at_floor_);
-    if (result_.two_term) {
-      const std::vector<bool> used = result_.two_term->used;
-      spread(result_.two_term->used, used);
+    if (!series_.lower_order)
+      series_.fitted_order = slope(h_, {error_.begin(), error_.end()}, in_range_);
+    spread(series_.error, error_);
+    spread(series_.order, order_);
+    spread(series_.gci, gci_);
+    spread(series_.safety_factor, factor_);
+    spread(series_.in_asymptotic_range, in_range_);
+    spread(series_.at_roundoff_floor, at_floor_);
+    if (series_.two_term) {
+      const std::vector<bool> used = series_.two_term->used;
+      spread(series_.two_term->used, used);
     }
-    return result_;
   }
 
  private:
@@ -113,28 +114,30 @@ class ConvergenceStudy {
 
   /// Whether an order is one that theory promises of this level.
   [[nodiscard]] bool is_theoretical_order(double order) const {
-    if (!series_.theory || std::isnan(order)) return false;
-    if (!series_.lower) return orders_agree(order, *series_.theory);
-    const bool inside = order > *series_.lower && order < *series_.theory;
-    return inside || orders_agree(order, *series_.theory) || orders_agree(order, *series_.lower);
+    if (!series_.theory_order || std::isnan(order)) return false;
+    if (!series_.lower_order) return orders_agree(order, *series_.theory_order);
+    const bool inside = order > *series_.lower_order && order < *series_.theory_order;
+    return inside || orders_agree(order, *series_.theory_order) ||
+           orders_agree(order, *series_.lower_order);
   }
 
   [[nodiscard]] Expected expected(std::size_t k) const {
     const double seen = observed_[k];
     if (diverges(k)) return {};
-    if (!series_.theory) return {extrapolated(k, std::isnan(seen) ? 1 : std::max(0.5, seen)), 3};
-    const double lowest = series_.lower.value_or(*series_.theory);
+    if (!series_.theory_order)
+      return {extrapolated(k, std::isnan(seen) ? 1 : std::max(0.5, seen)), 3};
+    const double lowest = series_.lower_order.value_or(*series_.theory_order);
     // Two levels show no order: Roache's factor for that of theory.
     if (k == 1) return {extrapolated(k, lowest), 3};
     // Values that go to and fro.
     if (std::isnan(seen)) return {extrapolated(k, std::min(1.0, lowest)), 3};
-    if (is_theoretical_order(seen) && series_.lower) {
+    if (is_theoretical_order(seen) && series_.lower_order) {
       const double value =
           extrapolate_two_terms({h_[k - 2], h_[k - 1], h_[k]}, {v_[k - 2], v_[k - 1], v_[k]},
-                                {*series_.theory, *series_.lower});
+                                {*series_.theory_order, *series_.lower_order});
       if (std::isfinite(value)) return {value, 1.25};
     }
-    if (is_theoretical_order(seen)) return {extrapolated(k, *series_.theory), 1.25};
+    if (is_theoretical_order(seen)) return {extrapolated(k, *series_.theory_order), 1.25};
     // A higher order than theory's is no merit: it does not last.
     return {extrapolated(k, std::clamp(seen, std::min(0.5, lowest), lowest)), 3};
   }
@@ -153,14 +156,14 @@ class ConvergenceStudy {
       before = value;
       if (k < 2 || !(change < min_change)) continue;
       min_change = change;
-      result_.richardson = value;
+      series_.richardson = value;
     }
   }
 
   void measure_errors() {
     error_.assign(count(), kNaN);
     order_.assign(count(), kNaN);
-    const std::optional<double> reference = series_.exact ? series_.exact : result_.richardson;
+    const Number reference = series_.exact ? series_.exact : series_.richardson;
     for (std::size_t k = 0; reference && k < count(); ++k) {
       if (series_.is_error) error_[k] = std::abs(v_[k]);
       if (!series_.is_error && *reference != 0) error_[k] = relative(v_[k], *reference);
@@ -173,8 +176,8 @@ class ConvergenceStudy {
 
   /// The two-term law of the errors, where two orders mix; @returns whether they do.
   bool fit_two_orders() {
-    if (!series_.theory || !series_.lower) return false;
-    const std::optional<double> reference = series_.exact ? series_.exact : result_.richardson;
+    if (!series_.theory_order || !series_.lower_order) return false;
+    const Number reference = series_.exact ? series_.exact : series_.richardson;
     if (!reference || *reference == 0) return false;
     std::vector<double> signed_error;
     std::vector<bool> usable;
@@ -182,10 +185,10 @@ class ConvergenceStudy {
       signed_error.push_back((v_[k] - *reference) / std::abs(*reference));
       usable.push_back(!at_floor_[k]);
     }
-    result_.two_term = fit_two_terms(h_, signed_error, usable, {*series_.theory, *series_.lower},
-                                     kTwoTermTolerance);
-    if (result_.two_term && result_.two_term->worst <= kTwoTermTolerance) {
-      in_range_ = result_.two_term->used;
+    series_.two_term = fit_two_terms(
+        h_, signed_error, usable, {*series_.theory_order, *series_.lower_order}, kTwoTermTolerance);
+    if (series_.two_term && series_.two_term->max_relative_misfit <= kTwoTermTolerance) {
+      in_range_ = series_.two_term->used;
     }
     return true;
   }
@@ -206,15 +209,13 @@ class ConvergenceStudy {
     }
   }
 
-  template <class Values>
-  void spread(Values& all, const Values& found) const {
-    all.assign(series_.values.size(), typename Values::value_type{});
-    if constexpr (std::is_same_v<Values, std::vector<double>>) all.assign(all.size(), kNaN);
+  template <class All, class Values>
+  void spread(All& all, const Values& found) const {
+    all.assign(series_.values.size(), typename All::value_type{});
     for (std::size_t k = 0; k < found.size(); ++k) all[level_[k]] = found[k];
   }
 
-  const Series& series_;
-  Convergence result_;
+  Convergence& series_;
   std::vector<std::size_t> level_;
   std::vector<double> v_, h_, roundoff_, observed_, error_, order_, gci_, factor_;
   std::vector<bool> in_range_, at_floor_;
@@ -222,12 +223,12 @@ class ConvergenceStudy {
 
 }  // namespace
 
-std::optional<double> slope(const std::vector<double>& size, const std::vector<double>& error,
+std::optional<double> slope(const std::vector<double>& size, const results::Numbers& error,
                             const std::vector<bool>& chosen) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     if (!chosen[k]) continue;
-    const double x = std::log(size[k]), y = std::log(std::abs(error[k]));
+    const double x = std::log(size[k]), y = std::log(std::abs(*error[k]));
     n += 1, sx += x, sy += y, sxx += x * x, sxy += x * y;
   }
   const double spread_of_x = n * sxx - sx * sx;
@@ -235,8 +236,9 @@ std::optional<double> slope(const std::vector<double>& size, const std::vector<d
   return (n * sxy - sx * sy) / spread_of_x;
 }
 
-Convergence analyse_convergence(const Series& series) {
-  return ConvergenceStudy(series).run();
+Convergence analyse_convergence(Convergence series) {
+  ConvergenceStudy(series).run();
+  return series;
 }
 
 }  // namespace trammel::harness

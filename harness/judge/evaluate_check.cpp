@@ -127,20 +127,6 @@ ComparedValues collect(const Check& check, const CheckContext& context) {
   return pairs;
 }
 
-double measured(Measure measure, double computed, double expected) {
-  switch (measure) {
-    case Measure::relative:
-      return (computed - expected) / std::abs(expected);
-    case Measure::absolute:
-      return computed - expected;
-    case Measure::ratio:
-      return computed / expected;
-    case Measure::value:
-      return computed;
-  }
-  return 0;
-}
-
 std::string outside(const Check& check, double value, const Window& window) {
   const std::string where = fmt::format("{} is outside of [{}, {}]", shortest(value),
                                         shortest(window.low), shortest(window.high));
@@ -164,7 +150,7 @@ Window widened(const Window& window, const Check& check, const CheckResult& entr
 /// Judges one entry into `entry`, whose computed and expected values are set.
 void evaluate_entry(const Check& check, const Window* window, double uncertainty,
                     CheckResult& entry) {
-  const double expected = entry.expected.value_or(0);
+  const double expected = check.has_target() ? *entry.expected : 0;
   if (!std::isfinite(*entry.computed)) {
     entry.message = "the computed value is " + shortest(*entry.computed);
     return;
@@ -173,7 +159,8 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
     entry.message = "the expected value is " + shortest(expected);
     return;
   }
-  const double value = measured(check.measure, *entry.computed, expected);
+  const double value =
+      check.measure == Measure::value ? *entry.computed : *results::difference_of(entry);
   if (!std::isfinite(value)) {
     entry.message = "there is no " + std::string(to_string(check.measure)) +
                     " comparison with an expected value of " + shortest(expected);
@@ -184,7 +171,7 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
     entry.verdict = Verdict::recorded;
     return;
   }
-  entry.window = *window;
+  entry.tolerance = {window->low, window->high, check.symmetric};
   // Half of a known discrepancy may agree: where the window allows none, it is one.
   if (entry.expectation == Expectation::known_discrepancy && window->contains(0) &&
       (check.measure == Measure::relative || check.measure == Measure::absolute)) {
@@ -212,7 +199,7 @@ std::vector<CheckResult> worst_of(std::vector<CheckResult> entries) {
 }
 
 std::vector<CheckResult> evaluate_entries(const Check& check, const ComparedValues& pairs,
-                                          const SolverIdentity* other_solver) {
+                                          const results::SolverIdentity* other_solver) {
   std::vector<CheckResult> entries;
   for (std::size_t i = 0; i < pairs.computed.size(); ++i) {
     CheckResult entry = start_check_result(check);

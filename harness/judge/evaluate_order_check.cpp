@@ -41,28 +41,28 @@ class OrderCheckEvaluator {
   [[nodiscard]] std::vector<CheckResult> run() const {
     if (is_other_solver_) {
       CheckResult check_result = order();
-      check_result.index = found_.series.index;
+      check_result.index = found_.index;
       return {check_result};
     }
     std::vector<CheckResult> all = {criterion_.two_term_within ? two_term() : order()};
     if (criterion_.leading_term) all.push_back(leading_term());
     if (criterion_.richardson_within) all.push_back(richardson());
-    for (CheckResult& check_result : all) check_result.index = found_.series.index;
+    for (CheckResult& check_result : all) check_result.index = found_.index;
     return all;
   }
 
  private:
   [[nodiscard]] bool qualifies(std::size_t k) const {
     if (!criterion_.wave_number) return found_.in_asymptotic_range[k];
-    const bool fine = entry_.wave_number * found_.series.size[k] <= criterion_.wave_number->at_most;
-    return fine && std::isfinite(found_.error[k]) && !found_.at_roundoff_floor[k];
+    const bool fine = entry_.wave_number * found_.size[k] <= criterion_.wave_number->at_most;
+    return fine && found_.error[k].has_value() && !found_.at_roundoff_floor[k];
   }
 
   /// Whether anything can be said at all.
   bool lacks_asymptotic_range(CheckResult& check_result) const {
     if (found_.broken) {
       check_result.message = "a refined level has no finite value";
-    } else if (!found_.series.exact) {
+    } else if (!found_.exact) {
       check_result.message = "there is no exact value to measure errors by";
     } else if (meshes_ < criterion_.meshes) {
       check_result.message =
@@ -76,8 +76,7 @@ class OrderCheckEvaluator {
 
   void conclude(CheckResult& check_result, double value, double limit) const {
     check_result.difference = value;
-    check_result.window = Window{-limit, limit};
-    check_result.symmetric = true;
+    check_result.tolerance = {-limit, limit, true};
     check_result.verdict = std::abs(value) <= limit ? Verdict::pass : Verdict::fail;
     if (check_result.message.empty())
       check_result.message = fmt::format("{} meshes qualify", meshes_);
@@ -103,7 +102,7 @@ class OrderCheckEvaluator {
       if (std::isnan(farthest) || std::abs(here - target) > std::abs(farthest - target)) {
         farthest = here;
         check_result.message = fmt::format("{} meshes qualify, the worst is {}", meshes_,
-                                           shortest(found_.series.parameter[k]));
+                                           shortest(*found_.parameter[k]));
       }
     }
     return farthest;
@@ -111,17 +110,17 @@ class OrderCheckEvaluator {
 
   [[nodiscard]] CheckResult order() const {
     CheckResult check_result = start("", "order", "1");
-    check_result.expected = found_.series.theory;
+    check_result.expected = found_.theory_order;
     if (lacks_asymptotic_range(check_result)) return check_result;
-    const double theory = *found_.series.theory;
-    const std::optional<double> fitted = slope(found_.series.size, found_.error, qualifies_);
+    const double theory = *found_.theory_order;
+    const std::optional<double> fitted = slope(found_.size, found_.error, qualifies_);
     if (!fitted) {
       check_result.message = "fewer than two meshes qualify";
       return check_result;
     }
     check_result.computed = *fitted;
     const double farthest = worst(
-        theory, [&](std::size_t k) { return k > 0 && qualifies_[k - 1] ? found_.order[k] : kNaN; },
+        theory, [&](std::size_t k) { return k > 0 && qualifies_[k - 1] ? *found_.order[k] : kNaN; },
         check_result);
     check_result.message = fmt::format("{} meshes qualify; between two of them at worst {}",
                                        meshes_, shortest(farthest));
@@ -138,11 +137,11 @@ class OrderCheckEvaluator {
       check_result.message = "no two-term law could be fitted";
       return check_result;
     }
-    const auto& [a, b] = found_.two_term->coefficient;
-    check_result.computed = found_.two_term->worst;
+    const double a = *found_.two_term->coefficients[0], b = *found_.two_term->coefficients[1];
+    check_result.computed = found_.two_term->max_relative_misfit;
     check_result.message =
         fmt::format("{} meshes qualify; relative error = {} h^{} + {} h^{}", meshes_, shortest(a),
-                    shortest(*found_.series.theory), shortest(b), shortest(*found_.series.lower));
+                    shortest(*found_.theory_order), shortest(b), shortest(*found_.lower_order));
     conclude(check_result, *check_result.computed, *criterion_.two_term_within);
     return check_result;
   }
@@ -151,12 +150,12 @@ class OrderCheckEvaluator {
     CheckResult check_result = start(".leading-term", "leading-term", "1");
     check_result.expected = 1;
     if (lacks_asymptotic_range(check_result)) return check_result;
-    const double exact = *found_.series.exact;
+    const double exact = *found_.exact;
     const auto ratio = [&](std::size_t k) {
-      const double error = (found_.series.values[k] - exact) / std::abs(exact);
-      const double step = entry_.wave_number * found_.series.size[k];
+      const double error = (*found_.values[k] - exact) / std::abs(exact);
+      const double step = entry_.wave_number * found_.size[k];
       return error / (criterion_.leading_term->coefficient * entry_.share *
-                      std::pow(step, *found_.series.theory));
+                      std::pow(step, *found_.theory_order));
     };
     check_result.computed = worst(1, ratio, check_result);
     if (!std::isfinite(*check_result.computed)) return check_result;
@@ -166,14 +165,14 @@ class OrderCheckEvaluator {
 
   [[nodiscard]] CheckResult richardson() const {
     CheckResult check_result = start(".richardson", "relative", unit_of(check_.quantity));
-    check_result.expected = found_.series.exact;
+    check_result.expected = found_.exact;
     if (lacks_asymptotic_range(check_result)) return check_result;
     if (!found_.richardson) {
       check_result.message = "there is no extrapolated value";
       return check_result;
     }
     check_result.computed = *found_.richardson;
-    const double exact = *found_.series.exact;
+    const double exact = *found_.exact;
     conclude(check_result, (*found_.richardson - exact) / std::abs(exact),
              *criterion_.richardson_within);
     return check_result;
@@ -200,13 +199,13 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
   }
   std::vector<CheckResult> all;
   std::size_t position = 0;
-  for (const Convergence& found : context.convergence) {
-    const Series& series = found.series;
+  for (const Convergence& series : context.convergence) {
     if (series.sweep != criterion.sweep || series.quantity != check.quantity ||
         series.statistic != check.statistic) {
       continue;
     }
-    const bool chosen = check.index.empty() || contains(check.index, series.index);
+    const bool chosen =
+        check.index.empty() || contains(check.index, static_cast<std::size_t>(series.index));
     if (!chosen) continue;
     if (!criterion.of_errors &&
         series.exact != entry_of(find_reference(context, check.pointer + "/reference"),
@@ -219,7 +218,7 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
       ++position;
       continue;
     }
-    Entry entry{found};
+    Entry entry{series};
     if (criterion.wave_number) {
       const auto& reference =
           find_reference(context, criterion.wave_number->pointer + "/reference");

@@ -50,7 +50,7 @@ std::vector<std::size_t> entries(const Sweep& sweep, const TrackedQuantity& trac
   if (!tracked_quantity.statistic.empty()) return {0};
   if (!tracked_quantity.index.empty()) return tracked_quantity.index;
   std::size_t most = 0;
-  for (const SweepLevel& level : sweep.levels) {
+  for (const results::SweepLevel& level : sweep.levels) {
     const auto found = level.quantities.find(tracked_quantity.quantity);
     if (found != level.quantities.end()) most = std::max(most, found->second.values.size());
   }
@@ -59,7 +59,7 @@ std::vector<std::size_t> entries(const Sweep& sweep, const TrackedQuantity& trac
   return all;
 }
 
-std::optional<double> exact_of(const TrackedQuantity& tracked_quantity, std::size_t position) {
+results::Number exact_of(const TrackedQuantity& tracked_quantity, std::size_t position) {
   if (tracked_quantity.reference == nullptr ||
       tracked_quantity.reference->unit != unit_of(tracked_quantity.quantity)) {
     return std::nullopt;
@@ -71,23 +71,24 @@ std::optional<double> exact_of(const TrackedQuantity& tracked_quantity, std::siz
   return tracked_quantity.reference->values[at];
 }
 
-Series track_entry(const Sweep& sweep, const JsonView& place,
-                   const TrackedQuantity& tracked_quantity, std::size_t index, std::size_t position,
-                   const std::optional<double>& element_order) {
-  Series series;
+Convergence track_entry(const Sweep& sweep, const JsonView& place,
+                        const TrackedQuantity& tracked_quantity, std::size_t index,
+                        std::size_t position, results::Number element_order) {
+  Convergence series;
   series.sweep = sweep.name;
   series.quantity = tracked_quantity.quantity;
   series.statistic = tracked_quantity.statistic;
-  series.index = index;
-  series.theory = tracked_quantity.theory;
-  if (!series.theory && place.has("theory_order")) series.theory = place.number("theory_order");
-  if (place.has("lower_order")) series.lower = place.number("lower_order");
+  series.index = static_cast<int>(index);
+  series.theory_order = tracked_quantity.theory;
+  if (!series.theory_order && place.has("theory_order"))
+    series.theory_order = place.number("theory_order");
+  if (place.has("lower_order")) series.lower_order = place.number("lower_order");
   if (element_order) {
-    series.theory = element_order;
-    series.lower.reset();
+    series.theory_order = element_order;
+    series.lower_order.reset();
   }
   const std::string measures = place.get<std::string>("refinement_by", "elements");
-  for (const SweepLevel& level : sweep.levels) {
+  for (const results::SweepLevel& level : sweep.levels) {
     const auto [value, roundoff] = entry_of(level.quantities, tracked_quantity, index);
     series.parameter.push_back(level.parameter);
     series.size.push_back(element_size(measures, level.parameter));
@@ -95,15 +96,14 @@ Series track_entry(const Sweep& sweep, const JsonView& place,
     series.roundoff.push_back(roundoff);
   }
   series.is_error = tracked_quantity.is_error;
-  series.exact = tracked_quantity.is_error ? 0.0 : exact_of(tracked_quantity, position);
+  series.exact =
+      tracked_quantity.is_error ? results::Number(0) : exact_of(tracked_quantity, position);
   if (series.exact && tracked_quantity.reference) series.reference = tracked_quantity.reference->id;
   return series;
 }
 
-bool changes(const Series& series) {
-  return std::ranges::adjacent_find(series.values, [](double a, double b) {
-           return a != b && !(std::isnan(a) && std::isnan(b));
-         }) != series.values.end();
+bool changes(const Convergence& series) {
+  return std::ranges::adjacent_find(series.values, std::not_equal_to()) != series.values.end();
 }
 
 }  // namespace
@@ -115,8 +115,7 @@ double element_size(const std::string& measures, double parameter) {
 
 std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& document,
                                      const std::vector<Check>& checks, const References& references,
-                                     TrackedQuantities tracked,
-                                     std::optional<double> element_order) {
+                                     TrackedQuantities tracked, results::Number element_order) {
   const JsonView place = JsonView(document)["sweeps"][sweep.name];
   std::vector<TrackedQuantity> tracked_quantities =
       place.has("quantities") ? named_by_sweep(place["quantities"], references)
@@ -127,11 +126,11 @@ std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& documen
     if (is_count(tracked_quantity.quantity)) continue;
     const std::vector<std::size_t> chosen = entries(sweep, tracked_quantity);
     for (std::size_t position = 0; position < chosen.size(); ++position) {
-      const Series series =
+      Convergence series =
           track_entry(sweep, place, tracked_quantity, chosen[position], position, element_order);
       // A zero (a rigid motion) has no relative error.
       if ((series.exact == 0.0 && !series.is_error) || !changes(series)) continue;
-      found.push_back(analyse_convergence(series));
+      found.push_back(analyse_convergence(std::move(series)));
     }
   }
   return found;

@@ -12,15 +12,7 @@
 /// Refinement sweeps: the same computation level by level.
 namespace trammel::harness {
 
-struct SweepLevel {
-  double parameter = 0;
-  Quantities quantities;  ///< empty where there is no solution
-};
-
-struct Sweep {
-  std::string name;
-  std::vector<SweepLevel> levels;  ///< coarse to fine
-};
+using results::Sweep;
 
 /// Element size h of a swept number, to a common factor.
 /// @param measures  what the number is: "elements" a length, "halvings" or "size"
@@ -37,6 +29,6 @@ enum class TrackedQuantities {
                                                    const std::vector<Check>& checks,
                                                    const References& references,
                                                    TrackedQuantities tracked,
-                                                   std::optional<double> element_order = {});
+                                                   results::Number element_order = {});
 
 }  // namespace trammel::harness

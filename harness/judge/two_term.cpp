@@ -5,6 +5,9 @@
 #include <limits>
 
 namespace trammel::harness {
+
+using results::TwoTermLaw;
+
 namespace {
 
 /// Least squares for 1 = (a h^p + b h^q) / error over levels first, first + 1, ...
@@ -13,7 +16,7 @@ class Fit {
   Fit(const std::vector<double>& h, const std::vector<double>& error, const TwoTermOrders& law)
       : h_(h), error_(error), law_(law) {}
 
-  [[nodiscard]] std::optional<TwoTermFit> over(const std::vector<bool>& levels) const {
+  [[nodiscard]] std::optional<TwoTermLaw> over(const std::vector<bool>& levels) const {
     double pp = 0, pq = 0, qq = 0, p1 = 0, q1 = 0;
     for (std::size_t k = 0; k < h_.size(); ++k) {
       if (!levels[k]) continue;
@@ -22,16 +25,14 @@ class Fit {
     }
     const double determinant = pp * qq - pq * pq;
     if (!(determinant > 1e-12 * pp * qq)) return std::nullopt;
-    TwoTermFit fit;
-    fit.coefficient = {(qq * p1 - pq * q1) / determinant, (pp * q1 - pq * p1) / determinant};
-    fit.used = levels;
+    const double a = (qq * p1 - pq * q1) / determinant, b = (pp * q1 - pq * p1) / determinant;
+    double worst = 0;
     for (std::size_t k = 0; k < h_.size(); ++k) {
       if (!levels[k]) continue;
       const auto [p, q] = terms(k);
-      const double miss = std::abs(fit.coefficient[0] * p + fit.coefficient[1] * q - 1);
-      fit.worst = std::max(fit.worst, miss);
+      worst = std::max(worst, std::abs(a * p + b * q - 1));
     }
-    return fit;
+    return TwoTermLaw{{a, b}, worst, levels};
   }
 
  private:
@@ -46,7 +47,7 @@ class Fit {
 
 }  // namespace
 
-std::optional<TwoTermFit> fit_two_terms(const std::vector<double>& h,
+std::optional<TwoTermLaw> fit_two_terms(const std::vector<double>& h,
                                         const std::vector<double>& error,
                                         const std::vector<bool>& usable, const TwoTermOrders& law,
                                         double within) {
@@ -55,10 +56,10 @@ std::optional<TwoTermFit> fit_two_terms(const std::vector<double>& h,
     levels[k] = levels[k] && std::isfinite(error[k]) && error[k] != 0;
   }
   const Fit fit(h, error, law);
-  std::optional<TwoTermFit> found;
+  std::optional<TwoTermLaw> found;
   while (std::ranges::count(levels, true) >= 3) {
     found = fit.over(levels);
-    if (found && found->worst <= within) break;
+    if (found && found->max_relative_misfit <= within) break;
     *std::ranges::find(levels, true) = false;
   }
   return found;

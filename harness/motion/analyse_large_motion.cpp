@@ -247,11 +247,11 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
     last = state;
     if (tracking) record_deflection(system, state, *case_model.path, record);
     if (!result.drawing) return;
-    std::vector<Drawing::Pose>& poses = result.drawing->poses;
+    std::vector<results::Pose>& poses = result.drawing->poses;
     const double next = options.end * static_cast<double>(poses.size()) / moments;
     if (state.t < next * (1 - 1e-9)) return;
     poses.push_back(draw_large_pose(system, state.q, moment_label(state.t)));
-    poses.back().time = state.t;
+    poses.back().time_s = state.t;
   };
   const solver::large_motion::IntegrationSummary summary =
       integrate_motion(system, case_model, tracking, options, extrapolated, look);

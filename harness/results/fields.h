@@ -1,10 +1,14 @@
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <boost/preprocessor/seq/enum.hpp>
 #include <boost/preprocessor/seq/transform.hpp>
 #include <boost/preprocessor/variadic/to_seq.hpp>
 #include <cmath>
+#include <cstring>
 #include <limits>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
@@ -14,12 +18,20 @@
 #include <utility>
 #include <vector>
 
+#include "harness/base/number.h"
+
 /// A struct and its JSON object, both ways, from one list of keys and members:
 ///
 ///   TRAMMEL_FIELDS(Pose, required("nodes_m", &S::nodes), TRAMMEL_REQUIRED(label));
 namespace trammel::results {
 
 using Json = nlohmann::ordered_json;
+using harness::Number;
+using harness::Numbers;
+
+/// What is written. summary: text without the fields that a store holds. store: all fields, with
+/// arrays of numbers as bytes.
+enum class Form { text, summary, store };
 
 /// Where a value stands in a document; its JSON pointer is put together only for a message.
 struct Place {
@@ -31,35 +43,47 @@ struct Place {
   [[noreturn]] void fail(const std::string& expected) const;
 };
 
+/// required: always written, and an error if absent. optional: left out if empty. stored: an
+/// optional field that a summary leaves out. store_only: an optional field that texts leave out.
+enum class Presence { required, optional, stored, store_only };
+
 template <class Struct, class Member>
 struct Field {
   const char* key;
   Member Struct::*member;
-  bool is_required;
+  Presence presence;
 };
-/// A text that mostly is what `usual` makes of the fields before it.
-template <class Struct>
+/// A value that mostly is what `usual` makes of the fields before it.
+template <class Struct, class Member>
 struct UsualField {
   const char* key;
-  std::string Struct::*member;
-  std::string (*usual)(const Struct& fields_before);
+  Member Struct::*member;
+  Member (*usual)(const Struct& fields_before);
 };
 
-/// Always written; an error where it is absent.
 template <class Struct, class Member>
 constexpr Field<Struct, Member> required(const char* key, Member Struct::*member) {
-  return {key, member, true};
+  return {key, member, Presence::required};
 }
-/// Not written where it is empty, or an enumeration's first value; that where it is absent.
+/// The value of an absent field is empty, or the first one of an enumeration.
 template <class Struct, class Member>
 constexpr Field<Struct, Member> optional(const char* key, Member Struct::*member) {
-  return {key, member, false};
+  return {key, member, Presence::optional};
+}
+
+template <class Struct, class Member>
+constexpr Field<Struct, Member> stored(const char* key, Member Struct::*member) {
+  return {key, member, Presence::stored};
+}
+template <class Struct, class Member>
+constexpr Field<Struct, Member> store_only(const char* key, Member Struct::*member) {
+  return {key, member, Presence::store_only};
 }
 
 /// Not written where it is what `value` makes of the fields before it; that where it is absent.
-template <class Struct>
-constexpr UsualField<Struct> usual(const char* key, std::string Struct::*member,
-                                   std::string (*value)(const Struct& fields_before)) {
+template <class Struct, class Member>
+constexpr UsualField<Struct, Member> usual(const char* key, Member Struct::*member,
+                                           Member (*value)(const Struct& fields_before)) {
   return {key, member, value};
 }
 
@@ -84,10 +108,14 @@ inline constexpr None kKeyMember{};
   }()
 #define TRAMMEL_REQUIRED(...) TRAMMEL_EACH(TRAMMEL_ONE_REQUIRED, __VA_ARGS__)
 #define TRAMMEL_OPTIONAL(...) TRAMMEL_EACH(TRAMMEL_ONE_OPTIONAL, __VA_ARGS__)
+#define TRAMMEL_STORED(...) TRAMMEL_EACH(TRAMMEL_ONE_STORED, __VA_ARGS__)
+#define TRAMMEL_STORE_ONLY(...) TRAMMEL_EACH(TRAMMEL_ONE_STORE_ONLY, __VA_ARGS__)
 #define TRAMMEL_EACH(one, ...) \
   BOOST_PP_SEQ_ENUM(BOOST_PP_SEQ_TRANSFORM(one, , BOOST_PP_VARIADIC_TO_SEQ(__VA_ARGS__)))
 #define TRAMMEL_ONE_REQUIRED(_, none, member) required(#member, &S::member)
 #define TRAMMEL_ONE_OPTIONAL(_, none, member) optional(#member, &S::member)
+#define TRAMMEL_ONE_STORED(_, none, member) stored(#member, &S::member)
+#define TRAMMEL_ONE_STORE_ONLY(_, none, member) store_only(#member, &S::member)
 #define TRAMMEL_KEY(Struct, member) \
   template <>                       \
   inline constexpr auto kKeyMember<Struct> = &Struct::member
@@ -107,9 +135,14 @@ inline constexpr bool is_vector = false;
 template <class T>
 inline constexpr bool is_vector<std::vector<T>> = true;
 template <class T>
-inline constexpr bool is_pair = false;
-template <class A, class B>
-inline constexpr bool is_pair<std::pair<A, B>> = true;
+inline constexpr bool is_map = false;
+template <class T>
+inline constexpr bool is_map<std::map<std::string, T>> = true;
+using Pair = std::pair<double, double>;
+/// Types whose arrays are stored as bytes.
+template <class T>
+inline constexpr bool is_packed =
+    std::is_same_v<T, double> || std::is_same_v<T, Number> || std::is_same_v<T, Pair>;
 /// A named value, which is a member of an object.
 template <class T>
 inline constexpr bool is_named = false;
@@ -118,9 +151,9 @@ inline constexpr bool is_named<std::pair<std::string, T>> = true;
 
 template <class T>
 bool is_empty(const T& value) {
-  if constexpr (is_optional<T>) {
+  if constexpr (is_optional<T> || std::is_same_v<T, Number>) {
     return !value.has_value();
-  } else if constexpr (is_vector<T> || std::is_same_v<T, std::string>) {
+  } else if constexpr (requires { value.empty(); }) {
     return value.empty();
   } else if constexpr (std::is_enum_v<T>) {
     return value == T{};
@@ -132,7 +165,7 @@ bool is_empty(const T& value) {
 }  // namespace detail
 
 template <class T>
-Json to_json(const T& value);
+Json to_json(const T& value, Form form = Form::text);
 
 template <class T>
 void from_json(const Json& json, const Place& place, T& value);
@@ -147,32 +180,38 @@ T from_json(const Json& json) {
 namespace detail {
 
 template <class Struct, class Member>
-bool is_left_out(const Field<Struct, Member>& field, const std::type_identity_t<Struct>& value) {
-  return !field.is_required && is_empty(value.*field.member);
+bool is_left_out(const Field<Struct, Member>& field, const std::type_identity_t<Struct>& value,
+                 Form form) {
+  if (field.presence == Presence::required) return false;
+  return (field.presence == Presence::stored && form == Form::summary) ||
+         (field.presence == Presence::store_only && form != Form::store) ||
+         is_empty(value.*field.member);
 }
-template <class Struct>
-bool is_left_out(const UsualField<Struct>& field, const std::type_identity_t<Struct>& value) {
+template <class Struct, class Member>
+bool is_left_out(const UsualField<Struct, Member>& field, const std::type_identity_t<Struct>& value,
+                 Form) {
   return value.*field.member == field.usual(value);
 }
 
 template <class Struct, class Member>
 void give_absent(const Field<Struct, Member>& field, const Place& place,
                  std::type_identity_t<Struct>&) {
-  if (field.is_required) place.fail("a value, found nothing");
+  if (field.presence == Presence::required) place.fail("a value, found nothing");
 }
-template <class Struct>
-void give_absent(const UsualField<Struct>& field, const Place&,
+template <class Struct, class Member>
+void give_absent(const UsualField<Struct, Member>& field, const Place&,
                  std::type_identity_t<Struct>& value) {
   value.*field.member = field.usual(value);
 }
 
 template <class T>
-Json object_to_json(const T& value) {
+Json object_to_json(const T& value, Form form) {
   Json json = Json::object();
   auto& members = json.template get_ref<Json::object_t&>();
   members.reserve(std::tuple_size_v<std::decay_t<decltype(kFields<T>)>>);  // growing copies all
   const auto write = [&](const auto& field) {
-    if (!is_left_out(field, value)) members.emplace_back(field.key, to_json(value.*field.member));
+    if (!is_left_out(field, value, form))
+      members.emplace_back(field.key, to_json(value.*field.member, form));
   };
   std::apply([&](const auto&... fields) { (write(fields), ...); }, kFields<T>);
   return json;
@@ -190,17 +229,58 @@ void object_from_json(const Json& json, const Place& place, T& value) {
   std::apply([&](const auto&... fields) { (read(fields), ...); }, kFields<T>);
 }
 
+/// The size of a number in bytes, which is 4 if that loses no bit and 8 else, and the bytes.
 template <class Entry>
-Json list_to_json(const std::vector<Entry>& values) {
+Json packed(const std::vector<Entry>& values) {
+  const auto* const first = reinterpret_cast<const double*>(values.data());
+  const std::size_t count = values.size() * sizeof(Entry) / sizeof(double);
+  const bool single = std::all_of(first, first + count, [](double number) {
+    if (std::abs(number) > std::numeric_limits<float>::max()) return false;
+    const auto rounded = static_cast<double>(static_cast<float>(number));
+    return std::bit_cast<std::uint64_t>(rounded) == std::bit_cast<std::uint64_t>(number);
+  });
+  const std::size_t size = single ? sizeof(float) : sizeof(double);
+  std::vector<std::uint8_t> bytes(1 + count * size, static_cast<std::uint8_t>(size));
+  const auto copy = [&](const auto* numbers) {
+    if (count > 0) std::memcpy(bytes.data() + 1, numbers, count * size);
+  };
+  single ? copy(std::vector<float>(first, first + count).data()) : copy(first);
+  return Json::binary(std::move(bytes));
+}
+
+template <class Entry>
+void unpack(const Json& json, const Place& place, std::vector<Entry>& values) {
+  const auto& bytes = json.get_binary();
+  const std::size_t size = bytes.empty() ? 0 : bytes.front();
+  const std::size_t of_entry = size * sizeof(Entry) / sizeof(double);
+  if ((size != sizeof(float) && size != sizeof(double)) || (bytes.size() - 1) % of_entry != 0)
+    place.fail("the bytes of numbers");
+  values.resize((bytes.size() - 1) / of_entry);
+  if (values.empty()) return;
+  auto* const first = reinterpret_cast<double*>(values.data());
+  if (size == sizeof(double)) {
+    std::memcpy(first, bytes.data() + 1, bytes.size() - 1);
+  } else {
+    std::vector<float> numbers((bytes.size() - 1) / size);
+    std::memcpy(numbers.data(), bytes.data() + 1, bytes.size() - 1);
+    std::copy(numbers.begin(), numbers.end(), first);
+  }
+}
+
+template <class Entry>
+Json list_to_json(const std::vector<Entry>& values, Form form) {
+  if constexpr (is_packed<Entry>)
+    if (form == Form::store) return packed(values);
   Json json = has_key<Entry> || is_named<Entry> ? Json::object() : Json::array();
   if constexpr (is_named<Entry>) json.template get_ref<Json::object_t&>().reserve(values.size());
   for (const auto& entry : values) {
-    if constexpr (is_named<Entry>) {  // at the end, for json[name] would look through all before it
-      json.template get_ref<Json::object_t&>().emplace_back(entry.first, to_json(entry.second));
+    if constexpr (is_named<Entry>) {  // json[name] would compare all names before
+      json.template get_ref<Json::object_t&>().emplace_back(entry.first,
+                                                            to_json(entry.second, form));
     } else if constexpr (has_key<Entry>) {
-      json[entry.*kKeyMember<Entry>] = to_json(entry);
+      json[entry.*kKeyMember<Entry>] = to_json(entry, form);
     } else {
-      json.push_back(to_json<Entry>(entry));
+      json.push_back(to_json<Entry>(entry, form));
     }
   }
   return json;
@@ -208,6 +288,8 @@ Json list_to_json(const std::vector<Entry>& values) {
 
 template <class Entry>
 void list_from_json(const Json& json, const Place& place, std::vector<Entry>& values) {
+  if constexpr (is_packed<Entry>)
+    if (json.is_binary()) return unpack(json, place, values);
   constexpr bool is_object = has_key<Entry> || is_named<Entry>;
   if (is_object ? !json.is_object() : !json.is_array())
     place.fail(is_object ? "an object" : "an array");
@@ -247,32 +329,36 @@ void enum_from_json(const Json& json, const Place& place, Enum& value) {
 }
 
 /// (x, y); a coordinate that is not a number is null.
-template <class A, class B>
-void pair_from_json(const Json& json, const Place& place, std::pair<A, B>& value) {
+inline void pair_from_json(const Json& json, const Place& place, Pair& value) {
+  Numbers numbers;
   if (!json.is_array() || json.size() != 2) place.fail("two numbers");
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  std::vector<std::optional<double>> numbers;
   list_from_json(json, place, numbers);
-  value = {numbers[0].value_or(kNaN), numbers[1].value_or(kNaN)};
+  value = {*numbers[0], *numbers[1]};
 }
 
 }  // namespace detail
 
-/// null for a number that is not finite.
+/// In texts, null for a number that is not finite.
 template <class T>
-Json to_json(const T& value) {
+Json to_json(const T& value, Form form) {
   if constexpr (detail::has_fields<T>) {
-    return detail::object_to_json(value);
+    return detail::object_to_json(value, form);
   } else if constexpr (detail::is_optional<T>) {
-    return value ? to_json(*value) : Json(nullptr);
+    return value ? to_json(*value, form) : Json(nullptr);
   } else if constexpr (detail::is_vector<T>) {
-    return detail::list_to_json(value);
-  } else if constexpr (detail::is_pair<T>) {
-    return Json::array({to_json(value.first), to_json(value.second)});
+    return detail::list_to_json(value, form);
+  } else if constexpr (detail::is_map<T>) {
+    Json json = Json::object();
+    for (const auto& [key, entry] : value) json[key] = to_json(entry, form);
+    return json;
+  } else if constexpr (std::is_same_v<T, detail::Pair>) {
+    return Json::array({to_json(value.first, form), to_json(value.second, form)});
   } else if constexpr (std::is_enum_v<T>) {
     return detail::name_of(value);
+  } else if constexpr (std::is_same_v<T, Number>) {
+    return to_json(*value, form);
   } else if constexpr (std::is_floating_point_v<T>) {
-    return std::isfinite(value) ? Json(value) : Json(nullptr);
+    return std::isfinite(value) || form == Form::store ? Json(value) : Json(nullptr);
   } else {
     return value;
   }
@@ -288,7 +374,10 @@ void from_json(const Json& json, const Place& place, T& value) {
     if (!json.is_null()) from_json(json, place, value.emplace());
   } else if constexpr (detail::is_vector<T>) {
     detail::list_from_json(json, place, value);
-  } else if constexpr (detail::is_pair<T>) {
+  } else if constexpr (detail::is_map<T>) {
+    if (!json.is_object()) place.fail("an object");
+    for (const auto& [key, entry] : json.items()) from_json(entry, Place{&place, key}, value[key]);
+  } else if constexpr (std::is_same_v<T, detail::Pair>) {
     detail::pair_from_json(json, place, value);
   } else if constexpr (std::is_enum_v<T>) {
     detail::enum_from_json(json, place, value);
@@ -301,6 +390,11 @@ void from_json(const Json& json, const Place& place, T& value) {
   } else if constexpr (std::is_integral_v<T>) {
     if (!json.is_number_integer() || json < 0) place.fail("an integer of at least 0");
     value = json.get<T>();
+  } else if constexpr (std::is_same_v<T, Number>) {
+    value.reset();
+    if (json.is_null()) return;
+    if (!json.is_number()) place.fail("a number");
+    value = json.get<double>();
   } else {
     static_assert(std::is_same_v<T, double>);
     if (!json.is_number()) place.fail("a number");

@@ -1,184 +1,15 @@
 #include "harness/results/results.h"
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <fstream>
 #include <map>
 #include <system_error>
 
 #include "harness/base/contains.h"
-#include "harness/base/quantity.h"
-#include "harness/results/fields.h"
+#include "harness/results/result_fields.h"
 
 namespace trammel::results {
-
-template <>
-inline constexpr std::array kNames<Verdict> = {
-    std::pair{"pass", Verdict::pass},         std::pair{"fail", Verdict::fail},
-    std::pair{"error", Verdict::error},       std::pair{"not-run", Verdict::not_run},
-    std::pair{"recorded", Verdict::recorded}, std::pair{"not-given", Verdict::not_given}};
-template <>
-inline constexpr std::array kNames<Expectation> = {
-    std::pair{"agrees", Expectation::agrees},
-    std::pair{"known-discrepancy", Expectation::known_discrepancy},
-    std::pair{"none", Expectation::none}};
-template <>
-inline constexpr std::array kNames<Status> = {std::pair{"solved", Status::solved},
-                                              std::pair{"singular", Status::singular},
-                                              std::pair{"not-converged", Status::not_converged},
-                                              std::pair{"error", Status::error},
-                                              std::pair{"not-run", Status::not_run},
-                                              std::pair{"cannot", Status::cannot},
-                                              std::pair{"not-exported", Status::not_exported},
-                                              std::pair{"crashed", Status::crashed},
-                                              std::pair{"timed-out", Status::timed_out}};
-
-/// t: the difference lies within +-t. [low, high]: between them, null where open.
-template <>
-Json to_json(const Tolerance& tolerance) {
-  if (tolerance.symmetric) return to_json(tolerance.high);
-  return Json::array({to_json(tolerance.low), to_json(tolerance.high)});
-}
-
-template <>
-void from_json(const Json& json, const Place& place, Tolerance& tolerance) {
-  if (json.is_number()) {
-    const double high = json.get<double>();
-    tolerance = {-high, high, true};
-    return;
-  }
-  Numbers ends;
-  if (!json.is_array() || json.size() != 2) place.fail("a number or two");
-  from_json(json, place, ends);
-  tolerance = {ends[0], ends[1], false};
-}
-
-TRAMMEL_FIELDS(TwoTermLaw, TRAMMEL_REQUIRED(coefficients, max_relative_misfit, used));
-std::string usual_unit(const Check& check) {
-  return harness::unit_of(check.quantity);
-}
-std::string usual_role(const Check&) {
-  return "verification";
-}
-std::string usual_measure(const Check&) {
-  return "relative";
-}
-TRAMMEL_FIELDS(Check, TRAMMEL_REQUIRED(name, quantity),
-               TRAMMEL_OPTIONAL(index, computed, expected, difference),
-               TRAMMEL_REQUIRED(tolerance, why, verdict), usual("unit", &S::unit, usual_unit),
-               usual("role", &S::role, usual_role), usual("measure", &S::measure, usual_measure),
-               TRAMMEL_OPTIONAL(title, expectation, message, statistic, reference, against_variant,
-                                against_quantity));
-TRAMMEL_FIELDS(Convergence,
-               TRAMMEL_REQUIRED(sweep, parameter, quantity, index, values, exact, error, roundoff,
-                                order, in_asymptotic_range, at_roundoff_floor, theory_order,
-                                fitted_order, richardson, gci, safety_factor),
-               TRAMMEL_OPTIONAL(statistic, reference, lower_order, two_term));
-TRAMMEL_FIELDS(UncertainInput, TRAMMEL_REQUIRED(name, pointers, half_width, nominal, why));
-TRAMMEL_FIELDS(NumericalEstimate, TRAMMEL_REQUIRED(refinement, quantity, index, parameter, values,
-                                                   order, safety_factor, half_width));
-TRAMMEL_FIELDS(AllInputsComparison,
-               TRAMMEL_REQUIRED(u_input, u_input_sampled, u_val, interval, verdict, conclusion));
-TRAMMEL_FIELDS(Comparison,
-               TRAMMEL_REQUIRED(check, quantity, index, unit, reference, simulation, expected,
-                                u_num, u_input, u_input_sampled, u_reference, contributions,
-                                dominant_input, dominant_share, spread, difference, u_val, interval,
-                                verdict, conclusion, all_inputs));
-TRAMMEL_FIELDS(Uncertainty, TRAMMEL_REQUIRED(inputs, samples, failed, samples_all_inputs,
-                                             failed_all_inputs, numerical, comparisons));
-TRAMMEL_FIELDS(Joint, TRAMMEL_REQUIRED(node, kind, name));
-TRAMMEL_FIELDS(Shape, required("displacement_m", &S::displacement), TRAMMEL_REQUIRED(label));
-TRAMMEL_FIELDS(Pose, required("nodes_m", &S::nodes), TRAMMEL_REQUIRED(label),
-               TRAMMEL_OPTIONAL(time_s), optional("displacement_m", &S::displacement));
-TRAMMEL_FIELDS(Drawing, required("nodes_m", &S::nodes),
-               TRAMMEL_REQUIRED(members, triangles, joints, shapes), TRAMMEL_OPTIONAL(poses));
-TRAMMEL_KEY(EvaluationTiming, name);
-TRAMMEL_FIELDS(EvaluationTiming, TRAMMEL_REQUIRED(per_evaluation_s, evaluations));
-TRAMMEL_FIELDS(Cost, TRAMMEL_REQUIRED(wall_s, cpu_s, counters),
-               TRAMMEL_OPTIONAL(uncertainty_wall_s, timings));
-TRAMMEL_FIELDS(EffectRow, required("effect", &S::name),
-               TRAMMEL_REQUIRED(applicable, active, why, evaluations),
-               TRAMMEL_OPTIONAL(dimensionless_number, number_definition, estimated_change));
-TRAMMEL_FIELDS(ReadingClass, TRAMMEL_REQUIRED(title, readings, probability, values));
-TRAMMEL_KEY(FurtherNumber, name);
-TRAMMEL_FIELDS(FurtherNumber, TRAMMEL_REQUIRED(expected_information_bits));
-TRAMMEL_FIELDS(RowProbabilities, TRAMMEL_REQUIRED(row, reference, unit, discrepancy, log_evidence,
-                                                  entropy_bits, printed, readings, classes,
-                                                  credible_classes, leading, further_numbers));
-TRAMMEL_FIELDS(ExcludedReadings, TRAMMEL_REQUIRED(reason, first, readings));
-TRAMMEL_FIELDS(ModelProbabilities, TRAMMEL_REQUIRED(rows, excluded));
-TRAMMEL_FIELDS(Run, required("case", &S::case_id),
-               TRAMMEL_REQUIRED(variant, status, quantities, checks, cost),
-               TRAMMEL_OPTIONAL(reason, convergence, residuals, warnings, uncertainty, effects,
-                                model_probabilities, drawing, stored));
-TRAMMEL_FIELDS(ErrorNorms, TRAMMEL_REQUIRED(max, rms, mean));
-TRAMMEL_FIELDS(SettingTime, TRAMMEL_REQUIRED(cpu_s, relative_low, relative_high, wall_median_s,
-                                             runs_per_measurement));
-TRAMMEL_FIELDS(CostSetting, required("error", &S::errors), required("relative_time", &S::relative),
-               TRAMMEL_REQUIRED(curve, curve_title, title, value, status, reason, cpu_s, time,
-                                counters, pareto_optimal));
-TRAMMEL_FIELDS(CheapestSetting, TRAMMEL_REQUIRED(error, setting, tied));
-TRAMMEL_FIELDS(Repeatability,
-               TRAMMEL_REQUIRED(on_both_fronts, on_either_front, same_cheapest, target_errors,
-                                median_difference, largest_difference));
-TRAMMEL_FIELDS(CostOutput, TRAMMEL_REQUIRED(title, scale, errors, cheapest));
-TRAMMEL_FIELDS(CostStudy,
-               TRAMMEL_REQUIRED(id, family, title, reference_solution, scale, norm, baseline,
-                                wall_s, settings, cheapest, repeatability, conclusion),
-               TRAMMEL_OPTIONAL(description, outputs));
-TRAMMEL_FIELDS(CostStudies,
-               TRAMMEL_REQUIRED(sweep, seed, repeats, equal_within, diverged_above, studies));
-TRAMMEL_FIELDS(Environment,
-               TRAMMEL_REQUIRED(trammel, commit, date, compiler, flags, build_type, libraries,
-                                processor, cores, system),
-               TRAMMEL_OPTIONAL(stored_runs));
-TRAMMEL_KEY(PlotRequest::Line, title);
-TRAMMEL_FIELDS(PlotRequest::Line, TRAMMEL_REQUIRED(x, y));
-TRAMMEL_KEY(PlotRequest, id);
-TRAMMEL_FIELDS(PlotRequest, TRAMMEL_REQUIRED(y),
-               TRAMMEL_OPTIONAL(title, x, variants, log, value, lines, caption));
-TRAMMEL_KEY(ColumnRequest, id);
-TRAMMEL_FIELDS(ColumnRequest, TRAMMEL_REQUIRED(title),
-               TRAMMEL_OPTIONAL(quantity, statistic, timing, over_timing));
-TRAMMEL_KEY(TableRequest, id);
-TRAMMEL_FIELDS(TableRequest, TRAMMEL_REQUIRED(columns), TRAMMEL_OPTIONAL(title, variants, caption));
-TRAMMEL_FIELDS(StressSuiteEntry, TRAMMEL_REQUIRED(item, indicators));
-TRAMMEL_KEY(Variant, id);
-TRAMMEL_FIELDS(Variant, TRAMMEL_REQUIRED(title));
-TRAMMEL_KEY(CaseInfo, id);
-TRAMMEL_FIELDS(CaseInfo, TRAMMEL_REQUIRED(title, variants),
-               TRAMMEL_OPTIONAL(description, family, labels, stress_suite, figures, tables,
-                                analysis, hash));
-TRAMMEL_FIELDS(Solver, TRAMMEL_REQUIRED(name, version, command));
-TRAMMEL_KEY(Reference, id);
-TRAMMEL_FIELDS(Reference, TRAMMEL_REQUIRED(title, kind, unit, values, uncertainty, citation, place),
-               TRAMMEL_OPTIONAL(doi, printed, derivation, errata, notes));
-TRAMMEL_FIELDS(UncertaintyCoverage,
-               TRAMMEL_REQUIRED(levels, covered, coverage, min_coverage, median_ratio,
-                                max_median_ratio, min_levels, passes));
-TRAMMEL_FIELDS(ClaimEntry, required("case", &S::case_id), TRAMMEL_REQUIRED(variant, name, value));
-TRAMMEL_FIELDS(ClaimInterpretation, TRAMMEL_REQUIRED(description, metric, unit, verdict, entries));
-TRAMMEL_FIELDS(Claim, TRAMMEL_REQUIRED(id, claim, place, verdict, expected, conclusion, undecidable,
-                                       interpretations));
-TRAMMEL_FIELDS(PaperItem::Counterpart, required("case", &S::case_id),
-               TRAMMEL_OPTIONAL(variant, quantity, figure, verdict));
-TRAMMEL_FIELDS(PaperItem, TRAMMEL_REQUIRED(id, section, what),
-               TRAMMEL_OPTIONAL(shown_by, claims, reason, note));
-TRAMMEL_FIELDS(Claims, TRAMMEL_REQUIRED(title, as_recorded, claims), TRAMMEL_OPTIONAL(items));
-TRAMMEL_FIELDS(CoverageRow, TRAMMEL_REQUIRED(group, feature, evidence),
-               TRAMMEL_OPTIONAL(reason, series, judged));
-TRAMMEL_FIELDS(EffectScene, TRAMMEL_REQUIRED(scene, analysis, tolerance, change, minimal, whole_s,
-                                             chosen_s, deciding_s));
-TRAMMEL_FIELDS(HistoryCall,
-               TRAMMEL_REQUIRED(id, date, commit, machine, runs, checks, failures, cpu_s, work));
-TRAMMEL_FIELDS(HistoryChange,
-               TRAMMEL_REQUIRED(name, verdict_before, verdict, before, after, commit, date));
-TRAMMEL_FIELDS(HistoryDrift, TRAMMEL_REQUIRED(name, steps, first, last));
-TRAMMEL_FIELDS(History, TRAMMEL_REQUIRED(calls, since, changes, work, drifts));
-TRAMMEL_FIELDS(Results, optional("numerical_uncertainty", &S::uncertainty_coverage),
-               TRAMMEL_REQUIRED(format, environment, cases, references, runs),
-               TRAMMEL_OPTIONAL(solver, cost, claims, coverage, effect_scenes, history, store));
 
 namespace {
 
@@ -314,7 +145,7 @@ std::vector<Json*> references_in(Json& json) {
 
 const std::array<SharedTexts, 4> kSharedTexts = {{
     {"names",
-     {"name", "quantity", "reference", "against_quantity"},
+     {"name", "quantity", "reference", "against_variant", "against_quantity"},
      "a name for each place that a check holds",
      checks_in},
     {"reasons", {"why", "title", "message"}, "a text for each place that a check holds", checks_in},
@@ -395,18 +226,11 @@ nlohmann::ordered_json effect_scenes_to_json(const std::vector<EffectScene>& sce
   return to_json(scenes);
 }
 
-Json to_json(const Results& results) {
-  Json json = to_json<Results>(results);
+Json to_json(const Results& results, bool summary) {
+  Json json = to_json<Results>(results, summary ? Form::summary : Form::text);
   for (const SharedTexts& shared : kSharedTexts) share_texts(json, shared);
   return json;
 }
-Json to_json(const Run& run) {
-  return to_json<Run>(run);
-}
-Run read_run(const Json& json) {
-  return from_json<Run>(json);
-}
-
 std::vector<PlotRequest> read_figures(const Json& json) {
   return from_json<std::vector<PlotRequest>>(json);
 }
@@ -415,6 +239,9 @@ std::vector<TableRequest> read_tables(const Json& json) {
 }
 StressSuiteEntry read_stress_suite(const Json& json) {
   return from_json<StressSuiteEntry>(json);
+}
+Status read_status(const std::string& name) {
+  return from_json<Status>(name);
 }
 Environment read_environment(const Json& json) {
   return from_json<Environment>(json);
@@ -453,10 +280,9 @@ Results read_results(const std::filesystem::path& file) {
   }
 }
 
-const Numbers* Run::quantity(const std::string& name) const {
-  for (const auto& [key, values] : quantities)
-    if (key == name) return &values;
-  return nullptr;
+const std::vector<double>* Run::quantity(const std::string& name) const {
+  const auto found = quantities.find(name);
+  return found == quantities.end() ? nullptr : &found->second.values;
 }
 
 bool PlotRequest::is_log(const std::string& axis) const {
@@ -483,6 +309,13 @@ Number CostStudy::error(const CostSetting& setting) const {
   return norm == "max"   ? setting.errors->max
          : norm == "rms" ? setting.errors->rms
                          : setting.errors->mean;
+}
+
+Number difference_of(const Check& check) {
+  const double computed = *check.computed, expected = *check.expected;
+  if (check.measure == "relative") return (computed - expected) / std::abs(expected);
+  if (check.measure == "absolute") return computed - expected;
+  return check.measure == "ratio" ? computed / expected : Number();
 }
 
 std::string to_string(Verdict verdict) {

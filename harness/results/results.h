@@ -81,7 +81,7 @@ struct Reference {
 
 /// Coverage of the numerical uncertainty (GCI) over all refinements with exact values.
 struct UncertaintyCoverage {
-  int levels = 0, covered = 0, min_levels = 0;
+  std::size_t levels = 0, covered = 0, min_levels = 0;
   Number coverage, min_coverage;
   Number median_ratio, max_median_ratio;  ///< of GCI over true error
   bool passes = false;
@@ -172,9 +172,11 @@ struct Results {
 
 /// A name, reason, citation or note that many share stands once, under /names, /reasons, /citations
 /// or /notes, and they hold its place there.
-[[nodiscard]] nlohmann::ordered_json to_json(const Results& results);
-[[nodiscard]] nlohmann::ordered_json to_json(const Run& run);
-[[nodiscard]] Run read_run(const nlohmann::ordered_json& json);
+/// Entries of a quantity that a summary holds.
+inline constexpr std::size_t kSummaryEntries = 1;
+
+/// @param summary  without the series, drawings and studies of runs that a store holds
+[[nodiscard]] nlohmann::ordered_json to_json(const Results& results, bool summary = false);
 [[nodiscard]] nlohmann::ordered_json coverage_to_json(const std::vector<CoverageRow>& rows);
 [[nodiscard]] nlohmann::ordered_json history_to_json(const History& history);
 [[nodiscard]] nlohmann::ordered_json claims_to_json(const Claims& claims);
@@ -184,6 +186,7 @@ struct Results {
 [[nodiscard]] std::vector<PlotRequest> read_figures(const nlohmann::ordered_json& json);
 [[nodiscard]] std::vector<TableRequest> read_tables(const nlohmann::ordered_json& json);
 [[nodiscard]] StressSuiteEntry read_stress_suite(const nlohmann::ordered_json& json);
+[[nodiscard]] Status read_status(const std::string& name);
 [[nodiscard]] Environment read_environment(const nlohmann::ordered_json& json);
 [[nodiscard]] CostStudies read_cost_studies(const nlohmann::ordered_json& json);
 [[nodiscard]] ModelProbabilities read_model_probabilities(const nlohmann::ordered_json& json);

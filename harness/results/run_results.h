@@ -2,16 +2,21 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "harness/base/number.h"
+#include "harness/base/quantity.h"
+#include "harness/base/timing.h"
+
 /// What results.json says of one run: one variant of a case.
 namespace trammel::results {
 
-using Number = std::optional<double>;  ///< null in the file where it is empty
-using Numbers = std::vector<Number>;
+using harness::Number;
+using harness::Numbers;
 
 /// recorded: a validation without an expectation; not given: a quantity that another solver does
 /// not answer. Neither gates.
@@ -29,9 +34,11 @@ enum class Status {
   crashed,
   timed_out
 };
+/// The origin of an error: bad input, or trammel itself.
+enum class Fault { none, input, internal };
 
 /// Allowed range of a difference: +-high for a plain tolerance, [low, high] for a range or a bound;
-/// an empty end is unbounded.
+/// a missing end is unbounded.
 struct Tolerance {
   Number low, high;
   bool symmetric = false;  ///< written as one number
@@ -60,52 +67,98 @@ struct TwoTermLaw {
   std::vector<bool> used;
 };
 
-/// One quantity refined over one parameter; all vectors have one entry a level.
+/// One number refined over one parameter, coarse to fine: what it is, then what the refinement
+/// shows. All vectors have one entry a level.
 struct Convergence {
-  std::string sweep, quantity, statistic, reference;
+  std::string sweep, quantity, statistic;
+  std::string reference;  ///< of the exact value
   int index = 0;
-  Numbers parameter, values, error, roundoff, order, gci, safety_factor;
-  std::vector<bool> in_asymptotic_range, at_roundoff_floor;
-  Number exact, theory_order, fitted_order, richardson;
-  Number lower_order;  ///< where two orders mix
-  std::optional<TwoTermLaw> two_term;
+  Numbers parameter;         ///< the swept number
+  Numbers values, roundoff;  ///< the latter relative
+  std::vector<double> size;  ///< h, to a common factor; not written
+  Number exact;
+  bool is_error = false;  ///< the values are errors themselves and `exact` is 0; not written
+  Number theory_order;
+  /// A second, lower order that takes over on fine meshes: error = a h^theory + b h^lower.
+  Number lower_order;
+
+  Numbers error;  ///< relative to the exact value, else to the extrapolated one
+  Numbers order;  ///< observed between a level and the one before
+  /// Error above 100 times the round-off error, and an order that agrees with a neighbor's within
+  /// a tenth; where two orders mix, an error that the two-term law meets.
+  std::vector<bool> in_asymptotic_range;
+  std::vector<bool> at_roundoff_floor;  ///< error of at most 100 times the round-off error
+  Number fitted_order;                  ///< slope over the asymptotic range
+  Number richardson;                    ///< extrapolated value; missing if the values diverge
+  std::optional<TwoTermLaw> two_term;   ///< of the relative error, where two orders mix
+  /// Grid convergence index: relative half width of the interval in which the converged value is
+  /// expected, from the values alone, with round-off error. Missing where they diverge.
+  Numbers gci;
+  /// Roache's factor in the index: 1.25 if the observed order is within a tenth of theory (with
+  /// two orders: within a tenth of the range between them), else 3.
+  Numbers safety_factor;
+  bool broken = false;  ///< a level after the first finite one has no finite value; not written
 };
 
+struct SweepLevel {
+  double parameter = 0;
+  harness::Quantities quantities;  ///< empty where there is no solution
+};
+
+/// The same computation level by level.
+struct Sweep {
+  std::string name;
+  std::vector<SweepLevel> levels;  ///< coarse to fine
+};
+
+/// An input that is known to so many digits, as the case states it.
 struct UncertainInput {
   std::string name, why;
-  std::vector<std::string> pointers;
-  Number half_width;
-  bool nominal = false;
+  std::vector<std::string> pointers;  ///< places in the case that hold it and move together
+  Number half_width;                  ///< in the unit of the places
+  bool nominal = false;  ///< a round design value, which is uncertain in `all_inputs` alone
 };
 
+/// The refinement of one entry on the run's own mesh.
 struct NumericalEstimate {
   std::string refinement, quantity;
   int index = 0;
-  Numbers parameter, values;
-  Number order, safety_factor, half_width;
+  Numbers parameter, values;  ///< the run's own mesh and two finer ones
+  Number order;               ///< observed; missing if the values do not approach a limit
+  Number safety_factor;       ///< Roache's, 1.25 or 3
+  /// safety_factor * |value - extrapolated value|, or the range of values that diverge: about 95 %
+  /// [unit] (L. Eca, M. Hoekstra, J. Comput. Phys. 262, 2014)
+  Number half_width;
 };
 
-/// The comparison with nominal inputs as uncertain as their printed digits.
-struct AllInputsComparison {
-  Number u_input, u_input_sampled, u_val;
-  Numbers interval;
-  std::string verdict, conclusion;
+/// Verdict of a comparison after ASME V&V 20.
+struct ValidationVerdict {
+  Number u_input, u_input_sampled;  ///< by derivatives, and by samples
+  Number u_val;                     ///< root of u_num^2 + u_input^2 + u_reference^2
+  Numbers interval;                 ///< of the model error, at about 95 %: E -+ 2 u_val
+  std::string verdict;              ///< one of judge/validation_verdict.h
+  std::string conclusion;
 };
 
 /// One entry against the paper after ASME V&V 20: E = S - D and its uncertainty. Standard
 /// uncertainties, all in the quantity's unit.
-struct Comparison {
-  std::string check, quantity, unit, reference, dominant_input, verdict, conclusion;
+struct Comparison : ValidationVerdict {
+  std::string check, quantity, unit, reference;
+  std::string dominant_input;  ///< the largest contribution; empty: none
   int index = 0;
-  Number simulation, expected, difference, u_num, u_input, u_input_sampled, u_reference, u_val;
-  Number dominant_share;  ///< of u_input squared
+  Number simulation, expected, difference;  ///< S, D, E
+  Number u_num, u_reference;                ///< of the refinement, and of the printed digits of D
+  Number dominant_share;                    ///< of u_input squared
+  /// Signed standard contribution of each input.
   std::vector<std::pair<std::string, Number>> contributions;
-  Numbers spread, interval;
-  AllInputsComparison all_inputs;
+  /// The paper's other rows for this entry, minus `expected`; without influence on the verdict.
+  Numbers spread;
+  /// With nominal inputs as uncertain as their printed digits.
+  ValidationVerdict all_inputs;
 };
 
 struct Uncertainty {
-  std::vector<UncertainInput> inputs;
+  std::vector<UncertainInput> inputs;  ///< those that this variant has as numbers
   int samples = 0, failed = 0, samples_all_inputs = 0, failed_all_inputs = 0;
   std::vector<NumericalEstimate> numerical;
   std::vector<Comparison> comparisons;
@@ -115,7 +168,8 @@ using Point = std::pair<double, double>;  ///< (x, y) [m]; NaN: not drawn
 
 struct Joint {
   int node = 0;
-  std::string kind, name;
+  std::string kind;  ///< active, hinged, welded, rigid, sprung or support
+  std::string name;
 };
 
 struct Shape {
@@ -130,6 +184,7 @@ struct Pose {
   std::vector<Point> displacement = {};  ///< from there, one a node [m]; empty: none
 };
 
+/// The contents of a picture of the model: the mesh, its joints, and shapes on it.
 struct Drawing {
   std::vector<Point> nodes;
   std::vector<std::vector<int>> members, triangles;
@@ -140,17 +195,11 @@ struct Drawing {
 
 using Counters = std::vector<std::pair<std::string, std::size_t>>;
 
-struct EvaluationTiming {
-  std::string name;
-  double per_evaluation_s = 0;
-  std::size_t evaluations = 0;
-};
-
 struct Cost {
   double wall_s = 0, cpu_s = 0;
   Counters counters;
   Number uncertainty_wall_s;  ///< of the validation comparison, which is not in wall_s
-  std::vector<EvaluationTiming> timings;
+  std::vector<harness::EvaluationTime> timings;
 };
 
 /// One effect in a run, and why it is there or not.
@@ -195,13 +244,22 @@ struct ModelProbabilities {
   std::vector<ExcludedReadings> excluded;
 };
 
+/// A solver other than trammel's, as it identifies itself.
+struct SolverIdentity {
+  std::string name, version;
+  Number element_order;       ///< of convergence in the element size
+  std::optional<int> digits;  ///< significant ones that it prints
+};
+
+/// Results of one computation and their judgement. The store and the process of the computation
+/// hold the same fields.
 struct Run {
   std::string case_id, variant, reason;
-  Status status = Status::error;
-  /// What decided that it is solved, each over the magnitude of its terms.
+  Status status = Status::not_run;
+  /// That decide whether it is solved, each over the magnitude of its terms.
   std::vector<std::pair<std::string, Number>> residuals;
   std::vector<std::string> warnings;
-  std::vector<std::pair<std::string, Numbers>> quantities;
+  harness::Quantities quantities;
   std::vector<Check> checks;
   std::vector<Convergence> convergence;
   std::optional<Uncertainty> uncertainty;
@@ -211,12 +269,26 @@ struct Run {
   Cost cost;
   /// File of the run store that holds its series, drawing and studies; empty: the results do.
   std::string stored;
-  bool was_stored = false;  ///< by an earlier call; not written
 
-  /// @returns nullptr when the run has no such quantity.
-  [[nodiscard]] const Numbers* quantity(const std::string& name) const;
+  // In the store alone; sweeps no longer than until they are judged.
+  std::vector<Sweep> sweeps;
+  std::map<std::string, std::string> references;  ///< files that were looked for, and their hashes
+  std::string machine;                            ///< on which times were measured
+  SolverIdentity solver;                          ///< other than trammel's
+
+  Fault fault = Fault::none;  ///< of a run with the status error
+
+  // Not written.
+  int interrupted_by = 0;   ///< the signal that prevented the computation
+  bool was_stored = false;  ///< by an earlier call
+
+  [[nodiscard]] bool is_solved() const { return status == Status::solved; }
+  /// @returns nullptr if the run has no such quantity.
+  [[nodiscard]] const std::vector<double>* quantity(const std::string& name) const;
 };
 
+/// The difference of a check that measures `computed` against `expected`; missing for others.
+[[nodiscard]] Number difference_of(const Check& check);
 [[nodiscard]] std::string to_string(Verdict verdict);
 [[nodiscard]] std::string to_string(Status status);
 

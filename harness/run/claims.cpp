@@ -94,7 +94,7 @@ bool selects(const JsonView& interpretation, const Run& run) {
   return contains(variants, run.variant);
 }
 
-std::optional<double> metric_of(const std::string& metric, const CheckResult& check_result) {
+results::Number metric_of(const std::string& metric, const CheckResult& check_result) {
   if (metric == "value") return check_result.computed;
   if (!check_result.computed || !check_result.expected) return std::nullopt;
   const double computed = *check_result.computed, expected = *check_result.expected;
@@ -104,7 +104,7 @@ std::optional<double> metric_of(const std::string& metric, const CheckResult& ch
 }
 
 void add_checks(const JsonView& interpretation, const Run& run, Interpretation& found) {
-  for (const CheckResult& check_result : run.check_results) {
+  for (const CheckResult& check_result : run.checks) {
     const bool named =
         interpretation.has("check") && matches(check_result.name, interpretation.text("check"));
     const bool against = interpretation.has("reference") &&
@@ -116,7 +116,7 @@ void add_checks(const JsonView& interpretation, const Run& run, Interpretation& 
       if (!chosen) continue;
     }
     const auto value = metric_of(found.metric, check_result);
-    if (run.status != "solved" || !value || !std::isfinite(*value)) {
+    if (!run.is_solved() || !value || !std::isfinite(*value)) {
       found.incomplete = true;
       continue;
     }
@@ -127,8 +127,8 @@ void add_checks(const JsonView& interpretation, const Run& run, Interpretation& 
 
 void add_quantity(const JsonView& interpretation, const Run& run, Interpretation& found) {
   const std::string name = interpretation.text("quantity");
-  const auto quantity = run.result.quantities.find(name);
-  if (quantity == run.result.quantities.end() || quantity->second.values.empty()) {
+  const auto quantity = run.quantities.find(name);
+  if (quantity == run.quantities.end() || quantity->second.values.empty()) {
     found.incomplete = true;
     return;
   }

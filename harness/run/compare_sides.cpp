@@ -49,8 +49,8 @@ std::string series_of(const std::string& name) {
 std::map<std::string, double> series_scales(const Runs& runs) {
   std::map<std::string, double> scales;
   for (const results::Run* run : runs)
-    for (const auto& [name, values] : run->quantities)
-      for (double& scale = scales[series_of(name)]; const Number& value : values)
+    for (const auto& [name, quantity] : run->quantities)
+      for (double& scale = scales[series_of(name)]; const Number value : quantity.values)
         scale = std::max(scale, std::abs(value.value_or(0)));
   return scales;
 }
@@ -66,7 +66,7 @@ double stated_roundoff(const results::Run& run, const std::string& name, std::si
   for (const results::Convergence& study : run.convergence)
     if (study.quantity == name && study.index == static_cast<int>(i)) take(study.roundoff);
   if (name.rfind("frequency_Hz", 0) == 0)
-    if (const Numbers* own = run.quantity("frequency_roundoff" + name.substr(12)))
+    if (const std::vector<double>* own = run.quantity("frequency_roundoff" + name.substr(12)))
       if (i < own->size()) take({(*own)[i]});
   return stated;
 }
@@ -129,7 +129,7 @@ ComparedNumber compare_entry(const std::string& name, std::size_t i, const Runs&
 /// All of a few entries; of many the one that differs most.
 std::vector<ComparedNumber> compare_entries(const std::string& name, const Runs& runs,
                                             double scale) {
-  const Numbers& first = *runs.front()->quantity(name);
+  const std::vector<double>& first = *runs.front()->quantity(name);
   std::vector<std::size_t> entries(first.size());
   std::iota(entries.begin(), entries.end(), 0);
   if (entries.size() > kFewEntries)
@@ -154,7 +154,7 @@ void add_numbers(const Runs& runs, const std::vector<std::string>& labels, Compa
   for (const std::string& name : names) {
     std::vector<std::string> without, sizes;
     for (std::size_t s = 0; s < runs.size(); ++s) {
-      const Numbers* values = runs[s]->quantity(name);
+      const std::vector<double>* values = runs[s]->quantity(name);
       values ? sizes.push_back(std::to_string(values->size())) : without.push_back(labels[s]);
     }
     if (!without.empty()) {
@@ -172,14 +172,14 @@ void add_numbers(const Runs& runs, const std::vector<std::string>& labels, Compa
 
 /// Modes as they are drawn, where both sides draw the same nodes.
 std::optional<SampledModes> drawn_modes(const results::Run& run, const results::Run& like) {
-  const Numbers* frequency = run.quantity("frequency_Hz");
+  const std::vector<double>* frequency = run.quantity("frequency_Hz");
   if (!run.drawing || !like.drawing || frequency == nullptr) return std::nullopt;
   if (run.drawing->nodes != like.drawing->nodes) return std::nullopt;
   const auto& shapes = run.drawing->shapes;
   std::size_t count = std::min(shapes.size(), frequency->size());
   const auto repeats = [&](std::size_t i) {
-    return (*frequency)[i].value_or(0) - (*frequency)[i - 1].value_or(0) <=
-           1e-6 * (*frequency)[i].value_or(0);
+    const auto hertz = [&](std::size_t k) { return Number((*frequency)[k]).value_or(0); };
+    return hertz(i) - hertz(i - 1) <= 1e-6 * hertz(i);
   };
   // A set of which only some are drawn has no subspace.
   if (count < frequency->size())
@@ -188,7 +188,7 @@ std::optional<SampledModes> drawn_modes(const results::Run& run, const results::
   modes.shape.resize(2 * static_cast<Eigen::Index>(run.drawing->nodes.size()),
                      static_cast<Eigen::Index>(count));
   for (std::size_t m = 0; m < count; ++m) {
-    modes.frequency.push_back((*frequency)[m].value_or(std::nan("")));
+    modes.frequency.push_back((*frequency)[m]);
     Eigen::Index row = 0;
     for (const auto& [x, y] : shapes[m].displacement)
       for (const double u : {x, y})
@@ -199,10 +199,10 @@ std::optional<SampledModes> drawn_modes(const results::Run& run, const results::
 
 /// Whether modes solved for anew are those of the run: not those of a rotating or loaded one.
 bool are_of(const SampledModes& modes, const results::Run& run) {
-  const Numbers& known = *run.quantity("frequency_Hz");
+  const std::vector<double>& known = *run.quantity("frequency_Hz");
   for (std::size_t i = 0; i < known.size(); ++i)
-    if (i >= modes.frequency.size() || !known[i] ||
-        !(std::abs(modes.frequency[i] - *known[i]) <= 1e-6 * (1 + std::abs(*known[i]))))
+    if (i >= modes.frequency.size() ||
+        !(std::abs(modes.frequency[i] - known[i]) <= 1e-6 * (1 + std::abs(known[i]))))
       return false;
   return true;
 }
@@ -229,7 +229,7 @@ std::vector<std::size_t> from_one(std::vector<std::size_t> numbers) {
 std::vector<ComparedModes> compare_modes(const Runs& runs,
                                          const std::vector<const Document*>& documents) {
   std::vector<ComparedModes> rows;
-  const Numbers& known = *runs.front()->quantity("frequency_Hz");
+  const std::vector<double>& known = *runs.front()->quantity("frequency_Hz");
   double largest = 0;
   for (std::size_t s = 1; s < runs.size(); ++s) {
     const Sampled both = sample(*runs.front(), *runs[s], documents.front(), documents[s]);
@@ -301,9 +301,18 @@ void add_verdicts(const Runs& runs, const std::vector<std::string>& labels, Comp
   }
 }
 
+Number number_of(double value) {
+  return value;
+}
+
 bool same_bits(const Runs& runs) {
   return std::ranges::all_of(runs, [&](const results::Run* run) {
-    return run->quantities == runs.front()->quantities && run->status == runs.front()->status;
+    const auto same = [](const auto& a, const auto& b) {
+      return a.first == b.first &&
+             std::ranges::equal(a.second.values, b.second.values, {}, number_of, number_of);
+    };
+    return run->status == runs.front()->status &&
+           std::ranges::equal(run->quantities, runs.front()->quantities, same);
   });
 }
 
@@ -501,18 +510,13 @@ std::map<std::string, Runs> runs_by_name(std::vector<Side>& sides) {
 /// @returns how many have lost theirs
 std::size_t load_series(std::vector<results::Run>& runs, const std::vector<Side>& sides) {
   std::size_t lost = 0;
-  Runs loaded;
-  const auto take = [&](const auto& from_store) {
-    for (std::size_t s = 0; s < runs.size(); ++s)
-      if (!runs[s].stored.empty() && !from_store(runs[s], sides[s].results.store)) ++lost;
-  };
-  take(take_stored_series);
-  for (const results::Run& run : runs) loaded.push_back(&run);
-  if (!same_bits(loaded)) take(take_stored_studies);  // where round-off matters
+  for (std::size_t s = 0; s < runs.size(); ++s)
+    if (!runs[s].stored.empty() && !take_stored(runs[s], sides[s].results.store)) ++lost;
   if (lost > 0)
     for (results::Run& run : runs)
-      std::erase_if(run.quantities,
-                    [](const auto& q) { return q.second.size() > kSummaryEntries; });
+      std::erase_if(run.quantities, [](const auto& q) {
+        return q.second.values.size() > results::kSummaryEntries;
+      });
   return lost;
 }
 

@@ -12,11 +12,18 @@
 #include "harness/base/stopwatch.h"
 #include "harness/base/text.h"
 #include "harness/judge/evaluate_check.h"
+#include "harness/judge/uncertainty_summary.h"
+#include "harness/run/results.h"
 #include "harness/run/run_store.h"
 #include "harness/run/shards.h"
 #include "harness/studies/run_sweeps.h"
+#include "harness/studies/validation_uncertainty.h"
 
 namespace trammel::harness {
+
+using results::Fault;
+using results::Status;
+
 namespace {
 
 /// A computation to do: one asked for, or one that a check of another variant looks at.
@@ -29,27 +36,16 @@ struct Task {
   Run run;
 };
 
-const char* status_name(solver::Status status) {
-  switch (status) {
-    case solver::Status::solved:
-      return "solved";
-    case solver::Status::singular:
-      return "singular";
-    case solver::Status::not_converged:
-      return "not-converged";
-  }
-  return "error";
-}
-
 /// Ended without an answer of its solver, which a later call may get.
-bool has_broken(const Computation& run) {
-  return run.status == "error" || run.status == "crashed" || run.status == "timed-out";
+bool has_broken(const Run& run) {
+  return run.status == Status::error || run.status == Status::crashed ||
+         run.status == Status::timed_out;
 }
 
-void mark_failed(Run& run, const std::string& reason, Run::RunError error) {
-  run.status = "error";
+void mark_failed(Run& run, const std::string& reason, Fault fault) {
+  run.status = Status::error;
   run.reason = one_line(reason);
-  run.error = error;
+  run.fault = fault;
 }
 
 /// Does what may fail, and leaves the failure in the run.
@@ -58,12 +54,11 @@ void run_guarded(Run& run, const Work& work) {
   try {
     work();
   } catch (const InputError& error) {
-    mark_failed(run, error.what(), Run::RunError::input);
+    mark_failed(run, error.what(), Fault::input);
   } catch (const std::bad_alloc&) {
     throw;  // says the process how it ended
   } catch (const std::exception& error) {
-    mark_failed(run, std::string("a fault of trammel itself: ") + error.what(),
-                Run::RunError::internal);
+    mark_failed(run, std::string("a fault of trammel itself: ") + error.what(), Fault::internal);
   }
 }
 
@@ -114,25 +109,23 @@ std::vector<Task> prepare_all(const std::vector<Case>& cases, const std::string&
 void compute(Task& task, const References& references) {
   const Stopwatch watch;
   run_guarded(task.run, [&] {
-    task.run.result = analyse(task.document, references, {task.requested});
-    task.run.status = status_name(task.run.result.outcome.status);
-    task.run.reason = task.run.result.outcome.reason;
+    record_result(analyse(task.document, references, {task.requested}), task.run);
     if (task.requested && task.studies) task.run.sweeps = run_sweeps(task.document, references);
   });
-  task.run.wall_s = watch.wall_s();
-  task.run.cpu_s = watch.cpu_s();
+  task.run.cost.wall_s = watch.wall_s();
+  task.run.cost.cpu_s = watch.cpu_s();
 }
 
 void compare_for_validation(Task& task, const References& references) {
-  const bool wanted = task.requested && task.studies && task.run.status == "solved" &&
+  const bool wanted = task.requested && task.studies && task.run.is_solved() &&
                       task.document.value().contains("uncertainty");
   if (!wanted) return;
   const Stopwatch watch;
   run_guarded(task.run, [&] {
-    task.run.uncertainty =
-        evaluate_validation_uncertainty(task.document, task.run.result, task.checks, references);
+    task.run.uncertainty = evaluate_validation_uncertainty(task.document, task.run.quantities,
+                                                           task.checks, references);
   });
-  task.run.uncertainty_wall_s = watch.wall_s();
+  if (task.run.uncertainty) task.run.cost.uncertainty_wall_s = watch.wall_s();
 }
 
 std::string answer_of(Task task, const OtherSolver& solver) {
@@ -147,7 +140,7 @@ std::string answer_of(Task task, const OtherSolver& solver) {
     compare_for_validation(task, references);
     task.run.references = references.hashes();
   }
-  if (!task.run.result.timings.empty()) task.run.machine = machine_name();
+  if (!task.run.cost.timings.empty()) task.run.machine = machine_name();
   return to_bytes(task.run);
 }
 
@@ -161,15 +154,15 @@ unsigned time_limit_s(const Document& document) {
 void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& options) {
   using Termination = ProcessOutcome::Termination;
   if (options.solver.compute && outcome.termination != Termination::answered)
-    return mark_failed(task.run, "no answer: " + outcome.text, Run::RunError::none);
+    return mark_failed(task.run, "no answer: " + outcome.text, Fault::none);
   const auto expected = [&](const std::string& pointer, const std::string& what) {
     const std::string found = " (" + task.run.variant + ": " + outcome.text + ")";
     mark_failed(task.run, task.document.error(pointer, "expected " + what + found).what(),
-                Run::RunError::input);
+                Fault::input);
   };
   switch (outcome.termination) {
     case Termination::answered:
-      static_cast<Computation&>(task.run) = computation_from(outcome.text);
+      task.run = run_from(outcome.text);
       break;
     case Termination::timed_out:
       expected("/timeout_s", "a computation within timeout_s");
@@ -185,7 +178,7 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
       mark_failed(task.run,
                   "a fault of trammel itself: " + task.run.case_id + ":" + task.run.variant + ": " +
                       outcome.text,
-                  Run::RunError::internal);
+                  Fault::internal);
   }
 }
 
@@ -196,11 +189,11 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
   std::vector<std::pair<Task*, std::filesystem::path>> open;
   for (Task& task : tasks) {
     std::filesystem::path file;
-    if (task.run.status == "error") continue;
+    if (task.run.status == Status::error) continue;
     if (!options.store.empty())
       file = options.store / computation_name(task.document, task.requested, options.solver.hash);
     if (options.resume && find_stored(file, task.run, options.any_machine)) {
-      task.run.stored = file;
+      task.run.stored = file.filename().string();
       task.run.was_stored = true;
       continue;
     }
@@ -232,7 +225,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
                             if (!file.empty()) forget_starts(file);
                             if (!file.empty() && !has_broken(task->run)) {
                               write_file(file, outcome.text);
-                              task->run.stored = file;
+                              task->run.stored = file.filename().string();
                             }
                             ++done;
                             show();
@@ -243,7 +236,8 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
 /// @returns whether it ended as the case expects.
 bool evaluate_status_check(const Task& task, Run& run) {
   const std::string expected = task.document.value().value("expect_status", "solved");
-  if (expected == "solved" && run.status == "solved") return true;
+  const std::string status = to_string(run.status);
+  if (expected == "solved" && run.is_solved()) return true;
   CheckResult check_result;
   check_result.name = "status";
   check_result.quantity = "status";
@@ -251,10 +245,10 @@ bool evaluate_status_check(const Task& task, Run& run) {
   check_result.role = to_string(Role::verification);
   check_result.measure = "status";
   check_result.why = "the case expects it to be " + expected;
-  check_result.verdict = run.status == expected ? Verdict::pass : Verdict::fail;
-  check_result.message = run.status + (run.reason.empty() ? "" : ": " + run.reason);
-  run.check_results.push_back(std::move(check_result));
-  return run.status == expected;
+  check_result.verdict = status == expected ? Verdict::pass : Verdict::fail;
+  check_result.message = status + (run.reason.empty() ? "" : ": " + run.reason);
+  run.checks.push_back(std::move(check_result));
+  return status == expected;
 }
 
 /// Whether the comparisons of V&V 20 end as recorded, as a check of its own.
@@ -267,13 +261,14 @@ void evaluate_validation_verdicts(const Check& check, Run& run) {
   result.expectation = Expectation::none;
   result.why = "the case records what the comparison of these values comes to";
   std::vector<std::string> found;
-  for (const ComparedEntry& entry : run.uncertainty.entries)
-    if (entry.check == check.name) found.push_back(to_string(entry.validation.verdict));
+  for (const results::Comparison& entry :
+       run.uncertainty.value_or(results::Uncertainty()).comparisons)
+    if (entry.check == check.name) found.push_back(entry.verdict);
   result.verdict = found == check.validation_verdicts ? Verdict::pass : Verdict::fail;
   if (result.verdict == Verdict::fail)
     result.message =
         "expected " + join(check.validation_verdicts, "and") + " (got " + join(found, "and") + ")";
-  run.check_results.push_back(std::move(result));
+  run.checks.push_back(std::move(result));
 }
 
 void evaluate_checks(Task& task, const std::vector<Task>& tasks, const References& references,
@@ -281,16 +276,16 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
   Run& run = task.run;
   const auto leave_unjudged = [&](const std::string& message, Verdict verdict) {
     for (const Check& check : task.checks) {
-      run.check_results.push_back(failed_check_result(check, message));
-      run.check_results.back().verdict = verdict;
+      run.checks.push_back(failed_check_result(check, message));
+      run.checks.back().verdict = verdict;
     }
   };
   if (has_broken(run)) return leave_unjudged("not computed: " + run.reason, Verdict::error);
-  if (run.status == "not-run") return leave_unjudged("interrupted", Verdict::not_run);
-  if (run.status == "cannot" || run.status == "not-exported")
-    return leave_unjudged(run.status + ": " + run.reason, Verdict::not_given);
+  if (run.status == Status::not_run) return leave_unjudged("interrupted", Verdict::not_run);
+  if (run.status == Status::cannot || run.status == Status::not_exported)
+    return leave_unjudged(to_string(run.status) + ": " + run.reason, Verdict::not_given);
   // Where no solution is what the case expects, there is nothing more to judge.
-  if (evaluate_status_check(task, run) && run.status != "solved") return;
+  if (evaluate_status_check(task, run) && !run.is_solved()) return;
   for (const Sweep& sweep : run.sweeps) {
     auto found = study_sweep(sweep, task.document, task.checks, references, options.tracked,
                              run.solver.element_order);
@@ -298,29 +293,28 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
   }
   const auto quantities_of = [&](const std::string& variant) -> const Quantities* {
     for (const Task& other : tasks) {
-      if (other.owner == task.owner && other.run.variant == variant &&
-          other.run.status == "solved") {
-        return &other.run.result.quantities;
+      if (other.owner == task.owner && other.run.variant == variant && other.run.is_solved()) {
+        return &other.run.quantities;
       }
     }
     return nullptr;
   };
-  const CheckContext context{task.document,   run.result.quantities,
+  const CheckContext context{task.document,   run.quantities,
                              run.convergence, references,
                              quantities_of,   options.solver.compute ? &run.solver : nullptr};
   for (const Check& check : task.checks) {
-    const bool solved = run.status == "solved";
     auto judged =
-        solved ? evaluate_check(check, context)
-               : std::vector<CheckResult>{failed_check_result(check, "no solution: " + run.status)};
+        run.is_solved()
+            ? evaluate_check(check, context)
+            : std::vector{failed_check_result(check, "no solution: " + to_string(run.status))};
     // A regression guards trammel against itself.
     for (CheckResult& result : judged)
       if (options.solver.compute && check.role == Role::regression &&
           result.verdict == Verdict::fail)
         result.verdict = Verdict::recorded;
-    std::ranges::move(judged, std::back_inserter(run.check_results));
+    std::ranges::move(judged, std::back_inserter(run.checks));
   }
-  if (!options.solver.compute && run.status == "solved")
+  if (!options.solver.compute && run.is_solved())
     for (const Check& check : task.checks) evaluate_validation_verdicts(check, run);
   // Orders that are wrong on purpose say nothing of the method.
   if (std::ranges::any_of(task.checks,
@@ -338,7 +332,7 @@ std::vector<Run> run_cases(const std::vector<Case>& cases, const References& ref
   for (Task& task : tasks) {
     for (const auto& [file, hash] : task.run.references)
       if (!hash.empty()) (void)references.add(file);
-    if (task.run.status == "not-run") task.run.interrupted_by = signal;
+    if (task.run.status == Status::not_run) task.run.interrupted_by = signal;
     if (task.requested)
       run_guarded(task.run, [&] { evaluate_checks(task, tasks, references, options); });
   }
@@ -375,13 +369,13 @@ ShardRuns run_shard(const std::vector<Case>& cases, const RunOptions& options, c
   }
   const int signal = compute_all(own, options);
   for (Task& task : own) {
-    if (task.run.status == "not-run") task.run.interrupted_by = signal;
+    if (task.run.status == Status::not_run) task.run.interrupted_by = signal;
     found.runs.push_back(std::move(task.run));
   }
   return found;
 }
 
-AnalysisResult solution_of(const Case& owner, const std::string& variant) {
+Run solution_of(const Case& owner, const std::string& variant) {
   Progress progress("runs");
   RunOptions options;
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
@@ -390,25 +384,24 @@ AnalysisResult solution_of(const Case& owner, const std::string& variant) {
   if (const int signal = compute_all(tasks, options); signal != 0) throw Interrupted(signal);
   Run& run = tasks.front().run;
   require_solved(run);
-  return std::move(run.result);
+  return std::move(run);
 }
 
 void require_no_error(const Run& run) {
-  if (run.error == Run::RunError::internal) throw std::runtime_error(run.reason);
-  if (run.error == Run::RunError::input) throw InputError(run.reason);
+  if (run.fault == Fault::internal) throw std::runtime_error(run.reason);
+  if (run.fault == Fault::input) throw InputError(run.reason);
 }
 
 void require_solved(const Run& run) {
   require_no_error(run);
-  if (run.status != "solved")
+  if (!run.is_solved())
     throw InputError(run.case_id + ":" + run.variant + ": expected a solution (" + run.reason +
                      ")");
 }
 
 bool fails_gate(const Run& run) {
-  return std::ranges::any_of(run.check_results, [](const CheckResult& check_result) {
-    return fails_gate(check_result.verdict);
-  });
+  return std::ranges::any_of(
+      run.checks, [](const CheckResult& check_result) { return fails_gate(check_result.verdict); });
 }
 
 void require_complete(const std::vector<Run>& runs) {
@@ -416,19 +409,11 @@ void require_complete(const std::vector<Run>& runs) {
     if (run.interrupted_by != 0) throw Interrupted(run.interrupted_by);
 }
 
-NumericalUncertaintySummary numerical_uncertainty_of(const std::vector<Run>& runs) {
-  std::vector<const Convergence*> studies;
-  for (const Run& run : runs) {
-    for (const Convergence& found : run.convergence) studies.push_back(&found);
-  }
-  return summarise_numerical_uncertainty(studies);
-}
-
 int exit_status(const std::vector<Run>& runs) {
-  int worst = numerical_uncertainty_of(runs).fails() ? 1 : 0;
+  int worst = summarise_numerical_uncertainty(runs).passes ? 0 : 1;
   for (const Run& run : runs) {
-    if (run.error == Run::RunError::internal) worst = std::max(worst, 3);
-    if (run.error == Run::RunError::input) worst = std::max(worst, 2);
+    if (run.fault == Fault::internal) worst = std::max(worst, 3);
+    if (run.fault == Fault::input) worst = std::max(worst, 2);
     if (fails_gate(run)) worst = std::max(worst, 1);
   }
   return worst;

@@ -10,18 +10,18 @@
 #include "harness/judge/check_result.h"
 #include "harness/judge/sweep.h"
 #include "harness/judge/uncertainty_summary.h"
-#include "harness/studies/validation_uncertainty.h"
+#include "harness/results/results.h"
 
 /// Runs cases: every (case, variant) is one independent computation.
 namespace trammel::harness {
 
-struct Computation;
+using results::Run;
 
 /// Another solver in trammel's place.
 struct OtherSolver {
   /// Computes a case or variant, in a process of its own.
   std::function<void(const Case& owner, const std::string& variant, const Document& document,
-                     const std::vector<Check>& checks, bool with_sweeps, Computation& computation)>
+                     const std::vector<Check>& checks, bool with_sweeps, Run& run)>
       compute;                ///< empty: trammel computes
   std::string hash;           ///< of all that decides its answers, for the store
   unsigned time_limit_s = 0;  ///< of processor time
@@ -45,34 +45,6 @@ struct RunOptions {
   std::size_t memory_bytes = 0;      ///< that one computation may use; 0: no limit
   OtherSolver solver = {};
   bool studies = true;  ///< refinements and validation uncertainty; off without a store alone
-};
-
-/// What the process of a run answers: all but the judgement.
-struct Computation {
-  /// solved, singular, not-converged, error or not-run; of another solver also cannot, crashed and
-  /// timed-out
-  std::string status = "not-run";
-  std::string reason;
-  enum class RunError { none, input, internal };
-  RunError error = RunError::none;  ///< of a run with status "error"
-  AnalysisResult result;
-  std::vector<Sweep> sweeps;
-  ValidationUncertainty uncertainty;              ///< empty where the case does not ask for it
-  double wall_s = 0, cpu_s = 0;                   ///< of the computation and its sweeps
-  double uncertainty_wall_s = 0;                  ///< of `uncertainty`
-  std::map<std::string, std::string> references;  ///< files looked for, and their hashes
-  std::string machine;                            ///< where it has measured times
-  SolverIdentity solver = {};                     ///< of another solver
-};
-
-/// What came of one variant of a case.
-struct Run : Computation {
-  std::string case_id, variant;
-  int interrupted_by = 0;             ///< the signal that came before it was done
-  std::filesystem::path stored = {};  ///< where the store keeps the computation; empty: nowhere
-  bool was_stored = false;            ///< by an earlier call
-  std::vector<CheckResult> check_results;
-  std::vector<Convergence> convergence;
 };
 
 /// Runs the cases, each run in a process of its own, and judges them. The numbers do not depend on
@@ -100,7 +72,7 @@ struct ShardRuns {
 
 /// What a variant comes to, in a process of its own, without sweeps and checks.
 /// @throws InputError  where it has no solution, as `Interrupted` where a signal comes.
-[[nodiscard]] AnalysisResult solution_of(const Case& owner, const std::string& variant);
+[[nodiscard]] Run solution_of(const Case& owner, const std::string& variant);
 
 /// @throws InputError  where its input is to blame for an error, std::runtime_error where we are.
 void require_no_error(const Run& run);
@@ -111,9 +83,6 @@ void require_solved(const Run& run);
 
 /// @throws Interrupted  where one of the runs was.
 void require_complete(const std::vector<Run>& runs);
-
-/// The bands of all refinements of the runs against the exact values, where there are any.
-[[nodiscard]] NumericalUncertaintySummary numerical_uncertainty_of(const std::vector<Run>& runs);
 
 /// 0: every gate holds, 1: a check failed, or the bands do not hold, 2: bad input, 3: our own
 /// fault.

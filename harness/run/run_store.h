@@ -10,8 +10,9 @@
 #include "harness/studies/cost.h"
 #include "harness/studies/sandboxed_run.h"
 
-/// What runs came to, kept for a later call: a file a run, named by a hash of all that decides it.
-/// CBOR (RFC 8949) after its checksum: every double as it was, also those that are no number.
+/// Runs that are kept for a later call: a file for each run, named by a hash of all that decides
+/// it. A file is the run's fields as CBOR (RFC 8949), compressed by zstd (RFC 8878) with a
+/// checksum. It holds every double bit for bit.
 namespace trammel::harness {
 
 /// Name of the file of what is computed of a case or variant: a hash of the case with all that it
@@ -20,18 +21,17 @@ namespace trammel::harness {
 [[nodiscard]] std::string computation_name(const Document& document, bool requested,
                                            const std::string& solver_hash = "");
 
-/// JSON as a file of the store holds it. @throws std::exception  where the bytes are none.
-[[nodiscard]] std::string to_bytes(const Json& json);
-[[nodiscard]] Json json_from(const std::string& bytes);
-
-/// As a process answers and a file of the store holds it.
-[[nodiscard]] std::string to_bytes(const Computation& computation);
-/// @throws std::exception  where the text is not what `to_bytes` has written.
-[[nodiscard]] Computation computation_from(const std::string& bytes);
+/// A run as its process answers it and a file of the store holds it.
+[[nodiscard]] std::string to_bytes(const Run& run);
+/// @throws std::exception  if `to_bytes` has not written the bytes.
+[[nodiscard]] Run run_from(const std::string& bytes);
+/// Its studies, which are judged later than it is stored.
+[[nodiscard]] std::string to_bytes(const std::vector<results::Convergence>& studies);
+[[nodiscard]] std::vector<results::Convergence> convergence_from(const std::string& bytes);
 
 /// @returns whether the file holds a computation that still stands: whole, with the references as
 ///          they are now, and with times of this machine unless any will do.
-[[nodiscard]] bool find_stored(const std::filesystem::path& file, Computation& computation,
+[[nodiscard]] bool find_stored(const std::filesystem::path& file, Run& run,
                                bool any_machine = false);
 
 /// How many calls have begun the computation of that file and were ended before it was.

@@ -9,7 +9,6 @@
 #include "harness/base/json_file.h"
 #include "harness/input/schema.h"
 #include "harness/results/unfinished_folder.h"
-#include "harness/run/results.h"
 #include "harness/run/run_store.h"
 
 namespace trammel::harness {
@@ -22,32 +21,8 @@ fs::path judged_file(const fs::path& stored) {
   return fs::path(stored).replace_extension(".judged.cbor");
 }
 
-/// What stands in results.json: numbers and verdicts.
-results::Run summary_of(const results::Run& run) {
-  results::Run kept;
-  kept.case_id = run.case_id;
-  kept.variant = run.variant;
-  kept.status = run.status;
-  kept.reason = run.reason;
-  kept.residuals = run.residuals;
-  kept.warnings = run.warnings;
-  kept.checks = run.checks;
-  kept.cost = run.cost;
-  kept.stored = run.stored;
-  for (const auto& quantity : run.quantities)
-    if (quantity.second.size() <= kSummaryEntries) kept.quantities.push_back(quantity);
-  return kept;
-}
-
-results::Run studies_of(const results::Run& run) {
-  results::Run kept;
-  kept.case_id = run.case_id;
-  kept.variant = run.variant;
-  kept.convergence = run.convergence;
-  kept.uncertainty = run.uncertainty;
-  kept.effects = run.effects;
-  kept.model_probabilities = run.model_probabilities;
-  return kept;
+results::Number as_number(double value) {
+  return value;
 }
 
 /// The folder that a report will stand in, while it is written beside a former one.
@@ -58,22 +33,14 @@ fs::path place_of(const fs::path& folder) {
 }  // namespace
 
 fs::path write_results(const results::Results& results, const fs::path& folder) {
-  // All but the runs, whose series may be most of the memory.
-  const auto& [format, environment, cases, references, runs, solver, uncertainty_coverage, cost,
-               claims, coverage, effect_scenes, history, store, missing] = results;
-  results::Results summary{
-      format, environment, cases,    references,    {},      solver, uncertainty_coverage,
-      cost,   claims,      coverage, effect_scenes, history, store,  missing};
-  for (const results::Run& run : runs) {
-    summary.runs.push_back(run.stored.empty() ? run : summary_of(run));
-    if (!run.stored.empty())
-      write_file(judged_file(fs::path(results.store) / run.stored),
-                 to_bytes(to_json(studies_of(run))));
-  }
+  for (const Run& run : results.runs)
+    if (!run.stored.empty() && !run.sweeps.empty())
+      write_file(judged_file(fs::path(results.store) / run.stored), to_bytes(run.convergence));
+  Json json = to_json(results, true);
   if (!results.store.empty())
-    summary.store = fs::proximate(results.store, place_of(folder)).string();
+    json["store"] = fs::proximate(results.store, place_of(folder)).string();
   fs::path file = folder / "results.json";
-  write_file(file, pretty(to_json(summary), kLineDepth));
+  write_file(file, pretty(json, kLineDepth));
   return file;
 }
 
@@ -94,30 +61,22 @@ results::Results read_summary(const fs::path& file, Json json) {
   }
 }
 
-bool take_stored_series(results::Run& run, const fs::path& store) {
+bool take_stored(Run& run, const fs::path& store) {
   try {
-    results::Run series = stored_series(computation_from(read_text(store / run.stored)));
+    Run found = run_from(read_text(store / run.stored));
     const bool same = std::ranges::all_of(run.quantities, [&](const auto& own) {
-      const results::Numbers* other = series.quantity(own.first);
-      return other != nullptr && *other == own.second;
+      const std::vector<double>* other = found.quantity(own.first);
+      return other != nullptr &&
+             std::ranges::equal(*other, own.second.values, {}, as_number, as_number);
     });
     if (!same) return false;  // it is of another run
-    run.quantities = std::move(series.quantities);
-    run.drawing = std::move(series.drawing);
-    return true;
-  } catch (const std::exception&) {
-    return false;
-  }
-}
-
-bool take_stored_studies(results::Run& run, const fs::path& store) {
-  try {
-    results::Run studies = results::read_run(json_from(read_text(judged_file(store / run.stored))));
-    if (studies.case_id != run.case_id || studies.variant != run.variant) return false;
-    run.convergence = std::move(studies.convergence);
-    run.uncertainty = std::move(studies.uncertainty);
-    run.effects = std::move(studies.effects);
-    run.model_probabilities = std::move(studies.model_probabilities);
+    if (!found.sweeps.empty())
+      run.convergence = convergence_from(read_text(judged_file(store / run.stored)));
+    run.quantities = std::move(found.quantities);
+    run.drawing = std::move(found.drawing);
+    run.uncertainty = std::move(found.uncertainty);
+    run.effects = std::move(found.effects);
+    run.model_probabilities = std::move(found.model_probabilities);
     return true;
   } catch (const std::exception&) {
     return false;
@@ -128,10 +87,8 @@ results::Results load_results(const fs::path& file) {
   results::Results results = read_summary(file);
   if (results.store.empty()) return results;
   std::size_t missing = 0;
-  for (results::Run& run : results.runs)
-    if (!run.stored.empty() &&
-        !(take_stored_studies(run, results.store) && take_stored_series(run, results.store)))
-      ++missing;
+  for (Run& run : results.runs)
+    if (!run.stored.empty() && !take_stored(run, results.store)) ++missing;
   if (missing > 0)
     results.missing =
         std::to_string(missing) + " of " + std::to_string(results.runs.size()) +

@@ -9,9 +9,6 @@
 /// of convergence and uncertainty stay in the run store.
 namespace trammel::harness {
 
-/// Entries of a quantity that results.json holds where there is a store.
-inline constexpr std::size_t kSummaryEntries = 1;
-
 inline constexpr std::size_t kLineDepth = 4;  ///< of results as text: a check is a line
 
 /// Writes results.json into the folder, all of it or nothing, and what was judged beside the
@@ -26,10 +23,8 @@ std::filesystem::path write_results(const results::Results& results,
 /// The same of what has been read from there.
 [[nodiscard]] results::Results read_summary(const std::filesystem::path& file, Json json);
 
-/// Puts in what the store has of a run: series and drawing; convergence, uncertainty and effects.
-/// @returns whether it has them
-[[nodiscard]] bool take_stored_series(results::Run& run, const std::filesystem::path& store);
-[[nodiscard]] bool take_stored_studies(results::Run& run, const std::filesystem::path& store);
+/// Adds the series, drawing and studies that the store has of a run. @returns whether it has them
+[[nodiscard]] bool take_stored(results::Run& run, const std::filesystem::path& store);
 
 /// A results file with what the store has of its runs. A copy without its store is whole but for
 /// that, which `missing` says.

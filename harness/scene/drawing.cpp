@@ -26,8 +26,8 @@ struct DrawnNodes {
   std::vector<std::size_t> mesh;
   std::vector<solver::Index> number;
 
-  [[nodiscard]] std::size_t index_of(solver::Index node) const {
-    return solver::to_size(number[solver::to_size(node)]);
+  [[nodiscard]] int index_of(solver::Index node) const {
+    return static_cast<int>(number[solver::to_size(node)]);
   }
 };
 
@@ -56,12 +56,13 @@ void draw_members(const solver::System& system, const DrawnNodes& drawn, Drawing
     const std::size_t count = pieces(system, element);
     const Eigen::Vector2d start = system.mesh.positions[solver::to_size(element.nodes[0])];
     const Eigen::Vector2d span = system.mesh.positions[solver::to_size(element.nodes[1])] - start;
-    std::size_t before = drawn.index_of(element.nodes[0]);
+    int before = drawn.index_of(element.nodes[0]);
     for (std::size_t k = 1; k < count; ++k) {
-      drawing.nodes.emplace_back(start +
-                                 span * static_cast<double>(k) / static_cast<double>(count));
-      drawing.members.push_back({before, drawing.nodes.size() - 1});
-      before = drawing.nodes.size() - 1;
+      drawing.nodes.push_back(
+          point_of(start + span * static_cast<double>(k) / static_cast<double>(count)));
+      const auto last = static_cast<int>(drawing.nodes.size() - 1);
+      drawing.members.push_back({before, last});
+      before = last;
     }
     drawing.members.push_back({before, drawn.index_of(element.nodes[1])});
   }
@@ -69,7 +70,7 @@ void draw_members(const solver::System& system, const DrawnNodes& drawn, Drawing
 
 void draw_triangles(const solver::Model& model, const DrawnNodes& drawn, Drawing& drawing) {
   for (const solver::Triangle& triangle : model.triangles) {
-    std::vector<std::size_t>& around = drawing.triangles.emplace_back();
+    std::vector<int>& around = drawing.triangles.emplace_back();
     for (std::size_t k = 0; k < 3; ++k) {
       around.push_back(drawn.index_of(triangle.nodes[k]));
       const solver::Index middle = triangle.nodes[3 + k];
@@ -82,7 +83,7 @@ void draw_triangles(const solver::Model& model, const DrawnNodes& drawn, Drawing
 /// A rigid body is a bar to its one node, or a fan of triangles about its reference.
 void draw_rigid_bodies(const solver::Model& model, const DrawnNodes& drawn, Drawing& drawing) {
   for (const solver::RigidBody& body : model.rigid_bodies) {
-    const std::size_t reference = drawn.index_of(body.reference);
+    const int reference = drawn.index_of(body.reference);
     const std::size_t count = body.attached.size();
     if (count == 1) drawing.members.push_back({reference, drawn.index_of(body.attached.front())});
     for (std::size_t k = 0; k + 1 < count || (k + 1 == count && count > 2); ++k) {
@@ -166,17 +167,18 @@ std::optional<Drawing> draw_model(const solver::System& system, bool is_manipula
   Drawing drawing;
   const DrawnNodes drawn = drawn_nodes(system);
   if (drawn.mesh.size() > kMaxDrawnNodes) return std::nullopt;
-  for (const std::size_t node : drawn.mesh) drawing.nodes.push_back(system.mesh.positions[node]);
+  for (const std::size_t node : drawn.mesh)
+    drawing.nodes.push_back(point_of(system.mesh.positions[node]));
   draw_members(system, drawn, drawing);
   draw_parts(system.model, is_manipulator, drawn, drawing);
   if (drawing.nodes.size() > kMaxDrawnNodes) return std::nullopt;
   return drawing;
 }
 
-Drawing::Shape draw_shape(const solver::System& system, const Eigen::VectorXd& q,
+results::Shape draw_shape(const solver::System& system, const Eigen::VectorXd& q,
                           const std::string& label) {
   const Eigen::VectorXd u = system.T * q;
-  Drawing::Shape shape{label, {}};
+  results::Shape shape{label, {}};
   for (const std::size_t node : drawn_nodes(system).mesh) {
     const auto& coordinates = system.coordinates.node[node];
     shape.displacement.emplace_back(u[coordinates[0]], u[coordinates[1]]);
@@ -184,8 +186,8 @@ Drawing::Shape draw_shape(const solver::System& system, const Eigen::VectorXd& q
   for (const solver::FrameElement& element : system.mesh.frame) {
     const std::size_t count = pieces(system, element);
     for (std::size_t k = 1; k < count; ++k) {
-      shape.displacement.push_back(
-          displacement_along(element, u, static_cast<double>(k) / static_cast<double>(count)));
+      shape.displacement.push_back(point_of(
+          displacement_along(element, u, static_cast<double>(k) / static_cast<double>(count))));
     }
   }
   return shape;
@@ -218,15 +220,15 @@ Drawing draw_manipulator(const solver::ManipulatorGeometry& geometry,
                          const std::vector<solver::TrajectoryPoint>& motion) {
   const auto nodes_at = [&](const solver::Pose& pose) {
     const solver::Posture posture = solver::inverse_kinematics(geometry, pose);
-    std::vector<Eigen::Vector2d> nodes(geometry.base.begin(), geometry.base.end());
-    nodes.insert(nodes.end(), posture.B.begin(), posture.B.end());
-    nodes.insert(nodes.end(), posture.C.begin(), posture.C.end());
+    std::vector<results::Point> nodes;
+    for (const auto& joints : {geometry.base, posture.B, posture.C})
+      for (const Eigen::Vector2d& joint : joints) nodes.push_back(point_of(joint));
     nodes.emplace_back(pose.x, pose.y);
     return nodes;
   };
   Drawing drawing;
   drawing.nodes = nodes_at(motion.front().pose);
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i) {
     drawing.members.push_back({i, 3 + i});
     drawing.members.push_back({3 + i, 6 + i});
     drawing.triangles.push_back({6 + i, 6 + (i + 1) % 3, 9});

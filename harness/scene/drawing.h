@@ -1,42 +1,22 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "harness/results/run_results.h"
 #include "solver/large/geometrically_exact_system.h"
 #include "solver/linear/system.h"
 #include "solver/manipulator/kinematics.h"
 #include "solver/manipulator/trajectory.h"
-#include "solver/model/numbers.h"
 
 namespace trammel::harness {
 
-/// What a picture of the model needs: the mesh, its joints, and shapes on it.
-struct Drawing {
-  struct Joint {
-    std::size_t node = 0;
-    std::string kind;  ///< active, hinged, welded, rigid, sprung or support
-    std::string name;
-  };
-  struct Shape {
-    std::string label;
-    std::vector<Eigen::Vector2d> displacement;  ///< one a node [m]
-  };
-  struct Pose {
-    std::string label;
-    std::vector<Eigen::Vector2d> nodes;              ///< [m]
-    double time = solver::kNaN;                      ///< of a moment of a motion [s]
-    std::vector<Eigen::Vector2d> displacement = {};  ///< from there [m]; empty: none
-  };
-  std::vector<Eigen::Vector2d> nodes;               ///< [m]
-  std::vector<std::array<std::size_t, 2>> members;  ///< elements
-  std::vector<std::vector<std::size_t>> triangles;  ///< round their corners, and middles if drawn
-  std::vector<Joint> joints;
-  std::vector<Shape> shapes;
-  std::vector<Pose> poses;  ///< further poses of the same mechanism
-};
+using results::Drawing;
+
+[[nodiscard]] inline results::Point point_of(const Eigen::Vector2d& position) {
+  return {position.x(), position.y()};
+}
 
 /// What a picture can show.
 inline constexpr std::size_t kMaxDrawnNodes = 4000;
@@ -51,7 +31,7 @@ void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawin
 
 /// Displacements of the drawing's nodes under the free coordinates q: inside elements by the cubic
 /// shape functions of the Euler-Bernoulli beam.
-[[nodiscard]] Drawing::Shape draw_shape(const solver::System& system, const Eigen::VectorXd& q,
+[[nodiscard]] results::Shape draw_shape(const solver::System& system, const Eigen::VectorXd& q,
                                         const std::string& label);
 
 /// The samples of a motion that a picture can show: 48 at most, fewer of a fine mesh. Where so few

@@ -25,8 +25,8 @@ namespace {
 void add_moment(const CaseModel& case_model, std::size_t step, Drawing found,
                 std::optional<Drawing>& all) {
   if (!all) all = std::move(found);
-  const std::vector<Drawing::Shape>& shapes = step == 0 ? all->shapes : found.shapes;
-  const std::vector<Eigen::Vector2d>& nodes = step == 0 ? all->nodes : found.nodes;
+  const std::vector<results::Shape>& shapes = step == 0 ? all->shapes : found.shapes;
+  const std::vector<results::Point>& nodes = step == 0 ? all->nodes : found.nodes;
   if (!case_model.path || shapes.size() != 1 || nodes.size() != all->nodes.size()) return;
   if (shapes.front().label.starts_with("mode ")) return;
   const double time = case_model.motion[step].time;

@@ -12,6 +12,10 @@
 namespace trammel::harness {
 namespace {
 
+using results::Comparison;
+using results::Number;
+using results::UncertainInput;
+
 /// From a band of about 95 % to a standard uncertainty: the error lies on one side of the computed
 /// value, near the edge of the band. Source: ASME V&V 20-2009, section 2 (k = 1.1 to 1.15).
 constexpr double kGciToStandard = 1.15;
@@ -68,11 +72,11 @@ bool is_number(const Document& document, const std::string& pointer) {
   return document.value().contains(at) && document.value().at(at).is_number();
 }
 
-std::vector<StatedInput> read_inputs(const JsonView& place, const References& references) {
-  std::vector<StatedInput> inputs;
+std::vector<UncertainInput> read_inputs(const JsonView& place, const References& references) {
+  std::vector<UncertainInput> inputs;
   const Document& document = place.document();
   for (const auto& [name, entry] : place.entries()) {
-    StatedInput input;
+    UncertainInput input;
     input.name = name;
     input.nominal = entry.get("nominal", false);
     if (entry.has("half_width") == entry.has("reference")) {
@@ -101,18 +105,18 @@ std::vector<StatedInput> read_inputs(const JsonView& place, const References& re
 
 class ValidationStudy {
  public:
-  ValidationStudy(const Document& document, const AnalysisResult& result,
+  ValidationStudy(const Document& document, const Quantities& quantities,
                   const std::vector<Check>& checks, const References& references)
       : document_(document),
         stated_(JsonView(document)["uncertainty"]),
         references_(references),
-        result_(result),
-        places_(compared_places(checks, JsonView(document), result.quantities, references)) {}
+        quantities_(quantities),
+        places_(compared_places(checks, JsonView(document), quantities, references)) {}
 
-  ValidationUncertainty run() {
-    if (places_.empty()) return {};
+  std::optional<results::Uncertainty> run() {
+    if (places_.empty()) return std::nullopt;
     study_.inputs = stated_inputs(document_, references_);
-    for (const Place& place : places_) study_.entries.push_back(start(place));
+    for (const Place& place : places_) study_.comparisons.push_back(start(place));
     refine();
     derive();
     sample();
@@ -121,23 +125,21 @@ class ValidationStudy {
   }
 
  private:
-  [[nodiscard]] ComparedEntry start(const Place& place) const {
-    ComparedEntry entry;
+  [[nodiscard]] Comparison start(const Place& place) const {
+    Comparison entry;
     entry.check = place.check->name;
     entry.quantity = place.check->quantity;
     entry.unit = place.reference->unit;
     entry.reference = place.reference->id;
-    entry.index = place.index;
-    entry.comparison.simulation = value_at(result_.quantities, place);
-    entry.comparison.reference = place.reference->values[place.reference_index];
-    entry.comparison.u_reference =
-        place.reference->uncertainty[place.reference_index] / std::sqrt(3.0);
+    entry.index = static_cast<int>(place.index);
+    entry.simulation = value_at(quantities_, place);
+    entry.expected = place.reference->values[place.reference_index];
+    entry.u_reference = place.reference->uncertainty[place.reference_index] / std::sqrt(3.0);
     for (const Place& other : places_) {
-      const bool same = other.check->quantity == entry.quantity && other.index == entry.index &&
+      const bool same = other.check->quantity == entry.quantity && other.index == place.index &&
                         other.reference_index == place.reference_index;
       if (!same || other.reference == place.reference) continue;
-      entry.spread.push_back(other.reference->values[other.reference_index] -
-                             entry.comparison.reference);
+      entry.spread.emplace_back(other.reference->values[other.reference_index] - *entry.expected);
     }
     return entry;
   }
@@ -178,7 +180,7 @@ class ValidationStudy {
       estimate(name, place, parameter, levels, squares);
     }
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      study_.entries[i].comparison.u_num = std::sqrt(squares[i]);
+      study_.comparisons[i].u_num = std::sqrt(squares[i]);
     }
   }
 
@@ -186,32 +188,32 @@ class ValidationStudy {
                 const std::vector<double>& parameter,
                 const std::vector<std::vector<double>>& levels, std::vector<double>& squares) {
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      Series series;
-      series.parameter = parameter;
+      Convergence series;
+      series.parameter = {parameter.begin(), parameter.end()};
       series.size = {4, 2, 1};
       series.values = {levels[0][i], levels[1][i], levels[2][i]};
       series.roundoff = {0, 0, 0};
-      if (place.has("theory_order")) series.theory = place.number("theory_order");
-      const Convergence found = harness::analyse_convergence(series);
-      NumericalEstimate one;
+      if (place.has("theory_order")) series.theory_order = place.number("theory_order");
+      const Convergence found = harness::analyse_convergence(std::move(series));
+      results::NumericalEstimate one;
       one.refinement = name;
       one.quantity = places_[i].check->quantity;
-      one.index = places_[i].index;
-      one.parameter = parameter;
-      one.values = series.values;
+      one.index = static_cast<int>(places_[i].index);
+      one.parameter = found.parameter;
+      one.values = found.values;
       one.order = found.order[2];
-      one.factor = found.factor[2];
-      const auto [low, high] = std::ranges::minmax(series.values);
-      const double off = found.richardson ? std::abs(series.values[0] - *found.richardson)
-                                          : high - low;  // of what has no limit, its range
-      one.half_width = one.factor * off;
-      if (!std::ranges::all_of(series.values, [](double v) { return std::isfinite(v); }))
-        one.half_width = kNaN;
-      squares[i] += std::pow(one.half_width / kGciToStandard, 2);
-      const bool told = std::ranges::any_of(study_.numerical, [&](const NumericalEstimate& other) {
-        return other.refinement == one.refinement && other.quantity == one.quantity &&
-               other.index == one.index;
-      });
+      one.safety_factor = found.safety_factor[2];
+      const auto [low, high] = std::ranges::minmax(found.values);
+      const double off = found.richardson ? std::abs(*found.values[0] - *found.richardson)
+                                          : *high - *low;  // of what has no limit, its range
+      one.half_width = *one.safety_factor * off;
+      if (!std::ranges::all_of(found.values, &Number::has_value)) one.half_width.reset();
+      squares[i] += std::pow(*one.half_width / kGciToStandard, 2);
+      const bool told =
+          std::ranges::any_of(study_.numerical, [&](const results::NumericalEstimate& other) {
+            return other.refinement == one.refinement && other.quantity == one.quantity &&
+                   other.index == one.index;
+          });
       if (!told) study_.numerical.push_back(std::move(one));
     }
   }
@@ -227,7 +229,7 @@ class ValidationStudy {
   [[nodiscard]] std::vector<double> half_widths(const std::vector<std::size_t>& which) const {
     std::vector<double> widths;
     widths.reserve(which.size());
-    for (const std::size_t k : which) widths.push_back(study_.inputs[k].half_width);
+    for (const std::size_t k : which) widths.push_back(*study_.inputs[k].half_width);
     return widths;
   }
 
@@ -248,7 +250,7 @@ class ValidationStudy {
     if (!found)
       throw stated_["inputs"].error("expected inputs about which the model can be solved");
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      ComparedEntry& entry = study_.entries[i];
+      Comparison& entry = study_.comparisons[i];
       double square = 0;
       double literal = 0;
       double largest = 0;
@@ -257,15 +259,15 @@ class ValidationStudy {
         const bool counts = !study_.inputs[k].nominal;
         literal += part * part;
         if (counts) square += part * part;
-        entry.contribution.push_back(part);
+        entry.contributions.emplace_back(study_.inputs[k].name, part);
         if (counts && std::abs(part) > largest) {
           largest = std::abs(part);
-          entry.dominant = study_.inputs[k].name;
+          entry.dominant_input = study_.inputs[k].name;
         }
       }
-      entry.comparison.u_input = std::sqrt(square);
+      entry.u_input = std::sqrt(square);
       entry.dominant_share = square > 0 ? largest * largest / square : 0;
-      entry.literal_comparison.u_input = std::sqrt(literal);
+      entry.all_inputs.u_input = std::sqrt(literal);
     }
   }
 
@@ -280,37 +282,23 @@ class ValidationStudy {
     const SampledUncertainty literal = draw(true, "samples_all_inputs");
     study_.samples = design.samples;
     study_.failed = design.failed;
-    study_.literal_samples = literal.samples;
-    study_.literal_failed = literal.failed;
+    study_.samples_all_inputs = literal.samples;
+    study_.failed_all_inputs = literal.failed;
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      study_.entries[i].u_input_sampled = i < design.standard.size() ? design.standard[i] : kNaN;
-      study_.entries[i].u_input_literal_sampled =
+      study_.comparisons[i].u_input_sampled =
+          i < design.standard.size() ? design.standard[i] : kNaN;
+      study_.comparisons[i].all_inputs.u_input_sampled =
           i < literal.standard.size() ? literal.standard[i] : kNaN;
     }
   }
 
   /// Each check's entries are one row of the reference.
   void evaluate_check() {
-    for (std::size_t first = 0; first < study_.entries.size();) {
-      std::size_t end = first;
-      std::vector<Comparison> row;
-      std::vector<Comparison> literal;
-      for (;
-           end < study_.entries.size() && study_.entries[end].check == study_.entries[first].check;
-           ++end) {
-        ComparedEntry& entry = study_.entries[end];
-        row.push_back(entry.comparison);
-        const double u_literal = entry.literal_comparison.u_input;
-        entry.literal_comparison = entry.comparison;
-        entry.literal_comparison.u_input = u_literal;
-        literal.push_back(entry.literal_comparison);
-      }
-      const auto verdicts = evaluate_validation_row(row, study_.entries[first].unit);
-      const auto literal_verdicts = evaluate_validation_row(literal, study_.entries[first].unit);
-      for (std::size_t i = first; i < end; ++i) {
-        study_.entries[i].validation = verdicts[i - first];
-        study_.entries[i].literal = literal_verdicts[i - first];
-      }
+    for (auto first = study_.comparisons.begin(); first != study_.comparisons.end();) {
+      const auto end = std::find_if(first, study_.comparisons.end(), [&](const Comparison& entry) {
+        return entry.check != first->check;
+      });
+      evaluate_validation_row({first, end});
       first = end;
     }
   }
@@ -318,22 +306,22 @@ class ValidationStudy {
   const Document& document_;
   JsonView stated_;
   const References& references_;
-  const AnalysisResult& result_;
+  const Quantities& quantities_;
   std::vector<Place> places_;
-  ValidationUncertainty study_;
+  results::Uncertainty study_;
 };
 
 }  // namespace
 
-std::vector<StatedInput> stated_inputs(const Document& document, const References& references) {
+std::vector<results::UncertainInput> stated_inputs(const Document& document,
+                                                   const References& references) {
   return read_inputs(JsonView(document)["uncertainty"]["inputs"], references);
 }
 
-ValidationUncertainty evaluate_validation_uncertainty(const Document& document,
-                                                      const AnalysisResult& result,
-                                                      const std::vector<Check>& checks,
-                                                      const References& references) {
-  return ValidationStudy(document, result, checks, references).run();
+std::optional<results::Uncertainty> evaluate_validation_uncertainty(
+    const Document& document, const Quantities& quantities, const std::vector<Check>& checks,
+    const References& references) {
+  return ValidationStudy(document, quantities, checks, references).run();
 }
 
 }  // namespace trammel::harness

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
+
+#include "harness/base/number.h"
 
 namespace trammel::reports {
 
@@ -11,7 +12,7 @@ struct Interval {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
 
-  void cover(const std::optional<double>& x) {
+  void cover(harness::Number x) {
     if (!x) return;
     low = std::min(low, *x);
     high = std::max(high, *x);

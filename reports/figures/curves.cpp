@@ -21,13 +21,13 @@ constexpr std::array<const char*, 5> kDashes = {"", "-", "..", "-.", "-.."};
 struct Series {
   std::string quantity, variant, label;
   std::size_t color, dash;
-  const Numbers* values;
+  const std::vector<double>* values;
   double largest = 0;
 };
 
-double largest_of(const Numbers& values) {
+double largest_of(const std::vector<double>& values) {
   double largest = 0;
-  for (const Number& value : values)
+  for (const Number value : values)
     if (value) largest = std::max(largest, std::abs(*value));
   return largest;
 }
@@ -55,8 +55,8 @@ Number shown(const Number& value, bool log) {
   return *value == 0 ? Number() : Number(std::abs(*value));
 }
 
-PlotScript::Rows curve_rows(const Numbers* x, const Numbers& y, std::pair<double, double> factors,
-                            const PlotRequest& request) {
+PlotScript::Rows curve_rows(const std::vector<double>* x, const std::vector<double>& y,
+                            std::pair<double, double> factors, const PlotRequest& request) {
   PlotScript::Rows rows;
   for (std::size_t i = 0; i < y.size(); ++i) {
     const Number at = shown(x ? (*x)[i] : Number(static_cast<double>(i + 1)), request.is_log("x"));
@@ -73,7 +73,7 @@ PlotScript::Rows curve_rows(const Numbers* x, const Numbers& y, std::pair<double
 /// Whether a run has one of the quantities at least.
 bool has_any(const Run& run, const std::vector<std::string>& names) {
   return std::ranges::any_of(names, [&](const std::string& name) {
-    const Numbers* values = run.quantity(name);
+    const std::vector<double>* values = run.quantity(name);
     return values && !values->empty();
   });
 }
@@ -89,8 +89,8 @@ std::vector<Series> collect(const PlotRequest& request, const std::vector<std::s
     for (std::size_t iv = 0; iv < variants.size(); ++iv) {
       const std::string& variant = variants[iv];
       const Run* run = find_run(runs, variant);
-      const Numbers* values = run ? run->quantity(y) : nullptr;
-      const Numbers* x = run ? run->quantity(request.x) : nullptr;
+      const std::vector<double>* values = run ? run->quantity(y) : nullptr;
+      const std::vector<double>* x = run ? run->quantity(request.x) : nullptr;
       if (!run) {
         problem = "there is no run of the variant " + variant;
       } else if ((!values || values->empty()) && has_any(*run, request.y)) {
@@ -159,18 +159,18 @@ std::string common_words(const std::vector<std::string>& names) {
   return common.empty() ? "value" : common;
 }
 
-void x_range(PlotScript& script, const Numbers& values, double factor) {
+void x_range(PlotScript& script, const std::vector<double>& values, double factor) {
   Interval x;
-  for (const Number& value : values)
+  for (const Number value : values)
     if (value) x.cover(factor * *value);
   if (x.length() > 0) script.range("x", x.low, x.high);
 }
 
 void log_range(PlotScript& script, const std::string& axis,
-               const std::vector<const Numbers*>& curves) {
+               const std::vector<const std::vector<double>*>& curves) {
   Interval shown_values;
-  for (const Numbers* values : curves)
-    for (const Number& value : *values) shown_values.cover(shown(value, true));
+  for (const std::vector<double>* values : curves)
+    for (const Number value : *values) shown_values.cover(shown(value, true));
   const auto [low, high] = shown_values;
   if (low <= high) script.log_axis(axis, low, high > low ? high : 10 * high);
 }
@@ -195,7 +195,7 @@ std::string measured(const std::vector<Series>& series, const Scale& axis,
 Table table_of(const std::vector<Series>& series, const std::vector<const Run*>& runs,
                const PlotRequest& request) {
   Table table;
-  const Numbers* x = find_run(runs, series.front().variant)->quantity(request.x);
+  const std::vector<double>* x = find_run(runs, series.front().variant)->quantity(request.x);
   table.heads = {request.x.empty() ? "index" : request.x};
   std::size_t n = 0;
   for (const Series& s : series) {
@@ -232,7 +232,7 @@ int draw_series(PlotScript& script, const std::vector<Series>& series, const Cas
       entries.emplace_back(line + dashed(i) + lc(palette::kMuted), info.variant_title(variants[i]));
   }
   for (const Series& s : series) {
-    const Numbers* at = find_run(runs, s.variant)->quantity(request.x);
+    const std::vector<double>* at = find_run(runs, s.variant)->quantity(request.x);
     const auto rows = curve_rows(at, *s.values, factors, request);
     const std::string style = dashed(s.dash) + lc(palette::color(s.color));
     const std::string marks = rows.size() <= 40 ? "linespoints pt 7 ps 0.6" : "lines";
@@ -267,7 +267,7 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
   const QuantityLabel x = parse_quantity(request.x);
   double largest = 0;
   for (const Series& s : series) largest = std::max(largest, s.largest);
-  const Numbers* x_values = find_run(runs, series.front().variant)->quantity(request.x);
+  const std::vector<double>* x_values = find_run(runs, series.front().variant)->quantity(request.x);
   const Scale y_scale = request.is_log("y") ? Scale{1, y.unit} : readable_scale(y.unit, largest);
   const Scale x_scale = x.unit == "s" || !x_values || request.is_log("x")
                             ? Scale{1, x.unit}
@@ -279,7 +279,7 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
   script.axis_label("y", axis_label(words, y_scale.unit));
   if (largest == 0) script.range("y", -1, 1);
   if (request.is_log("y") && largest > 0) {
-    std::vector<const Numbers*> all;
+    std::vector<const std::vector<double>*> all;
     for (const Series& s : series) all.push_back(s.values);
     log_range(script, "y", all);
   }

@@ -35,14 +35,15 @@ double spacing(std::vector<double> values) {
   return min_gap;
 }
 
-Field read_field(const Numbers& x, const Numbers& y, const Numbers& value) {
+Field read_field(const std::vector<double>& x, const std::vector<double>& y,
+                 const std::vector<double>& value) {
   Field field;
   std::vector<double> xs, ys;
   for (std::size_t i = 0; i < value.size(); ++i) {
-    if (!x[i] || !y[i] || !value[i]) continue;
-    field.cells.push_back({*x[i], *y[i], *value[i]});
-    xs.push_back(*x[i]);
-    ys.push_back(*y[i]);
+    if (!Number(x[i]) || !Number(y[i]) || !Number(value[i])) continue;
+    field.cells.push_back({x[i], y[i], value[i]});
+    xs.push_back(x[i]);
+    ys.push_back(y[i]);
   }
   if (field.cells.empty()) return field;
   field.dx = spacing(xs);
@@ -121,19 +122,19 @@ std::vector<double> values_of_all_maps(const CaseInfo& info, const PlotRequest& 
   for (const PlotRequest& other : info.figures) {
     if (other.id == request.id || name(other) != name(request)) continue;
     const Run* run = run_for(other, runs);
-    const Numbers* numbers = run ? run->quantity(other.value) : nullptr;
+    const std::vector<double>* numbers = run ? run->quantity(other.value) : nullptr;
     if (!numbers) continue;
-    for (const Number& number : *numbers)
+    for (const Number number : *numbers)
       if (number) values.push_back(*number);
   }
   return values;
 }
 
-PlotScript::Rows line_rows(const Numbers& x, const Numbers& y) {
+PlotScript::Rows line_rows(const std::vector<double>& x, const std::vector<double>& y) {
   PlotScript::Rows rows;
   for (std::size_t i = 0; i < std::min(x.size(), y.size()); ++i) {
-    if (x[i] && y[i]) {
-      rows.push_back({*x[i], *y[i]});
+    if (Number(x[i]) && Number(y[i])) {
+      rows.push_back({x[i], y[i]});
     } else if (!rows.empty() && !rows.back().empty()) {
       rows.emplace_back();
     }
@@ -145,8 +146,8 @@ void draw_lines(PlotScript& script, const PlotRequest& request, const Run& run,
                 std::vector<std::string>& titles) {
   for (std::size_t i = 0; i < request.lines.size(); ++i) {
     const PlotRequest::Line& line = request.lines[i];
-    const Numbers* x = run.quantity(line.x);
-    const Numbers* y = run.quantity(line.y);
+    const std::vector<double>* x = run.quantity(line.x);
+    const std::vector<double>* y = run.quantity(line.y);
     if (!x || !y) continue;  // there is none at this orientation
     const std::string style = "with lines lw 2.2" + lc(i == 0 ? palette::kInk : palette::color(i));
     script.curve(line_rows(*x, *y), style);
@@ -164,7 +165,7 @@ Table table_of(const Field& field, const PlotRequest& request) {
 
 struct MapQuantities {
   const Run* run;
-  const Numbers *x, *y, *value;
+  const std::vector<double>*x, *y, *value;
 };
 
 /// @param problem  why there is none

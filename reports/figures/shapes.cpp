@@ -62,7 +62,7 @@ std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
   const auto* frequency = run.quantity("frequency_Hz");
   std::vector<double> values;
   for (std::size_t s = 0; frequency && s < std::min(n, frequency->size()); ++s)
-    values.push_back((*frequency)[s].value_or(0));
+    values.push_back(Number((*frequency)[s]).value_or(0));
   if (values.size() < n) return "";
   std::size_t free = 0;
   while (free < n && values[free] <= 1e-4 * values.back()) ++free;

@@ -141,7 +141,7 @@ std::vector<PlotRequest> requests_of(const ComparedRun& run) {
     drawn.insert(request.y.begin(), request.y.end());
     requests.push_back(std::move(request));
   }
-  const Numbers* time = run.runs.front().quantity("time_s");
+  const std::vector<double>* time = run.runs.front().quantity("time_s");
   for (const ComparedNumber& number : run.numbers) {
     if (!number.changed || number.entries < 7 || !drawn.insert(number.quantity).second) continue;
     PlotRequest request;

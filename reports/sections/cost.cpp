@@ -71,7 +71,7 @@ void set_runs(Data& section, const std::vector<Family>& families) {
 }
 
 /// "2.4 ×".
-std::string times(const std::optional<double>& factor) {
+std::string times(Number factor) {
   return factor ? trimmed(*factor, *factor < 10 ? 2 : 3) + "\u202f×" : "–";
 }
 

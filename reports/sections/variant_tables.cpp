@@ -12,14 +12,10 @@ namespace trammel::reports {
 namespace {
 
 /// As the cases' schema names them; empty where a value is missing.
-Number statistic(const std::string& name, const Numbers& numbers) {
-  std::vector<double> values;
-  for (const Number& number : numbers) {
-    if (!number) return std::nullopt;
-    values.push_back(*number);
-  }
-  const double value = harness::statistic_of(name.empty() ? "first" : name, values);
-  return std::isfinite(value) ? Number(value) : std::nullopt;
+Number statistic(const std::string& name, const std::vector<double>& values) {
+  if (!std::ranges::all_of(values, [](double value) { return std::isfinite(value); }))
+    return std::nullopt;
+  return harness::statistic_of(name.empty() ? "first" : name, values);
 }
 
 Number timing_of(const Run& run, const std::string& name) {
@@ -30,7 +26,7 @@ Number timing_of(const Run& run, const std::string& name) {
 
 std::string cell_text(const ColumnRequest& column, const Run& run) {
   if (column.timing.empty()) {
-    const Numbers* numbers = run.quantity(column.quantity);
+    const std::vector<double>* numbers = run.quantity(column.quantity);
     return or_dash(numbers ? statistic(column.statistic, *numbers) : std::nullopt, 3);
   }
   const Number time = timing_of(run, column.timing);

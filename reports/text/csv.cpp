@@ -36,7 +36,7 @@ std::string written(const Table::Cell& value) {
 
 }  // namespace
 
-Table::Cell cell(const std::optional<double>& number) {
+Table::Cell cell(harness::Number number) {
   if (number) return *number;
   return std::monostate{};
 }

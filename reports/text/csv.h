@@ -1,9 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "harness/base/number.h"
 
 namespace trammel::reports {
 
@@ -15,7 +16,7 @@ struct Table {
   std::vector<std::vector<Cell>> rows;
 };
 
-[[nodiscard]] Table::Cell cell(const std::optional<double>& number);
+[[nodiscard]] Table::Cell cell(harness::Number number);
 
 /// Doubles in their shortest text that reads back the same; what is missing is left empty. Texts
 /// that a spreadsheet would compute have an apostrophe in front.

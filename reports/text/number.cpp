@@ -134,7 +134,7 @@ std::string length_text(double metres) {
   return metres < 0.2 ? trimmed(1000 * metres, 3) + "\u202fmm" : trimmed(metres, 3) + "\u202fm";
 }
 
-std::string or_dash(const std::optional<double>& x, int digits) {
+std::string or_dash(harness::Number x, int digits) {
   return x ? trimmed(*x, digits) : "–";
 }
 

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <optional>
 #include <string>
+
+#include "harness/base/number.h"
 
 namespace trammel::reports {
 
@@ -48,6 +49,6 @@ namespace trammel::reports {
 [[nodiscard]] std::string length_text(double metres);
 
 /// An em dash for what is not there.
-[[nodiscard]] std::string or_dash(const std::optional<double>& x, int digits);
+[[nodiscard]] std::string or_dash(harness::Number x, int digits);
 
 }  // namespace trammel::reports

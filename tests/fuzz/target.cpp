@@ -17,6 +17,7 @@
 #include "harness/run/run_store.h"
 #include "harness/studies/cost_study.h"
 #include "harness/studies/run_sweeps.h"
+#include "harness/studies/validation_uncertainty.h"
 #include "reports/page/junit.h"
 
 namespace trammel::fuzz {
@@ -38,23 +39,23 @@ void compute(const Case& given, const std::string& variant, bool all) {
   Run run;
   run.case_id = given.id();
   run.variant = variant;
-  run.result = analyse(document, references, {true});
-  run.status = run.result.outcome.solved() ? "solved" : "singular";
-  if (run.status == "solved") {
+  record_result(analyse(document, references, {true}), run);
+  if (run.is_solved()) {
     if (all) run.sweeps = run_sweeps(document, references);
     if (all && document.value().contains("uncertainty"))
-      run.uncertainty = evaluate_validation_uncertainty(document, run.result, checks, references);
-    for (const Sweep& sweep : run.sweeps)
+      run.uncertainty =
+          evaluate_validation_uncertainty(document, run.quantities, checks, references);
+    for (const results::Sweep& sweep : run.sweeps)
       for (Convergence& found :
            study_sweep(sweep, document, checks, references, TrackedQuantities::named))
         run.convergence.push_back(std::move(found));
-    const auto other = [&](const std::string&) { return &run.result.quantities; };
-    const CheckContext context{document, run.result.quantities, run.convergence, references, other};
+    const auto other = [&](const std::string&) { return &run.quantities; };
+    const CheckContext context{document, run.quantities, run.convergence, references, other};
     for (const Check& check : checks)
       for (CheckResult& judged : evaluate_check(check, context))
-        run.check_results.push_back(std::move(judged));
+        run.checks.push_back(std::move(judged));
   }
-  static_cast<Computation&>(run) = computation_from(to_bytes(run));
+  run = run_from(to_bytes(run));
   (void)results::read_results(results::to_json(results_of({run}, {given}, references)));
 }
 
@@ -82,8 +83,7 @@ void take_claims(const fs::path& file) {
     Run run;
     run.case_id = some.id();
     run.variant = kBaseVariant;
-    run.status = "solved";
-    run.result = analyse(patched(some, kBaseVariant), References(), {false});
+    record_result(analyse(patched(some, kBaseVariant), References(), {false}), run);
     runs.push_back(std::move(run));
   }
   (void)results::claims_to_json(evaluate_claims(claims, runs));

@@ -376,9 +376,9 @@ BOOST_AUTO_TEST_CASE(a_picture_bends_inside_its_elements) {
   BOOST_REQUIRE(drawing.shapes[0].displacement.size() == drawing.nodes.size());
   const double EI = 2e11 * 0.05 * 1e-3 / 12;
   for (std::size_t i = 0; i < drawing.nodes.size(); ++i) {
-    const double x = drawing.nodes[i].x();
+    const double x = drawing.nodes[i].first;
     // One cubic element is exact between its nodes where no load acts: P x^2 (3 L - x) / 6 EI.
-    BOOST_TEST(drawing.shapes[0].displacement[i].y() == 100 * x * x * (6 - x) / (6 * EI),
+    BOOST_TEST(drawing.shapes[0].displacement[i].second == 100 * x * x * (6 - x) / (6 * EI),
                boost::test_tools::tolerance(1e-9));
   }
 }

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "harness/base/processes.h"
+#include "harness/run/results.h"
 #include "harness/run/run_store.h"
 #include "tests/support/harness/analysing.h"
 
@@ -27,10 +28,10 @@ Memory memory_of(const std::function<Json()>& make) {
   const auto work = [&] {
     const Document document = testing::document_of(make());
     const double estimated = estimate_size(document).bytes;
-    Computation computation;
-    computation.result = analyse(document, References(), {true});
-    BOOST_REQUIRE(computation.result.outcome.solved());
-    (void)to_bytes(computation);
+    Run run;
+    record_result(analyse(document, References(), {true}), run);
+    BOOST_REQUIRE(run.is_solved());
+    (void)to_bytes(run);
     rusage used{};
     getrusage(RUSAGE_SELF, &used);
     return std::to_string(estimated) + " " + std::to_string(used.ru_maxrss);

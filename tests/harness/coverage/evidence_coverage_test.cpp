@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(a_series_whose_check_fails_has_none) {
   results::Results made;
   results::Run run;
   run.case_id = "a";
-  run.quantities = {{"frequency_Hz", {1.0}}};
+  run.quantities["frequency_Hz"].values = {1.0};
   results::Check check;
   check.quantity = "frequency_Hz";
   run.checks = {check};

@@ -36,7 +36,7 @@ struct Bench {
   Quantities quantities = {{"frequency_Hz", {{10, 20, 30}, {}}}};
   Quantities other = {{"frequency_Hz", {{5, 10, 15}, {}}}};
   bool has_other = true;
-  const SolverIdentity* other_solver = nullptr;
+  const results::SolverIdentity* other_solver = nullptr;
 
   std::vector<CheckResult> judge_all() {
     (void)folder->write(reference);
@@ -406,7 +406,7 @@ BOOST_AUTO_TEST_CASE(a_code_that_prints_four_digits_is_judged_by_four) {
   bench.check["tolerance"]["relative"] = 1e-6;
   bench.set(1, 20.004);
   BOOST_TEST(bench.verdict() == "fail");
-  const SolverIdentity prints_four{"code", "1", {}, 4};
+  const results::SolverIdentity prints_four{"code", "1", {}, 4};
   bench.other_solver = &prints_four;
   BOOST_TEST(bench.verdict() == "pass");
   bench.set(1, 20.006);  // half a unit of 20.01 is 0.005
@@ -415,7 +415,7 @@ BOOST_AUTO_TEST_CASE(a_code_that_prints_four_digits_is_judged_by_four) {
 
 BOOST_AUTO_TEST_CASE(
     of_another_code_what_is_missing_is_not_given_and_what_does_not_fit_is_an_error) {
-  const SolverIdentity code{"code", "1", {}, {}};
+  const results::SolverIdentity code{"code", "1", {}, {}};
   Bench missing;
   missing.other_solver = &code;
   missing.quantities.clear();

@@ -2,18 +2,20 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <limits>
+
+#include "harness/judge/convergence.h"
 
 BOOST_AUTO_TEST_SUITE(uncertainty_summary)
 
+using namespace trammel;
 using namespace trammel::harness;
 
 namespace {
 
 /// A study of values 10 (1 + a h^p) on `levels` halvings, whose bands are then scaled.
 Convergence made_up(std::size_t levels, double scale) {
-  Series series;
-  series.theory = 2;
+  Convergence series;
+  series.theory_order = 2;
   series.exact = 10;
   for (std::size_t k = 0; k < levels; ++k) {
     const double h = std::exp2(-static_cast<double>(k));
@@ -23,73 +25,74 @@ Convergence made_up(std::size_t levels, double scale) {
     series.roundoff.push_back(1e-16);
   }
   Convergence found = analyse_convergence(series);
-  for (double& band : found.gci) band *= scale;
+  for (results::Number& band : found.gci) band = *band * scale;
   return found;
 }
 
-NumericalUncertaintySummary summarise(const std::vector<Convergence>& all) {
-  std::vector<const Convergence*> pointers;
-  for (const Convergence& one : all) pointers.push_back(&one);
-  return summarise_numerical_uncertainty(pointers);
+results::UncertaintyCoverage summarise(const std::vector<Convergence>& all) {
+  results::Run run;
+  run.convergence = all;
+  return summarise_numerical_uncertainty({run});
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(bands_of_a_clean_series_hold_and_are_a_quarter_too_wide) {
-  const NumericalUncertaintySummary summary =
+  const results::UncertaintyCoverage summary =
       summarise(std::vector<Convergence>(30, made_up(8, 1)));
   BOOST_TEST(summary.levels == 30U * 7U);  // the first level has no band
-  BOOST_TEST(summary.hit_rate() == 1.0);
-  BOOST_TEST(summary.median_ratio == 1.25, boost::test_tools::tolerance(1e-6));
-  BOOST_TEST(!summary.fails());
+  BOOST_TEST(*summary.coverage == 1.0);
+  BOOST_TEST(*summary.median_ratio == 1.25, boost::test_tools::tolerance(1e-6));
+  BOOST_TEST(summary.passes);
 }
 
 BOOST_AUTO_TEST_CASE(bands_that_miss_too_often_fail) {
   std::vector<Convergence> all(30, made_up(8, 1));
   for (std::size_t i = 0; i < 3; ++i) all[i] = made_up(8, 0.5);
-  const NumericalUncertaintySummary summary = summarise(all);
-  BOOST_TEST(summary.hits < summary.levels);
-  BOOST_TEST(summary.fails());
+  const results::UncertaintyCoverage summary = summarise(all);
+  BOOST_TEST(summary.covered < summary.levels);
+  BOOST_TEST(!summary.passes);
 }
 
 BOOST_AUTO_TEST_CASE(bands_that_are_huge_fail_although_they_never_miss) {
-  const NumericalUncertaintySummary summary =
+  const results::UncertaintyCoverage summary =
       summarise(std::vector<Convergence>(30, made_up(8, 4)));
-  BOOST_TEST(summary.hit_rate() == 1.0);
-  BOOST_TEST(summary.fails());
+  BOOST_TEST(*summary.coverage == 1.0);
+  BOOST_TEST(!summary.passes);
 }
 
 BOOST_AUTO_TEST_CASE(a_band_is_of_the_value_and_an_error_of_the_exact_one) {
   Convergence found = made_up(3, 1);
-  found.series.values = {10, 10, 15};
+  found.values = {10, 10, 15};
   found.error = {0, 0, 0.5};
   found.gci = {NAN, NAN, 0.4};  // 6 beside an error of 5
   BOOST_TEST(summarise({found}).levels == 1U);
-  BOOST_TEST(summarise({found}).hits == 1U);
+  BOOST_TEST(summarise({found}).covered == 1U);
   found.gci[2] = 0.3;
-  BOOST_TEST(summarise({found}).hits == 0U);
+  BOOST_TEST(summarise({found}).covered == 0U);
 }
 
 BOOST_AUTO_TEST_CASE(a_few_levels_decide_nothing) {
-  const NumericalUncertaintySummary summary = summarise({made_up(8, 0.5)});
-  BOOST_TEST(summary.hit_rate() < 0.95);
-  BOOST_TEST(!summary.fails());
+  const results::UncertaintyCoverage summary = summarise({made_up(8, 0.5)});
+  BOOST_TEST(*summary.coverage < 0.95);
+  BOOST_TEST(summary.passes);
 }
 
 BOOST_AUTO_TEST_CASE(series_without_an_exact_value_do_not_count) {
   Convergence found = made_up(8, 1);
-  found.series.exact.reset();
-  const NumericalUncertaintySummary summary = summarise({found});
+  found.exact.reset();
+  const results::UncertaintyCoverage summary = summarise({found});
   BOOST_TEST(summary.levels == 0U);
-  BOOST_TEST(std::isnan(summary.hit_rate()));
-  BOOST_TEST(!summary.fails());
+  BOOST_TEST(!summary.coverage.has_value());
+  BOOST_TEST(summary.passes);
 }
 
 BOOST_AUTO_TEST_CASE(a_ratio_that_is_not_a_number_fails_closed) {
-  NumericalUncertaintySummary summary;
-  summary.levels = summary.hits = 1000;
-  summary.median_ratio = std::numeric_limits<double>::quiet_NaN();
-  BOOST_TEST(summary.fails());
+  Convergence found = made_up(8, 1);
+  found.at_roundoff_floor.assign(8, true);  // no level has a ratio
+  const results::UncertaintyCoverage summary = summarise(std::vector<Convergence>(30, found));
+  BOOST_TEST(*summary.coverage == 1.0);
+  BOOST_TEST(!summary.passes);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -13,7 +13,6 @@ BOOST_AUTO_TEST_SUITE(claims)
 
 using namespace trammel;
 using namespace trammel::references;
-using namespace trammel::solver;
 using namespace trammel::harness;
 using testing::complaint;
 using testing::contains;
@@ -53,11 +52,11 @@ Run bend(double first, double second) {
   Run run;
   run.case_id = "bend";
   run.variant = "base";
-  run.status = "solved";
-  run.check_results = {entry("tip", first, 1), entry("tip", second, 1), entry("tip-y", 5, 1)};
-  run.check_results[0].index = 0;
-  run.check_results[1].index = 1;
-  run.result.quantities["frequency_Hz"] = {{1, 3, 2}, {}};
+  run.status = results::Status::solved;
+  run.checks = {entry("tip", first, 1), entry("tip", second, 1), entry("tip-y", 5, 1)};
+  run.checks[0].index = 0;
+  run.checks[1].index = 1;
+  run.quantities["frequency_Hz"] = {{1, 3, 2}, {}};
   return run;
 }
 
@@ -101,21 +100,21 @@ BOOST_AUTO_TEST_CASE(one_verdict_that_no_longer_follows_spoils_the_set) {
 BOOST_AUTO_TEST_CASE(a_claim_that_misses_a_number_is_not_measured) {
   const Document document = claims_of({{"r", ratio}}, "confirmed");
   Run broken = bend(1, 1);
-  broken.status = "error";
+  broken.status = results::Status::error;
   BOOST_TEST((verdict(document, {broken}) == "not measured"));
   Run other = bend(1, 1);
   other.case_id = "buckle";
   BOOST_TEST((verdict(document, {other}) == "not measured"));
   Run half = bend(1, 1);
-  half.check_results[1].computed.reset();
+  half.checks[1].computed.reset();
   BOOST_TEST((verdict(document, {half}) == "not measured"));
-  half.check_results[1].computed = std::nan("");
+  half.checks[1].computed = std::nan("");
   BOOST_TEST((verdict(document, {half}) == "not measured"));
 }
 
 BOOST_AUTO_TEST_CASE(an_interpretation_that_misses_a_number_has_no_verdict_of_its_own) {
   Run half = bend(1, 1);
-  half.check_results[1].computed.reset();
+  half.checks[1].computed.reset();
   const auto found = evaluate_claims(claims_of({{"r", ratio}}, "confirmed"), {half});
   BOOST_TEST((found.claims.at(0).interpretations.at(0).verdict == "not measured"));
 }
@@ -124,7 +123,7 @@ BOOST_AUTO_TEST_CASE(what_one_interpretation_misses_no_other_makes_up_for) {
   Json other = ratio;
   other["check"] = "tip-y";
   Run half = bend(1, 1);
-  half.check_results[1].computed.reset();
+  half.checks[1].computed.reset();
   BOOST_TEST(
       (verdict(claims_of({{"r", ratio}, {"s", other}}, "contradicted"), {half}) == "not measured"));
 }
@@ -199,7 +198,7 @@ BOOST_AUTO_TEST_CASE(
                       {"quantity", "frequency_Hz"}, {"metric", "value"},
                       {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
   Run run = bend(1, 1);
-  run.result.quantities["frequency_Hz"] = {{1, std::nan(""), 2}, {}};
+  run.quantities["frequency_Hz"] = {{1, std::nan(""), 2}, {}};
   const results::Claims found = evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {run});
   BOOST_TEST((found.claims[0].verdict == "not measured"));
   BOOST_TEST(found.claims[0].interpretations[0].entries.size() == 2U);

@@ -15,8 +15,7 @@ using testing::contains;
 namespace {
 
 /// Results with one run of these quantities.
-Side side(const std::string& label,
-          std::vector<std::pair<std::string, results::Numbers>> quantities) {
+Side side(const std::string& label, const std::map<std::string, std::vector<double>>& quantities) {
   Side made{label, {}, std::nullopt};
   made.results.cases.emplace_back();
   made.results.cases.front().id = "a";
@@ -24,7 +23,7 @@ Side side(const std::string& label,
   run.case_id = "a";
   run.variant = "base";
   run.status = results::Status::solved;
-  run.quantities = std::move(quantities);
+  for (const auto& [name, values] : quantities) run.quantities[name].values = values;
   made.results.runs.push_back(std::move(run));
   return made;
 }
@@ -36,8 +35,7 @@ results::SideComparison compared(const Side& a, const Side& b) {
 /// Modes of two nodes that move along y only.
 Side drawn(const std::string& label, const std::vector<double>& frequencies,
            const std::vector<std::pair<double, double>>& shapes) {
-  results::Numbers numbers(frequencies.begin(), frequencies.end());
-  Side made = side(label, {{"frequency_Hz", numbers}});
+  Side made = side(label, {{"frequency_Hz", frequencies}});
   results::Drawing drawing;
   drawing.nodes = {{0, 0}, {1, 0}};
   for (const auto& [first, second] : shapes)
@@ -71,7 +69,7 @@ BOOST_AUTO_TEST_CASE(a_difference_within_the_round_off_that_a_check_states_is_no
   a.results.runs[0].checks = {check_of("mass_kg", 1, 1e-7, "discretisation")};
   BOOST_TEST(compared(a, b).changed == 1U);
   // What calls itself round-off and is as large as an error of a model is none.
-  b.results.runs[0].quantities[0].second = {1.001};
+  b.results.runs[0].quantities["mass_kg"].values = {1.001};
   a.results.runs[0].checks = {check_of("mass_kg", 1, 1e-2, "round-off")};
   BOOST_TEST(compared(a, b).changed == 1U);
 }
@@ -104,7 +102,7 @@ BOOST_AUTO_TEST_CASE(round_off_that_a_refinement_states_counts_and_what_is_no_nu
   b.results.runs[0].convergence[0].roundoff = {1e-3, 1e-3};
   BOOST_TEST(compared(a, b).changed == 1U);
   b.results.runs[0].convergence = {study};
-  b.results.runs[0].quantities[0].second = {1.0, std::nullopt};
+  b.results.runs[0].quantities["mass_kg"].values = {1.0, std::nan("")};
   BOOST_TEST(compared(a, b).changed == 1U);
 }
 

@@ -55,30 +55,30 @@ Resumed run_all(const Folder& folder, const Json& json, bool resume) {
   options.store = folder.path() / "store";
   options.resume = resume;
   const std::vector<Run> runs = run_cases(all, references, options);
-  Json results = to_json(results_of(runs, all, references));
+  Json results = to_json(results_of(runs, all, references, options.store));
   results["environment"].erase("date");
   results["environment"].erase("stored_runs");
   Resumed resumed{results.dump(), {}};
-  for (const Run& run : runs) resumed.wall_s.push_back(run.wall_s);
+  for (const Run& run : runs) resumed.wall_s.push_back(run.cost.wall_s);
   return resumed;
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_computation_is_kept_bit_for_bit) {
-  Computation computation;
-  computation.status = "solved";
-  computation.result.quantities["q"] = {
+  Run computation;
+  computation.status = results::Status::solved;
+  computation.quantities["q"] = {
       {0.1, -0.0, 5e-324, std::nan(""), -std::numeric_limits<double>::infinity()}, {1e-16}};
-  computation.result.drawing.emplace();
-  computation.result.drawing->nodes = {{0.1, std::nan("")}};
-  computation.result.drawing->members = {{0, 0}};
-  computation.result.effects = {{solver::Effect::shear, true, false, {}, 1.0 / 3, "why"}};
-  computation.sweeps = {{"s", {{2, computation.result.quantities}}}};
+  computation.drawing.emplace();
+  computation.drawing->nodes = {{0.1, std::nan("")}};
+  computation.drawing->members = {{0, 0}};
+  computation.effects = {{"shear", "", "why", true, false, 0, {}, 1.0 / 3}};
+  computation.sweeps = {{"s", {{2, computation.quantities}}}};
   const std::string bytes = to_bytes(computation);
-  const Computation again = computation_from(bytes);
+  const Run again = run_from(bytes);
   BOOST_TEST(to_bytes(again) == bytes);
-  const auto& values = again.result.quantities.at("q").values;
+  const auto& values = again.quantities.at("q").values;
   BOOST_TEST((values[0] == 0.1 && std::signbit(values[1]) && values[2] == 5e-324 &&
               std::isnan(values[3]) && std::isinf(values[4])));
 }
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(a_broken_entry_is_computed_again) {
     int kept = 0;
     for (std::size_t i = 0; i < 3; ++i) kept += int(again.wall_s[i] == first.wall_s[i]);
     BOOST_TEST(kept == 2);
-    Computation found;
+    Run found;
     BOOST_TEST(find_stored(files[0], found));
     write_file(files[0], whole);
   }
@@ -162,7 +162,7 @@ BOOST_AUTO_TEST_CASE(a_case_that_options_try_decides_their_name) {
 BOOST_AUTO_TEST_CASE(a_reference_that_changed_or_came_makes_an_entry_stale) {
   const Folder folder;
   const auto file = folder.write("r.json", "1");
-  Computation computation;
+  Run computation;
   computation.references[file.string()] = "0";
   const auto entry = folder.path() / "entry";
   write_file(entry, to_bytes(computation));
@@ -176,12 +176,12 @@ BOOST_AUTO_TEST_CASE(a_reference_that_changed_or_came_makes_an_entry_stale) {
 
 BOOST_AUTO_TEST_CASE(times_of_another_machine_are_not_taken_over) {
   const Folder folder;
-  Computation computation;
+  Run computation;
   computation.machine = "another";
   const auto entry = folder.path() / "entry";
   write_file(entry, to_bytes(computation));
   BOOST_TEST(find_stored(entry, computation));
-  computation.result.timings = {{"t", 1, 1}};
+  computation.cost.timings = {{"t", 1, 1}};
   write_file(entry, to_bytes(computation));
   BOOST_TEST(!find_stored(entry, computation));
   computation.machine = machine_name();
@@ -217,7 +217,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_used_for_a_month_is_dropped) {
   const Folder folder;
   const auto old = folder.path() / "old.cbor", used = folder.path() / "used.cbor";
   const auto other = folder.write("old.json", "1");
-  Computation computation;
+  Run computation;
   for (const auto& file : {old, used, other}) {
     if (file != other) write_file(file, to_bytes(computation));
     std::filesystem::last_write_time(

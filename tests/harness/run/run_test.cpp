@@ -68,7 +68,7 @@ std::vector<Run> run_all(const std::vector<Case>& cases, unsigned jobs = 1,
 }
 
 const CheckResult& find(const Run& run, const std::string& name) {
-  for (const CheckResult& one : run.check_results) {
+  for (const CheckResult& one : run.checks) {
     if (one.name == name) return one;
   }
   throw std::runtime_error("no check " + name);
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_computed_and_bands_that_miss_do_not_pass) {
   std::vector<Run> runs = run_all({beams}, 1, "base");
   BOOST_TEST(exit_status(runs) == 0);
   Convergence study = runs.at(0).convergence.at(0);
-  for (double& band : study.gci) band *= 1e-3;
+  for (results::Number& band : study.gci) band = *band * 1e-3;
   runs[0].convergence.assign(100, study);
   BOOST_TEST(exit_status(runs) == 1);
   BOOST_TEST(element_size("halvings", 3) == 0.125);
@@ -114,11 +114,11 @@ BOOST_AUTO_TEST_CASE(the_exit_status_is_that_of_the_worst) {
   CheckResult failing;
   failing.verdict = Verdict::fail;
   Run run;
-  run.check_results = {failing};
+  run.checks = {failing};
   BOOST_TEST(exit_status({run}) == 1);
-  run.error = Run::RunError::input;
+  run.fault = results::Fault::input;
   BOOST_TEST(exit_status({run}) == 2);
-  run.error = Run::RunError::internal;
+  run.fault = results::Fault::internal;
   BOOST_TEST(exit_status({run}) == 3);
 }
 
@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(an_order_of_a_sweep_with_a_level_that_has_no_value_is_no_or
   const Document document = patched(beams, "base");
   const std::vector<Check> checks = read_checks(document, "base", beams.variants());
   const std::vector<Convergence> convergence = {study};
-  const CheckContext context{document, runs[0].result.quantities, convergence, references,
+  const CheckContext context{document, runs[0].quantities, convergence, references,
                              [](const auto&) { return nullptr; }};
   const CheckResult judged = evaluate_order_check(checks.at(0), context).at(0);
   BOOST_TEST((judged.verdict == Verdict::error));
@@ -193,14 +193,14 @@ BOOST_AUTO_TEST_CASE(a_singular_model_holds_where_it_is_expected_and_fails_where
                          {"role", "verification"},
                          {"bound", {{"at_least", 3}, {"why", "w"}}}};
   std::vector<Run> runs = run_all({testing::read(folder, json)});
-  BOOST_TEST(runs.at(0).status == "singular");
+  BOOST_TEST((runs.at(0).status == results::Status::singular));
   BOOST_TEST((find(runs[0], "status").verdict == Verdict::fail));
   BOOST_TEST((find(runs[0], "c").verdict == Verdict::error));
   BOOST_TEST(exit_status(runs) == 1);
   json["expect_status"] = "singular";
   runs = run_all({testing::read(folder, json)});
   BOOST_TEST((find(runs.at(0), "status").verdict == Verdict::pass));
-  BOOST_TEST(runs[0].check_results.size() == 1);
+  BOOST_TEST(runs[0].checks.size() == 1);
   BOOST_TEST(exit_status(runs) == 0);
   json["expect_status"] = "not-converged";
   runs = run_all({testing::read(folder, json)});
@@ -229,8 +229,8 @@ BOOST_AUTO_TEST_CASE(bad_input_spoils_its_own_run_only) {
   json["variants"]["lost"]["model"]["members"]["AB"]["nodes"] = {"A", "Q"};
   const auto runs = run_all({testing::read(folder, json)});
   BOOST_REQUIRE(runs.size() == 2);
-  BOOST_TEST(runs[0].status == "solved");
-  BOOST_TEST(runs[1].status == "error");
+  BOOST_TEST(runs[0].is_solved());
+  BOOST_TEST((runs[1].status == results::Status::error));
   BOOST_TEST(
       contains(runs[1].reason, "/variants/lost/model/members/AB/nodes/1: expected the name"));
   BOOST_TEST(exit_status(runs) == 2);
@@ -255,7 +255,7 @@ BOOST_AUTO_TEST_CASE(more_time_or_memory_than_allowed_costs_its_own_run_alone) {
              runs[0].reason);
   BOOST_TEST(contains(runs[1].reason, "/model/elements: expected a computation of at most 0.25 GB"),
              runs[1].reason);
-  BOOST_TEST(runs[2].status == "solved");
+  BOOST_TEST(runs[2].is_solved());
   BOOST_TEST(exit_status(runs) == 2);
 }
 
@@ -273,7 +273,7 @@ BOOST_AUTO_TEST_CASE(a_variant_that_is_looked_at_is_computed_but_not_told) {
   BOOST_TEST((find(runs[0], "half").verdict == Verdict::pass));
   runs = run_all({testing::read(folder, json)});
   BOOST_REQUIRE(runs.size() == 2);
-  BOOST_TEST(runs[1].check_results.empty());  // not against itself
+  BOOST_TEST(runs[1].checks.empty());  // not against itself
 }
 
 BOOST_AUTO_TEST_SUITE_END()

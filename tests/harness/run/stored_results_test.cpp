@@ -29,7 +29,7 @@ results::Results computed(const Folder& folder) {
   RunOptions options;
   options.store = folder.path() / "out/store";
   const References references;
-  return results_of(run_cases(cases, references, options), cases, references);
+  return results_of(run_cases(cases, references, options), cases, references, options.store);
 }
 
 }  // namespace

@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(without_an_asymptotic_range_no_order_is_claimed) {
 
 BOOST_AUTO_TEST_CASE(a_caption_says_small_numbers_in_their_unit_not_in_powers_of_the_axis) {
   Run run = run_with({});
-  run.quantities = {{"time_s", {0.0, 1.0}}, {"position_error_m", {1e-12, 5.72e-9}}};
+  run.quantities = {{"time_s", {{0.0, 1.0}, {}}}, {"position_error_m", {{1e-12, 5.72e-9}, {}}}};
   std::string problem;
   const auto figure = curves_figure(
       beam(), {"f", "f", "time_s", "", {"position_error_m"}, {"base"}}, {&run}, problem);
@@ -146,7 +146,9 @@ BOOST_AUTO_TEST_CASE(tolerance_caption_names_what_is_nearest_to_its_limit_or_bey
 
 BOOST_AUTO_TEST_CASE(curves_that_cannot_be_drawn_say_why) {
   Run run = run_with({});
-  run.quantities = {{"time_s", {0.0, 1.0}}, {"force_N:A", {1.0, 2.0}}, {"length_m:A", {1.0}}};
+  run.quantities["time_s"].values = {0.0, 1.0};
+  run.quantities["force_N:A"].values = {1.0, 2.0};
+  run.quantities["length_m:A"].values = {1.0};
   const auto problem_of = [&](const std::vector<std::string>& y) {
     std::string problem;
     const PlotRequest request{"f", "f", "time_s", "", y, {"base"}};
@@ -155,7 +157,7 @@ BOOST_AUTO_TEST_CASE(curves_that_cannot_be_drawn_say_why) {
   };
   BOOST_TEST(contains(problem_of({"length_m:A"}), "differ in length"));
   BOOST_TEST(contains(problem_of({"torque_N_m:A"}), "has no torque_N_m:A"));
-  run.quantities.emplace_back("length_m:B", Numbers{1.0, 2.0});
+  run.quantities["length_m:B"].values = {1.0, 2.0};
   BOOST_TEST(contains(problem_of({"force_N:A", "length_m:B"}), "differ in unit"));
 }
 
@@ -225,7 +227,7 @@ BOOST_AUTO_TEST_CASE(a_rigid_motion_says_how_far_it_goes_and_lays_few_moments_ov
 
 BOOST_AUTO_TEST_CASE(shapes_say_how_far_apart_modes_are_and_how_much_is_displaced) {
   Run run = run_with({});
-  run.quantities = {{"frequency_Hz", {0.0, 10.0, 19.6, 20.0}}};
+  run.quantities["frequency_Hz"].values = {0.0, 10.0, 19.6, 20.0};
   run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}};
   for (const char* label : {"mode 1, 0 Hz", "mode 2, 10 Hz", "mode 3, 19.6 Hz", "mode 4, 20 Hz"})
     run.drawing->shapes.push_back({label, {{0, 0}, {0, 1}}});

@@ -20,7 +20,7 @@ CaseInfo workspace() {
 
 /// Values x + 10 y on columns x rows positions, 0.1 m apart.
 Run field(int columns, int rows) {
-  Numbers x, y, value;
+  std::vector<double> x, y, value;
   for (int j = 0; j < rows; ++j) {
     for (int i = 0; i < columns; ++i) {
       x.emplace_back(0.1 * i);
@@ -32,7 +32,8 @@ Run field(int columns, int rows) {
   run.case_id = "workspace";
   run.variant = "base";
   run.status = Status::solved;
-  run.quantities = {{"position_x_m", x}, {"position_y_m", y}, {"frequency_Hz", value}};
+  run.quantities = {
+      {"position_x_m", {x, {}}}, {"position_y_m", {y, {}}}, {"frequency_Hz", {value, {}}}};
   return run;
 }
 
@@ -74,19 +75,19 @@ BOOST_AUTO_TEST_CASE(what_is_far_from_zero_is_dark_whatever_its_sign) {
     return figure->commands.substr(color, 7);
   };
   BOOST_TEST(shade_of_lowest() == palette::kSequence.front());
-  for (Number& number : run.quantities[2].second) number = -*number;
+  for (double& number : run.quantities["frequency_Hz"].values) number = -number;
   BOOST_TEST(shade_of_lowest() == palette::kSequence.back());
-  run.quantities[2].second[0] = 7.0;
+  run.quantities["frequency_Hz"].values[0] = 7.0;
   BOOST_TEST(shade_of_lowest() == palette::kSequence.front());
   BOOST_TEST(contains(draw(run, problem)->caption, "dark where it is high"));
 }
 
 BOOST_AUTO_TEST_CASE(maps_of_one_quantity_have_one_scale) {
   Run run = field(14, 5);
-  run.quantities[2].first = "frequency_Hz:cold";
-  Numbers hot = run.quantities[2].second;
-  for (Number& number : hot) number = *number + 100;
-  run.quantities.emplace_back("frequency_Hz:hot", hot);
+  std::vector<double>& hot = run.quantities["frequency_Hz:hot"].values;
+  hot = run.quantities["frequency_Hz:cold"].values = run.quantities["frequency_Hz"].values;
+  run.quantities.erase("frequency_Hz");
+  for (double& number : hot) number += 100;
   CaseInfo info = workspace();
   for (const char* name : {"cold", "hot"}) {
     PlotRequest request;
@@ -109,12 +110,12 @@ BOOST_AUTO_TEST_CASE(maps_of_one_quantity_have_one_scale) {
 
 BOOST_AUTO_TEST_CASE(positions_without_a_number_stay_blank) {
   Run run = field(14, 5);
-  run.quantities[2].second[3].reset();
+  run.quantities["frequency_Hz"].values[3] = std::nan("");
   std::string problem;
   const auto figure = draw(run, problem);
   BOOST_TEST_REQUIRE(figure.has_value(), problem);
   BOOST_TEST(figure->data.rows.size() == 69U);
-  for (Number& number : run.quantities[2].second) number.reset();
+  for (double& number : run.quantities["frequency_Hz"].values) number = std::nan("");
   BOOST_TEST(!draw(run, problem).has_value());
   BOOST_TEST(problem == "frequency_Hz has no numbers");
 }

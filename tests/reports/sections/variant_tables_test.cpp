@@ -11,7 +11,7 @@ namespace {
 std::string cell(const std::string& quantity, const std::string& statistic) {
   Run run;
   run.variant = "base";
-  run.quantities = {{"frequency_Hz", {3.0, -4.0}}};
+  run.quantities["frequency_Hz"].values = {3.0, -4.0};
   CaseInfo info;
   info.tables.push_back({"t", "Table", "", {{"c", "Column", quantity, "", "", statistic}}, {}});
   const Data tables = trammel::reports::variant_tables(info, {&run});
