@@ -1,8 +1,8 @@
 #pragma once
 
-#include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
+
+#include "harness/base/number.h"
 
 namespace trammel::harness {
 
@@ -10,12 +10,9 @@ namespace trammel::harness {
 using Json = nlohmann::ordered_json;
 using JsonPointer = Json::json_pointer;
 
-/// null where the number is not finite, which JSON cannot hold.
-[[nodiscard]] inline Json number_or_null(double value) {
-  return std::isfinite(value) ? Json(value) : Json(nullptr);
-}
-[[nodiscard]] inline Json number_or_null(const std::optional<double>& value) {
-  return value ? number_or_null(*value) : Json(nullptr);
+/// null where the number is missing or not finite, which JSON cannot hold.
+[[nodiscard]] inline Json number_or_null(Number value) {
+  return value ? Json(*value) : Json(nullptr);
 }
 
 }  // namespace trammel::harness

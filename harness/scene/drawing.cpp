@@ -249,18 +249,19 @@ Drawing draw_manipulator(const solver::ManipulatorGeometry& geometry,
 namespace {
 
 /// The model's nodes, then the members' inner points, first to second node.
-std::vector<Eigen::Vector2d> places(const solver::large_motion::GeometricallyExactSystem& system,
-                                    const Eigen::VectorXd& q) {
+std::vector<results::Point> places(const solver::large_motion::GeometricallyExactSystem& system,
+                                   const Eigen::VectorXd& q) {
   const solver::Model& model = system.model();
   const Eigen::MatrixX3d motion = node_motion(system, q);
-  std::vector<Eigen::Vector2d> nodes;
+  std::vector<results::Point> nodes;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    nodes.emplace_back(model.nodes[i].position +
-                       motion.row(static_cast<solver::Index>(i)).head<2>().transpose());
+    nodes.push_back(point_of(model.nodes[i].position +
+                             motion.row(static_cast<solver::Index>(i)).head<2>().transpose()));
   }
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const Eigen::MatrixX2d line = member_node_positions(system, q, static_cast<solver::Index>(m));
-    for (solver::Index i = 1; i + 1 < line.rows(); ++i) nodes.emplace_back(line.row(i).transpose());
+    for (solver::Index i = 1; i + 1 < line.rows(); ++i)
+      nodes.push_back(point_of(line.row(i).transpose()));
   }
   return nodes;
 }
@@ -274,22 +275,22 @@ std::optional<Drawing> draw_large_model(
   Drawing drawing;
   drawing.nodes = places(system, reference);
   if (drawing.nodes.size() > kMaxDrawnNodes) return std::nullopt;
-  std::size_t inner = model.nodes.size();
+  auto inner = static_cast<int>(model.nodes.size());
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const solver::Index points =
         member_node_positions(system, reference, static_cast<solver::Index>(m)).rows();
-    auto before = solver::to_size(model.members[m].nodes[0]);
+    auto before = static_cast<int>(model.members[m].nodes[0]);
     for (solver::Index i = 1; i + 1 < points; ++i, ++inner) {
       drawing.members.push_back({before, inner});
       before = inner;
     }
-    drawing.members.push_back({before, solver::to_size(model.members[m].nodes[1])});
+    drawing.members.push_back({before, static_cast<int>(model.members[m].nodes[1])});
   }
   draw_parts(model, is_manipulator, drawing);
   return drawing;
 }
 
-Drawing::Pose draw_large_pose(const solver::large_motion::GeometricallyExactSystem& system,
+results::Pose draw_large_pose(const solver::large_motion::GeometricallyExactSystem& system,
                               const Eigen::VectorXd& q, const std::string& label) {
   return {label, places(system, q)};
 }

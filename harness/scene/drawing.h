@@ -60,7 +60,7 @@ void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawin
     const solver::large_motion::GeometricallyExactSystem& system, bool is_manipulator);
 
 /// Where the drawing's nodes are at coordinates q.
-[[nodiscard]] Drawing::Pose draw_large_pose(
+[[nodiscard]] results::Pose draw_large_pose(
     const solver::large_motion::GeometricallyExactSystem& system, const Eigen::VectorXd& q,
     const std::string& label);
 
