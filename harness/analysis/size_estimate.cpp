@@ -13,9 +13,11 @@ namespace {
 
 // Bytes, measured with margin (size_estimate_test): a coordinate in model, matrices and states; an
 // entry of a factor while it is made; a number that is recorded, written as JSON and drawn.
-constexpr double kCoordinate = 2500, kEntry = 24, kNumber = 50;
+constexpr double kCoordinate = 2500, kEntry = 24, kNumber = 44;
 /// A number of a map, which is rounded and drawn; of samples, which are read from JSON.
-constexpr double kMapNumber = 110, kSampleNumber = 500;
+constexpr double kMapNumber = 90, kSampleNumber = 500;
+/// A number of a frequency response, which is recorded alone.
+constexpr double kResponseNumber = 22;
 
 /// Bytes of a coordinate over those of statics, which checks and draws most.
 double share_of(const std::string& kind, const JsonView& analysis, bool in_plane) {
@@ -141,7 +143,7 @@ class Estimator {
       add(analysis[analysis.has("samples") ? "samples" : "step_s"].pointer(),
           samples * (40 * n + kNumber * outputs()));
     } else if (kind == "harmonic" && analysis.has("points")) {
-      add(analysis["points"].pointer(), analysis.number("points") * kNumber * outputs());
+      add(analysis["points"].pointer(), analysis.number("points") * kResponseNumber * outputs());
     } else if (kind == "large-statics") {
       add("/analysis/large-statics", 2 * kCoordinate * n);
     } else if (kind == "large-motion" &&
