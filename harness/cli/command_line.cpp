@@ -69,7 +69,9 @@ struct Option {
   const char* help;
   CLI::Validator validator = {};
 
-  [[nodiscard]] std::string name() const { return flags.substr(flags.rfind(',') + 1); }
+  [[nodiscard]] std::string_view name() const {
+    return std::string_view(flags).substr(flags.rfind(',') + 1);
+  }
 };
 
 const std::vector<Option>& all_options() {

@@ -71,11 +71,13 @@ namespace {
 /// Fast, and nearly as small as with higher levels: most bytes are digits of doubles.
 constexpr int kCompressionLevel = 1;
 constexpr unsigned long long kMaxBytes = 1ULL << 30U;  ///< of what is uncompressed
+constexpr std::size_t kSmall = 1U << 16U;  ///< bytes; below, compressing costs more than it saves
 
 std::string compressed(const std::string& bytes) {
   const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
                                                                      &ZSTD_freeCCtx);
-  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, kCompressionLevel);
+  ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel,
+                         bytes.size() < kSmall ? ZSTD_minCLevel() : kCompressionLevel);
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
   std::string out(ZSTD_compressBound(bytes.size()), '\0');
   const std::size_t size =
