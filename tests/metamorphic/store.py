@@ -1,5 +1,6 @@
 """Reads the quantities and effects of a stored run (harness/run/run_store.cpp)."""
 
+import ctypes
 import struct
 
 FLOATS = {25: (">e", 2), 26: (">f", 4), 27: (">d", 8)}
@@ -31,24 +32,25 @@ def decode(data, at=0):
     return (values if major == 4 else dict(zip(values[::2], values[1::2]))), at
 
 
+def uncompressed(data):
+    zstd = ctypes.CDLL("libzstd.so.1")
+    zstd.ZSTD_getFrameContentSize.restype = ctypes.c_ulonglong
+    out = ctypes.create_string_buffer(zstd.ZSTD_getFrameContentSize(data, len(data)))
+    zstd.ZSTD_decompress(out, ctypes.c_size_t(len(out)), data, ctypes.c_size_t(len(data)))
+    return out.raw
+
+
+def numbers(data):
+    """Returns packed numbers: their size in bytes, then the bytes."""
+    code = {4: "f", 8: "d"}[data[0]]
+    return struct.unpack(f"<{(len(data) - 1) // data[0]}{code}", data[1:])
+
+
 def read_run(path):
     """Returns the quantities (name -> list of numbers), their relative round-off errors (name -> the largest that the
     program states) and which effects are active."""
-    data = path.read_bytes()
-    numbers = data[16:16 + struct.unpack("<Q", data[8:16])[0]]  # behind checksum and length
-    outcome = decode(data, 16 + len(numbers))[0][3]
-    names, (start, size) = outcome[2]
-    lengths = struct.unpack(f"<{size // 8}Q", numbers[start:start + size])
-    quantities, roundoff, letter, start = {}, {}, 0, lengths[0]
-
-    def read(size):
-        nonlocal start
-        start += size
-        return struct.unpack(f"<{size // 8}d", numbers[start - size:start])
-
-    for length, values, errors in zip(lengths[1::3], lengths[2::3], lengths[3::3]):
-        name, letter = names[letter:letter + length], letter + length
-        quantities[name] = read(values)
-        roundoff[name] = max(read(errors), default=0.0)
-    effects = next((item[0] for item in zip(outcome[7:], outcome[6:]) if isinstance(item[1], str)), [])
-    return quantities, roundoff, [effect[:2] for effect in effects if isinstance(effect, list)]
+    run = decode(uncompressed(path.read_bytes()))[0]
+    entries = run["quantities"]  # name, values and errors in turn
+    quantities = {name: numbers(values) for name, values in zip(entries[::3], entries[1::3])}
+    roundoff = {name: max(numbers(errors), default=0.0) for name, errors in zip(entries[::3], entries[2::3])}
+    return quantities, roundoff, [[effect["effect"], effect["active"]] for effect in run.get("effects", [])]
