@@ -1,6 +1,6 @@
 #pragma once
 
-#include "harness/base/warning.h"
+#include "harness/statics_modes/warning.h"
 #include "solver/linear/statics.h"
 #include "solver/linear/system.h"
 

@@ -7,12 +7,12 @@
 
 #include "harness/base/recorder.h"
 #include "harness/base/timing.h"
-#include "harness/base/warning.h"
 #include "harness/input/json_view.h"
 #include "harness/input/reference_library.h"
 #include "harness/results/run_results.h"
 #include "harness/scene/case_model.h"
 #include "harness/scene/drawing.h"
+#include "harness/statics_modes/warning.h"
 #include "solver/linear/system.h"
 #include "solver/model/evidence.h"
 

@@ -41,14 +41,13 @@ def uncompressed(data):
 
 
 def numbers(data):
-    """Returns packed numbers: their size in bytes, then the bytes."""
+    # The first byte is the size of each.
     code = {4: "f", 8: "d"}[data[0]]
     return struct.unpack(f"<{(len(data) - 1) // data[0]}{code}", data[1:])
 
 
 def read_run(path):
-    """Returns the quantities (name -> list of numbers), their relative round-off errors (name -> the largest that the
-    program states) and which effects are active."""
+    """Returns quantities (name -> numbers), the largest relative round-off error of each, and [effect, is active] pairs."""
     run = decode(uncompressed(path.read_bytes()))[0]
     entries = run["quantities"]  # name, values and errors in turn
     quantities = {name: numbers(values) for name, values in zip(entries[::3], entries[1::3])}

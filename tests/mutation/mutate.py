@@ -24,6 +24,10 @@ import time
 import seeding
 from seeding import KINDS, ROOT
 
+sys.path.append(str(ROOT / "tests/metamorphic"))
+from store import uncompressed
+
+
 def call(command, out, limit, **environment):
     """Exit status, None after the limit; seconds; hashes of what was recorded of the runs."""
     begun = time.monotonic()
@@ -37,11 +41,11 @@ def call(command, out, limit, **environment):
         process.wait()
         status = None
     seconds = time.monotonic() - begun
-    # Times (three in a row before the references, or one behind a name) and hashes; a checksum first.
-    number = rb"(\xfb.{8}|\xfa.{4}|\xf6)"
-    times = re.compile(number + b"{3}(?=[\x80-\xbf])|(?<=\x83)[\x61-\x78][a-z_ -]{1,24}" + number +
-                       b"|[0-9a-f]{8}-[0-9a-f-]{27}", re.DOTALL)
-    stored = [file.read_bytes()[8:] for file in pathlib.Path(out).glob("store/*.cbor")]
+    # Times, counts of repetitions and hashes.
+    number, count = rb"(\xfb.{8}|\xfa.{4}|\xf6)", rb"(\x1a.{4}|\x19..|\x18.|[\0-\x17])"
+    times = re.compile(rb"(wall_s|cpu_s)" + number + rb"|evaluation_s" + number + rb"kevaluations" + count +
+                       rb"|[0-9a-f]{8}-[0-9a-f-]{27}", re.DOTALL)
+    stored = [uncompressed(file.read_bytes()) for file in pathlib.Path(out).glob("store/*.cbor")]
     return status, seconds, {hashlib.sha256(times.sub(b"", text)).hexdigest() for text in stored}
 
 
