@@ -100,7 +100,7 @@ bool is_loaded(const solver::Model& model) {
   return on_members || !model.loads.empty() || !model.edge_loads.empty();
 }
 
-/// Of analyses of vibration.
+/// Effects of analyses of vibration.
 EffectScope inertia_scope(const solver::Model& model) {
   EffectScope scope;
   scope.applicable = solver::applicable_effects(model).with(Effect::inertia);

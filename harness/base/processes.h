@@ -19,7 +19,7 @@ struct ProcessTask {
 struct ProcessOutcome {
   enum class Termination { answered, timed_out, out_of_memory, disk_full, crashed, not_started };
   Termination termination = Termination::not_started;
-  /// Of a function its answer, or the reason why there is none. Of a program the end of standard
+  /// Answer of a function, or the reason why there is none. For a program the end of standard
   /// output and error, at most 64 KiB.
   std::string text;
   int status = 0;  ///< exit status, number of the signal, or errno if it was not started

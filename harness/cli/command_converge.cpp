@@ -23,7 +23,7 @@ std::string note(const Convergence& found, std::size_t k) {
   return found.in_asymptotic_range[k] ? "asymptotic" : "";
 }
 
-/// What follows from the levels, in words.
+/// Describes the order, the fitted law and the extrapolated value of the levels.
 std::string conclusion(const Convergence& found) {
   std::vector<std::string> parts;
   if (found.theory_order)

@@ -155,7 +155,7 @@ void print(const results::CostStudy& study) {
             << '\n';
 }
 
-/// What was tried, and the patch of the cheapest setting within the accuracy; null if none is.
+/// Settings that were tried, and the patch of the cheapest one within the accuracy, or null.
 Json choice_json(const AccuracySearch& search, const MeasuredStudy& measured, double accuracy) {
   Rows tried({"setting", "error", "reason"});
   for (const TriedSetting& setting : search.tried)

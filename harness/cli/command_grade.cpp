@@ -40,7 +40,7 @@ bool is_control(const Case& one) {
   return contains(labels, "control");
 }
 
-/// Why a run has no check that decides.
+/// Returns the reason why no check of a run decides.
 std::string reason_of(const results::Run& run, Grade grade) {
   if (!run.reason.empty()) return run.reason;
   for (const results::Check& check : run.checks)

@@ -288,7 +288,7 @@ int quantities_command(const CommandOptions& options, const Renderers& /*rendere
   if (all)
     std::cout
         << "A colon is followed by what the quantity is of: a node, a member and its end, ...\n"
-           "Times and poses stand beside quantities along a trajectory; a study gives the\n"
+           "Quantities along a trajectory come with times and poses; a study gives the\n"
            "quantities of its analysis. './trammel quantities CASE' names those of a case.\n";
   return 0;
 }

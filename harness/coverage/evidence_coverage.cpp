@@ -19,7 +19,7 @@ namespace {
 using results::CoverageRow;
 using Kinds = std::set<std::string>;
 
-/// Walks through the schema, beside a document or alone.
+/// Walks through the schema, alone or together with a document.
 class FeatureWalk {
  public:
   FeatureWalk() : root_(load_schema("case")) {}

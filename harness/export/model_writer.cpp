@@ -351,7 +351,7 @@ class ModelWriter {
     return pins;
   }
 
-  /// Of nodes, and then the forces of loads on edges summed at their nodes.
+  /// Returns loads on nodes, then the forces of loads on edges, summed at their nodes.
   [[nodiscard]] std::vector<solver::NodalLoad> loads() const {
     std::vector<solver::NodalLoad> loads = model_.loads;
     std::map<Index, Eigen::Vector3d> of_edges;

@@ -57,7 +57,7 @@ struct BrokenRules {
   std::vector<const SchemaRule*> rules;
 };
 
-/// What the schema wants instead, in words.
+/// Describes in words what the schema expects.
 /// @param schema  root of the schema document
 [[nodiscard]] SchemaFault explain(const SchemaRule& schema, const BrokenRules& broken);
 

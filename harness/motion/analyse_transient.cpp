@@ -38,8 +38,8 @@ struct MotionHistory {
   solver::Counters counters;
   std::vector<double> time;         ///< [s]
   std::vector<double> load_factor;  ///< of the loads, not weight, at those times
-  /// Of the loads and of the weight, what strains follow late where damping is in proportion to
-  /// stiffness: 2 x time; else empty.
+  /// Factors of loads and weight that strains follow late if damping is proportional to stiffness:
+  /// 2 x time; else empty.
   Eigen::MatrixXd followed_factor;
   Eigen::MatrixXd q, v, a;         ///< free coordinate x time
   solver::ViscousDamping damping;  ///< that it has
@@ -265,7 +265,7 @@ class Motion {
     add_evidence(equation);
   }
 
-  /// Of the superposed modes, at the samples.
+  /// Adds the evidence of the superposed modes at the samples.
   void add_evidence(solver::EquationOfMotion& equation) {
     load_.apply_to(equation);
     solver::MotionEvidence evidence(equation);

@@ -19,8 +19,8 @@ namespace {
 using results::Number;
 using results::Numbers;
 
-/// The worst entry of a check: the first one that fails, else the one that uses most of its
-/// tolerance.
+/// The worst entry of a check: one that fails before others, then by how far it lies outside its
+/// tolerance or bound.
 struct CheckSummary {
   const results::Check* worst = nullptr;
   std::size_t entries = 0;
@@ -29,7 +29,7 @@ struct CheckSummary {
 std::vector<CheckSummary> summarise_checks(const results::Run& run) {
   std::vector<CheckSummary> summaries;
   const auto rank = [](const results::Check& check) {
-    return std::pair(fails_gate(check.verdict), results::tolerance_share(check));
+    return std::pair(fails_gate(check.verdict), severity(check));
   };
   for (const results::Check& check : run.checks) {
     const auto is_same = [&](const CheckSummary& known) { return known.worst->name == check.name; };

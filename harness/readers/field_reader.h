@@ -25,7 +25,7 @@ template <class T>
   throw place.error(unknown_name("the name of " + what, name, names));
 }
 
-/// The same for a name that stands in the document.
+/// The same for a name in the document.
 template <class T>
 [[nodiscard]] const T& look_up(const std::map<std::string, T>& named, const JsonView& name,
                                const std::string& what) {
@@ -85,7 +85,7 @@ class FieldReader {
   static void read(const JsonView& place, Eigen::Ref<Eigen::Vector2d> pair) {
     pair << place[0].get<double>(), place[1].get<double>();
   }
-  /// A word stands for a number that is computed.
+  /// Accepts a word in place of a number that is computed.
   static void read(const JsonView& place, std::optional<double>& value) {
     value.reset();
     if (place.json().is_number()) value = place.get<double>();

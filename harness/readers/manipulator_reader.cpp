@@ -30,7 +30,7 @@ solver::ManipulatorGeometry read_geometry(const JsonView& manipulator) {
   return geometry;
 }
 
-/// What all links have, and then what is different for some.
+/// Reads the properties that all links share, or those that differ for some.
 void read_link(const JsonView& place, solver::LinkDesign& link) {
   const FieldReader reader(place);
   reader.optional("thickness_m", link.thickness);

@@ -44,7 +44,7 @@ template <>
 inline constexpr std::array kWords<solver::SplineEnds> = {"natural", "at-rest", "periodic"};
 template <>
 inline constexpr std::array kWords<solver::EigenMethod> = {"automatic", "dense", "sparse"};
-/// Whether a member stretches.
+/// Axial flexibility of a member.
 enum class Axial { flexible, inextensible };
 template <>
 inline constexpr std::array kWords<Axial> = {"flexible", "inextensible"};

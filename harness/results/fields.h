@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 using harness::Number;
 using harness::Numbers;
 
-/// What is written. summary: text without the fields that a store holds. store: all fields, with
+/// Form of the output. summary: text without the fields that a store holds. store: all fields, with
 /// arrays of numbers as bytes.
 enum class Form { text, summary, store };
 

@@ -222,10 +222,6 @@ nlohmann::ordered_json claims_to_json(const Claims& claims) {
   return to_json(claims);
 }
 
-nlohmann::ordered_json effect_scenes_to_json(const std::vector<EffectScene>& scenes) {
-  return to_json(scenes);
-}
-
 Json to_json(const Results& results, bool summary) {
   Json json = to_json<Results>(results, summary ? Form::summary : Form::text);
   for (const SharedTexts& shared : kSharedTexts) share_texts(json, shared);

@@ -170,17 +170,16 @@ struct Results {
   [[nodiscard]] const Reference* reference(const std::string& id) const;
 };
 
-/// A name, reason, citation or note that many share stands once, under /names, /reasons, /citations
-/// or /notes, and they hold its place there.
-/// Entries of a quantity that a summary holds.
+/// Largest number of entries of a quantity that a summary holds.
 inline constexpr std::size_t kSummaryEntries = 1;
 
+/// Writes shared names, reasons, citations and notes once, under /names, /reasons, /citations and
+/// /notes; the places that share them hold an index.
 /// @param summary  without the series, drawings and studies of runs that a store holds
 [[nodiscard]] nlohmann::ordered_json to_json(const Results& results, bool summary = false);
 [[nodiscard]] nlohmann::ordered_json coverage_to_json(const std::vector<CoverageRow>& rows);
 [[nodiscard]] nlohmann::ordered_json history_to_json(const History& history);
 [[nodiscard]] nlohmann::ordered_json claims_to_json(const Claims& claims);
-[[nodiscard]] nlohmann::ordered_json effect_scenes_to_json(const std::vector<EffectScene>& scenes);
 
 /// Figures, tables and the like of a case file, which results hold as they stand there.
 [[nodiscard]] std::vector<PlotRequest> read_figures(const nlohmann::ordered_json& json);

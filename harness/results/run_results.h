@@ -256,7 +256,7 @@ struct SolverIdentity {
 struct Run {
   std::string case_id, variant, reason;
   Status status = Status::not_run;
-  /// That decide whether it is solved, each over the magnitude of its terms.
+  /// Residuals that decide whether it is solved, each over the magnitude of its terms.
   std::vector<std::pair<std::string, Number>> residuals;
   std::vector<std::string> warnings;
   harness::Quantities quantities;

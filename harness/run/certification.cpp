@@ -10,9 +10,9 @@ namespace trammel::harness {
 namespace {
 
 constexpr double kAllDigits = 16;
-constexpr double kClear = 10;  ///< a tolerance should be so many times the noise
+constexpr double kClear = 10;  ///< least ratio of a tolerance to the noise
 
-/// Whether the solver has found what becomes of the system.
+/// Returns whether the solver has determined the state of the system.
 bool has_answer(const results::Run& run) {
   using results::Status;
   return run.status == Status::solved || run.status == Status::singular ||

@@ -440,7 +440,7 @@ std::string words_of(const ComparedValue& value, const std::string& name, const 
                      number(*worst), unit == "1" ? "" : " " + unit);
 }
 
-/// What has changed most in a run: a mode, else a number, else a remark.
+/// Largest change in a run: of a mode, else of a number, else a remark.
 std::string most_changed(const ComparedRun& run, const std::vector<ComparedSide>& sides) {
   const auto mode = std::ranges::max_element(
       run.modes, {}, [](const ComparedModes& m) { return m.changed ? m.share : -1; });

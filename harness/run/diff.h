@@ -18,7 +18,7 @@ struct Entry {
   const results::Run* run = nullptr;
   const results::Check* check = nullptr;  ///< null: the run itself
 
-  /// Whether the verdict differs, or the value by more than the noise of both.
+  /// Returns whether the verdict differs, or the value by more than the noise of both.
   [[nodiscard]] bool differs(const Entry& other) const;
 };
 
@@ -42,7 +42,7 @@ struct DiffRow {
   [[nodiscard]] bool is_run() const { return (before ? before : after)->check == nullptr; }
 };
 
-/// All entries of both, by name: a run stands before its checks.
+/// All entries of both, by name: a run comes before its checks.
 [[nodiscard]] std::vector<DiffRow> diff(const Entries& before, const Entries& after);
 
 }  // namespace trammel::harness

@@ -208,7 +208,7 @@ std::vector<HistoryCall> calls_of(Database& database) {
   return calls;
 }
 
-/// What differs from the entries of a call, with the first call after it that had that.
+/// Differences from the entries of a call, each with the first call after it that had them.
 std::vector<HistoryChange> changes_since(std::int64_t since,
                                          const std::map<std::string, Course>& courses,
                                          const std::vector<HistoryCall>& calls) {

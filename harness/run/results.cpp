@@ -40,8 +40,8 @@ results::CaseInfo case_info(const Case& given) {
   info.description = json.value("description", "");
   info.family = json.value("family", "");
   info.labels = json.value("labels", std::vector<std::string>{});
-  for (const char* key : {"stress_suite"})
-    if (json.contains(key)) info.stress_suite = results::read_stress_suite(json[key]);
+  if (json.contains("stress_suite"))
+    info.stress_suite = results::read_stress_suite(json["stress_suite"]);
   if (json.contains("figures")) info.figures = results::read_figures(json["figures"]);
   if (json.contains("tables")) info.tables = results::read_tables(json["tables"]);
   info.analysis = analysis_kind(given.document);

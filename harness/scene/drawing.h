@@ -59,7 +59,7 @@ void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawin
 [[nodiscard]] std::optional<Drawing> draw_large_model(
     const solver::large_motion::GeometricallyExactSystem& system, bool is_manipulator);
 
-/// Where the drawing's nodes are at coordinates q.
+/// Positions of the drawing's nodes at coordinates q.
 [[nodiscard]] results::Pose draw_large_pose(
     const solver::large_motion::GeometricallyExactSystem& system, const Eigen::VectorXd& q,
     const std::string& label);

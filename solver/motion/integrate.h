@@ -84,7 +84,7 @@ struct StepReport {
 class Stepper {
  public:
   Stepper() = default;
-  Stepper& operator=(Stepper&&) = delete;  // nor are steppers copied
+  Stepper& operator=(Stepper&&) = delete;  // steppers are neither moved nor copied
   virtual ~Stepper() = default;
 
   /// Prepares the steps up to the next stop.
