@@ -2,12 +2,15 @@
 
 #include <unistd.h>
 #include <zstd.h>
+#include <zstd_errors.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <fstream>
 #include <functional>
+#include <memory>
+#include <new>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -73,16 +76,23 @@ constexpr int kCompressionLevel = 1;
 constexpr unsigned long long kMaxBytes = 1ULL << 30U;  ///< of what is uncompressed
 constexpr std::size_t kSmall = 1U << 16U;  ///< bytes; below, compressing costs more than it saves
 
+/// @throws std::bad_alloc  if that is what zstd reports.
+bool failed(std::size_t result) {
+  if (ZSTD_getErrorCode(result) == ZSTD_error_memory_allocation) throw std::bad_alloc();
+  return ZSTD_isError(result) != 0;
+}
+
 std::string compressed(const std::string& bytes) {
   const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
                                                                      &ZSTD_freeCCtx);
+  if (!context) throw std::bad_alloc();
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel,
                          bytes.size() < kSmall ? ZSTD_minCLevel() : kCompressionLevel);
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
   std::string out(ZSTD_compressBound(bytes.size()), '\0');
   const std::size_t size =
       ZSTD_compress2(context.get(), out.data(), out.size(), bytes.data(), bytes.size());
-  if (ZSTD_isError(size) != 0) throw std::runtime_error(ZSTD_getErrorName(size));
+  if (failed(size)) throw std::runtime_error(ZSTD_getErrorName(size));
   out.resize(size);
   return out;
 }
@@ -91,7 +101,8 @@ std::string compressed(const std::string& bytes) {
 std::string uncompressed(const std::string& bytes) {
   const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
   std::string out(size <= kMaxBytes ? size : 0, '\0');
-  if (ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size()) != size)
+  const std::size_t written = ZSTD_decompress(out.data(), out.size(), bytes.data(), bytes.size());
+  if (failed(written) || written != size)
     throw std::runtime_error("the computation ended without an answer");
   return out;
 }
