@@ -245,7 +245,8 @@ Json packed(const std::vector<Entry>& values) {
     if (count > 0) std::memcpy(bytes.data() + 1, numbers, count * size);
   };
   single ? copy(std::vector<float>(first, first + count).data()) : copy(first);
-  return Json::binary(std::move(bytes));
+  // Json::binary() names the type before it has memory, and destroys a null pointer without it.
+  return Json(Json::binary_t(std::move(bytes)));
 }
 
 template <class Entry>
