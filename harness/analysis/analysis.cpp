@@ -77,14 +77,18 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   return result;
 }
 
-/// Records the changes by which effects were chosen, so that checks can judge them.
-void record_estimates(const AnalysisKind& kind, const EffectChoice& choice, Recorder& record) {
-  if (kind.effects == nullptr) return;
-  for (const EffectReason& one : choice.reasons) {
-    const std::string effect(solver::name_of(one.effect));
-    if (one.number) record.add("effect_number", effect, *one.number);
-    // An effect that was not decided by a change has none.
-    if (one.change && std::isfinite(*one.change)) record.add("effect_change", effect, *one.change);
+/// Records numbers and changes by which effects were selected, so that checks can judge them.
+void record_evidence(const EffectChoice& choice, Recorder& record) {
+  if (!choice.automatic) return;
+  for (const solver::Effect effect : solver::Effects::all().list()) {
+    const EffectEvidence& evidence = choice.automatic->evidence[static_cast<std::size_t>(effect)];
+    const std::string name(solver::name_of(effect));
+    if (evidence.number) record.add("effect_number", name, *evidence.number);
+    const auto add_change = [&](const char* quantity, const std::optional<double>& change) {
+      if (change && std::isfinite(*change)) record.add(quantity, name, *change);
+    };
+    add_change("effect_change", evidence.own);
+    add_change("cumulative_effect_change", evidence.cumulative);
   }
 }
 
@@ -134,15 +138,16 @@ AnalysisResult analyse(const Document& document, const References& references,
     const RoundingScope scope;
     EffectChoice choice = choose_effects(document, case_model);
     case_model.effects = choice.chosen;
-    record_estimates(kind, choice, record);
+    if (options.half_mesh) (void)halve_elements(case_model);
+    record_evidence(choice, record);
     AnalysisResult result =
         result_of(kind, analyse_scene(kind, place, case_model, options.drawing, record), record);
-    result.effects = std::move(choice.reasons);
+    result.effects = std::move(choice.rows);
     if (result.outcome.solved() && kind.warns_of_crossing)
       warn_of_crossed_singularity(case_model, result.warnings);
-    if (choice.beyond_tier && *choice.beyond_tier > *choice.tolerance) {
+    if (choice.is_beyond_tier()) {
       result.warnings.push_back(
-          {"the change by large displacement, at most,", *choice.beyond_tier, "",
+          {"the change by large displacement", *choice.automatic->beyond_tier, "",
            "more than the tolerance; fixed steps and driven actuators would have it"});
     }
     return result;

@@ -10,7 +10,8 @@ namespace trammel::harness {
 
 /// What to keep beside the numbers.
 struct AnalysisOptions {
-  bool drawing = true;  ///< nodes, members and shapes, for the report
+  bool drawing = true;     ///< nodes, members and shapes, for the report
+  bool half_mesh = false;  ///< half the elements of every member, see `halve_elements`
 };
 
 struct AnalysisResult {
@@ -21,8 +22,8 @@ struct AnalysisResult {
   solver::Counters counters;
   std::vector<EvaluationTime> timings = {};
   std::vector<Warning> warnings = {};
-  std::string analysis;               ///< its kind
-  std::vector<EffectReason> effects;  ///< what the computation had, and why
+  std::string analysis;                     ///< its kind
+  std::vector<results::EffectRow> effects;  ///< of the computation
   std::optional<results::ModelProbabilities> model_probabilities = std::nullopt;
 };
 

@@ -5,30 +5,24 @@
 #include <vector>
 
 #include "harness/analysis/effect_rules.h"
+#include "harness/analysis/effect_selection.h"
 #include "harness/input/document.h"
+#include "harness/results/run_results.h"
 #include "harness/scene/case_model.h"
 
 namespace trammel::harness {
 
-/// One effect in a case, and why it is there or not.
-struct EffectReason {
-  solver::Effect effect{};
-  bool applicable = false;  ///< what the parts and the analysis have at all
-  bool active = false;
-  std::optional<double> number;  ///< dimensionless; `describe_effect_number` says of what
-  std::optional<double> change;  ///< of the results, relative, without it beside what went before
-  std::string why;
-};
-
-/// What came of a case's "effects".
+/// Effects of a case.
 struct EffectChoice {
   solver::Effects chosen = solver::Effects::all();
-  std::optional<double> tolerance;    ///< of "auto"
-  std::vector<EffectReason> reasons;  ///< of every effect; empty where the analysis knows none
-  solver::Counters counters;          ///< what the choice has cost
-  /// At most what geometric stiffening and large displacement change, where no tier can compute
-  /// them for the scene; relative.
-  std::optional<double> beyond_tier;
+  std::optional<double> tolerance;       ///< of "auto"
+  std::vector<results::EffectRow> rows;  ///< of every effect; empty if the analysis has no effects
+  std::optional<EffectSelection> automatic;  ///< of "auto"
+
+  /// @returns whether large displacement, which the analysis cannot compute, exceeds the tolerance
+  [[nodiscard]] bool is_beyond_tier() const {
+    return automatic && automatic->beyond_tier.value_or(0) > *tolerance;
+  }
 };
 
 /// Whether the case's analysis knows effects.
@@ -41,10 +35,6 @@ struct EffectChoice {
 /// and of the analysis say. `case_model` is the whole scene, with all effects.
 /// @throws InputError  for an effect that the scene does not admit.
 [[nodiscard]] EffectChoice choose_effects(const Document& document, const CaseModel& case_model);
-
-/// What an effect's dimensionless number is.
-[[nodiscard]] std::string describe_effect_number(solver::Effect effect,
-                                                 const std::string& analysis);
 
 /// The case with these effects asked for by name.
 [[nodiscard]] Document with_effects(const Document& document, solver::Effects effects);

@@ -5,10 +5,8 @@
 
 #include "harness/motion/analyse_elastodynamics.h"
 #include "harness/readers/option_reader.h"
-#include "solver/elements/frame_element.h"
 #include "solver/large/large_elastodynamics.h"
 #include "solver/linear/validate.h"
-#include "solver/manipulator/effect_estimates.h"
 
 namespace trammel::harness {
 namespace {
@@ -16,64 +14,54 @@ namespace {
 using solver::Effect;
 using solver::Effects;
 
-/// Of one effect, by analysis: statics, modes, elastodynamics, other motion.
-using Texts = std::array<const char*, 4>;
+/// Definition of an effect's dimensionless number, and the reasons for its absence in statics,
+/// modes, elastodynamics and other motion.
 struct EffectWords {
-  Texts number, missing;
+  const char* number;
+  std::array<const char*, 4> missing;
 };
 
-constexpr const char* kStrain = "share of the strain energy";
-constexpr const char* kKinetic = "share of the kinetic energy";
-constexpr const char* kSlenderness = "(r / L)^2, the squared slenderness";
-constexpr const char* kShear = "12 E I / (kappa G A L^2)";
 constexpr const char* kAtRest = "nothing moves in statics";
 constexpr const char* kNoRotary = "the sections have no rotary inertia ('beam')";
 constexpr const char* kNoMass = "no member has a mass";
 constexpr const char* kNotTurning = "the frame does not turn";
 constexpr const char* kNotTurningInPlane = "no frame turns about an axis normal to the plane";
-constexpr const char* kAtMost = "change of the motion without vibration, at most";
 constexpr const char* kNoDamping = "there is no 'damping'";
 constexpr const char* kLarge = "it belongs to the analysis 'large-motion'";
 
-constexpr Texts all(const char* text) {
+constexpr std::array<const char*, 4> all(const char* text) {
   return {text, text, text, text};
-}
-
-constexpr Texts in_motion(const char* text) {
-  return {"", "", text, ""};
 }
 
 const EffectWords& words_of(Effect effect) {
   static const std::array<EffectWords, solver::kEffectCount> table = {{
       /* axial flexibility */
-      {{kSlenderness, kSlenderness, kStrain, kSlenderness},
-       all("no member both bends and stretches ('axial')")},
+      {"(k r)^2, k = n pi / L", all("no member both bends and stretches ('axial')")},
       /* shear */
-      {{kShear, kShear, kStrain, kShear}, all("the members do not shear ('beam')")},
+      {"E I k^2 / (kappa G A), k = n pi / L", all("the members do not shear ('beam')")},
       /* rotary inertia */
-      {{"", kSlenderness, kKinetic, kSlenderness}, {kAtRest, kNoRotary, kNoRotary, kNoRotary}},
+      {"(k r)^2, k = n pi / L", {kAtRest, kNoRotary, kNoRotary, kNoRotary}},
       /* platform flexibility */
-      {in_motion(kStrain), all("there is no platform of triangles ('kind')")},
+      {"(E I / L^3) / (E t of the platform)", all("there is no platform of triangles ('kind')")},
       /* joint compliance */
-      {in_motion(kStrain), all("no joint has a spring")},
+      {"E I k / spring, k = n pi / L", all("no joint has a spring")},
       /* link mass */
-      {in_motion(kKinetic), {"no member has a weight", kNoMass, kNoMass, kNoMass}},
+      {"", {"no member has a weight", kNoMass, kNoMass, kNoMass}},
       /* gravity */
-      {in_motion("weights over all loads, in energy"),
-       all("nothing has a weight ('gravity_m_s2')")},
+      {"", all("nothing has a weight ('gravity_m_s2')")},
       /* inertia */
-      {in_motion("(speed of the path over the first frequency)^2"),
+      {"(speed of the path over the first frequency)^2",
        {kAtRest, kNotTurning, kNotTurning, kNotTurning}},
       /* damping */
-      {in_motion("damping ratio of the first mode"),
+      {"damping ratio of the first mode",
        {kAtRest, "modes are those of the undamped model", kNoDamping, kNoDamping}},
       /* gyroscopic */
-      {in_motion("twice the fastest turning over the first frequency"),
-       {kAtRest, kNotTurningInPlane, kNotTurningInPlane, "what 'rotating_frame' says is kept"}},
+      {"", {kAtRest, kNotTurningInPlane, kNotTurningInPlane, "what 'rotating_frame' says is kept"}},
       /* geometric stiffening */
-      {all(""), {kLarge, "there are no loads", "it comes with large displacement", kLarge}},
+      {"loads over the buckling load of a hinged member",
+       {kLarge, "there are no loads", "it comes with large displacement", kLarge}},
       /* large displacement */
-      {in_motion(kAtMost), {kLarge, "modes are small motions", "", kLarge}},
+      {"", {kLarge, "modes are small motions", "", kLarge}},
   }};
   return table[static_cast<std::size_t>(effect)];
 }
@@ -186,17 +174,6 @@ EffectScope large_motion_scope(const JsonView& analysis, const solver::Model& mo
   return scope;
 }
 
-solver::EffectEstimates estimate_motion(const JsonView& analysis, const CaseModel& case_model,
-                                        const EffectScope& scope) {
-  if (const auto history = analysis.find("load_history")) {
-    throw history->error(
-        "expected no automatic effects beside it: a pulse may fall between "
-        "the times at which they are estimated");
-  }
-  return solver::estimate_motion_effects(read_elastodynamics(analysis, case_model),
-                                         scope.applicable);
-}
-
 std::vector<EffectKey> no_keys(const JsonView&) {
   return {};
 }
@@ -211,13 +188,6 @@ std::vector<EffectKey> modes_keys(const JsonView& analysis) {
 EffectScope modes_scope(const JsonView& analysis, const solver::Model& model) {
   return analysis.has("rotating") ? rotating_scope(analysis["rotating"], model)
                                   : modes_at_rest_scope(model);
-}
-
-double span(const solver::Model& model, const solver::Member& member) {
-  const auto at = [&](solver::Index node) {
-    return model.nodes[static_cast<std::size_t>(node)].position;
-  };
-  return (at(member.nodes[1]) - at(member.nodes[0])).norm();
 }
 
 }  // namespace
@@ -236,40 +206,19 @@ Effects EffectScope::without(Effects set, Effect effect) const {
   return set;
 }
 
-std::optional<double> slenderness_number(Effect effect, const solver::Model& model) {
-  double largest = 0;
-  for (const solver::Member& member : model.members) {
-    if (!(member.section.EI > 0)) continue;
-    const double length = span(model, member);
-    const solver::Section& section = member.section;
-    if (effect == Effect::axial_flexibility) {
-      largest = std::max(largest, section.EI / (section.EA * length * length));
-    } else if (effect == Effect::shear) {
-      largest = std::max(largest, solver::shear_ratio(section, member.theory, length));
-    } else if (effect == Effect::rotary_inertia) {
-      if (section.mass_per_length > 0)
-        largest = std::max(
-            largest, section.inertia_per_length / (section.mass_per_length * length * length));
-    } else {
-      return std::nullopt;
-    }
-  }
-  return largest;
-}
-
 const char* EffectRules::describe_missing(Effect effect) const {
   return words_of(effect).missing[column];
 }
 
-const char* EffectRules::describe_number(Effect effect) const {
-  return words_of(effect).number[column];
+const char* describe_number(Effect effect) {
+  return words_of(effect).number;
 }
 
-const char* EffectRules::describe_required(Effect effect) const {
-  if (effect == Effect::damping) return "kept, for nothing else bounds a resonance";
-  return effect == Effect::axial_flexibility && estimate != nullptr
-             ? "kept, for constraints that turn with the links cost more than it does"
-             : "the analysis is of it";
+const char* describe_required(Effect effect) {
+  if (effect == Effect::damping) return "required: damping alone limits a resonance";
+  return effect == Effect::axial_flexibility
+             ? "required: constraints that turn with the links would cost more"
+             : "required by this analysis";
 }
 
 Effects& dependents_of(EffectScope& scope, Effect effect) {
@@ -280,20 +229,20 @@ const EffectRules kStaticsEffects = {
     [](const JsonView&) -> std::vector<EffectKey> {
       return {{Effect::geometric_stiffening, {"second_order"}, false}};
     },
-    statics_scope, nullptr, 0};
+    statics_scope, 0};
 
-const EffectRules kModesEffects = {modes_keys, modes_scope, nullptr, 1};
+const EffectRules kModesEffects = {modes_keys, modes_scope, 1};
 
 const EffectRules kElastodynamicsEffects = {
     [](const JsonView&) -> std::vector<EffectKey> {
       return {{Effect::inertia, {"effects", "elastic_inertia"}, true},
               {Effect::gyroscopic, {"effects", "transformation_rate_terms"}, false}};
     },
-    motion_scope, estimate_motion, 2};
+    motion_scope, 2};
 
-const EffectRules kHarmonicEffects = {no_keys, harmonic_scope, nullptr, 3};
-const EffectRules kTransientEffects = {no_keys, vibration_scope, nullptr, 3};
-const EffectRules kLargeMotionEffects = {no_keys, large_motion_scope, nullptr, 3};
+const EffectRules kHarmonicEffects = {no_keys, harmonic_scope, 3};
+const EffectRules kTransientEffects = {no_keys, vibration_scope, 3};
+const EffectRules kLargeMotionEffects = {no_keys, large_motion_scope, 3};
 
 solver::Model first_model(const CaseModel& case_model) {
   const bool only_large = !case_model.joint_elements.line_springs.empty() ||

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "harness/scene/case_model.h"
-#include "solver/manipulator/effect_estimates.h"
+#include "solver/model/effects.h"
 
 /// What the analyses that know effects can do with, how they decide, and what they say of it.
 namespace trammel::harness {
@@ -35,29 +35,22 @@ struct EffectScope {
 struct EffectRules {
   std::vector<EffectKey> (*keys)(const JsonView& analysis);
   EffectScope (*scope)(const JsonView& analysis, const solver::Model& model);
-  /// Null: changes are measured, not estimated.
-  solver::EffectEstimates (*estimate)(const JsonView& analysis, const CaseModel& case_model,
-                                      const EffectScope& scope);
   std::size_t column;  ///< in the table of words
 
-  /// Why a scene does not have an effect.
+  /// Reason for the absence of an effect in a scene.
   [[nodiscard]] const char* describe_missing(solver::Effect effect) const;
-  /// What its dimensionless number is.
-  [[nodiscard]] const char* describe_number(solver::Effect effect) const;
-  /// Why it stays, whatever it is worth.
-  [[nodiscard]] const char* describe_required(solver::Effect effect) const;
 };
+
+/// Definition of an effect's dimensionless number; empty if it has none.
+[[nodiscard]] const char* describe_number(solver::Effect effect);
+/// Reason for always keeping the effect.
+[[nodiscard]] const char* describe_required(solver::Effect effect);
 
 extern const EffectRules kStaticsEffects, kModesEffects, kElastodynamicsEffects, kHarmonicEffects,
     kTransientEffects, kLargeMotionEffects;
 
 /// The scene's model where its path starts; of what only large motion has, the bare one.
 [[nodiscard]] solver::Model first_model(const CaseModel& case_model);
-
-/// The number without dimension that says beforehand what an effect of slender members is worth;
-/// nothing of other effects.
-[[nodiscard]] std::optional<double> slenderness_number(solver::Effect effect,
-                                                       const solver::Model& model);
 
 /// The effects that an effect carries: without it they are nothing.
 [[nodiscard]] solver::Effects& dependents_of(EffectScope& scope, solver::Effect effect);

@@ -1,19 +1,19 @@
-#include "harness/cli/command_effects.h"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
 #include <optional>
-#include <utility>
 
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 #include "harness/base/progress.h"
 #include "harness/base/rows.h"
 #include "harness/base/text.h"
+#include "harness/cli/commands.h"
 #include "harness/input/catalogue.h"
 #include "harness/printing/print_effects.h"
+#include "harness/results/result_fields.h"
 #include "harness/results/unfinished_folder.h"
 #include "harness/run/output_lock.h"
 #include "harness/run/results.h"
@@ -24,153 +24,110 @@
 namespace trammel::harness {
 namespace {
 
-std::string in_percent(double share) {
-  return std::isfinite(share) ? rounded(100 * share, 3) : "all";
+double ratio(double part, double full) {
+  return full > 0 ? part / full : 0;
 }
 
-std::string kinds_of(const Changes& changes) {
-  std::string text;
-  for (const auto& [kind, change] : changes)
-    text += (text.empty() ? "" : ", ") + kind + " " + in_percent(change.value);
-  return text;
+/// A set of effects: its change from the full model, time, and counted work.
+const std::vector<Column> kRunColumns = {"left_out",
+                                         {"status", ""},
+                                         {"change", "change [%]", 3, 100},
+                                         {"changes", "of"},
+                                         {"time_ratio", "time", 3},
+                                         {"work_ratio", "work", 3},
+                                         {"element_evaluations", "elements"},
+                                         "factorizations",
+                                         "solves"};
+
+void add_run(Rows& rows, const EffectRun& run, const EffectRun& full) {
+  std::vector<std::string> changes;
+  for (const auto& [kind, change] : run.changes)
+    changes.push_back(kind + " " + rounded(100 * change.value, 3));
+  rows.add({effect_names(run.left_out), run.outcome.solved() ? "solved" : run.outcome.reason,
+            number_or_null(run.change()), join(changes, ","), ratio(run.cpu_s, full.cpu_s),
+            ratio(run.work, full.work), run.counters.element_evaluations,
+            run.counters.factorizations, run.counters.solves});
 }
 
-std::string ratio(double part, double whole) {
-  return whole > 0 ? rounded(part / whole, 3) : "";
+Rows own_contributions(const EffectStudy& study) {
+  Rows rows(kRunColumns);
+  add_run(rows, study.full, study.full);
+  for (const EffectRun& run : study.without_one) add_run(rows, run, study.full);
+  EffectRun chosen = study.chosen;
+  chosen.left_out = study.full.effects.without(chosen.effects);
+  add_run(rows, chosen, study.full);
+  return rows;
 }
 
-void add_row(Rows& table, const std::string& what, const EffectRun& run, const EffectRun& full) {
-  if (!run.outcome.solved()) {
-    table.add({what, "all", run.outcome.reason, "", "", "", ""});
-    return;
-  }
-  const bool noisy = run.cpu_spread > 0.1;
-  table.add({what, in_percent(max_change(run.changes).value), kinds_of(run.changes),
-             ratio(run.cpu_s, full.cpu_s) + (noisy ? " ~" : ""),
-             std::to_string(run.counters.element_evaluations),
-             std::to_string(run.counters.factorizations), std::to_string(run.counters.solves)});
+const std::vector<Column> kSceneColumns = {"case",
+                                           "analysis",
+                                           "chosen",
+                                           {"change", "change [%]", 3, 100},
+                                           {"tolerance", "tolerance [%]", 3, 100},
+                                           {"mesh_change", "mesh [%]", 3, 100},
+                                           {"beyond_tier", "beyond [%]", 3, 100},
+                                           "within_tolerance",
+                                           "minimal",
+                                           {"work_ratio", "work", 3},
+                                           {"deciding_work_ratio", "deciding", 3},
+                                           {"full_cpu_s", "full [s]", 3},
+                                           {"chosen_time_ratio", "time", 3},
+                                           {"deciding_time_ratio", "deciding time", 3}};
+
+void add_scene(Rows& rows, const std::string& id, const std::string& analysis,
+               const EffectStudy& study) {
+  rows.add({id, analysis, effect_names(study.choice.chosen), number_or_null(study.chosen.change()),
+            study.tolerance, number_or_null(study.mesh_change),
+            number_or_null(study.choice.automatic->beyond_tier), study.within_tolerance(),
+            study.is_minimal(), study.work_ratio(),
+            ratio(study.choice.automatic->work, study.full.work), study.full.cpu_s,
+            ratio(study.chosen.cpu_s, study.full.cpu_s),
+            ratio(study.deciding_cpu_s, study.full.cpu_s)});
 }
 
-void print_singles(const EffectStudy& study) {
-  Rows table({"left out", ">change [%]", "of", ">time", ">elements", ">factorizations", ">solves"});
-  add_row(table, "nothing", study.full, study.full);
-  for (const Ablation& ablation : study.singles) {
-    const solver::Effects with_dependents = study.full.effects.without(ablation.run.effects);
-    add_row(table, effect_names(with_dependents.list()), ablation.run, study.full);
-  }
-  add_row(table, "all but the chosen", study.chosen, study.full);
-  table.print(std::cout, "  ");
-  std::cout << "  time: relative to the full model, median of interleaved runs; ~ quartile spread "
-               "above 10 %\n";
-}
-
-/// Pairs whose joint change is not the larger, nor the sum, of the two.
-void print_pairs(const EffectStudy& study) {
-  const auto single = [&](solver::Effect effect) {
-    for (const Ablation& ablation : study.singles) {
-      if (ablation.effects.front() == effect) return max_change(ablation.run.changes).value;
-    }
-    return 0.0;
-  };
-  Rows table({"pair", ">together [%]", ">one [%]", ">other [%]"});
-  for (const Ablation& pair : study.pairs) {
-    const double together = max_change(pair.run.changes).value;
-    const double a = single(pair.effects[0]), b = single(pair.effects[1]);
-    const double slack = 0.1 * study.tolerance;
-    const bool interact = std::isfinite(together) && std::isfinite(a) && std::isfinite(b) &&
-                          (together > a + b + slack || together < std::max(a, b) - slack);
-    if (!interact) continue;
-    table.add({effect_names(pair.effects), in_percent(together), in_percent(a), in_percent(b)});
-  }
-  if (table.empty()) {
-    std::cout << "\nNo pair interacts: two left out together change no more than the sum, and no "
-                 "less than the larger.\n";
-    return;
-  }
-  std::cout << "\nPairs that interact: together more than the sum, or less than the larger\n";
-  table.print(std::cout, "  ");
-}
-
-void print_verdict(const EffectStudy& study) {
-  std::cout << "\nChosen    " << effect_names(study.choice.chosen.list()) << '\n';
-  const double off = max_change(study.chosen.changes).value;
-  std::cout << "Within    " << (study.within_tolerance() ? "yes" : "no") << ": " << in_percent(off)
-            << " % from the full model, where " << in_percent(study.tolerance)
-            << " % are allowed\n";
-  if (study.choice.beyond_tier) {
-    std::cout << "Beyond    " << in_percent(*study.choice.beyond_tier)
-              << " % at most by large displacement, which this motion cannot have\n";
-  }
-  std::cout << "Minimal   " << (study.is_minimal() ? "yes" : "no");
-  for (const Ablation& ablation : study.from_chosen) {
-    const double change = max_change(ablation.run.changes).value;
-    if (change <= study.tolerance) {
-      std::cout << "; " << in_percent(change) << " % without " << effect_names(ablation.effects)
-                << ", overestimated";
-    }
-  }
-  std::cout << '\n';
-  if (study.full.cpu_s > 0) {
-    std::cout << "Time      " << ratio(study.chosen.cpu_s, study.full.cpu_s)
-              << " of the full model's " << rounded(1e3 * study.full.cpu_s, 3)
-              << " ms; to decide took " << rounded(1e3 * study.choice_cpu_s, 3) << " ms\n";
-  }
-}
-
-Json names_json(const std::vector<solver::Effect>& effects) {
-  Json names = Json::array();
-  for (const solver::Effect effect : effects) names.push_back(solver::name_of(effect));
-  return names;
-}
-
-/// A run and its change from the full model, all of it where there is no solution.
-Json run_json(const EffectRun& run) {
-  Json changes = Json::object();
-  for (const auto& [kind, change] : run.changes) changes[kind] = number_or_null(change.value);
-  return {{"status", run.outcome.solved() ? "solved" : run.outcome.reason},
-          {"change", number_or_null(max_change(run.changes).value)},
-          {"changes", changes},
-          {"cpu_s", run.cpu_s},
-          {"element_evaluations", run.counters.element_evaluations},
-          {"factorizations", run.counters.factorizations},
-          {"solves", run.counters.solves}};
-}
-
-Json ablations_json(const std::vector<Ablation>& ablations) {
-  Json json = Json::array();
-  for (const Ablation& ablation : ablations) {
-    json.push_back({{"left_out", names_json(ablation.effects)}});
-    json.back().update(run_json(ablation.run));
-  }
+Json study_json(const std::string& id, const std::string& analysis, const EffectStudy& study) {
+  Rows scene(kSceneColumns);
+  add_scene(scene, id, analysis, study);
+  Json json = scene.json().front();
+  for (const results::EffectRow& row : study.choice.rows)
+    json["effects"].push_back(results::to_json(row));
+  json["runs"] = own_contributions(study).json();
   return json;
 }
 
-Json study_json(const std::string& id, const EffectStudy& study, const std::string& analysis) {
-  Json effects = Json::array();
-  for (const EffectReason& reason : study.choice.reasons)
-    effects.push_back(
-        {{"effect", solver::name_of(reason.effect)},
-         {"applicable", reason.applicable},
-         {"active", reason.active},
-         {"dimensionless_number", number_or_null(reason.number)},
-         {"number_definition",
-          reason.number ? describe_effect_number(reason.effect, analysis) : std::string()},
-         {"estimated_change", number_or_null(reason.change)},
-         {"why", reason.why}});
-  return {{"case", id},
-          {"tolerance", study.tolerance},
-          {"effects", effects},
-          {"chosen", names_json(study.choice.chosen.list())},
-          {"within_tolerance", study.within_tolerance()},
-          {"minimal", study.is_minimal()},
-          {"beyond_tier", number_or_null(study.choice.beyond_tier)},
-          {"load_over_buckling_load", number_or_null(study.load_over_buckling_load)},
-          {"deciding_cpu_s", study.choice_cpu_s},
-          {"full_run", run_json(study.full)},
-          {"chosen_run", run_json(study.chosen)},
-          {"singles", ablations_json(study.singles)},
-          {"pairs", ablations_json(study.pairs)},
-          {"from_chosen", ablations_json(study.from_chosen)}};
+/// @returns whether the selection holds: within the tolerance, and large displacement, if the
+/// analysis cannot compute it, too
+bool holds(const EffectStudy& study) {
+  return study.within_tolerance() && !study.choice.is_beyond_tier();
+}
+
+void print_study(const EffectStudy& study) {
+  std::cout << "\nMeasured against the model with all effects\n";
+  own_contributions(study).print(std::cout, "  ");
+  std::cout << "  time, work: relative to the full model; work: counted factorizations, solves and "
+               "element matrices, weighted by unknowns\n\nChosen    "
+            << effect_names(study.choice.chosen) << "\nEffects   " << percent(study.chosen.change())
+            << " from the full model, measured; tolerance " << percent(study.tolerance) << '\n';
+  if (study.mesh_change) {
+    std::cout << "Mesh      " << percent(*study.mesh_change)
+              << " from half the elements to all of them\n";
+    if (*study.mesh_change > study.tolerance)
+      std::cout << "Warning: the mesh changes the results by more than the tolerance of effects; "
+                   "use more elements\n";
+  }
+  if (study.choice.automatic->beyond_tier)
+    std::cout << "Beyond    " << percent(*study.choice.automatic->beyond_tier)
+              << " by large displacement, which this motion cannot have\n";
+  std::cout << "Minimal   " << (study.is_minimal() ? "yes" : "no")
+            << ", among the expensive effects\nWork      " << rounded(study.work_ratio(), 3)
+            << " of the full model's, "
+            << rounded(study.choice.automatic->work / study.full.work, 2)
+            << " of it for deciding\n";
+}
+
+[[noreturn]] void refuse_unsolved(const std::string& id, const EffectStudy& study) {
+  throw InputError(id + ": a solution with all effects is required (" + study.full.outcome.reason +
+                   ")");
 }
 
 results::EffectScene scene_of(const std::string& id, const std::string& analysis,
@@ -178,108 +135,123 @@ results::EffectScene scene_of(const std::string& id, const std::string& analysis
   return {id,
           analysis,
           study.tolerance,
-          max_change(study.chosen.changes).value,
+          study.chosen.change(),
           study.is_minimal(),
           study.full.cpu_s,
           study.chosen.cpu_s,
-          study.choice_cpu_s};
+          study.deciding_cpu_s,
+          study.work_ratio(),
+          study.mesh_change};
 }
 
-/// The page of these scenes, where a folder is asked for.
-void write_page(const EffectsCommand& command, std::vector<results::EffectScene> scenes,
-                const Renderers& renderers) {
-  if (command.out.empty()) return;
+/// Writes results.json and the page of these scenes.
+void write_scenes(std::vector<results::EffectScene> scenes, const CommandOptions& options,
+                  const Renderers& renderers) {
   results::Results results = results_of({}, {}, References());
   results.effect_scenes = std::move(scenes);
-  const OutputLock lock(command.out);
-  const auto unfinished = std::filesystem::path(command.out) / results::kUnfinishedFolder;
+  const OutputLock lock(options.out);
+  const auto unfinished = std::filesystem::path(options.out) / results::kUnfinishedFolder;
   std::filesystem::create_directories(unfinished);
   write_results(results, unfinished);
-  const auto page = renderers.report(results, command.out, false);
-  if (!command.json) std::cout << "page in " << page.string() << '\n';
+  const auto page = renderers.report(results, options.out, false);
+  if (!options.json) std::cout << "page in " << page.string() << '\n';
 }
 
-[[noreturn]] void refuse_unsolved(const std::string& id, const EffectStudy& study) {
-  throw InputError(id + ": expected a solution with all effects (" + study.full.outcome.reason +
-                   ")");
-}
-
-/// A case that knows effects.
 struct EffectCase {
   std::string id;
   Document document;
 };
 
-std::vector<EffectCase> catalogue_effect_cases() {
-  std::vector<EffectCase> found;
-  for (const Case& given : Catalogue().load({"effects"})) {
-    Document document = patched(given, kBaseVariant);
-    if (knows_effects(document)) found.push_back({given.id(), std::move(document)});
+/// Cases whose analysis has effects.
+std::vector<EffectCase> effect_cases(const std::vector<std::string>& labels,
+                                     const std::string& variant) {
+  std::vector<EffectCase> cases;
+  for (const Case& given : Catalogue().load(labels)) {
+    Document document = patched(given, variant);
+    if (knows_effects(document)) cases.push_back({given.id(), std::move(document)});
   }
-  return found;
+  return cases;
 }
 
-/// What the choice of effects comes to in one case; nothing where the whole has no solution.
+std::vector<EffectCase> selected_cases(const CommandOptions& options) {
+  const std::string variant = options.variant.empty() ? kBaseVariant : options.variant;
+  if (options.words.empty() == options.labels.empty())
+    throw InputError("trammel: either cases or --label is required (see trammel effects --help)");
+  std::vector<EffectCase> cases;
+  for (const std::string& name : options.words) {
+    const Case given = load_named_case(name);
+    cases.push_back({given.id(), patched(given, variant)});
+  }
+  if (options.words.empty()) cases = effect_cases(options.labels, variant);
+  if (cases.empty()) throw InputError("no case with these labels has an analysis with effects");
+  return cases;
+}
+
+int print_one(const EffectCase& scene, const CommandOptions& options) {
+  const EffectStudy study = study_effects(scene.document, {options.tolerance, options.repeats});
+  if (options.json) {
+    if (!study.full.outcome.solved()) refuse_unsolved(scene.id, study);
+    std::cout << pretty(study_json(scene.id, analysis_kind(scene.document), study), 2);
+    return holds(study) ? 0 : 1;
+  }
+  std::cout << scene.id << ": " << scene.document.value().at("title").get<std::string>() << '\n';
+  print_effects(study.choice);
+  if (!study.full.outcome.solved()) refuse_unsolved(scene.id, study);
+  print_study(study);
+  return holds(study) ? 0 : 1;
+}
+
+/// The scene of a case, which the store may hold; none if the full model has no solution.
 EffectScenes scenes_of(const EffectCase& given, const std::filesystem::path& store, bool resume) {
   const auto measure = [&] {
-    const EffectStudy study = study_effects(given.document, {.pairs = false, .repeats = 3});
-    EffectScenes own;
+    const EffectStudy study = study_effects(given.document, {.repeats = 3});
+    EffectScenes scenes;
     if (study.full.outcome.solved())
-      own.push_back(scene_of(given.id, analysis_kind(given.document), study));
-    return own;
+      scenes.push_back(scene_of(given.id, analysis_kind(given.document), study));
+    return scenes;
   };
   return scenes_or_find(given.document, measure, store, resume);
 }
 
-Document effect_document(const Case& given, const EffectsCommand& command) {
-  return patched(given, command.variant.empty() ? kBaseVariant : command.variant);
-}
-
-/// The named cases, or those with the labels whose analysis knows effects.
-std::vector<Document> effect_documents(const EffectsCommand& command) {
-  std::vector<Document> documents;
-  for (const std::string& name : command.names)
-    documents.push_back(effect_document(load_named_case(name), command));
-  if (!command.names.empty()) return documents;
-  for (const Case& given : Catalogue().load(command.labels)) {
-    documents.push_back(effect_document(given, command));
-    if (!knows_effects(documents.back())) documents.pop_back();
-  }
-  if (documents.empty())
-    throw InputError("expected a case with these labels whose analysis knows effects");
-  return documents;
-}
-
 }  // namespace
 
-int effects_command(const EffectsCommand& command) {
-  const Document document = effect_document(load_named_case(command.names.front()), command);
-  const EffectStudy study = study_effects(document, {command.tolerance, true, command.repeats});
-  const Json& json = document.value();
-  const std::string id = json.at("id").get<std::string>();
-  const int status = study.within_tolerance() && !study.is_beyond_tier() ? 0 : 1;
-  if (command.json) {
-    if (!study.full.outcome.solved()) refuse_unsolved(id, study);
-    std::cout << pretty(study_json(id, study, analysis_kind(document)), 2);
-    return status;
+int effects_command(const CommandOptions& options, const Renderers& renderers) {
+  const std::vector<EffectCase> cases = selected_cases(options);
+  if (cases.size() == 1 && options.labels.empty() && options.out.empty())
+    return print_one(cases.front(), options);
+  if (!options.out.empty()) require_drawing(renderers);
+  std::vector<results::EffectScene> scenes;
+  Rows table(kSceneColumns);
+  Json json = Json::array();
+  bool all_hold = true;
+  std::optional<Progress> progress("scenes");
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const EffectStudy study =
+        study_effects(cases[i].document, {options.tolerance, options.repeats});
+    progress->show(i + 1, cases.size());
+    if (!study.full.outcome.solved()) continue;
+    const std::string analysis = analysis_kind(cases[i].document);
+    add_scene(table, cases[i].id, analysis, study);
+    json.push_back(study_json(cases[i].id, analysis, study));
+    scenes.push_back(scene_of(cases[i].id, analysis, study));
+    all_hold = all_hold && holds(study);
   }
-  std::cout << id << ": " << json.at("title").get<std::string>() << '\n';
-  print_effects(study.choice, analysis_kind(document));
-  if (study.load_over_buckling_load)
-    std::cout << "\nLoads     " << percent(*study.load_over_buckling_load)
-              << " of the buckling load (linear buckling, first pose)\n";
-  if (!study.full.outcome.solved()) refuse_unsolved(id, study);
-  std::cout << "\nMeasured against the full model\n";
-  print_singles(study);
-  print_pairs(study);
-  print_verdict(study);
-  return status;
+  progress.reset();
+  if (!options.out.empty()) write_scenes(std::move(scenes), options, renderers);
+  if (options.json) {
+    std::cout << pretty(json, 3);
+  } else {
+    table.print(std::cout);
+    std::cout << "work: deciding and chosen set, relative to the full model; mesh: from half the "
+                 "elements to all\n";
+  }
+  return all_hold ? 0 : 1;
 }
 
 std::vector<std::function<void()>> effect_scene_work(const std::filesystem::path& store,
                                                      bool resume) {
   std::vector<std::function<void()>> work;
-  for (const EffectCase& scene : catalogue_effect_cases())
+  for (const EffectCase& scene : effect_cases({"effects"}, kBaseVariant))
     work.emplace_back([scene, store, resume] { (void)scenes_of(scene, store, resume); });
   return work;
 }
@@ -287,49 +259,9 @@ std::vector<std::function<void()>> effect_scene_work(const std::filesystem::path
 std::vector<results::EffectScene> catalogue_effect_scenes(const std::filesystem::path& store,
                                                           bool resume) {
   std::vector<results::EffectScene> scenes;
-  for (const EffectCase& scene : catalogue_effect_cases()) {
-    EffectScenes found = scenes_of(scene, store, resume);
-    std::ranges::move(found, std::back_inserter(scenes));
-  }
+  for (const EffectCase& scene : effect_cases({"effects"}, kBaseVariant))
+    std::ranges::move(scenes_of(scene, store, resume), std::back_inserter(scenes));
   return scenes;
-}
-
-int effects_table_command(const EffectsCommand& command, const Renderers& renderers) {
-  if (!command.out.empty()) require_drawing(renderers);
-  std::vector<results::EffectScene> scenes;
-  Rows table({"case", "chosen", ">off by [%]", ">allowed", ">minimal", ">beyond [%]", ">full [ms]",
-              ">time", ">deciding"});
-  bool within = true;
-  Json rows = Json::array();
-  const std::vector<Document> documents = effect_documents(command);
-  std::optional<Progress> progress("scenes");
-  for (std::size_t i = 0; i < documents.size(); ++i) {
-    const EffectStudy study =
-        study_effects(documents[i], {command.tolerance, false, command.repeats});
-    progress->show(i + 1, documents.size());
-    if (!study.full.outcome.solved()) continue;
-    const auto id = documents[i].value().at("id").get<std::string>();
-    const std::string analysis = analysis_kind(documents[i]);
-    rows.push_back(study_json(id, study, analysis));
-    scenes.push_back(scene_of(id, analysis, study));
-    within = within && study.within_tolerance() && !study.is_beyond_tier();
-    table.add({id, effect_names(study.choice.chosen.list()),
-               in_percent(max_change(study.chosen.changes).value), in_percent(study.tolerance),
-               study.is_minimal() ? "yes" : "no",
-               study.choice.beyond_tier ? in_percent(*study.choice.beyond_tier) : "",
-               rounded(1e3 * study.full.cpu_s, 3), ratio(study.chosen.cpu_s, study.full.cpu_s),
-               ratio(study.choice_cpu_s, study.full.cpu_s)});
-  }
-  progress.reset();
-  write_page(command, std::move(scenes), renderers);
-  if (command.json) {
-    std::cout << pretty(rows, 3);
-    return within ? 0 : 1;
-  }
-  table.print(std::cout, "");
-  std::cout << "beyond: by large displacement, which the analysis does not have; time, deciding: "
-               "relative to the full model\n";
-  return within ? 0 : 1;
 }
 
 }  // namespace trammel::harness

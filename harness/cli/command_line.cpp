@@ -19,7 +19,6 @@
 #include "harness/base/errors.h"
 #include "harness/base/processes.h"
 #include "harness/base/text.h"
-#include "harness/cli/command_effects.h"
 #include "harness/cli/commands.h"
 #include "trammel_build.h"
 
@@ -132,7 +131,10 @@ const std::vector<Option>& all_options() {
        "Folder for K, M, C, T and f (Matrix Market) and the mesh (VTU); the case only together "
        "with --out"},
       {"--quick", &Options::quick, "Few values of each study, as the report shows them"},
-      {"--repeats", &Options::repeats, "Measurements of each setting", CLI::Range(7, 10000)},
+      {"--repeats", &Options::repeats, "Measurements of each setting", CLI::Range(0, 10000)},
+      {"--tolerance", &Options::tolerance,
+       "Relative change that removed effects may cause; a case's own tolerance has precedence",
+       CLI::Range(1e-12, 1.0)},
       {"--seed", &Options::seed, "Seed of the order of measurements"},
       {"--accuracy", &Options::accuracy,
        "Search the cheapest setting of one case within this relative error: mesh, beam theory, "
@@ -159,7 +161,7 @@ constexpr std::pair<const char*, const char*> kExclusive[] = {
 
 struct CommandEntry {
   const char* name;
-  Command* run;         ///< null: `effects`, which defines its own options
+  Command* run;
   const char* options;  ///< names in the order of the help; '!': required
   const char* out = "trammel-results";
 };
@@ -183,7 +185,7 @@ constexpr CommandEntry kCommands[] = {
     {"claims", claims_command, "--jobs --json"},
     {"coverage", coverage_command, "results --gaps --json"},
     {"paper", paper_command, "results --json"},
-    {"effects", nullptr, ""},
+    {"effects", effects_command, "cases --label --variant --tolerance --repeats --out --json", ""},
     {"report", report_command,
      "inputs --label --jobs --out --single-file --fresh --store --history --max-memory"},
     {"export", export_command, "case! --variant --level --sweep --out --matrices", ""},
@@ -220,7 +222,6 @@ class CommandLine {
       if (error.get_exit_code() == 0) return app_.exit(error);
       throw InputError("trammel: " + explained(error, arguments));
     }
-    effects_.json = options_.json;
     return command_();
   }
 
@@ -247,7 +248,6 @@ class CommandLine {
     const std::size_t line = help.find('\n');
     CLI::App* sub = app_.add_subcommand(command.name, help.substr(0, line));
     sub->footer(help.substr(line + 1));
-    if (command.run == nullptr) return define_effects(sub);
     options_.out = command.out;
     std::istringstream names(command.options);
     for (std::string name; names >> name;) add_option(name, sub);
@@ -281,39 +281,9 @@ class CommandLine {
     std::visit(add, option.member);
   }
 
-  void define_effects(CLI::App* sub) {
-    sub->add_option("cases", effects_.names,
-                    "Names or files of cases whose analysis has effects; of several, a table");
-    sub->add_option("--variant", effects_.variant, "This variant; 'base' is the case unpatched");
-    sub->add_option("--tolerance", effects_.tolerance,
-                    "Relative, where the case's effects are not automatic")
-        ->check(CLI::Range(1e-12, 1.0))
-        ->capture_default_str();
-    sub->add_option("--repeats", effects_.repeats, "Measurements of time")
-        ->check(CLI::Range(0, 1000))
-        ->capture_default_str();
-    sub->add_option("-L,--label", effects_.labels,
-                    "Every case with one of these labels, in a table")
-        ->allow_extra_args(false);
-    auto* out = sub->add_option("--out", effects_.out,
-                                "Also a page there: asked against obtained, and time (of several)");
-    add_option("--json", sub);
-    sub->callback([this, out] {
-      if (effects_.labels.empty() == effects_.names.empty())
-        throw CLI::RequiredError("either cases or --label");
-      const bool one = effects_.names.size() == 1;
-      if (out->count() > 0 && one)
-        throw CLI::RequiredError("several cases or --label beside --out");
-      command_ = [this, one] {
-        return one ? effects_command(effects_) : effects_table_command(effects_, renderers_);
-      };
-    });
-  }
-
   const Renderers& renderers_;
   CLI::App app_{help_text("about")};
   CommandOptions options_;
-  EffectsCommand effects_;
   std::function<int()> command_;
 };
 

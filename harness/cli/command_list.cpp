@@ -108,7 +108,7 @@ void describe_effects(const Case& given) {
   if (!knows_effects(base)) return;
   const EffectChoice choice =
       with_model_errors(base, [&] { return choose_effects(base, read_case_model(base)); });
-  print_effects(choice, analysis_kind(base));
+  print_effects(choice);
 }
 
 void describe_checks(const Case& given, const References& references) {

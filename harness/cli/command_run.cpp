@@ -12,7 +12,6 @@
 #include "harness/base/processes.h"
 #include "harness/base/progress.h"
 #include "harness/base/text.h"
-#include "harness/cli/command_effects.h"
 #include "harness/cli/commands.h"
 #include "harness/coverage/evidence_coverage.h"
 #include "harness/export/vtk_files.h"

@@ -12,6 +12,7 @@
 #include "harness/input/case.h"
 #include "harness/input/reference_library.h"
 #include "harness/results/cost_results.h"
+#include "harness/results/results.h"
 
 /// The commands of the program: each reads its options, prints and returns the exit status.
 namespace trammel::harness {
@@ -48,6 +49,8 @@ struct CommandOptions {
   std::vector<std::string> quantities;  ///< that the search considers
   double time_limit_s = 120;            ///< of the search
 
+  double tolerance = 0.01;  ///< of `effects`, relative
+
   std::vector<std::string> builds;  ///< of `certify`: results.json of the same cases
   bool gaps = false;                ///< of `coverage`: only rows without independent evidence
 
@@ -66,7 +69,7 @@ using Command = int(const CommandOptions& options, const Renderers& renderers);
 Command list_command, describe_command, quantities_command, references_command;
 Command run_command, converge_command, report_command, merge_command, slurm_command;
 Command compare_command, certify_command, history_command;
-Command cost_command;
+Command cost_command, effects_command;
 Command claims_command, paper_command, coverage_command;
 Command export_command, solve_command, grade_command;
 
@@ -95,6 +98,14 @@ Command export_command, solve_command, grade_command;
 [[nodiscard]] std::vector<std::function<void()>> quick_cost_work(const References& references,
                                                                  const std::filesystem::path& store,
                                                                  bool resume);
+
+/// Measures the selection of effects in each scene of the catalogue into the store.
+[[nodiscard]] std::vector<std::function<void()>> effect_scene_work(
+    const std::filesystem::path& store, bool resume);
+
+/// The same as in results.json.
+[[nodiscard]] std::vector<results::EffectScene> catalogue_effect_scenes(
+    const std::filesystem::path& store, bool resume);
 
 /// The quick sweep of every study of the catalogue, as in results.json.
 /// @param error_messages  gets a line for each study that could not be measured

@@ -7,55 +7,47 @@
 
 namespace trammel::harness {
 
-std::string effect_names(const std::vector<solver::Effect>& effects) {
+std::string effect_names(solver::Effects effects) {
   std::vector<std::string> names;
-  for (const solver::Effect effect : effects) names.emplace_back(solver::name_of(effect));
+  for (const solver::Effect effect : effects.list()) names.emplace_back(solver::name_of(effect));
   return names.empty() ? "none" : join(names, "and");
 }
 
-namespace {
-
-std::string names_where(const EffectChoice& choice, bool active, bool applicable) {
-  std::vector<solver::Effect> effects;
-  for (const EffectReason& reason : choice.reasons)
-    if (reason.active == active && (active || reason.applicable == applicable))
-      effects.push_back(reason.effect);
-  return effect_names(effects);
-}
-
-/// What the case's parts or its own list say, in three lines.
-void print_stated(const EffectChoice& choice) {
-  std::cout << "\nEffects\n"
-            << wrapped("on: " + names_where(choice, true, true), "  ")
-            << wrapped("left out: " + names_where(choice, false, true), "  ")
-            << wrapped("not in the model: " + names_where(choice, false, false), "  ");
-}
-
-}  // namespace
-
-void print_effects(const EffectChoice& choice, const std::string& analysis) {
-  if (!choice.tolerance) return print_stated(choice);
-  std::cout << "\nEffects, those that a tolerance of " << *choice.tolerance << " calls for\n";
-  Rows table({"effect", "", ">number", "which is", ">change without [%]"});
-  for (const EffectReason& reason : choice.reasons) {
-    table.add({std::string(solver::name_of(reason.effect)),
-               reason.active       ? "on"
-               : reason.applicable ? "off"
-                                   : "-",
-               reason.number ? rounded(*reason.number, 3) : "",
-               reason.number ? describe_effect_number(reason.effect, analysis) : "",
-               reason.change ? rounded(100 * *reason.change, 3) : ""});
+void print_effects(const EffectChoice& choice) {
+  solver::Effects applicable;
+  for (std::size_t i = 0; i < choice.rows.size(); ++i)
+    if (choice.rows[i].applicable) applicable = applicable.with(static_cast<solver::Effect>(i));
+  if (!choice.automatic) {
+    std::cout << "\nEffects\n"
+              << wrapped("on: " + effect_names(choice.chosen), "  ")
+              << wrapped("left out: " + effect_names(applicable.without(choice.chosen)), "  ")
+              << wrapped("not in the model: " +
+                             effect_names(solver::Effects::all().without(applicable)),
+                         "  ");
+    return;
+  }
+  std::cout << "\nEffects required for a tolerance of " << percent(*choice.tolerance) << '\n';
+  Rows table({"effect",
+              {"state", ""},
+              {"number", "", 3},
+              {"definition", "which is"},
+              {"own", "own [%]", 3, 100},
+              {"cumulative", "cumulative [%]", 3, 100}});
+  for (const results::EffectRow& row : choice.rows) {
+    table.add({row.name,
+               row.active       ? "on"
+               : row.applicable ? "off"
+                                : "-",
+               number_or_null(row.dimensionless_number), row.number_definition,
+               number_or_null(row.own_change), number_or_null(row.cumulative_change)});
   }
   table.print(std::cout, "  ");
-  for (const EffectReason& reason : choice.reasons) {
-    const std::string name(solver::name_of(reason.effect));
-    std::cout << wrapped(name + ": " +
-                             (reason.active       ? "on, "
-                              : reason.applicable ? "off, "
-                                                  : "not there, ") +
-                             reason.why,
-                         "      ");
-  }
+  std::cout << "  own: change of the results without this effect alone; cumulative: also without "
+               "those removed before\n";
+  for (const results::EffectRow& row : choice.rows)
+    std::cout << wrapped(row.name + ": " + row.why, "      ");
+  std::cout << "  total: at most " << percent(choice.automatic->change)
+            << ", the sum of measured changes and bounds\n";
 }
 
 }  // namespace trammel::harness

@@ -6,11 +6,10 @@
 
 namespace trammel::harness {
 
-/// Prints, under its head, which effects a case has; where they are automatic, by which numbers and
-/// why.
-void print_effects(const EffectChoice& choice, const std::string& analysis);
+/// Prints the effects of a case; of automatic ones also numbers, changes and reasons.
+void print_effects(const EffectChoice& choice);
 
 /// "axial-flexibility, shear and gravity", or "none".
-[[nodiscard]] std::string effect_names(const std::vector<solver::Effect>& effects);
+[[nodiscard]] std::string effect_names(solver::Effects effects);
 
 }  // namespace trammel::harness

@@ -101,7 +101,8 @@ TRAMMEL_FIELDS(Cost, TRAMMEL_REQUIRED(wall_s, cpu_s, counters),
                TRAMMEL_OPTIONAL(uncertainty_wall_s, timings));
 TRAMMEL_FIELDS(EffectRow, required("effect", &S::name),
                TRAMMEL_REQUIRED(applicable, active, why, evaluations),
-               TRAMMEL_OPTIONAL(dimensionless_number, number_definition, estimated_change));
+               TRAMMEL_OPTIONAL(dimensionless_number, number_definition, own_change,
+                                cumulative_change));
 TRAMMEL_FIELDS(ReadingClass, TRAMMEL_REQUIRED(title, readings, probability, values));
 TRAMMEL_KEY(FurtherNumber, name);
 TRAMMEL_FIELDS(FurtherNumber, TRAMMEL_REQUIRED(expected_information_bits));
@@ -225,8 +226,10 @@ TRAMMEL_FIELDS(PaperItem, TRAMMEL_REQUIRED(id, section, what),
 TRAMMEL_FIELDS(Claims, TRAMMEL_REQUIRED(title, as_recorded, claims), TRAMMEL_OPTIONAL(items));
 TRAMMEL_FIELDS(CoverageRow, TRAMMEL_REQUIRED(group, feature, evidence),
                TRAMMEL_OPTIONAL(reason, series, judged));
-TRAMMEL_FIELDS(EffectScene, TRAMMEL_REQUIRED(scene, analysis, tolerance, change, minimal, whole_s,
-                                             chosen_s, deciding_s));
+TRAMMEL_FIELDS(EffectScene,
+               TRAMMEL_REQUIRED(scene, analysis, tolerance, change, minimal, whole_s, chosen_s,
+                                deciding_s, work_ratio),
+               TRAMMEL_OPTIONAL(mesh_change));
 TRAMMEL_FIELDS(HistoryCall,
                TRAMMEL_REQUIRED(id, date, commit, machine, runs, checks, failures, cpu_s, work));
 TRAMMEL_FIELDS(HistoryChange,

@@ -202,12 +202,14 @@ struct Cost {
   std::vector<harness::EvaluationTime> timings;
 };
 
-/// One effect in a run, and why it is there or not.
+/// One effect in a run, and the reason for its state.
 struct EffectRow {
   std::string name, number_definition, why;
   bool applicable = false, active = false;
   std::int64_t evaluations = 0;
-  Number dimensionless_number, estimated_change;
+  Number dimensionless_number;
+  Number own_change;         ///< relative change of the results without this effect alone
+  Number cumulative_change;  ///< ... and without those removed before it
 };
 
 /// Readings that a printed row cannot tell apart.

@@ -80,12 +80,9 @@ void record_result(AnalysisResult result, Run& run) {
       run.residuals.emplace_back(solver::rule_of(kind).name, result.evidence.largest(kind));
   for (const Warning& warning : result.warnings) run.warnings.push_back(warning.text());
   run.quantities = std::move(result.quantities);
-  for (const EffectReason& reason : result.effects)
-    run.effects.push_back(
-        {std::string(solver::name_of(reason.effect)),
-         reason.number ? describe_effect_number(reason.effect, result.analysis) : "", reason.why,
-         reason.applicable, reason.active, result.counters.evaluations(reason.effect),
-         reason.number, reason.change});
+  run.effects = std::move(result.effects);
+  for (std::size_t i = 0; i < run.effects.size(); ++i)
+    run.effects[i].evaluations = result.counters.evaluations(static_cast<solver::Effect>(i));
   run.model_probabilities = std::move(result.model_probabilities);
   run.drawing = std::move(result.drawing);
   if (run.drawing) round_moments(*run.drawing);

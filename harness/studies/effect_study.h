@@ -7,23 +7,22 @@
 #include "harness/analysis/effect_changes.h"
 #include "harness/input/document.h"
 
-/// Measures what effects do: the whole scene, and the scene without some of them.
+/// Measures effects: the scene with all of them, with the selected ones, and without each.
 namespace trammel::harness {
 
-/// The scene with some effects.
+/// The scene with a set of effects.
 struct EffectRun {
-  solver::Effects effects;
+  solver::Effects effects, left_out;
   solver::Outcome outcome;
   Quantities quantities;
   solver::Counters counters;
-  Changes changes;        ///< from the whole scene
-  double cpu_s = 0;       ///< median of the repeats; without, of one run
-  double cpu_spread = 0;  ///< half of the range between the quartiles, relative
-};
+  double work = 0;    ///< see `work_of`
+  Changes changes;    ///< from the scene with all effects
+  double cpu_s = 0;   ///< median of the repeats; without them of one run
+  double spread = 0;  ///< half of the range between the quartiles, relative
 
-struct Ablation {
-  std::vector<solver::Effect> effects;  ///< left out with what they carry
-  EffectRun run;
+  /// Largest change; infinite without a solution.
+  [[nodiscard]] double change() const { return max_change(changes).value; }
 };
 
 struct EffectStudy {
@@ -31,27 +30,29 @@ struct EffectStudy {
   EffectChoice choice;
   double tolerance = 0;
   EffectRun full, chosen;
-  /// Of statics, by linear buckling at the first pose; empty where the loads compress nothing.
-  std::optional<double> load_over_buckling_load = {};
-  double choice_cpu_s = 0;               ///< what "auto" took to decide
-  std::vector<Ablation> singles, pairs;  ///< from the whole scene
-  std::vector<Ablation> from_chosen;     ///< each chosen effect left out of the chosen set
+  /// Change of the results of the chosen set from half the elements to all, which is more than the
+  /// error of the mesh; empty if no member has two elements.
+  std::optional<double> mesh_change;
+  double deciding_cpu_s = 0;
+  std::vector<EffectRun> without_one;     ///< the full set without each effect: own contributions
+  std::vector<EffectRun> without_chosen;  ///< the chosen set without each effect that may go
 
-  [[nodiscard]] bool within_tolerance() const;  ///< the chosen set is within the tolerance
-  /// What the analysis does not have is worth more than the tolerance.
-  [[nodiscard]] bool is_beyond_tier() const { return choice.beyond_tier.value_or(0) > tolerance; }
-  [[nodiscard]] bool is_minimal() const;  ///< no chosen effect can go
+  [[nodiscard]] bool within_tolerance() const { return chosen.change() <= tolerance; }
+  /// @returns whether no expensive effect of the chosen set can be removed
+  [[nodiscard]] bool is_minimal() const;
+  /// Work of deciding and of the chosen set over that of the full set.
+  [[nodiscard]] double work_ratio() const {
+    return (choice.automatic->work + chosen.work) / full.work;
+  }
 };
 
 struct EffectStudyOptions {
   double tolerance = 0.01;
-  bool pairs = true;  ///< also leave out each effect, and each two, of the whole scene
-  int repeats = 7;    ///< of each, in turns, after one for warming up; 0: not timed
+  int repeats = 7;  ///< of each set in turns after one for warming up; 0: not timed
 };
 
-/// @param document  a case whose analysis knows effects; its own "effects" set the tolerance where
-///                  they are automatic, and are laid aside
-/// @throws InputError  where the scene has no solution with all its effects.
+/// @param document  a case whose analysis has effects. Its own tolerance has precedence.
+/// @throws InputError  if the analysis has no effects or the model is invalid.
 [[nodiscard]] EffectStudy study_effects(const Document& document,
                                         const EffectStudyOptions& options);
 

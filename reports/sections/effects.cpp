@@ -12,7 +12,7 @@ namespace {
 
 bool chose_effects(const Run* run) {
   return std::ranges::any_of(
-      run->effects, [](const EffectRow& effect) { return effect.estimated_change.has_value(); });
+      run->effects, [](const EffectRow& effect) { return effect.cumulative_change.has_value(); });
 }
 
 std::string title_of(const Run& run) {
@@ -32,8 +32,9 @@ Data row_of(const EffectRow& effect) {
                  {"dimensionless_number",
                   effect.dimensionless_number ? trimmed(*effect.dimensionless_number, 3) : ""},
                  {"number_definition", effect.number_definition},
-                 {"estimated_change",
-                  effect.estimated_change ? relative(*effect.estimated_change, 3, false) : ""},
+                 {"own_change", effect.own_change ? relative(*effect.own_change, 3, false) : ""},
+                 {"cumulative_change",
+                  effect.cumulative_change ? relative(*effect.cumulative_change, 3, false) : ""},
                  {"why", effect.why}});
 }
 

@@ -30,9 +30,9 @@ Document at_one_point(Document document) {
 void check_counters(const Document& document, const References& references) {
   const AnalysisResult result = analyse(document, references, {false});
   BOOST_TEST(result.effects.size() == kEffectCount);
-  for (const EffectReason& one : result.effects) {
-    if (one.active) continue;
-    BOOST_TEST(result.counters.evaluations(one.effect) == 0, name_of(one.effect));
+  for (const Effect effect : Effects::all().list()) {
+    if (result.effects[static_cast<std::size_t>(effect)].active) continue;
+    BOOST_TEST(result.counters.evaluations(effect) == 0, name_of(effect));
   }
 }
 

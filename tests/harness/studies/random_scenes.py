@@ -274,16 +274,65 @@ def random_scene(seed, n):
     return scene
 
 
+# Powers of ten that turn a value with this unit into millimeters and tonnes.
+TO_MILLIMETERS = {"m": 3, "m2": 6, "m_s2": 3, "N_m": 3, "Pa": -6, "kg": -3, "kg_m3": -12, "N_m_per_rad": 3, "N_m_rad": 3}
+
+
+def scaled(value, power):
+    return [scaled(v, power) for v in value] if isinstance(value, list) else value * 10.0**power
+
+
+def in_millimeters(value):
+    """Returns a part of a scene in millimeters and tonnes."""
+    if not isinstance(value, dict):
+        return value
+    units = {key: max((u for u in TO_MILLIMETERS if key.endswith("_" + u)), key=len, default=None) for key in value}
+    return {key: {name: scaled(place, 3) for name, place in part.items()} if key == "nodes" and isinstance(part, dict)
+            else in_millimeters(part) if isinstance(part, dict) or not units[key] else scaled(part, TO_MILLIMETERS[units[key]])
+            for key, part in value.items()}
+
+
+def rotated(scene, angle, mirrored):
+    """Returns a frame turned about the origin, and reflected before in the x axis; a manipulator stays."""
+    model, sign = dict(scene["model"]), -1 if mirrored else 1
+    if "nodes" not in model:
+        return scene
+
+    def turn(v):
+        c, s = math.cos(angle), math.sin(angle)
+        return [c * v[0] - s * sign * v[1], s * v[0] + c * sign * v[1]]
+
+    model["nodes"] = {name: turn(place) for name, place in model["nodes"].items()}
+    if "loads" in model:
+        model["loads"] = {k: {**load, "force_N": turn(load["force_N"])} for k, load in model["loads"].items()}
+    if "gravity_m_s2" in model:
+        model["gravity_m_s2"] = turn(model["gravity_m_s2"])
+    return {**scene, "model": model}
+
+
+def renumbered(scene):
+    """Returns a scene with nodes and members in the opposite order."""
+    model = {key: dict(reversed(part.items())) if key in ("nodes", "members") else part
+             for key, part in scene["model"].items()}
+    return {**scene, "model": model}
+
+
+TRANSFORMS = {"rotated": lambda s: rotated(s, 0.7, False), "mirrored": lambda s: rotated(s, 2.1, True),
+              "renumbered": renumbered, "millimeters": in_millimeters}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--scenes", type=int, nargs="+", default=range(100))
+    parser.add_argument("--transform", choices=TRANSFORMS)
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     for n in options.scenes:
         path = options.folder / f"random-{options.seed}-{n}.json"
-        path.write_text(json.dumps(random_scene(options.seed, n), indent=1) + "\n")
+        scene = random_scene(options.seed, n)
+        path.write_text(json.dumps(TRANSFORMS.get(options.transform, dict)(scene), indent=1) + "\n")
         print(path)
 
 

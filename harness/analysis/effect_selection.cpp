@@ -1,0 +1,513 @@
+#include "harness/analysis/effect_selection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "harness/analysis/effect_changes.h"
+#include "harness/analysis/effect_numbers.h"
+#include "harness/base/errors.h"
+#include "harness/base/find_or_add.h"
+#include "harness/motion/analyse_elastodynamics.h"
+#include "harness/scene/observables.h"
+#include "solver/large/large_elastodynamics.h"
+#include "solver/linear/modes.h"
+
+namespace trammel::harness {
+namespace {
+
+using solver::Effect;
+using solver::Effects;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+/// Share of the rest of the tolerance up to which a change that a coarse model measures counts as
+/// within it; and one near the buckling load, where a coarse mesh measures less exactly.
+constexpr double kForCoarseModel = 0.95, kForSecondOrder = 0.8;
+
+/// Elements of every member and link.
+std::vector<solver::Index*> element_counts(CaseModel& scene) {
+  std::vector<solver::Index*> counts;
+  for (solver::Member& member : scene.structure.members) counts.push_back(&member.elements);
+  if (!scene.manipulator) return counts;
+  for (auto* links : {&scene.manipulator->proximal, &scene.manipulator->distal})
+    for (solver::LinkDesign& link : *links) counts.push_back(&link.elements);
+  return counts;
+}
+
+/// The scene with at most so many elements a member and a platform of three triangles.
+CaseModel coarsened(CaseModel scene, solver::Index elements) {
+  scene.estimates_large_displacement = true;
+  for (solver::Index* count : element_counts(scene)) *count = std::min(*count, elements);
+  if (!scene.manipulator || scene.manipulator->platform.pin_radius > 0) return scene;
+  scene.manipulator->platform.refinements = 0;
+  scene.manipulator->platform.six_nodes = false;
+  return scene;
+}
+
+/// The scene on a coarse mesh: its results with sets of effects at steps of its path, each computed
+/// once.
+class CoarseScene {
+ public:
+  CoarseScene(const AnalysisKind& kind, const JsonView& analysis, const CaseModel& scene,
+              solver::Index elements)
+      : kind_(kind), analysis_(analysis), scene_(coarsened(scene, elements)) {
+    model_ = first_model(scene_);
+    size_ = scales_of(model_);
+  }
+
+  /// Largest relative change between two sets of effects; infinite without a solution.
+  double change(Effects all, Effects effects, const std::set<std::size_t>& steps) {
+    const auto full = along(all, steps), other = along(effects, steps);
+    if (!full || !other) return kInfinite;
+    return max_change(changes_between(*full, *other, size_)).value;
+  }
+
+  /// Results at the steps one after the other; nothing if one of them has no solution.
+  std::optional<Quantities> along(Effects effects, const std::set<std::size_t>& steps) {
+    Quantities all;
+    for (const std::size_t step : steps) {
+      const auto& result = at(effects, step);
+      if (!result) return std::nullopt;
+      for (const auto& [name, quantity] : *result) {
+        auto& values = all[name].values;
+        values.insert(values.end(), quantity.values.begin(), quantity.values.end());
+      }
+    }
+    return all;
+  }
+
+  const std::optional<Quantities>& at(Effects effects, std::size_t step) {
+    const auto is_its = [&](const auto& run) { return run.first == effects; };
+    auto& by_step = find_or_add(runs_, is_its, {effects, {}}).second;
+    const auto known = by_step.find(step);
+    return known != by_step.end() ? known->second
+                                  : by_step.emplace(step, compute(effects, step)).first->second;
+  }
+
+  [[nodiscard]] const ModelScales& size() const { return size_; }
+  [[nodiscard]] const solver::Model& model() const { return model_; }
+  solver::Outcome outcome;  ///< the last that is not solved
+  solver::Counters counters;
+
+ private:
+  std::optional<Quantities> compute(Effects effects, std::size_t step) {
+    Recorder record;
+    scene_.effects = effects;
+    try {
+      const auto* const along_path = std::get_if<AnalysePath*>(&kind_.of_scene);
+      const StepResult result =
+          along_path != nullptr
+              ? (*along_path)(analysis_, scene_, false, record)
+              : std::get<AnalyseStep*>(kind_.of_scene)(analysis_, scene_, step, false, record);
+      counters += result.counters;
+      if (result.outcome.solved()) return record.take_quantities();
+      outcome = outcome_at_path_point(scene_, step, result.outcome);
+    } catch (const solver::ModelError& error) {  // what is left has no meaning without the effect
+      outcome = {solver::Status::singular, error.what()};
+    } catch (const InputError& error) {  // as fewer modes than damping ratios
+      outcome = {solver::Status::singular, error.what()};
+    }
+    return std::nullopt;
+  }
+
+  const AnalysisKind& kind_;
+  const JsonView& analysis_;
+  CaseModel scene_;
+  solver::Model model_;
+  ModelScales size_;
+  std::vector<std::pair<Effects, std::map<std::size_t, std::optional<Quantities>>>> runs_;
+};
+
+class Selector {
+ public:
+  Selector(const AnalysisKind& kind, const JsonView& analysis, const CaseModel& scene,
+           const EffectScope& scope, double tolerance)
+      : kind_(kind),
+        analysis_(analysis),
+        scene_(scene),
+        scope_(scope),
+        tolerance_(tolerance),
+        model_(first_model(scene)) {
+    selection_.chosen = scope.applicable;
+  }
+
+  EffectSelection run() {
+    const std::string name = kind_.name;
+    ResponseScale scale = response_scale(name, analysis_, model_);
+    if (name == "elastodynamics") scale = scale_of_motion();
+    if (selection_.outcome.solved()) apply_numbers(scale);
+    if (name == "statics") select_in_statics();
+    if (name == "modes" && analysis_.has("rotating")) select_in_rotation();
+    if (name == "elastodynamics" && selection_.outcome.solved()) select_in_motion();
+    if (!selection_.outcome.solved()) selection_.chosen = scope_.applicable;
+    selection_.chosen = scope_.completed(selection_.chosen);
+    return selection_;
+  }
+
+ private:
+  [[nodiscard]] double rest() const { return tolerance_ - selection_.change; }
+
+  /// The set without an effect and without what depends on it.
+  [[nodiscard]] Effects without(Effect effect) const {
+    return scope_.without(selection_.chosen, effect);
+  }
+
+  [[nodiscard]] bool can_leave_out(Effect effect) const {
+    return selection_.chosen.has(effect) && !scope_.required.has(effect);
+  }
+
+  /// Leaves an effect out if `change` from `full` is within that share of the tolerance's rest.
+  bool try_without(Effect effect, Effects full, double change, double share, bool is_measured) {
+    EffectEvidence& evidence = selection_.of(effect);
+    evidence.is_measured = is_measured;
+    if (selection_.chosen == full) evidence.own = change;
+    evidence.cumulative = selection_.change + change;
+    if (!(change <= share * rest())) return false;
+    selection_.chosen = without(effect);
+    return true;
+  }
+
+  /// A meshed platform first, then the smallest first, as long as their sum is within the share of
+  /// the tolerance that is left to them.
+  void apply_numbers(const ResponseScale& scale) {
+    const EffectNumbers numbers = effect_numbers(model_, scale);
+    const auto change_of = [&](Effect effect) {
+      // A load that sets in at once excites every mode, those of stiff parts too.
+      const bool strikes = from_rest_ && effect != Effect::shear;
+      return strikes ? kInfinite : numbers[static_cast<std::size_t>(effect)].change;
+    };
+    std::vector<Effect> order;
+    for (const Effect effect : scope_.applicable.list()) {
+      const auto& number = numbers[static_cast<std::size_t>(effect)].value;
+      if (!number || (effect == Effect::geometric_stiffening && !is_frame_at_rest())) continue;
+      selection_.of(effect).number = number;
+      if (!scope_.required.has(effect)) order.push_back(effect);
+    }
+    std::ranges::stable_sort(order, {}, [&](Effect effect) {
+      return std::pair(!is_expensive(effect), change_of(effect));
+    });
+    const bool is_measured_later =
+        can_leave_out(Effect::large_displacement) || can_leave_out(Effect::inertia);
+    for (const Effect effect : order) {
+      const double change = change_of(effect);
+      if (!can_leave_out(effect) || !std::isfinite(change)) continue;
+      selection_.of(effect).own = change;
+      selection_.of(effect).cumulative = selection_.change + change;
+      const double share = !is_measured_later || is_expensive(effect) ? 0.75 : 0.1;
+      if (selection_.change + change > share * tolerance_) continue;
+      selection_.chosen = without(effect);
+      selection_.change += change;
+    }
+  }
+
+  [[nodiscard]] bool is_frame_at_rest() const {
+    return std::string(kind_.name) == "modes" && !analysis_.has("rotating");
+  }
+
+  void add_cost(const solver::Counters& counters, const solver::Model& model) {
+    selection_.counters += counters;
+    selection_.work += work_of(counters, unknowns_of(model));
+  }
+
+  /// Linear theory against large displacement with one element a member, which is exact for linear
+  /// theory of prismatic members; then second-order theory with four, which buckle correctly. Of a
+  /// path the steps are its extremes in linear theory, and any other at which the choice turns out
+  /// to be off by more.
+  void select_in_statics() {
+    CoarseScene single(kind_, analysis_, scene_, 1), finer(kind_, analysis_, scene_, 4);
+    const Effects all = selection_.chosen, linear = without(Effect::geometric_stiffening);
+    const Effects second = without(Effect::large_displacement);
+    std::set<std::size_t> every;
+    for (std::size_t step = 0; step < scene_.steps(); ++step) every.insert(step);
+    const auto overview = single.along(linear, every);
+    if (!overview) {
+      selection_.outcome = single.outcome;
+    } else {
+      std::set<std::size_t> steps = every.size() > 2 ? extremes(*overview) : every;
+      const auto try_theory = [&](CoarseScene& coarse, Effect effect, Effects effects,
+                                  double share) {
+        const double change = change_along(coarse, all, effects, every, steps);
+        const bool is_enough = try_without(effect, all, change, share, true);
+        if (is_enough) selection_.change += change;
+        return is_enough;
+      };
+      // Second-order theory neglects shortening by rotation, of the order of the rotation.
+      if (!try_theory(single, Effect::geometric_stiffening, linear, kForCoarseModel) &&
+          rotation(*overview) <= rest())
+        try_theory(finer, Effect::large_displacement, second, kForSecondOrder);
+    }
+    add_cost(single.counters, single.model());
+    add_cost(finer.counters, finer.model());
+  }
+
+  /// Largest change at the steps, to which those are added at which it turns out to be too large.
+  double change_along(CoarseScene& coarse, Effects all, Effects effects,
+                      const std::set<std::size_t>& every, std::set<std::size_t>& steps) const {
+    for (;;) {
+      const double change = coarse.change(all, effects, steps);
+      if (!(change <= kForCoarseModel * rest()) || steps == every) return change;
+      const auto full = coarse.along(all, every), other = coarse.along(effects, every);
+      if (!full || !other) return kInfinite;
+      const LargestDifference worst = max_change(changes_between(*full, *other, coarse.size()));
+      if (worst.value <= kForCoarseModel * rest() || !steps.insert(worst.index).second)
+        return std::max(change, worst.value);
+    }
+  }
+
+  /// Largest rotation of nodes and of chords [rad].
+  [[nodiscard]] double rotation(const Quantities& quantities) const {
+    double shortest = kInfinite, displacement = 0, largest = 0;
+    for (const solver::Member& member : model_.members)
+      shortest = std::min(shortest, member_length(model_, member));
+    for (const auto& [name, quantity] : quantities) {
+      const std::string kind = change_kind(name);
+      if (kind == "rotation") largest = std::max(largest, max_abs(quantity.values));
+      if (kind == "displacement") displacement = std::max(displacement, max_abs(quantity.values));
+    }
+    return std::max(largest, displacement / shortest);
+  }
+
+  /// Steps at which displacements and forces are largest.
+  static std::set<std::size_t> extremes(const Quantities& quantities) {
+    std::map<std::string, std::pair<double, std::size_t>> largest;
+    for (const auto& [name, quantity] : quantities) {
+      const std::string kind = change_kind(name);
+      if (kind != "displacement" && kind != "force") continue;
+      auto& extreme = largest.try_emplace(kind, 0.0, 0).first->second;
+      for (std::size_t i = 0; i < quantity.values.size(); ++i)
+        extreme = std::max(extreme, {std::abs(quantity.values[i]), i});
+    }
+    std::set<std::size_t> steps;
+    for (const auto& [kind, extreme] : largest) steps.insert(extreme.second);
+    return steps;
+  }
+
+  /// Gyroscopic terms, which make the eigenvalue problem quadratic, then stiffening by rotation.
+  void select_in_rotation() {
+    const auto members = std::max<solver::Index>(std::ssize(model_.members), 1);
+    CoarseScene coarse(kind_, analysis_, scene_,
+                       2 + analysis_.get<solver::Index>("count", 0) / members);
+    constexpr double kPays = 0.25;  // two runs of the coarse model against what one effect saves
+    if (unknowns_of(coarse.model()) > kPays * unknowns_of(model_)) return;
+    for (const Effect effect : {Effect::gyroscopic, Effect::geometric_stiffening}) {
+      if (!can_leave_out(effect)) continue;
+      const double change = coarse.change(selection_.chosen, without(effect), {0});
+      if (try_without(effect, selection_.chosen, change, kForCoarseModel, true))
+        selection_.change += change;
+    }
+    add_cost(coarse.counters, coarse.model());
+  }
+
+  /// First frequency and damping at the start of the motion, on a mesh of one element a link.
+  ResponseScale scale_of_motion() {
+    if (const auto history = analysis_.find("load_history")) {
+      throw history->error(
+          "automatic effects require a constant load; a pulse may fall between the times at which "
+          "they are measured");
+    }
+    coarse_ = coarsened(scene_, 1);
+    coarse_.effects = scope_.without(scope_.applicable, Effect::large_displacement);
+    coarse_model_ = build_model(coarse_, 0);
+    options_ = read_elastodynamics(analysis_, coarse_);
+    const solver::ModalSolution modes =
+        solver::solve_modes(solver::assemble(coarse_model_), {.count = 4});  // three may be rigid
+    add_cost(modes.counters, coarse_model_);
+    selection_.outcome = modes.outcome;
+    if (!modes.outcome.solved()) return {};
+    const auto first = std::ranges::find_if(modes.frequency, [](double f) { return f > 0; });
+    if (first == modes.frequency.end()) {
+      selection_.outcome = {solver::Status::singular, "nothing vibrates"};
+      return {};
+    }
+    const double omega = 2 * std::numbers::pi * *first;
+    damping_ = solver::damping_ratio(options_.damping, omega);
+    frequency_ratio_ = path_rate() / omega;
+    from_rest_ = !options_.time.quasi_static_start;
+    const double duration = options_.time.end - options_.time.start;
+    lasting_ =
+        damping_ > 0 ? std::min(duration, 1 / (std::numbers::e * damping_ * omega)) : duration;
+    phase_ = std::max(1.0, omega * lasting_ / 2);
+    const double phase = vibrates() ? phase_ : 1;
+    return {.phase = phase, .platform = phase};
+  }
+
+  /// Whether a vibration lasts in the response, which a change of its frequency puts out of phase.
+  [[nodiscard]] bool vibrates() const {
+    return from_rest_ || frequency_ratio_ * frequency_ratio_ > 0.1;
+  }
+
+  /// Angular frequency of the path: its largest acceleration over its largest velocity [rad/s].
+  [[nodiscard]] double path_rate() const {
+    constexpr int kSamples = 64;
+    double velocity = 0, acceleration = 0;
+    for (int i = 0; i <= kSamples; ++i) {
+      const double share = static_cast<double>(i) / kSamples;
+      const solver::TrajectoryPoint point = at(
+          options_.path, options_.time.start + share * (options_.time.end - options_.time.start));
+      velocity = std::max(velocity, point.velocity.norm());
+      acceleration = std::max(acceleration, point.acceleration.norm());
+    }
+    return velocity > 0 ? acceleration / velocity : 0;
+  }
+
+  /// Inertia by the frequency of the path, large displacement by equilibria of the coarse model at
+  /// the extremes of the motion.
+  void select_in_motion() {
+    /// Where linear theory is off by so much, its numbers have no meaning.
+    constexpr double kLost = 0.5;
+    CoarseScene coarse(kind_, analysis_, scene_, 1);
+    select_inertia(coarse);
+    if (const std::optional<double> change = change_of_theory()) {
+      if (!scope_.applicable.has(Effect::large_displacement)) {
+        selection_.beyond_tier = change;
+      } else if (try_without(Effect::large_displacement, selection_.chosen, *change,
+                             kForCoarseModel, true)) {
+        selection_.change += *change;
+      } else if (*change > kLost) {
+        selection_.chosen = scope_.applicable;
+      }
+    }
+    // With large displacement these terms cost nothing.
+    if (!selection_.chosen.has(Effect::large_displacement) &&
+        selection_.chosen.has(Effect::inertia)) {
+      measure_without(coarse, Effect::gyroscopic);
+      measure_without(coarse, Effect::damping);
+    }
+    add_cost(coarse.counters, coarse.model());
+  }
+
+  /// By the frequency of the path, and if that leaves it open by the motion of the coarse model.
+  void select_inertia(CoarseScene& coarse) {
+    constexpr double kSurelyWithin = 0.25, kSurelyBeyond = 10;
+    const double r = frequency_ratio_, bound = r * r + 2 * damping_ * r;
+    selection_.of(Effect::damping).number = damping_;
+    selection_.of(Effect::inertia).number = r * r;
+    if (from_rest_ || !can_leave_out(Effect::inertia)) return;
+    if (try_without(Effect::inertia, selection_.chosen, bound, kSurelyWithin, false)) {
+      selection_.change += bound;
+    } else if (bound <= kSurelyBeyond * rest()) {
+      measure_without(coarse, Effect::inertia);
+    }
+  }
+
+  /// Leaves an effect out of a motion if linear theory on the coarse mesh allows it.
+  void measure_without(CoarseScene& coarse, Effect effect) {
+    if (!can_leave_out(effect)) return;
+    const auto linear = [&](Effects set) {
+      return scope_.without(set, Effect::large_displacement);
+    };
+    const double change = coarse.change(linear(selection_.chosen), linear(without(effect)), {0});
+    if (try_without(effect, selection_.chosen, change, kForCoarseModel, true))
+      selection_.change += change;
+  }
+
+  /// Change by large displacement. From a quasi-static start: of the motion without vibration,
+  /// under loads, weight and nominal inertia, where linear theory has its extremes. From a sudden
+  /// start: of the first part of the motion, from which it grows with time while the vibration
+  /// lasts.
+  std::optional<double> change_of_theory() {
+    /// What starts on the quasi-static response swings about the response next to it, twice as far.
+    constexpr double kSwing = 2, kShortened = 0.125;
+    solver::ElastodynamicsOptions options = options_;
+    const bool moves = selection_.chosen.has(Effect::inertia);
+    const double duration = options.time.end - options.time.start;
+    options.time.adaptive.reset();
+    std::vector<double>& times = options.time.sample_times;
+    double growth = !moves ? 1 : kSwing * (vibrates() ? 1 + phase_ : 1);
+    if (from_rest_ && moves) {
+      options.time.end = options.time.start + kShortened * duration;
+      std::erase_if(times, [&](double time) { return time > options.time.end; });
+      growth = std::max(1.0, lasting_ / (kShortened * duration));
+    } else {
+      options.elastic_inertia = options.gyroscopic = false;
+      const auto overview = equilibria(solver::solve_elastodynamics, options);
+      if (!overview) return std::nullopt;
+      std::vector<double> extreme_times;
+      for (const std::size_t sample : extremes(*overview)) extreme_times.push_back(times[sample]);
+      times = extreme_times;
+    }
+    const auto exact = equilibria(solver::solve_large_elastodynamics, options);
+    const auto linear = equilibria(solver::solve_elastodynamics, options);
+    if (!exact || !linear) return std::nullopt;
+    return growth * max_change(changes_between(*exact, *linear, scales_of(coarse_model_))).value;
+  }
+
+  template <class Solve>
+  std::optional<Quantities> equilibria(Solve solve, const solver::ElastodynamicsOptions& options) {
+    try {
+      const solver::ElastodynamicsSolution solution = solve(options);
+      add_cost(solution.summary.counters, coarse_model_);
+      if (!solution.outcome.solved()) return std::nullopt;
+      Recorder record;
+      for (const solver::StaticSolution& state : solution.state)
+        StateRecorder(coarse_model_, "elastodynamics").record({state}, record);
+      return record.take_quantities();
+    } catch (const solver::ModelError&) {  // the theory does not have what the options ask for
+      return std::nullopt;
+    }
+  }
+
+  const AnalysisKind& kind_;
+  const JsonView& analysis_;
+  const CaseModel& scene_;
+  const EffectScope& scope_;
+  double tolerance_;
+  solver::Model model_;
+  EffectSelection selection_;
+  // Of a motion along a path.
+  CaseModel coarse_;
+  solver::Model coarse_model_;
+  solver::ElastodynamicsOptions options_;
+  double damping_ = 0, frequency_ratio_ = 0, phase_ = 1, lasting_ = 0;
+  bool from_rest_ = false;
+};
+
+}  // namespace
+
+EffectSelection select_effects(const AnalysisKind& kind, const JsonView& analysis,
+                               const CaseModel& scene, const EffectScope& scope, double tolerance) {
+  return Selector(kind, analysis, scene, scope, tolerance).run();
+}
+
+bool is_expensive(Effect effect) {
+  static constexpr Effects kExpensive = Effects()
+                                            .with(Effect::large_displacement)
+                                            .with(Effect::geometric_stiffening)
+                                            .with(Effect::inertia)
+                                            .with(Effect::damping)
+                                            .with(Effect::gyroscopic)
+                                            .with(Effect::platform_flexibility);
+  return kExpensive.has(effect);
+}
+
+bool halve_elements(CaseModel& scene) {
+  bool is_halved = false;
+  for (solver::Index* count : element_counts(scene)) {
+    if (*count % 2 != 0) continue;
+    *count /= 2;
+    is_halved = true;
+  }
+  return is_halved;
+}
+
+double unknowns_of(const solver::Model& model) {
+  double unknowns = 3 * static_cast<double>(model.nodes.size());
+  for (const solver::Member& member : model.members)
+    unknowns += 3 * static_cast<double>(member.elements - 1);
+  return unknowns;
+}
+
+double work_of(const solver::Counters& counters, double unknowns) {
+  constexpr double kFactorization = 8, kElement = 24;
+  return unknowns * (kFactorization * static_cast<double>(counters.factorizations) +
+                     static_cast<double>(counters.solves)) +
+         kElement * static_cast<double>(counters.element_evaluations);
+}
+
+}  // namespace trammel::harness
