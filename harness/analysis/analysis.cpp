@@ -112,6 +112,13 @@ void set_solver_rounding(int mode) {
   solver_rounding = mode;
 }
 
+results::Counters named_counters(const solver::Counters& counters) {
+  return {{"element_evaluations", counters.element_evaluations},
+          {"factorizations", counters.factorizations},
+          {"solves", counters.solves},
+          {"steps", counters.steps}};
+}
+
 std::string analysis_kind(const Document& document) {
   return document.value().at("analysis").begin().key();
 }

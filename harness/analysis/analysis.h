@@ -30,6 +30,9 @@ struct AnalysisResult {
 [[nodiscard]] AnalysisResult analyse(const Document& document, const References& references,
                                      const AnalysisOptions& options);
 
+/// What results hold of the counters.
+[[nodiscard]] results::Counters named_counters(const solver::Counters& counters);
+
 /// The one key of "analysis": "modes", "statics", ...
 [[nodiscard]] std::string analysis_kind(const Document& document);
 

@@ -169,12 +169,20 @@ inline Json to_json(const Run& run, Form form) {
   return detail::object_to_json(run,
                                 run.stored.empty() && form == Form::summary ? Form::text : form);
 }
+template <>
+inline constexpr std::array kNames<SandboxedRun::Termination> = {
+    std::pair{"failed", SandboxedRun::Termination::failed},
+    std::pair{"solved", SandboxedRun::Termination::solved},
+    std::pair{"timed-out", SandboxedRun::Termination::timed_out}};
+TRAMMEL_FIELDS(SandboxedRun, TRAMMEL_REQUIRED(termination, values, quantities, counters, cpu_s),
+               TRAMMEL_OPTIONAL(reason));
 TRAMMEL_FIELDS(ErrorNorms, TRAMMEL_REQUIRED(max, rms, mean));
 TRAMMEL_FIELDS(SettingTime, TRAMMEL_REQUIRED(cpu_s, relative_low, relative_high, wall_median_s,
                                              runs_per_measurement));
 TRAMMEL_FIELDS(CostSetting, required("error", &S::errors), required("relative_time", &S::relative),
                TRAMMEL_REQUIRED(curve, curve_title, title, value, status, reason, cpu_s, time,
-                                counters, pareto_optimal));
+                                counters, pareto_optimal),
+               TRAMMEL_STORE_ONLY(output_errors));
 TRAMMEL_FIELDS(CheapestSetting, TRAMMEL_REQUIRED(error, setting, tied));
 TRAMMEL_FIELDS(Repeatability,
                TRAMMEL_REQUIRED(on_both_fronts, on_either_front, same_cheapest, target_errors,
@@ -183,7 +191,7 @@ TRAMMEL_FIELDS(CostOutput, TRAMMEL_REQUIRED(title, scale, errors, cheapest));
 TRAMMEL_FIELDS(CostStudy,
                TRAMMEL_REQUIRED(id, family, title, reference_solution, scale, norm, baseline,
                                 wall_s, settings, cheapest, repeatability, conclusion),
-               TRAMMEL_OPTIONAL(description, outputs));
+               TRAMMEL_OPTIONAL(description, outputs), TRAMMEL_STORE_ONLY(references));
 TRAMMEL_FIELDS(CostStudies,
                TRAMMEL_REQUIRED(sweep, seed, repeats, equal_within, diverged_above, studies));
 TRAMMEL_FIELDS(Environment,

@@ -245,9 +245,6 @@ Environment read_environment(const Json& json) {
 ModelProbabilities read_model_probabilities(const Json& json) {
   return from_json<ModelProbabilities>(json);
 }
-CostStudies read_cost_studies(const Json& json) {
-  return from_json<CostStudies>(json);
-}
 
 bool CoverageRow::is_verified() const {
   return std::ranges::any_of(evidence,
@@ -300,11 +297,12 @@ const Reference* Results::reference(const std::string& id) const {
   return find_id(references, id);
 }
 
+Number ErrorNorms::get(const std::string& norm) const {
+  return norm == "max" ? max : norm == "rms" ? rms : mean;
+}
+
 Number CostStudy::error(const CostSetting& setting) const {
-  if (!setting.errors) return std::nullopt;
-  return norm == "max"   ? setting.errors->max
-         : norm == "rms" ? setting.errors->rms
-                         : setting.errors->mean;
+  return setting.errors ? setting.errors->get(norm) : Number();
 }
 
 Number difference_of(const Check& check) {

@@ -187,7 +187,6 @@ inline constexpr std::size_t kSummaryEntries = 1;
 [[nodiscard]] StressSuiteEntry read_stress_suite(const nlohmann::ordered_json& json);
 [[nodiscard]] Status read_status(const std::string& name);
 [[nodiscard]] Environment read_environment(const nlohmann::ordered_json& json);
-[[nodiscard]] CostStudies read_cost_studies(const nlohmann::ordered_json& json);
 [[nodiscard]] ModelProbabilities read_model_probabilities(const nlohmann::ordered_json& json);
 
 /// Fills in titles that are left out with the names.

@@ -368,28 +368,29 @@ class Totals {
   }
 
   void put(std::vector<ComparedSide>& sides) const {
-    std::vector<Timing> common(sides.size());  // errors in place of times
+    std::vector<std::vector<double>> common(sides.size());  // errors
     for (const auto& item : errors_.front())
       if (std::ranges::all_of(errors_,
                               [&](const auto& other) { return other.count(item.first) > 0; }))
         for (std::size_t s = 0; s < sides.size(); ++s)
-          common[s].cpu_s.push_back(std::max(errors_[s].at(item.first), 1e-16));
+          common[s].push_back(std::max(errors_[s].at(item.first), 1e-16));
     for (std::size_t s = 0; s < sides.size(); ++s) {
       sides[s].cpu_s = time_[s];
       sides[s].work = work_[s];
       if (time_.front() > 0) sides[s].relative_time = time_[s] / time_.front();
-      if (common[s].cpu_s.empty()) continue;
-      sides[s].median_error = quantile(common[s].cpu_s, 0.5);
-      sides[s].largest_error = quantile(common[s].cpu_s, 1);
+      if (common[s].empty()) continue;
+      sides[s].median_error = quantile(common[s], 0.5);
+      sides[s].largest_error = quantile(common[s], 1);
     }
-    if (!common.front().cpu_s.empty()) rank(common, sides);
+    if (!common.front().empty()) rank(common, sides);
   }
 
  private:
   /// Sides that cannot be distinguished from the first of a rank share it.
-  static void rank(const std::vector<Timing>& errors, std::vector<ComparedSide>& sides) {
+  static void rank(const std::vector<std::vector<double>>& errors,
+                   std::vector<ComparedSide>& sides) {
     constexpr std::size_t kFewest = 7;  // errors that give an interval
-    const bool has_interval = errors.front().cpu_s.size() >= kFewest;
+    const bool has_interval = errors.front().size() >= kFewest;
     std::vector<std::size_t> order(sides.size());
     std::iota(order.begin(), order.end(), 0);
     std::ranges::stable_sort(order, {}, [&](std::size_t s) { return sides[s].median_error; });

@@ -89,19 +89,12 @@ void record_result(AnalysisResult result, Run& run) {
   run.model_probabilities = std::move(result.model_probabilities);
   run.drawing = std::move(result.drawing);
   if (run.drawing) round_moments(*run.drawing);
-  run.cost.counters = counters(result.counters);
+  run.cost.counters = named_counters(result.counters);
   run.cost.timings = std::move(result.timings);
 }
 
 std::string case_hash(const Case& given) {
   return content_hash(given.document.value().dump());
-}
-
-results::Counters counters(const solver::Counters& counters) {
-  return {{"element_evaluations", counters.element_evaluations},
-          {"factorizations", counters.factorizations},
-          {"solves", counters.solves},
-          {"steps", counters.steps}};
 }
 
 results::Results results_of(std::vector<Run> runs, const std::vector<Case>& cases,

@@ -22,6 +22,4 @@ void record_result(AnalysisResult result, Run& run);
 /// Of the case with all that it extends, as its `CaseInfo` has it.
 [[nodiscard]] std::string case_hash(const Case& given);
 
-[[nodiscard]] results::Counters counters(const solver::Counters& counters);
-
 }  // namespace trammel::harness

@@ -1,7 +1,6 @@
 #include "harness/studies/cost_study.h"
 
 #include <algorithm>
-#include <array>
 
 #include "harness/base/contains.h"
 #include "harness/base/data_root.h"
@@ -261,11 +260,6 @@ std::vector<StudyOutput> read_outputs(const JsonView& study) {
   return outputs;
 }
 
-Norm read_norm(const JsonView& study) {
-  const auto norm = study.get<std::string>("norm", "max");
-  return norm == "rms" ? Norm::rms : norm == "mean" ? Norm::mean : Norm::max;
-}
-
 std::string references_of(const JsonView& quantities) {
   std::vector<std::string> names;
   for (const auto& entry : quantities.entries()) {
@@ -387,7 +381,7 @@ CostStudy load_cost_study(const fs::path& file, SweepExtent extent, const Refere
   read_reference_solution(root, study, references);
   study.outputs = read_outputs(root);
   check_counts(root, study);
-  study.norm = read_norm(root);
+  study.norm = root.get("norm", study.norm);
   study.time_limit_s = root.get("time_limit_s", study.time_limit_s);
   return study;
 }
@@ -415,11 +409,6 @@ std::vector<fs::path> cost_study_files() {
   }
   std::ranges::sort(files);
   return files;
-}
-
-const char* to_string(Norm norm) {
-  constexpr std::array names = {"max", "rms", "mean"};
-  return names[static_cast<std::size_t>(norm)];
 }
 
 }  // namespace trammel::harness

@@ -44,8 +44,6 @@ struct Setting {
   std::vector<ObservedQuantity> observed;
 };
 
-enum class Norm { max, rms, mean };
-
 /// What an error is divided by.
 struct Scale {
   /// The entry itself, the largest of its quantity, the largest of all, a number.
@@ -70,7 +68,7 @@ struct CostStudy {
   /// The first is that of figure, front and conclusion; every setting gives it, the others where it
   /// can.
   std::vector<StudyOutput> outputs{1};
-  Norm norm = Norm::max;
+  std::string norm = "max";  ///< of results::ErrorNorms
   int time_limit_s = 60;
 };
 
@@ -90,7 +88,5 @@ enum class SweepExtent { full, quick };
 
 /// The studies of the catalogue, by name.
 [[nodiscard]] std::vector<std::filesystem::path> cost_study_files();
-
-[[nodiscard]] const char* to_string(Norm norm);
 
 }  // namespace trammel::harness

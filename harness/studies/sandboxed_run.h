@@ -1,25 +1,13 @@
 #pragma once
 
 #include <functional>
-#include <map>
-#include <string>
-#include <vector>
 
+#include "harness/results/cost_results.h"
 #include "harness/studies/cost_study.h"
-#include "solver/linear/system.h"
 
 namespace trammel::harness {
 
-/// What one computation of a setting came to.
-struct SandboxedRun {
-  enum class Termination { solved, failed, timed_out };
-  Termination termination = Termination::failed;
-  std::string reason;  ///< of a failure
-  Observations values;
-  std::map<std::string, std::vector<double>> quantities;  ///< all, where none is observed
-  solver::Counters counters;
-  double cpu_s = 0;
-};
+using results::SandboxedRun;
 
 /// Computes a setting once, in a process of its own that is ended when it has used up its processor
 /// time: an endless loop or a crash costs no more than that.
