@@ -13,17 +13,10 @@ struct AnalysisOptions {
   bool drawing = true;  ///< nodes, members and shapes, for the report
 };
 
-struct AnalysisResult {
-  solver::Outcome outcome;
-  solver::Evidence evidence;
+struct AnalysisResult : StepResult {
   Quantities quantities;
-  std::optional<Drawing> drawing;
-  solver::Counters counters;
-  std::vector<EvaluationTime> timings = {};
-  std::vector<Warning> warnings = {};
   std::string analysis;               ///< its kind
   std::vector<EffectReason> effects;  ///< what the computation had, and why
-  std::optional<results::ModelProbabilities> model_probabilities = std::nullopt;
 };
 
 /// @throws InputError  where the model has no meaning.

@@ -17,7 +17,7 @@
 #include "harness/run/run_store.h"
 #include "harness/run/stored_results.h"
 #include "harness/studies/accuracy_search.h"
-#include "harness/studies/cost_study_of_sweeps.h"
+#include "harness/studies/cost_study.h"
 
 namespace trammel::harness {
 namespace {

@@ -4,6 +4,7 @@
 
 #include "harness/results/fields.h"
 #include "harness/results/results.h"
+#include "harness/results/side_comparison.h"
 
 /// The fields of all result structs: the one list by which they are written and read.
 namespace trammel::results {
@@ -244,5 +245,17 @@ TRAMMEL_FIELDS(History, TRAMMEL_REQUIRED(calls, since, changes, work, drifts));
 TRAMMEL_FIELDS(Results, optional("numerical_uncertainty", &S::uncertainty_coverage),
                TRAMMEL_REQUIRED(format, environment, cases, references, runs),
                TRAMMEL_OPTIONAL(solver, cost, claims, coverage, effect_scenes, history, store));
+TRAMMEL_FIELDS(ComparedNumber,
+               TRAMMEL_REQUIRED(quantity, index, entries, values, percent, noise, share, changed));
+TRAMMEL_FIELDS(ComparedModes,
+               TRAMMEL_REQUIRED(modes, values, last, percent, alike, noise, share, changed));
+TRAMMEL_FIELDS(ComparedRun, TRAMMEL_REQUIRED(name, changed, share, numbers),
+               TRAMMEL_OPTIONAL(modes, remarks));
+TRAMMEL_FIELDS(ComparedSide,
+               TRAMMEL_REQUIRED(label, runs, cpu_s, relative_time, work, median_error,
+                                largest_error, error_ratio, rank),
+               TRAMMEL_OPTIONAL(commit, date, processor, solver));
+TRAMMEL_FIELDS(SideComparison,
+               TRAMMEL_REQUIRED(conclusion, sides, same, within_noise, changed, runs));
 
 }  // namespace trammel::results

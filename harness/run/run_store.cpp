@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "harness/analysis/analysis.h"
-#include "harness/base/content_hash.h"
 #include "harness/base/environment.h"
 #include "harness/base/json_file.h"
 #include "harness/input/catalogue.h"

@@ -8,7 +8,7 @@
 #include "harness/results/results.h"
 #include "harness/run/run.h"
 #include "harness/studies/cost.h"
-#include "harness/studies/sandboxed_run.h"
+#include "harness/studies/cost_study.h"
 
 /// Runs that are kept for a later call: a file for each run, named by a hash of all that decides
 /// it. A file is the run's fields as CBOR (RFC 8949), compressed by zstd (RFC 8878) with a

@@ -7,7 +7,7 @@
 #include "harness/analysis/analysis.h"
 #include "harness/base/statistic.h"
 #include "harness/base/stopwatch.h"
-#include "harness/studies/sandboxed_run.h"
+#include "harness/studies/cost_study.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::harness {

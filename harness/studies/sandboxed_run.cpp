@@ -1,5 +1,3 @@
-#include "harness/studies/sandboxed_run.h"
-
 #include <exception>
 
 #include "harness/analysis/analysis.h"
@@ -8,6 +6,7 @@
 #include "harness/base/processes.h"
 #include "harness/base/stopwatch.h"
 #include "harness/results/result_fields.h"
+#include "harness/studies/cost_study.h"
 
 namespace trammel::harness {
 namespace {

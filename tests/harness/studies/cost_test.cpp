@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "harness/base/environment.h"
-#include "harness/input/schema.h"
+#include "harness/input/document.h"
 #include "harness/run/results.h"
 #include "tests/support/harness/support.h"
 
