@@ -1,5 +1,5 @@
 #include "harness/analysis/analyse_study.h"
-#include "harness/results/results.h"
+#include "harness/results/result_fields.h"
 
 namespace trammel::harness {
 
@@ -29,7 +29,8 @@ StepResult analyse_model_probabilities(const Document& document, const Reference
   const references::Reference& stored = references.get(id);
   if (stored.probabilities.empty()) throw id.error("expected a reference with 'probabilities'");
   StepResult result;
-  result.model_probabilities = results::read_model_probabilities(Json::parse(stored.probabilities));
+  result.model_probabilities =
+      results::from_json<results::ModelProbabilities>(Json::parse(stored.probabilities));
   const results::ModelProbabilities& found = *result.model_probabilities;
   int excluded = 0;
   for (const results::ExcludedReadings& some : found.excluded) excluded += some.readings;

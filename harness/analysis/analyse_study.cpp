@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "harness/analysis/analysis.h"
-#include "harness/base/numbers.h"
+#include "harness/base/number.h"
 #include "harness/base/statistic.h"
 #include "harness/input/case.h"
 #include "harness/input/json_view.h"

@@ -49,16 +49,7 @@ StepResult analyse_scene(const AnalysisKind& kind, const JsonView& analysis,
 /// What was recorded counts where a solution was found, its residuals speak for it and every number
 /// is finite.
 AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& record) {
-  AnalysisResult result{found.outcome,
-                        found.evidence,
-                        {},
-                        std::move(found.drawing),
-                        found.counters,
-                        std::move(found.timings),
-                        std::move(found.warnings),
-                        kind.name,
-                        {},
-                        {}};
+  AnalysisResult result{std::move(found), {}, kind.name, {}};
   if (!kind.evidence.empty())
     result.outcome = solver::outcome_by_evidence(result.outcome, result.evidence, kind.evidence);
   if (result.outcome.solved() && !record.not_finite().empty()) {
@@ -67,7 +58,6 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   }
   if (!result.outcome.solved()) return result;
   result.quantities = record.take_quantities();
-  result.model_probabilities = std::move(found.model_probabilities);
   const double of_load =
       result.evidence.has(Residual::load) ? result.evidence.largest(Residual::load) : 0;
   if (of_load > solver::kLoadWarning) {
@@ -114,6 +104,13 @@ void warn_of_crossed_singularity(const CaseModel& case_model, std::vector<Warnin
 
 void set_solver_rounding(int mode) {
   solver_rounding = mode;
+}
+
+results::Counters named_counters(const solver::Counters& counters) {
+  return {{"element_evaluations", counters.element_evaluations},
+          {"factorizations", counters.factorizations},
+          {"solves", counters.solves},
+          {"steps", counters.steps}};
 }
 
 std::string analysis_kind(const Document& document) {

@@ -14,22 +14,18 @@ struct AnalysisOptions {
   bool half_mesh = false;  ///< half the elements of every member, see `halve_elements`
 };
 
-struct AnalysisResult {
-  solver::Outcome outcome;
-  solver::Evidence evidence;
+struct AnalysisResult : StepResult {
   Quantities quantities;
-  std::optional<Drawing> drawing;
-  solver::Counters counters;
-  std::vector<EvaluationTime> timings = {};
-  std::vector<Warning> warnings = {};
   std::string analysis;                     ///< its kind
   std::vector<results::EffectRow> effects;  ///< of the computation
-  std::optional<results::ModelProbabilities> model_probabilities = std::nullopt;
 };
 
 /// @throws InputError  where the model has no meaning.
 [[nodiscard]] AnalysisResult analyse(const Document& document, const References& references,
                                      const AnalysisOptions& options);
+
+/// What results hold of the counters.
+[[nodiscard]] results::Counters named_counters(const solver::Counters& counters);
 
 /// The one key of "analysis": "modes", "statics", ...
 [[nodiscard]] std::string analysis_kind(const Document& document);

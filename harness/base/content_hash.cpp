@@ -1,11 +1,10 @@
-#include "harness/base/content_hash.h"
-
 #include <link.h>
 
 #include <boost/uuid/name_generator_sha1.hpp>
 #include <boost/uuid/uuid_io.hpp>
 #include <cstring>
 
+#include "harness/base/environment.h"
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 

@@ -1,8 +1,7 @@
-#include "harness/base/data_root.h"
-
 #include <cstdlib>
 #include <vector>
 
+#include "harness/base/environment.h"
 #include "harness/base/errors.h"
 
 namespace trammel::harness {

@@ -43,4 +43,6 @@ class Number {
 
 using Numbers = std::vector<Number>;
 
+inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
 }  // namespace trammel::harness

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 
@@ -53,6 +55,28 @@ class Recorder {
 
   Quantities quantities_;
   std::string not_finite_;
+};
+
+/// Records the energies of a motion [J] and keeps the largest change of their sum.
+class EnergyRecorder {
+ public:
+  void record(double kinetic, double strain, double total, Recorder& record) {
+    record.add("kinetic_energy_J", kinetic);
+    record.add("strain_energy_J", strain);
+    record.add("total_energy_J", total);
+    if (!start_) start_ = total;
+    change_ = std::max(change_, std::abs(total - *start_));
+    largest_kinetic_ = std::max(largest_kinetic_, kinetic);
+  }
+  [[nodiscard]] double largest_kinetic() const { return largest_kinetic_; }
+  /// The largest change over the largest kinetic energy; 0 without motion.
+  [[nodiscard]] double drift() const {
+    return largest_kinetic_ > 0 ? change_ / largest_kinetic_ : 0;
+  }
+
+ private:
+  std::optional<double> start_;
+  double change_ = 0, largest_kinetic_ = 0;
 };
 
 }  // namespace trammel::harness

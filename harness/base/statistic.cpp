@@ -37,6 +37,12 @@ double statistic_of(const std::string& name, const std::vector<double>& values) 
   return std::numeric_limits<double>::quiet_NaN();
 }
 
+double upper_median(std::vector<double> values) {
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
 double max_abs(const std::vector<double>& values) {
   double largest = 0;
   for (const double value : values) largest = std::max(largest, std::abs(value));

@@ -11,6 +11,10 @@ namespace trammel::harness {
 /// @param name  "max", "min", "max_abs", ... as in the schema
 [[nodiscard]] double statistic_of(const std::string& name, const std::vector<double>& values);
 
+/// The upper of the two middle values if their number is even.
+/// @param values  at least one
+[[nodiscard]] double upper_median(std::vector<double> values);
+
 /// Largest absolute value; 0 where there is none.
 [[nodiscard]] double max_abs(const std::vector<double>& values);
 

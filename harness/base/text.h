@@ -44,4 +44,8 @@ namespace trammel::harness {
 /// A message as one line: control characters as JSON escapes, words beyond 120 bytes cut.
 [[nodiscard]] std::string one_line(const std::string& text);
 
+/// The text of a file that is built into the program, by its name. @throws std::logic_error  if
+/// there is no such file.
+[[nodiscard]] const std::string& embedded_text(const std::string& file);
+
 }  // namespace trammel::harness

@@ -31,11 +31,10 @@ int runs_for(const std::function<void()>& work, double shortest_s) {
 
 }  // namespace
 
-RelativeTime relative_time(const Timing& timing, const Timing& baseline, std::size_t first,
-                           std::size_t step) {
+RelativeTime relative_time(const std::vector<double>& times, const std::vector<double>& baseline,
+                           std::size_t first, std::size_t step) {
   std::vector<double> ratios;
-  for (std::size_t i = first; i < timing.cpu_s.size(); i += step)
-    ratios.push_back(timing.cpu_s[i] / baseline.cpu_s[i]);
+  for (std::size_t i = first; i < times.size(); i += step) ratios.push_back(times[i] / baseline[i]);
   std::ranges::sort(ratios);
   const std::size_t n = ratios.size();
   const boost::math::binomial repeats_below(static_cast<double>(n), 0.5);

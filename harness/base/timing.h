@@ -36,8 +36,9 @@ struct RelativeTime {
 
 /// Of the ratios in each repeat, both having met the same load of the machine.
 /// @param first, step  the repeats that count: all of them, or every second one from `first`
-[[nodiscard]] RelativeTime relative_time(const Timing& timing, const Timing& baseline,
-                                         std::size_t first = 0, std::size_t step = 1);
+[[nodiscard]] RelativeTime relative_time(const std::vector<double>& times,
+                                         const std::vector<double>& baseline, std::size_t first = 0,
+                                         std::size_t step = 1);
 
 /// Runs every work once to warm up, then in each repeat all of them once, in an order shuffled
 /// anew: what the machine does meanwhile meets all alike.

@@ -7,6 +7,7 @@
 #include "harness/base/rows.h"
 #include "harness/base/text.h"
 #include "harness/cli/commands.h"
+#include "harness/results/result_fields.h"
 #include "harness/run/claims.h"
 #include "harness/run/stored_results.h"
 
@@ -59,7 +60,7 @@ int claims_command(const CommandOptions& options, const Renderers& /*renderers*/
   const results::Claims claims = evaluate_claims(
       document, run_shown(cases_of(document, Catalogue().load()), references, run_options));
   if (options.json) {
-    std::cout << pretty(results::claims_to_json(claims));
+    std::cout << pretty(results::to_json(claims));
   } else {
     std::cout << claims.title << "\n\n";
     std::ranges::for_each(claims.claims, print_claim);
@@ -73,7 +74,7 @@ int paper_command(const CommandOptions& options, const Renderers& /*renderers*/)
   shown.items = load_paper_items(claim_set, Catalogue());
   if (!options.word.empty()) judge_paper_items(read_summary(options.word), shown.items);
   if (options.json) {
-    std::cout << pretty(results::claims_to_json(shown).at("items"));
+    std::cout << pretty(results::to_json(shown).at("items"));
   } else {
     for (const results::PaperItem& item : shown.items)
       print_item(item, claim_set.value().at("claims"));

@@ -14,11 +14,12 @@
 #include "harness/base/text.h"
 #include "harness/cli/commands.h"
 #include "harness/input/catalogue.h"
-#include "harness/run/compare_sides.h"
-#include "harness/run/cost_results.h"
+#include "harness/results/result_fields.h"
+#include "harness/run/diff.h"
 #include "harness/run/results.h"
 #include "harness/run/run.h"
 #include "harness/run/stored_results.h"
+#include "harness/studies/cost.h"
 
 namespace trammel::harness {
 namespace {
@@ -220,10 +221,10 @@ void print_costs(const std::optional<results::CostStudies>& a,
     if (other == b->studies.end()) continue;
     std::vector<std::string> titles;
     const std::vector<CostPoint> points = named_points(study, titles);
-    const ParetoFrontAgreement both = compare_pareto_fronts(points, named_points(*other, titles));
-    table.add({study.id, both.shared, both.either, both.same_cheapest, both.targets,
-               fmt::format("{:.2g} % apart", 100 * both.median_difference),
-               fmt::format("{:.2g} %", 100 * both.largest_difference)});
+    const results::Repeatability both = compare_pareto_fronts(points, named_points(*other, titles));
+    table.add({study.id, both.on_both_fronts, both.on_either_front, both.same_cheapest,
+               both.target_errors, fmt::format("{:.2g} % apart", 100 * *both.median_difference),
+               fmt::format("{:.2g} %", 100 * *both.largest_difference)});
   }
   if (table.empty()) return;
   std::cout << "accuracy and computing time: settings on the Pareto fronts, the cheapest setting "

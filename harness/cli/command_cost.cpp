@@ -12,13 +12,12 @@
 #include "harness/base/text.h"
 #include "harness/cli/commands.h"
 #include "harness/input/catalogue.h"
-#include "harness/run/cost_results.h"
 #include "harness/run/output_lock.h"
 #include "harness/run/results.h"
 #include "harness/run/run_store.h"
 #include "harness/run/stored_results.h"
 #include "harness/studies/accuracy_search.h"
-#include "harness/studies/cost_study_of_sweeps.h"
+#include "harness/studies/cost_study.h"
 
 namespace trammel::harness {
 namespace {
@@ -156,7 +155,8 @@ void print(const results::CostStudy& study) {
 }
 
 /// Settings that were tried, and the patch of the cheapest one within the accuracy, or null.
-Json choice_json(const AccuracySearch& search, const MeasuredStudy& measured, double accuracy) {
+Json choice_json(const AccuracySearch& search, const results::CostStudy& measured,
+                 double accuracy) {
   Rows tried({"setting", "error", "reason"});
   for (const TriedSetting& setting : search.tried)
     tried.add({setting.title, number_or_null(setting.error), setting.reason});
@@ -167,12 +167,12 @@ Json choice_json(const AccuracySearch& search, const MeasuredStudy& measured, do
                {"setting", nullptr},
                {"patch", nullptr},
                {"tied", Json::array()}};
-  if (const auto best = cheapest(measured.points, accuracy)) {
-    const auto title = [&](std::size_t i) { return measured.study.settings[i].title; };
+  const std::vector<CostPoint> points = cost_points(measured);
+  if (const auto best = cheapest(points, accuracy)) {
+    const auto title = [&](std::size_t i) { return measured.settings[i].title; };
     json["setting"] = title(best->setting);
     json["patch"] = search.patches[best->setting];
-    for (const std::size_t i : tied_settings(measured.points, accuracy))
-      json["tied"].push_back(title(i));
+    for (const std::size_t i : tied_settings(points, accuracy)) json["tied"].push_back(title(i));
   }
   return json;
 }
@@ -199,8 +199,8 @@ void print_choice(const AccuracySearch& search, const Json& choice) {
             << '\n';
 }
 
-MeasuredStudy choose_setting(const CommandOptions& options, const CostOptions& cost_options,
-                             const References& references) {
+results::CostStudy choose_setting(const CommandOptions& options, const CostOptions& cost_options,
+                                  const References& references) {
   if (options.words.size() != 1 || !options.sweeps.empty())
     throw InputError("--accuracy: expected one case beside it, and no --sweep");
   const Case given = load_case(find_one(options.words.front(), {}));
@@ -216,13 +216,13 @@ MeasuredStudy choose_setting(const CommandOptions& options, const CostOptions& c
                              {options.accuracy, options.quantities, options.time_limit_s}, compute,
                              show);
   }
-  MeasuredStudy measured =
+  results::CostStudy measured =
       measure_or_find(search.study, cost_options, references, store, options.resume);
   const Json choice = choice_json(search, measured, options.accuracy);
   if (options.json) {
     std::cout << pretty(choice);
   } else {
-    print(study_results(measured));
+    print(measured);
     print_choice(search, choice);
   }
   return measured;
@@ -247,24 +247,26 @@ int cost_command(const CommandOptions& options, const Renderers& renderers) {
   CostOptions cost_options;
   cost_options.timing.repeats = options.repeats;
   cost_options.timing.seed = options.seed;
-  std::vector<MeasuredStudy> measured;
+  std::vector<results::CostStudy> measured;
   std::vector<CostStudy> studies;
   if (options.accuracy > 0) {
     measured.push_back(choose_setting(options, cost_options, references));
   } else {
     studies = read_studies(options, extent, references);
   }
-  for (CostStudy& study : studies) {
+  for (const CostStudy& study : studies) {
     {
       Progress progress("measurements");
       cost_options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
-      measured.push_back(measure_or_find(std::move(study), cost_options, references,
+      measured.push_back(measure_or_find(study, cost_options, references,
                                          store_folder(options.out, options.store), options.resume));
     }
-    if (!options.json) print(study_results(measured.back()));
+    if (!options.json) print(measured.back());
   }
   results::Results results = results_of({}, {}, references);
-  results.cost = cost_results(measured, extent, cost_options.timing);
+  const bool any_lost = std::ranges::any_of(
+      measured, [](const results::CostStudy& study) { return cost_points(study).empty(); });
+  results.cost = cost_results(std::move(measured), extent, cost_options.timing);
   const fs::path page = write_pages(results, options.out, false, renderers);
   const fs::path file = fs::path(options.out) / "results.json";
   if (!options.json) {
@@ -272,8 +274,6 @@ int cost_command(const CommandOptions& options, const Renderers& renderers) {
   } else if (options.accuracy == 0) {
     std::cout << read_text(file);
   }
-  const bool any_lost = std::ranges::any_of(
-      measured, [](const MeasuredStudy& study) { return study.points.empty(); });
   return any_lost ? 1 : 0;
 }
 
@@ -290,7 +290,7 @@ std::vector<std::function<void()>> quick_cost_work(const References& references,
 
 results::CostStudies quick_cost(const References& references, const fs::path& store, bool resume,
                                 std::vector<std::string>& error_messages) {
-  std::vector<MeasuredStudy> measured;
+  std::vector<results::CostStudy> measured;
   const CostOptions options;
   for (const fs::path& file : cost_study_files()) {
     try {
@@ -300,7 +300,7 @@ results::CostStudies quick_cost(const References& references, const fs::path& st
       error_messages.emplace_back(error.what());
     }
   }
-  return cost_results(measured, SweepExtent::quick, options.timing);
+  return cost_results(std::move(measured), SweepExtent::quick, options.timing);
 }
 
 }  // namespace trammel::harness

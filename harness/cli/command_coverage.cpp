@@ -6,6 +6,7 @@
 #include "harness/cli/commands.h"
 #include "harness/coverage/evidence_coverage.h"
 #include "harness/input/catalogue.h"
+#include "harness/results/result_fields.h"
 #include "harness/run/stored_results.h"
 
 namespace trammel::harness {
@@ -44,7 +45,7 @@ int coverage_command(const CommandOptions& options, const Renderers& /*renderers
     count_series(results, rows);
   }
   if (options.json) {
-    std::cout << pretty(results::coverage_to_json(rows));
+    std::cout << pretty(results::to_json(rows));
   } else {
     for (const char* group : {"key", "pair", "quantity"}) print_group(rows, group, options.gaps);
   }

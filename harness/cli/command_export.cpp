@@ -6,7 +6,6 @@
 #include "harness/base/json_file.h"
 #include "harness/cli/commands.h"
 #include "harness/export/exported_case.h"
-#include "harness/export/matrix_files.h"
 #include "harness/input/catalogue.h"
 #include "harness/run/run.h"
 #include "trammel_build.h"

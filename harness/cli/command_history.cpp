@@ -3,7 +3,8 @@
 #include "harness/base/json_file.h"
 #include "harness/base/rows.h"
 #include "harness/cli/commands.h"
-#include "harness/run/history.h"
+#include "harness/results/result_fields.h"
+#include "harness/run/results.h"
 
 namespace trammel::harness {
 namespace {
@@ -55,7 +56,7 @@ void print_history(const Json& history) {
 
 int history_command(const CommandOptions& options, const Renderers& /*renderers*/) {
   const History history = read_history(options.word);
-  const Json json = results::history_to_json(history);
+  const Json json = results::to_json(history);
   if (options.json) {
     std::cout << pretty(json, 3);
   } else {

@@ -15,7 +15,6 @@
 #include <utility>
 #include <variant>
 
-#include "harness/base/embedded_text.h"
 #include "harness/base/errors.h"
 #include "harness/base/processes.h"
 #include "harness/base/text.h"

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <iostream>
 
-#include "harness/base/embedded_text.h"
 #include "harness/base/text.h"
 #include "harness/cli/commands.h"
 #include "harness/run/output_lock.h"

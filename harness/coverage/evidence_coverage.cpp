@@ -6,7 +6,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "harness/base/data_root.h"
+#include "harness/base/environment.h"
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 #include "harness/input/check.h"

@@ -1,5 +1,3 @@
-#include "harness/export/matrix_files.h"
-
 #include <fmt/format.h>
 
 #include <array>
@@ -7,6 +5,7 @@
 
 #include "harness/analysis/analysis.h"
 #include "harness/base/json_file.h"
+#include "harness/export/exported_case.h"
 #include "harness/export/vtk_files.h"
 #include "harness/readers/option_reader.h"
 #include "harness/scene/with_model_errors.h"

@@ -1,5 +1,3 @@
-#include "harness/export/model_writer.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,8 +5,9 @@
 #include <map>
 #include <set>
 
-#include "harness/readers/member_chain.h"
+#include "harness/export/exported_case.h"
 #include "harness/readers/model_fields.h"
+#include "harness/readers/model_reader.h"
 #include "solver/elements/frame_element.h"
 #include "solver/elements/triangle_element.h"
 #include "solver/model/numbers.h"

@@ -4,8 +4,8 @@
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
+#include "harness/input/document.h"
 #include "harness/input/json_view.h"
-#include "harness/input/schema.h"
 
 namespace trammel::harness {
 namespace {
@@ -110,11 +110,11 @@ void require_place(const Document& document, const JsonView& pointer, const Json
   }
 }
 
-Json patch_of_pointers(const JsonView& sweep, const Json& document, const Json& value) {
+Json patch_of_pointers(const JsonView& sweep, const Document& document, const Json& value) {
   Json patch = Json::object();
   for (const auto& [number, at] : sweep["pointers"].entries()) {
-    require_place(sweep.document(), at, value);
-    patch.merge_patch(patch_at(document, at.get<std::string>(), value));
+    require_place(document, at, value);
+    patch.merge_patch(patch_at(document.value(), at.get<std::string>(), value));
   }
   return patch;
 }
@@ -217,9 +217,9 @@ std::vector<Level> levels(const Document& variant, const JsonView& sweep) {
   for (std::size_t i = 0; i < values.size(); ++i) {
     Level level{values[i].get<double>(), variant};
     const Json patch = by_patches ? sweep["patches"][i].json()
-                                  : patch_of_pointers(sweep, variant.value(), values[i].json());
+                                  : patch_of_pointers(sweep, variant, values[i].json());
     const JsonView place = by_patches ? sweep["patches"][i] : values[i];
-    const Origin written = variant.origin(place.pointer());
+    const Origin written = sweep.document().origin(place.pointer());
     if (by_patches) {
       level.document.apply_patch(written.file, written.pointer, patch);
     } else {

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "harness/base/contains.h"
-#include "harness/base/data_root.h"
+#include "harness/base/environment.h"
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
 #include "references/data/json_files.h"

@@ -101,20 +101,6 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
   return order;
 }
 
-Window read_window(const JsonView& place) {
-  const auto limit = [&](std::size_t side, double open) {
-    return place[side].json().is_null() ? open : place[side].get<double>();
-  };
-  const Window window{limit(0, -kUnlimited), limit(1, kUnlimited)};
-  if (place[0].json().is_null() && place[1].json().is_null())
-    throw place.error("expected a limit on one side at least");
-  if (window.low > window.high) {
-    throw place.error("expected the lower limit first (got " + shortest(window.low) + ", " +
-                      shortest(window.high) + ")");
-  }
-  return window;
-}
-
 /// A discrepancy that is allowed to be zero could never stop being true.
 void require_discrepancy(const JsonView& place, const Check& check) {
   const bool is_difference =
@@ -279,6 +265,20 @@ bool applies(const JsonView& place, const std::string& variant,
 }
 
 }  // namespace
+
+Window read_window(const JsonView& place) {
+  const auto limit = [&](std::size_t side, double open) {
+    return place[side].json().is_null() ? open : place[side].get<double>();
+  };
+  const Window window{limit(0, -kUnlimited), limit(1, kUnlimited)};
+  if (place[0].json().is_null() && place[1].json().is_null())
+    throw place.error("expected a limit on one side at least");
+  if (window.low > window.high) {
+    throw place.error("expected the lower limit first (got " + shortest(window.low) + ", " +
+                      shortest(window.high) + ")");
+  }
+  return window;
+}
 
 std::vector<Check> read_checks(const Document& document, const std::string& variant,
                                const std::vector<std::string>& variants) {

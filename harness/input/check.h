@@ -26,6 +26,10 @@ struct Window {
   [[nodiscard]] bool contains(double value) const { return low <= value && value <= high; }
 };
 
+/// Reads [low, high], null where a side is open.
+/// @throws InputError  if both sides are open, or the lower limit is above the upper.
+[[nodiscard]] Window read_window(const JsonView& place);
+
 /// Demands on the observed order of convergence.
 struct OrderCriterion {
   struct WaveNumber {

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "harness/input/schema.h"
-
 namespace trammel::harness {
 namespace {
 

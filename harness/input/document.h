@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,5 +53,16 @@ class Document {
   Json value_ = Json::object();
   std::vector<Layer> layers_;
 };
+
+/// What is wrong, and where.
+struct SchemaFault {
+  std::string pointer;  ///< JSON pointer into the document; empty: the document itself
+  std::string message;  ///< "expected ... (got ...)"
+};
+
+/// The deepest fault of a document, empty when it obeys the schema.
+/// @param schema  "case", "cost", "reference" or "results"
+[[nodiscard]] std::optional<SchemaFault> find_schema_fault(const Json& document,
+                                                           const std::string& schema);
 
 }  // namespace trammel::harness

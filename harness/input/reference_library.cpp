@@ -1,10 +1,9 @@
 #include "harness/input/reference_library.h"
 
-#include "harness/base/content_hash.h"
-#include "harness/base/data_root.h"
+#include "harness/base/environment.h"
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
-#include "harness/input/schema.h"
+#include "harness/input/document.h"
 #include "references/data/json_files.h"
 
 namespace trammel::harness {

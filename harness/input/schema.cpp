@@ -1,10 +1,9 @@
-#include "harness/input/schema.h"
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <unordered_map>
 
+#include "harness/input/document.h"
 #include "harness/input/schema_rules.h"
 
 namespace trammel::harness {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "harness/base/json.h"
-#include "harness/input/schema.h"
+#include "harness/input/document.h"
 
 /// Schemas as rapidjson reads them: five times faster than nlohmann's reader, whose time on the
 /// 85 kB of the case schema a user waits for. rapidjson's own validator takes 20 million

@@ -1,13 +1,12 @@
-#include "harness/judge/evaluate_order_check.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "harness/base/contains.h"
-#include "harness/base/numbers.h"
+#include "harness/base/number.h"
 #include "harness/base/text.h"
+#include "harness/judge/evaluate_check.h"
 
 namespace trammel::harness {
 namespace {

@@ -1,8 +1,12 @@
 #include "harness/judge/input_uncertainty.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <random>
+
+#include "harness/base/text.h"
 
 namespace trammel::harness {
 namespace {
@@ -33,32 +37,19 @@ std::vector<std::vector<double>> latin_hypercube(std::size_t count, std::size_t 
   return points;
 }
 
-/// Linear between the order statistics of sorted values.
-double quantile(const std::vector<double>& sorted, double p) {
-  const double at = p * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(at);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (at - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
-
-void summarise(std::vector<double> values, SampledUncertainty& result) {
-  std::ranges::sort(values);
+double standard_deviation(const std::vector<double>& values) {
   const auto n = static_cast<double>(values.size());
-  double mean = 0;
+  double mean = 0, square = 0;
   for (const double value : values) mean += value / n;
-  double square = 0;
   for (const double value : values) square += (value - mean) * (value - mean);
-  result.mean.push_back(mean);
-  result.standard.push_back(std::sqrt(square / (n - 1)));
-  result.low.push_back(quantile(values, 0.025));
-  result.high.push_back(quantile(values, 0.975));
+  return std::sqrt(square / (n - 1));
 }
 
 }  // namespace
 
-std::optional<PropagatedUncertainty> uncertainty_by_derivatives(
+std::optional<std::vector<std::vector<double>>> uncertainty_by_derivatives(
     const Response& response, const std::vector<double>& half_widths) {
-  PropagatedUncertainty result;
+  std::vector<std::vector<double>> contributions;
   for (std::size_t k = 0; k < half_widths.size(); ++k) {
     std::vector<double> offsets(half_widths.size(), 0.0);
     offsets[k] = kStep * half_widths[k];
@@ -70,16 +61,9 @@ std::optional<PropagatedUncertainty> uncertainty_by_derivatives(
     for (std::size_t i = 0; i < above->size(); ++i) {
       contribution.push_back(((*above)[i] - (*below)[i]) / (2 * kStep * std::sqrt(3.0)));
     }
-    result.contribution.push_back(std::move(contribution));
+    contributions.push_back(std::move(contribution));
   }
-  if (result.contribution.empty()) return result;
-  for (std::size_t i = 0; i < result.contribution.front().size(); ++i) {
-    double square = 0;
-    for (const auto& contribution : result.contribution)
-      square += contribution[i] * contribution[i];
-    result.standard.push_back(std::sqrt(square));
-  }
-  return result;
+  return contributions;
 }
 
 SampledUncertainty uncertainty_by_sampling(const Response& response,
@@ -102,9 +86,95 @@ SampledUncertainty uncertainty_by_sampling(const Response& response,
     std::vector<double> values;
     values.reserve(outputs.size());
     for (const auto& output : outputs) values.push_back(output[i]);
-    summarise(std::move(values), result);
+    result.standard.push_back(standard_deviation(values));
   }
   return result;
+}
+
+namespace {
+
+using results::Comparison;
+using results::ValidationVerdict;
+
+constexpr double kRepeated = 1e-6;
+
+void compare(const Comparison& c, ValidationVerdict& v) {
+  // Not std::hypot of three, which may lose a NaN.
+  v.u_val =
+      std::sqrt(*c.u_num * *c.u_num + *v.u_input * *v.u_input + *c.u_reference * *c.u_reference);
+  const double noise = kCoverageFactor * *v.u_val;
+  v.interval = {*c.difference - noise, *c.difference + noise};
+  v.verdict = kUndecided;
+  if (!c.difference || !v.u_val) return;
+  v.verdict = std::abs(*c.difference) <= noise ? kWithinUncertainty : kModelError;
+}
+
+/// One past the last entry whose computed value is that of `first`.
+std::size_t end_of_repeated(std::span<const Comparison> row, std::size_t first) {
+  const double value = *row[first].simulation;
+  std::size_t end = first + 1;
+  while (end < row.size() &&
+         std::abs(*row[end].simulation - value) <= kRepeated * std::abs(value)) {
+    ++end;
+  }
+  return end;
+}
+
+struct Spread {
+  double low, high;
+  bool beyond_digits;  ///< wider than the printed digits allow
+};
+
+Spread printed(std::span<const Comparison> equal) {
+  const auto [low, high] = std::ranges::minmax_element(equal, {}, &Comparison::expected);
+  const double range = *high->expected - *low->expected;
+  const double digits_allow = kCoverageFactor * std::hypot(*low->u_reference, *high->u_reference);
+  return {*low->expected, *high->expected, range > digits_allow};
+}
+
+std::string describe_validation(const Comparison& c, const ValidationVerdict& v) {
+  if (v.verdict == kUndecided)
+    return "undecided: the value or one of its uncertainties could not be computed";
+  if (v.verdict == kWithinUncertainty)
+    return fmt::format("the difference of {} {} is within the validation uncertainty of ±{} {}",
+                       rounded(*c.difference, 3), c.unit, rounded(kCoverageFactor * *v.u_val, 3),
+                       c.unit);
+  const auto [a, b] = std::minmax({std::abs(*v.interval[0]), std::abs(*v.interval[1])});
+  return fmt::format("model error between {} and {} {}, too {}", rounded(a, 3), rounded(b, 3),
+                     c.unit, *c.difference > 0 ? "high" : "low");
+}
+
+std::string contradiction(const Spread& spread, std::size_t first, std::size_t end,
+                          const std::string& unit) {
+  return fmt::format(
+      "the reference is inconsistent: values {} to {} are equal by symmetry "
+      "but printed as {} to {} {}",
+      first + 1, end, rounded(spread.low, 6), rounded(spread.high, 6), unit);
+}
+
+}  // namespace
+
+void evaluate_validation_row(std::span<Comparison> row) {
+  for (std::size_t first = 0; first < row.size();) {
+    const std::size_t end = end_of_repeated(row, first);
+    const Spread spread = printed(row.subspan(first, end - first));
+    for (Comparison& c : row.subspan(first, end - first)) {
+      c.difference = *c.simulation - *c.expected;
+      for (ValidationVerdict* v : {static_cast<ValidationVerdict*>(&c), &c.all_inputs}) {
+        compare(c, *v);
+        const double noise = kCoverageFactor * *v->u_val;
+        const bool between =
+            *c.simulation >= spread.low - noise && *c.simulation <= spread.high + noise;
+        if (v->verdict == kModelError && spread.beyond_digits && between) {
+          v->verdict = kReferenceInconsistent;
+          v->conclusion = contradiction(spread, first, end, c.unit);
+        } else {
+          v->conclusion = describe_validation(c, *v);
+        }
+      }
+    }
+    first = end;
+  }
 }
 
 }  // namespace trammel::harness

@@ -1,7 +1,8 @@
-#include "harness/judge/uncertainty_summary.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "harness/base/statistic.h"
+#include "harness/judge/convergence.h"
 
 namespace trammel::harness {
 
@@ -26,11 +27,7 @@ results::UncertaintyCoverage summarise_numerical_uncertainty(
   for (const results::Run& run : runs) std::ranges::for_each(run.convergence, add);
   if (summary.levels > 0)
     summary.coverage = static_cast<double>(summary.covered) / static_cast<double>(summary.levels);
-  if (!ratios.empty()) {
-    const auto middle = ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2);
-    std::nth_element(ratios.begin(), middle, ratios.end());
-    summary.median_ratio = *middle;
-  }
+  if (!ratios.empty()) summary.median_ratio = upper_median(std::move(ratios));
   summary.passes = summary.levels < summary.min_levels ||
                    (*summary.coverage >= kMinHitRate && *summary.median_ratio <= kMaxMedianRatio);
   return summary;

@@ -6,8 +6,8 @@
 
 #include "harness/motion/analyses.h"
 #include "harness/readers/option_reader.h"
+#include "harness/scene/case_model.h"
 #include "harness/scene/observables.h"
-#include "harness/scene/rigid_case_model.h"
 #include "harness/statics_modes/range_warnings.h"
 #include "solver/large/large_elastodynamics.h"
 #include "solver/linear/modes.h"

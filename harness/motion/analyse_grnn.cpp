@@ -10,7 +10,6 @@
 #include "harness/motion/analyses.h"
 #include "harness/readers/option_reader.h"
 #include "harness/scene/case_model.h"
-#include "harness/scene/rigid_case_model.h"
 #include "harness/scene/tracking.h"
 #include "harness/statics_modes/step_result.h"
 #include "solver/grnn/grnn_validation.h"
@@ -20,6 +19,14 @@
 #include "solver/model/numbers.h"
 
 namespace trammel::harness {
+
+template <>
+inline constexpr std::array kWords<solver::InputScaling> = {"none", "deviation", "range"};
+template <>
+inline constexpr std::array kWords<solver::FoldOrder> = {"interleaved", "shuffled", "blocks"};
+template <>
+inline constexpr std::array kWords<solver::Split> = {"first", "interleaved", "shuffled"};
+
 namespace {
 
 struct GrnnOutput {
@@ -135,29 +142,6 @@ void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamp
       }).outcome;
 }
 
-solver::InputScaling read_scaling(const JsonView& analysis) {
-  const auto word = analysis.get<std::string>("scaling", "none");
-  if (word == "deviation") return solver::InputScaling::deviation;
-  return word == "range" ? solver::InputScaling::range : solver::InputScaling::none;
-}
-
-solver::CrossValidation read_validation(const JsonView& search) {
-  solver::CrossValidation validation;
-  validation.folds = search.get<solver::Index>("folds", 0);
-  const auto order = search.get<std::string>("order", "interleaved");
-  validation.order = order == "blocks"     ? solver::FoldOrder::blocks
-                     : order == "shuffled" ? solver::FoldOrder::shuffled
-                                           : solver::FoldOrder::interleaved;
-  validation.seed = search.get<std::uint64_t>("seed", 1);
-  return validation;
-}
-
-solver::Split read_split(const JsonView& analysis) {
-  const auto word = analysis.get<std::string>("split", "first");
-  if (word == "interleaved") return solver::Split::interleaved;
-  return word == "shuffled" ? solver::Split::shuffled : solver::Split::first;
-}
-
 /// The smoothing: as given, or the one with the least error of cross-validation.
 void choose_sigma(const JsonView& analysis, solver::Grnn& network, Recorder& record) {
   if (analysis.has("sigma") == analysis.has("spread") && analysis.has("sigma")) {
@@ -175,7 +159,9 @@ void choose_sigma(const JsonView& analysis, solver::Grnn& network, Recorder& rec
         network,
         given ? solver::logarithmic_grid(search.number("from"), search.number("to"), count)
               : solver::default_grid(network, count),
-        read_validation(search));
+        {.folds = search.get<solver::Index>("folds", 0),
+         .order = search.get("order", solver::FoldOrder::interleaved),
+         .seed = search.get<std::uint64_t>("seed", 1)});
     network.sigma = found.sigma;
     record.add("cross_validation_error", found.error);
     record.add("sigma_bracketed", found.bracketed ? 1 : 0);
@@ -369,8 +355,9 @@ StepResult analyse_grnn(const JsonView& analysis, const CaseModel& case_model, b
     throw analysis["train"].error("expected no more samples than the path has points, " +
                                   std::to_string(count));
   }
-  const std::vector<bool> trains = solver::training_mask(count, train, read_split(analysis),
-                                                         analysis.get<std::uint64_t>("seed", 1));
+  const std::vector<bool> trains =
+      solver::training_mask(count, train, analysis.get("split", solver::Split::first),
+                            analysis.get<std::uint64_t>("seed", 1));
   const Parts parts = parts_of(trains);
   const bool spline = analysis.get<std::string>("surrogate", "network") == "spline";
   solver::Grnn network;
@@ -381,7 +368,8 @@ StepResult analyse_grnn(const JsonView& analysis, const CaseModel& case_model, b
     predicted = spline_over_time(case_model, samples.outputs, parts.training);
   } else {
     network = solver::make_grnn(rows(samples.inputs, parts.training),
-                                rows(samples.outputs, parts.training), 1, read_scaling(analysis));
+                                rows(samples.outputs, parts.training), 1,
+                                analysis.get("scaling", solver::InputScaling::none));
     choose_sigma(analysis, network, record);
     predicted = solver::predict(network, samples.inputs);
   }
@@ -416,8 +404,8 @@ StepResult analyse_grnn_samples(const Document& document, const References&, boo
                                     std::to_string(samples.inputs.cols()));
   }
   try {
-    solver::Grnn network =
-        solver::make_grnn(samples.inputs, samples.outputs, 1, read_scaling(analysis));
+    solver::Grnn network = solver::make_grnn(samples.inputs, samples.outputs, 1,
+                                             analysis.get("scaling", solver::InputScaling::none));
     choose_sigma(analysis, network, record);
     const Eigen::MatrixXd predicted = solver::predict(network, queries);
     for (solver::Index k = 0; k < predicted.rows(); ++k) {

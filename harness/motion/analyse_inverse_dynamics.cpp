@@ -2,7 +2,7 @@
 #include <numbers>
 
 #include "harness/motion/analyses.h"
-#include "harness/scene/rigid_case_model.h"
+#include "harness/scene/case_model.h"
 #include "solver/manipulator/rigid_dynamics.h"
 
 namespace trammel::harness {

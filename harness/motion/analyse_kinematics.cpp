@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "harness/motion/analyses.h"
-#include "harness/scene/rigid_case_model.h"
+#include "harness/scene/case_model.h"
 
 namespace trammel::harness {
 

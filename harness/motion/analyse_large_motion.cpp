@@ -1,10 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/base/numbers.h"
+#include "harness/base/number.h"
+#include "harness/base/recorder.h"
 #include "harness/motion/analyses.h"
-#include "harness/motion/energy_recorder.h"
-#include "harness/readers/joint_reader.h"
 #include "harness/readers/option_reader.h"
 #include "harness/scene/drawing.h"
 #include "harness/scene/observables.h"

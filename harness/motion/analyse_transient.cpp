@@ -6,11 +6,10 @@
 #include <utility>
 #include <vector>
 
+#include "harness/base/recorder.h"
 #include "harness/input/json_view.h"
 #include "harness/motion/analyses.h"
-#include "harness/motion/energy_recorder.h"
 #include "harness/readers/field_reader.h"
-#include "harness/readers/joint_reader.h"
 #include "harness/readers/option_reader.h"
 #include "harness/scene/observables.h"
 #include "harness/statics_modes/range_warnings.h"

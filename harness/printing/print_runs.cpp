@@ -7,10 +7,10 @@
 #include <map>
 
 #include "harness/base/find_or_add.h"
-#include "harness/base/numbers.h"
+#include "harness/base/number.h"
 #include "harness/base/quantity.h"
 #include "harness/base/text.h"
-#include "harness/judge/check_result.h"
+#include "harness/judge/evaluate_check.h"
 #include "harness/results/run_grade.h"
 
 namespace trammel::harness {

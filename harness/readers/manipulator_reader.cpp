@@ -1,6 +1,5 @@
-#include "harness/readers/manipulator_reader.h"
-
 #include "harness/readers/field_reader.h"
+#include "harness/readers/model_reader.h"
 
 namespace trammel::harness {
 namespace {

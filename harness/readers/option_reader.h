@@ -4,9 +4,11 @@
 #include <string>
 
 #include "harness/input/json_view.h"
+#include "solver/large/large_motion_model.h"
 #include "solver/linalg/eigenpairs.h"
 #include "solver/linear/row_balance.h"
 #include "solver/manipulator/frequency_sensitivity.h"
+#include "solver/model/model.h"
 #include "solver/motion/equation_of_motion.h"
 #include "solver/motion/harmonic.h"
 #include "solver/motion/transient.h"
@@ -50,5 +52,19 @@ void require_step_count(const JsonView& step, double duration);
 
 /// "sensitivity_Hz_per_m", by the parameter's unit.
 [[nodiscard]] std::string sensitivity_name(solver::DesignParameter::Kind kind);
+
+/// Adds the drives of a large-statics or large-motion analysis, and of the second its damping, its
+/// history of the loads and its start.
+/// @throws InputError  where a name leads nowhere.
+void read_drives(const JsonView& analysis, const solver::Model& built,
+                 solver::large_motion::LargeMotionModel& large_motion);
+void read_history(const JsonView& analysis, const solver::Model& built,
+                  solver::large_motion::LargeMotionModel& large_motion);
+
+/// A motion over time: place, speed and acceleration.
+[[nodiscard]] solver::large_motion::TimeFunction read_law(const JsonView& law);
+
+/// The node of that name. @throws InputError  where there is none.
+[[nodiscard]] solver::Index find_node(const JsonView& name, const solver::Model& built);
 
 }  // namespace trammel::harness

@@ -1,11 +1,10 @@
-#include "harness/readers/plate_reader.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
 
+#include "harness/readers/field_reader.h"
 #include "solver/elements/block_mesh.h"
 #include "solver/model/model.h"
 #include "solver/model/numbers.h"

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,9 +10,22 @@
 /// What results.json says under /cost: settings of one computation, measured for error and time.
 namespace trammel::results {
 
+/// Result of one computation of a setting. Only stores hold it.
+struct SandboxedRun {
+  enum class Termination { failed, solved, timed_out };
+  Termination termination = Termination::failed;
+  std::string reason;                                     ///< of a failure
+  std::vector<std::vector<double>> values;                ///< a list for each observed quantity
+  std::map<std::string, std::vector<double>> quantities;  ///< all, if none is observed
+  Counters counters;
+  double cpu_s = 0;
+};
+
 /// Norms of the relative error over all observed values.
 struct ErrorNorms {
   Number max, rms, mean;
+  /// @param norm  the name of a member
+  [[nodiscard]] Number get(const std::string& norm) const;
 };
 
 struct SettingTime {
@@ -24,8 +38,10 @@ struct SettingTime {
 
 struct CostSetting {
   std::string curve, curve_title, title, status, reason;
-  Number value;  ///< along the curve
-  std::optional<ErrorNorms> errors;
+  Number value;                      ///< along the curve
+  std::optional<ErrorNorms> errors;  ///< of the first output
+  /// Of each output; empty if the setting does not give it. Only stores hold them.
+  std::vector<std::optional<ErrorNorms>> output_errors;
   double cpu_s = 0;  ///< median, or of the one trial
   Number relative;   ///< to the baseline's
   std::optional<SettingTime> time;
@@ -46,11 +62,13 @@ struct CheapestSetting {
   std::vector<std::size_t> tied;       ///< settings whose time cannot be told from it
 };
 
-/// How near the Pareto fronts of odd and of even repeats come.
+/// Agreement of the Pareto fronts of two measurements, in a study those of odd and even repeats.
 struct Repeatability {
   std::size_t on_both_fronts = 0, on_either_front = 0;  ///< settings
-  std::size_t same_cheapest = 0, target_errors = 0;
-  Number median_difference, largest_difference;  ///< of the time that an accuracy takes
+  std::size_t same_cheapest = 0, target_errors = 0;     ///< target errors that both reach
+  /// |ln| of the ratio of the times that an accuracy takes, over all errors of both fronts that
+  /// both reach; as a share: 0.1 is 10 %.
+  Number median_difference, largest_difference;
 };
 
 /// What a study of several outputs finds for one of them, or for all at once.
@@ -68,6 +86,8 @@ struct CostStudy {
   std::vector<CheapestSetting> cheapest;
   Repeatability repeatability;
   std::vector<CostOutput> outputs;  ///< where there are several; all at once is the last
+  /// Hashes of the references by file. Only stores hold them.
+  std::map<std::string, std::string> references;
 
   /// The error of a setting in the study's norm.
   [[nodiscard]] Number error(const CostSetting& setting) const;

@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "harness/base/contains.h"
-#include "harness/base/embedded_text.h"
+#include "harness/base/text.h"
 
 namespace trammel::results {
 

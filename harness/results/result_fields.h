@@ -4,6 +4,7 @@
 
 #include "harness/results/fields.h"
 #include "harness/results/results.h"
+#include "harness/results/side_comparison.h"
 
 /// The fields of all result structs: the one list by which they are written and read.
 namespace trammel::results {
@@ -170,12 +171,20 @@ inline Json to_json(const Run& run, Form form) {
   return detail::object_to_json(run,
                                 run.stored.empty() && form == Form::summary ? Form::text : form);
 }
+template <>
+inline constexpr std::array kNames<SandboxedRun::Termination> = {
+    std::pair{"failed", SandboxedRun::Termination::failed},
+    std::pair{"solved", SandboxedRun::Termination::solved},
+    std::pair{"timed-out", SandboxedRun::Termination::timed_out}};
+TRAMMEL_FIELDS(SandboxedRun, TRAMMEL_REQUIRED(termination, values, quantities, counters, cpu_s),
+               TRAMMEL_OPTIONAL(reason));
 TRAMMEL_FIELDS(ErrorNorms, TRAMMEL_REQUIRED(max, rms, mean));
 TRAMMEL_FIELDS(SettingTime, TRAMMEL_REQUIRED(cpu_s, relative_low, relative_high, wall_median_s,
                                              runs_per_measurement));
 TRAMMEL_FIELDS(CostSetting, required("error", &S::errors), required("relative_time", &S::relative),
                TRAMMEL_REQUIRED(curve, curve_title, title, value, status, reason, cpu_s, time,
-                                counters, pareto_optimal));
+                                counters, pareto_optimal),
+               TRAMMEL_STORE_ONLY(output_errors));
 TRAMMEL_FIELDS(CheapestSetting, TRAMMEL_REQUIRED(error, setting, tied));
 TRAMMEL_FIELDS(Repeatability,
                TRAMMEL_REQUIRED(on_both_fronts, on_either_front, same_cheapest, target_errors,
@@ -184,7 +193,7 @@ TRAMMEL_FIELDS(CostOutput, TRAMMEL_REQUIRED(title, scale, errors, cheapest));
 TRAMMEL_FIELDS(CostStudy,
                TRAMMEL_REQUIRED(id, family, title, reference_solution, scale, norm, baseline,
                                 wall_s, settings, cheapest, repeatability, conclusion),
-               TRAMMEL_OPTIONAL(description, outputs));
+               TRAMMEL_OPTIONAL(description, outputs), TRAMMEL_STORE_ONLY(references));
 TRAMMEL_FIELDS(CostStudies,
                TRAMMEL_REQUIRED(sweep, seed, repeats, equal_within, diverged_above, studies));
 TRAMMEL_FIELDS(Environment,
@@ -239,5 +248,17 @@ TRAMMEL_FIELDS(History, TRAMMEL_REQUIRED(calls, since, changes, work, drifts));
 TRAMMEL_FIELDS(Results, optional("numerical_uncertainty", &S::uncertainty_coverage),
                TRAMMEL_REQUIRED(format, environment, cases, references, runs),
                TRAMMEL_OPTIONAL(solver, cost, claims, coverage, effect_scenes, history, store));
+TRAMMEL_FIELDS(ComparedNumber,
+               TRAMMEL_REQUIRED(quantity, index, entries, values, percent, noise, share, changed));
+TRAMMEL_FIELDS(ComparedModes,
+               TRAMMEL_REQUIRED(modes, values, last, percent, alike, noise, share, changed));
+TRAMMEL_FIELDS(ComparedRun, TRAMMEL_REQUIRED(name, changed, share, numbers),
+               TRAMMEL_OPTIONAL(modes, remarks));
+TRAMMEL_FIELDS(ComparedSide,
+               TRAMMEL_REQUIRED(label, runs, cpu_s, relative_time, work, median_error,
+                                largest_error, error_ratio, rank),
+               TRAMMEL_OPTIONAL(commit, date, processor, solver));
+TRAMMEL_FIELDS(SideComparison,
+               TRAMMEL_REQUIRED(conclusion, sides, same, within_noise, changed, runs));
 
 }  // namespace trammel::results

@@ -210,43 +210,10 @@ void complete(Results& results) {
     require_consistent(results.cost->studies[i], Place{&studies, std::to_string(i)});
 }
 
-nlohmann::ordered_json coverage_to_json(const std::vector<CoverageRow>& rows) {
-  return to_json(rows);
-}
-
-nlohmann::ordered_json history_to_json(const History& history) {
-  return to_json(history);
-}
-
-nlohmann::ordered_json claims_to_json(const Claims& claims) {
-  return to_json(claims);
-}
-
 Json to_json(const Results& results, bool summary) {
   Json json = to_json<Results>(results, summary ? Form::summary : Form::text);
   for (const SharedTexts& shared : kSharedTexts) share_texts(json, shared);
   return json;
-}
-std::vector<PlotRequest> read_figures(const Json& json) {
-  return from_json<std::vector<PlotRequest>>(json);
-}
-std::vector<TableRequest> read_tables(const Json& json) {
-  return from_json<std::vector<TableRequest>>(json);
-}
-StressSuiteEntry read_stress_suite(const Json& json) {
-  return from_json<StressSuiteEntry>(json);
-}
-Status read_status(const std::string& name) {
-  return from_json<Status>(name);
-}
-Environment read_environment(const Json& json) {
-  return from_json<Environment>(json);
-}
-ModelProbabilities read_model_probabilities(const Json& json) {
-  return from_json<ModelProbabilities>(json);
-}
-CostStudies read_cost_studies(const Json& json) {
-  return from_json<CostStudies>(json);
 }
 
 bool CoverageRow::is_verified() const {
@@ -281,6 +248,12 @@ const std::vector<double>* Run::quantity(const std::string& name) const {
   return found == quantities.end() ? nullptr : &found->second.values;
 }
 
+std::size_t Cost::work() const {
+  std::size_t sum = 0;
+  for (const auto& counter : counters) sum += counter.second;
+  return sum;
+}
+
 bool PlotRequest::is_log(const std::string& axis) const {
   return harness::contains(log, axis);
 }
@@ -300,11 +273,12 @@ const Reference* Results::reference(const std::string& id) const {
   return find_id(references, id);
 }
 
+Number ErrorNorms::get(const std::string& norm) const {
+  return norm == "max" ? max : norm == "rms" ? rms : mean;
+}
+
 Number CostStudy::error(const CostSetting& setting) const {
-  if (!setting.errors) return std::nullopt;
-  return norm == "max"   ? setting.errors->max
-         : norm == "rms" ? setting.errors->rms
-                         : setting.errors->mean;
+  return setting.errors ? setting.errors->get(norm) : Number();
 }
 
 Number difference_of(const Check& check) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
@@ -8,7 +9,6 @@
 #include <vector>
 
 #include "harness/results/cost_results.h"
-#include "harness/results/history.h"
 #include "harness/results/run_results.h"
 
 /// What results.json says, as plain values in its own order: written by the harness, read by the
@@ -151,6 +151,39 @@ struct Solver {
   std::string name, version, command;
 };
 
+/// What calls of the program came to over time.
+struct HistoryCall {
+  std::int64_t id = 0;
+  std::string date, commit, machine;
+  std::size_t runs = 0, checks = 0, failures = 0, work = 0;
+  double cpu_s = 0;  ///< 0: not all of it was computed by this call
+  [[nodiscard]] bool green() const { return failures == 0; }
+};
+
+/// Between the last green call before the newest one, and that.
+struct HistoryChange {
+  std::string name;  ///< run, check and entry; or run alone for its counted work
+  std::string verdict_before, verdict;
+  Number before, after;
+  std::string commit, date;  ///< of the first call that had it
+  [[nodiscard]] bool of_verdict() const { return verdict_before != verdict; }
+};
+
+/// A value that has gone one way in small steps, in at least three calls.
+struct HistoryDrift {
+  std::string name;
+  std::size_t steps = 0;
+  double first = 0, last = 0;
+};
+
+struct History {
+  std::vector<HistoryCall> calls;      ///< oldest first
+  std::int64_t since = 0;              ///< the green call that changes are counted from; 0: none
+  std::vector<HistoryChange> changes;  ///< of verdicts first
+  std::vector<HistoryChange> work;     ///< counted, exact
+  std::vector<HistoryDrift> drifts;    ///< largest first
+};
+
 struct Results {
   int format = 1;
   Environment environment;
@@ -179,18 +212,6 @@ inline constexpr std::size_t kSummaryEntries = 1;
 /// /notes; the places that share them hold an index.
 /// @param summary  without the series, drawings and studies of runs that a store holds
 [[nodiscard]] nlohmann::ordered_json to_json(const Results& results, bool summary = false);
-[[nodiscard]] nlohmann::ordered_json coverage_to_json(const std::vector<CoverageRow>& rows);
-[[nodiscard]] nlohmann::ordered_json history_to_json(const History& history);
-[[nodiscard]] nlohmann::ordered_json claims_to_json(const Claims& claims);
-
-/// Figures, tables and the like of a case file, which results hold as they stand there.
-[[nodiscard]] std::vector<PlotRequest> read_figures(const nlohmann::ordered_json& json);
-[[nodiscard]] std::vector<TableRequest> read_tables(const nlohmann::ordered_json& json);
-[[nodiscard]] StressSuiteEntry read_stress_suite(const nlohmann::ordered_json& json);
-[[nodiscard]] Status read_status(const std::string& name);
-[[nodiscard]] Environment read_environment(const nlohmann::ordered_json& json);
-[[nodiscard]] CostStudies read_cost_studies(const nlohmann::ordered_json& json);
-[[nodiscard]] ModelProbabilities read_model_probabilities(const nlohmann::ordered_json& json);
 
 /// Fills in titles that are left out with the names.
 /// @throws std::runtime_error  with the JSON pointer of what does not fit the rest.

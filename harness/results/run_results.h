@@ -200,6 +200,9 @@ struct Cost {
   Counters counters;
   Number uncertainty_wall_s;  ///< of the validation comparison, which is not in wall_s
   std::vector<harness::EvaluationTime> timings;
+
+  /// The sum of all counters.
+  [[nodiscard]] std::size_t work() const;
 };
 
 /// One effect in a run, and the reason for its state.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -63,7 +62,5 @@ struct SideComparison {
   std::size_t same = 0, within_noise = 0, changed = 0;  ///< runs; same: bit for bit
   std::vector<ComparedRun> runs;  ///< that are not the same, the ones that change most first
 };
-
-[[nodiscard]] nlohmann::ordered_json to_json(const SideComparison& comparison);
 
 }  // namespace trammel::results

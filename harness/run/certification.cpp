@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "harness/base/find_or_add.h"
+#include "harness/base/statistic.h"
 #include "harness/run/diff.h"
 
 namespace trammel::harness {
@@ -78,11 +79,7 @@ void compare(const Entries& first, const Configuration& other, Certification& re
     if (flipped)
       result.flips.push_back({other.name, row.name, verdict_of(row.before), verdict_of(row.after)});
   }
-  if (!digits.empty()) {
-    const auto middle = digits.begin() + std::ssize(digits) / 2;
-    std::nth_element(digits.begin(), middle, digits.end());
-    total.median_digits = *middle;
-  }
+  if (!digits.empty()) total.median_digits = upper_median(std::move(digits));
   result.rows.push_back(total);
 }
 

@@ -10,11 +10,12 @@
 
 #include "harness/analysis/analysis.h"
 #include "harness/base/contains.h"
-#include "harness/base/data_root.h"
+#include "harness/base/environment.h"
 #include "harness/base/json_file.h"
 #include "harness/base/statistic.h"
 #include "harness/base/text.h"
 #include "harness/results/quantity_definitions.h"
+#include "harness/results/result_fields.h"
 
 namespace trammel::harness {
 namespace {
@@ -51,14 +52,6 @@ struct Rule {
   }
 };
 
-Window read_window(const JsonView& interval) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const auto side = [&](std::size_t i, double open) {
-    return interval[i].json().is_null() ? open : interval[i].get<double>();
-  };
-  return {side(0, -infinity), side(1, infinity)};
-}
-
 Rule read_rule(const JsonView& interpretation) {
   Rule rule;
   rule.jointly = interpretation.get("require_all_entries", false);
@@ -94,13 +87,12 @@ bool selects(const JsonView& interpretation, const Run& run) {
   return contains(variants, run.variant);
 }
 
-results::Number metric_of(const std::string& metric, const CheckResult& check_result) {
+results::Number metric_of(const std::string& metric, CheckResult check_result) {
   if (metric == "value") return check_result.computed;
   if (!check_result.computed || !check_result.expected) return std::nullopt;
-  const double computed = *check_result.computed, expected = *check_result.expected;
-  if (metric == "difference") return computed - expected;
-  if (expected == 0) return std::nullopt;
-  return metric == "ratio" ? computed / expected : (computed - expected) / std::abs(expected);
+  if (*check_result.expected == 0 && metric != "difference") return std::nullopt;
+  check_result.measure = metric == "difference" ? "absolute" : metric;
+  return results::difference_of(check_result);
 }
 
 void add_checks(const JsonView& interpretation, const Run& run, Interpretation& found) {
@@ -226,12 +218,14 @@ std::string verdict_of(const std::vector<Interpretation>& interpretations, bool 
 
 results::Claim evaluate_claim(const std::string& id, const JsonView& claim,
                               const std::vector<Run>& runs) {
-  results::Claim found;
-  found.id = id;
-  found.claim = claim.text("claim");
-  found.place = claim.text("place");
-  found.conclusion = claim.text("conclusion");
-  found.expected = claim.text("expected");
+  results::Claim found{id,
+                       claim.text("claim"),
+                       claim.text("place"),
+                       "",
+                       claim.text("expected"),
+                       claim.text("conclusion"),
+                       "",
+                       {}};
   std::ranges::replace(found.expected, '-', ' ');
   if (claim.has("interpretations") == claim.has("undecidable")) {
     throw claim.error("expected either 'interpretations' or why it is 'undecidable'");
@@ -252,9 +246,7 @@ results::Claim evaluate_claim(const std::string& id, const JsonView& claim,
 
 bool rests_on(const JsonView& interpretation, const Case& test_case) {
   if (interpretation.has("case")) return interpretation.text("case") == test_case.id();
-  const auto checks = JsonView(test_case.document).find("checks");
-  if (!checks) return false;
-  for (const auto& [name, check] : checks->entries()) {
+  for (const auto& [name, check] : JsonView(test_case.document).entries("checks")) {
     if (interpretation.has("check") && matches(name, interpretation.text("check"))) return true;
     if (interpretation.has("reference") &&
         check.get<std::string>("reference", "") == interpretation.text("reference")) {
@@ -270,11 +262,11 @@ void require_member(const JsonView& place, const Json& object, const std::string
   throw place.error("expected a " + what + " (got '" + printable(name) + "')");
 }
 
-PaperItem::Counterpart read_counterpart(const JsonView& place, const Catalogue& catalogue) {
-  const Case shown = load_case(catalogue.find_case(place.text("case")), catalogue);
-  PaperItem::Counterpart counterpart{shown.id(), place.get<std::string>("variant", ""),
-                                     place.get<std::string>("quantity", ""),
-                                     place.get<std::string>("figure", ""), ""};
+/// Names the case by its identifier and checks what else the counterpart names.
+void complete_counterpart(const JsonView& place, const Catalogue& catalogue,
+                          PaperItem::Counterpart& counterpart) {
+  const Case shown = load_case(catalogue.find_case(counterpart.case_id), catalogue);
+  counterpart.case_id = shown.id();
   const Json& json = shown.document.value();
   if (!counterpart.variant.empty())
     require_member(place["variant"], json.value("variants", Json::object()), "variant of the case");
@@ -284,23 +276,16 @@ PaperItem::Counterpart read_counterpart(const JsonView& place, const Catalogue& 
       results::find_quantity_definition(counterpart.quantity, analysis_kind(shown.document)) ==
           nullptr)
     throw place["quantity"].error("expected a quantity of the case's analysis");
-  return counterpart;
 }
 
 PaperItem read_item(const std::string& id, const JsonView& place, const Json& claims,
                     const Catalogue& catalogue) {
-  PaperItem item{id, place.text("section"), place.text("what")};
-  item.reason = place.get<std::string>("reason", "");
-  item.note = place.get<std::string>("note", "");
-  if (const auto shown = place.find("shown_by"))
-    for (const auto& entry : shown->entries())
-      item.shown_by.push_back(read_counterpart(entry.second, catalogue));
-  if (const auto stated = place.find("claims")) {
-    for (const auto& entry : stated->entries()) {
-      require_member(entry.second, claims, "claim");
-      item.claims.push_back(entry.second.get<std::string>());
-    }
-  }
+  Json stated = place.json();
+  stated["id"] = id;
+  auto item = results::from_json<PaperItem>(stated);
+  for (std::size_t i = 0; i < item.shown_by.size(); ++i)
+    complete_counterpart(place["shown_by"][i], catalogue, item.shown_by[i]);
+  for (const auto& entry : place.entries("claims")) require_member(entry.second, claims, "claim");
   if (item.shown_by.empty() && item.claims.empty() && item.reason.empty())
     throw place.error("expected 'shown_by', 'claims' or 'reason'");
   return item;
@@ -349,11 +334,9 @@ Document load_claims() {
 
 std::vector<Case> cases_of(const Document& claim_set, const std::vector<Case>& catalogue) {
   std::vector<JsonView> interpretations;
-  for (const auto& [id, claim] : JsonView(claim_set)["claims"].entries()) {
-    if (!claim.has("interpretations")) continue;
-    for (const auto& [name, interpretation] : claim["interpretations"].entries())
-      interpretations.push_back(interpretation);
-  }
+  for (const auto& claim : JsonView(claim_set)["claims"].entries())
+    for (const auto& item : claim.second.entries("interpretations"))
+      interpretations.push_back(item.second);
   std::vector<Case> cases;
   std::ranges::copy_if(catalogue, std::back_inserter(cases), [&](const Case& test_case) {
     return std::ranges::any_of(interpretations, [&](const JsonView& interpretation) {
@@ -376,9 +359,7 @@ results::Claims evaluate_claims(const Document& document, const std::vector<Run>
 
 std::vector<PaperItem> load_paper_items(const Document& claim_set, const Catalogue& catalogue) {
   std::vector<PaperItem> items;
-  const auto stated = JsonView(claim_set).find("items");
-  if (!stated) return items;
-  for (const auto& [id, place] : stated->entries())
+  for (const auto& [id, place] : JsonView(claim_set).entries("items"))
     items.push_back(read_item(id, place, claim_set.value().at("claims"), catalogue));
   return items;
 }

@@ -1,4 +1,3 @@
-#include "harness/run/compare_sides.h"
 
 #include <fmt/format.h>
 
@@ -86,6 +85,11 @@ double allowed_by_checks(const results::Run& run, const std::string& name, std::
   }
   return allowed;
 }
+
+/// Orders runs and numbers by what changes most.
+constexpr auto changed_more = [](const auto& a, const auto& b) {
+  return std::pair(a.changed, a.share) > std::pair(b.changed, b.share);
+};
 
 /// Infinite if only one of them has a value.
 double distance(const Number& a, const Number& b) {
@@ -332,13 +336,11 @@ ComparedRun compare_runs(const std::string& name, const Runs& runs,
   };
   for (const ComparedNumber& number : found.numbers) count(number);
   for (const ComparedModes& modes : found.modes) count(modes);
-  std::ranges::stable_sort(found.numbers, [](const auto& a, const auto& b) {
-    return std::pair(a.changed, a.share) > std::pair(b.changed, b.share);
-  });
+  std::ranges::stable_sort(found.numbers, changed_more);
   return found;
 }
 
-/// Relative errors against references by check entry.
+/// Relative errors of a run against references by check entry.
 std::map<std::string, double> errors_of(const std::string& name, const results::Run& run) {
   Entries entries;
   add_entries(run, name, entries);
@@ -353,62 +355,36 @@ std::map<std::string, double> errors_of(const std::string& name, const results::
   return errors;
 }
 
-/// What the sides come to in all: time and work of the runs that all have, and errors of what
-/// references are there for on all of them.
-class Totals {
- public:
-  explicit Totals(std::size_t sides) : errors_(sides), time_(sides), work_(sides) {}
-
-  void add(const std::string& name, const Runs& runs) {
-    for (std::size_t s = 0; s < runs.size(); ++s) {
-      errors_[s].merge(errors_of(name, *runs[s]));
-      time_[s] += runs[s]->cost.cpu_s;
-      for (const auto& counter : runs[s]->cost.counters) work_[s] += counter.second;
-    }
+/// Ranks the sides by their errors against the references that all of them have. Sides that cannot
+/// be distinguished from the first of a rank share it.
+void compare_errors(const std::vector<std::map<std::string, double>>& all,
+                    std::vector<ComparedSide>& sides) {
+  constexpr std::size_t kFewest = 7;  // errors that give an interval
+  std::vector<std::vector<double>> errors(sides.size());
+  for (const auto& item : all.front()) {
+    const auto has_entry = [&](const auto& other) { return other.contains(item.first); };
+    for (std::size_t s = 0; s < sides.size() && std::ranges::all_of(all, has_entry); ++s)
+      errors[s].push_back(std::max(all[s].at(item.first), 1e-16));
   }
-
-  void put(std::vector<ComparedSide>& sides) const {
-    std::vector<Timing> common(sides.size());  // errors in place of times
-    for (const auto& item : errors_.front())
-      if (std::ranges::all_of(errors_,
-                              [&](const auto& other) { return other.count(item.first) > 0; }))
-        for (std::size_t s = 0; s < sides.size(); ++s)
-          common[s].cpu_s.push_back(std::max(errors_[s].at(item.first), 1e-16));
-    for (std::size_t s = 0; s < sides.size(); ++s) {
-      sides[s].cpu_s = time_[s];
-      sides[s].work = work_[s];
-      if (time_.front() > 0) sides[s].relative_time = time_[s] / time_.front();
-      if (common[s].cpu_s.empty()) continue;
-      sides[s].median_error = quantile(common[s].cpu_s, 0.5);
-      sides[s].largest_error = quantile(common[s].cpu_s, 1);
-    }
-    if (!common.front().cpu_s.empty()) rank(common, sides);
+  if (errors.front().empty()) return;
+  std::vector<std::size_t> order;
+  for (std::size_t s = 0; s < sides.size(); ++s) {
+    sides[s].median_error = quantile(errors[s], 0.5);
+    sides[s].largest_error = quantile(errors[s], 1);
+    order.push_back(s);
   }
-
- private:
-  /// Sides that cannot be distinguished from the first of a rank share it.
-  static void rank(const std::vector<Timing>& errors, std::vector<ComparedSide>& sides) {
-    constexpr std::size_t kFewest = 7;  // errors that give an interval
-    const bool has_interval = errors.front().cpu_s.size() >= kFewest;
-    std::vector<std::size_t> order(sides.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::stable_sort(order, {}, [&](std::size_t s) { return sides[s].median_error; });
-    std::size_t head = 0;  // place of the first of a rank
-    for (std::size_t place = 0; place < order.size(); ++place) {
-      ComparedSide& side = sides[order[place]];
-      if (has_interval) {
-        const RelativeTime ratio = relative_time(errors[order[place]], errors[order.front()]);
-        side.error_ratio = {ratio.median, ratio.low, ratio.high};
-        if (relative_time(errors[order[place]], errors[order[head]]).low > 1) head = place;
-      }
-      side.rank = head + 1;
+  std::ranges::stable_sort(order, {}, [&](std::size_t s) { return sides[s].median_error; });
+  std::size_t head = 0;  // place of the first of a rank
+  for (std::size_t place = 0; place < order.size(); ++place) {
+    ComparedSide& side = sides[order[place]];
+    if (errors.front().size() >= kFewest) {
+      const RelativeTime ratio = relative_time(errors[order[place]], errors[order.front()]);
+      side.error_ratio = {ratio.median, ratio.low, ratio.high};
+      if (relative_time(errors[order[place]], errors[order[head]]).low > 1) head = place;
     }
+    side.rank = head + 1;
   }
-
-  std::vector<std::map<std::string, double>> errors_;
-  std::vector<double> time_;
-  std::vector<std::size_t> work_;
-};
+}
 
 ComparedSide side_of(const Side& side) {
   ComparedSide found;
@@ -521,9 +497,7 @@ std::size_t load_series(std::vector<results::Run>& runs, const std::vector<Side>
 }
 
 void sort_and_drop(SideComparison& comparison) {
-  std::ranges::stable_sort(comparison.runs, [](const auto& a, const auto& b) {
-    return std::pair(a.changed, a.share) > std::pair(b.changed, b.share);
-  });
+  std::ranges::stable_sort(comparison.runs, changed_more);
   for (std::size_t i = kDrawnRuns; i < comparison.runs.size(); ++i) comparison.runs[i].runs.clear();
 }
 
@@ -538,7 +512,7 @@ SideComparison compare_sides(std::vector<Side> sides, bool series) {
     labels.push_back(side.label);
     documents.push_back(side.document ? &*side.document : nullptr);
   }
-  Totals totals(sides.size());
+  std::vector<std::map<std::string, double>> errors(sides.size());
   std::size_t lost = 0;
   for (const auto& [name, there] : runs_by_name(sides)) {
     std::vector<std::string> without;
@@ -555,7 +529,11 @@ SideComparison compare_sides(std::vector<Side> sides, bool series) {
       lost += load_series(runs, sides);
       Runs loaded;
       for (const results::Run& run : runs) loaded.push_back(&run);
-      totals.add(name, loaded);
+      for (std::size_t s = 0; s < sides.size(); ++s) {
+        errors[s].merge(errors_of(name, runs[s]));
+        comparison.sides[s].cpu_s += runs[s].cost.cpu_s;
+        comparison.sides[s].work += runs[s].cost.work();
+      }
       found = compare_runs(name, loaded, labels, documents,
                            sides.front().results.case_info(runs.front().case_id));
       if (same_bits(loaded) && !found.changed && documents.front() == nullptr) {
@@ -569,7 +547,10 @@ SideComparison compare_sides(std::vector<Side> sides, bool series) {
     if (comparison.runs.size() > 2 * kDrawnRuns) sort_and_drop(comparison);
   }
   sort_and_drop(comparison);
-  totals.put(comparison.sides);
+  for (ComparedSide& side : comparison.sides)
+    if (comparison.sides.front().cpu_s > 0)
+      side.relative_time = side.cpu_s / comparison.sides.front().cpu_s;
+  compare_errors(errors, comparison.sides);
   comparison.conclusion =
       (documents.front() ? conclusion_of_variants(comparison) : conclusion_of_runs(comparison)) +
       time_text(comparison.sides) +

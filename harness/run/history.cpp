@@ -1,5 +1,3 @@
-#include "harness/run/history.h"
-
 #include <fmt/format.h>
 #include <sqlite3.h>
 
@@ -11,6 +9,7 @@
 #include "harness/base/errors.h"
 #include "harness/base/json.h"
 #include "harness/run/diff.h"
+#include "harness/run/results.h"
 
 namespace trammel::harness {
 namespace {
@@ -113,12 +112,6 @@ class Database {
   sqlite3* handle_ = nullptr;
 };
 
-std::size_t work_of(const results::Run& run) {
-  std::size_t work = 0;
-  for (const auto& counter : run.cost.counters) work += counter.second;
-  return work;
-}
-
 bool is_failure(const results::Check& check) {
   return check.verdict == results::Verdict::fail || check.verdict == results::Verdict::error ||
          check.verdict == results::Verdict::not_run;
@@ -150,7 +143,7 @@ void add_call(Database& database, const results::Results& results) {
   for (const results::Run& run : results.runs) {
     checks += run.checks.size();
     failures += static_cast<std::size_t>(std::ranges::count_if(run.checks, is_failure));
-    work += work_of(run);
+    work += run.cost.work();
     cpu_s += run.cost.cpu_s;
   }
   const bool all_new =
@@ -193,7 +186,7 @@ void write_entries(Database& database, const results::Results& results, std::int
   for (const results::Run& run : results.runs)  // a stored run was measured by an earlier call
     if (!run.was_stored)
       insert(name_of(run), "INSERT INTO cost SELECT ?, id, ?, ? FROM name WHERE text = ?",
-             {run.cost.cpu_s, work_of(run)});
+             {run.cost.cpu_s, run.cost.work()});
 }
 
 std::vector<HistoryCall> calls_of(Database& database) {

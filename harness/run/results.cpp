@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include "harness/base/content_hash.h"
 #include "harness/base/environment.h"
-#include "harness/judge/uncertainty_summary.h"
+#include "harness/judge/convergence.h"
+#include "harness/results/result_fields.h"
 
 namespace trammel::harness {
 namespace {
@@ -33,21 +33,17 @@ void round_moments(results::Drawing& drawing) {
 }
 
 results::CaseInfo case_info(const Case& given) {
-  results::CaseInfo info;
-  const Json& json = given.document.value();
-  info.id = given.id();
-  info.title = given.title();
-  info.description = json.value("description", "");
-  info.family = json.value("family", "");
-  info.labels = json.value("labels", std::vector<std::string>{});
-  if (json.contains("stress_suite"))
-    info.stress_suite = results::read_stress_suite(json["stress_suite"]);
-  if (json.contains("figures")) info.figures = results::read_figures(json["figures"]);
-  if (json.contains("tables")) info.tables = results::read_tables(json["tables"]);
-  info.analysis = analysis_kind(given.document);
-  info.hash = case_hash(given);
+  const Json& stated = given.document.value();
+  Json json = {{"title", given.title()},
+               {"variants", Json::object()},
+               {"analysis", analysis_kind(given.document)},
+               {"hash", case_hash(given)}};
+  for (const char* key : {"description", "family", "labels", "stress_suite", "figures", "tables"})
+    if (stated.contains(key)) json[key] = stated[key];
   for (const std::string& variant : given.variants())
-    info.variants.push_back({variant, given.variant_title(variant)});
+    json["variants"][variant]["title"] = given.variant_title(variant);
+  auto info = results::from_json<results::CaseInfo>(json);
+  info.id = given.id();
   return info;
 }
 
@@ -86,7 +82,7 @@ void record_result(AnalysisResult result, Run& run) {
   run.model_probabilities = std::move(result.model_probabilities);
   run.drawing = std::move(result.drawing);
   if (run.drawing) round_moments(*run.drawing);
-  run.cost.counters = counters(result.counters);
+  run.cost.counters = named_counters(result.counters);
   run.cost.timings = std::move(result.timings);
 }
 
@@ -94,17 +90,10 @@ std::string case_hash(const Case& given) {
   return content_hash(given.document.value().dump());
 }
 
-results::Counters counters(const solver::Counters& counters) {
-  return {{"element_evaluations", counters.element_evaluations},
-          {"factorizations", counters.factorizations},
-          {"solves", counters.solves},
-          {"steps", counters.steps}};
-}
-
 results::Results results_of(std::vector<Run> runs, const std::vector<Case>& cases,
                             const References& references, const std::filesystem::path& store) {
   results::Results out;
-  out.environment = results::read_environment(environment());
+  out.environment = results::from_json<results::Environment>(environment());
   out.environment.stored_runs =
       static_cast<int>(std::ranges::count_if(runs, [](const Run& run) { return run.was_stored; }));
   std::ranges::transform(cases, std::back_inserter(out.cases), case_info);

@@ -11,12 +11,11 @@
 #include "harness/base/progress.h"
 #include "harness/base/stopwatch.h"
 #include "harness/base/text.h"
+#include "harness/judge/convergence.h"
 #include "harness/judge/evaluate_check.h"
-#include "harness/judge/uncertainty_summary.h"
 #include "harness/run/results.h"
 #include "harness/run/run_store.h"
 #include "harness/run/shards.h"
-#include "harness/studies/run_sweeps.h"
 #include "harness/studies/validation_uncertainty.h"
 
 namespace trammel::harness {

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "harness/input/case.h"
-#include "harness/judge/check_result.h"
+#include "harness/judge/convergence.h"
+#include "harness/judge/evaluate_check.h"
 #include "harness/judge/sweep.h"
-#include "harness/judge/uncertainty_summary.h"
 #include "harness/results/results.h"
 
 /// Runs cases: every (case, variant) is one independent computation.

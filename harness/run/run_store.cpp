@@ -17,56 +17,10 @@
 #include <vector>
 
 #include "harness/analysis/analysis.h"
-#include "harness/base/content_hash.h"
 #include "harness/base/environment.h"
 #include "harness/base/json_file.h"
 #include "harness/input/catalogue.h"
 #include "harness/results/result_fields.h"
-
-namespace trammel::harness {
-namespace {
-
-struct KeptStudy {
-  std::vector<MeasuredSetting> settings;
-  double wall_s = 0;
-  std::map<std::string, std::string> references;
-};
-
-}  // namespace
-}  // namespace trammel::harness
-
-namespace trammel::results {
-
-using harness::KeptStudy;
-using harness::MeasuredSetting;
-using harness::SandboxedRun;
-
-template <>
-inline constexpr std::array kNames<MeasuredSetting::MeasurementStatus> = {
-    std::pair{"measured", MeasuredSetting::MeasurementStatus::measured},
-    std::pair{"reference", MeasuredSetting::MeasurementStatus::reference_solution},
-    std::pair{"diverged", MeasuredSetting::MeasurementStatus::diverged},
-    std::pair{"timed-out", MeasuredSetting::MeasurementStatus::timed_out},
-    std::pair{"failed", MeasuredSetting::MeasurementStatus::failed}};
-template <>
-inline constexpr std::array kNames<SandboxedRun::Termination> = {
-    std::pair{"solved", SandboxedRun::Termination::solved},
-    std::pair{"failed", SandboxedRun::Termination::failed},
-    std::pair{"timed-out", SandboxedRun::Termination::timed_out}};
-TRAMMEL_FIELDS(solver::Counters,
-               TRAMMEL_REQUIRED(element_evaluations, factorizations, solves, steps));
-TRAMMEL_FIELDS(harness::ErrorNorms, TRAMMEL_REQUIRED(max, rms, mean));
-TRAMMEL_FIELDS(harness::Timing, TRAMMEL_REQUIRED(cpu_s, median_s, lower_quartile_s,
-                                                 upper_quartile_s, wall_median_s, runs_each));
-TRAMMEL_FIELDS(harness::RelativeTime, TRAMMEL_REQUIRED(median, low, high));
-TRAMMEL_FIELDS(MeasuredSetting,
-               TRAMMEL_REQUIRED(status, error, output_errors, timing, relative, cpu_s, counters),
-               TRAMMEL_OPTIONAL(reason));
-TRAMMEL_FIELDS(SandboxedRun, TRAMMEL_REQUIRED(termination, values, quantities, counters, cpu_s),
-               TRAMMEL_OPTIONAL(reason));
-TRAMMEL_FIELDS(KeptStudy, TRAMMEL_REQUIRED(settings, wall_s, references));
-
-}  // namespace trammel::results
 
 namespace trammel::harness {
 namespace {
@@ -133,15 +87,27 @@ std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// What the file holds; nothing where it is not to be taken, half a file, or of another version.
+/// What the file holds if it is complete, of this version and as it should be; else what is
+/// computed, which is stored if it is as it should be.
 template <class Kept>
-std::optional<Kept> kept_in(const std::filesystem::path& file, bool resume) {
-  if (!resume) return std::nullopt;
+Kept find_or_compute(const std::filesystem::path& store, const std::string& name, bool resume,
+                     const std::function<bool(const Kept&)>& is_valid,
+                     const std::function<Kept()>& compute) {
+  const std::filesystem::path file = store / name;
   try {
-    return stored_from<Kept>(read_text(file));
-  } catch (const std::exception&) {
-    return std::nullopt;
+    if (resume) {
+      Kept kept = stored_from<Kept>(read_text(file));
+      if (is_valid(kept)) {
+        mark_used(file);
+        return kept;
+      }
+    }
+  } catch (const std::exception&) {  // half a file, or of another version
   }
+  Kept computed = compute();
+  std::filesystem::create_directories(store);
+  if (is_valid(computed)) write_file(file, stored_bytes(computed));
+  return computed;
 }
 
 std::string name_of(const std::string& all_that_decides) {
@@ -150,17 +116,19 @@ std::string name_of(const std::string& all_that_decides) {
 }
 
 void add_setting(const Setting& setting, Json& all) {
-  all.push_back(setting.document.value());
+  all.push_back({setting.curve, setting.curve_title, setting.title, setting.document.value()});
+  if (setting.value) all.push_back(*setting.value);
   for (const ObservedQuantity& one : setting.observed)
     all.push_back(
         {one.quantity, one.addend, one.statistic, one.index, one.is_error, one.exact, one.output});
 }
 
 std::string name_of(const CostStudy& study, const TimingOptions& timing) {
-  Json all = {machine_name(),     timing.repeats, timing.seed, timing.shortest_s,
-              study.time_limit_s, study.baseline, study.norm};
+  Json all = {machine_name(),     timing.repeats, timing.seed,       timing.shortest_s,
+              study.time_limit_s, study.baseline, study.norm,        study.id,
+              study.family,       study.title,    study.description, study.reference_description};
   for (const StudyOutput& output : study.outputs)
-    all.push_back({output.scale.kind, output.scale.number});
+    all.push_back({output.scale.kind, output.scale.number, output.title, output.scale_description});
   for (const Setting& setting : study.settings) add_setting(setting, all);
   if (study.reference_solution) add_setting(*study.reference_solution, all);
   return name_of(text_of(all));
@@ -238,54 +206,30 @@ void forget_starts(const std::filesystem::path& file) {
   std::filesystem::remove(started(file), error);
 }
 
-MeasuredStudy measure_or_find(CostStudy study, const CostOptions& options,
-                              const References& references, const std::filesystem::path& store,
-                              bool resume) {
-  const std::filesystem::path file = store / name_of(study, options.timing);
-  std::optional<KeptStudy> kept = kept_in<KeptStudy>(file, resume);
-  if (!kept || kept->settings.empty() || !stand(kept->references)) {
-    MeasuredStudy measured = measure(std::move(study), options, references);
-    std::filesystem::create_directories(store);
-    write_file(file,
-               stored_bytes(KeptStudy{measured.settings, measured.wall_s, references.hashes()}));
-    return measured;
-  }
-  mark_used(file);
-  MeasuredStudy measured;
-  measured.study = std::move(study);
-  measured.settings = std::move(kept->settings);
-  measured.wall_s = kept->wall_s;
-  derive_results(measured);
-  return measured;
+results::CostStudy measure_or_find(const CostStudy& study, const CostOptions& options,
+                                   const References& references, const std::filesystem::path& store,
+                                   bool resume) {
+  return find_or_compute<results::CostStudy>(
+      store, name_of(study, options.timing), resume,
+      [](const results::CostStudy& kept) { return stand(kept.references); },
+      [&] { return measure(study, options, references); });
 }
 
 SandboxedRun run_or_find(const Setting& setting, int time_limit_s, const References& references,
                          const std::filesystem::path& store, bool resume) {
   Json all = Json::array({"setting"});
   add_setting(setting, all);
-  const std::filesystem::path file = store / name_of(text_of(all));
-  if (std::optional<SandboxedRun> kept = kept_in<SandboxedRun>(file, resume)) {
-    mark_used(file);
-    return *std::move(kept);
-  }
-  SandboxedRun run = run_sandboxed(setting, time_limit_s, references);
-  std::filesystem::create_directories(store);
-  if (run.termination == SandboxedRun::Termination::solved) write_file(file, stored_bytes(run));
-  return run;
+  return find_or_compute<SandboxedRun>(
+      store, name_of(text_of(all)), resume,
+      [](const SandboxedRun& run) { return run.termination == SandboxedRun::Termination::solved; },
+      [&] { return run_sandboxed(setting, time_limit_s, references); });
 }
 
 EffectScenes scenes_or_find(const Document& document, const std::function<EffectScenes()>& measure,
                             const std::filesystem::path& store, bool resume) {
-  const std::filesystem::path file =
-      store / name_of("effects " + machine_name() + text_of(document.value()));
-  if (std::optional<EffectScenes> kept = kept_in<EffectScenes>(file, resume)) {
-    mark_used(file);
-    return *std::move(kept);
-  }
-  EffectScenes scenes = measure();
-  std::filesystem::create_directories(store);
-  write_file(file, stored_bytes(scenes));
-  return scenes;
+  return find_or_compute<EffectScenes>(
+      store, name_of("effects " + machine_name() + text_of(document.value())), resume,
+      [](const EffectScenes&) { return true; }, measure);
 }
 
 void drop_unused(const std::filesystem::path& store) {

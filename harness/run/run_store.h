@@ -8,7 +8,7 @@
 #include "harness/results/results.h"
 #include "harness/run/run.h"
 #include "harness/studies/cost.h"
-#include "harness/studies/sandboxed_run.h"
+#include "harness/studies/cost_study.h"
 
 /// Runs that are kept for a later call: a file for each run, named by a hash of all that decides
 /// it. A file is the run's fields as CBOR (RFC 8949), compressed by zstd (RFC 8878) with a
@@ -41,9 +41,9 @@ void forget_starts(const std::filesystem::path& file);
 
 /// As `measure`, or what the store holds of the same settings, by the same program and options, on
 /// this machine, with the references as they are now.
-[[nodiscard]] MeasuredStudy measure_or_find(CostStudy study, const CostOptions& options,
-                                            const References& references,
-                                            const std::filesystem::path& store, bool resume);
+[[nodiscard]] results::CostStudy measure_or_find(const CostStudy& study, const CostOptions& options,
+                                                 const References& references,
+                                                 const std::filesystem::path& store, bool resume);
 
 /// As `run_sandboxed`, or the solution that the store holds of the same setting by the same
 /// program.

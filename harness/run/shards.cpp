@@ -5,10 +5,10 @@
 #include <numeric>
 #include <set>
 
-#include "harness/base/content_hash.h"
 #include "harness/base/environment.h"
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
+#include "harness/base/statistic.h"
 #include "harness/base/text.h"
 #include "harness/results/results.h"
 #include "harness/run/stored_results.h"
@@ -22,13 +22,6 @@ std::size_t number_from(const char* begin, const char* end) {
   std::size_t number = 0;
   const auto [stop, error] = std::from_chars(begin, end, number);
   return error == std::errc() && stop == end ? number : 0;
-}
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 1;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 Json read_shard(const fs::path& folder) {
@@ -107,7 +100,7 @@ std::vector<std::size_t> balanced(const std::vector<std::string>& names,
   std::vector<double> known;
   for (const std::string& name : names)
     if (const auto found = costs.find(name); found != costs.end()) known.push_back(found->second);
-  const double usual = median(std::move(known));
+  const double usual = known.empty() ? 1 : upper_median(std::move(known));
   std::vector<double> cost;
   for (const std::string& name : names)
     cost.push_back(costs.count(name) > 0 ? costs.at(name) : usual);

@@ -7,7 +7,7 @@
 
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
-#include "harness/input/schema.h"
+#include "harness/input/document.h"
 #include "harness/results/unfinished_folder.h"
 #include "harness/run/run_store.h"
 

@@ -5,8 +5,7 @@
 #include <set>
 
 #include "harness/base/text.h"
-#include "harness/readers/frame_reader.h"
-#include "harness/readers/manipulator_reader.h"
+#include "harness/readers/model_reader.h"
 #include "harness/scene/with_model_errors.h"
 #include "solver/large/large_motion_model.h"
 #include "solver/linear/validate.h"

@@ -7,7 +7,7 @@
 
 #include "harness/base/contains.h"
 #include "harness/base/find_or_add.h"
-#include "harness/base/numbers.h"
+#include "harness/base/number.h"
 #include "harness/base/text.h"
 #include "harness/results/quantity_definitions.h"
 #include "solver/model/numbers.h"

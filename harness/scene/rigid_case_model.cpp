@@ -1,7 +1,6 @@
-#include "harness/scene/rigid_case_model.h"
-
 #include <algorithm>
 
+#include "harness/scene/case_model.h"
 #include "solver/model/model.h"
 #include "solver/model/numbers.h"
 

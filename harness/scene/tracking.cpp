@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "harness/scene/rigid_case_model.h"
+#include "harness/scene/case_model.h"
 #include "solver/large/consistent_initialization.h"
 #include "solver/large/large_elastodynamics.h"
 #include "solver/large/state_results.h"

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "harness/base/text.h"
-#include "harness/readers/joint_reader.h"
+#include "harness/readers/option_reader.h"
 #include "harness/scene/drawing.h"
 #include "harness/scene/observables.h"
 #include "harness/scene/tracking.h"

@@ -14,6 +14,10 @@
 #include "solver/model/numbers.h"
 
 namespace trammel::harness {
+
+template <>
+inline constexpr std::array kWords<solver::RotationAxis> = {"normal", "x", "y"};
+
 namespace {
 
 solver::ModesOptions read_modes_options(const JsonView& analysis) {
@@ -118,12 +122,6 @@ class ShapeTracker {
   Eigen::MatrixXd last_;  ///< translation x mode of the first point, as it now looks
 };
 
-solver::RotationAxis read_axis(const JsonView& rotating) {
-  const std::string axis = rotating.get<std::string>("axis", "normal");
-  if (axis == "x") return solver::RotationAxis::x;
-  return axis == "y" ? solver::RotationAxis::y : solver::RotationAxis::normal;
-}
-
 /// A moment of the motion at which its largest part is at its largest.
 Eigen::VectorXd snapshot(const Eigen::VectorXcd& shape) {
   solver::Index largest = 0;
@@ -138,7 +136,7 @@ solver::RotatingOptions read_rotating_options(const JsonView& modes) {
   solver::RotatingOptions options;
   options.count = modes["count"].get<solver::Index>();
   options.method = read_eigen_method(modes);
-  options.frame.axis = read_axis(rotating);
+  options.frame.axis = rotating.get("axis", solver::RotationAxis::normal);
   if (rotating.has("center_m")) options.frame.centre = read_point(rotating["center_m"]);
   options.prestress_at_steady_state =
       rotating.get<std::string>("prestress_configuration", "deformed") == "deformed";

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "harness/readers/option_reader.h"
-#include "harness/scene/rigid_case_model.h"
+#include "harness/scene/case_model.h"
 #include "harness/statics_modes/analyses.h"
 #include "harness/statics_modes/frequency_differences.h"
 #include "solver/manipulator/frequency_sensitivity.h"

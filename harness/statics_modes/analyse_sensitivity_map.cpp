@@ -2,10 +2,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "harness/base/numbers.h"
+#include "harness/base/number.h"
 #include "harness/base/text.h"
 #include "harness/readers/option_reader.h"
-#include "harness/scene/rigid_case_model.h"
+#include "harness/scene/case_model.h"
 #include "harness/statics_modes/analyses.h"
 #include "harness/statics_modes/frequency_differences.h"
 #include "solver/manipulator/sensitivity_map.h"

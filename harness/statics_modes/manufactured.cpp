@@ -13,6 +13,17 @@
 #include "solver/linear/row_balance.h"
 
 namespace trammel::harness {
+
+namespace mms = references::manufactured;
+
+template <>
+inline constexpr std::array kWords<mms::MembraneField> = {"clamped", "cantilever", "uniform-strain",
+                                                          "linear-strain"};
+template <>
+inline constexpr std::array kWords<mms::BeamField> = {"smooth", "cubic"};
+template <>
+inline constexpr std::array kWords<mms::ShearStrain> = {"none", "from-bending", "independent"};
+
 namespace {
 
 /// Residuals of (K - omega^2 M) q = f with the matrices formed afresh.
@@ -54,32 +65,30 @@ ManufacturedSolution solve(solver::System system, double omega) {
   return solution;
 }
 
-void support_membrane(solver::Model& model,
-                      const references::manufactured::MembraneProblem& problem) {
+void support_membrane(solver::Model& model, const mms::MembraneProblem& problem) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Eigen::Vector2d& p = model.nodes[i].position;
-    const auto [x, y] = references::manufactured::fixed_displacements(problem, p.x(), p.y());
+    const auto [x, y] = mms::fixed_displacements(problem, p.x(), p.y());
     if (x || y)
       model.supports.push_back({model.nodes[i].name, static_cast<solver::Index>(i), {x, y, false}});
   }
 }
 
-void load_membrane(solver::System& system,
-                   const references::manufactured::MembraneProblem& problem) {
+void load_membrane(solver::System& system, const mms::MembraneProblem& problem) {
   solver::add_body_force(system, [&](const Eigen::Vector2d& p) -> Eigen::Vector2d {
-    const auto state = references::manufactured::evaluate<double>(problem, p.x(), p.y());
+    const auto state = mms::evaluate<double>(problem, p.x(), p.y());
     return {state.body_force[0], state.body_force[1]};
   });
   solver::add_edge_traction(
       system, [&](const Eigen::Vector2d& p, const Eigen::Vector2d& n) -> Eigen::Vector2d {
-        const auto s = references::manufactured::evaluate<double>(problem, p.x(), p.y()).stress;
+        const auto s = mms::evaluate<double>(problem, p.x(), p.y()).stress;
         return {s[0] * n.x() + s[2] * n.y(), s[2] * n.x() + s[1] * n.y()};
       });
 }
 
-solver::MembraneFieldPoint exact_membrane_field(
-    const references::manufactured::MembraneProblem& problem, const Eigen::Vector2d& p) {
-  const auto s = references::manufactured::evaluate<double>(problem, p.x(), p.y());
+solver::MembraneFieldPoint exact_membrane_field(const mms::MembraneProblem& problem,
+                                                const Eigen::Vector2d& p) {
+  const auto s = mms::evaluate<double>(problem, p.x(), p.y());
   return {
       {s.displacement[0], s.displacement[1]}, s.rotation, {s.stress[0], s.stress[1], s.stress[2]}};
 }
@@ -90,21 +99,19 @@ Eigen::Vector2d to_world(double along, double across) {
   return along * kBeamAxis + across * Eigen::Vector2d(-kBeamAxis.y(), kBeamAxis.x());
 }
 
-references::manufactured::BeamProblem beam_problem(const BeamTest& test) {
-  const solver::Section& s = test.section;
-  return {test.field,        test.shear,           s.EA,        s.EI,           s.kappa_GA,
-          s.mass_per_length, s.inertia_per_length, test.length, test.amplitude, test.omega};
-}
-
-solver::Model beam_model(const BeamTest& test,
-                         const references::manufactured::BeamState<double>& tip) {
+solver::Model beam_model(const BeamTest& test, const mms::BeamState<double>& tip) {
+  const mms::BeamProblem& problem = test.problem;
   solver::Member member;
-  member.section = member.end_section = test.section;
-  member.theory = test.shear == references::manufactured::ShearStrain::none
-                      ? solver::BeamTheory::euler_bernoulli
-                      : solver::BeamTheory::timoshenko;
+  member.section = {.EA = problem.EA,
+                    .EI = problem.EI,
+                    .kappa_GA = problem.kappa_GA,
+                    .mass_per_length = problem.mass_per_length,
+                    .inertia_per_length = problem.inertia_per_length};
+  member.end_section = member.section;
+  member.theory = problem.shear == mms::ShearStrain::none ? solver::BeamTheory::euler_bernoulli
+                                                          : solver::BeamTheory::timoshenko;
   solver::Model model = solver::mesh_line(
-      {Eigen::Vector2d::Zero(), test.length * kBeamAxis, test.cells, test.distortion}, member);
+      {Eigen::Vector2d::Zero(), problem.length * kBeamAxis, test.cells, test.distortion}, member);
   model.supports.push_back({"start", 0, {true, true, true}});
   const Eigen::Vector2d force = to_world(tip.axial_force, tip.shear_force);
   model.loads.push_back({test.cells, {force.x(), force.y(), tip.bending_moment}});
@@ -131,18 +138,18 @@ MembraneTestResult run_membrane_test(const MembraneTest& test) {
 }
 
 BeamTestResult run_beam_test(const BeamTest& test) {
-  const references::manufactured::BeamProblem problem = beam_problem(test);
+  const mms::BeamProblem& problem = test.problem;
   const auto state = [&](const Eigen::Vector2d& p) {
-    return references::manufactured::evaluate<double>(problem, kBeamAxis.dot(p));
+    return mms::evaluate<double>(problem, kBeamAxis.dot(p));
   };
-  solver::System system = solver::assemble(
-      beam_model(test, references::manufactured::evaluate<double>(problem, test.length)));
+  solver::System system =
+      solver::assemble(beam_model(test, mms::evaluate<double>(problem, problem.length)));
   solver::add_line_load(system, [&](const Eigen::Vector2d& p) -> Eigen::Vector3d {
     const auto s = state(p);
     const Eigen::Vector2d force = to_world(s.axial_load, s.transverse_load);
     return {force.x(), force.y(), s.moment_load};
   });
-  BeamTestResult result{solve(std::move(system), test.omega), {}};
+  BeamTestResult result{solve(std::move(system), problem.omega), {}};
   const ManufacturedSolution& solution = result.solution;
   if (!solution.outcome.solved()) return result;
   result.errors = solver::beam_errors(
@@ -158,61 +165,32 @@ namespace {
 /// Every error is relative, so that the size of the field does not matter.
 constexpr double kAmplitudePerLength = 1e-3;
 
-/// @param thickness  in the plane [m]
-solver::Section rectangle(const solver::Material& material, double thickness, double width,
-                          double shear_coefficient) {
-  solver::Section section;
-  section.area = thickness * width;
-  section.EA = material.E * section.area;
-  section.EI = section.EA * thickness * thickness / 12;
-  section.kappa_GA = shear_coefficient * section.EA / (2 * (1 + material.nu));
-  section.mass_per_length = material.rho * section.area;
-  section.inertia_per_length = section.mass_per_length * thickness * thickness / 12;
-  section.section_modulus = section.area * thickness / 6;
-  return section;
-}
-
 MembraneTest read_membrane(const JsonView& place) {
   const JsonView part = place["membrane"];
   const solver::Material material = read_material(part["material"]);
-  MembraneTest test;
-  const std::string field = part.text("field");
-  test.problem.field = field == "clamped"      ? references::manufactured::MembraneField::clamped
-                       : field == "cantilever" ? references::manufactured::MembraneField::cantilever
-                       : field == "uniform-strain"
-                           ? references::manufactured::MembraneField::uniform_strain
-                           : references::manufactured::MembraneField::linear_strain;
-  test.problem.E = material.E;
-  test.problem.nu = material.nu;
-  test.problem.rho = material.rho;
-  test.problem.length = part.number("length_m");
-  test.problem.height = part.number("height_m");
-  test.problem.amplitude = kAmplitudePerLength * test.problem.length;
-  test.problem.omega = place.get("angular_frequency_rad_s", 0.0);
-  test.thickness = part.number("thickness_m");
-  test.six_nodes = part.text("triangles") == "six-node";
-  test.cells = place["cells"].get<solver::Index>();
-  test.distortion = place.get("distortion", 0.0);
-  return test;
+  const double length = part.number("length_m");
+  return {{part["field"].get<mms::MembraneField>(), material.E, material.nu, material.rho, length,
+           part.number("height_m"), kAmplitudePerLength * length,
+           place.get("angular_frequency_rad_s", 0.0)},
+          part.number("thickness_m"),
+          place["cells"].get<solver::Index>(),
+          part.text("triangles") == "six-node",
+          place.get("distortion", 0.0)};
 }
 
 BeamTest read_beam(const JsonView& place) {
   const JsonView part = place["beam"];
-  const std::string shear = part.text("shear");
-  BeamTest test;
-  test.field = part.text("field") == "cubic" ? references::manufactured::BeamField::cubic
-                                             : references::manufactured::BeamField::smooth;
-  test.shear = shear == "none"           ? references::manufactured::ShearStrain::none
-               : shear == "from-bending" ? references::manufactured::ShearStrain::from_bending
-                                         : references::manufactured::ShearStrain::independent;
-  test.section = rectangle(read_material(part["material"]), part.number("thickness_m"),
-                           part.number("width_m"), part.get("shear_coefficient", 5.0 / 6));
-  test.length = part.number("length_m");
-  test.amplitude = kAmplitudePerLength * test.length;
-  test.omega = place.get("angular_frequency_rad_s", 0.0);
-  test.cells = place["cells"].get<solver::Index>();
-  test.distortion = place.get("distortion", 0.0);
-  return test;
+  const solver::Material material = read_material(part["material"]);
+  const double thickness = part.number("thickness_m"), length = part.number("length_m");
+  const double area = thickness * part.number("width_m"), EA = material.E * area,
+               mass = material.rho * area;
+  return {{part["field"].get<mms::BeamField>(), part["shear"].get<mms::ShearStrain>(), EA,
+           EA * thickness * thickness / 12,
+           part.get("shear_coefficient", 5.0 / 6) * EA / (2 * (1 + material.nu)), mass,
+           mass * thickness * thickness / 12, length, kAmplitudePerLength * length,
+           place.get("angular_frequency_rad_s", 0.0)},
+          place["cells"].get<solver::Index>(),
+          place.get("distortion", 0.0)};
 }
 
 /// An error in some norm, of the solution or of what `derivative` derivatives make of it.

@@ -35,12 +35,8 @@ struct MembraneTestResult {
 [[nodiscard]] MembraneTestResult run_membrane_test(const MembraneTest& test);
 
 struct BeamTest {
-  references::manufactured::BeamField field = references::manufactured::BeamField::smooth;
-  references::manufactured::ShearStrain shear = references::manufactured::ShearStrain::none;
-  solver::Section section;
-  double length = 0;     ///< along the direction (4, 3) / 5, so that no coordinate is left out [m]
-  double amplitude = 0;  ///< [m]
-  double omega = 0;      ///< [rad/s]
+  /// Along the direction (4, 3) / 5, so that no coordinate is left out.
+  references::manufactured::BeamProblem problem;
   solver::Index cells = 1;
   double distortion = 0;  ///< of the mesh, in cells
 };

@@ -293,7 +293,7 @@ class Search {
       if (run.values[i].size() != reference.values[i].size())
         return std::numeric_limits<double>::infinity();
     }
-    return error_norms(run.values, reference.values, scale()).max;
+    return *error_norms(run.values, reference.values, scale()).max;
   }
 
   /// Mesh, then step, are halved until that changes a tenth of the accuracy asked for.

@@ -6,7 +6,6 @@
 
 #include "harness/input/case.h"
 #include "harness/studies/cost_study.h"
-#include "harness/studies/sandboxed_run.h"
 
 /// Which settings of a case reach an accuracy: mesh, beam theory, tier of statics, integrator and
 /// step are varied as far as the analysis has them, without a study being written.

@@ -1,19 +1,20 @@
 #include "harness/studies/cost.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
 #include "harness/analysis/analysis.h"
 #include "harness/base/statistic.h"
 #include "harness/base/stopwatch.h"
+#include "harness/studies/cost_study.h"
 #include "solver/model/numbers.h"
 
 namespace trammel::harness {
 namespace {
 
-using MeasurementStatus = MeasuredSetting::MeasurementStatus;
+using results::CostSetting;
+using results::ErrorNorms;
 
 /// What the error of an entry is divided by.
 double divisor(double reference_solution, double largest, const Scale& scale) {
@@ -89,108 +90,113 @@ Observations compute_reference_solution(const CostStudy& study, const References
 }
 
 /// Everything but the time.
-MeasuredSetting classify_run(const SandboxedRun& sandboxed, const Setting& setting,
-                             const Observations& reference_solution, const CostStudy& study) {
-  MeasuredSetting measured;
+CostSetting classify_run(const SandboxedRun& sandboxed, const Setting& setting,
+                         const Observations& reference_solution, const CostStudy& study) {
+  CostSetting measured;
+  measured.curve = setting.curve;
+  measured.curve_title = setting.curve_title;
+  measured.title = setting.title;
+  measured.value = setting.value;
   measured.reason = sandboxed.reason;
   measured.cpu_s = sandboxed.cpu_s;
   measured.counters = sandboxed.counters;
-  measured.status = sandboxed.termination == SandboxedRun::Termination::timed_out
-                        ? MeasurementStatus::timed_out
-                        : MeasurementStatus::failed;
+  measured.status =
+      sandboxed.termination == SandboxedRun::Termination::timed_out ? "timed-out" : "failed";
   if (sandboxed.termination != SandboxedRun::Termination::solved) return measured;
   try {
     measured.output_errors = output_errors(study, setting, sandboxed.values, reference_solution);
-    measured.error = measured.output_errors.front();
+    measured.errors = measured.output_errors.front();
   } catch (const std::runtime_error& error) {
     measured.reason = error.what();
     return measured;
   }
-  const double error = measured.error->get(study.norm);
+  const double error = *measured.errors->get(study.norm);
   if (!(error <= kDivergedError)) {
-    measured.status = MeasurementStatus::diverged;
+    measured.status = "diverged";
     measured.reason = std::isfinite(error) ? "the error is above 1000 %" : "not finite";
     return measured;
   }
   const bool is_reference = study.reference_solution &&
                             study.reference_solution->document.value() == setting.document.value();
-  measured.status =
-      is_reference ? MeasurementStatus::reference_solution : MeasurementStatus::measured;
+  measured.status = is_reference ? "reference" : "measured";
   return measured;
 }
 
-bool is_computed(const MeasuredSetting& measured) {
-  return measured.status == MeasurementStatus::measured ||
-         measured.status == MeasurementStatus::reference_solution;
+bool is_computed(const CostSetting& setting) {
+  return setting.measured() || setting.status == "reference";
 }
 
 /// @param output  none: the largest error of all outputs
-std::optional<double> error_of(const MeasuredSetting& measurement, Norm norm,
+std::optional<double> error_of(const CostSetting& setting, const std::string& norm,
                                std::optional<std::size_t> output) {
   const auto get = [&](const std::optional<ErrorNorms>& error) {
-    return error ? std::optional(error->get(norm)) : std::nullopt;
+    return error ? std::optional(*error->get(norm)) : std::nullopt;
   };
-  if (output) return get(measurement.output_errors.at(*output));
-  std::optional<double> largest = 0;
-  for (const auto& error : measurement.output_errors) {
+  if (output) return get(*output == 0 ? setting.errors : setting.output_errors.at(*output));
+  double largest = 0;
+  for (const auto& error : setting.output_errors) {
     if (!error) return std::nullopt;
-    largest = solver::nan_max(*largest, error->get(norm));
+    largest = solver::nan_max(largest, *error->get(norm));
   }
   return largest;
 }
 
-std::vector<CostPoint> points_of(const MeasuredStudy& measured, std::optional<std::size_t> output,
-                                 std::size_t first, std::size_t step) {
-  const Timing& baseline = *measured.settings[measured.study.baseline].timing;
-  std::vector<CostPoint> points;
-  for (std::size_t i = 0; i < measured.settings.size(); ++i) {
-    const MeasuredSetting& measurement = measured.settings[i];
-    if (measurement.status != MeasurementStatus::measured) continue;
-    const auto error = error_of(measurement, measured.study.norm, output);
-    if (!error || !(*error <= kDivergedError)) continue;
-    const RelativeTime time = relative_time(*measurement.timing, baseline, first, step);
-    points.push_back({i, std::max(*error, kMinError), time.median, time.low, time.high});
-  }
-  return points;
-}
-
-void time_settings(MeasuredStudy& measured, const CostOptions& options,
+void time_settings(const CostStudy& study, results::CostStudy& measured, const CostOptions& options,
                    const References& references, std::size_t& done, std::size_t all) {
-  std::vector<std::size_t> chosen;
+  std::vector<CostSetting*> chosen;
   std::vector<std::function<void()>> works;
   for (std::size_t i = 0; i < measured.settings.size(); ++i) {
     if (!is_computed(measured.settings[i])) continue;
-    chosen.push_back(i);
-    works.emplace_back([&document = measured.study.settings[i].document, &references] {
+    chosen.push_back(&measured.settings[i]);
+    works.emplace_back([&document = study.settings[i].document, &references] {
       (void)analyse(document, references, {false});
     });
   }
-  const std::size_t each = measured.settings.size();
   const auto timings = time_interleaved(works, options.timing, [&] {
-    done += each;
+    done += measured.settings.size();
     if (options.progress) options.progress(done, all);
   });
   for (std::size_t k = 0; k < chosen.size(); ++k) {
-    measured.settings[chosen[k]].timing = timings[k];
-    measured.settings[chosen[k]].cpu_s = timings[k].median_s;
+    chosen[k]->time = {timings[k].cpu_s, 0, 0, timings[k].wall_median_s,
+                       static_cast<std::size_t>(timings[k].runs_each)};
+    chosen[k]->cpu_s = timings[k].median_s;
   }
 }
 
-std::vector<std::string> titles_of(const CostStudy& study) {
-  std::vector<std::string> titles;
-  for (const Setting& setting : study.settings) titles.push_back(setting.title);
-  return titles;
+std::vector<results::CheapestSetting> cheapest_settings(const std::vector<CostPoint>& points) {
+  std::vector<results::CheapestSetting> all;
+  for (const double error : target_errors()) {
+    results::CheapestSetting& best = all.emplace_back();
+    best.error = error;
+    if (const auto point = cheapest(points, error)) best.setting = point->setting;
+    best.tied = tied_settings(points, error);
+  }
+  return all;
+}
+
+/// The study in words, without settings yet.
+results::CostStudy describe(const CostStudy& study) {
+  results::CostStudy out;
+  out.id = study.id;
+  out.family = study.family;
+  out.title = study.title;
+  out.description = study.description;
+  out.reference_solution = study.reference_description;
+  out.scale = study.outputs.front().scale_description;
+  out.norm = study.norm;
+  out.baseline = study.baseline;
+  if (study.outputs.size() == 1) return out;
+  for (const StudyOutput& output : study.outputs)
+    out.outputs.push_back({output.title, output.scale_description, {}, {}});
+  out.outputs.push_back({"all at once", "", {}, {}});
+  return out;
 }
 
 }  // namespace
 
-double ErrorNorms::get(Norm norm) const {
-  return norm == Norm::max ? max : norm == Norm::rms ? rms : mean;
-}
-
 ErrorNorms error_norms(const Observations& found, const Observations& reference_solution,
                        const Scale& scale) {
-  ErrorNorms norms;
+  double max = 0;
   std::size_t count = 0;
   double squares = 0, sum = 0, largest = 0;
   for (const std::vector<double>& values : reference_solution)
@@ -202,71 +208,97 @@ ErrorNorms error_norms(const Observations& found, const Observations& reference_
             : relative_errors(found[i], reference_solution[i], scale, largest);
     for (const double error : errors) {
       const double size = std::abs(error);
-      norms.max = solver::nan_max(norms.max, size);
+      max = solver::nan_max(max, size);
       squares += size * size;
       sum += size;
       ++count;
     }
   }
   if (count == 0) throw std::runtime_error("expected at least one value");
-  norms.rms = std::sqrt(squares / static_cast<double>(count));
-  norms.mean = sum / static_cast<double>(count);
-  return norms;
+  const auto n = static_cast<double>(count);
+  return {max, std::sqrt(squares / n), sum / n};
 }
 
-std::vector<CostPoint> output_points(const MeasuredStudy& measured,
-                                     std::optional<std::size_t> output) {
-  return points_of(measured, output, 0, 1);
+std::vector<CostPoint> cost_points(const results::CostStudy& study,
+                                   std::optional<std::size_t> output, std::size_t first,
+                                   std::size_t step) {
+  const std::vector<double>& baseline = study.settings[study.baseline].time->cpu_s;
+  std::vector<CostPoint> points;
+  for (std::size_t i = 0; i < study.settings.size(); ++i) {
+    const CostSetting& setting = study.settings[i];
+    if (!setting.measured()) continue;
+    const auto error = error_of(setting, study.norm, output);
+    if (!error || !(*error <= kDivergedError)) continue;
+    const RelativeTime time = relative_time(setting.time->cpu_s, baseline, first, step);
+    points.push_back({i, std::max(*error, kMinError), time.median, time.low, time.high});
+  }
+  return points;
 }
 
-MeasuredStudy measure(CostStudy study, const CostOptions& options, const References& references) {
+results::CostStudy measure(const CostStudy& study, const CostOptions& options,
+                           const References& references) {
   const Stopwatch watch;
-  MeasuredStudy measured;
-  measured.study = std::move(study);
-  const CostStudy& cost_study = measured.study;
+  results::CostStudy measured = describe(study);
   const auto repeats = static_cast<std::size_t>(options.timing.repeats);
-  const std::size_t all = cost_study.settings.size() * (repeats + 1);
+  const std::size_t all = study.settings.size() * (repeats + 1);
   std::size_t done = 0;
   const auto show = [&] {
     if (options.progress) options.progress(done, all);
   };
-  const Observations reference_solution = compute_reference_solution(cost_study, references, show);
-  for (const Setting& setting : cost_study.settings) {
-    const SandboxedRun sandboxed =
-        run_sandboxed(setting, cost_study.time_limit_s, references, show);
-    measured.settings.push_back(classify_run(sandboxed, setting, reference_solution, cost_study));
+  const Observations reference_solution = compute_reference_solution(study, references, show);
+  for (const Setting& setting : study.settings) {
+    const SandboxedRun sandboxed = run_sandboxed(setting, study.time_limit_s, references, show);
+    measured.settings.push_back(classify_run(sandboxed, setting, reference_solution, study));
     ++done;
     show();
   }
-  const MeasuredSetting& baseline = measured.settings[cost_study.baseline];
-  if (!is_computed(baseline)) {
-    throw cannot(cost_study.settings[cost_study.baseline], "a baseline", baseline.reason);
-  }
-  time_settings(measured, options, references, done, all);
+  const CostSetting& baseline = measured.settings[study.baseline];
+  if (!is_computed(baseline))
+    throw cannot(study.settings[study.baseline], "a baseline", baseline.reason);
+  time_settings(study, measured, options, references, done, all);
   derive_results(measured);
+  measured.references = references.hashes();
   measured.wall_s = watch.wall_s();
   return measured;
 }
 
-void derive_results(MeasuredStudy& measured) {
-  const CostStudy& cost_study = measured.study;
-  const MeasuredSetting& baseline = measured.settings[cost_study.baseline];
-  for (MeasuredSetting& measurement : measured.settings) {
-    const double trial = measurement.cpu_s / baseline.cpu_s;
-    measurement.relative = measurement.timing ? relative_time(*measurement.timing, *baseline.timing)
-                                              : RelativeTime{trial, trial, trial};
+void derive_results(results::CostStudy& measured) {
+  const CostSetting baseline = measured.settings[measured.baseline];
+  std::vector<std::string> titles;
+  for (CostSetting& setting : measured.settings) {
+    titles.push_back(setting.title);
+    setting.relative = setting.cpu_s / baseline.cpu_s;
+    if (!setting.time) continue;
+    const RelativeTime relative = relative_time(setting.time->cpu_s, baseline.time->cpu_s);
+    setting.relative = relative.median;
+    setting.time->relative_low = relative.low;
+    setting.time->relative_high = relative.high;
   }
-  measured.points = output_points(measured, 0);
-  measured.pareto_front = find_pareto_front(measured.points);
-  measured.conclusion =
-      describe_pareto_front(measured.points, titles_of(cost_study), cost_study.baseline);
+  const std::vector<CostPoint> points = cost_points(measured), front = find_pareto_front(points);
+  for (std::size_t i = 0; i < titles.size(); ++i)
+    measured.settings[i].pareto_optimal = has_setting(front, i);
+  measured.cheapest = cheapest_settings(points);
+  for (std::size_t k = 0; k < measured.outputs.size(); ++k) {
+    results::CostOutput& output = measured.outputs[k];
+    const bool all_at_once = k + 1 == measured.outputs.size();
+    const auto of_output = cost_points(measured, all_at_once ? std::nullopt : std::optional(k));
+    output.errors.assign(titles.size(), {});
+    for (const CostPoint& point : of_output) output.errors[point.setting] = point.error;
+    output.cheapest = cheapest_settings(of_output);
+  }
+  measured.conclusion = describe_pareto_front(points, titles, measured.baseline);
   measured.repeatability =
-      compare_pareto_fronts(points_of(measured, 0, 0, 2), points_of(measured, 0, 1, 2));
+      compare_pareto_fronts(cost_points(measured, 0, 0, 2), cost_points(measured, 0, 1, 2));
 }
 
-const char* to_string(MeasurementStatus status) {
-  constexpr std::array names = {"measured", "reference", "diverged", "timed-out", "failed"};
-  return names[static_cast<std::size_t>(status)];
+results::CostStudies cost_results(std::vector<results::CostStudy> studies, SweepExtent extent,
+                                  const TimingOptions& timing) {
+  return {extent == SweepExtent::quick ? "quick" : "full",
+          timing.seed,
+          static_cast<std::size_t>(timing.repeats),
+          kParetoTolerance,
+          kDivergedError,
+          std::move(studies)};
 }
 
 }  // namespace trammel::harness

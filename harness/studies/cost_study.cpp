@@ -1,16 +1,15 @@
 #include "harness/studies/cost_study.h"
 
 #include <algorithm>
-#include <array>
 
 #include "harness/base/contains.h"
-#include "harness/base/data_root.h"
+#include "harness/base/environment.h"
 #include "harness/base/json_file.h"
 #include "harness/base/rows.h"
 #include "harness/base/statistic.h"
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
-#include "harness/judge/tracked_quantity.h"
+#include "harness/judge/sweep.h"
 
 namespace trammel::harness {
 namespace {
@@ -99,34 +98,6 @@ Document start_of(const JsonView& study, const JsonView& part) {
   return document;
 }
 
-/// With the patch of one value of a curve.
-Document at_value(const JsonView& curve, const Document& start, std::size_t i) {
-  Document document = start;
-  if (curve.has("patches")) {
-    apply_patch(document, curve["patches"][i]);
-    return document;
-  }
-  const JsonView value = curve["values"][i];
-  Json patch = Json::object();
-  for (const auto& entry : curve["pointers"].entries()) {
-    const auto pointer = entry.second.get<std::string>();
-    bool there = false;
-    try {
-      there = !pointer.empty() && start.value().contains(JsonPointer(pointer));
-    } catch (const Json::exception&) {
-      there = false;
-    }
-    if (!there) {
-      throw entry.second.error("expected a pointer to a value of the case (got '" +
-                               printable(pointer) + "')");
-    }
-    patch.merge_patch(patch_at(start.value(), pointer, value.json()));
-  }
-  const Origin written = curve.document().origin(value.pointer());
-  document.apply_value_patch(written.file, written.pointer, patch);
-  return document;
-}
-
 /// "{} elements a link" of 4, and of 1: "1 element a link".
 std::string named(const std::string& each, double value) {
   const std::size_t at = each.find("{}");
@@ -135,20 +106,6 @@ std::string named(const std::string& each, double value) {
   const std::size_t end = std::min(after.find(' ', 1), after.size());
   if (value == 1 && end > 1 && after[end - 1] == 's') after.erase(end - 1, 1);
   return each.substr(0, at) + shortest(value) + after;
-}
-
-void check_curve(const JsonView& curve) {
-  const bool pointers = curve.has("pointers"), patches = curve.has("patches");
-  if (!curve.has("values")) {
-    if (pointers || patches) throw curve.error("expected 'values' beside the pointers or patches");
-    return;
-  }
-  if (pointers == patches) throw curve.error("expected either 'pointers' or 'patches'");
-  if (patches && curve["patches"].size() != curve["values"].size()) {
-    throw curve["patches"].error("expected a patch for each of the " +
-                                 std::to_string(curve["values"].size()) + " values (got " +
-                                 std::to_string(curve["patches"].size()) + ")");
-  }
 }
 
 bool is_swept(const JsonView& curve, double value, SweepExtent extent) {
@@ -170,7 +127,6 @@ void check_quick(const JsonView& curve) {
 std::vector<Setting> read_curve(const JsonView& study, const std::string& name,
                                 const JsonView& curve, SweepExtent extent,
                                 const References& references) {
-  check_curve(curve);
   check_quick(curve);
   Setting setting;
   setting.curve = name;
@@ -180,6 +136,8 @@ std::vector<Setting> read_curve(const JsonView& study, const std::string& name,
   const Document start = start_of(study, curve);
   std::vector<Setting> settings;
   if (!curve.has("values")) {
+    if (curve.has("pointers") || curve.has("patches"))
+      throw curve.error("expected 'values' beside the pointers or patches");
     const bool left_out = extent == SweepExtent::quick && curve.has("quick_values");
     if (left_out) return {};
     setting.document = start;
@@ -187,15 +145,12 @@ std::vector<Setting> read_curve(const JsonView& study, const std::string& name,
     settings.push_back(std::move(setting));
     return settings;
   }
-  for (std::size_t i = 0; i < curve["values"].size(); ++i) {
-    const auto value = curve["values"][i].get<double>();
-    if (!is_swept(curve, value, extent)) continue;
-    Setting level_setting = setting;
-    level_setting.value = value;
-    level_setting.title += ", " + named(curve.get<std::string>("value_title", "{}"), value);
-    level_setting.document = at_value(curve, start, i);
-    level_setting.document.validate("case");
-    settings.push_back(std::move(level_setting));
+  for (Level& level : levels(start, curve)) {
+    if (!is_swept(curve, level.parameter, extent)) continue;
+    Setting& added = settings.emplace_back(setting);
+    added.value = level.parameter;
+    added.title += ", " + named(curve.get<std::string>("value_title", "{}"), level.parameter);
+    added.document = std::move(level.document);
   }
   return settings;
 }
@@ -212,26 +167,17 @@ std::size_t find_baseline(const JsonView& place, const std::vector<Setting>& set
   return static_cast<std::size_t>(found - settings.begin());
 }
 
-Scale read_scale(const JsonView& output) {
+/// A scale and its description.
+std::pair<Scale, std::string> read_scale(const JsonView& output) {
   const auto place = output.find("scale");
-  if (!place) return {};
-  if (place->json().is_object()) return {Scale::Kind::number, place->number("value")};
-  const bool largest = place->get<std::string>() == "largest";
-  return {largest ? Scale::Kind::largest : Scale::Kind::entry, 0};
-}
-
-std::string describe_scale(const Scale& scale, const JsonView& output) {
-  switch (scale.kind) {
-    case Scale::Kind::entry:
-      return "relative to each true value";
-    case Scale::Kind::quantity:
-      return "relative to the largest true value of each quantity";
-    case Scale::Kind::largest:
-      return "relative to the largest true value of all";
-    case Scale::Kind::number:
-      return "relative to " + shortest(scale.number) + ", " + output["scale"].text("why");
+  if (place && place->json().is_object()) {
+    const double number = place->number("value");
+    return {{Scale::Kind::number, number},
+            "relative to " + shortest(number) + ", " + place->text("why")};
   }
-  return "";
+  if (place && place->json() == "largest")
+    return {{Scale::Kind::largest, 0}, "relative to the largest true value of all"};
+  return {{}, "relative to each true value"};
 }
 
 /// Values that one number is the scale of have one unit.
@@ -248,9 +194,9 @@ void check_scale(const Scale& scale, std::size_t output, const JsonView& study) 
 
 std::vector<StudyOutput> read_outputs(const JsonView& study) {
   const auto read = [&](const JsonView& place, std::size_t number, const std::string& title) {
-    const Scale scale = read_scale(place);
+    const auto [scale, description] = read_scale(place);
     check_scale(scale, number, study);
-    return StudyOutput{title, scale, describe_scale(scale, place)};
+    return StudyOutput{title, scale, description};
   };
   const auto several = study.find("outputs");
   if (!several) return {read(study, 0, "")};
@@ -259,11 +205,6 @@ std::vector<StudyOutput> read_outputs(const JsonView& study) {
   for (const auto& entry : several->entries())
     outputs.push_back(read(entry.second, outputs.size(), entry.second.text("title")));
   return outputs;
-}
-
-Norm read_norm(const JsonView& study) {
-  const auto norm = study.get<std::string>("norm", "max");
-  return norm == "rms" ? Norm::rms : norm == "mean" ? Norm::mean : Norm::max;
 }
 
 std::string references_of(const JsonView& quantities) {
@@ -333,8 +274,7 @@ const std::vector<double>& values_of(const Quantities& quantities, const std::st
   if (found == quantities.end()) {
     std::vector<std::string> names;
     for (const auto& item : quantities) names.push_back(item.first);
-    throw std::runtime_error("expected a quantity of the computation (got '" + name + "')" +
-                             did_you_mean(name, names));
+    throw std::runtime_error(unknown_name("a quantity of the computation", name, names));
   }
   return found->second.values;
 }
@@ -387,7 +327,7 @@ CostStudy load_cost_study(const fs::path& file, SweepExtent extent, const Refere
   read_reference_solution(root, study, references);
   study.outputs = read_outputs(root);
   check_counts(root, study);
-  study.norm = read_norm(root);
+  study.norm = root.get("norm", study.norm);
   study.time_limit_s = root.get("time_limit_s", study.time_limit_s);
   return study;
 }
@@ -415,11 +355,6 @@ std::vector<fs::path> cost_study_files() {
   }
   std::ranges::sort(files);
   return files;
-}
-
-const char* to_string(Norm norm) {
-  constexpr std::array names = {"max", "rms", "mean"};
-  return names[static_cast<std::size_t>(norm)];
 }
 
 }  // namespace trammel::harness

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "harness/base/quantity.h"
 #include "harness/input/case.h"
 #include "harness/input/reference_library.h"
+#include "harness/results/cost_results.h"
 
 /// Studies of what accuracy costs in time: settings of one computation, to be measured against one
 /// truth.
@@ -44,8 +46,6 @@ struct Setting {
   std::vector<ObservedQuantity> observed;
 };
 
-enum class Norm { max, rms, mean };
-
 /// What an error is divided by.
 struct Scale {
   /// The entry itself, the largest of its quantity, the largest of all, a number.
@@ -70,7 +70,7 @@ struct CostStudy {
   /// The first is that of figure, front and conclusion; every setting gives it, the others where it
   /// can.
   std::vector<StudyOutput> outputs{1};
-  Norm norm = Norm::max;
+  std::string norm = "max";  ///< of results::ErrorNorms
   int time_limit_s = 60;
 };
 
@@ -91,6 +91,21 @@ enum class SweepExtent { full, quick };
 /// The studies of the catalogue, by name.
 [[nodiscard]] std::vector<std::filesystem::path> cost_study_files();
 
-[[nodiscard]] const char* to_string(Norm norm);
+using results::SandboxedRun;
+
+/// Computes a setting once, in a process of its own that is ended when it has used up its processor
+/// time: an endless loop or a crash costs no more than that.
+/// @param waiting  called about once a second until then
+[[nodiscard]] SandboxedRun run_sandboxed(const Setting& setting, int time_limit_s,
+                                         const References& references,
+                                         const std::function<void()>& waiting = {});
+
+/// The refinements of a case as a study: a curve for each of the sweeps named (all when none is),
+/// measured of what they name or else the checks do, against references of kind exact or computed,
+/// or else against the finest level of the first one. The coarsest level of all is the baseline.
+/// @throws InputError  where the case has no such sweep, or nothing can be measured.
+[[nodiscard]] CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
+                                             const std::vector<std::string>& sweeps,
+                                             const References& references);
 
 }  // namespace trammel::harness

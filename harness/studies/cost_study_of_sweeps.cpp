@@ -1,10 +1,9 @@
-#include "harness/studies/cost_study_of_sweeps.h"
-
 #include <algorithm>
 
 #include "harness/base/contains.h"
 #include "harness/base/text.h"
-#include "harness/judge/tracked_quantity.h"
+#include "harness/judge/sweep.h"
+#include "harness/studies/cost_study.h"
 
 namespace trammel::harness {
 namespace {
@@ -63,8 +62,7 @@ std::vector<std::string> sweeps_wanted(const JsonView& sweeps,
   for (const auto& entry : sweeps.entries()) there.push_back(entry.first);
   for (const std::string& name : asked) {
     if (contains(there, name)) continue;
-    throw sweeps.error("expected the name of a sweep (got '" + printable(name) + "')" +
-                       did_you_mean(name, there));
+    throw sweeps.error(unknown_name("the name of a sweep", name, there));
   }
   return asked.empty() ? there : asked;
 }

@@ -96,15 +96,16 @@ const std::vector<double>& target_errors() {
   return errors;
 }
 
-ParetoFrontAgreement compare_pareto_fronts(const std::vector<CostPoint>& a,
-                                           const std::vector<CostPoint>& b) {
+results::Repeatability compare_pareto_fronts(const std::vector<CostPoint>& a,
+                                             const std::vector<CostPoint>& b) {
   const auto front_a = find_pareto_front(a), front_b = find_pareto_front(b);
   const auto in_a = settings_of(front_a), in_b = settings_of(front_b);
-  ParetoFrontAgreement agreement;
+  results::Repeatability agreement;
+  agreement.median_difference = agreement.largest_difference = 0.0;
   std::set<std::size_t> either = in_a;
   either.insert(in_b.begin(), in_b.end());
-  agreement.either = either.size();
-  agreement.shared = in_a.size() + in_b.size() - either.size();
+  agreement.on_either_front = either.size();
+  agreement.on_both_fronts = in_a.size() + in_b.size() - either.size();
   std::vector<double> differences;
   const auto look = [&](double error) {
     // Settings whose errors differ in the last digits are not told apart.
@@ -121,7 +122,7 @@ ParetoFrontAgreement compare_pareto_fronts(const std::vector<CostPoint>& a,
   for (const double error : target_errors()) {
     const auto at_a = cheapest(a, error), at_b = cheapest(b, error);
     if (!at_a || !at_b) continue;
-    ++agreement.targets;
+    ++agreement.target_errors;
     if (at_a->setting == at_b->setting) ++agreement.same_cheapest;
   }
   return agreement;

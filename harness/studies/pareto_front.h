@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "harness/results/cost_results.h"
+
 /// The efficient front: what each accuracy costs at least.
 namespace trammel::harness {
 
@@ -41,17 +43,9 @@ inline constexpr double kParetoTolerance = 0.05;
 /// The errors that the table of cheapest settings asks for.
 [[nodiscard]] const std::vector<double>& target_errors();
 
-/// How near two measurements of the same settings come.
-struct ParetoFrontAgreement {
-  std::size_t shared = 0, either = 0;          ///< settings on both fronts, and on at least one
-  std::size_t same_cheapest = 0, targets = 0;  ///< of the asked errors that both reach
-  /// |ln| of the ratio of what an accuracy costs, over all errors of both fronts that both reach;
-  /// as a share: 0.1 is 10 %.
-  double median_difference = 0, largest_difference = 0;
-};
-
-[[nodiscard]] ParetoFrontAgreement compare_pareto_fronts(const std::vector<CostPoint>& a,
-                                                         const std::vector<CostPoint>& b);
+/// Compares two measurements of the same settings.
+[[nodiscard]] results::Repeatability compare_pareto_fronts(const std::vector<CostPoint>& a,
+                                                           const std::vector<CostPoint>& b);
 
 /// "1 %", "1e-6".
 [[nodiscard]] std::string error_text(double error);

@@ -1,10 +1,9 @@
-#include "harness/studies/run_sweeps.h"
-
 #include <cmath>
 #include <limits>
 
 #include "harness/analysis/analysis.h"
 #include "harness/input/case.h"
+#include "harness/studies/validation_uncertainty.h"
 
 namespace trammel::harness {
 namespace {

@@ -5,7 +5,7 @@
 #include <functional>
 #include <optional>
 
-#include "harness/base/numbers.h"
+#include "harness/base/number.h"
 #include "harness/input/case.h"
 #include "harness/judge/convergence.h"
 
@@ -218,52 +218,49 @@ class ValidationStudy {
     }
   }
 
-  [[nodiscard]] std::vector<std::size_t> chosen(bool literal) const {
-    std::vector<std::size_t> which;
-    for (std::size_t k = 0; k < study_.inputs.size(); ++k) {
-      if (literal || !study_.inputs[k].nominal) which.push_back(k);
+  /// The inputs that vary, with the response of the model to their offsets.
+  struct Variation {
+    std::vector<const UncertainInput*> inputs;
+    std::vector<double> half_widths;
+    Response response;
+  };
+
+  /// @param literal  the nominal inputs, too
+  [[nodiscard]] Variation vary(bool literal) const {
+    Variation found;
+    for (const UncertainInput& input : study_.inputs) {
+      if (!literal && input.nominal) continue;
+      found.inputs.push_back(&input);
+      found.half_widths.push_back(*input.half_width);
     }
-    return which;
-  }
-
-  [[nodiscard]] std::vector<double> half_widths(const std::vector<std::size_t>& which) const {
-    std::vector<double> widths;
-    widths.reserve(which.size());
-    for (const std::size_t k : which) widths.push_back(*study_.inputs[k].half_width);
-    return widths;
-  }
-
-  [[nodiscard]] Response response(const std::vector<std::size_t>& which) const {
-    return [this, which](const std::vector<double>& offsets) {
+    found.response = [this, inputs = found.inputs](const std::vector<double>& offsets) {
       Document document = document_;
-      for (std::size_t i = 0; i < which.size(); ++i) {
-        document = moved(document, study_.inputs[which[i]].pointers,
-                         [&](double value) { return value + offsets[i]; });
-      }
+      for (std::size_t i = 0; i < inputs.size(); ++i)
+        document =
+            moved(document, inputs[i]->pointers, [&](double value) { return value + offsets[i]; });
       return values_of(document);
     };
+    return found;
   }
 
   void derive() {
-    const std::vector<std::size_t> all = chosen(true);
-    const auto found = uncertainty_by_derivatives(response(all), half_widths(all));
+    const Variation all = vary(true);
+    const auto found = uncertainty_by_derivatives(all.response, all.half_widths);
     if (!found)
       throw stated_["inputs"].error("expected inputs about which the model can be solved");
     for (std::size_t i = 0; i < places_.size(); ++i) {
       Comparison& entry = study_.comparisons[i];
-      double square = 0;
-      double literal = 0;
-      double largest = 0;
-      for (std::size_t k = 0; k < all.size(); ++k) {
-        const double part = found ? found->contribution[k][i] : kNaN;
-        const bool counts = !study_.inputs[k].nominal;
+      double square = 0, literal = 0, largest = 0;
+      for (std::size_t k = 0; k < all.inputs.size(); ++k) {
+        const UncertainInput& input = *all.inputs[k];
+        const double part = found->at(k)[i];
         literal += part * part;
-        if (counts) square += part * part;
-        entry.contributions.emplace_back(study_.inputs[k].name, part);
-        if (counts && std::abs(part) > largest) {
-          largest = std::abs(part);
-          entry.dominant_input = study_.inputs[k].name;
-        }
+        entry.contributions.emplace_back(input.name, part);
+        if (input.nominal) continue;
+        square += part * part;
+        if (std::abs(part) <= largest) continue;
+        largest = std::abs(part);
+        entry.dominant_input = input.name;
       }
       entry.u_input = std::sqrt(square);
       entry.dominant_share = square > 0 ? largest * largest / square : 0;
@@ -273,23 +270,19 @@ class ValidationStudy {
 
   void sample() {
     const auto seed = stated_["seed"].get<std::uint64_t>();
-    const auto draw = [&](bool literal, const char* count) {
-      const std::vector<std::size_t> which = chosen(literal);
-      return uncertainty_by_sampling(response(which), half_widths(which), stated_[count].get<int>(),
-                                     seed);
+    const auto draw = [&](bool literal, const char* key, int& samples, int& failed) {
+      const Variation varied = vary(literal);
+      const SampledUncertainty found = uncertainty_by_sampling(varied.response, varied.half_widths,
+                                                               stated_[key].get<int>(), seed);
+      samples = found.samples;
+      failed = found.failed;
+      for (std::size_t i = 0; i < found.standard.size(); ++i) {
+        Comparison& entry = study_.comparisons[i];
+        (literal ? entry.all_inputs : entry).u_input_sampled = found.standard[i];
+      }
     };
-    const SampledUncertainty design = draw(false, "samples");
-    const SampledUncertainty literal = draw(true, "samples_all_inputs");
-    study_.samples = design.samples;
-    study_.failed = design.failed;
-    study_.samples_all_inputs = literal.samples;
-    study_.failed_all_inputs = literal.failed;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      study_.comparisons[i].u_input_sampled =
-          i < design.standard.size() ? design.standard[i] : kNaN;
-      study_.comparisons[i].all_inputs.u_input_sampled =
-          i < literal.standard.size() ? literal.standard[i] : kNaN;
-    }
+    draw(false, "samples", study_.samples, study_.failed);
+    draw(true, "samples_all_inputs", study_.samples_all_inputs, study_.failed_all_inputs);
   }
 
   /// Each check's entries are one row of the reference.

@@ -6,7 +6,7 @@
 #include "harness/analysis/analysis.h"
 #include "harness/input/check.h"
 #include "harness/judge/input_uncertainty.h"
-#include "harness/judge/validation_verdict.h"
+#include "harness/judge/sweep.h"
 
 /// The validation comparison of ASME V&V 20-2009 for the checks of a run that have the role
 /// validation: what the refinement, the printed digits of the inputs and those of the reference
@@ -25,5 +25,9 @@ namespace trammel::harness {
 [[nodiscard]] std::optional<results::Uncertainty> evaluate_validation_uncertainty(
     const Document& document, const Quantities& quantities, const std::vector<Check>& checks,
     const References& references);
+
+/// Computes all levels of all sweeps of a case or variant.
+/// @throws InputError  where the values do not go from coarse to fine.
+[[nodiscard]] std::vector<Sweep> run_sweeps(const Document& document, const References& references);
 
 }  // namespace trammel::harness

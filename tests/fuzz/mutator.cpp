@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "harness/base/data_root.h"
+#include "harness/base/environment.h"
 #include "harness/base/json_file.h"
 #include "harness/input/catalogue.h"
 #include "harness/studies/cost_study.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "harness/base/data_root.h"
+#include "harness/base/environment.h"
 #include "harness/base/json_file.h"
 
 namespace trammel::fuzz {

@@ -12,11 +12,11 @@
 #include "harness/cli/commands.h"
 #include "harness/input/catalogue.h"
 #include "harness/judge/evaluate_check.h"
+#include "harness/results/result_fields.h"
 #include "harness/run/claims.h"
 #include "harness/run/results.h"
 #include "harness/run/run_store.h"
 #include "harness/studies/cost_study.h"
-#include "harness/studies/run_sweeps.h"
 #include "harness/studies/validation_uncertainty.h"
 #include "reports/page/junit.h"
 
@@ -86,7 +86,7 @@ void take_claims(const fs::path& file) {
     record_result(analyse(patched(some, kBaseVariant), References(), {false}), run);
     runs.push_back(std::move(run));
   }
-  (void)results::claims_to_json(evaluate_claims(claims, runs));
+  (void)results::to_json(evaluate_claims(claims, runs));
 }
 
 void take_results(const fs::path& file, const fs::path& sample) {

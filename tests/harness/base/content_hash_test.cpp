@@ -1,6 +1,6 @@
-#include "harness/base/content_hash.h"
-
 #include <boost/test/unit_test.hpp>
+
+#include "harness/base/environment.h"
 
 BOOST_AUTO_TEST_SUITE(content_hash)
 

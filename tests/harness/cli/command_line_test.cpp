@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "harness/base/json_file.h"
-#include "harness/input/schema.h"
+#include "harness/input/document.h"
 #include "tests/support/harness/support.h"
 
 BOOST_AUTO_TEST_SUITE(command_line)

@@ -10,7 +10,6 @@
 
 #include "harness/base/json_file.h"
 #include "harness/base/quantity.h"
-#include "harness/export/matrix_files.h"
 #include "harness/input/catalogue.h"
 #include "tests/support/harness/analysing.h"
 #include "tests/support/harness/export_twin.h"

@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "harness/base/json_file.h"
-#include "harness/input/schema.h"
+#include "harness/input/document.h"
 #include "harness/results/results.h"
 #include "harness/results/run_grade.h"
 #include "tests/support/harness/support.h"

@@ -1,13 +1,12 @@
-#include "harness/input/schema.h"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <functional>
 #include <set>
 
-#include "harness/base/data_root.h"
+#include "harness/base/environment.h"
 #include "harness/base/json_file.h"
 #include "harness/input/catalogue.h"
+#include "harness/input/document.h"
 #include "references/data/reference.h"
 #include "tests/support/harness/support.h"
 

@@ -1,7 +1,6 @@
-#include "harness/judge/tracked_quantity.h"
-
 #include <boost/test/unit_test.hpp>
 
+#include "harness/judge/sweep.h"
 #include "tests/support/harness/support.h"
 
 BOOST_AUTO_TEST_SUITE(tracked_quantity)

@@ -1,7 +1,7 @@
-#include "harness/judge/two_term.h"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+
+#include "harness/judge/convergence.h"
 
 BOOST_AUTO_TEST_SUITE(two_term)
 

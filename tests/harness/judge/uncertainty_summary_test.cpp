@@ -1,4 +1,3 @@
-#include "harness/judge/uncertainty_summary.h"
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>

@@ -1,7 +1,7 @@
-#include "harness/judge/validation_verdict.h"
-
 #include <boost/test/unit_test.hpp>
 #include <limits>
+
+#include "harness/judge/input_uncertainty.h"
 
 BOOST_AUTO_TEST_SUITE(validation_verdict)
 

@@ -1,9 +1,8 @@
-#include "harness/readers/member_chain.h"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
 
+#include "harness/readers/model_reader.h"
 #include "harness/scene/case_model.h"
 #include "solver/elements/frame_element.h"
 #include "tests/support/harness/analysing.h"

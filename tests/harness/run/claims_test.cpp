@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "harness/input/catalogue.h"
-#include "harness/input/schema.h"
+#include "harness/input/document.h"
+#include "harness/results/result_fields.h"
 #include "harness/results/results.h"
 #include "tests/support/harness/support.h"
 
@@ -250,7 +251,7 @@ BOOST_AUTO_TEST_CASE(the_catalogue_has_eleven_claims_and_knows_their_cases) {
 
 BOOST_AUTO_TEST_CASE(what_results_say_of_the_claims_obeys_their_schema) {
   const Document document = claims_of({{"r", ratio}}, "confirmed");
-  const Json json = results::claims_to_json(evaluate_claims(document, {bend(1, 2)}));
+  const Json json = results::to_json(evaluate_claims(document, {bend(1, 2)}));
   BOOST_TEST(json["claims"][0]["verdict"] == "confirmed in part");
   BOOST_TEST(json["as_recorded"] == false);
   Json results = {{"format", 1}, {"claims", json}};

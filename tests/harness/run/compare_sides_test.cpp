@@ -1,9 +1,8 @@
-#include "harness/run/compare_sides.h"
-
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "harness/run/diff.h"
 #include "tests/support/harness/support.h"
 
 BOOST_AUTO_TEST_SUITE(compare_sides)

@@ -1,9 +1,8 @@
-#include "harness/run/history.h"
-
 #include <boost/test/unit_test.hpp>
 #include <fstream>
 
 #include "harness/base/errors.h"
+#include "harness/run/results.h"
 #include "tests/support/harness/support.h"
 
 BOOST_AUTO_TEST_SUITE(history)

@@ -3,8 +3,8 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "harness/input/schema.h"
-#include "harness/judge/evaluate_order_check.h"
+#include "harness/input/document.h"
+#include "harness/judge/evaluate_check.h"
 #include "harness/judge/sweep.h"
 #include "harness/run/results.h"
 #include "tests/support/harness/support.h"

@@ -26,13 +26,11 @@ MembraneTest membrane(m::MembraneField field, bool six_nodes, double distortion,
 /// A deep beam, so that shear is in its asymptotic range on few elements.
 BeamTest beam(m::BeamField field, m::ShearStrain shear, double distortion, double omega = 0) {
   const double depth = 0.4, width = 0.05;
-  Section s;
-  s.EA = kE * width * depth;
-  s.EI = s.EA * depth * depth / 12;
-  s.kappa_GA = 5.0 / 6 * s.EA / (2 * (1 + kNu));
-  s.mass_per_length = kRho * width * depth;
-  s.inertia_per_length = s.mass_per_length * depth * depth / 12;
-  return {field, shear, s, 1, 1e-3, omega, 1, distortion};
+  const double EA = kE * width * depth, mass = kRho * width * depth;
+  return {{field, shear, EA, EA * depth * depth / 12, 5.0 / 6 * EA / (2 * (1 + kNu)), mass,
+           mass * depth * depth / 12, 1, 1e-3, omega},
+          1,
+          distortion};
 }
 
 /// Orders between neighbouring meshes; all errors must fall.

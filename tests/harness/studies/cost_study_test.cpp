@@ -1,7 +1,8 @@
+#include "harness/studies/cost_study.h"
+
 #include <boost/test/unit_test.hpp>
 
 #include "harness/input/catalogue.h"
-#include "harness/studies/cost_study_of_sweeps.h"
 #include "tests/support/harness/support.h"
 
 BOOST_AUTO_TEST_SUITE(cost_study)

@@ -99,25 +99,25 @@ BOOST_AUTO_TEST_CASE(the_sentence_says_what_is_not_reached) {
 }
 
 BOOST_AUTO_TEST_CASE(a_front_agrees_with_itself_and_differs_by_what_is_slower) {
-  const ParetoFrontAgreement same = compare_pareto_fronts(sample(), sample());
-  BOOST_TEST(same.shared == 4U);
-  BOOST_TEST(same.either == 4U);
+  const results::Repeatability same = compare_pareto_fronts(sample(), sample());
+  BOOST_TEST(same.on_both_fronts == 4U);
+  BOOST_TEST(same.on_either_front == 4U);
   BOOST_TEST(same.same_cheapest == 4U);
-  BOOST_TEST(same.targets == 4U);
-  BOOST_TEST(same.largest_difference == 0);
+  BOOST_TEST(same.target_errors == 4U);
+  BOOST_TEST(*same.largest_difference == 0);
 
   std::vector<CostPoint> slower = sample();
   slower[3].time *= 1.2;
-  const ParetoFrontAgreement apart = compare_pareto_fronts(sample(), slower);
-  BOOST_TEST(apart.shared == 4U);
-  BOOST_TEST(apart.largest_difference == 0.2, boost::test_tools::tolerance(1e-12));
-  BOOST_TEST(apart.median_difference == 0);
+  const results::Repeatability apart = compare_pareto_fronts(sample(), slower);
+  BOOST_TEST(apart.on_both_fronts == 4U);
+  BOOST_TEST(*apart.largest_difference == 0.2, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(*apart.median_difference == 0);
 
   std::vector<CostPoint> other = sample();
   other[2].time = 10;  // now 3 is as good for 1 %
-  const ParetoFrontAgreement moved = compare_pareto_fronts(sample(), other);
-  BOOST_TEST(moved.shared == 3U);
-  BOOST_TEST(moved.either == 4U);
+  const results::Repeatability moved = compare_pareto_fronts(sample(), other);
+  BOOST_TEST(moved.on_both_fronts == 3U);
+  BOOST_TEST(moved.on_either_front == 4U);
   BOOST_TEST(moved.same_cheapest == 3U);
 }
 

@@ -3,7 +3,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "harness/input/schema.h"
+#include "harness/input/document.h"
 #include "harness/run/results.h"
 #include "harness/run/run.h"
 #include "tests/support/harness/support.h"

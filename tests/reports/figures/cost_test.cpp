@@ -21,8 +21,7 @@ const std::string& page() {
 }
 
 CostStudies sample_studies() {
-  const auto json = sample_results();
-  return trammel::results::read_cost_studies(json.at("cost"));
+  return *trammel::results::read_results(sample_results()).cost;
 }
 
 bool contains(const std::string& text, const std::string& part) {
