@@ -58,11 +58,15 @@ ResponseScale response_scale(const std::string& analysis_name, const JsonView& a
     scale.half_waves +=
         static_cast<double>((analysis.get<solver::Index>("count", 1) - 1) / members);
   } else if (analysis_name == "harmonic") {
-    // Next to a resonance a change counts as many times as the response is amplified there. The
-    // factor covers the random scenes of the tests.
-    constexpr double kNextToResonance = 30;
-    scale.half_waves = half_waves_at(model, 2 * std::numbers::pi * analysis.number("to_Hz"));
-    scale.phase = kNextToResonance;
+    // Next to a resonance a change counts as many times as damping lets the response grow, though a
+    // grid of frequencies seldom meets the peak. The limits cover the random scenes of the tests.
+    constexpr double kLeast = 30, kMost = 300;
+    const double omega = 2 * std::numbers::pi * analysis.number("to_Hz");
+    const auto damping = analysis.find("damping");
+    const auto rayleigh = damping ? damping->find("rayleigh") : std::nullopt;
+    const double stiffness = rayleigh ? rayleigh->get("stiffness_s", 0.0) : 0;
+    scale.half_waves = half_waves_at(model, omega);
+    scale.phase = stiffness > 0 ? std::clamp(1 / (stiffness * omega), kLeast, kMost) : kMost;
     scale.platform = 10;
   } else if (analysis_name == "transient" || analysis_name == "large-motion") {
     const char* const end = analysis_name == "transient" ? "duration_s" : "end_time_s";

@@ -185,9 +185,9 @@ class Selector {
     std::vector<Effect> order;
     for (const Effect effect : scope_.applicable.list()) {
       const auto& number = numbers[static_cast<std::size_t>(effect)].value;
-      if (!number || (effect == Effect::geometric_stiffening && !is_frame_at_rest())) continue;
       selection_.of(effect).number = number;
-      if (!scope_.required.has(effect)) order.push_back(effect);
+      const bool decides = effect != Effect::geometric_stiffening || is_frame_at_rest();
+      if (number && decides && !scope_.required.has(effect)) order.push_back(effect);
     }
     std::ranges::stable_sort(order, {}, [&](Effect effect) {
       return std::pair(!is_expensive(effect), change_of(effect));
@@ -237,9 +237,12 @@ class Selector {
         if (is_enough) selection_.change += change;
         return is_enough;
       };
-      // Second-order theory neglects shortening by rotation, of the order of the rotation.
+      // Second-order theory neglects shortening by rotation, of the order of the rotation, and
+      // saves load steps where axial forces come near a buckling load.
+      constexpr double kManySteps = 0.1;
+      const Deflection size = deflection(*overview);
       if (!try_theory(single, Effect::geometric_stiffening, linear, kForCoarseModel) &&
-          rotation(*overview) <= rest())
+          size.rotation <= rest() && size.compression >= kManySteps)
         try_theory(finer, Effect::large_displacement, second, kForSecondOrder);
     }
     add_cost(single.counters, single.model());
@@ -260,17 +263,32 @@ class Selector {
     }
   }
 
-  /// Largest rotation of nodes and of chords [rad].
-  [[nodiscard]] double rotation(const Quantities& quantities) const {
-    double shortest = kInfinite, displacement = 0, largest = 0;
-    for (const solver::Member& member : model_.members)
-      shortest = std::min(shortest, member_length(model_, member));
+  struct Deflection {
+    double rotation = 0;     ///< largest, of nodes and of chords [rad]
+    double compression = 0;  ///< largest axial force over the buckling load of a cantilever
+  };
+
+  [[nodiscard]] Deflection deflection(const Quantities& quantities) const {
+    double shortest = kInfinite, displacement = 0;
+    Deflection size;
     for (const auto& [name, quantity] : quantities) {
       const std::string kind = change_kind(name);
-      if (kind == "rotation") largest = std::max(largest, max_abs(quantity.values));
-      if (kind == "displacement") displacement = std::max(displacement, max_abs(quantity.values));
+      double& largest = kind == "rotation" ? size.rotation : displacement;
+      if (kind == "rotation" || kind == "displacement")
+        largest = std::max(largest, max_abs(quantity.values));
     }
-    return std::max(largest, displacement / shortest);
+    for (const solver::Member& member : model_.members) {
+      const double length = member_length(model_, member);
+      shortest = std::min(shortest, length);
+      const auto force = quantities.find("axial_force_N:" + member.name + ".start");
+      if (member.section.EI > 0 && force != quantities.end())
+        size.compression =
+            std::max(size.compression,
+                     max_abs(force->second.values) /
+                         (std::pow(std::numbers::pi / (2 * length), 2) * member.section.EI));
+    }
+    size.rotation = std::max(size.rotation, displacement / shortest);
+    return size;
   }
 
   /// Steps at which displacements and forces are largest.

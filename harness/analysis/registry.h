@@ -1,6 +1,5 @@
 #pragma once
 
-#include <set>
 #include <string>
 #include <variant>
 #include <vector>
@@ -12,14 +11,6 @@
 /// All analyses in one table: what each is called, computes and knows.
 namespace trammel::harness {
 
-/// Of an analysis that goes through points of its own, as frequencies: at some of them alone.
-struct PointAnalysis {
-  /// Those that show what happens between them.
-  std::set<std::size_t> (*sample)(const JsonView& analysis, const CaseModel& case_model) = nullptr;
-  StepResult (*at)(const JsonView& analysis, const CaseModel& case_model,
-                   const std::vector<std::size_t>& points, Recorder& record) = nullptr;
-};
-
 struct AnalysisKind {
   const char* name;  ///< the key below "analysis"
   std::variant<std::monostate, AnalyseStep*, AnalysePath*> of_scene = {};
@@ -30,7 +21,6 @@ struct AnalysisKind {
   const char* without_model = "";  ///< what stands for the model then, in words
   /// What a result must show before it counts as solved; empty: it solves no equation of its own.
   std::vector<solver::Residual> evidence = {};
-  PointAnalysis of_points = {};
   /// Warns if a path crosses a parallel singularity between two of its points.
   bool warns_of_crossing = false;
   /// Has times of its own, not those of the points of the path.

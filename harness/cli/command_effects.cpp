@@ -59,38 +59,41 @@ Rows own_contributions(const EffectStudy& study) {
   return rows;
 }
 
-const std::vector<Column> kSceneColumns = {"case",
+/// Keys of `results::EffectScene`.
+const std::vector<Column> kSceneColumns = {"scene",
                                            "analysis",
                                            "chosen",
                                            {"change", "change [%]", 3, 100},
                                            {"tolerance", "tolerance [%]", 3, 100},
                                            {"mesh_change", "mesh [%]", 3, 100},
                                            {"beyond_tier", "beyond [%]", 3, 100},
-                                           "within_tolerance",
                                            "minimal",
                                            {"work_ratio", "work", 3},
                                            {"deciding_work_ratio", "deciding", 3},
-                                           {"full_cpu_s", "full [s]", 3},
-                                           {"chosen_time_ratio", "time", 3},
-                                           {"deciding_time_ratio", "deciding time", 3}};
+                                           {"whole_s", "all effects [s]", 3},
+                                           {"chosen_s", "chosen [s]", 3},
+                                           {"deciding_s", "deciding [s]", 3}};
 
-void add_scene(Rows& rows, const std::string& id, const std::string& analysis,
-               const EffectStudy& study) {
-  rows.add({id, analysis, effect_names(study.choice.chosen), number_or_null(study.chosen.change()),
-            study.tolerance, number_or_null(study.mesh_change),
-            number_or_null(study.choice.automatic->beyond_tier), study.within_tolerance(),
-            study.is_minimal(), study.work_ratio(),
-            ratio(study.choice.automatic->work, study.full.work), study.full.cpu_s,
-            ratio(study.chosen.cpu_s, study.full.cpu_s),
-            ratio(study.deciding_cpu_s, study.full.cpu_s)});
+results::EffectScene scene_of(const std::string& id, const std::string& analysis,
+                              const EffectStudy& study) {
+  return {.scene = id,
+          .analysis = analysis,
+          .chosen = effect_names(study.choice.chosen),
+          .tolerance = study.tolerance,
+          .change = study.chosen.change(),
+          .minimal = study.is_minimal(),
+          .whole_s = study.full.cpu_s,
+          .chosen_s = study.chosen.cpu_s,
+          .deciding_s = study.deciding_cpu_s,
+          .work_ratio = study.work_ratio(),
+          .deciding_work_ratio = ratio(study.choice.automatic->work, study.full.work),
+          .mesh_change = study.mesh_change,
+          .beyond_tier = study.choice.automatic->beyond_tier};
 }
 
 Json study_json(const std::string& id, const std::string& analysis, const EffectStudy& study) {
-  Rows scene(kSceneColumns);
-  add_scene(scene, id, analysis, study);
-  Json json = scene.json().front();
-  for (const results::EffectRow& row : study.choice.rows)
-    json["effects"].push_back(results::to_json(row));
+  Json json = results::to_json(scene_of(id, analysis, study));
+  json["effects"] = results::to_json(study.choice.rows);
   json["runs"] = own_contributions(study).json();
   return json;
 }
@@ -128,20 +131,6 @@ void print_study(const EffectStudy& study) {
 [[noreturn]] void refuse_unsolved(const std::string& id, const EffectStudy& study) {
   throw InputError(id + ": a solution with all effects is required (" + study.full.outcome.reason +
                    ")");
-}
-
-results::EffectScene scene_of(const std::string& id, const std::string& analysis,
-                              const EffectStudy& study) {
-  return {id,
-          analysis,
-          study.tolerance,
-          study.chosen.change(),
-          study.is_minimal(),
-          study.full.cpu_s,
-          study.chosen.cpu_s,
-          study.deciding_cpu_s,
-          study.work_ratio(),
-          study.mesh_change};
 }
 
 /// Writes results.json and the page of these scenes.
@@ -221,7 +210,6 @@ int effects_command(const CommandOptions& options, const Renderers& renderers) {
     return print_one(cases.front(), options);
   if (!options.out.empty()) require_drawing(renderers);
   std::vector<results::EffectScene> scenes;
-  Rows table(kSceneColumns);
   Json json = Json::array();
   bool all_hold = true;
   std::optional<Progress> progress("scenes");
@@ -231,7 +219,6 @@ int effects_command(const CommandOptions& options, const Renderers& renderers) {
     progress->show(i + 1, cases.size());
     if (!study.full.outcome.solved()) continue;
     const std::string analysis = analysis_kind(cases[i].document);
-    add_scene(table, cases[i].id, analysis, study);
     json.push_back(study_json(cases[i].id, analysis, study));
     scenes.push_back(scene_of(cases[i].id, analysis, study));
     all_hold = all_hold && holds(study);
@@ -241,7 +228,7 @@ int effects_command(const CommandOptions& options, const Renderers& renderers) {
   if (options.json) {
     std::cout << pretty(json, 3);
   } else {
-    table.print(std::cout);
+    Rows(kSceneColumns, json).print(std::cout);
     std::cout << "work: deciding and chosen set, relative to the full model; mesh: from half the "
                  "elements to all\n";
   }

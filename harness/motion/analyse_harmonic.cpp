@@ -162,33 +162,6 @@ class HarmonicScene {
 
 }  // namespace
 
-std::set<std::size_t> harmonic_sample(const JsonView& analysis, const CaseModel& case_model) {
-  constexpr std::size_t kStride = 4;
-  const HarmonicScene scene(analysis, case_model, 0);
-  const std::size_t points = scene.points;
-  const std::optional<std::vector<double>> frequencies = scene.frequencies_in_range();
-  std::set<std::size_t> sample = {points - 1};
-  for (std::size_t i = 0; i < points; i += frequencies ? kStride : 1) sample.insert(i);
-  for (const double frequency : frequencies.value_or(std::vector<double>())) {
-    const double share =
-        (frequency - scene.low) / (scene.high - scene.low) * static_cast<double>(points - 1);
-    const auto before = static_cast<std::size_t>(share);
-    sample.insert({before, std::min(before + 1, points - 1)});
-  }
-  return sample;
-}
-
-StepResult analyse_harmonic_at(const JsonView& analysis, const CaseModel& case_model,
-                               const std::vector<std::size_t>& points, Recorder& record) {
-  const HarmonicScene scene(analysis, case_model, 0);
-  StepResult result{scene.outcome, {}};
-  if (!result.outcome.solved()) return result;
-  for (const std::size_t point : points)
-    scene.record_at(point, point == points.front(), record, result);
-  result.counters += scene.response->counters();
-  return result;
-}
-
 StepResult analyse_harmonic(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
                             bool draw, Recorder& record) {
   const HarmonicScene scene(analysis, case_model, step);

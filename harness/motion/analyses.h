@@ -1,7 +1,5 @@
 #pragma once
 
-#include <set>
-
 #include "harness/statics_modes/step_result.h"
 
 /// Analyses of motion: kinematics, response in time and frequency, dynamics of the manipulator,
@@ -16,15 +14,6 @@ AnalyseStep analyse_transient;
 
 /// Amplitudes of the steady response over a range of frequencies, and their peaks.
 AnalyseStep analyse_harmonic;
-/// The frequencies that show what happens between them, by their numbers: every fourth, and those
-/// next to natural frequencies.
-[[nodiscard]] std::set<std::size_t> harmonic_sample(const JsonView& analysis,
-                                                    const CaseModel& case_model);
-/// The response at these frequencies, without peaks. Evidence is computed at the first of them.
-[[nodiscard]] StepResult analyse_harmonic_at(const JsonView& analysis, const CaseModel& case_model,
-                                             const std::vector<std::size_t>& points,
-                                             Recorder& record);
-
 /// Motion in large displacement: geometrically exact.
 AnalysePath analyse_large_motion;
 

@@ -236,9 +236,9 @@ TRAMMEL_FIELDS(Claims, TRAMMEL_REQUIRED(title, as_recorded, claims), TRAMMEL_OPT
 TRAMMEL_FIELDS(CoverageRow, TRAMMEL_REQUIRED(group, feature, evidence),
                TRAMMEL_OPTIONAL(reason, series, judged));
 TRAMMEL_FIELDS(EffectScene,
-               TRAMMEL_REQUIRED(scene, analysis, tolerance, change, minimal, whole_s, chosen_s,
-                                deciding_s, work_ratio),
-               TRAMMEL_OPTIONAL(mesh_change));
+               TRAMMEL_REQUIRED(scene, analysis, chosen, tolerance, change, minimal, whole_s,
+                                chosen_s, deciding_s, work_ratio, deciding_work_ratio),
+               TRAMMEL_OPTIONAL(mesh_change, beyond_tier));
 TRAMMEL_FIELDS(HistoryCall,
                TRAMMEL_REQUIRED(id, date, commit, machine, runs, checks, failures, cpu_s, work));
 TRAMMEL_FIELDS(HistoryChange,

@@ -137,13 +137,15 @@ struct CoverageRow {
 
 /// Automatic selection of effects in one scene.
 struct EffectScene {
-  std::string scene, analysis;  ///< a case or a random scene; its kind of analysis
-  double tolerance = 0;         ///< asked for [-]
+  std::string scene, analysis, chosen;  ///< the case, its kind of analysis, names of effects
+  double tolerance = 0;                 ///< asked for [-]
   double change = 0;     ///< from all effects to the chosen ones, the largest of all kinds [-]
   bool minimal = false;  ///< no chosen effect could be left out
   double whole_s = 0, chosen_s = 0, deciding_s = 0;  ///< processor time [s]
   double work_ratio = 0;  ///< counted work of deciding and of the chosen effects over all effects
-  Number mesh_change;     ///< from half the elements to all [-]
+  double deciding_work_ratio = 0;  ///< of deciding alone
+  Number mesh_change;              ///< from half the elements to all [-]
+  Number beyond_tier;  ///< change by large displacement, if the analysis cannot compute it [-]
 };
 
 /// A solver other than trammel's, as its adapter names it.

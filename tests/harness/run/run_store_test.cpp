@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(a_computation_is_kept_bit_for_bit) {
   computation.drawing.emplace();
   computation.drawing->nodes = {{0.1, std::nan("")}};
   computation.drawing->members = {{0, 0}};
-  computation.effects = {{"shear", "", "why", true, false, 0, {}, 1.0 / 3}};
+  computation.effects = {{"shear", "", "why", true, false, 0, {}, 1.0 / 3, {}}};
   computation.sweeps = {{"s", {{2, computation.quantities}}}};
   const std::string bytes = to_bytes(computation);
   const Run again = run_from(bytes);
@@ -194,7 +194,7 @@ BOOST_AUTO_TEST_CASE(scenes_of_effects_are_measured_once_as_long_as_their_case_s
   int measured = 0;
   const auto measure = [&] {
     ++measured;
-    return EffectScenes{{"scene", "statics", 0.01, 0.002, true, 3, 2, 1}};
+    return EffectScenes{{"scene", "statics", "none", 0.01, 0.002, true, 3, 2, 1, 0.5, 0.1, {}, {}}};
   };
   Json json = testing::cantilever();
   const auto scenes = [&](bool resume) {

@@ -15,9 +15,9 @@ using namespace trammel::reports;
 namespace {
 
 const std::vector<EffectScene> kScenes = {
-    {"quick", "statics", 0.01, 0.002, true, 0.05, 0.01, 0.02},
-    {"slow", "modes", 0.01, 0.02, false, 0.02, 0.02, 0.01},
-    {"short", "modes", 0.001, 0, true, 0.001, 0.001, 0.004},
+    {"quick", "statics", "shear", 0.01, 0.002, true, 0.05, 0.01, 0.02, 0.6, 0.4, {}, {}},
+    {"slow", "modes", "none", 0.01, 0.02, false, 0.02, 0.02, 0.01, 1.5, 0.5, {}, {}},
+    {"short", "modes", "none", 0.001, 0, true, 0.001, 0.001, 0.004, 5, 4, {}, {}},
 };
 
 bool contains(const std::string& text, const std::string& part) {
