@@ -119,9 +119,9 @@ Kept stored_from(const std::string& bytes) {
   return results::from_json<Kept>(parse_cbor(uncompressed(bytes)));
 }
 
-bool stand(const std::map<std::string, std::string>& references) {
-  return std::ranges::all_of(references,
-                             [](const auto& item) { return file_hash(item.first) == item.second; });
+bool stand(const std::map<std::string, std::string>& hashes, const References& references) {
+  return std::ranges::all_of(
+      hashes, [&](const auto& item) { return references.hash(item.first) == item.second; });
 }
 
 void mark_used(const std::filesystem::path& file) {
@@ -207,10 +207,11 @@ std::vector<results::Convergence> convergence_from(const std::string& bytes) {
   return stored_from<std::vector<results::Convergence>>(bytes);
 }
 
-bool find_stored(const std::filesystem::path& file, Run& run, bool any_machine) {
+bool find_stored(const std::filesystem::path& file, Run& run, bool any_machine,
+                 const References& references) {
   try {
     Run found = run_from(read_text(file));
-    if (!stand(found.references)) return false;
+    if (!stand(found.references, references)) return false;
     const bool timed = !any_machine && !found.cost.timings.empty();
     if (timed && found.machine != machine_name()) return false;
     found.case_id = run.case_id;
@@ -243,7 +244,7 @@ MeasuredStudy measure_or_find(CostStudy study, const CostOptions& options,
                               bool resume) {
   const std::filesystem::path file = store / name_of(study, options.timing);
   std::optional<KeptStudy> kept = kept_in<KeptStudy>(file, resume);
-  if (!kept || kept->settings.empty() || !stand(kept->references)) {
+  if (!kept || kept->settings.empty() || !stand(kept->references, references)) {
     MeasuredStudy measured = measure(std::move(study), options, references);
     std::filesystem::create_directories(store);
     write_file(file,
