@@ -294,15 +294,15 @@ int quantities_command(const CommandOptions& options, const Renderers& /*rendere
 }
 
 int references_command(const CommandOptions& options, const Renderers& /*renderers*/) {
-  const auto files = references::reference_files((data_root() / "references" / "values").string());
   const References library;
+  const std::map<std::string, std::string> places = library.catalogue();
   std::vector<std::string> known, names = options.words;
-  for (const auto& item : files) known.push_back(item.first);
+  for (const auto& item : places) known.push_back(item.first);
   for (const std::string& name : names.empty() ? known : names) {
-    if (files.count(name) == 0)
+    if (places.count(name) == 0)
       throw InputError("expected a stored reference (got " + quoted(printable(name)) + ")" +
                        did_you_mean(name, known));
-    (void)library.add(files.at(name));
+    (void)library.add(places.at(name));
   }
   std::vector<CitedReference> all;
   for (const auto& [id, reference] : library.used()) all.push_back(reference);

@@ -1,5 +1,7 @@
 #include "harness/input/reference_library.h"
 
+#include <algorithm>
+
 #include "harness/base/environment.h"
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
@@ -10,6 +12,9 @@ namespace trammel::harness {
 namespace {
 
 namespace fs = std::filesystem;
+using references::find_member;
+
+constexpr const char* kOwnFile = "references.json";
 
 fs::path stored() {
   return data_root() / "references" / "values";
@@ -20,41 +25,118 @@ bool is_in_catalogue(const fs::path& folder) {
   return !inside.empty() && *inside.begin() != "..";
 }
 
-/// Where a case of the user's own may have its references beside it, none for the catalogue's. One
-/// of the case's own name is not the case.
-std::vector<fs::path> places_beside(const std::string& id, const fs::path& case_file) {
-  const std::string name = id + ".json";
+/// Returns the file with the user's own references to a case. Cases of the catalogue have none.
+std::string own_file(const fs::path& case_file) {
   const fs::path folder = fs::absolute(case_file).parent_path();
-  if (is_in_catalogue(folder)) return {};
-  if (case_file.filename() == name) return {folder / "references" / name};
-  return {folder / name, folder / "references" / name};
+  if (is_in_catalogue(folder) || case_file.filename() == kOwnFile) return {};
+  return (folder / kOwnFile).string();
+}
+
+std::string place_of(const std::string& file, const std::string& id) {
+  return file + "#/" + id;
+}
+
+/// Splits a place into file and id.
+std::pair<std::string, std::string> parts_of(const std::string& place) {
+  const std::size_t end = place.rfind("#/");
+  if (end == std::string::npos) return {place, ""};
+  return {place.substr(0, end), place.substr(end + 2)};
+}
+
+InputError not_unique(const std::string& file, const std::string& id, const std::string& other) {
+  return {file, "/" + id,
+          "expected an id that no other reference has (got that of one in " + other + ")"};
 }
 
 }  // namespace
 
-references::Source References::source(const std::string& key, const fs::path& file) const {
-  for (const fs::path& folder : {file.parent_path(), stored().parent_path()}) {
-    const fs::path place = folder / "bibliography.json";
-    auto sources = bibliographies_.find(place);
-    if (sources == bibliographies_.end())
-      sources = bibliographies_.emplace(place, references::load_bibliography(place)).first;
-    if (const auto found = sources->second.find(key); found != sources->second.end())
-      return found->second;
+const std::vector<std::string>& References::catalogue_files() const {
+  if (catalogue_files_.empty()) {
+    for (auto& item : references::json_files(stored().string()))
+      catalogue_files_.push_back(std::move(item.second));
+    std::ranges::sort(catalogue_files_);
+  }
+  return catalogue_files_;
+}
+
+References::Family& References::family(const std::string& file) const {
+  const auto [item, is_new] = families_.try_emplace(file);
+  if (is_new) item->second.file = references::read_file(file);
+  return item->second;
+}
+
+const std::vector<references::JsonMember>& References::members(const std::string& file) const {
+  Family& split = family(file);
+  if (!split.members) split.members = references::json_members(split.file.text);
+  if (!split.members) {
+    (void)read_json(file);  // reports the line, or the key that is there twice
+    throw InputError(file, "", "expected an object");
+  }
+  return *split.members;
+}
+
+bool References::exists(const std::string& file) const {
+  std::error_code error;
+  return family(file).file.bytes != nullptr || fs::exists(file, error);
+}
+
+bool References::has(const std::string& file, const std::string& id) const {
+  return exists(file) && references::is_reference_id(id) &&
+         find_member(members(file), id).has_value();
+}
+
+const std::vector<References::Key>& References::catalogue_keys() const {
+  if (!catalogue_keys_.empty()) return catalogue_keys_;
+  for (const std::string& file : catalogue_files())
+    for (const std::string_view key : references::keys_of_blocks(family(file).file.text))
+      catalogue_keys_.push_back({key, &file});
+  return catalogue_keys_;
+}
+
+references::Source References::source(const std::string& key, const std::string& file) const {
+  for (const fs::path& folder : {fs::path(file).parent_path(), stored().parent_path()}) {
+    const std::string bibliography = (folder / "bibliography.json").string();
+    if (!exists(bibliography)) continue;
+    if (const auto source = find_member(members(bibliography), key))
+      return references::read_source(*source, bibliography + ": /" + key);
   }
   return {key, ""};
 }
 
-CitedReference References::read(const fs::path& file) const {
-  const Json json = read_json(file);
-  if (const auto schema_error = find_schema_fault(json, "reference")) {
-    throw InputError(file.string(), schema_error->pointer, schema_error->message);
+std::string References::find_in_catalogue(const std::string& id) const {
+  const std::string* found = nullptr;
+  if (!references::is_reference_id(id)) return {};
+  for (const auto& [key, file] : catalogue_keys()) {
+    if (key != id) continue;
+    if (found != nullptr) throw not_unique(*file, id, *found);
+    found = file;
   }
+  if (found != nullptr && has(*found, id)) return place_of(*found, id);
+  const auto places = catalogue();  // in case the file has another form
+  const auto place = places.find(id);
+  return place == places.end() ? "" : place->second;
+}
+
+CitedReference References::read(const std::string& place) const {
+  const auto [file, id] = parts_of(place);
+  if (!has(file, id)) throw InputError(file, "/" + id, "expected a reference");
+  const auto common = find_member(members(file), references::kCommon);
+  std::string text = "{";
+  if (common) text.append("\"common\":").append(*common).append(1, ',');
+  text.append(1, '"').append(id).append("\":").append(*find_member(members(file), id)) += '}';
+  Json json;
   try {
-    CitedReference cited{references::read_reference(nlohmann::json(json), file.string()), {}};
-    if (cited.reference.id != file.stem().string()) {
-      throw InputError(file.string(), "/id",
-                       "expected the file's name, '" + file.stem().string() + "'");
-    }
+    json = parse_json(text, file);
+  } catch (const InputError&) {
+    (void)read_json(file);  // reports the line in the file
+    throw;
+  }
+  if (const auto schema_error = find_schema_fault(json, "reference"))
+    throw InputError(file, schema_error->pointer, schema_error->message);
+  try {
+    const nlohmann::json merged = references::with_common(
+        common ? nlohmann::json(json.front()) : nlohmann::json(), nlohmann::json(json.back()));
+    CitedReference cited{references::read_reference(merged, file, id), {}};
     cited.source = source(cited.reference.source, file);
     return cited;
   } catch (const references::ReferenceError& error) {
@@ -64,40 +146,71 @@ CitedReference References::read(const fs::path& file) const {
 
 const references::Reference& References::get(const JsonView& id) const {
   const auto name = id.get<std::string>();
-  if (rooms_.empty()) rooms_ = references::folders(stored().string());
-  const auto beside = places_beside(name, id.document().origin(id.pointer()).file);
-  for (const fs::path& file : beside) {
-    std::error_code error;
-    if (fs::is_regular_file(file, error)) return add(file);
-    absent_.insert(file);
-  }
-  if (const std::string file = references::find_json_file(rooms_, name); !file.empty())
-    return add(file);
-  std::vector<std::string> places, names;
-  for (const fs::path& file : beside) places.push_back(file.parent_path().string());
-  places.push_back(stored().string());
-  for (const auto& item : references::json_files(stored().string())) names.push_back(item.first);
-  throw id.error("expected the name of a reference (got '" + printable(name) + "', looked for in " +
-                 join(places, "and") + ")" + did_you_mean(name, names));
+  const std::string& case_file = id.document().origin(id.pointer()).file;
+  auto place = places_.find({case_file, name});
+  if (place == places_.end())
+    place = places_.emplace(std::pair(case_file, name), find(name, case_file, id)).first;
+  return add(place->second);
 }
 
-const references::Reference& References::add(const fs::path& file) const {
-  auto found = read_.find(file);
-  if (found == read_.end()) found = read_.emplace(file, read(file)).first;
+std::string References::find(const std::string& name, const std::string& case_file,
+                             const JsonView& id) const {
+  const std::string own = own_file(case_file);
+  if (!own.empty()) {
+    std::string place = place_of(own, name);
+    if (has(own, name)) return place;
+    absent_.insert(std::move(place));
+  }
+  if (std::string place = find_in_catalogue(name); !place.empty()) return place;
+  std::vector<std::string> looked_for, names;
+  if (!own.empty()) looked_for.push_back(own);
+  looked_for.push_back(stored().string());
+  for (const auto& item : catalogue()) names.push_back(item.first);
+  throw id.error("expected the name of a reference (got '" + printable(name) + "', looked for in " +
+                 join(looked_for, "and") + ")" + did_you_mean(name, names));
+}
+
+const references::Reference& References::add(const std::string& place) const {
+  auto found = read_.find(place);
+  if (found == read_.end()) found = read_.emplace(place, read(place)).first;
   return found->second.reference;
+}
+
+std::map<std::string, std::string> References::catalogue() const {
+  std::map<std::string, std::string> places;
+  for (const std::string& file : catalogue_files()) {
+    for (const references::JsonMember& member : members(file)) {
+      if (!references::is_reference_id(member.key)) continue;
+      const std::string id(member.key);
+      const auto [place, is_new] = places.emplace(id, place_of(file, id));
+      if (!is_new) throw not_unique(file, id, parts_of(place->second).first);
+    }
+  }
+  return places;
+}
+
+std::string References::hash(const std::string& place) const {
+  const auto [file, id] = parts_of(place);
+  try {
+    if (!has(file, id)) return {};
+  } catch (const InputError&) {
+    return content_hash(std::string(family(file).file.text));
+  }
+  std::string text(*find_member(members(file), id));
+  return content_hash(text.append(find_member(members(file), references::kCommon).value_or("")));
 }
 
 std::map<std::string, std::string> References::hashes() const {
   std::map<std::string, std::string> hashes;
-  for (const fs::path& file : absent_) hashes[file.string()];
-  for (const auto& item : read_) hashes[item.first.string()] = file_hash(item.first);
+  for (const std::string& place : absent_) hashes[place];
+  for (const auto& item : read_) hashes[item.first] = hash(item.first);
   return hashes;
 }
 
 std::map<std::string, CitedReference> References::used() const {
-  std::map<std::string, CitedReference> by_name;
-  for (const auto& item : read_) by_name.emplace(item.second.reference.id, item.second);
-  return by_name;
+  std::map<std::string, CitedReference> by_id;
+  for (const auto& item : read_) by_id.emplace(item.second.reference.id, item.second);
+  return by_id;
 }
 
 }  // namespace trammel::harness

@@ -2,12 +2,16 @@
 
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "harness/input/json_view.h"
 #include "references/data/bibliography.h"
+#include "references/data/family.h"
+#include "references/data/json_files.h"
 #include "references/data/reference.h"
 
 namespace trammel::harness {
@@ -18,32 +22,64 @@ struct CitedReference {
   references::Source source;
 };
 
-/// References by name, read once: from beside the case file, else from the catalogue.
+/// References by id, read once: from references.json next to the case file, else from the
+/// catalogue. A place is the file of a reference and its JSON pointer: "FILE#/ID".
 class References {
  public:
-  /// @param id      a place that holds the name
-  /// @throws InputError  where there is no such reference or its file is broken.
+  /// @param id      a place that holds the id
+  /// @throws InputError  if there is no such reference, if two files have it, or if it is broken.
   [[nodiscard]] const references::Reference& get(const JsonView& id) const;
 
-  /// The one in a file. @throws InputError  where it is broken.
-  const references::Reference& add(const std::filesystem::path& file) const;
+  /// Reads the reference at a place. @throws InputError  if it is missing or broken.
+  const references::Reference& add(const std::string& place) const;
 
-  /// Hash of every file that was looked for so far, empty for one that is not there.
+  /// Returns the places of the catalogue's references by id.
+  /// @throws InputError  if a file is broken or has an id of another file.
+  [[nodiscard]] std::map<std::string, std::string> catalogue() const;
+
+  /// Returns a hash for each place that was looked for, empty for places without a reference.
   [[nodiscard]] std::map<std::string, std::string> hashes() const;
+  /// Returns the hash of a reference with what its family has in common.
+  [[nodiscard]] std::string hash(const std::string& place) const;
 
-  /// All that were asked for so far, by name.
+  /// All that were asked for so far, by id.
   [[nodiscard]] std::map<std::string, CitedReference> used() const;
 
  private:
-  [[nodiscard]] CitedReference read(const std::filesystem::path& file) const;
-  /// The source of a key: of the bibliography beside the reference's file, else of the catalogue's.
-  [[nodiscard]] references::Source source(const std::string& key,
-                                          const std::filesystem::path& file) const;
+  /// A family file, read once and split on first use.
+  struct Family {
+    references::FileText file;
+    std::optional<std::vector<references::JsonMember>> members;
+  };
 
-  mutable std::vector<std::string> rooms_;  // folders of the catalogue's references, listed once
-  mutable std::map<std::filesystem::path, references::Bibliography> bibliographies_;
-  mutable std::map<std::filesystem::path, CitedReference> read_;
-  mutable std::set<std::filesystem::path> absent_;  // looked for in vain
+  struct Key {
+    std::string_view key;
+    const std::string* file;
+  };
+
+  [[nodiscard]] const std::vector<std::string>& catalogue_files() const;
+  [[nodiscard]] const std::vector<Key>& catalogue_keys() const;
+  [[nodiscard]] Family& family(const std::string& file) const;
+  /// @throws InputError  if the file is broken.
+  [[nodiscard]] const std::vector<references::JsonMember>& members(const std::string& file) const;
+  [[nodiscard]] bool exists(const std::string& file) const;
+  [[nodiscard]] bool has(const std::string& file, const std::string& id) const;
+  /// Returns the place of the reference of a case. @throws InputError  if there is none.
+  [[nodiscard]] std::string find(const std::string& name, const std::string& case_file,
+                                 const JsonView& id) const;
+  /// Returns the source of a key: from the bibliography next to the reference's file, else from
+  /// that of the catalogue.
+  [[nodiscard]] references::Source source(const std::string& key, const std::string& file) const;
+  /// Returns the place of a reference of the catalogue, or "".
+  [[nodiscard]] std::string find_in_catalogue(const std::string& id) const;
+  [[nodiscard]] CitedReference read(const std::string& place) const;
+
+  mutable std::vector<std::string> catalogue_files_;
+  mutable std::vector<Key> catalogue_keys_;
+  mutable std::map<std::string, Family> families_;
+  mutable std::map<std::pair<std::string, std::string>, std::string> places_;  // by case and id
+  mutable std::map<std::string, CitedReference> read_;                         // by place
+  mutable std::set<std::string> absent_;  // places that were looked for in vain
 };
 
 }  // namespace trammel::harness

@@ -277,7 +277,7 @@ struct Run {
 
   // In the store alone; sweeps no longer than until they are judged.
   std::vector<Sweep> sweeps;
-  std::map<std::string, std::string> references;  ///< files that were looked for, and their hashes
+  std::map<std::string, std::string> references;  ///< hashes by the place that was looked for
   std::string machine;                            ///< on which times were measured
   SolverIdentity solver;                          ///< other than trammel's
 

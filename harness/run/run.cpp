@@ -186,12 +186,13 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
 /// @returns the signal that ended it early, else 0
 int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
   std::vector<std::pair<Task*, std::filesystem::path>> open;
+  const References references;
   for (Task& task : tasks) {
     std::filesystem::path file;
     if (task.run.status == Status::error) continue;
     if (!options.store.empty())
       file = options.store / computation_name(task.document, task.requested, options.solver.hash);
-    if (options.resume && find_stored(file, task.run, options.any_machine)) {
+    if (options.resume && find_stored(file, task.run, options.any_machine, references)) {
       task.run.stored = file.filename().string();
       task.run.was_stored = true;
       continue;
@@ -329,8 +330,8 @@ std::vector<Run> run_cases(const std::vector<Case>& cases, const References& ref
   for (Task& task : tasks) task.studies = options.studies;
   const int signal = compute_all(tasks, options);
   for (Task& task : tasks) {
-    for (const auto& [file, hash] : task.run.references)
-      if (!hash.empty()) (void)references.add(file);
+    for (const auto& [place, hash] : task.run.references)
+      if (!hash.empty()) (void)references.add(place);
     if (task.run.status == Status::not_run) task.run.interrupted_by = signal;
     if (task.requested)
       run_guarded(task.run, [&] { evaluate_checks(task, tasks, references, options); });

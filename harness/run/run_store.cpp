@@ -73,9 +73,9 @@ Kept stored_from(const std::string& bytes) {
   return results::from_json<Kept>(parse_cbor(uncompressed(bytes)));
 }
 
-bool stand(const std::map<std::string, std::string>& references) {
-  return std::ranges::all_of(references,
-                             [](const auto& item) { return file_hash(item.first) == item.second; });
+bool stand(const std::map<std::string, std::string>& hashes, const References& references) {
+  return std::ranges::all_of(
+      hashes, [&](const auto& item) { return references.hash(item.first) == item.second; });
 }
 
 void mark_used(const std::filesystem::path& file) {
@@ -175,10 +175,11 @@ std::vector<results::Convergence> convergence_from(const std::string& bytes) {
   return stored_from<std::vector<results::Convergence>>(bytes);
 }
 
-bool find_stored(const std::filesystem::path& file, Run& run, bool any_machine) {
+bool find_stored(const std::filesystem::path& file, Run& run, bool any_machine,
+                 const References& references) {
   try {
     Run found = run_from(read_text(file));
-    if (!stand(found.references)) return false;
+    if (!stand(found.references, references)) return false;
     const bool timed = !any_machine && !found.cost.timings.empty();
     if (timed && found.machine != machine_name()) return false;
     found.case_id = run.case_id;
@@ -211,7 +212,7 @@ results::CostStudy measure_or_find(const CostStudy& study, const CostOptions& op
                                    bool resume) {
   return find_or_compute<results::CostStudy>(
       store, name_of(study, options.timing), resume,
-      [](const results::CostStudy& kept) { return stand(kept.references); },
+      [&](const results::CostStudy& kept) { return stand(kept.references, references); },
       [&] { return measure(study, options, references); });
 }
 

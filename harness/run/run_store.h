@@ -32,7 +32,7 @@ namespace trammel::harness {
 /// @returns whether the file holds a computation that still stands: whole, with the references as
 ///          they are now, and with times of this machine unless any will do.
 [[nodiscard]] bool find_stored(const std::filesystem::path& file, Run& run,
-                               bool any_machine = false);
+                               bool any_machine = false, const References& references = {});
 
 /// How many calls have begun the computation of that file and were ended before it was.
 [[nodiscard]] std::size_t unfinished_starts(const std::filesystem::path& file);

@@ -1,29 +1,18 @@
 #include "references/data/bibliography.h"
 
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "references/data/reference.h"
 
 namespace trammel::references {
 
-Bibliography load_bibliography(const std::filesystem::path& file) {
-  Bibliography sources;
-  std::ifstream in(file);
-  if (!in) return sources;
+Source read_source(std::string_view json, const std::string& place) {
   try {
-    const std::string text(std::istreambuf_iterator<char>(in), {});
-    const nlohmann::json json = nlohmann::json::parse(text);
-    for (const auto& item : json.items()) {
-      sources[item.key()] = {item.value().at("text").get<std::string>(),
-                             item.value().value("doi", "")};
-    }
+    const nlohmann::json source = nlohmann::json::parse(json);
+    return {source.at("text").get<std::string>(), source.value("doi", "")};
   } catch (const nlohmann::json::exception& error) {
-    throw ReferenceError(file.string() + ": /: expected keys with 'text' and 'doi' (" +
-                         error.what() + ")");
+    throw ReferenceError(place + ": expected 'text' and 'doi' (" + error.what() + ")");
   }
-  return sources;
 }
 
 }  // namespace trammel::references

@@ -1,8 +1,7 @@
 #pragma once
 
-#include <filesystem>
-#include <map>
 #include <string>
+#include <string_view>
 
 namespace trammel::references {
 
@@ -11,11 +10,9 @@ struct Source {
   std::string doi;   ///< empty where there is none
 };
 
-using Bibliography = std::map<std::string, Source>;
-
-/// @param file  {"key": {"text": "...", "doi": "..."}}; a file that is not there is an empty
-///              bibliography.
-/// @throws ReferenceError  where the file is there but is no bibliography.
-[[nodiscard]] Bibliography load_bibliography(const std::filesystem::path& file);
+/// Reads a member of a bibliography, {"key": {"text": "...", "doi": "..."}}.
+/// @param place  "file: /key" in messages
+/// @throws ReferenceError  if the member is no source.
+[[nodiscard]] Source read_source(std::string_view json, const std::string& place);
 
 }  // namespace trammel::references

@@ -1,10 +1,9 @@
 #include "references/data/json_files.h"
 
 #include <dirent.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
-#include <memory>
-#include <string_view>
+#include <cstdio>
 
 namespace trammel::references {
 namespace {
@@ -13,17 +12,16 @@ constexpr std::string_view kEnding = ".json";
 
 /// @param see  is given a folder and the name of each JSON file in it.
 template <typename See>
-void walk(const std::string& folder, std::vector<std::string>& folders, const See& see) {
+void walk(const std::string& folder, const See& see) {
   const std::unique_ptr<DIR, int (*)(DIR*)> open(opendir(folder.c_str()), closedir);
   if (!open) return;
-  folders.push_back(folder);
   while (const dirent* entry = readdir(open.get())) {
     const std::string_view name = entry->d_name;
     if (name == "." || name == "..") continue;
     if (name.size() > kEnding.size() && name.ends_with(kEnding)) {
       see(folder, name);
     } else if (entry->d_type == DT_DIR || entry->d_type == DT_UNKNOWN) {
-      walk(folder + "/" + entry->d_name, folders, see);
+      walk(folder + "/" + entry->d_name, see);
     }
   }
 }
@@ -32,8 +30,7 @@ void walk(const std::string& folder, std::vector<std::string>& folders, const Se
 
 std::vector<std::pair<std::string, std::string>> json_files(const std::string& folder) {
   std::vector<std::pair<std::string, std::string>> files;
-  std::vector<std::string> folders;
-  walk(folder, folders, [&](const std::string& in, std::string_view name) {
+  walk(folder, [&](const std::string& in, std::string_view name) {
     files.emplace_back(name.substr(0, name.size() - kEnding.size()), "");
     std::string& file = files.back().second;
     file.reserve(in.size() + name.size() + 1);
@@ -42,18 +39,16 @@ std::vector<std::pair<std::string, std::string>> json_files(const std::string& f
   return files;
 }
 
-std::vector<std::string> folders(const std::string& folder) {
-  std::vector<std::string> found;
-  walk(folder, found, [](const std::string&, std::string_view) {});
-  return found;
-}
-
-std::string find_json_file(const std::vector<std::string>& folders, const std::string& name) {
-  for (const std::string& folder : folders) {
-    std::string file = folder + "/" + name + std::string(kEnding);
-    if (access(file.c_str(), F_OK) == 0) return file;
-  }
-  return {};
+FileText read_file(const std::string& file) {
+  FileText read;
+  struct stat status {};
+  if (stat(file.c_str(), &status) != 0 || !S_ISREG(status.st_mode)) return read;
+  const std::unique_ptr<FILE, int (*)(FILE*)> in(std::fopen(file.c_str(), "rb"), std::fclose);
+  if (!in) return read;
+  const auto size = static_cast<std::size_t>(status.st_size);
+  read.bytes = std::make_unique_for_overwrite<char[]>(size);
+  read.text = {read.bytes.get(), std::fread(read.bytes.get(), 1, size, in.get())};
+  return read;
 }
 
 }  // namespace trammel::references

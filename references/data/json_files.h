@@ -1,6 +1,8 @@
 #pragma once
 
+#include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,11 +14,13 @@ namespace trammel::references {
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> json_files(
     const std::string& folder);
 
-/// A folder and all below it.
-[[nodiscard]] std::vector<std::string> folders(const std::string& folder);
+/// Content of a file. A string would be cleared first, which takes longer than reading.
+struct FileText {
+  std::unique_ptr<char[]> bytes;
+  std::string_view text;
+};
 
-/// The first file name.json in these folders; empty where there is none.
-[[nodiscard]] std::string find_json_file(const std::vector<std::string>& folders,
-                                         const std::string& name);
+/// Reads a file. The text is empty if there is no file, or if it cannot be read.
+[[nodiscard]] FileText read_file(const std::string& file);
 
 }  // namespace trammel::references

@@ -2,13 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <utility>
-
-#include "references/data/json_files.h"
 
 namespace trammel::references {
 namespace {
@@ -18,75 +15,83 @@ using Json = nlohmann::json;
 /// In the order of ReferenceKind.
 constexpr std::array kKinds = {"proved", "exact", "computed", "paper", "code"};
 
-[[noreturn]] void fail(const std::string& file, const std::string& pointer,
+/// @param place  "file: /id"
+[[noreturn]] void fail(const std::string& place, const std::string& pointer,
                        const std::string& expected) {
-  throw ReferenceError(file + ": " + pointer + ": expected " + expected);
+  throw ReferenceError(place + pointer + ": expected " + expected);
+}
+
+bool is_name(const std::string& id) {
+  return !id.empty() && std::isalnum(static_cast<unsigned char>(id.front())) != 0 &&
+         std::ranges::all_of(id, [](unsigned char c) {
+           return (c < 128 && std::isalnum(c) != 0) || c == '.' || c == '_' || c == '-';
+         });
 }
 
 template <class T>
-T required(const Json& json, const std::string& file, const char* key, const char* expected) {
+T required(const Json& json, const std::string& place, const char* key, const char* expected) {
   const auto found = json.find(key);
-  if (found == json.end()) fail(file, "/", std::string("the key '") + key + "'");
+  if (found == json.end()) fail(place, "", std::string("the key '") + key + "'");
   try {
     return found->get<T>();
   } catch (const Json::exception&) {
-    fail(file, std::string("/") + key, expected);
+    fail(place, std::string("/") + key, expected);
   }
 }
 
 template <class T>
-T optional(const Json& json, const std::string& file, const char* key, const char* expected) {
-  return json.contains(key) ? required<T>(json, file, key, expected) : T{};
+T optional(const Json& json, const std::string& place, const char* key, const char* expected) {
+  return json.contains(key) ? required<T>(json, place, key, expected) : T{};
 }
 
-ReferenceKind parse_kind(const std::string& word, const std::string& file) {
+ReferenceKind parse_kind(const std::string& word, const std::string& place) {
   const auto* const found = std::ranges::find(kKinds, word);
   if (found != kKinds.end()) return static_cast<ReferenceKind>(found - kKinds.begin());
-  fail(file, "/kind", "'proved', 'exact', 'computed', 'paper' or 'code' (got '" + word + "')");
+  fail(place, "/kind", "'proved', 'exact', 'computed', 'paper' or 'code' (got '" + word + "')");
 }
 
 /// One number for all values, or one for each.
-std::vector<double> expand(const Json& stated, const std::string& file, const char* pointer,
+std::vector<double> expand(const Json& stated, const std::string& place, const char* pointer,
                            std::size_t count) {
   std::vector<double> half_widths;
   if (stated.is_number()) {
     half_widths.assign(count, stated.get<double>());
   } else if (stated.is_array() && stated.size() == count) {
     for (const Json& number : stated) {
-      if (!number.is_number()) fail(file, pointer, "numbers");
+      if (!number.is_number()) fail(place, pointer, "numbers");
       half_widths.push_back(number.get<double>());
     }
   } else {
-    fail(file, pointer, "a number or " + std::to_string(count) + " of them, one a value");
+    fail(place, pointer, "a number or " + std::to_string(count) + " of them, one a value");
   }
   for (const double value : half_widths)
-    if (!(value >= 0)) fail(file, pointer, "numbers that are not negative");
+    if (!(value >= 0)) fail(place, pointer, "numbers that are not negative");
   return half_widths;
 }
 
 std::vector<double> read_uncertainty(const Json& json, const Reference& reference,
-                                     const std::string& file) {
+                                     const std::string& place) {
   const auto stated = json.find("uncertainty");
   if (stated != json.end()) {
     const bool relative = stated->contains("relative");
     const char* key = relative ? "relative" : "absolute";
     if (!stated->is_object() || !stated->contains(key)) {
-      fail(file, "/uncertainty", "'relative' or 'absolute'");
+      fail(place, "/uncertainty", "'relative' or 'absolute'");
     }
     const std::string pointer = std::string("/uncertainty/") + key;
-    auto half_widths = expand(stated->at(key), file, pointer.c_str(), reference.values.size());
+    auto half_widths = expand(stated->at(key), place, pointer.c_str(), reference.values.size());
     for (std::size_t i = 0; relative && i < half_widths.size(); ++i) {
       half_widths[i] *= std::abs(reference.values[i]);
     }
     return half_widths;
   }
-  if (reference.printed.empty()) fail(file, "/", "'uncertainty', or 'printed' digits that tell it");
+  if (reference.printed.empty()) fail(place, "", "'uncertainty', or 'printed' digits that tell it");
   std::vector<double> half_widths;
   for (std::size_t i = 0; i < reference.printed.size(); ++i) {
     // Where the digits are in another unit or corrected, they say nothing about the value.
     const double read = std::strtod(reference.printed[i].c_str(), nullptr);
     if (std::abs(read - reference.values[i]) > 1e-12 * std::abs(read)) {
-      fail(file, "/printed/" + std::to_string(i),
+      fail(place, "/printed/" + std::to_string(i),
            "the digits of the value, or 'uncertainty' beside them (got '" + reference.printed[i] +
                "')");
     }
@@ -95,10 +100,13 @@ std::vector<double> read_uncertainty(const Json& json, const Reference& referenc
   return half_widths;
 }
 
-std::string describe_derivation(const Json& derivation) {
-  std::string text = derivation.value("program", "");
-  const Json arguments = derivation.value("arguments", Json::object());
-  for (const auto& item : arguments.items()) text += " " + item.key() + "=" + item.value().dump();
+std::string describe_derivation(const Json& derivation, const std::string& place) {
+  const auto program = derivation.find("program"), arguments = derivation.find("arguments");
+  if (program == derivation.end() || !program->is_string() || arguments == derivation.end() ||
+      !arguments->is_object())
+    fail(place, "/derivation", "'program' and 'arguments'");
+  auto text = program->get<std::string>();
+  for (const auto& item : arguments->items()) text += " " + item.key() + "=" + item.value().dump();
   return text;
 }
 
@@ -126,42 +134,41 @@ double half_unit_in_last_place(const std::string& printed) {
   return std::strtod(("0.5e" + std::to_string(place)).c_str(), nullptr);
 }
 
-Reference read_reference(const Json& json, const std::string& name) {
-  if (!json.is_object()) fail(name, "/", "an object");
-  const auto text = [&](const char* key) { return required<std::string>(json, name, key, "text"); };
+Reference read_reference(const Json& json, const std::string& file, const std::string& id) {
+  const std::string place = file + ": /" + id;
+  if (!is_name(id)) fail(place, "", "an id of letters, digits, '.', '_' and '-'");
+  if (!json.is_object()) fail(place, "", "an object");
+  const auto text = [&](const char* key) {
+    return required<std::string>(json, place, key, "text");
+  };
   Reference read;
-  read.id = text("id");
+  read.id = id;
   read.title = text("title");
-  read.kind = parse_kind(text("kind"), name);
+  read.kind = parse_kind(text("kind"), place);
   read.unit = text("unit");
-  read.values = required<std::vector<double>>(json, name, "values", "an array of numbers");
+  read.values = required<std::vector<double>>(json, place, "values", "an array of numbers");
   read.source = text("source");
   read.place = text("place");
-  read.printed = optional<std::vector<std::string>>(json, name, "printed", "an array of texts");
-  read.errata = optional<std::vector<std::string>>(json, name, "errata", "an array of texts");
-  read.notes = optional<std::string>(json, name, "notes", "text");
+  read.printed = optional<std::vector<std::string>>(json, place, "printed", "an array of texts");
+  read.errata = optional<std::vector<std::string>>(json, place, "errata", "an array of texts");
+  read.notes = optional<std::string>(json, place, "notes", "text");
   if (json.contains("probabilities")) read.probabilities = json.at("probabilities").dump();
-  if (json.contains("derivation")) read.derivation = describe_derivation(json.at("derivation"));
-  if (read.values.empty()) fail(name, "/values", "at least one number");
+  if (json.contains("derivation"))
+    read.derivation = describe_derivation(json.at("derivation"), place);
+  if (read.values.empty()) fail(place, "/values", "at least one number");
   if (!read.printed.empty() && read.printed.size() != read.values.size()) {
-    fail(name, "/printed",
+    fail(place, "/printed",
          "as many texts as values (got " + std::to_string(read.printed.size()) + " for " +
              std::to_string(read.values.size()) + ")");
   }
   const bool proved = read.kind == ReferenceKind::proved;
   if ((proved || read.kind == ReferenceKind::exact) && read.derivation.empty())
-    fail(name, "/",
+    fail(place, "",
          std::string("'derivation' for a reference of kind '") + to_string(read.kind) + "'");
   if (proved && read.printed.empty())
-    fail(name, "/", "'printed', the digits proved, for a reference of kind 'proved'");
-  read.uncertainty = read_uncertainty(json, read, name);
+    fail(place, "", "'printed', the digits proved, for a reference of kind 'proved'");
+  read.uncertainty = read_uncertainty(json, read, place);
   return read;
-}
-
-std::map<std::string, std::string> reference_files(const std::string& folder) {
-  std::map<std::string, std::string> files;
-  for (auto& [name, file] : json_files(folder)) files.emplace(std::move(name), std::move(file));
-  return files;
 }
 
 }  // namespace trammel::references

@@ -1,12 +1,11 @@
 #pragma once
 
-#include <map>
 #include <nlohmann/json_fwd.hpp>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
-/// A reference: numbers from outside with their provenance, as stored in references/values/*.json.
+/// A reference: numbers from outside with their provenance, as stored in references/values.
 namespace trammel::references {
 
 enum class ReferenceKind { proved, exact, computed, paper, code };
@@ -36,13 +35,13 @@ class ReferenceError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The files of all rooms below a folder, by the ids that are their names.
-[[nodiscard]] std::map<std::string, std::string> reference_files(const std::string& folder);
-
-/// @param name  stands for the file in messages
-/// @throws ReferenceError  where a key is missing or of the wrong type, where lengths differ, where
-///                         a printed number is not the value or nothing gives the uncertainty.
-[[nodiscard]] Reference read_reference(const nlohmann::json& json, const std::string& name);
+/// Reads a reference with all its keys, also those that its family has in common.
+/// @param file  file in messages
+/// @throws ReferenceError  if a key is missing or of the wrong type, if lengths differ, or if a
+///                         printed number is not the value. It is also thrown if neither digits nor
+///                         an uncertainty are stated.
+[[nodiscard]] Reference read_reference(const nlohmann::json& json, const std::string& file,
+                                       const std::string& id);
 
 /// Half a unit in the last printed place: "12.768" -> 0.0005, "6.9e10" -> 0.05e10, "12" -> 0.5.
 /// @throws ReferenceError  where the text is not a decimal number.

@@ -7,6 +7,8 @@
 #include <ostream>
 #include <sstream>
 
+#include "references/data/family.h"
+#include "references/data/reference.h"
 #include "references/programs/derivation_comparison.h"
 #include "references/programs/embedded_text.h"
 #include "references/programs/program.h"
@@ -61,8 +63,7 @@ void print_proved(const Comparison& comparison, std::ostream& out) {
   }
 }
 
-bool print_comparison(const std::string& file, std::ostream& out) {
-  const Comparison comparison = compare_with_derivation(read_json(file), file);
+bool print_comparison(const Comparison& comparison, std::ostream& out) {
   out << comparison.id << " [" << comparison.unit << "]";
   if (comparison.program.empty()) {
     out << ": no derivation\n";
@@ -73,6 +74,22 @@ bool print_comparison(const std::string& file, std::ostream& out) {
   print_proved(comparison, out);
   out << "  " << (comparison.within_uncertainty() ? "holds" : "DOES NOT HOLD") << "\n";
   return comparison.within_uncertainty();
+}
+
+/// @param place  a family file, or FILE:ID for one reference of it
+bool print_comparisons(const std::string& place, std::ostream& out) {
+  const std::size_t colon = place.rfind(".json:");
+  const std::string file = colon == std::string::npos ? place : place.substr(0, colon + 5);
+  auto family = read_family(file);
+  if (colon != std::string::npos) {
+    const std::string id = place.substr(colon + 6);
+    if (family.count(id) == 0) throw DerivationError(file + ": /" + id + ": expected a reference");
+    family = {{id, family.at(id)}};
+  }
+  bool holds = true;
+  for (const auto& [id, reference] : family)
+    holds = print_comparison(compare_with_derivation(reference, file, id), out) && holds;
+  return holds;
 }
 
 int run(const std::vector<std::string>& command_line, std::ostream& out, std::ostream& err) {
@@ -99,7 +116,7 @@ int run(const std::vector<std::string>& command_line, std::ostream& out, std::os
     if (argument.rfind("--", 0) == 0) throw DerivationError("cannot use '" + argument + "' here");
   }
   bool holds = true;
-  for (const std::string& file : command_line) holds = print_comparison(file, out) && holds;
+  for (const std::string& file : command_line) holds = print_comparisons(file, out) && holds;
   return holds ? 0 : 1;
 }
 
@@ -110,6 +127,9 @@ int derive_command(const std::vector<std::string>& command_line, std::ostream& o
   try {
     return run(command_line, out, err);
   } catch (const DerivationError& error) {
+    err << "trammel_derive: " << error.what() << "\n";
+    return 2;
+  } catch (const ReferenceError& error) {
     err << "trammel_derive: " << error.what() << "\n";
     return 2;
   } catch (const std::exception& error) {

@@ -1,7 +1,6 @@
 #include "references/programs/derivation_comparison.h"
 
 #include <cmath>
-#include <fstream>
 
 #include "references/data/reference.h"
 #include "references/programs/program.h"
@@ -16,10 +15,11 @@ bool Comparison::within_uncertainty() const {
   return true;
 }
 
-Comparison compare_with_derivation(const Json& json, const std::string& file) {
+Comparison compare_with_derivation(const Json& json, const std::string& file,
+                                   const std::string& id) {
   Comparison result;
   try {
-    const Reference reference = read_reference(json, file);
+    const Reference reference = read_reference(json, file, id);
     result = {reference.id, "", reference.unit, reference.values, reference.uncertainty, {},
               {},           {}};
     if (reference.kind == ReferenceKind::proved) result.printed = reference.printed;
@@ -27,7 +27,8 @@ Comparison compare_with_derivation(const Json& json, const std::string& file) {
     throw DerivationError(error.what());
   }
   if (!json.contains("derivation")) return result;
-  const Arguments derivation(json["derivation"], file + ": /derivation", {"program", "arguments"});
+  const Arguments derivation(json["derivation"], file + ": /" + id + "/derivation",
+                             {"program", "arguments"});
   result.program = derivation.text("program");
   try {
     result.derived = derive(result.program, derivation["arguments"]);
@@ -36,20 +37,10 @@ Comparison compare_with_derivation(const Json& json, const std::string& file) {
     const std::string message = error.what();
     const bool is_pointer = message.rfind('/', 0) == 0;  // into the arguments
     throw DerivationError(
-        (is_pointer ? derivation.pointer("arguments") : file + ": /derivation: ") + message);
+        (is_pointer ? derivation.pointer("arguments") : file + ": /" + id + "/derivation: ") +
+        message);
   }
   return result;
-}
-
-Json read_json(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  if (!in) throw DerivationError(file.generic_string() + ": cannot be read");
-  try {
-    return Json::parse(in);
-  } catch (const Json::parse_error& error) {
-    throw DerivationError(file.generic_string() + ": not JSON at byte " +
-                          std::to_string(error.byte));
-  }
 }
 
 }  // namespace trammel::references

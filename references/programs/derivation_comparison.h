@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -23,12 +22,10 @@ struct Comparison {
   [[nodiscard]] bool within_uncertainty() const;
 };
 
-/// @param reference  the content of a file of references/values/.
-/// @param file  stands for the file in messages.
+/// @param reference  a reference with what its family has in common.
+/// @param file  file in messages.
 /// @throws DerivationError  with the file and the JSON pointer inside it.
-[[nodiscard]] Comparison compare_with_derivation(const Json& reference, const std::string& file);
-
-/// @throws DerivationError  with the file and the pointer, or the byte where it is not JSON.
-[[nodiscard]] Json read_json(const std::filesystem::path& file);
+[[nodiscard]] Comparison compare_with_derivation(const Json& reference, const std::string& file,
+                                                 const std::string& id);
 
 }  // namespace trammel::references

@@ -100,13 +100,22 @@ void take_results(const fs::path& file, const fs::path& sample) {
   (void)compare_command(compare, {});
 }
 
+void take_references(const fs::path& file) {
+  const References library;
+  const Json family = read_json(file);
+  if (!family.is_object()) throw InputError(file.string(), "", "expected an object");
+  for (const auto& item : family.items())
+    if (references::is_reference_id(item.key()))
+      (void)library.add(file.string() + "#/" + item.key());
+}
+
 void take_file(const Input& input, const fs::path& file, const std::function<void()>& computing) {
   if (input.kind == "case") take_case(file, input.pick, computing);
   if (input.kind == "cost")
     for (const SweepExtent extent : {SweepExtent::quick, SweepExtent::full})
       (void)load_cost_study(file, extent, References());
   if (input.kind == "claims") take_claims(file);
-  if (input.kind == "reference") (void)References().add(file);
+  if (input.kind == "reference") take_references(file);
   if (input.kind != "results") return;
   const fs::path sample = file.parent_path() / "sample.json";
   if (!fs::exists(sample)) write_file(sample, sample_results().dump());

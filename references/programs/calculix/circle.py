@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """10 N on P of the manipulator of Table 1 along the paper's circle, by CalculiX: actuators locked, elbows welded, platform hinged.
 
-    circle.py OUT      writes OUT/calculix-circle-*.json
+    circle.py OUT      writes calculix-circle-* into OUT/references.json
 
 At eight points: displacement of P with a rigid platform, linear (planar_manipulator.py) and large, and with the platform as three
 triangles of its own material, large; the forces on the ground of each. Large ones by large_displacement.py, whose uncertainty, of

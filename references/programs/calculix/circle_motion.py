@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Motion of the flexible manipulator of Table 1 along the paper's circle by CalculiX, undamped: elbows and platform on hinges.
 
-    circle_motion.py OUT SPEED...      writes OUT/calculix-motion-SPEED.json: how far P is from the path, x and y, at POINTS times
+    circle_motion.py OUT SPEED...      writes calculix-motion-SPEED into OUT/references.json: how far P is from the path, x and y, at POINTS times
 
 Actuators turn as they would with rigid links, from rest to full speed within half a lap's time and on along the circle. Links as in
 planar_manipulator.py; a hinge is a node that the middles of two end faces share, and the platform are three triangles of a material

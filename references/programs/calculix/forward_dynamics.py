@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Motion of the flexible manipulator of Table 1 under the torques of rigid links, by CalculiX: elbows and platform on hinges, undamped.
 
-    forward_dynamics.py OUT      writes OUT/calculix-forward-dynamics.json: how far P is from the path, x and y, at POINTS times
+    forward_dynamics.py OUT      writes calculix-forward-dynamics into OUT/references.json: how far P is from the path, x and y, at POINTS times
 
 The manipulator of circle_motion.py goes along a straight line from rest to rest, by 10 u^3 - 15 u^4 + 6 u^5, and is watched for half as long
 again. The feet of the links turn freely about their middles, each under the torque that rigid links need for that, as two forces on the

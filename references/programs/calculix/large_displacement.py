@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """10 N on P of the manipulator of Table 1 with large displacement, by CalculiX: actuators locked, elbows welded, platform hinged.
 
-    large_displacement.py OUT      writes OUT/calculix-large-POSE-displacement.json
+    large_displacement.py OUT      writes calculix-large-POSE-displacement into OUT/references.json
 
 Links as in planar_manipulator.py. Equations and rigid bodies do not turn far in ccx 2.20 (Newton's iteration fails), so that feet
 are held node by node, and elbows and the platform are triangles of a material STIFF times as stiff that share the links' nodes: the

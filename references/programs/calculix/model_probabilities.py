@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Which model the authors of Table 2 may have run: probabilities of all readings, given each printed row.
 
-    model_probabilities.py TRAMMEL OUT      writes OUT/table-2-models.json and OUT/table-2-models-planar.json
+    model_probabilities.py TRAMMEL OUT      writes table-2-models and table-2-models-planar into OUT/references.json
 """
 # model_probabilities.json has the factors of which each combination is a reading, all equally probable, and the readings in space
 # (table_2_readings.py). Evidence is a Gaussian integral (Kass and Raftery, J. Am. Stat. Assoc. 90, 1995) over cells of the unknowns, linear
@@ -40,7 +40,8 @@ def merged(target, patch):
 
 
 def reference(name):
-    return json.loads(next((HERE.parent.parent / "values").glob(f"**/{name}.json")).read_text())
+    families = (json.loads(path.read_text()) for path in (HERE.parent.parent / "values").glob("*/*.json"))
+    return next({**family.get("common", {}), **family[name]} for family in families if name in family)
 
 
 def half_unit(printed):

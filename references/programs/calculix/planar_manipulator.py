@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The 3-RRR manipulator of Table 1 in its plane by CalculiX: modes in every variant of its joints at three poses, and 10 N at P.
 
-    planar_manipulator.py OUT      writes OUT/calculix-VARIANT-POSE-frequencies.json and -statics.json
+    planar_manipulator.py OUT      writes calculix-VARIANT-POSE-frequencies and -displacement into OUT/references.json
 
 Links are plane stress (CPS8R, two elements through the thickness), so that they shear, bend and have rotary inertia as a body of
 that shape, but do not contract sideways: ccx 2.20 makes a solid of a plane-stress element, whose shear out of the plane hinders

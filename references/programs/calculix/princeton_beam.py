@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The Princeton beam as a solid, by CalculiX: tip displacement with large displacement under dead loads along its depth.
 
-    princeton_beam.py OUT      writes OUT/calculix-princeton-AXIS.json and OUT/calculix-princeton-AXIS-without-contraction.json
+    princeton_beam.py OUT      writes calculix-princeton-AXIS and -AXIS-without-contraction into OUT/references.json
 
 C3D20R; every motion of the clamped face is held, the load is spread over the end face as the bricks' consistent loads, and the tip is
 the middle of that face. Without Poisson's ratio the clamp holds no contraction back. By default ccx ends Newton's iteration at

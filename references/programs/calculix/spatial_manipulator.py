@@ -6,7 +6,7 @@ bodies that only turn against each other about z.
 """
 import json
 import math
-import os
+import pathlib
 import subprocess
 import sys
 import tempfile
@@ -162,26 +162,25 @@ def build(r, mesh):
 def run(lines, totals=False):
     """Rows of the .dat that begin with a number, in whole; with totals also those of three numbers."""
     with tempfile.TemporaryDirectory() as folder:
-        with open(os.path.join(folder, "deck.inp"), "w", encoding="ascii") as file:
-            file.write("\n".join(lines) + "\n")
+        pathlib.Path(folder, "deck.inp").write_text("\n".join(lines) + "\n", encoding="ascii")
         done = subprocess.run(["ccx", "deck"], cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
         if done.returncode or "*ERROR" in done.stdout:
             raise RuntimeError([line for line in done.stdout.splitlines() if "ERROR" in line][:1] or done.stdout[-300:])
-        with open(os.path.join(folder, "deck.dat"), encoding="ascii") as file:
+        with open(pathlib.Path(folder, "deck.dat"), encoding="ascii") as file:
             rows = [line.split() for line in file]
     return [[float(cell) for cell in row] for row in rows
             if row and (row[0].isdigit() or totals and len(row) == 3 and row[0][-4:-2] in ("E+", "E-"))]
 
 
 def store(folder, name, title, unit, values, change, notes, place="", source="calculix-2.20", **more):
-    """Writes a reference into a folder, which is made if need be."""
-    os.makedirs(folder, exist_ok=True)
-    program = "/".join(["references/programs", *os.path.abspath(sys.argv[0]).split("/")[-2:]])
-    with open(os.path.join(folder, name + ".json"), "w", encoding="utf-8") as file:
-        file.write(json.dumps({
-            "$schema": "../../../../cases/schema/reference.schema.json", "id": name, "title": title, "kind": "code", "unit": unit,
-            "values": values, "uncertainty": {"relative": change}, "source": source, "place": program + place, "notes": notes, **more},
-            indent=2) + "\n")
+    """Adds a reference to references.json in a folder, which is made if need be."""
+    path = pathlib.Path(folder, "references.json")
+    path.parent.mkdir(parents=True, exist_ok=True)
+    family = json.loads(path.read_text()) if path.exists() else {}
+    program = "/".join(["references/programs", *pathlib.Path(sys.argv[0]).resolve().parts[-2:]])
+    family[name] = {"title": title, "kind": "code", "unit": unit, "values": values, "uncertainty": {"relative": change},
+                    "source": source, "place": program + place, "notes": notes, **more}
+    path.write_text(json.dumps(family, indent=2) + "\n")
 
 
 def modes(reading, mesh=None, count=8):

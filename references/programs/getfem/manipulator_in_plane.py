@@ -2,7 +2,7 @@
 """The 3-RRR manipulator of Table 1 in its plane by GetFEM: modes in every variant of its joints at three poses, and 10 N at P.
 The platform is rigid, or (locked, welded, hinged) a soft plate of three triangles, linear or quadratic.
 
-    manipulator_in_plane.py OUT      writes OUT/getfem-JOINTS-frequencies.json and -displacement.json, pose after pose
+    manipulator_in_plane.py OUT      writes getfem-JOINTS-frequencies and -displacement into OUT/references.json, pose after pose
 
 Links are rectangles in plane stress (FEM_QK) that contract sideways by Poisson's ratio. At a joint the mean displacement
 of the end section and its mean rotation (the first moment of what it moves along the link) are the joint's; sections are free to warp

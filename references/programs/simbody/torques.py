@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Torques of the rigid manipulator of Table 1 along the paper's circle by Simbody 3.7, at 1, 10 and 50 rad/s.
 
-    torques.py SIMBODY_ADAPTER OUT      writes OUT/simbody-circle-torques-SPEED.json
+    torques.py SIMBODY_ADAPTER OUT      writes simbody-circle-torques-SPEED into OUT/references.json
 
 Bodies, joints and path are made here from the paper's dimensions, in the form that harness/adapters/simbody reads.
 """

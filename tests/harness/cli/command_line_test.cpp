@@ -112,14 +112,14 @@ BOOST_AUTO_TEST_CASE(a_robot_of_one_s_own_is_run_with_a_reference_beside_it) {
       {"role", "validation"},
       {"expect", {{"agrees", "a rough bench"}, {"ratio_between", {0.1, 10}}}}};
   (void)folder.write(json);
-  (void)folder.write({{"id", "measured"},
-                      {"title", "Measured"},
-                      {"kind", "paper"},
-                      {"unit", "Hz"},
-                      {"values", {12}},
-                      {"uncertainty", {{"absolute", 1}}},
-                      {"source", "my bench"},
-                      {"place", "run 1"}});
+  folder.write_reference({{"id", "measured"},
+                          {"title", "Measured"},
+                          {"kind", "paper"},
+                          {"unit", "Hz"},
+                          {"values", {12}},
+                          {"uncertainty", {{"absolute", 1}}},
+                          {"source", "my bench"},
+                          {"place", "run 1"}});
   const Outcome outcome = run(folder, "run robot.json");
   BOOST_TEST(outcome.status == 0, outcome.err);
   const Json results = read_json(folder.path() / "trammel-results/results.json");

@@ -18,14 +18,14 @@ namespace {
 std::vector<std::string> evidence(const Json& check, const std::string& feature,
                                   const Json& analysis = {}) {
   const Folder folder;
-  (void)folder.write({{"id", "truth"},
-                      {"title", "Truth"},
-                      {"kind", "paper"},
-                      {"unit", "m"},
-                      {"values", {1}},
-                      {"source", "me"},
-                      {"uncertainty", {{"absolute", 0}}},
-                      {"place", "here"}});
+  folder.write_reference({{"id", "truth"},
+                          {"title", "Truth"},
+                          {"kind", "paper"},
+                          {"unit", "m"},
+                          {"values", {1}},
+                          {"source", "me"},
+                          {"uncertainty", {{"absolute", 0}}},
+                          {"place", "here"}});
   Json json = testing::cantilever();
   json["checks"] = {{"c", check}};
   if (!analysis.is_null()) json["analysis"] = analysis;

@@ -27,14 +27,14 @@ std::vector<fs::path> entries(const fs::path& store) {
 
 /// A cantilever and variants of it, one with a reference beside the case.
 Json cases(const Folder& folder, double reference_N) {
-  (void)folder.write({{"id", "load"},
-                      {"title", "Load"},
-                      {"kind", "computed"},
-                      {"unit", "N"},
-                      {"values", {reference_N}},
-                      {"uncertainty", {{"absolute", 0}}},
-                      {"source", "me"},
-                      {"place", "here"}});
+  folder.write_reference({{"id", "load"},
+                          {"title", "Load"},
+                          {"kind", "computed"},
+                          {"unit", "N"},
+                          {"values", {reference_N}},
+                          {"uncertainty", {{"absolute", 0}}},
+                          {"source", "me"},
+                          {"place", "here"}});
   Json json = testing::cantilever();
   json["variants"]["long"]["model"]["nodes"]["B"] = {3, 0};
   json["variants"]["unsupported"]["model"]["supports"] = {{"A", {"x", "y"}}};
@@ -161,16 +161,19 @@ BOOST_AUTO_TEST_CASE(a_case_that_options_try_decides_their_name) {
 
 BOOST_AUTO_TEST_CASE(a_reference_that_changed_or_came_makes_an_entry_stale) {
   const Folder folder;
-  const auto file = folder.write("r.json", "1");
+  const std::string place = (folder.path() / "references.json").string() + "#/";
+  folder.write_reference({{"id", "r"}, {"values", {1}}});
   Run computation;
-  computation.references[file.string()] = "0";
+  computation.references[place + "r"] = "0";
   const auto entry = folder.path() / "entry";
   write_file(entry, to_bytes(computation));
   BOOST_TEST(!find_stored(entry, computation));
-  computation.references = {{(folder.path() / "absent.json").string(), ""}};
+  computation.references = {{place + "r", References().hash(place + "r")}, {place + "absent", ""}};
   write_file(entry, to_bytes(computation));
   BOOST_TEST(find_stored(entry, computation));
-  (void)folder.write("absent.json", "1");
+  folder.write_reference({{"id", "other"}, {"values", {1}}});
+  BOOST_TEST(find_stored(entry, computation));
+  folder.write_reference({{"id", "absent"}, {"values", {1}}});
   BOOST_TEST(!find_stored(entry, computation));
 }
 

@@ -24,22 +24,22 @@ namespace {
 Json beam(const Folder& folder) {
   const double EI = 2e11 * 0.05 * 1e-3 / 12, mu = 7800 * 0.005, root = 1.8751040687119611;
   const double exact = root * root / 4 * std::sqrt(EI / mu) / (2 * std::acos(-1.0));
-  (void)folder.write({{"id", "exact"},
-                      {"title", "Exact"},
-                      {"kind", "computed"},
-                      {"unit", "Hz"},
-                      {"values", {exact}},
-                      {"uncertainty", {{"relative", 1e-14}}},
-                      {"source", "me"},
-                      {"place", "here"}});
-  (void)folder.write({{"id", "root"},
-                      {"title", "Root"},
-                      {"kind", "computed"},
-                      {"unit", "1"},
-                      {"values", {root}},
-                      {"uncertainty", {{"relative", 1e-14}}},
-                      {"source", "me"},
-                      {"place", "here"}});
+  folder.write_reference({{"id", "exact"},
+                          {"title", "Exact"},
+                          {"kind", "computed"},
+                          {"unit", "Hz"},
+                          {"values", {exact}},
+                          {"uncertainty", {{"relative", 1e-14}}},
+                          {"source", "me"},
+                          {"place", "here"}});
+  folder.write_reference({{"id", "root"},
+                          {"title", "Root"},
+                          {"kind", "computed"},
+                          {"unit", "1"},
+                          {"values", {root}},
+                          {"uncertainty", {{"relative", 1e-14}}},
+                          {"source", "me"},
+                          {"place", "here"}});
   Json json = testing::cantilever();
   json["analysis"] = {{"modes", {{"count", 2}}}};
   json["sweeps"]["elements"] = {

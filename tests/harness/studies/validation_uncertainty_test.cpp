@@ -23,14 +23,14 @@ const double kExact = 3.5160152685 * std::sqrt(2e11 / 7800 / 12) * 0.1 / 4 / (2 
 
 void write_reference(const Folder& folder, const std::string& id, const char* unit, double value,
                      double uncertainty) {
-  (void)folder.write({{"id", id},
-                      {"title", id},
-                      {"kind", "code"},
-                      {"unit", unit},
-                      {"values", {value}},
-                      {"uncertainty", {{"absolute", uncertainty}}},
-                      {"source", "me"},
-                      {"place", "here"}});
+  folder.write_reference({{"id", id},
+                          {"title", id},
+                          {"kind", "code"},
+                          {"unit", unit},
+                          {"values", {value}},
+                          {"uncertainty", {{"absolute", uncertainty}}},
+                          {"source", "me"},
+                          {"place", "here"}});
 }
 
 /// Depth 0.1 m within 1 mm, E within 1 %, a nominal length of 2 m within 0.5 m; the printed

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "references/programs/derivation_comparison.h"
+#include "references/data/family.h"
 #include "references/programs/program.h"
 
 BOOST_AUTO_TEST_SUITE(command)
@@ -18,6 +18,13 @@ using namespace trammel::references;
 namespace {
 
 const fs::path values = fs::path(TRAMMEL_SOURCE_DIR) / "references/values";
+
+const fs::path roots_file = values / "beams/beam-modes.json";
+const std::string roots_place = roots_file.string() + ":cantilever-roots";
+
+Json roots() {
+  return read_family(roots_file.string()).at("cantilever-roots");
+}
 
 struct Outcome {
   int status;
@@ -56,7 +63,7 @@ bool one_line(const std::string& text) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(a_reference_that_holds_is_printed_beside_what_comes_out) {
-  const Outcome outcome = run({(values / "beams/beam-modes/cantilever-roots.json").string()});
+  const Outcome outcome = run({roots_place});
   BOOST_TEST(outcome.status == 0);
   BOOST_TEST(outcome.out.find("cantilever-roots [1] by beam-roots") == 0U);
   BOOST_TEST(outcome.out.find("1.8751040687119611") != std::string::npos);
@@ -64,30 +71,31 @@ BOOST_AUTO_TEST_CASE(a_reference_that_holds_is_printed_beside_what_comes_out) {
 }
 
 BOOST_AUTO_TEST_CASE(a_corrupted_reference_is_caught_with_status_1) {
-  Json reference = read_json(values / "beams/beam-modes/cantilever-roots.json");
+  Json reference = roots();
   reference["values"][2] = reference["values"][2].get<double>() + 1e-9;
-  const ScratchFile file(reference.dump());
-  const Outcome outcome = run({file.path(), (values / "manipulator/centroid.json").string()});
+  const ScratchFile file(Json{{"cantilever-roots", reference}}.dump());
+  const Outcome outcome =
+      run({file.path(), (values / "manipulator/circle.json:centroid").string()});
   BOOST_TEST(outcome.status == 1);
   BOOST_TEST(outcome.out.find("DOES NOT HOLD") != std::string::npos);
   BOOST_TEST(outcome.out.find("centroid") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_digit_that_is_not_proved_is_shown) {
-  Json reference = read_json(values / "beams/beam-modes/cantilever-roots.json");
-  const Outcome right = run({(values / "beams/beam-modes/cantilever-roots.json").string()});
+  Json reference = roots();
+  const Outcome right = run({roots_place});
   BOOST_TEST(right.out.find("all digits stored are proved") != std::string::npos);
   std::string digits = reference["printed"][1].get<std::string>();
   digits.back() = digits.back() == '1' ? '2' : '1';
   reference["printed"][1] = digits;
-  const ScratchFile file(reference.dump());
+  const ScratchFile file(Json{{"cantilever-roots", reference}}.dump());
   const Outcome wrong = run({file.path()});
   BOOST_TEST(wrong.status == 1);
   BOOST_TEST(wrong.out.find("  value 1: stored " + digits + ", proved ") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(a_printed_reference_has_nothing_to_derive) {
-  const Outcome outcome = run({(values / "paper/table-2-ansys.json").string()});
+  const Outcome outcome = run({(values / "paper/table-2.json:table-2-ansys").string()});
   BOOST_TEST(outcome.status == 0);
   BOOST_TEST(outcome.out == "table-2-ansys [Hz]: no derivation\n");
 }
@@ -108,9 +116,10 @@ BOOST_AUTO_TEST_CASE(every_program_is_listed) {
 
 BOOST_AUTO_TEST_CASE(bad_usage_and_bad_input_are_one_line_with_status_2) {
   const ScratchFile not_json("{\"id\": ");
-  const ScratchFile bad_argument(R"({"id": "x", "title": "x", "kind": "exact", "unit": "1",
+  const ScratchFile bad_argument(R"({"x": {"title": "x", "kind": "exact", "unit": "1",
     "values": [1], "source": "x", "place": "x",
-    "uncertainty": {"relative": 1}, "derivation": {"program": "beam-roots", "arguments": {}}})");
+    "uncertainty": {"relative": 1}, "derivation": {"program": "beam-roots", "arguments": {}}}})");
+  const ScratchFile twice(R"({"x": {}, "y": {}, "x": {}})");
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
       {{"--program", "none"}, "there are"},
       {{"--program", "beam-roots", "--arguments", "{"}, "--arguments: not JSON"},
@@ -118,7 +127,9 @@ BOOST_AUTO_TEST_CASE(bad_usage_and_bad_input_are_one_line_with_status_2) {
       {{"--unknown"}, "cannot use '--unknown'"},
       {{"no-such-file.json"}, "no-such-file.json: cannot be read"},
       {{not_json.path()}, "not JSON at byte"},
-      {{bad_argument.path()}, "/derivation/arguments/ends: is missing"}};
+      {{twice.path()}, ": /x: expected every key once"},
+      {{roots_file.string() + ":none"}, ": /none: expected a reference"},
+      {{bad_argument.path()}, ": /x/derivation/arguments/ends: is missing"}};
   for (const auto& [words, expected] : cases) {
     const Outcome outcome = run(words);
     BOOST_TEST_CONTEXT(words.back()) {

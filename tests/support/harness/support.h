@@ -9,6 +9,7 @@
 
 #include "harness/base/errors.h"
 #include "harness/base/json.h"
+#include "harness/base/json_file.h"
 #include "harness/input/case.h"
 
 namespace trammel::testing {
@@ -47,6 +48,15 @@ class Folder {
   /// A case under its own name.
   [[nodiscard]] std::filesystem::path write(const Json& json) const {
     return write(json.at("id").get<std::string>() + ".json", json.dump(1));
+  }
+  /// Adds a reference to those next to the cases.
+  void write_reference(Json reference) const {
+    const std::filesystem::path file = path_ / "references.json";
+    Json family = std::filesystem::exists(file) ? harness::read_json(file) : Json::object();
+    const auto id = reference.at("id").get<std::string>();
+    reference.erase("id");
+    family[id] = std::move(reference);
+    (void)write("references.json", family.dump(1));
   }
 
  private:
