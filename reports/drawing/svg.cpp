@@ -29,7 +29,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
 std::string cut(std::string& text, const std::string& open, const std::string& close) {
   std::string first;
   for (std::size_t at = text.find(open); at != std::string::npos; at = text.find(open, at)) {
-    const std::size_t end = text.find(close, at);
+    const std::size_t end = text.find(close, at + open.size());
     if (end == std::string::npos) break;
     if (first.empty()) first = text.substr(at + open.size(), end - at - open.size());
     text.erase(at, end + close.size() - at);

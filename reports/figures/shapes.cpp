@@ -109,9 +109,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   const std::size_t n = std::min(drawing.shapes.size(), kMaxShapes);
   std::vector<std::vector<Point>> moved;
   std::vector<double> factors;
-  Table table;
-  table.digits = kSampleDigits;
-  table.heads = words_in("node x_m y_m");
+  Table table{words_in("node x_m y_m"), {}, kSampleDigits};
   for (std::size_t i = 0; i < drawing.nodes.size(); ++i)
     table.rows.push_back({static_cast<double>(i), drawing.nodes[i].first, drawing.nodes[i].second});
   for (std::size_t s = 0; s < n; ++s) {

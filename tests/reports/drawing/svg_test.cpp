@@ -36,6 +36,8 @@ BOOST_AUTO_TEST_CASE(a_drawing_becomes_one_element_that_can_stand_beside_others)
   const std::string tidy = tidy_svg(kDrawnSvg, "fig-a", "Title", "What <it> shows");
   BOOST_TEST(markup_fault(tidy, false) == "");
   BOOST_TEST(tidy.rfind("<svg ", 0) == 0U);
+  BOOST_TEST(tidy.find(" viewBox=\"0 0 500 360\" fill=\"none\" stroke-linejoin=") !=
+             std::string::npos);
   BOOST_TEST(tidy.find("aria-label=\"Title. What &lt;it&gt; shows\"") != std::string::npos);
   const auto symbol = [](const std::string& svg) { return svg.substr(svg.find("<use href"), 30); };
   BOOST_TEST(symbol(tidy) != symbol(tidy_svg(kDrawnSvg, "fig-b", "Title", "")));
