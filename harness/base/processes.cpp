@@ -37,14 +37,12 @@ constexpr int kOutOfMemory = 12;  // the exit status of a process that could not
 /// Wall time beyond which a process that uses none of its processor time counts as hung.
 constexpr unsigned kHangTimeoutFactor = 20;
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kLimitsMemory = false;  // sanitizers reserve terabytes of addresses
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
-constexpr bool kLimitsMemory = false;
-#else
-constexpr bool kLimitsMemory = true;
+#ifndef __has_feature
+#define __has_feature(feature) 0
 #endif
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || \
+    __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+constexpr bool kLimitsMemory = false;  // sanitizers reserve terabytes of addresses
 #else
 constexpr bool kLimitsMemory = true;
 #endif
@@ -291,8 +289,7 @@ class ProcessPool {
            const std::function<void()>& waiting) {
     std::vector<pollfd> ready = {{signals_, POLLIN, 0}};
     for (const Child& child : children_) ready.push_back({child.output, POLLIN, 0});
-    constexpr int a_second = 1000;
-    const int found = poll(ready.data(), ready.size(), a_second);
+    const int found = poll(ready.data(), ready.size(), 1000);  // ms
     if (found == 0 && waiting) waiting();
     if (found <= 0) return 0;
     if (signalfd_siginfo came{}; ready[0].revents != 0)
@@ -317,8 +314,7 @@ class ProcessPool {
 std::array<char, 200> last_line{};
 
 extern "C" void say_and_end(int signal) {
-  if (write(STDERR_FILENO, last_line.data(), std::strlen(last_line.data())) >= 0) {
-  }
+  (void)!write(STDERR_FILENO, last_line.data(), std::strlen(last_line.data()));
   _exit(128 + signal);
 }
 

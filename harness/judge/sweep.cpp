@@ -112,6 +112,15 @@ double element_size(const std::string& measures, double parameter) {
   return measures == "size" ? parameter : 1 / parameter;
 }
 
+void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Check>& checks) {
+  const JsonView place = JsonView(document)["sweeps"][sweep.name];
+  const auto is_untracked = [&](const auto& item) {
+    if (place.has("quantities")) return !place["quantities"].has(item.first);
+    return std::ranges::find(checks, item.first, &Check::quantity) == checks.end();
+  };
+  for (results::SweepLevel& level : sweep.levels) std::erase_if(level.quantities, is_untracked);
+}
+
 std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& document,
                                      const std::vector<Check>& checks, const References& references,
                                      TrackedQuantities tracked, results::Number element_order) {

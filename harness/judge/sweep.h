@@ -24,6 +24,9 @@ enum class TrackedQuantities {
   all     ///< every one that changes with the level
 };
 
+/// Removes quantities that are not tracked as `named`.
+void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Check>& checks);
+
 /// @param element_order  of another solver, in place of the orders of the sweep
 [[nodiscard]] std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& document,
                                                    const std::vector<Check>& checks,

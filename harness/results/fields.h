@@ -6,8 +6,6 @@
 #include <boost/preprocessor/seq/transform.hpp>
 #include <boost/preprocessor/variadic/to_seq.hpp>
 #include <cmath>
-#include <cstring>
-#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -229,22 +227,25 @@ void object_from_json(const Json& json, const Place& place, T& value) {
   std::apply([&](const auto&... fields) { (read(fields), ...); }, kFields<T>);
 }
 
-/// The size of a number in bytes, which is 4 if that loses no bit and 8 else, and the bytes.
+constexpr std::size_t kBytes = sizeof(double);
+
+/// Bits of the number before the last one, which in pairs is the same coordinate.
+inline std::uint64_t bits_before(const double* numbers, std::size_t i) {
+  return i < 2 ? 0 : std::bit_cast<std::uint64_t>(numbers[i - 2]);
+}
+
+/// Returns differences of the bits of each number from the number before the last one. The lowest
+/// bytes of all differences come first, because similar bytes in a row compress best.
 template <class Entry>
 Json packed(const std::vector<Entry>& values) {
-  const auto* const first = reinterpret_cast<const double*>(values.data());
-  const std::size_t count = values.size() * sizeof(Entry) / sizeof(double);
-  const bool single = std::all_of(first, first + count, [](double number) {
-    if (std::abs(number) > std::numeric_limits<float>::max()) return false;
-    const auto rounded = static_cast<double>(static_cast<float>(number));
-    return std::bit_cast<std::uint64_t>(rounded) == std::bit_cast<std::uint64_t>(number);
-  });
-  const std::size_t size = single ? sizeof(float) : sizeof(double);
-  std::vector<std::uint8_t> bytes(1 + count * size, static_cast<std::uint8_t>(size));
-  const auto copy = [&](const auto* numbers) {
-    if (count > 0) std::memcpy(bytes.data() + 1, numbers, count * size);
-  };
-  single ? copy(std::vector<float>(first, first + count).data()) : copy(first);
+  const auto* const numbers = reinterpret_cast<const double*>(values.data());
+  const std::size_t count = values.size() * sizeof(Entry) / kBytes;
+  std::vector<std::uint8_t> bytes(count * kBytes);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::uint64_t step = std::bit_cast<std::uint64_t>(numbers[i]) - bits_before(numbers, i);
+    for (std::size_t b = 0; b < kBytes; ++b)
+      bytes[b * count + i] = static_cast<std::uint8_t>(step >> (8 * b));
+  }
   // Json::binary() names the type before it has memory, and destroys a null pointer without it.
   return Json(Json::binary_t(std::move(bytes)));
 }
@@ -252,19 +253,15 @@ Json packed(const std::vector<Entry>& values) {
 template <class Entry>
 void unpack(const Json& json, const Place& place, std::vector<Entry>& values) {
   const auto& bytes = json.get_binary();
-  const std::size_t size = bytes.empty() ? 0 : bytes.front();
-  const std::size_t of_entry = size * sizeof(Entry) / sizeof(double);
-  if ((size != sizeof(float) && size != sizeof(double)) || (bytes.size() - 1) % of_entry != 0)
-    place.fail("the bytes of numbers");
-  values.resize((bytes.size() - 1) / of_entry);
-  if (values.empty()) return;
-  auto* const first = reinterpret_cast<double*>(values.data());
-  if (size == sizeof(double)) {
-    std::memcpy(first, bytes.data() + 1, bytes.size() - 1);
-  } else {
-    std::vector<float> numbers((bytes.size() - 1) / size);
-    std::memcpy(numbers.data(), bytes.data() + 1, bytes.size() - 1);
-    std::copy(numbers.begin(), numbers.end(), first);
+  if (bytes.size() % sizeof(Entry) != 0) place.fail("the bytes of numbers");
+  values.resize(bytes.size() / sizeof(Entry));
+  auto* const numbers = reinterpret_cast<double*>(values.data());
+  const std::size_t count = bytes.size() / kBytes;
+  for (std::size_t i = 0; i < count; ++i) {
+    std::uint64_t bits = bits_before(numbers, i);
+    for (std::size_t b = 0; b < kBytes; ++b)
+      bits += static_cast<std::uint64_t>(bytes[b * count + i]) << (8 * b);
+    numbers[i] = std::bit_cast<double>(bits);
   }
 }
 

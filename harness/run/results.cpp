@@ -24,12 +24,14 @@ Status status_of(solver::Status status) {
   return Status::error;
 }
 
-/// Moments are only drawn, for which seven digits are enough.
-void round_moments(results::Drawing& drawing) {
+/// Rounds moments and shapes. They are drawn, for which seven digits are enough, or matched by an
+/// overlap that has an error of the square of theirs.
+void round_drawing(results::Drawing& drawing) {
   const auto round = [](std::vector<results::Point>& points) {
     for (auto& [x, y] : points) x = static_cast<float>(x), y = static_cast<float>(y);
   };
   for (results::Pose& pose : drawing.poses) round(pose.nodes), round(pose.displacement);
+  for (results::Shape& shape : drawing.shapes) round(shape.displacement);
 }
 
 results::CaseInfo case_info(const Case& given) {
@@ -81,7 +83,7 @@ void record_result(AnalysisResult result, Run& run) {
     run.effects[i].evaluations = result.counters.evaluations(static_cast<solver::Effect>(i));
   run.model_probabilities = std::move(result.model_probabilities);
   run.drawing = std::move(result.drawing);
-  if (run.drawing) round_moments(*run.drawing);
+  if (run.drawing) round_drawing(*run.drawing);
   run.cost.counters = named_counters(result.counters);
   run.cost.timings = std::move(result.timings);
 }

@@ -127,11 +127,11 @@ void compare_for_validation(Task& task, const References& references) {
   if (task.run.uncertainty) task.run.cost.uncertainty_wall_s = watch.wall_s();
 }
 
-std::string answer_of(Task task, const OtherSolver& solver) {
-  if (solver.compute) {
+std::string answer_of(Task task, const RunOptions& options) {
+  if (options.solver.compute) {
     run_guarded(task.run, [&] {
-      solver.compute(*task.owner, task.run.variant, task.document, task.checks, task.requested,
-                     task.run);
+      options.solver.compute(*task.owner, task.run.variant, task.document, task.checks,
+                             task.requested, task.run);
     });
   } else {
     const References references;
@@ -139,6 +139,8 @@ std::string answer_of(Task task, const OtherSolver& solver) {
     compare_for_validation(task, references);
     task.run.references = references.hashes();
   }
+  if (options.tracked == TrackedQuantities::named)
+    for (Sweep& sweep : task.run.sweeps) drop_untracked(sweep, task.document, task.checks);
   if (!task.run.cost.timings.empty()) task.run.machine = machine_name();
   return to_bytes(task.run);
 }
@@ -211,7 +213,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
     work.push_back(
         {[&options, run = task, stored = file] {
            if (!stored.empty()) mark_started(stored);
-           return answer_of(*run, options.solver);
+           return answer_of(*run, options);
          },
          options.solver.compute ? options.solver.time_limit_s : time_limit_s(task->document)});
   std::size_t done = tasks.size() - work.size();

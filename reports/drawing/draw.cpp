@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <functional>
 #include <sstream>
 #include <system_error>
 
@@ -92,8 +91,8 @@ fs::path svg_path(const fs::path& folder, const Figure& figure) {
 
 /// What stands before a drawing in its file, with a hash of it and of all that it tells.
 std::string head_of(const Figure& figure, const std::string& program, const std::string& svg) {
-  const std::string all = program + preamble(figure, "/") + figure.commands + figure.title +
-                          figure.alt + figure.moving + svg;
+  const std::string all =
+      program + preamble(figure, "/") + figure.commands + figure.title + figure.alt + svg;
   return "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<?xml-stylesheet "
          "href=\"figure.css\"?>\n<!-- " +
          std::to_string(std::hash<std::string>{}(all)) + " -->\n";
@@ -106,9 +105,8 @@ bool take_drawing(const fs::path& former, const std::string& program, Figure& fi
   const std::string drawn = read_file(path);
   const std::size_t start = drawn.find("<svg");
   if (start == std::string::npos) return false;
-  std::string svg = drawn.substr(start);
-  if (drawn.compare(0, start, head_of(figure, program, svg)) != 0) return false;
-  figure.svg = std::move(svg);
+  figure.svg = drawn.substr(start);
+  if (drawn.compare(0, start, head_of(figure, program, figure.svg)) != 0) return false;
   return true;
 }
 
@@ -135,9 +133,6 @@ void draw_by_gnuplot(const std::vector<Figure*>& figures, const fs::path& folder
     figure->svg = tidy_svg(drawn, figure->id, figure->title, figure->alt);
     figure->svg.insert(figure->svg.find(" role="), axes_of(*figure, extent_path(*figure)));
     fs::remove(extent_path(*figure));
-    if (!figure->moving.empty())
-      figure->svg.insert(figure->svg.rfind("</svg>"),
-                         "<metadata>" + xml_escaped(figure->moving) + "</metadata>\n");
   }
 }
 
@@ -177,9 +172,12 @@ void draw(const std::vector<Figure*>& figures, const fs::path& folder, const fs:
     if (former.empty() || !take_drawing(former, program, *figure)) missing.push_back(figure);
   }
   draw_by_gnuplot(missing, folder);
-  for (const Figure* figure : figures) {
+  for (Figure* figure : figures) {
     write_file(svg_path(folder, *figure), head_of(*figure, program, figure->svg) + figure->svg);
     write_file(folder / (figure->id + ".csv"), to_csv(figure->data));
+    if (!figure->moving.empty() && !figure->is_linked)  // for the script, which reads no other file
+      figure->svg.insert(figure->svg.rfind("</svg>"),
+                         "<metadata>" + xml_escaped(figure->moving) + "</metadata>\n");
   }
 }
 

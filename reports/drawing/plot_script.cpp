@@ -1,9 +1,7 @@
 #include "reports/drawing/plot_script.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 
 #include "reports/text/number.h"
@@ -15,15 +13,12 @@ namespace {
 
 constexpr std::size_t kMaxKeyCharacters = 38;  ///< characters that gnuplot finds room for
 
-/// Eight digits are finer than any pixel; a break where there is no finite point.
+/// A break where there is no finite point.
 std::string row_text(const std::vector<double>& row) {
   std::string out;
   for (const double x : row) {
     if (!std::isfinite(x)) return "";
-    std::array<char, 40> buffer{};
-    const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), x,
-                                   std::chars_format::general, 8);
-    out += (out.empty() ? "" : " ") + std::string(buffer.data(), end.ptr);
+    out += (out.empty() ? "" : " ") + shortest(x, kSampleDigits);
   }
   return out;
 }

@@ -2,13 +2,17 @@
 
 #include <algorithm>
 #include <array>
+#include <boost/geometry.hpp>
+#include <cmath>
 #include <cstdio>
 #include <kainjow/mustache.hpp>
-#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "reports/text/number.h"
+#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -25,7 +29,7 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
 std::string cut(std::string& text, const std::string& open, const std::string& close) {
   std::string first;
   for (std::size_t at = text.find(open); at != std::string::npos; at = text.find(open, at)) {
-    const std::size_t end = text.find(close, at);
+    const std::size_t end = text.find(close, at + open.size());
     if (end == std::string::npos) break;
     if (first.empty()) first = text.substr(at + open.size(), end - at - open.size());
     text.erase(at, end + close.size() - at);
@@ -38,46 +42,57 @@ void shorten_colors(std::string& text) {
   for (std::size_t at = text.find("rgb("); at != std::string::npos; at = text.find("rgb(", at)) {
     const std::size_t end = text.find(')', at);
     int r = 0, g = 0, b = 0;
-    char comma = 0;
-    std::istringstream in(text.substr(at + 4, end - at - 4));
-    in >> r >> comma >> g >> comma >> b;
+    (void)std::sscanf(text.c_str() + at, "rgb(%d,%d,%d", &r, &g, &b);
     std::array<char, 8> hex{};
     std::snprintf(hex.data(), hex.size(), "#%02x%02x%02x", r & 255, g & 255, b & 255);
     text.replace(at, end + 1 - at, hex.data());
   }
 }
 
-/// What gnuplot says of every group again and stands once on the root.
-constexpr std::array<const char*, 6> kCommonAttributes = {" fill=\"none\"",
-                                                          " stroke-linecap=\"butt\"",
-                                                          " stroke-linejoin=\"miter\"",
-                                                          " stroke-linecap=\"round\"",
-                                                          " stroke-linejoin=\"round\"",
-                                                          " font-family=\"Helvetica\""};
+/// Attributes that gnuplot repeats for every group. They are on the root, are defaults, or have no
+/// effect, because every path, point and text has its own color.
+constexpr const char* kCommonAttributes =
+    R"(fill="none" stroke-linecap="butt" stroke-linecap="round" stroke-linejoin="miter"
+       stroke-linejoin="round" stroke-width="1.00" font-family="Helvetica" font-size="15.00"
+       color="black" stroke="currentColor" stroke="none" class="gridline" text-anchor="middle")";
 
-bool is_digit(char c) {
-  return c >= '0' && c <= '9';
+/// Simplifies the lines of a path and writes them in tenths of a unit. Single points are invisible.
+std::string short_path(const std::string& path) {
+  using Line = boost::geometry::model::linestring<boost::geometry::model::d2::point_xy<double>>;
+  std::string out;
+  Line line;
+  const auto end_line = [&] {
+    Line kept;
+    boost::geometry::simplify(line, kept, 0.1);  // units from a point that is left out to the line
+    for (std::size_t i = 0; kept.size() > 1 && i < kept.size(); ++i)
+      out += (i == 0 ? "M" : " ") + shortest(std::round(10 * kept[i].x()) / 10) + ',' +
+             shortest(std::round(10 * kept[i].y()) / 10);
+    line.clear();
+  };
+  std::istringstream in(path);
+  for (char next = 0, comma = 0; in >> next;) {
+    if (next == 'M' || next == 'Z') end_line();
+    if (next == 'Z') out += 'Z';
+    if (next == 'M' || next == 'L' || next == 'Z') continue;
+    double x = 0, y = 0;
+    in.putback(next) >> x >> comma >> y;
+    line.emplace_back(x, y);
+  }
+  end_line();
+  return out;
 }
 
-/// 57.75 -> 57.8, 335.00 -> 335 inside paths and transforms: a tenth of a unit is finer than eyes.
-void shorten_coordinates(std::string& text) {
-  std::string out;
-  out.reserve(text.size());
-  bool inside = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] == '\'') inside = !inside;
-    const bool two_decimals = inside && text[i] == '.' && i > 0 && is_digit(text[i - 1]) &&
-                              i + 2 < text.size() && is_digit(text[i + 1]) &&
-                              is_digit(text[i + 2]) &&
-                              (i + 3 == text.size() || !is_digit(text[i + 3]));
-    if (!two_decimals) {
-      out += text[i];
-      continue;
-    }
-    if (text[i + 1] != '0') out += {'.', text[i + 1]};
-    i += 2;
+/// Polygons become paths, too.
+void shorten_paths(std::string& text) {
+  const std::string open = " d='";
+  replace_all(text, " " + open, open);
+  replace_all(text, "<polygon fill = ", "<path fill=");
+  replace_all(text, " points = '", open + "M");
+  for (std::size_t at = text.find(open); at != std::string::npos; at = text.find(open, at)) {
+    at += open.size();
+    const std::size_t length = text.find('\'', at) - at;
+    text.replace(at, length, short_path(text.substr(at, length)));
   }
-  text = std::move(out);
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -91,17 +106,21 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-bool opens_group(const std::string& line) {
-  return line.starts_with("<g") && line.find('>') == line.size() - 1;
-}
-
-/// Groups that hold nothing go, and with them those that then hold nothing.
-std::string without_empty_groups(const std::string& text) {
+/// Removes groups that contain nothing, and the tags of groups without attributes.
+std::string without_idle_groups(std::string text) {
+  replace_all(text, "<g", "\n<g");
+  replace_all(text, "</g>", "\n</g>\n");
+  constexpr auto kNoTag = std::string::npos;
   std::vector<std::string> kept;
+  std::vector<std::size_t> groups;  // the lines that open the current groups
   for (std::string& line : lines_of(text)) {
-    if (line == "</g>" && !kept.empty() && opens_group(kept.back())) {
+    const bool closes = line == "</g>";
+    const std::size_t start = closes && !groups.empty() ? groups.back() : kNoTag;
+    if (closes && !groups.empty()) groups.pop_back();
+    if (line.starts_with("<g")) groups.push_back(line == "<g>" ? kNoTag : kept.size());
+    if (closes && start != kNoTag && start + 1 == kept.size()) {
       kept.pop_back();
-    } else {
+    } else if (closes ? start != kNoTag : line != "<g>") {
       kept.push_back(std::move(line));
     }
   }
@@ -110,32 +129,18 @@ std::string without_empty_groups(const std::string& text) {
   return out;
 }
 
-/// The definitions of the symbols that `body` uses, and of those that these use.
+/// The definitions of the symbols that `body` uses, and of those that these use, which come before.
 std::string symbols(const std::string& definitions, const std::string& body) {
   const std::vector<std::string> lines = lines_of(definitions);
-  std::set<std::string> used;
-  std::string seen = body;
-  for (bool grown = true; grown;) {
-    grown = false;
-    for (const std::string& line : lines) {
-      const std::size_t at = line.find("id='");
-      if (at == std::string::npos || line.starts_with("<filter")) continue;
-      const std::string id = line.substr(at + 4, line.find('\'', at + 4) - at - 4);
-      if (seen.find("#" + id + "'") == std::string::npos || !used.insert(line).second) continue;
-      seen += line;
-      grown = true;
-    }
+  std::string used;
+  for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+    const std::size_t at = line->find("id='");
+    if (at == std::string::npos || line->starts_with("<filter")) continue;
+    const std::string mark = "#" + line->substr(at + 4, line->find('\'', at + 4) - at - 3);
+    if (body.find(mark) != std::string::npos || used.find(mark) != std::string::npos)
+      used.insert(0, *line + '\n');
   }
-  std::string out;
-  for (const std::string& line : lines)
-    if (used.count(line)) out += line + '\n';
-  return out.empty() ? out : "<defs>\n" + out + "</defs>\n";
-}
-
-std::string view_box(const std::string& head) {
-  const std::size_t at = head.find("viewBox=\"");
-  if (at == std::string::npos) throw std::runtime_error("an SVG without viewBox");
-  return head.substr(at, head.find('"', at + 9) + 1 - at);
+  return used.empty() ? used : "<defs>\n" + used + "</defs>\n";
 }
 
 }  // namespace
@@ -147,7 +152,7 @@ std::string tidy_svg(const std::string& text, const std::string& id, const std::
   if (start == std::string::npos || end == std::string::npos)
     throw std::runtime_error("not a complete SVG");
   const std::size_t open = text.find('>', start) + 1;
-  std::string body = text.substr(open, end - open);
+  std::string head = text.substr(start, open - start), body = text.substr(open, end - open);
   const std::string definitions = cut(body, "<defs>", "</defs>");
   cut(body, "<title>", "</title>");
   cut(body, "<desc>", "</desc>");
@@ -155,14 +160,16 @@ std::string tidy_svg(const std::string& text, const std::string& id, const std::
   for (std::size_t at = body.find("<g id="); at != std::string::npos; at = body.find("<g id=", at))
     body.replace(at, body.find('>', at) + 1 - at, "<g>");
   shorten_colors(body);
-  for (const char* inherited : kCommonAttributes) replace_all(body, inherited, "");
-  shorten_coordinates(body);
-  body = without_empty_groups(body);
+  for (const std::string& common : words_in(kCommonAttributes)) replace_all(body, " " + common, "");
+  shorten_paths(body);
+  body = without_idle_groups(std::move(body));
   body = symbols(definitions, body) + body;
-  replace_all(body, "xlink:href='#gp", "href='#" + id + "-gp");
-  replace_all(body, "id='gp", "id='" + id + "-gp");
-  return "<svg xmlns=\"http://www.w3.org/2000/svg\" " + view_box(text.substr(start, open - start)) +
-         " fill=\"none\" stroke-linejoin=\"round\" font-family=\"Helvetica, Arial, sans-serif\""
+  const std::string own = "p" + std::to_string(std::hash<std::string>{}(id) % 1000000000) + "-";
+  replace_all(body, "xlink:href='#gp", "href='#" + own);
+  replace_all(body, "id='gp", "id='" + own);
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"" + cut(head, "viewBox=\"", "\"") +
+         "\" fill=\"none\" stroke-linejoin=\"round\" font-family=\"Helvetica, Arial, sans-serif\""
+         " font-size=\"15\" text-anchor=\"middle\""
          " role=\"img\" aria-label=\"" +
          xml_escaped(title + ". " + description) + "\">\n" + body + "</svg>\n";
 }

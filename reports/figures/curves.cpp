@@ -15,7 +15,6 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxDrawnPoints = 1500;
 constexpr std::array<const char*, 5> kDashes = {"", "-", "..", "-.", "-.."};
 
 struct Series {
@@ -30,23 +29,6 @@ double largest_of(const std::vector<double>& values) {
   for (const Number value : values)
     if (value) largest = std::max(largest, std::abs(*value));
   return largest;
-}
-
-/// Smallest and largest of each bucket, in order: a long signal keeps its outline.
-PlotScript::Rows thinned(const PlotScript::Rows& rows) {
-  if (rows.size() <= kMaxDrawnPoints) return rows;
-  const std::size_t bucket = 2 * rows.size() / kMaxDrawnPoints + 1;
-  PlotScript::Rows out;
-  for (std::size_t from = 0; from < rows.size(); from += bucket) {
-    const auto begin = rows.begin() + static_cast<long>(from);
-    const auto end = rows.begin() + static_cast<long>(std::min(rows.size(), from + bucket));
-    auto [low, high] = std::minmax_element(
-        begin, end, [](const auto& a, const auto& b) { return a.back() < b.back(); });
-    if (high < low) std::swap(low, high);
-    out.push_back(*low);
-    if (high != low) out.push_back(*high);
-  }
-  return out;
 }
 
 /// What a logarithmic axis shows of a number: its magnitude, and nothing of zero.
@@ -67,7 +49,7 @@ PlotScript::Rows curve_rows(const std::vector<double>* x, const std::vector<doub
       rows.emplace_back();
     }
   }
-  return thinned(rows);
+  return rows;
 }
 
 /// Whether a run has one of the quantities at least.
@@ -196,6 +178,7 @@ Table table_of(const std::vector<Series>& series, const std::vector<const Run*>&
                const PlotRequest& request) {
   Table table;
   const std::vector<double>* x = find_run(runs, series.front().variant)->quantity(request.x);
+  table.digits = kSampleDigits;
   table.heads = {request.x.empty() ? "index" : request.x};
   std::size_t n = 0;
   for (const Series& s : series) {

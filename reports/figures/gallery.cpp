@@ -22,8 +22,7 @@ namespace trammel::reports {
 namespace {
 
 constexpr std::size_t kMaxPoses = 4;
-constexpr std::size_t kMaxDrawnVariants =
-    24;  ///< variants of one case whose shapes the page carries
+constexpr std::size_t kMaxDrawnVariants = 12;  ///< of one case, with shapes on its page
 
 /// Joints of one name stand in one place; what has no name says nothing.
 bool same_geometry(const Drawing& a, const Drawing& b) {

@@ -158,8 +158,7 @@ std::optional<Figure> mechanism_figure(
   frame(script, box);
   script.axis_label("x", "x (m)");
   script.axis_label("y", "y (m)");
-  Table table;
-  table.heads = words_in("pose node x_m y_m joint name");
+  Table table{words_in("pose node x_m y_m joint name"), {}, kSampleDigits};
   const int key_height = draw_overlays(script, table, overlays, base_label, drawing);
   script.curve(filled_triangles(drawing, drawing.nodes),
                "with filledcurves closed" + lc(palette::kPlate));

@@ -82,8 +82,7 @@ void draw_moment(PlotScript& script, const Drawing& drawing, const std::vector<P
 }
 
 Table table_of(const std::vector<Pose>& moments) {
-  Table table;
-  table.heads = words_in("time_s node x_m y_m u_x_m u_y_m");
+  Table table{words_in("time_s node x_m y_m u_x_m u_y_m"), {}, kSampleDigits};
   for (const Pose& moment : moments)
     for (std::size_t i = 0; i < moment.nodes.size(); ++i) {
       const Point u = moment.displacement.empty() ? Point() : moment.displacement[i];

@@ -109,17 +109,19 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   const std::size_t n = std::min(drawing.shapes.size(), kMaxShapes);
   std::vector<std::vector<Point>> moved;
   std::vector<double> factors;
-  Table table;
-  table.heads = words_in("shape node x_m y_m u_x_m u_y_m drawn_times");
+  Table table{words_in("node x_m y_m"), {}, kSampleDigits};
+  for (std::size_t i = 0; i < drawing.nodes.size(); ++i)
+    table.rows.push_back({static_cast<double>(i), drawing.nodes[i].first, drawing.nodes[i].second});
   for (std::size_t s = 0; s < n; ++s) {
     const Shape& shape = drawing.shapes[s];
     const double factor = factor_for(shape, side);
     factors.push_back(factor);
     moved.push_back(displaced(drawing.nodes, shape, factor));
+    for (const char* head : {"u_x_m [", "u_y_m ["})
+      table.heads.push_back(head + shape.label + "; drawn " + shortest(factor, 4) + " times]");
     for (std::size_t i = 0; i < drawing.nodes.size(); ++i)
-      table.rows.push_back({shape.label, static_cast<double>(i), drawing.nodes[i].first,
-                            drawing.nodes[i].second, shape.displacement[i].first,
-                            shape.displacement[i].second, factor});
+      table.rows[i].insert(table.rows[i].end(),
+                           {shape.displacement[i].first, shape.displacement[i].second});
   }
   auto everything = moved;
   everything.push_back(drawing.nodes);

@@ -95,6 +95,7 @@ void draw_limits(PlotScript& script, std::size_t rows) {
 
 Table table_of(const std::vector<ToleranceRow>& rows) {
   Table table;
+  table.digits = kSampleDigits;
   table.heads = words_in("case variant check quantity index share_of_tolerance verdict");
   for (const ToleranceRow& row : rows)
     for (const auto& [run, check] : row.checks) {

@@ -72,6 +72,10 @@ fs::path write_report(const Results& results, const fs::path& out, bool single_f
     const Environment& from = results.environment;
     draw(figures, part / "figures", from.stored_runs > 0 ? out / "figures" : fs::path(),
          from.trammel + from.commit);
+    // The script reads curves and moves shapes in their page only; the rest is loaded when seen.
+    for (Figure* figure : figures)
+      figure->is_linked |=
+          figure->moving.empty() && figure->svg.find(" data-axes=") == std::string::npos;
     write_checks(families, part / "checks");
     for (const SiteFile& file : site_files(results, families, panels, over_time)) {
       fs::create_directories((part / file.path).parent_path());

@@ -193,7 +193,7 @@ Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
   Table table;
   table.heads = words_in(
       "case variant status check role quantity index unit target computed measure difference "
-      "tolerance_low tolerance_high expectation reference verdict reason message");
+      "tolerance_low tolerance_high expectation reference verdict message");
   for (const Run* run : runs)
     for (const Check& c : run->checks)
       table.rows.push_back(
@@ -203,7 +203,7 @@ Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
            c.tolerance ? cell(c.tolerance->low) : Table::Cell{},
            c.tolerance ? cell(c.tolerance->high) : Table::Cell{},
            std::string(c.known_discrepancy() ? "known-discrepancy" : "agrees"), c.reference,
-           to_string(c.verdict), c.why, c.message});
+           to_string(c.verdict), c.message});
   return table;
 }
 

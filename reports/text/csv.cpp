@@ -28,8 +28,9 @@ std::string text_cell(const std::string& text) {
   return quoted ? out + '"' : out;
 }
 
-std::string written(const Table::Cell& value) {
-  if (const auto* number = std::get_if<double>(&value)) return shortest(*number);
+std::string written(const Table::Cell& value, int digits) {
+  if (const auto* number = std::get_if<double>(&value))
+    return digits > 0 ? shortest(*number, digits) : shortest(*number);
   if (const auto* text = std::get_if<std::string>(&value)) return text_cell(*text);
   return "";
 }
@@ -47,7 +48,8 @@ std::string to_csv(const Table& table) {
     out += (i ? "," : "") + text_cell(table.heads[i]);
   out += '\n';
   for (const auto& row : table.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) out += (i ? "," : "") + written(row[i]);
+    for (std::size_t i = 0; i < row.size(); ++i)
+      out += (i ? "," : "") + written(row[i], table.digits);
     out += '\n';
   }
   return out;

@@ -14,12 +14,13 @@ struct Table {
 
   std::vector<std::string> heads;
   std::vector<std::vector<Cell>> rows;
+  int digits = 0;  ///< significant ones of its numbers; 0: all
 };
 
 [[nodiscard]] Table::Cell cell(harness::Number number);
 
-/// Doubles in their shortest text that reads back the same; what is missing is left empty. Texts
-/// that a spreadsheet would compute have an apostrophe in front.
+/// Without a limit of digits, numbers read back as the same doubles. Missing values are empty.
+/// Texts that a spreadsheet would compute have an apostrophe in front.
 [[nodiscard]] std::string to_csv(const Table& table);
 
 }  // namespace trammel::reports

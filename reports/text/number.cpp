@@ -86,6 +86,10 @@ std::string shortest(double x) {
   return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), x).ptr};
 }
 
+std::string shortest(double x, int digits) {
+  return format(x, std::chars_format::general, digits);
+}
+
 std::string power_of_ten(int exponent) {
   static const std::array<const char*, 10> digits = {"⁰", "¹", "²", "³", "⁴",
                                                      "⁵", "⁶", "⁷", "⁸", "⁹"};

@@ -29,8 +29,14 @@ namespace trammel::reports {
 /// Digits that show where two numbers part, between 4 and 10; 6 where they agree beyond that.
 [[nodiscard]] int distinguishing_digits(double a, double b);
 
+/// Significant digits of samples that are drawn, finer than any pixel; the store of runs has all.
+inline constexpr int kSampleDigits = 7;
+
 /// The shortest text that reads back as the same double, independent of the locale.
 [[nodiscard]] std::string shortest(double x);
+
+/// The same with at most `digits` significant digits.
+[[nodiscard]] std::string shortest(double x, int digits);
 
 /// 10⁻⁷.
 [[nodiscard]] std::string power_of_ten(int exponent);

@@ -3,7 +3,7 @@
 import ctypes
 import struct
 
-FLOATS = {25: (">e", 2), 26: (">f", 4), 27: (">d", 8)}
+FLOATS = {25: ">e", 26: ">f", 27: ">d"}
 
 
 def decode(data, at=0):
@@ -12,8 +12,7 @@ def decode(data, at=0):
     at += 1
     if major == 7:
         if info in FLOATS:
-            code, size = FLOATS[info]
-            return struct.unpack(code, data[at:at + size])[0], at + size
+            return struct.unpack_from(FLOATS[info], data, at)[0], at + struct.calcsize(FLOATS[info])
         return {20: False, 21: True}.get(info), at
     if info >= 24:
         size = 1 << (info - 24)
@@ -21,10 +20,7 @@ def decode(data, at=0):
     if major < 2:
         return (info if major == 0 else -1 - info), at
     if major < 4:
-        text = data[at:at + info]
-        return (text if major == 2 else text.decode()), at + info
-    if major == 6:
-        return decode(data, at)
+        return (data[at:at + info] if major == 2 else data[at:at + info].decode()), at + info
     values = []
     for _ in range(info * (2 if major == 5 else 1)):
         value, at = decode(data, at)
@@ -41,9 +37,12 @@ def uncompressed(data):
 
 
 def numbers(data):
-    # The first byte is the size of each.
-    code = {4: "f", 8: "d"}[data[0]]
-    return struct.unpack(f"<{(len(data) - 1) // data[0]}{code}", data[1:])
+    # The lowest bytes of all differences to the number before the last one, then the next bytes, ...
+    count = len(data) // 8
+    bits = [int.from_bytes(data[i::count], "little") for i in range(count)]
+    for i in range(2, count):
+        bits[i] = (bits[i] + bits[i - 2]) % 2**64
+    return struct.unpack(f"<{count}d", struct.pack(f"<{count}Q", *bits))
 
 
 def read_run(path):

@@ -32,7 +32,7 @@ addEventListener("load", () => {
     !e.closest("svg") && !scrolls(e) && !e.matches(".visually-hidden") &&
     e.getBoundingClientRect().right > innerWidth + 1);
   const shown = e => e && getComputedStyle(e).display !== "none" && e.getBoundingClientRect().width > 0;
-  const misplaced = [...document.querySelectorAll("table.checks td[data-label=Target]")].filter(e => {
+  const misplaced = [...document.querySelectorAll("table.checks tr.values td:nth-child(2) ")].filter(e => {
     const head = [...e.closest("table").querySelectorAll("thead th")].find(h => h.textContent === "Target");
     return shown(head) && Math.abs(head.getBoundingClientRect().right - e.getBoundingClientRect().right) > 1;
   });
