@@ -103,24 +103,6 @@ class Case(dict):
         return found
 
 
-def to_numpy(file):
-    """A matrix of `trammel export --matrices` (Matrix Market, real) as a dense numpy array."""
-    import numpy
-    with open(file) as lines:
-        words = next(lines).lower().split()
-        rows = (line.split() for line in lines if line.strip() and not line.startswith("%"))
-        shape = [int(word) for word in next(rows)]
-        if "array" in words:
-            return numpy.array([float(row[0]) for row in rows]).reshape(shape, order="F")
-        matrix = numpy.zeros(shape[:2])
-        for row in rows:
-            i, j, value = int(row[0]) - 1, int(row[1]) - 1, float(row[2])
-            matrix[i, j] = value
-            if "symmetric" in words:
-                matrix[j, i] = value
-    return matrix
-
-
 def _result(quantities, solver, seconds):
     checked = {}
     for key, (unit, values) in quantities.items():
