@@ -49,6 +49,7 @@ const std::vector<std::pair<const char*, const char*>> kCases = {
     {"hard-03-repeated-frequencies", "perturbed"},
     {"claims-audit", "base"},
     {"estimated-effects", "base"},
+    {"scene-10-newton", "base"},
     {"manufactured-timoshenko", "base"},
     {"manufactured-triangles", "base"},
     {"ansys-vm136", "path"},
