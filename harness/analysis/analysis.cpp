@@ -78,7 +78,7 @@ void record_evidence(const EffectChoice& choice, Recorder& record) {
       if (change && std::isfinite(*change)) record.add(quantity, name, *change);
     };
     add_change("effect_change", evidence.own);
-    add_change("cumulative_effect_change", evidence.cumulative);
+    add_change("effect_cumulative_change", evidence.cumulative);
   }
 }
 

@@ -13,7 +13,7 @@ struct ResponseScale {
   double half_waves = 1;  ///< per member
   /// Angle of the vibration over which a relative change of a frequency adds up [rad].
   double phase = 1;
-  double platform = 1;  ///< the same of a change by the platform
+  double platform = 1;         ///< the same of a change by the platform
   bool loads_stiffen = false;  ///< whether the axial forces of loads change the stiffness
 };
 

@@ -109,8 +109,10 @@ class CoarseScene {
       if (result.outcome.solved()) return record.take_quantities();
       outcome = outcome_at_path_point(scene_, step, result.outcome);
     } catch (const solver::ModelError& error) {  // what is left has no meaning without the effect
+      if (runs_.size() == 1) throw;              // or the model itself has none
       outcome = {solver::Status::singular, error.what()};
     } catch (const InputError& error) {  // as fewer modes than damping ratios
+      if (runs_.size() == 1) throw;
       outcome = {solver::Status::singular, error.what()};
     }
     return std::nullopt;

@@ -239,6 +239,10 @@ fs::path store_folder(const std::string& out, const std::string& store) {
 }
 
 int cost_command(const CommandOptions& options, const Renderers& renderers) {
+  constexpr int kLeastRepeats = 7;  // odd and even ones are compared
+  if (options.repeats < kLeastRepeats)
+    throw InputError("trammel: --repeats requires at least 7 measurements (got " +
+                     std::to_string(options.repeats) + ")");
   require_drawing(renderers);
   const OutputLock lock(options.out);
   end_on_signals(kInterrupted);

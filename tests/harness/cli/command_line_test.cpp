@@ -254,7 +254,7 @@ BOOST_AUTO_TEST_CASE(every_command_that_prints_a_table_takes_json) {
       {"certify cantilever-tip-force", "/configurations/0/checks"},
       {"coverage", "/0/evidence"},
       {"paper", "/0/what"},
-      {"effects scene-soft-platform --repeats 0", "/full_run/element_evaluations"},
+      {"effects scene-soft-platform --repeats 0", "/runs/0/element_evaluations"},
       {"effects scene-column scene-soft-platform --repeats 0", "/1/minimal"},
       {"grade \"" + testing::trammel_program() + " solve\"" + file, "/runs/0/checks/0/verdict"},
       {"history h.db", "/calls/0/checks"}};
