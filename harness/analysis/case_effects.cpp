@@ -108,8 +108,9 @@ std::string describe_decision(Effect effect, const EffectScope& scope,
   for (const Effect dependent : scope.dependents[static_cast<std::size_t>(effect)].list())
     if (selection.chosen.has(dependent))
       return "required by " + std::string(solver::name_of(dependent));
-  return is_chosen ? "kept: it changes coefficients only and costs nothing"
-                   : "removed with an effect that it depends on";
+  if (!is_chosen) return "removed with an effect that it depends on";
+  return is_expensive(effect) ? "kept: measuring it would cost more than removing it could save"
+                              : "kept: it changes coefficients only and costs nothing";
 }
 
 EffectChoice choose_automatically(const Document& document, const CaseModel& case_model,

@@ -94,7 +94,11 @@ std::string change_kind(const std::string& quantity) {
 
 ModelScales scales_of(const solver::Model& model) {
   ModelScales scales;
-  scales.length = solver::box_diagonal(model);
+  Eigen::Vector2d center = Eigen::Vector2d::Zero();
+  for (const solver::Node& node : model.nodes)
+    center += node.position / static_cast<double>(model.nodes.size());
+  for (const solver::Node& node : model.nodes)
+    scales.length = std::max(scales.length, 2 * (node.position - center).norm());
   const double length = scales.length;
   double mass = 0, stiffest = 0;
   for (const solver::Member& member : model.members) {

@@ -12,7 +12,7 @@ namespace trammel::harness {
 /// Scales of a model's kinds of quantities, from which the round-off error of each follows where
 /// its own observed values are all round-off. Zero if nothing is known.
 struct ModelScales {
-  double length = 0;        ///< diagonal of the bounding box [m]
+  double length = 0;        ///< diameter about the mean of the nodes, in any axes [m]
   double force = 0;         ///< sum of the magnitudes of all loads, moments over the length [N]
   double displacement = 0;  ///< that force stretches the stiffest member over the length by [m]
 };

@@ -37,7 +37,7 @@ using EffectNumbers = std::array<EffectNumber, solver::kEffectCount>;
 ///   shear E I k^2 / (kappa G A), rotary inertia (k r)^2, joints E I k / c,
 ///   platform (E I / L^3) / (E t), stiffening P D^2 / (pi^2 E I),
 /// where c is the stiffness of a joint's spring, t the thickness of the platform, P the sum of all
-/// loads and D the diagonal of the frame. Each is the largest over the members.
+/// loads and D the diameter of the frame. Each is the largest over the members.
 ///   Source: Timoshenko, Philosophical Magazine 41 (1921), for shear and rotary inertia; the others
 ///   are ratios of stiffnesses in series or in parallel.
 [[nodiscard]] EffectNumbers effect_numbers(const solver::Model& model, const ResponseScale& scale);

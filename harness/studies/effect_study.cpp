@@ -10,7 +10,7 @@
 #include "harness/base/timing.h"
 #include "harness/input/reference_library.h"
 #include "harness/scene/with_model_errors.h"
-#include "solver/model/model.h"
+#include "solver/linear/system.h"
 
 namespace trammel::harness {
 namespace {
@@ -30,6 +30,7 @@ class Study {
                            Json{{"effects", {{"auto", {{"tolerance", study_.tolerance}}}}}});
     scene_ = read_case_model(automatic_);
     size_ = scales_of(first_model(scene_));
+    (void)solver::assemble(first_model(scene_));  // refuses a model without meaning
     study_.scope = effect_scope(document_, scene_);
   }
 

@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(a_history_multiplies_the_load_and_nothing_else) {
   options(json)["modal_superposition"] = true;
   BOOST_TEST(result_of(json).quantities.count("load_work_J") == 0U);
   json["effects"] = {{"auto", {{"tolerance", 0.01}}}};
-  BOOST_TEST(contains(complaint([&] { (void)result_of(json); }), "no automatic effects"));
+  BOOST_TEST(contains(complaint([&] { (void)result_of(json); }), "automatic effects require a constant load"));
 }
 
 BOOST_AUTO_TEST_CASE(steps_beyond_number_are_refused_before_the_first) {
