@@ -1,5 +1,3 @@
-#include "references/beams/deep_beam.h"
-
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_min.h>
 
@@ -9,6 +7,11 @@
 #include <memory>
 #include <string>
 
+#include "references/beams/programs.h"
+
+/// Forced vibration of a simply supported Timoshenko beam under a load uniform over its span, by
+/// its exact modes w = sin(a x), psi = s cos(a x), a = n pi/L, s = a - rho w_n^2/(kappa G a), both
+/// branches of each odd n (NAFEMS R0016, tests 5H and 5T).
 namespace trammel::references {
 
 namespace {

@@ -13,8 +13,6 @@
 /// 0, solved by elimination with full pivoting: u = N q.
 namespace trammel::references {
 
-using RealMatrix = Dense<Real>;
-
 class FrameCoordinates {
  public:
   /// @param constrain_inextensible  whether members without axial compliance are constraints
@@ -23,9 +21,9 @@ class FrameCoordinates {
   ///                          member has no length.
   FrameCoordinates(const Frame& frame, bool constrain_inextensible);
 
-  [[nodiscard]] int size() const { return size_; }                           ///< of u
-  [[nodiscard]] int free() const { return static_cast<int>(N_.columns()); }  ///< of q
-  [[nodiscard]] const RealMatrix& N() const { return N_; }                   ///< u x q
+  [[nodiscard]] int size() const { return size_; }                        ///< of u
+  [[nodiscard]] int free() const { return static_cast<int>(N_.cols()); }  ///< of q
+  [[nodiscard]] const RealMatrix& N() const { return N_; }                ///< u x q
 
   /// Index in u of motion 0 (x), 1 (y) or 2 (rotation) of a node; -1 where it has no rotation.
   [[nodiscard]] int node_index(int node, int motion) const { return node_[node][motion]; }

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "references/frames/frame_section.h"
+#include "references/frames/manipulator_design.h"
 
 namespace trammel::references {
 
@@ -195,6 +195,20 @@ Frame read_frame(const Json& json, const std::string& pointer) {
   read_supports(model, frame);
   read_loads(model, frame);
   frame.gravity = model.point_or_origin("gravity_m_s2");
+  return frame;
+}
+
+Frame frame_from_arguments(const Arguments& arguments) {
+  if (arguments.has("model")) {
+    for (const char* key : {"manipulator", "pose", "loads", "gravity_m_s2"}) {
+      if (arguments.has(key)) arguments.fail(key, "does not go with a model");
+    }
+    return read_frame(arguments["model"], "/model");
+  }
+  const Arguments pose = arguments.object("pose", {"x_m", "y_m", "phi_rad"});
+  Frame frame = manipulator_frame(manipulator_arguments(arguments), pose);
+  read_loads(arguments, frame);
+  frame.gravity = arguments.point_or_origin("gravity_m_s2");
   return frame;
 }
 

@@ -1,12 +1,12 @@
-#include "references/frames/frame_statics.h"
-
 #include <algorithm>
 #include <string>
 
-#include "references/frames/frame_arguments.h"
 #include "references/frames/frame_coordinates.h"
+#include "references/frames/frame_json.h"
+#include "references/frames/programs.h"
 #include "references/frames/unit_load.h"
 
+/// Exact statics of a frame (`unit_load_statics`) by the names of its outputs.
 namespace trammel::references {
 
 namespace {

@@ -1,9 +1,13 @@
-#include "references/manipulator/nadaraya_watson.h"
-
 #include "references/manipulator/manipulator_torques.h"
 #include "references/manipulator/platform_path.h"
+#include "references/manipulator/programs.h"
 #include "references/numerics/roots.h"
 
+/// The estimator of Nadaraya and Watson (1964), which Specht (1991) calls a general regression
+/// neural network, by its printed formula in extended precision:
+///   Y(x) = sum_i Y_i exp(-D_i^2 / 2 s^2) / sum_i exp(-D_i^2 / 2 s^2),
+/// numerator and denominator multiplied by exp(min D^2 / 2 s^2), which changes nothing but that
+/// neither underflows.
 namespace trammel::references {
 
 namespace {
@@ -46,8 +50,7 @@ Sample sample_at(const PlanarManipulator& manipulator, const Arguments& trajecto
   return sample;
 }
 
-}  // namespace
-
+/// @param inputs, outputs  one row a sample
 std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
                                   const std::vector<Real>& query, const Real& sigma) {
   std::vector<Real> squared_distance;
@@ -71,6 +74,8 @@ std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
   for (Real& value : estimate) value /= weights;
   return estimate;
 }
+
+}  // namespace
 
 std::vector<double> grnn_program(const Json& json) {
   const Arguments arguments(json, "", {"inputs", "outputs", "queries", "sigma", "spread"});

@@ -27,7 +27,7 @@ enum Unknown : int { at_A = 0, at_B = 2, at_C = 4, torque = 6, per_limb = 7 };
 /// The three equations of one body: force balance and moments about its centre of mass.
 class Body {
  public:
-  Body(Dense<Real>& A, std::vector<Real>& b, std::size_t row, const PointJet& center)
+  Body(RealMatrix& A, RealVector& b, std::size_t row, const PointJet& center)
       : A_(A), b_(b), row_(row), center_(center) {}
 
   /// A force of unknown components, `sign` of which acts on this body at `point`.
@@ -52,8 +52,8 @@ class Body {
   }
 
  private:
-  Dense<Real>& A_;
-  std::vector<Real>& b_;
+  RealMatrix& A_;
+  RealVector& b_;
   std::size_t row_;
   const PointJet center_;
 };
@@ -81,8 +81,8 @@ std::array<PointJet, 3> limb_joints(const LimbBodies& limb,
 ManipulatorForces newton_euler_forces(const PlanarManipulator& m,
                                       const std::array<Jet<Real>, 3>& motion,
                                       const PlanarWrench& wrench) {
-  Dense<Real> A(21, 21);
-  std::vector<Real> b(21, Real(0));
+  RealMatrix A = RealMatrix::Zero(21, 21);
+  RealVector b = RealVector::Zero(21);
   const PointJet P = {motion[0], motion[1]};
   const PointJet offset = rotated(m.platform_center, motion[2]);
   Body platform(A, b, 18, {P[0] + offset[0], P[1] + offset[1]});
@@ -105,14 +105,12 @@ ManipulatorForces newton_euler_forces(const PlanarManipulator& m,
                        m.gravity);
     platform.add_joint_force(first + at_C, C, 1);
   }
-  if (!solve_in_place(A, b, Real("1e-40"))) {
-    throw DerivationError("the posture is singular: no torques hold it");
-  }
+  const RealVector x = solve(A, b, "the posture is singular: no torques hold it");
   ManipulatorForces forces;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t first = per_limb * i;
-    forces.torque[i] = b[first + torque];
-    forces.on_platform[i] = {b[first + at_C], b[first + at_C + 1]};
+    forces.torque[i] = x[first + torque];
+    forces.on_platform[i] = {x[first + at_C], x[first + at_C + 1]};
   }
   return forces;
 }

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "references/frames/manipulator_geometry.h"
+#include "references/frames/manipulator_design.h"
 #include "references/numerics/jet.h"
 
 /// Inverse dynamics of the planar 3-RRR by the laws of Newton and Euler for each of its seven

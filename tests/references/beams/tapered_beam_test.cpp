@@ -1,4 +1,4 @@
-#include "references/beams/tapered_beam.h"
+#include "references/beams/programs.h"
 
 #include <boost/test/unit_test.hpp>
 
