@@ -47,6 +47,7 @@ LinkNumbers link(const Arguments& links, const FrameMaterial& material, const st
   LinkNumbers result;
   result.length =
       links[length].is_array() ? links.numbers(length, 3)[limb] : links.positive(length);
+  result.center = result.length / 2;
   CrossSection section =
       rectangle(material, links.positive("thickness_m"), links.positive("width_m"));
   section.shear_coefficient = links.number("shear_coefficient", Real(5) / 6);

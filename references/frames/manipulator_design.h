@@ -34,7 +34,8 @@ struct LinkNumbers {
   Real length = 0;
   Real mass = 0;
   bool has_inertia = false;  ///< whether it is given, not that of a thin rod
-  Real inertia = 0;          ///< about the middle [kg m^2]
+  Real center = 0;           ///< of mass, from the first joint along the link
+  Real inertia = 0;          ///< about the center of mass [kg m^2]
   FrameSection section;
 };
 
@@ -50,6 +51,7 @@ struct ManipulatorNumbers {
   Real platform_mass = 0;
   Real platform_inertia = 0;     ///< about its centre of mass
   Point2<Real> platform_center;  ///< of mass, from P, in platform axes
+  Point2<Real> gravity = {0, 0};
 };
 
 /// @throws DerivationError  with the JSON pointer.

@@ -2,7 +2,6 @@
 #include <map>
 
 #include "references/manipulator/manipulator_torques.h"
-#include "references/manipulator/platform_path.h"
 #include "references/manipulator/programs.h"
 #include "references/numerics/dense.h"
 #include "references/numerics/roots.h"
@@ -18,7 +17,7 @@ using PointJet = Point2<Jet<Real>>;
 /// Everything at one instant, by the name of its quantity.
 class Instant {
  public:
-  Instant(const PlanarManipulator& manipulator, const Motion& motion, const PlanarWrench& wrench)
+  Instant(const ManipulatorNumbers& manipulator, const Motion& motion, const PlanarWrench& wrench)
       : m_(manipulator), motion_(motion), forces_(newton_euler_forces(m_, motion, wrench)) {
     const char* axes[] = {"x", "y", "phi"};
     const char* units[] = {"m", "m", "rad"};
@@ -51,7 +50,7 @@ class Instant {
 
  private:
   void add_limb(std::size_t i) {
-    const LimbBodies& limb = m_.limbs[i];
+    const LimbNumbers& limb = m_.limbs[i];
     const auto [A, B, C] = limb_joints(limb, motion_);
     const std::string n = std::to_string(i + 1);
     const Jet<Real> active = direction(A, B), passive = direction(B, C);
@@ -61,16 +60,16 @@ class Instant {
       return Real((p[0].value - o[0].value) * (q[1].value - p[1].value) -
                   (p[1].value - o[1].value) * (q[0].value - p[0].value));
     };
-    values_["elbow_sine:B" + n] = cross(A, B, C) / (limb.proximal_length * limb.distal_length);
-    const Point2<Real> along = {(B[0].value - C[0].value) / limb.distal_length,
-                                (B[1].value - C[1].value) / limb.distal_length};
+    values_["elbow_sine:B" + n] = cross(A, B, C) / (limb.proximal.length * limb.distal.length);
+    const Point2<Real> along = {(B[0].value - C[0].value) / limb.distal.length,
+                                (B[1].value - C[1].value) / limb.distal.length};
     const Point2<Real>& force = forces_.on_platform[i];
     values_["distal_tension_N:B" + n + "-C" + n] = along[0] * force[0] + along[1] * force[1];
     directions_[i] = {-along[0], -along[1]};
     values_["torque_N_m:A" + n] = values_["holding_torque_N_m:A" + n] = forces_.torque[i];
     values_["actuator_power_W"] += forces_.torque[i] * active.rate;
-    add_link("A" + n + "-B" + n, A, B, active, limb.proximal, limb.proximal_length);
-    add_link("B" + n + "-C" + n, B, C, passive, limb.distal, limb.distal_length);
+    add_link("A" + n + "-B" + n, A, B, active, limb.proximal);
+    add_link("B" + n + "-C" + n, B, C, passive, limb.distal);
   }
 
   void add_angle(const std::string& kind, const std::string& joint, const Jet<Real>& angle) {
@@ -80,8 +79,8 @@ class Instant {
   }
 
   void add_link(const std::string& name, const PointJet& from, const PointJet& to,
-                const Jet<Real>& angle, const LinkBody& body, const Real& length) {
-    const Real share = body.center / length;
+                const Jet<Real>& angle, const LinkNumbers& body) {
+    const Real share = body.center / body.length;
     add_body(name, {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])},
              angle, body.mass, body.inertia);
   }
@@ -104,10 +103,10 @@ class Instant {
   /// Lines of the distal links in Pluecker coordinates, moments about P over the platform's radius.
   void add_singularities() {
     Real squares = 0;
-    for (const LimbBodies& limb : m_.limbs)
+    for (const LimbNumbers& limb : m_.limbs)
       squares += limb.corner[0] * limb.corner[0] + limb.corner[1] * limb.corner[1];
     const Real radius = sqrt(squares / 3);
-    Eigen::Matrix<Real, 3, 3> lines;
+    RealMatrix lines(3, 3);
     Real serial = 1;
     for (std::size_t i = 0; i < 3; ++i) {
       const Point2<Real>& d = directions_[i];
@@ -120,12 +119,12 @@ class Instant {
       const Real sine = abs(values_["elbow_sine:B" + std::to_string(i + 1)]);
       if (sine < serial) serial = sine;
     }
-    const auto singular = Eigen::JacobiSVD<Eigen::Matrix<Real, 3, 3>>(lines).singularValues();
+    const RealVector singular = Eigen::JacobiSVD<RealMatrix>(lines).singularValues();
     values_["parallel_singularity_distance"] = singular[2] / singular[0];
     values_["serial_singularity_distance"] = serial;
   }
 
-  const PlanarManipulator& m_;
+  const ManipulatorNumbers& m_;
   const Motion motion_;
   const ManipulatorForces forces_;
   std::array<Point2<Real>, 3> directions_;
@@ -134,7 +133,7 @@ class Instant {
 
 /// Accelerations of the platform under given torques: torques are linear in them, so four inverse
 /// problems tell.
-RealVector accelerations(const PlanarManipulator& m, const PlanarWrench& wrench,
+RealVector accelerations(const ManipulatorNumbers& m, const PlanarWrench& wrench,
                          const std::vector<Real>& torque, const RealVector& state) {
   const auto torques_at = [&](int moving) {
     Motion motion;
@@ -178,7 +177,7 @@ RealVector extrapolated_step(const Rate& rate, const RealVector& y, const Real& 
 }
 
 /// The motion under constant torques at each of the times.
-std::vector<Motion> driven_motions(const PlanarManipulator& m, const PlanarWrench& wrench,
+std::vector<Motion> driven_motions(const ManipulatorNumbers& m, const PlanarWrench& wrench,
                                    const std::vector<Real>& torque, const Motion& start,
                                    const std::vector<Real>& times) {
   RealVector state(6);
@@ -206,7 +205,7 @@ std::vector<Motion> driven_motions(const PlanarManipulator& m, const PlanarWrenc
 
 /// Integral of the actuators' |power| over a turn of the circle: constant loads have a potential,
 /// so that it is what kinetic less potential energy rises and falls by between the zeros of power.
-Real absolute_work(const PlanarManipulator& m, const Arguments& trajectory,
+Real absolute_work(const ManipulatorNumbers& m, const Arguments& trajectory,
                    const PlanarWrench& wrench) {
   const Arguments circle(trajectory["circle"], "/trajectory/circle");
   const Real period = 2 * pi<Real>() / abs(circle.number("angular_speed_rad_s", 1));
@@ -248,7 +247,7 @@ std::vector<double> manipulator_motion_program(const Json& json) {
   const Arguments arguments(json, "",
                             {"manipulator", "trajectory", "times_s", "force_N", "moment_N_m",
                              "gravity_m_s2", "outputs", "at_rest", "torque_N_m"});
-  const PlanarManipulator manipulator = read_planar_manipulator(arguments);
+  const ManipulatorNumbers manipulator = read_planar_manipulator(arguments);
   const PlanarWrench wrench = read_wrench(arguments);
   const Arguments trajectory = read_trajectory(arguments);
   const std::vector<std::string> outputs = arguments.texts("outputs");

@@ -2,10 +2,7 @@
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
-#include "references/frames/manipulator_design.h"
 #include "references/manipulator/manipulator_torques.h"
-#include "references/manipulator/newton_euler.h"
-#include "references/manipulator/platform_path.h"
 #include "references/manipulator/programs.h"
 #include "references/numerics/dense.h"
 #include "references/numerics/roots.h"
@@ -29,12 +26,12 @@ using SystemState = std::array<Real, 2 * kCoordinates>;
 using Six = Eigen::Matrix<Real, 6, 1>;
 
 struct SystemMotion {
-  Coordinates q{}, v{}, a{};
+  Coordinates q = Coordinates::Zero(), v = q, a = q;
 };
 
 /// What the nodes of a link do, in world axes; `damped` are velocities that are damped.
 struct LinkMotion {
-  Six u{}, v{}, a{}, damped{};
+  Six u = Six::Zero(), v = u, a = u, damped = u;
 };
 
 struct Turn {
@@ -66,6 +63,7 @@ std::array<Six, 3> interpolation(const Real& x, const Real& length, const Real& 
 /// int N^T Q N, int N^T Q J N and int N^T Q P N of one link in its axes.
 struct LinkInertia {
   explicit LinkInertia(const LinkNumbers& link) {
+    matrix.fill(Eigen::Matrix<Real, 6, 6>::Zero());
     const FrameSection& section = link.section;
     const Real phi = 12 * section.EI * section.shear_compliance / (link.length * link.length);
     constexpr std::array<int, 7> kWeights = {41, 216, 27, 272, 27, 216, 41};  // Newton and Cotes
@@ -110,8 +108,7 @@ struct Nominal {
 class Links {
  public:
   explicit Links(const Arguments& arguments)
-      : numbers_(read_manipulator_numbers(manipulator_arguments(arguments))),
-        bodies_(read_planar_manipulator(arguments)),
+      : numbers_(read_planar_manipulator(arguments)),
         trajectory_(read_trajectory(arguments)),
         wrench_(read_wrench(arguments)),
         damping_(arguments.number("mass_damping_per_s", 0)) {
@@ -121,7 +118,7 @@ class Links {
 
   [[nodiscard]] Nominal nominal(const Real& t) const {
     Nominal now{platform_motion(trajectory_, t), {}};
-    for (std::size_t i = 0; i < 3; ++i) now.joints[i] = limb_joints(bodies_.limbs[i], now.pose);
+    for (std::size_t i = 0; i < 3; ++i) now.joints[i] = limb_joints(numbers_.limbs[i], now.pose);
     return now;
   }
 
@@ -198,7 +195,7 @@ class Links {
     const auto end = [at](const Coordinates& x) {
       return Six{0, 0, 0, x[at], x[at + 1], x[at + 2]};
     };
-    LinkMotion link{end(m.q), end(m.v), end(m.a), {}};
+    LinkMotion link{end(m.q), end(m.v), end(m.a), Six::Zero()};
     link.damped = damping_ * link.v;
     if (!nominal) return link;
     const Real turning = turn_of(A, B).acceleration;
@@ -249,7 +246,7 @@ class Links {
       f[k] *= m;
       if (nominal) f[k] += m * now.pose[k].acceleration;
     }
-    Coordinates r{};
+    Coordinates r = Coordinates::Zero();
     r[2] = s[0] * f[1] - s[1] * f[0] + J * (x.a[2] + damping_ * x.v[2]);
     r[0] = f[0];
     r[1] = f[1];
@@ -261,7 +258,6 @@ class Links {
   }
 
   ManipulatorNumbers numbers_;
-  PlanarManipulator bodies_;
   Arguments trajectory_;
   PlanarWrench wrench_;
   Real damping_;

@@ -2,9 +2,7 @@
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
-#include "references/frames/manipulator_design.h"
 #include "references/manipulator/manipulator_torques.h"
-#include "references/manipulator/platform_path.h"
 #include "references/manipulator/programs.h"
 #include "references/numerics/roots.h"
 
@@ -34,7 +32,7 @@ struct Limb {
 class Platform {
  public:
   explicit Platform(const Arguments& arguments)
-      : numbers_(read_manipulator_numbers(manipulator_arguments(arguments))),
+      : numbers_(read_planar_manipulator(arguments)),
         trajectory_(read_trajectory(arguments)),
         wrench_(read_wrench(arguments)),
         rates_(arguments.flag("rate_terms", false)) {}

@@ -1,5 +1,4 @@
 #include "references/manipulator/manipulator_torques.h"
-#include "references/manipulator/platform_path.h"
 #include "references/manipulator/programs.h"
 #include "references/numerics/roots.h"
 
@@ -35,10 +34,10 @@ struct Sample {
   std::vector<Real> torques, joints;
 };
 
-Sample sample_at(const PlanarManipulator& manipulator, const Arguments& trajectory,
+Sample sample_at(const ManipulatorNumbers& manipulator, const Arguments& trajectory,
                  const PlanarWrench& wrench, const Real& time) {
   const auto motion = platform_motion(trajectory, time);
-  const auto torques = newton_euler_torques(manipulator, motion, wrench);
+  const auto torques = newton_euler_forces(manipulator, motion, wrench).torque;
   Sample sample{{torques.begin(), torques.end()}, std::vector<Real>(6)};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto joints = limb_joints(manipulator.limbs[i], motion);
@@ -95,7 +94,7 @@ std::vector<double> manipulator_grnn_program(const Json& json) {
   const Arguments arguments(json, "",
                             {"manipulator", "trajectory", "force_N", "moment_N_m", "gravity_m_s2",
                              "step_s", "train", "sigma", "queries", "output"});
-  const PlanarManipulator manipulator = read_planar_manipulator(arguments);
+  const ManipulatorNumbers manipulator = read_planar_manipulator(arguments);
   const PlanarWrench wrench = read_wrench(arguments);
   const Arguments trajectory = read_trajectory(arguments);
   const Real step = arguments.positive("step_s");

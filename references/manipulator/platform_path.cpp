@@ -1,5 +1,4 @@
-#include "references/manipulator/platform_path.h"
-
+#include "references/manipulator/manipulator_torques.h"
 #include "references/numerics/dense.h"
 
 namespace trammel::references {
