@@ -6,16 +6,6 @@ namespace trammel::references {
 
 namespace {
 
-/// Adds factor * (a - b)(a - b)^T; an index of -1 is the ground.
-void add_spring(RealMatrix& K, int a, int b, const Real& factor) {
-  if (a >= 0) K(a, a) += factor;
-  if (b >= 0) K(b, b) += factor;
-  if (a >= 0 && b >= 0) {
-    K(a, b) -= factor;
-    K(b, a) -= factor;
-  }
-}
-
 /// Negative pivots and log |det| of a symmetric matrix, by L D L^T without interchanges: fifty
 /// digits leave room for the growth that a small pivot brings.
 template <class T>
@@ -73,21 +63,12 @@ void DynamicStiffness<T>::transform_members(const Frame& frame,
 template <class T>
 void DynamicStiffness<T>::add_springs(const Frame& frame, const FrameCoordinates& coordinates) {
   RealMatrix K = RealMatrix::Zero(coordinates.size(), coordinates.size());
-  for (const FrameSpring& spring : frame.springs) {
-    for (int motion = 0; motion < 3; ++motion) {
-      const Real& k = spring.stiffness[motion];
-      if (k == 0) continue;
-      const int b = spring.nodes[1] < 0 ? -1 : coordinates.node_index(spring.nodes[1], motion);
-      add_spring(K, coordinates.node_index(spring.nodes[0], motion), b, k);
-    }
-  }
-  for (std::size_t e = 0; e < frame.members.size(); ++e) {
-    for (int end = 0; end < 2; ++end) {
-      const FrameEnd& joint = frame.members[e].ends[end];
-      if (joint.fixity != Fixity::sprung) continue;
-      add_spring(K, coordinates.end_index(static_cast<int>(e), end),
-                 coordinates.node_index(frame.members[e].nodes[end], 2), joint.stiffness);
-    }
+  for (const auto& [a, b, stiffness] : coordinates.springs(frame)) {
+    K(b, b) += stiffness;
+    if (a < 0) continue;
+    K(a, a) += stiffness;
+    K(a, b) -= stiffness;
+    K(b, a) -= stiffness;
   }
   stiffness_ = (coordinates.N().transpose() * K * coordinates.N()).cast<T>();
 }

@@ -57,6 +57,27 @@ std::array<int, 6> FrameCoordinates::member_indices(int member) const {
   return {a[0], a[1], end_[member][0], b[0], b[1], end_[member][1]};
 }
 
+std::vector<SpringElement> FrameCoordinates::springs(const Frame& frame) const {
+  std::vector<SpringElement> result;
+  for (const FrameSpring& spring : frame.springs) {
+    for (int motion = 0; motion < 3; ++motion) {
+      if (spring.stiffness[motion] == 0) continue;
+      const int to = node_index(spring.nodes[0], motion);
+      const int from = spring.nodes[1] < 0 ? -1 : node_index(spring.nodes[1], motion);
+      result.push_back({from, to, spring.stiffness[motion]});
+    }
+  }
+  for (std::size_t i = 0; i < frame.members.size(); ++i) {
+    const FrameMember& member = frame.members[i];
+    for (int end = 0; end < 2; ++end) {
+      if (member.ends[end].fixity != Fixity::sprung) continue;
+      result.push_back({node_index(member.nodes[end], 2), end_index(static_cast<int>(i), end),
+                        member.ends[end].stiffness});
+    }
+  }
+  return result;
+}
+
 int FrameCoordinates::rotation_index(const FrameRotation& rotation) const {
   const int index =
       rotation.member >= 0 ? end_[rotation.member][rotation.end] : node_[rotation.node][2];

@@ -13,6 +13,12 @@
 /// 0, solved by elimination with full pivoting: u = N q.
 namespace trammel::references {
 
+/// A spring between two entries of u. Its force is +s on `from` and -s on `to`.
+struct SpringElement {
+  int from, to;  ///< from -1: the ground
+  Real stiffness;
+};
+
 class FrameCoordinates {
  public:
   /// @param constrain_inextensible  whether members without axial compliance are constraints
@@ -31,6 +37,8 @@ class FrameCoordinates {
   [[nodiscard]] int end_index(int member, int end) const { return end_[member][end]; }
   /// Indices in u of x, y, rotation at both ends of a member.
   [[nodiscard]] std::array<int, 6> member_indices(int member) const;
+  /// Returns the springs between nodes and those of sprung member ends.
+  [[nodiscard]] std::vector<SpringElement> springs(const Frame& frame) const;
 
  private:
   using Row = std::map<int, Real>;  ///< one equation: index in u -> coefficient

@@ -59,35 +59,6 @@ std::array<Real, 2> member_load(const Frame& frame, const FrameMember& member) {
   return {x * axis.cosine + y * axis.sine, y * axis.cosine - x * axis.sine};
 }
 
-/// A spring: its force is +s on coordinate `from` and -s on `to` (-1: the ground).
-struct SpringElement {
-  int from, to;
-  Real compliance;
-};
-
-std::vector<SpringElement> spring_elements(const Frame& frame,
-                                           const FrameCoordinates& coordinates) {
-  std::vector<SpringElement> result;
-  for (const FrameSpring& spring : frame.springs) {
-    for (int motion = 0; motion < 3; ++motion) {
-      if (spring.stiffness[motion] == 0) continue;
-      const int to = coordinates.node_index(spring.nodes[0], motion);
-      const int from = spring.nodes[1] < 0 ? -1 : coordinates.node_index(spring.nodes[1], motion);
-      result.push_back({from, to, 1 / spring.stiffness[motion]});
-    }
-  }
-  for (std::size_t i = 0; i < frame.members.size(); ++i) {
-    const FrameMember& member = frame.members[i];
-    for (int end = 0; end < 2; ++end) {
-      if (member.ends[end].fixity != Fixity::sprung) continue;
-      result.push_back({coordinates.node_index(member.nodes[end], 2),
-                        coordinates.end_index(static_cast<int>(i), end),
-                        1 / member.ends[end].stiffness});
-    }
-  }
-  return result;
-}
-
 /// Equations of the force method: B f + p on every coordinate, compliances Phi f + phi0.
 struct Equations {
   RealMatrix B, Phi;
@@ -149,7 +120,7 @@ void add_loads(const Frame& frame, const FrameCoordinates& coordinates, Equation
 }
 
 Equations equations(const Frame& frame, const FrameCoordinates& coordinates) {
-  const std::vector<SpringElement> springs = spring_elements(frame, coordinates);
+  const std::vector<SpringElement> springs = coordinates.springs(frame);
   const std::size_t forces = 3 * frame.members.size() + springs.size();
   const std::size_t n = coordinates.size();
   Equations e{RealMatrix::Zero(n, forces), RealMatrix::Zero(forces, forces), RealVector::Zero(n),
@@ -161,7 +132,7 @@ Equations equations(const Frame& frame, const FrameCoordinates& coordinates) {
     const std::size_t f = 3 * frame.members.size() + i;
     if (springs[i].from >= 0) e.B(springs[i].from, f) += 1;
     e.B(springs[i].to, f) -= 1;
-    e.Phi(f, f) = springs[i].compliance;
+    e.Phi(f, f) = 1 / springs[i].stiffness;
   }
   add_loads(frame, coordinates, e);
   return e;
