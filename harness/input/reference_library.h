@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "harness/input/json_view.h"
-#include "references/data/bibliography.h"
 #include "references/data/family.h"
 #include "references/data/json_files.h"
 #include "references/data/reference.h"

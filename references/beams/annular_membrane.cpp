@@ -1,33 +1,33 @@
-#include "references/beams/annular_membrane.h"
-
-#include <gsl/gsl_sf_bessel.h>
-
 #include <algorithm>
 #include <array>
 #include <boost/math/special_functions/bessel.hpp>
 #include <map>
 
+#include "references/beams/programs.h"
 #include "references/numerics/dense.h"
 #include "references/numerics/roots.h"
 
+/// In-plane vibration of a free annular plate in plane stress, n waves around. With a = w/c_p,
+/// c_p^2 = E/(rho (1 - nu^2)), b = w/c_s, c_s^2 = G/rho, the potentials phi and psi are J_n and Y_n
+/// of a r and b r, and
+///   u_r = phi' + n psi/r,  u_t = -n phi/r - psi',
+///   s_r ~ phi'' + nu (phi'/r - n^2 phi/r^2) + (1 - nu) n (psi/r)',
+///   t_rt ~ -2 n (phi/r)' - (psi'' - psi'/r + n^2 psi/r^2)
+/// vanish at both radii (A. E. H. Love, A Treatise on the Mathematical Theory of Elasticity, 4th
+/// ed., chapter XXII). For n = 0 radial and torsional motions are found in one list.
 namespace trammel::references {
 
 namespace {
-
-double bessel(bool second_kind, int n, double x) {
-  return second_kind ? gsl_sf_bessel_Yn(n, x) : gsl_sf_bessel_Jn(n, x);
-}
 
 Real bessel(bool second_kind, int n, const Real& x) {
   return second_kind ? boost::math::cyl_neumann(n, x) : boost::math::cyl_bessel_j(n, x);
 }
 
 /// Z(k r), and its first two derivatives by r.
-template <class T>
-std::array<T, 3> radial(bool second_kind, int n, const T& k, const T& r) {
-  const T x = k * r;
-  const T value = bessel(second_kind, n, x);
-  const T slope = n * value / x - bessel(second_kind, n + 1, x);
+std::array<Real, 3> radial(bool second_kind, int n, const Real& k, const Real& r) {
+  const Real x = k * r;
+  const Real value = bessel(second_kind, n, x);
+  const Real slope = n * value / x - bessel(second_kind, n + 1, x);
   return {value, k * slope, k * k * ((n * n / (x * x) - 1) * value - slope / x)};
 }
 
@@ -36,24 +36,21 @@ struct Annulus {
 };
 
 /// Rows: s_r and t_rt at both radii, times r^2; columns: phi by J, Y, psi by J, Y.
-template <class T>
-T characteristic(const Annulus& annulus, int n, const T& w) {
-  const T a = w / static_cast<T>(annulus.c_p);
-  const T b = w / static_cast<T>(annulus.c_s);
-  const T nu = static_cast<T>(annulus.nu);
-  std::array<std::array<T, 4>, 4> m;
+Real characteristic(const Annulus& annulus, int n, const Real& w) {
+  const Real& nu = annulus.nu;
+  Eigen::Matrix<Real, 4, 4> m;
   for (int edge = 0; edge < 2; ++edge) {
-    const T r = static_cast<T>(edge == 0 ? annulus.inner : annulus.outer);
+    const Real& r = edge == 0 ? annulus.inner : annulus.outer;
     for (int kind = 0; kind < 2; ++kind) {
-      const auto [f, f1, f2] = radial(kind == 1, n, a, r);
-      m[2 * edge][kind] = r * r * f2 + nu * (r * f1 - n * n * f);
-      m[2 * edge + 1][kind] = -2 * n * (r * f1 - f);
-      const auto [g, g1, g2] = radial(kind == 1, n, b, r);
-      m[2 * edge][2 + kind] = (1 - nu) * n * (r * g1 - g);
-      m[2 * edge + 1][2 + kind] = -(r * r * g2 - r * g1 + n * n * g);
+      const auto [f, f1, f2] = radial(kind == 1, n, w / annulus.c_p, r);
+      m(2 * edge, kind) = r * r * f2 + nu * (r * f1 - n * n * f);
+      m(2 * edge + 1, kind) = -2 * n * (r * f1 - f);
+      const auto [g, g1, g2] = radial(kind == 1, n, w / annulus.c_s, r);
+      m(2 * edge, 2 + kind) = (1 - nu) * n * (r * g1 - g);
+      m(2 * edge + 1, 2 + kind) = -(r * r * g2 - r * g1 + n * n * g);
     }
   }
-  return determinant(m);
+  return m.determinant();
 }
 
 /// Pairs of waves n and number k >= 1 of the frequency.
@@ -82,15 +79,14 @@ std::vector<double> annular_membrane_program(const Json& json) {
     arguments.fail("outer_radius_m", "expected more than the inner radius");
   }
   const auto wanted = wanted_modes(arguments);
-  const auto scale = static_cast<double>(annulus.c_s / annulus.outer);
+  const Real step = annulus.c_s / annulus.outer / 50;
   std::map<int, int> counts;  // waves -> how many frequencies
   for (const auto& [n, k] : wanted) counts[n] = std::max(counts[n], k);
   std::map<int, std::vector<Real>> roots;
   for (const auto& [n, count] : counts) {
-    const int waves = n;
     roots[n] = first_roots(
-        equation([&annulus, waves](const auto& w) { return characteristic(annulus, waves, w); }),
-        0.02 * scale, 0.02 * scale, count);
+        [&annulus, waves = n](const Real& w) { return characteristic(annulus, waves, w); }, step,
+        step, count);
   }
   std::vector<Real> values;
   for (const auto& [n, k] : wanted) values.push_back(roots[n][k - 1] / (2 * pi<Real>()));

@@ -1,41 +1,22 @@
 #include "references/beams/beam_modes.h"
 
-#include <type_traits>
-
 #include "references/numerics/roots.h"
 
 namespace trammel::references {
 
 namespace {
 
-using std::cos;
-using std::cosh;
-using std::sin;
-using std::tanh;
-
-Equation characteristic_equation(const BeamEnds& ends) {
+Real characteristic(const BeamEnds& ends, const Real& b) {
   const std::string& kind = ends.kind;
-  if (kind == "pinned-pinned") {
-    return equation([](const auto& b) { return sin(b); });
-  }
-  if (kind == "clamped-clamped" || kind == "free-free") {
-    return equation([](const auto& b) { return cos(b) - 1 / cosh(b); });
-  }
-  if (kind == "clamped-pinned" || kind == "pinned-free") {
-    return equation([](const auto& b) { return sin(b) - cos(b) * tanh(b); });
-  }
-  if (kind == "clamped-guided") {
-    return equation([](const auto& b) { return sin(b) + cos(b) * tanh(b); });
-  }
-  return equation([ends](const auto& b) {
-    const auto mu = static_cast<std::decay_t<decltype(b)>>(ends.tip_mass_ratio);
-    const auto j = static_cast<std::decay_t<decltype(b)>>(ends.tip_inertia_ratio);
-    const auto sech = 1 / cosh(b);
-    const auto moment = sin(b) + cos(b) * tanh(b);
-    const auto force = cos(b) * tanh(b) - sin(b);
-    return sech + cos(b) + mu * b * force - j * b * b * b * moment +
-           mu * j * b * b * b * b * (sech - cos(b));
-  });
+  const Real sech = 1 / cosh(b);
+  const Real moment = sin(b) + cos(b) * tanh(b), force = cos(b) * tanh(b) - sin(b);
+  if (kind == "pinned-pinned") return sin(b);
+  if (kind == "clamped-clamped" || kind == "free-free") return cos(b) - sech;
+  if (kind == "clamped-pinned" || kind == "pinned-free") return force;
+  if (kind == "clamped-guided") return moment;
+  const Real &mu = ends.tip_mass_ratio, &j = ends.tip_inertia_ratio;
+  return sech + cos(b) + mu * b * force - j * b * b * b * moment +
+         mu * j * b * b * b * b * (sech - cos(b));
 }
 
 }  // namespace
@@ -56,7 +37,8 @@ BeamEnds read_beam_ends(const Arguments& arguments) {
 }
 
 std::vector<Real> beam_roots(const BeamEnds& ends, int count) {
-  return first_roots(characteristic_equation(ends), 1e-3, 1e-2, count);
+  return first_roots([&](const Real& b) { return characteristic(ends, b); }, Real("0.001"),
+                     Real("0.05"), count);
 }
 
 std::vector<double> beam_modal_mass_program(const Json& json) {

@@ -1,37 +1,24 @@
-#include "references/beams/column_buckling.h"
-
 #include <array>
 #include <boost/math/special_functions/bessel.hpp>
 #include <boost/multiprecision/cpp_complex.hpp>
-#include <type_traits>
 
+#include "references/beams/programs.h"
 #include "references/numerics/roots.h"
 
+/// Elastic buckling of one uniform column (S. P. Timoshenko, J. M. Gere, Theory of Elastic
+/// Stability, 2nd ed., chapter 2). End loads P = x^2 EI/L^2 with
+///   clamped-free cos x = 0, pinned-pinned sin x = 0, clamped-pinned tan x = x,
+///   clamped-clamped sin(x/2) (tan(x/2) - x/2) = 0;
+/// own weight q L = (9/4) j^2 EI/L^2, clamped-free, J_{-1/3}(j) = 0.
 namespace trammel::references {
 
 namespace {
 
-using std::cos;
-using std::sin;
-
-Equation end_load_equation(const std::string& ends) {
-  if (ends == "clamped-free") {
-    return equation([](const auto& x) { return cos(x); });
-  }
-  if (ends == "pinned-pinned") {
-    return equation([](const auto& x) { return sin(x); });
-  }
-  if (ends == "clamped-pinned") {
-    return equation([](const auto& x) { return sin(x) - x * cos(x); });
-  }
-  return equation([](const auto& x) { return sin(x / 2) * (sin(x / 2) - x / 2 * cos(x / 2)); });
-}
-
-Equation self_weight_equation() {
-  return equation([](const auto& x) {
-    using T = std::decay_t<decltype(x)>;
-    return boost::math::cyl_bessel_j(T(-1) / 3, x);
-  });
+Real end_load_function(const std::string& ends, const Real& x) {
+  if (ends == "clamped-free") return cos(x);
+  if (ends == "pinned-pinned") return sin(x);
+  if (ends == "clamped-pinned") return sin(x) - x * cos(x);
+  return sin(x / 2) * (sin(x / 2) - x / 2 * cos(x / 2));
 }
 
 using Complex = boost::multiprecision::number<
@@ -122,11 +109,9 @@ std::vector<double> becks_column_program(const Json& json) {
                    std::string("a load ") + (beyond ? "below" : "above") + " that of flutter");
   const Real rate = sqrt(EI / mass) / (L * L);
   if (beyond) return to_doubles({Real(abs(complex_root(load).imag()) * rate)});
-  std::vector<Real> values = first_roots(equation([&load](const auto& W) {
-                                           using T = std::decay_t<decltype(W)>;
-                                           return follower_determinant(T(W), load);
-                                         }),
-                                         0.5, 0.1, 2);
+  std::vector<Real> values =
+      first_roots([&load](const Real& W) { return follower_determinant(W, load); }, Real("0.5"),
+                  Real("0.1"), 2);
   for (Real& value : values) value *= rate / (2 * pi<Real>());
   return to_doubles(values);
 }
@@ -144,8 +129,11 @@ std::vector<double> column_buckling_program(const Json& json) {
   const Real scale = weight
                          ? Real(9 * EI / (4 * L * L * L * arguments.positive("weight_N_per_m", 1)))
                          : Real(EI / (L * L));
-  std::vector<Real> values = first_roots(weight ? self_weight_equation() : end_load_equation(ends),
-                                         0.5, 0.1, arguments.count("count"));
+  const auto characteristic = [&](const Real& x) {
+    return weight ? boost::math::cyl_bessel_j(Real(-1) / 3, x) : end_load_function(ends, x);
+  };
+  std::vector<Real> values =
+      first_roots(characteristic, Real("0.5"), Real("0.1"), arguments.count("count"));
   for (Real& value : values) value = scale * value * value;
   return to_doubles(values);
 }

@@ -1,10 +1,15 @@
-#include "references/beams/elastic_chain.h"
-
 #include <algorithm>
 #include <array>
 
+#include "references/beams/programs.h"
 #include "references/numerics/dense.h"
 
+/// Equilibria of a plane chain of straight elastic pieces, welded to each other, at any
+/// displacement, by shooting: Taylor series of degree 30 along the pieces, Newton's method in
+/// extended precision (E. Reissner, On one-dimensional finite-strain beam theory, ZAMP 23, 1972,
+/// 795-804). With the section's angle t, the force F and the moment m of what follows on it,
+///   t' = t0' + m/EI,  r' = (1 + F.a/EA) a + (F.b/GA) b,  m' = -r' x F,
+/// a = (cos t, sin t), b = (-sin t, cos t); no EA: inextensible, no GA: no shear.
 namespace trammel::references {
 
 namespace {
@@ -67,7 +72,7 @@ void advance(const Chain& chain, const Real& h, Section& at) {
 }
 
 /// The sections just behind each node, `unknown` as the header has it (with the load factor last).
-std::vector<Section> shoot(const Chain& chain, const std::vector<Real>& unknown) {
+std::vector<Section> shoot(const Chain& chain, const RealVector& unknown) {
   const auto direction = [&](std::size_t piece) {
     const Point &a = chain.nodes[piece], &b = chain.nodes[piece + 1];
     return Real(atan2(Real(b.y - a.y), Real(b.x - a.x)));
@@ -97,57 +102,55 @@ std::vector<Section> shoot(const Chain& chain, const std::vector<Real>& unknown)
 }
 
 /// What is missing at the end: a motion that is held, or a force that nothing takes.
-std::vector<Real> gap(const Chain& chain, const std::vector<Real>& unknown) {
+RealVector gap(const Chain& chain, const RealVector& unknown) {
   const Section end = shoot(chain, unknown).back();
-  return {chain.end_held[0] ? Real(end.x - chain.nodes.back().x) : end.force_x,
-          chain.end_held[1] ? Real(end.y - chain.nodes.back().y) : end.force_y,
-          chain.end_held[2] ? end.angle : end.moment};
+  RealVector missing(3);
+  missing << (chain.end_held[0] ? Real(end.x - chain.nodes.back().x) : end.force_x),
+      (chain.end_held[1] ? Real(end.y - chain.nodes.back().y) : end.force_y),
+      (chain.end_held[2] ? end.angle : end.moment);
+  return missing;
 }
 
 template <class F>
-Dense<Real> jacobian(const F& f, std::vector<Real> at, std::size_t columns) {
-  const std::vector<Real> value = f(at);
-  Dense<Real> J(value.size(), columns);
-  for (std::size_t j = 0; j < columns; ++j) {
+RealMatrix jacobian(const F& f, RealVector at, Eigen::Index columns) {
+  const RealVector value = f(at);
+  RealMatrix J(value.size(), columns);
+  for (Eigen::Index j = 0; j < columns; ++j) {
     const Real kept = at[j], step = Real(1e-20) * (1 + abs(kept));
     at[j] += step;
-    const std::vector<Real> moved = f(at);
-    for (std::size_t i = 0; i < value.size(); ++i) J(i, j) = (moved[i] - value[i]) / step;
+    J.col(j) = (f(at) - value) / step;
     at[j] = kept;
   }
   return J;
 }
 
 /// The gap, and with it the determinant that vanishes where the load is stationary.
-std::vector<Real> limit_gap(const Chain& chain, const std::vector<Real>& unknown) {
-  std::vector<Real> value = gap(chain, unknown);
-  const Dense<Real> J = jacobian([&](const auto& u) { return gap(chain, u); }, unknown, 3);
-  value.push_back(J(0, 0) * (J(1, 1) * J(2, 2) - J(1, 2) * J(2, 1)) -
-                  J(0, 1) * (J(1, 0) * J(2, 2) - J(1, 2) * J(2, 0)) +
-                  J(0, 2) * (J(1, 0) * J(2, 1) - J(1, 1) * J(2, 0)));
+RealVector limit_gap(const Chain& chain, const RealVector& unknown) {
+  RealVector value(4);
+  value << gap(chain, unknown),
+      jacobian([&](const auto& u) { return gap(chain, u); }, unknown, 3).determinant();
   return value;
 }
 
 /// Newton's method on the first unknowns, as many as there are equations.
 template <class F>
-void solve(const Arguments& arguments, const F& f, std::vector<Real>& unknown) {
+void find_equilibrium(const Arguments& arguments, const F& f, RealVector& unknown) {
   for (int iteration = 0; iteration < 40; ++iteration) {
-    std::vector<Real> correction = f(unknown);
-    const Dense<Real> J = jacobian(f, unknown, correction.size());
-    if (!solve_in_place(J, correction, Real(1e-60))) break;
-    Real size = 0;
-    if (!std::ranges::all_of(correction, [](const Real& c) { return isfinite(c); })) break;
-    for (std::size_t i = 0; i < correction.size(); ++i) {
-      unknown[i] -= correction[i];
-      size = std::max(size, Real(abs(correction[i]) / (1 + abs(unknown[i]))));
-    }
+    const RealVector value = f(unknown);
+    const RealMatrix J = jacobian(f, unknown, value.size());
+    const RealVector correction =
+        solve(J, value, "no equilibrium is found by Newton's method", Real(1e-60));
+    if (!isfinite(correction.sum())) break;
+    unknown.head(value.size()) -= correction;
+    const Real size =
+        (correction.array().abs() / (1 + unknown.head(value.size()).array().abs())).maxCoeff();
     if (size < Real(1e-25)) return;
   }
   arguments.fail("nodes_m", "an equilibrium that Newton's method finds");
 }
 
 Real output(const Arguments& arguments, const Chain& chain, const std::string& name,
-            const std::vector<Real>& unknown, const std::vector<Section>& sections) {
+            const RealVector& unknown, const std::vector<Section>& sections) {
   if (name == "load_factor") return unknown[3];
   const std::size_t colon = name.find(':');
   const std::size_t node =
@@ -196,23 +199,25 @@ std::vector<double> elastic_chain_program(const Json& json) {
                              "load_factors", "limit_points", "outputs", "steps"});
   const Chain chain = read_chain(arguments);
   std::vector<double> values;
-  const auto record = [&](const std::vector<Real>& unknown) {
+  const auto record = [&](const RealVector& unknown) {
     const std::vector<Section> sections = shoot(chain, unknown);
     for (const std::string& name : arguments.texts("outputs"))
       values.push_back(static_cast<double>(output(arguments, chain, name, unknown, sections)));
   };
-  std::vector<Real> unknown(4, Real(0));
+  RealVector unknown = RealVector::Zero(4);
   if (arguments.has("load_factors")) {
     for (const Real& factor : arguments.numbers("load_factors")) {
       unknown[3] = factor;
-      solve(
+      find_equilibrium(
           arguments, [&](const auto& u) { return gap(chain, u); }, unknown);
       record(unknown);
     }
   } else {
     for (const Json& guess : arguments["limit_points"]) {
-      unknown = Arguments({{"guess", guess}}, "/limit_points", {"guess"}).numbers("guess", 4);
-      solve(
+      const auto start =
+          Arguments({{"guess", guess}}, "/limit_points", {"guess"}).numbers("guess", 4);
+      unknown << start[0], start[1], start[2], start[3];
+      find_equilibrium(
           arguments, [&](const auto& u) { return limit_gap(chain, u); }, unknown);
       record(unknown);
     }

@@ -1,12 +1,13 @@
-#include "references/beams/elastica.h"
-
 #include <algorithm>
 #include <array>
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/ellint_2.hpp>
 
+#include "references/beams/programs.h"
 #include "references/numerics/roots.h"
 
+/// Exact large deflections of an inextensible cantilever of length L under a dead load at its tip,
+/// by elliptic integrals.
 namespace trammel::references {
 
 namespace {

@@ -1,11 +1,15 @@
-#include "references/beams/exponential_beam.h"
-
 #include <array>
-#include <cmath>
 
+#include "references/beams/programs.h"
 #include "references/numerics/dense.h"
 #include "references/numerics/roots.h"
 
+/// Bending vibration of a clamped-clamped beam of constant thickness whose width is
+/// b exp(-2 a x): its equations have constant coefficients. With r^2 = I/A, P = z^2 - a^2,
+/// kG = kappa G / rho, e = E / rho,
+///   Euler-Bernoulli:  P^2 = w^2 / (e r^2)
+///   Timoshenko:       (kG P + w^2)(e r^2 P - kG + w^2 r^2) = -kG^2 P
+/// and solutions exp(a x) {cosh z x, sinh z x}, whose deflection and rotation vanish at both ends.
 namespace trammel::references {
 
 namespace {
@@ -43,7 +47,7 @@ std::array<Real, 2> exponents(const Beam& beam, const Real& w2) {
 Real characteristic(const Beam& beam, const Real& w) {
   const Real w2 = w * w;
   const auto P = exponents(beam, w2);
-  std::array<std::array<Real, 4>, 4> m;
+  Eigen::Matrix<Real, 4, 4> m;
   for (int i = 0; i < 2; ++i) {
     const Real z2 = P[i] + beam.a * beam.a;
     const auto [C, S] = wave(z2, beam.L);
@@ -55,13 +59,13 @@ Real characteristic(const Beam& beam, const Real& w) {
         const Real& value = f[j][2 * end];
         const Real& slope = f[j][2 * end + 1];
         const bool thin = beam.kG == 0;
-        m[2 * end][2 * i + j] = thin ? value : Real(slope - beam.a * value);
-        m[2 * end + 1][2 * i + j] =
+        m(2 * end, 2 * i + j) = thin ? value : Real(slope - beam.a * value);
+        m(2 * end + 1, 2 * i + j) =
             thin ? Real(slope + beam.a * value) : Real((P[i] + w2 / beam.kG) * value);
       }
     }
   }
-  return determinant(m);
+  return m.determinant();
 }
 
 }  // namespace
@@ -78,10 +82,9 @@ std::vector<double> exponential_beam_program(const Json& json) {
       "timoshenko") {
     beam.kG = arguments.positive("shear_coefficient") * e / (2 * (1 + arguments.number("nu")));
   }
-  const auto fine = [&](const Real& w) { return characteristic(beam, w); };
-  const Equation f{[&](double w) { return static_cast<double>(fine(Real(w))); }, fine};
-  const auto scale = static_cast<double>(sqrt(e * beam.r2) / (beam.L * beam.L));
-  std::vector<Real> values = first_roots(f, scale, 2 * scale, arguments.count("count"));
+  const Real scale = sqrt(e * beam.r2) / (beam.L * beam.L);
+  std::vector<Real> values = first_roots([&](const Real& w) { return characteristic(beam, w); },
+                                         scale, 2 * scale, arguments.count("count"));
   for (Real& value : values) value /= 2 * pi<Real>();
   return to_doubles(values);
 }

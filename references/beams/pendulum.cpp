@@ -1,10 +1,10 @@
-#include "references/beams/pendulum.h"
-
 #include <boost/math/special_functions/ellint_1.hpp>
 #include <boost/math/special_functions/jacobi_elliptic.hpp>
 
+#include "references/beams/programs.h"
 #include "references/numerics/roots.h"
 
+/// The plane pendulum of any amplitude by Jacobi's elliptic functions.
 namespace trammel::references {
 
 std::vector<double> pendulum_program(const Json& json) {

@@ -1,13 +1,31 @@
-#include "references/beams/rotating_beam.h"
-
 #include <algorithm>
 #include <array>
+#include <optional>
 
+#include "references/beams/programs.h"
+#include "references/numerics/dense.h"
 #include "references/numerics/roots.h"
 
+/// Bending vibration of a uniform Euler-Bernoulli cantilever on a hub that rotates steadily
+/// (A. D. Wright et al., J. Appl. Mech. 49, 1982, 197-202). With x over L, eta = Omega
+/// sqrt(rho A L^4/EI), hub ratio r = R/L, mu = w sqrt(rho A L^4/EI) and the tension of the
+/// undeformed beam, t = eta^2 ((1 - x^2)/2 + r (1 - x)):
+///   flap (out of the plane of rotation)  V'''' - (t V')' - mu^2 V = 0;
+///   lag (in the plane), axially rigid    V'''' - (t V')' - (mu^2 + eta^2) V = 0;
+///   lag with the Coriolis coupling to axial motion U, s = EA L^2/EI,
+///     V'''' - (t V')' - (mu^2 + eta^2) V - 2 eta mu U = 0,
+///     s U'' + (mu^2 + eta^2) U + 2 eta mu V = 0.
+/// Solved by power series about the hub in extended precision.
 namespace trammel::references {
 
 namespace {
+
+struct RotatingBeam {
+  Real eta = 0;
+  Real hub_ratio = 0;
+  bool in_plane = false;
+  std::optional<Real> axial_ratio;  ///< s; in the plane only, none: axially rigid
+};
 
 /// What the series of one solution gives at the tip: V'', V''' and U', which must all vanish.
 using Tip = std::array<Real, 3>;
@@ -48,8 +66,26 @@ Real characteristic(const RotatingBeam& beam, const Real& mu) {
   const Tip b = tip_of_series(beam, mu, {0, 1, 0});
   if (!beam.axial_ratio) return a[0] * b[1] - a[1] * b[0];
   const Tip c = tip_of_series(beam, mu, {0, 0, 1});
-  return a[0] * (b[1] * c[2] - b[2] * c[1]) - b[0] * (a[1] * c[2] - a[2] * c[1]) +
-         c[0] * (a[1] * b[2] - a[2] * b[1]);
+  Eigen::Matrix<Real, 3, 3> m;
+  m << a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2];
+  return m.determinant();
+}
+
+/// Returns the first `count` values of mu.
+std::vector<Real> rotating_beam_roots(const RotatingBeam& beam, int count) {
+  // The two solutions grow like exp(eta sqrt(r + 1/2)) and nearly alike: that many digits cancel.
+  if (beam.eta * sqrt(beam.hub_ratio + Real(0.5)) > 69) {
+    throw DerivationError("the beam turns too fast for fifty digits");
+  }
+  std::vector<Real> roots = first_roots([&](const Real& m) { return characteristic(beam, m); },
+                                        Real("0.1"), Real("0.5"), count);
+  if (!beam.in_plane || beam.axial_ratio) return roots;
+  for (Real& root : roots) {
+    const Real squared = root * root - beam.eta * beam.eta;
+    if (!(squared > 0)) throw DerivationError("the beam diverges in the plane of rotation");
+    root = sqrt(squared);
+  }
+  return roots;
 }
 
 RotatingBeam read_plane(const Arguments& arguments) {
@@ -59,23 +95,6 @@ RotatingBeam read_plane(const Arguments& arguments) {
 }
 
 }  // namespace
-
-std::vector<Real> rotating_beam_roots(const RotatingBeam& beam, int count) {
-  // The two solutions grow like exp(eta sqrt(r + 1/2)) and nearly alike: that many digits cancel.
-  if (beam.eta * sqrt(beam.hub_ratio + Real(0.5)) > 69) {
-    throw DerivationError("the beam turns too fast for fifty digits");
-  }
-  const auto fine = [&](const Real& m) { return characteristic(beam, m); };
-  const Equation f{[&](double m) { return static_cast<double>(fine(Real(m))); }, fine};
-  std::vector<Real> roots = first_roots(f, 0.1, 0.5, count);
-  if (!beam.in_plane || beam.axial_ratio) return roots;
-  for (Real& root : roots) {
-    const Real squared = root * root - beam.eta * beam.eta;
-    if (!(squared > 0)) throw DerivationError("the beam diverges in the plane of rotation");
-    root = sqrt(squared);
-  }
-  return roots;
-}
 
 std::vector<double> rotating_beam_roots_program(const Json& json) {
   const Arguments arguments(json, "", {"eta", "hub_ratio", "plane", "count", "axial_ratio"});

@@ -1,8 +1,13 @@
-#include "references/beams/run_up.h"
-
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 
+#include "references/beams/programs.h"
+
+/// Run-up of a rotor through the resonance of its carriage (F. M. Lewis, Vibration during
+/// acceleration through a critical speed, Transactions of the ASME 54, 1932, 253-261): an unbalance
+/// m e of the whole mass M on a spring, w^2 = k/M, turned by a given law a(t) from rest, a(0) = 0:
+///   x = -(m e/M) (cos a(t) - cos w t - w int_0^t cos a(s) sin w(t - s) ds),
+/// Duhamel's integral twice by parts; here by Gauss' rule of 20 points on panels of 0.01 s.
 namespace trammel::references {
 
 std::vector<double> run_up_program(const Json& json) {

@@ -1,8 +1,11 @@
-#include "references/beams/tapered_beam.h"
-
+#include "references/beams/programs.h"
 #include "references/numerics/dense.h"
 #include "references/numerics/roots.h"
 
+/// Bending vibration of a clamped-free Euler-Bernoulli beam of rectangular section whose depth and
+/// width vary linearly, by Rayleigh and Ritz with s^2 x^k, k = 0 ... 31, where s runs from 0 to 1
+/// along the beam and x = 2 s - 1: A is of second and I of fourth degree, so that all integrals are
+/// sums of fractions.
 namespace trammel::references {
 namespace {
 
@@ -38,7 +41,7 @@ Polynomial line(const Real& ratio) {
 
 /// Stiffness and mass of the functions s^2 x^k, for a beam of unit E I, rho A and length.
 struct Ritz {
-  Dense<Real> K, M;
+  RealMatrix K, M;
 
   Ritz(const Polynomial& depth, const Polynomial& width, std::size_t n) : K(n, n), M(n, n) {
     const Polynomial A = depth * width, I = A * depth * depth;
@@ -58,17 +61,13 @@ struct Ritz {
 
   /// How many eigenvalues lie below x: the negative pivots of K - x M.
   [[nodiscard]] int count_below(const Real& x) const {
-    const std::size_t n = K.rows();
-    Dense<Real> S(n, n);
-    for (std::size_t i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < n; ++j) S(i, j) = K(i, j) - x * M(i, j);
-    }
+    RealMatrix S = K - x * M;
     int negative = 0;
-    for (std::size_t k = 0; k < n; ++k) {
-      negative += S(k, k) < 0 ? 1 : 0;
-      for (std::size_t i = k + 1; i < n; ++i) {
-        for (std::size_t j = k + 1; j < n; ++j) S(i, j) -= S(i, k) * S(k, j) / S(k, k);
-      }
+    for (Eigen::Index rest = S.rows() - 1; rest >= 0; --rest) {
+      const Real pivot = S(0, 0);
+      negative += pivot < 0 ? 1 : 0;
+      S = RealMatrix(S.bottomRightCorner(rest, rest) -
+                     S.bottomLeftCorner(rest, 1) * S.topRightCorner(1, rest) / pivot);
     }
     return negative;
   }

@@ -171,4 +171,13 @@ Reference read_reference(const Json& json, const std::string& file, const std::s
   return read;
 }
 
+Source read_source(std::string_view json, const std::string& place) {
+  try {
+    const Json source = Json::parse(json);
+    return {source.at("text").get<std::string>(), source.value("doi", "")};
+  } catch (const Json::exception& error) {
+    throw ReferenceError(place + ": expected 'text' and 'doi' (" + error.what() + ")");
+  }
+}
+
 }  // namespace trammel::references

@@ -3,6 +3,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 /// A reference: numbers from outside with their provenance, as stored in references/values.
@@ -46,5 +47,15 @@ class ReferenceError : public std::runtime_error {
 /// Half a unit in the last printed place: "12.768" -> 0.0005, "6.9e10" -> 0.05e10, "12" -> 0.5.
 /// @throws ReferenceError  where the text is not a decimal number.
 [[nodiscard]] double half_unit_in_last_place(const std::string& printed);
+
+struct Source {
+  std::string text;  ///< full citation
+  std::string doi;   ///< empty where there is none
+};
+
+/// Reads a member of a bibliography, {"key": {"text": "...", "doi": "..."}}.
+/// @param place  "file: /key" in messages
+/// @throws ReferenceError  if the member is no source.
+[[nodiscard]] Source read_source(std::string_view json, const std::string& place);
 
 }  // namespace trammel::references

@@ -6,33 +6,23 @@ namespace trammel::references {
 
 namespace {
 
-/// Adds factor * (a - b)(a - b)^T; an index of -1 is the ground.
-void add_spring(RealMatrix& K, int a, int b, const Real& factor) {
-  if (a >= 0) K(a, a) += factor;
-  if (b >= 0) K(b, b) += factor;
-  if (a >= 0 && b >= 0) {
-    K(a, b) -= factor;
-    K(b, a) -= factor;
-  }
-}
-
 /// Negative pivots and log |det| of a symmetric matrix, by L D L^T without interchanges: fifty
 /// digits leave room for the growth that a small pivot brings.
 template <class T>
-std::pair<int, T> matrix_inertia(Dense<T>& D) {
+std::pair<int, T> matrix_inertia(Matrix<T>& D) {
   using std::abs;
   using std::log;
-  const std::size_t n = D.rows();
+  const Eigen::Index n = D.rows();
   int negative = 0;
   T log_determinant = 0;
-  for (std::size_t k = 0; k < n; ++k) {
+  for (Eigen::Index k = 0; k < n; ++k) {
     const T pivot = D(k, k);
     negative += pivot < 0 ? 1 : 0;
     log_determinant += log(abs(pivot));
-    for (std::size_t i = k + 1; i < n; ++i) {
+    for (Eigen::Index i = k + 1; i < n; ++i) {
       if (D(i, k) == 0) continue;
       const T factor = D(i, k) / pivot;
-      for (std::size_t j = k + 1; j <= i; ++j) D(i, j) -= factor * D(j, k);
+      for (Eigen::Index j = k + 1; j <= i; ++j) D(i, j) -= factor * D(j, k);
     }
   }
   return {negative, log_determinant};
@@ -59,7 +49,7 @@ void DynamicStiffness<T>::transform_members(const Frame& frame,
     for (std::size_t row = 0; row < 6; ++row) {
       const int x = u[row < 3 ? 0 : 3];
       const int y = u[row < 3 ? 1 : 4];
-      for (std::size_t q = 0; q < N.columns(); ++q) {
+      for (Eigen::Index q = 0; q < N.cols(); ++q) {
         const Real value = row % 3 == 0   ? Real(axis.cosine * N(x, q) + axis.sine * N(y, q))
                            : row % 3 == 1 ? Real(axis.cosine * N(y, q) - axis.sine * N(x, q))
                                           : N(u[row], q);
@@ -72,29 +62,20 @@ void DynamicStiffness<T>::transform_members(const Frame& frame,
 
 template <class T>
 void DynamicStiffness<T>::add_springs(const Frame& frame, const FrameCoordinates& coordinates) {
-  RealMatrix K(coordinates.size(), coordinates.size());
-  for (const FrameSpring& spring : frame.springs) {
-    for (int motion = 0; motion < 3; ++motion) {
-      const Real& k = spring.stiffness[motion];
-      if (k == 0) continue;
-      const int b = spring.nodes[1] < 0 ? -1 : coordinates.node_index(spring.nodes[1], motion);
-      add_spring(K, coordinates.node_index(spring.nodes[0], motion), b, k);
-    }
+  RealMatrix K = RealMatrix::Zero(coordinates.size(), coordinates.size());
+  for (const auto& [a, b, stiffness] : coordinates.springs(frame)) {
+    K(b, b) += stiffness;
+    if (a < 0) continue;
+    K(a, a) += stiffness;
+    K(a, b) -= stiffness;
+    K(b, a) -= stiffness;
   }
-  for (std::size_t e = 0; e < frame.members.size(); ++e) {
-    for (int end = 0; end < 2; ++end) {
-      const FrameEnd& joint = frame.members[e].ends[end];
-      if (joint.fixity != Fixity::sprung) continue;
-      add_spring(K, coordinates.end_index(static_cast<int>(e), end),
-                 coordinates.node_index(frame.members[e].nodes[end], 2), joint.stiffness);
-    }
-  }
-  stiffness_ = reduced(K, coordinates.N());
+  stiffness_ = (coordinates.N().transpose() * K * coordinates.N()).cast<T>();
 }
 
 template <class T>
 void DynamicStiffness<T>::add_inertia(const Frame& frame, const FrameCoordinates& coordinates) {
-  RealMatrix M(coordinates.size(), coordinates.size());
+  RealMatrix M = RealMatrix::Zero(coordinates.size(), coordinates.size());
   for (const FrameMass& mass : frame.masses) {
     const int x = coordinates.node_index(mass.node, 0);
     const int y = coordinates.node_index(mass.node, 1);
@@ -116,32 +97,14 @@ void DynamicStiffness<T>::add_inertia(const Frame& frame, const FrameCoordinates
       M(r, r) += frame.members[e].ends[end].inertia;
     }
   }
-  inertia_ = reduced(M, coordinates.N());
-}
-
-/// N^T A N.
-template <class T>
-Dense<T> DynamicStiffness<T>::reduced(const RealMatrix& full, const RealMatrix& N) const {
-  const RealMatrix AN = transpose_product(full, N);  // full is symmetric
-  const RealMatrix R = transpose_product(N, AN);
-  Dense<T> result(R.rows(), R.columns());
-  for (std::size_t i = 0; i < R.rows(); ++i) {
-    for (std::size_t j = 0; j < R.columns(); ++j) result(i, j) = static_cast<T>(R(i, j));
-  }
-  return result;
+  inertia_ = (coordinates.N().transpose() * M * coordinates.N()).cast<T>();
 }
 
 template <class T>
 typename DynamicStiffness<T>::Count DynamicStiffness<T>::count(const T& w,
                                                                const T& load_factor) const {
   const T w2 = w * w;
-  Dense<T> D = stiffness_;
-  const std::size_t n = D.rows();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) {
-      if (inertia_(i, j) != 0) D(i, j) -= w2 * inertia_(i, j);
-    }
-  }
+  Matrix<T> D = stiffness_ - w2 * inertia_;
   Count count;
   for (const TransformedMember& member : members_) {
     const MemberStiffness<T> stiffness = member_stiffness(member.data, w2, load_factor);

@@ -34,7 +34,7 @@ class DynamicStiffness {
 
  private:
   /// A row of a member's transformation: its value of q, as (column, factor).
-  using SparseRow = std::vector<std::pair<std::size_t, T>>;
+  using SparseRow = std::vector<std::pair<Eigen::Index, T>>;
   struct TransformedMember {
     MemberData<T> data;
     std::array<SparseRow, 6> transformation;
@@ -43,11 +43,10 @@ class DynamicStiffness {
   void transform_members(const Frame& frame, const FrameCoordinates& coordinates);
   void add_inertia(const Frame& frame, const FrameCoordinates& coordinates);
   void add_springs(const Frame& frame, const FrameCoordinates& coordinates);
-  [[nodiscard]] Dense<T> reduced(const RealMatrix& full, const RealMatrix& N) const;
 
   std::vector<TransformedMember> members_;
-  Dense<T> stiffness_;  ///< of springs
-  Dense<T> inertia_;    ///< of point masses and member ends
+  Matrix<T> stiffness_;  ///< of springs
+  Matrix<T> inertia_;    ///< of point masses and member ends
 };
 
 extern template class DynamicStiffness<double>;

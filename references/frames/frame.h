@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "references/numerics/real.h"
+#include "references/numerics/arguments.h"
 
 /// A planar frame as the derivations see it: SI units, world axes, indices into its own vectors.
 namespace trammel::references {
@@ -21,6 +21,30 @@ struct FrameSection {
   Real modulus = 0;           ///< I over the distance of the outermost fibre [m^3]
   Real tension = 0;           ///< axial force in the state about which it vibrates [N]
 };
+
+struct FrameMaterial {
+  Real E = 0;    ///< [Pa]
+  Real rho = 0;  ///< [kg/m^3]
+  Real nu = 0;   ///< [-]
+};
+
+struct CrossSection {
+  FrameMaterial material;
+  Real area = 0;                         ///< [m^2]
+  Real second_moment = 0;                ///< about the axis of bending [m^4]
+  Real half_depth = 0;                   ///< 0: not known [m]
+  Real shear_coefficient = Real(5) / 6;  ///< [-]
+};
+
+/// @param thickness  in the plane of the frame [m];  @param width  across it [m].
+[[nodiscard]] CrossSection rectangle(const FrameMaterial& material, const Real& thickness,
+                                     const Real& width);
+
+/// The section of a member by its theory: "beam" (euler-bernoulli, by default, shear with
+/// 1/(kappa G A), rayleigh with rho I, timoshenko with both) and "axial" (flexible, by default, or
+/// inextensible).
+/// @throws DerivationError  with the JSON pointer, where the member names another theory.
+[[nodiscard]] FrameSection member_section(const CrossSection& section, const Arguments& member);
 
 enum class Fixity { welded, hinged, sprung };
 

@@ -1,13 +1,12 @@
-#include "references/frames/frame_buckling.h"
-
 #include <algorithm>
 
-#include "references/frames/counted_roots.h"
-#include "references/frames/frame_arguments.h"
+#include "references/frames/frame_json.h"
+#include "references/frames/programs.h"
 #include "references/frames/unit_load.h"
 #include "references/frames/wittrick_williams.h"
 #include "references/numerics/roots.h"
 
+/// Critical loads of a frame by the Wittrick-Williams count.
 namespace trammel::references {
 
 namespace {
@@ -45,8 +44,9 @@ Real buckling_scale(const Frame& frame) {
 
 }  // namespace
 
-std::vector<Real> frame_buckling_factors(const Frame& unloaded, int count) {
-  const Frame frame = with_axial_forces(unloaded);
+std::vector<double> frame_buckling_program(const Json& json) {
+  const Arguments arguments(json, "", {"model", "manipulator", "pose", "loads", "count"});
+  const Frame frame = with_axial_forces(frame_from_arguments(arguments));
   const DynamicStiffness<double> coarse(frame);
   const DynamicStiffness<Real> fine(frame);
   const Real w = frequency_scale(frame) * Real(1e-11);  // its square changes a factor by 1e-22
@@ -55,16 +55,10 @@ std::vector<Real> frame_buckling_factors(const Frame& unloaded, int count) {
     throw DerivationError("the frame can move freely");
   }
   const auto scale = static_cast<double>(buckling_scale(frame));
-  return counted_roots(
+  return to_doubles(counted_roots(
       {[&](double factor) { return coarse.count(coarse_w, factor).below; },
        [&](const Real& factor) { return fine.count(w, factor); }, 1e-4 * scale, scale},
-      0, count);
-}
-
-std::vector<double> frame_buckling_program(const Json& json) {
-  const Arguments arguments(json, "", {"model", "manipulator", "pose", "loads", "count"});
-  return to_doubles(
-      frame_buckling_factors(frame_from_arguments(arguments), arguments.count("count")));
+      0, arguments.count("count")));
 }
 
 }  // namespace trammel::references

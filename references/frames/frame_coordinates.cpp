@@ -1,8 +1,5 @@
 #include "references/frames/frame_coordinates.h"
 
-#include <tuple>
-#include <utility>
-
 #include "references/numerics/arguments.h"
 
 namespace trammel::references {
@@ -60,6 +57,27 @@ std::array<int, 6> FrameCoordinates::member_indices(int member) const {
   return {a[0], a[1], end_[member][0], b[0], b[1], end_[member][1]};
 }
 
+std::vector<SpringElement> FrameCoordinates::springs(const Frame& frame) const {
+  std::vector<SpringElement> result;
+  for (const FrameSpring& spring : frame.springs) {
+    for (int motion = 0; motion < 3; ++motion) {
+      if (spring.stiffness[motion] == 0) continue;
+      const int to = node_index(spring.nodes[0], motion);
+      const int from = spring.nodes[1] < 0 ? -1 : node_index(spring.nodes[1], motion);
+      result.push_back({from, to, spring.stiffness[motion]});
+    }
+  }
+  for (std::size_t i = 0; i < frame.members.size(); ++i) {
+    const FrameMember& member = frame.members[i];
+    for (int end = 0; end < 2; ++end) {
+      if (member.ends[end].fixity != Fixity::sprung) continue;
+      result.push_back({node_index(member.nodes[end], 2), end_index(static_cast<int>(i), end),
+                        member.ends[end].stiffness});
+    }
+  }
+  return result;
+}
+
 int FrameCoordinates::rotation_index(const FrameRotation& rotation) const {
   const int index =
       rotation.member >= 0 ? end_[rotation.member][rotation.end] : node_[rotation.node][2];
@@ -106,43 +124,14 @@ std::vector<FrameCoordinates::Row> FrameCoordinates::equations(const Frame& fram
 }
 
 void FrameCoordinates::solve(const std::vector<Row>& equations) {
-  const std::size_t n = size_;
-  RealMatrix C(equations.size(), n);
+  RealMatrix C = RealMatrix::Zero(static_cast<Eigen::Index>(equations.size()), size_);
   for (std::size_t i = 0; i < equations.size(); ++i) {
     for (const auto& [column, coefficient] : equations[i]) C(i, column) = coefficient;
   }
-  std::vector<int> pivot_column;  // of row i, in reduced row echelon form
-  std::vector<bool> dependent(n, false);
-  for (std::size_t row = 0; row < C.rows(); ++row) {
-    std::size_t p = row;
-    std::size_t q = 0;
-    for (std::size_t i = row; i < C.rows(); ++i) {
-      for (std::size_t j = 0; j < n; ++j) {
-        if (abs(C(i, j)) > abs(C(p, q))) std::tie(p, q) = std::make_pair(i, j);
-      }
-    }
-    if (abs(C(p, q)) < Real(1e-30)) break;  // the rest repeats what stands above
-    for (std::size_t j = 0; j < n; ++j) std::swap(C(p, j), C(row, j));
-    const Real pivot = C(row, q);
-    for (std::size_t j = 0; j < n; ++j) C(row, j) /= pivot;
-    for (std::size_t i = 0; i < C.rows(); ++i) {
-      if (i == row || C(i, q) == 0) continue;
-      const Real factor = C(i, q);
-      for (std::size_t j = 0; j < n; ++j) C(i, j) -= factor * C(row, j);
-    }
-    pivot_column.push_back(static_cast<int>(q));
-    dependent[q] = true;
-  }
-  N_ = RealMatrix(n, n - pivot_column.size());
-  for (std::size_t j = 0, k = 0; j < n; ++j) {
-    if (dependent[j]) continue;
-    N_(j, k) = 1;
-    for (std::size_t row = 0; row < pivot_column.size(); ++row) {
-      const Real value = -C(row, j);
-      N_(pivot_column[row], k) = abs(value) < Real(1e-40) ? Real(0) : value;
-    }
-    ++k;
-  }
+  Eigen::FullPivLU<RealMatrix> lu(C);
+  lu.setThreshold(Real(1e-30));  // equations may repeat each other
+  N_ = lu.dimensionOfKernel() > 0 ? RealMatrix(lu.kernel()) : RealMatrix(size_, 0);
+  N_ = (N_.array().abs() < Real(1e-40)).select(Real(0), N_);
 }
 
 }  // namespace trammel::references

@@ -13,7 +13,11 @@
 /// 0, solved by elimination with full pivoting: u = N q.
 namespace trammel::references {
 
-using RealMatrix = Dense<Real>;
+/// A spring between two entries of u. Its force is +s on `from` and -s on `to`.
+struct SpringElement {
+  int from, to;  ///< from -1: the ground
+  Real stiffness;
+};
 
 class FrameCoordinates {
  public:
@@ -23,9 +27,9 @@ class FrameCoordinates {
   ///                          member has no length.
   FrameCoordinates(const Frame& frame, bool constrain_inextensible);
 
-  [[nodiscard]] int size() const { return size_; }                           ///< of u
-  [[nodiscard]] int free() const { return static_cast<int>(N_.columns()); }  ///< of q
-  [[nodiscard]] const RealMatrix& N() const { return N_; }                   ///< u x q
+  [[nodiscard]] int size() const { return size_; }                        ///< of u
+  [[nodiscard]] int free() const { return static_cast<int>(N_.cols()); }  ///< of q
+  [[nodiscard]] const RealMatrix& N() const { return N_; }                ///< u x q
 
   /// Index in u of motion 0 (x), 1 (y) or 2 (rotation) of a node; -1 where it has no rotation.
   [[nodiscard]] int node_index(int node, int motion) const { return node_[node][motion]; }
@@ -33,6 +37,8 @@ class FrameCoordinates {
   [[nodiscard]] int end_index(int member, int end) const { return end_[member][end]; }
   /// Indices in u of x, y, rotation at both ends of a member.
   [[nodiscard]] std::array<int, 6> member_indices(int member) const;
+  /// Returns the springs between nodes and those of sprung member ends.
+  [[nodiscard]] std::vector<SpringElement> springs(const Frame& frame) const;
 
  private:
   using Row = std::map<int, Real>;  ///< one equation: index in u -> coefficient

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "references/frames/frame_section.h"
+#include "references/frames/manipulator_design.h"
 
 namespace trammel::references {
 
@@ -12,6 +12,15 @@ using Sections = std::map<std::string, CrossSection>;
 
 Arguments object_at(const Arguments& parent, const std::string& key) {
   return {parent.has(key) ? parent[key] : Json::object(), parent.pointer(key)};
+}
+
+/// Returns the objects of parent[key] with their names.
+std::vector<std::pair<std::string, Arguments>> objects_of(
+    const Arguments& parent, const std::string& key, std::initializer_list<const char*> known) {
+  const Arguments all = object_at(parent, key);
+  std::vector<std::pair<std::string, Arguments>> objects;
+  for (const std::string& name : all.keys()) objects.emplace_back(name, all.object(name, known));
+  return objects;
 }
 
 FrameMaterial read_material(const Arguments& materials, const std::string& name,
@@ -44,14 +53,12 @@ CrossSection read_section(const Arguments& materials, const Arguments& section) 
 
 Sections read_sections(const Arguments& model) {
   const Arguments materials = object_at(model, "materials");
-  const Arguments sections = object_at(model, "sections");
   Sections result;
-  for (const std::string& name : sections.keys()) {
-    result[name] = read_section(
-        materials,
-        sections.object(name, {"material", "rectangle", "circle", "area_m2", "second_moment_m4",
-                               "half_depth_m", "shear_coefficient"}));
-  }
+  for (const auto& [name, section] :
+       objects_of(model, "sections",
+                  {"material", "rectangle", "circle", "area_m2", "second_moment_m4", "half_depth_m",
+                   "shear_coefficient"}))
+    result[name] = read_section(materials, section);
   return result;
 }
 
@@ -105,19 +112,15 @@ void read_nodes(const Arguments& model, Frame& frame) {
 
 void read_members(const Arguments& model, Frame& frame) {
   const Sections sections = read_sections(model);
-  const Arguments members = object_at(model, "members");
-  for (const std::string& name : members.keys()) {
-    const Arguments object =
-        members.object(name, {"nodes", "section", "beam", "axial", "ends", "load_N_per_m",
-                              "axial_force_N", "elements", "mass_matrix"});
+  for (const auto& [name, object] :
+       objects_of(model, "members",
+                  {"nodes", "section", "beam", "axial", "ends", "load_N_per_m", "axial_force_N",
+                   "elements", "mass_matrix"}))
     frame.members.push_back(read_member(frame, sections, name, object));
-  }
 }
 
 void read_bodies(const Arguments& model, Frame& frame) {
-  const Arguments bodies = object_at(model, "rigid_bodies");
-  for (const std::string& name : bodies.keys()) {
-    const Arguments object = bodies.object(name, {"reference", "nodes"});
+  for (const auto& [name, object] : objects_of(model, "rigid_bodies", {"reference", "nodes"})) {
     FrameBody body;
     body.reference = node_named(frame, object["reference"], object, "reference");
     for (const std::string& node : object.texts("nodes")) {
@@ -128,9 +131,8 @@ void read_bodies(const Arguments& model, Frame& frame) {
 }
 
 void read_masses(const Arguments& model, Frame& frame) {
-  const Arguments masses = object_at(model, "point_masses");
-  for (const std::string& name : masses.keys()) {
-    const Arguments object = masses.object(name, {"node", "mass_kg", "inertia_kg_m2", "offset_m"});
+  for (const auto& [name, object] :
+       objects_of(model, "point_masses", {"node", "mass_kg", "inertia_kg_m2", "offset_m"})) {
     frame.masses.push_back(
         {node_named(frame, object["node"], object, "node"), object.not_negative("mass_kg", 0),
          object.not_negative("inertia_kg_m2", 0), object.point_or_origin("offset_m")});
@@ -138,10 +140,8 @@ void read_masses(const Arguments& model, Frame& frame) {
 }
 
 void read_springs(const Arguments& model, Frame& frame) {
-  const Arguments springs = object_at(model, "springs");
-  for (const std::string& name : springs.keys()) {
-    const Arguments object =
-        springs.object(name, {"nodes", "stiffness_N_per_m", "rotational_stiffness_N_m_per_rad"});
+  for (const auto& [name, object] : objects_of(
+           model, "springs", {"nodes", "stiffness_N_per_m", "rotational_stiffness_N_m_per_rad"})) {
     FrameSpring spring;
     const std::vector<std::string> nodes = object.texts("nodes");
     if (nodes.size() > 2) object.fail("nodes", "expected one or two names of nodes");
@@ -160,9 +160,8 @@ void read_supports(const Arguments& model, Frame& frame) {
     FrameSupport support;
     support.node = node_named(frame, name, supports, name);
     for (const std::string& motion : supports.texts(name)) {
-      if (motion != "x" && motion != "y" && motion != "rotation") {
+      if (motion != "x" && motion != "y" && motion != "rotation")
         supports.fail(name, "expected x, y or rotation");
-      }
       support.fixed[motion == "x" ? 0 : motion == "y" ? 1 : 2] = true;
     }
     frame.supports.push_back(support);
@@ -170,9 +169,7 @@ void read_supports(const Arguments& model, Frame& frame) {
 }
 
 void read_loads(const Arguments& model, Frame& frame) {
-  const Arguments loads = object_at(model, "loads");
-  for (const std::string& name : loads.keys()) {
-    const Arguments object = loads.object(name, {"node", "force_N", "moment_N_m"});
+  for (const auto& [name, object] : objects_of(model, "loads", {"node", "force_N", "moment_N_m"})) {
     const auto force = object.point_or_origin("force_N");
     frame.loads.push_back({node_named(frame, object["node"], object, "node"),
                            {force[0], force[1], object.number("moment_N_m", 0)}});
@@ -195,6 +192,20 @@ Frame read_frame(const Json& json, const std::string& pointer) {
   read_supports(model, frame);
   read_loads(model, frame);
   frame.gravity = model.point_or_origin("gravity_m_s2");
+  return frame;
+}
+
+Frame frame_from_arguments(const Arguments& arguments) {
+  if (arguments.has("model")) {
+    for (const char* key : {"manipulator", "pose", "loads", "gravity_m_s2"}) {
+      if (arguments.has(key)) arguments.fail(key, "does not go with a model");
+    }
+    return read_frame(arguments["model"], "/model");
+  }
+  const Arguments pose = arguments.object("pose", {"x_m", "y_m", "phi_rad"});
+  Frame frame = manipulator_frame(manipulator_arguments(arguments), pose);
+  read_loads(arguments, frame);
+  frame.gravity = arguments.point_or_origin("gravity_m_s2");
   return frame;
 }
 

@@ -14,4 +14,9 @@ namespace trammel::references {
 /// @throws DerivationError  with the JSON pointer.
 [[nodiscard]] Frame read_frame(const Json& model, const std::string& pointer);
 
+/// The frame of the arguments: "model" (as a case file's), or "manipulator" with "pose" (x_m, y_m,
+/// phi_rad) and "loads".
+/// @throws DerivationError  with the JSON pointer.
+[[nodiscard]] Frame frame_from_arguments(const Arguments& arguments);
+
 }  // namespace trammel::references

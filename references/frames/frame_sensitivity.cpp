@@ -1,11 +1,11 @@
-#include "references/frames/frame_sensitivity.h"
-
 #include <sstream>
 
-#include "references/frames/frame_arguments.h"
+#include "references/frames/frame_json.h"
+#include "references/frames/programs.h"
 #include "references/frames/wittrick_williams.h"
 #include "references/numerics/roots.h"
 
+/// How the exact natural frequencies of a frame change with its numbers.
 namespace trammel::references {
 
 namespace {

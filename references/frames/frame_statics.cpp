@@ -1,15 +1,19 @@
-#include "references/frames/frame_statics.h"
-
 #include <algorithm>
 #include <string>
 
-#include "references/frames/frame_arguments.h"
 #include "references/frames/frame_coordinates.h"
+#include "references/frames/frame_json.h"
+#include "references/frames/programs.h"
 #include "references/frames/unit_load.h"
 
+/// Exact statics of a frame (`unit_load_statics`) by the names of its outputs.
 namespace trammel::references {
 
 namespace {
+
+[[noreturn]] void fail(const std::string& output, const std::string& problem) {
+  throw DerivationError("/outputs: '" + output + "'" + problem);
+}
 
 struct Name {
   std::string quantity, item, end;
@@ -18,7 +22,7 @@ struct Name {
 /// "reaction_x_N:A" or "axial_force_N:AB.start" in its parts.
 Name split(const std::string& text) {
   const std::size_t colon = text.find(':');
-  if (colon == std::string::npos) throw DerivationError("/outputs: '" + text + "' names no item");
+  if (colon == std::string::npos) fail(text, " names no item");
   Name name{text.substr(0, colon), text.substr(colon + 1), ""};
   for (const char* end : {".start", ".end"}) {
     const std::size_t at = name.item.rfind(end);
@@ -43,7 +47,7 @@ class Outputs {
     if (name.quantity == "stress_Pa") return largest_stress(text, name);
     if (!name.end.empty()) return member_output(text, name);
     const int node = frame_.find_node(name.item);
-    if (node < 0) throw DerivationError("/outputs: '" + text + "': there is no such node");
+    if (node < 0) fail(text, ": there is no such node");
     static const std::array<const char*, 3> displacements = {"displacement_x_m", "displacement_y_m",
                                                              "rotation_rad"};
     static const std::array<const char*, 3> reactions = {"reaction_x_N", "reaction_y_N",
@@ -58,7 +62,7 @@ class Outputs {
         return statics_.displacement[coordinate(text, node, motion)];
       if (name.quantity == reactions[motion]) return reaction(text, node, motion);
     }
-    throw DerivationError("/outputs: '" + text + "': there is no such quantity");
+    fail(text, ": there is no such quantity");
   }
 
  private:
@@ -75,14 +79,14 @@ class Outputs {
 
   [[nodiscard]] int coordinate(const std::string& text, int node, int motion) const {
     const int index = coordinates_.node_index(node, motion);
-    if (index < 0) throw DerivationError("/outputs: '" + text + "': this node has no rotation");
+    if (index < 0) fail(text, ": this node has no rotation");
     return index;
   }
 
   [[nodiscard]] Real reaction(const std::string& text, int node, int motion) const {
     for (const FrameBody& body : frame_.bodies) {
       if (body.reference == node || std::ranges::find(body.attached, node) != body.attached.end()) {
-        throw DerivationError("/outputs: '" + text + "': this node belongs to a rigid body");
+        fail(text, ": this node belongs to a rigid body");
       }
     }
     return -statics_.residual_force[coordinate(text, node, motion)];
@@ -90,7 +94,7 @@ class Outputs {
 
   [[nodiscard]] Real member_output(const std::string& text, const Name& name) const {
     const int member = frame_.find_member(name.item);
-    if (member < 0) throw DerivationError("/outputs: '" + text + "': there is no such member");
+    if (member < 0) fail(text, ": there is no such member");
     const int end = name.end == "start" ? 0 : 1;
     if (name.quantity == "axial_force_N") return statics_.members[member].N[end];
     if (name.quantity == "shear_force_N") return statics_.members[member].V[end];
@@ -98,24 +102,22 @@ class Outputs {
     if (name.quantity == "end_rotation_rad") {
       return statics_.displacement[coordinates_.end_index(member, end)];
     }
-    throw DerivationError("/outputs: '" + text + "': there is no such quantity");
+    fail(text, ": there is no such quantity");
   }
 
   /// |N|/A + |M|/W of a member without a load of its own, whose largest value is at an end.
   [[nodiscard]] Real largest_stress(const std::string& text, const Name& name) const {
     const int index = frame_.find_member(name.item);
-    if (index < 0) throw DerivationError("/outputs: '" + text + "': there is no such member");
+    if (index < 0) fail(text, ": there is no such member");
     const FrameMember& member = frame_.members[index];
     if (member.section.modulus == 0 || member.load[0] != 0 || member.load[1] != 0)
-      throw DerivationError("/outputs: '" + text + "': no depth is known, or it is loaded");
+      fail(text, ": no depth is known, or it is loaded");
     const MemberForces& forces = statics_.members[index];
-    Real largest = 0;
-    for (int end = 0; end < 2; ++end) {
-      const Real stress =
-          abs(forces.N[end]) / member.section.area + abs(forces.M[end]) / member.section.modulus;
-      if (stress > largest) largest = stress;
-    }
-    return largest;
+    const auto stress = [&](int end) {
+      return Real(abs(forces.N[end]) / member.section.area +
+                  abs(forces.M[end]) / member.section.modulus);
+    };
+    return std::max(stress(0), stress(1));
   }
 
   const Frame& frame_;

@@ -4,6 +4,28 @@ namespace trammel::references {
 
 namespace {
 
+/// Vertices of an equilateral triangle about `centre`, at 210, 330 and 90 degrees plus `angle`.
+std::array<Point2<Real>, 3> triangle(const Point2<Real>& centre, const Real& side,
+                                     const Real& angle) {
+  const Real radius = side / sqrt(Real(3));
+  std::array<Point2<Real>, 3> vertices;
+  for (int i = 0; i < 3; ++i) {
+    const Real direction = angle + Real(pi<Real>() * (7 + 4 * i) / 6);
+    vertices[i] = {centre[0] + radius * cos(direction), centre[1] + radius * sin(direction)};
+  }
+  return vertices;
+}
+
+/// Whether a mass or an inertia is a number, not one of the texts "from-density" and "from-mass".
+bool is_given(const Arguments& object, const std::string& key) {
+  return object.has(key) && object[key] != "from-density" && object[key] != "from-mass";
+}
+
+/// A mass [kg] or an inertia [kg m^2] where it is given, otherwise what the texts stand for.
+Real given_or(const Arguments& object, const std::string& key, const Real& computed) {
+  return is_given(object, key) ? object.positive(key) : computed;
+}
+
 FrameMaterial material(const Arguments& manipulator, const std::string& key) {
   const Arguments m(manipulator[key], manipulator.pointer(key), {"E_Pa", "rho_kg_m3", "nu"});
   return {m.positive("E_Pa"), m.positive("rho_kg_m3"), m.number("nu", 0)};
@@ -25,6 +47,7 @@ LinkNumbers link(const Arguments& links, const FrameMaterial& material, const st
   LinkNumbers result;
   result.length =
       links[length].is_array() ? links.numbers(length, 3)[limb] : links.positive(length);
+  result.center = result.length / 2;
   CrossSection section =
       rectangle(material, links.positive("thickness_m"), links.positive("width_m"));
   section.shear_coefficient = links.number("shear_coefficient", Real(5) / 6);
@@ -55,7 +78,7 @@ void read_platform(const Arguments& manipulator, ManipulatorNumbers& result) {
       {"kind", "side_m", "vertices_m", "thickness_m", "mass_kg", "inertia_kg_m2", "refinements"});
   const auto corners = platform.has("vertices_m")
                            ? vertices(platform, "vertices_m")
-                           : triangle<Real>({0, 0}, platform.positive("side_m"), 0);
+                           : triangle({0, 0}, platform.positive("side_m"), 0);
   Point2<Real>& center = result.platform_center;
   for (std::size_t i = 0; i < 3; ++i) {
     result.limbs[i].corner = corners[i];
@@ -92,7 +115,7 @@ ManipulatorNumbers read_manipulator_numbers(const Arguments& manipulator) {
     base = vertices(manipulator, "base_m");
   } else {
     const Real side = manipulator.positive("base_side_m");
-    base = triangle<Real>({side / 2, side / (2 * sqrt(Real(3)))}, side, 0);
+    base = triangle({side / 2, side / (2 * sqrt(Real(3)))}, side, 0);
   }
   for (std::size_t i = 0; i < 3; ++i) {
     LimbNumbers& limb = result.limbs[i];

@@ -2,8 +2,7 @@
 
 #include <array>
 
-#include "references/frames/frame_section.h"
-#include "references/frames/manipulator_geometry.h"
+#include "references/frames/frame.h"
 
 /// What a planar 3-RRR is made of, in the format of the case files' "manipulator": base_side_m or
 /// base_m, links (proximal_length_m and distal_length_m, one or three each; thickness_m, width_m,
@@ -12,11 +11,31 @@
 /// platform_material, joints (one of each kind for all limbs), working_mode.
 namespace trammel::references {
 
+template <class Number>
+using Point2 = std::array<Number, 2>;
+
+/// The intersection of the circles about A and C; mode -1 lies clockwise of the line A C.
+/// @throws DerivationError  where there is none.
+template <class Number>
+[[nodiscard]] Point2<Number> elbow(const Point2<Number>& A, const Point2<Number>& C,
+                                   const Real& proximal, const Real& distal, int mode) {
+  const Number dx = C[0] - A[0];
+  const Number dy = C[1] - A[1];
+  const Number r2 = dx * dx + dy * dy;
+  const Real squares = proximal * proximal - distal * distal;
+  const Number along = (squares + r2) / (Real(2) * r2);  // of A C
+  const Number height2 = Real(proximal * proximal) / r2 - along * along;
+  if (height2 < Real(0)) throw DerivationError("a limb cannot reach its platform joint");
+  const Number across = Real(mode) * sqrt(height2);
+  return {A[0] + along * dx - across * dy, A[1] + along * dy + across * dx};
+}
+
 struct LinkNumbers {
   Real length = 0;
   Real mass = 0;
   bool has_inertia = false;  ///< whether it is given, not that of a thin rod
-  Real inertia = 0;          ///< about the middle [kg m^2]
+  Real center = 0;           ///< of mass, from the first joint along the link
+  Real inertia = 0;          ///< about the center of mass [kg m^2]
   FrameSection section;
 };
 
@@ -32,6 +51,7 @@ struct ManipulatorNumbers {
   Real platform_mass = 0;
   Real platform_inertia = 0;     ///< about its centre of mass
   Point2<Real> platform_center;  ///< of mass, from P, in platform axes
+  Point2<Real> gravity = {0, 0};
 };
 
 /// @throws DerivationError  with the JSON pointer.
@@ -39,5 +59,14 @@ struct ManipulatorNumbers {
 
 /// arguments["manipulator"], all of whose keys are known.
 [[nodiscard]] Arguments manipulator_arguments(const Arguments& arguments);
+
+/// The planar 3-RRR with a rigid platform as a frame, by its own closed-form inverse kinematics:
+/// each B_i is where the circles of radius |A_i B_i| about A_i and |B_i C_i| about C_i meet, on the
+/// side that the working mode names. Nodes A1-A3, B1-B3, C1-C3, P; members A1-B1 ..., B1-C1 ....
+///
+/// The numbers are those of `read_manipulator_numbers`; platform kind "rigid"; joints active locked
+/// / free / spring, elbow and platform welded / hinged / spring, platform also eq25-mean, eq25-sum.
+/// @throws DerivationError  with the JSON pointer, or where a limb cannot reach.
+[[nodiscard]] Frame manipulator_frame(const Arguments& manipulator, const Arguments& pose);
 
 }  // namespace trammel::references

@@ -1,5 +1,3 @@
-#include "references/frames/manipulator_frame.h"
-
 #include "references/frames/manipulator_design.h"
 
 namespace trammel::references {

@@ -11,8 +11,6 @@ namespace trammel::references {
 
 namespace {
 
-using RealVector = std::vector<Real>;
-
 /// Internal forces along a member under one unit cause.
 struct Diagram {
   std::function<double(double)> n, v, m;
@@ -59,35 +57,6 @@ std::array<Real, 2> member_load(const Frame& frame, const FrameMember& member) {
   const Real x = member.load[0] + member.section.mass * frame.gravity[0];
   const Real y = member.load[1] + member.section.mass * frame.gravity[1];
   return {x * axis.cosine + y * axis.sine, y * axis.cosine - x * axis.sine};
-}
-
-/// A spring: its force is +s on coordinate `from` and -s on `to` (-1: the ground).
-struct SpringElement {
-  int from, to;
-  Real compliance;
-};
-
-std::vector<SpringElement> spring_elements(const Frame& frame,
-                                           const FrameCoordinates& coordinates) {
-  std::vector<SpringElement> result;
-  for (const FrameSpring& spring : frame.springs) {
-    for (int motion = 0; motion < 3; ++motion) {
-      if (spring.stiffness[motion] == 0) continue;
-      const int to = coordinates.node_index(spring.nodes[0], motion);
-      const int from = spring.nodes[1] < 0 ? -1 : coordinates.node_index(spring.nodes[1], motion);
-      result.push_back({from, to, 1 / spring.stiffness[motion]});
-    }
-  }
-  for (std::size_t i = 0; i < frame.members.size(); ++i) {
-    const FrameMember& member = frame.members[i];
-    for (int end = 0; end < 2; ++end) {
-      if (member.ends[end].fixity != Fixity::sprung) continue;
-      result.push_back({coordinates.node_index(member.nodes[end], 2),
-                        coordinates.end_index(static_cast<int>(i), end),
-                        1 / member.ends[end].stiffness});
-    }
-  }
-  return result;
 }
 
 /// Equations of the force method: B f + p on every coordinate, compliances Phi f + phi0.
@@ -151,11 +120,11 @@ void add_loads(const Frame& frame, const FrameCoordinates& coordinates, Equation
 }
 
 Equations equations(const Frame& frame, const FrameCoordinates& coordinates) {
-  const std::vector<SpringElement> springs = spring_elements(frame, coordinates);
+  const std::vector<SpringElement> springs = coordinates.springs(frame);
   const std::size_t forces = 3 * frame.members.size() + springs.size();
   const std::size_t n = coordinates.size();
-  Equations e{RealMatrix(n, forces), RealMatrix(forces, forces), RealVector(n, Real(0)),
-              RealVector(forces, Real(0))};
+  Equations e{RealMatrix::Zero(n, forces), RealMatrix::Zero(forces, forces), RealVector::Zero(n),
+              RealVector::Zero(forces)};
   for (std::size_t i = 0; i < frame.members.size(); ++i) {
     add_member(frame, static_cast<int>(i), coordinates, e);
   }
@@ -163,7 +132,7 @@ Equations equations(const Frame& frame, const FrameCoordinates& coordinates) {
     const std::size_t f = 3 * frame.members.size() + i;
     if (springs[i].from >= 0) e.B(springs[i].from, f) += 1;
     e.B(springs[i].to, f) -= 1;
-    e.Phi(f, f) = springs[i].compliance;
+    e.Phi(f, f) = 1 / springs[i].stiffness;
   }
   add_loads(frame, coordinates, e);
   return e;
@@ -171,25 +140,14 @@ Equations equations(const Frame& frame, const FrameCoordinates& coordinates) {
 
 /// Phi f + B^T N q = -phi0, N^T (B f + p) = 0; returns f, then q.
 RealVector minimize_complementary_energy(const Equations& e, const RealMatrix& N) {
-  const RealMatrix G = transpose_product(N, e.B);
-  const std::size_t forces = e.Phi.rows();
-  const std::size_t all = forces + N.columns();
-  RealMatrix system(all, all);
-  RealVector x(all, Real(0));
-  for (std::size_t i = 0; i < forces; ++i) {
-    for (std::size_t j = 0; j < forces; ++j) system(i, j) = e.Phi(i, j);
-    for (std::size_t j = forces; j < all; ++j) {
-      system(i, j) = system(j, i) = G(j - forces, i);
-    }
-    x[i] = -e.phi0[i];
-  }
-  for (std::size_t k = 0; k < N.rows(); ++k) {
-    for (std::size_t j = forces; j < all; ++j) x[j] -= N(k, j - forces) * e.p[k];
-  }
-  if (!solve_in_place(system, x, Real(1e-35))) {
-    throw DerivationError("the frame can move freely, or a rigid part's forces are not determined");
-  }
-  return x;
+  const RealMatrix G = N.transpose() * e.B;
+  RealMatrix system(e.Phi.rows() + N.cols(), e.Phi.rows() + N.cols());
+  system << e.Phi, G.transpose(), G, RealMatrix::Zero(N.cols(), N.cols());
+  RealVector load(system.rows());
+  load << -e.phi0, -N.transpose() * e.p;
+  return solve(system, load,
+               "the frame can move freely, or a rigid part's forces are not determined",
+               Real(1e-35));
 }
 
 }  // namespace
@@ -198,14 +156,11 @@ FrameStatics unit_load_statics(const Frame& frame) {
   const FrameCoordinates coordinates(frame, false);
   const Equations e = equations(frame, coordinates);
   const RealVector x = minimize_complementary_energy(e, coordinates.N());
-  const auto forces = static_cast<std::ptrdiff_t>(e.Phi.rows());
-  const RealVector f(x.begin(), x.begin() + forces);
-  const RealVector q(x.begin() + forces, x.end());
+  const RealVector f = x.head(e.Phi.rows());
 
   FrameStatics statics;
-  statics.displacement = product(coordinates.N(), q);
-  statics.residual_force = product(e.B, f);
-  for (std::size_t i = 0; i < e.p.size(); ++i) statics.residual_force[i] += e.p[i];
+  statics.displacement = coordinates.N() * x.tail(coordinates.free());
+  statics.residual_force = e.B * f + e.p;
   for (std::size_t i = 0; i < frame.members.size(); ++i) {
     const auto load = member_load(frame, frame.members[i]);
     const Real L = member_axis(frame, frame.members[i]).length;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "references/frames/frame.h"
+#include "references/numerics/dense.h"
 
 /// Exact statics of a frame by the unit-load (force) method: the unknowns are the internal forces
 /// at each member's start; their compliances are the integrals of unit-load diagrams
@@ -20,8 +21,8 @@ struct MemberForces {
 };
 
 struct FrameStatics {
-  std::vector<Real> displacement;    ///< of every coordinate of FrameCoordinates(frame, false)
-  std::vector<Real> residual_force;  ///< force on every coordinate by all but its support
+  RealVector displacement;    ///< of every coordinate of FrameCoordinates(frame, false)
+  RealVector residual_force;  ///< force on every coordinate by all but its support
   std::vector<MemberForces> members;
 };
 

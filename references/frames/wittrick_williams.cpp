@@ -1,12 +1,85 @@
 #include "references/frames/wittrick_williams.h"
 
 #include <algorithm>
+#include <boost/math/policies/policy.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cstdint>
+#include <utility>
 
-#include "references/frames/counted_roots.h"
-#include "references/frames/frame_arguments.h"
+#include "references/frames/frame_json.h"
 #include "references/numerics/roots.h"
 
 namespace trammel::references {
+
+namespace {
+
+/// lo and hi within 1e-8 of each other, with fewer than `index` below lo and not so below hi.
+std::pair<Real, Real> coarse_bracket(const CountingFunction& f, int index) {
+  double lo = f.lo;
+  double hi = f.hi;
+  for (int i = 0; f.coarse(hi) < index; ++i) {
+    if (i > 60) throw DerivationError("the count stays below " + std::to_string(index));
+    lo = hi;
+    hi *= 2;
+  }
+  while (hi - lo > 1e-8 * hi) {
+    const double middle = (lo + hi) / 2;
+    (f.coarse(middle) < index ? lo : hi) = middle;
+  }
+  return {Real(lo) * (1 - Real(1e-9)), Real(hi) * (1 + Real(1e-9))};
+}
+
+/// Widens the bracket until the count in extended precision agrees with it.
+void confirm_bracket(const CountingFunction& f, int index, Real& lo, Real& hi) {
+  for (Real relative_width = Real(1e-8); f.fine(lo).below >= index; relative_width *= 10) {
+    lo *= 1 - std::min(relative_width, Real(0.5));
+    if (lo < Real(f.lo) * Real(1e-3)) throw DerivationError("the count does not fall to zero");
+  }
+  for (Real relative_width = Real(1e-8); f.fine(hi).below < index; relative_width *= 10)
+    hi *= 1 + relative_width;
+}
+
+/// Where the count passes `index`. The m-th root of |det D|, with the sign of the count, crosses
+/// zero there as a simple root does, m the passages that the bracket holds; where a clamped
+/// frequency of a member falls into the bracket, det D has a pole and the count alone is bisected.
+Real refine_root(const CountingFunction& f, int index, const Real& lo, const Real& hi) {
+  const auto at_lo = f.fine(lo);
+  const auto at_hi = f.fine(hi);
+  const Real shift = at_lo.log_determinant;
+  const int m = at_hi.below - at_lo.below;
+  const bool pole = at_lo.clamped_below != at_hi.clamped_below;
+  const auto value = [&](const DynamicStiffness<Real>::Count& c) {
+    const int sign = c.below < index ? -1 : 1;
+    return pole ? Real(sign) : Real(sign * exp((c.log_determinant - shift) / m));
+  };
+  std::uintmax_t iterations = 400;
+  const auto close = [](const Real& a, const Real& b) { return b - a <= Real(1e-20) * b; };
+  const auto ends = boost::math::tools::toms748_solve(
+      [&](const Real& x) { return value(f.fine(x)); }, lo, hi, value(at_lo), value(at_hi), close,
+      iterations, boost::math::policies::policy<>());
+  return (ends.first + ends.second) / 2;
+}
+
+/// Returns the `index`-th passage (from 1), to 1e-20.
+Real counted_root(const CountingFunction& f, int index) {
+  auto [lo, hi] = coarse_bracket(f, index);
+  confirm_bracket(f, index, lo, hi);
+  return refine_root(f, index, lo, hi);
+}
+
+}  // namespace
+
+std::vector<Real> counted_roots(const CountingFunction& f, int first, int count) {
+  std::vector<Real> roots;
+  while (static_cast<int>(roots.size()) < count) {
+    const int found = first + static_cast<int>(roots.size());
+    const Real root = counted_root(f, found + 1);
+    const int multiplicity = f.fine(root * (1 + Real(1e-15))).below - found;
+    const int missing = count - static_cast<int>(roots.size());
+    roots.insert(roots.end(), std::clamp(multiplicity, 1, missing), root);
+  }
+  return roots;
+}
 
 Real frequency_scale(const Frame& frame) {
   Real scale = 0;

@@ -1,12 +1,27 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
-#include "references/frames/frame.h"
+#include "references/frames/dynamic_stiffness.h"
 #include "references/numerics/arguments.h"
 
 /// Natural frequencies of a frame by the Wittrick-Williams count (`DynamicStiffness`).
 namespace trammel::references {
+
+/// Where a Wittrick-Williams count passes 1, 2, 3, ...: bracketed in double, the bracket confirmed
+/// in extended precision, then refined there. None is missed or doubled, and a repeated one appears
+/// as often as it occurs. (A double alone reaches about 3e-10.)
+struct CountingFunction {
+  std::function<int(double)> coarse;
+  std::function<DynamicStiffness<Real>::Count(const Real&)> fine;
+  double lo = 0;  ///< > 0; where the search begins; nothing sought lies below
+  double hi = 0;  ///< where its doubling begins
+};
+
+/// Returns the passages from `first` + 1 to `first` + `count`, each to 1e-20.
+/// @throws DerivationError  if the count does not reach them.
+[[nodiscard]] std::vector<Real> counted_roots(const CountingFunction& f, int first, int count);
 
 struct FrameFrequencies {
   int rigid_motions = 0;          ///< at w = 0

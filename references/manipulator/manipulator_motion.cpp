@@ -1,13 +1,12 @@
-#include "references/manipulator/manipulator_motion.h"
-
 #include <functional>
 #include <map>
 
 #include "references/manipulator/manipulator_torques.h"
-#include "references/manipulator/platform_path.h"
+#include "references/manipulator/programs.h"
 #include "references/numerics/dense.h"
 #include "references/numerics/roots.h"
 
+/// Motion of the rigid planar 3-RRR along a path or under constant torques, by name.
 namespace trammel::references {
 
 namespace {
@@ -15,29 +14,10 @@ namespace {
 using Motion = std::array<Jet<Real>, 3>;
 using PointJet = Point2<Jet<Real>>;
 
-/// Smallest over largest singular value of a 3 x 3 matrix, from the roots of the characteristic
-/// equation of A^T A in their trigonometric form.
-Real reciprocal_condition(const Dense<Real>& A) {
-  const Dense<Real> S = transpose_product(A, A);
-  const Real mean = (S(0, 0) + S(1, 1) + S(2, 2)) / 3;
-  std::array<std::array<Real, 3>, 3> B;
-  Real p2 = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      B[i][j] = S(i, j) - (i == j ? mean : Real(0));
-      p2 += B[i][j] * B[i][j] / 6;
-    }
-  }
-  const Real p = sqrt(p2), cosine = determinant(B) / (2 * p2 * p);
-  const Real angle = acos(cosine > 1 ? Real(1) : cosine < -1 ? Real(-1) : cosine) / 3;
-  const auto root = [&](int k) { return Real(mean + 2 * p * cos(angle + 2 * k * pi<Real>() / 3)); };
-  return sqrt(root(1) / root(0));
-}
-
 /// Everything at one instant, by the name of its quantity.
 class Instant {
  public:
-  Instant(const PlanarManipulator& manipulator, const Motion& motion, const PlanarWrench& wrench)
+  Instant(const ManipulatorNumbers& manipulator, const Motion& motion, const PlanarWrench& wrench)
       : m_(manipulator), motion_(motion), forces_(newton_euler_forces(m_, motion, wrench)) {
     const char* axes[] = {"x", "y", "phi"};
     const char* units[] = {"m", "m", "rad"};
@@ -70,7 +50,7 @@ class Instant {
 
  private:
   void add_limb(std::size_t i) {
-    const LimbBodies& limb = m_.limbs[i];
+    const LimbNumbers& limb = m_.limbs[i];
     const auto [A, B, C] = limb_joints(limb, motion_);
     const std::string n = std::to_string(i + 1);
     const Jet<Real> active = direction(A, B), passive = direction(B, C);
@@ -80,16 +60,16 @@ class Instant {
       return Real((p[0].value - o[0].value) * (q[1].value - p[1].value) -
                   (p[1].value - o[1].value) * (q[0].value - p[0].value));
     };
-    values_["elbow_sine:B" + n] = cross(A, B, C) / (limb.proximal_length * limb.distal_length);
-    const Point2<Real> along = {(B[0].value - C[0].value) / limb.distal_length,
-                                (B[1].value - C[1].value) / limb.distal_length};
+    values_["elbow_sine:B" + n] = cross(A, B, C) / (limb.proximal.length * limb.distal.length);
+    const Point2<Real> along = {(B[0].value - C[0].value) / limb.distal.length,
+                                (B[1].value - C[1].value) / limb.distal.length};
     const Point2<Real>& force = forces_.on_platform[i];
     values_["distal_tension_N:B" + n + "-C" + n] = along[0] * force[0] + along[1] * force[1];
     directions_[i] = {-along[0], -along[1]};
     values_["torque_N_m:A" + n] = values_["holding_torque_N_m:A" + n] = forces_.torque[i];
     values_["actuator_power_W"] += forces_.torque[i] * active.rate;
-    add_link("A" + n + "-B" + n, A, B, active, limb.proximal, limb.proximal_length);
-    add_link("B" + n + "-C" + n, B, C, passive, limb.distal, limb.distal_length);
+    add_link("A" + n + "-B" + n, A, B, active, limb.proximal);
+    add_link("B" + n + "-C" + n, B, C, passive, limb.distal);
   }
 
   void add_angle(const std::string& kind, const std::string& joint, const Jet<Real>& angle) {
@@ -99,8 +79,8 @@ class Instant {
   }
 
   void add_link(const std::string& name, const PointJet& from, const PointJet& to,
-                const Jet<Real>& angle, const LinkBody& body, const Real& length) {
-    const Real share = body.center / length;
+                const Jet<Real>& angle, const LinkNumbers& body) {
+    const Real share = body.center / body.length;
     add_body(name, {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])},
              angle, body.mass, body.inertia);
   }
@@ -123,10 +103,10 @@ class Instant {
   /// Lines of the distal links in Pluecker coordinates, moments about P over the platform's radius.
   void add_singularities() {
     Real squares = 0;
-    for (const LimbBodies& limb : m_.limbs)
+    for (const LimbNumbers& limb : m_.limbs)
       squares += limb.corner[0] * limb.corner[0] + limb.corner[1] * limb.corner[1];
     const Real radius = sqrt(squares / 3);
-    Dense<Real> lines(3, 3);
+    RealMatrix lines(3, 3);
     Real serial = 1;
     for (std::size_t i = 0; i < 3; ++i) {
       const Point2<Real>& d = directions_[i];
@@ -139,11 +119,12 @@ class Instant {
       const Real sine = abs(values_["elbow_sine:B" + std::to_string(i + 1)]);
       if (sine < serial) serial = sine;
     }
-    values_["parallel_singularity_distance"] = reciprocal_condition(lines);
+    const RealVector singular = Eigen::JacobiSVD<RealMatrix>(lines).singularValues();
+    values_["parallel_singularity_distance"] = singular[2] / singular[0];
     values_["serial_singularity_distance"] = serial;
   }
 
-  const PlanarManipulator& m_;
+  const ManipulatorNumbers& m_;
   const Motion motion_;
   const ManipulatorForces forces_;
   std::array<Point2<Real>, 3> directions_;
@@ -152,8 +133,8 @@ class Instant {
 
 /// Accelerations of the platform under given torques: torques are linear in them, so four inverse
 /// problems tell.
-std::vector<Real> accelerations(const PlanarManipulator& m, const PlanarWrench& wrench,
-                                const std::vector<Real>& torque, const std::vector<Real>& state) {
+RealVector accelerations(const ManipulatorNumbers& m, const PlanarWrench& wrench,
+                         const std::vector<Real>& torque, const RealVector& state) {
   const auto torques_at = [&](int moving) {
     Motion motion;
     for (int c = 0; c < 3; ++c)
@@ -161,60 +142,52 @@ std::vector<Real> accelerations(const PlanarManipulator& m, const PlanarWrench& 
     return newton_euler_forces(m, motion, wrench).torque;
   };
   const auto at_rest = torques_at(-1);
-  Dense<Real> A(3, 3);
-  std::vector<Real> b(3);
+  RealMatrix A(3, 3);
+  RealVector b(3);
   for (int c = 0; c < 3; ++c) {
     const auto moved = torques_at(c);
-    for (std::size_t i = 0; i < 3; ++i) A(i, c) = moved[i] - at_rest[i];
+    for (int i = 0; i < 3; ++i) A(i, c) = moved[i] - at_rest[i];
     b[c] = torque[c] - at_rest[c];
   }
-  if (!solve_in_place(A, b, Real("1e-40"))) throw DerivationError("the posture is singular");
-  return b;
+  return solve(A, b, "the posture is singular");
 }
 
-using Rate = std::function<std::vector<Real>(const std::vector<Real>&)>;
+using Rate = std::function<RealVector(const RealVector&)>;
 
 /// One step by Gragg's modified midpoint rule with 2, 4, ... 16 substeps, extrapolated (Bulirsch
 /// and Stoer): order 16.
-std::vector<Real> extrapolated_step(const Rate& rate, const std::vector<Real>& y, const Real& h) {
-  const auto sum = [](std::vector<Real> a, const Real& factor, const std::vector<Real>& b) {
-    for (std::size_t i = 0; i < a.size(); ++i) a[i] += factor * b[i];
-    return a;
-  };
-  const std::vector<Real> start = rate(y);
-  std::vector<std::vector<Real>> table;
+RealVector extrapolated_step(const Rate& rate, const RealVector& y, const Real& h) {
+  const RealVector start = rate(y);
+  std::vector<RealVector> table;
   for (int j = 1; j <= 8; ++j) {
     const Real step = h / (2 * j);
-    std::vector<Real> before = y, now = sum(y, step, start);
+    RealVector before = y, now = y + step * start;
     for (int k = 1; k < 2 * j; ++k) {
-      std::vector<Real> next = sum(before, 2 * step, rate(now));
-      before = std::move(now);
-      now = std::move(next);
+      const RealVector next = before + Real(2 * step) * rate(now);
+      before = now;
+      now = next;
     }
-    std::vector<Real> found = sum(sum(now, 1, before), step, rate(now));
-    for (Real& value : found) value /= 2;
-    table.push_back(found);
+    table.push_back((now + before + step * rate(now)) / Real(2));
     for (int i = j - 2; i >= 0; --i) {
-      const Real factor = Real(1) / (Real(j * j) / Real((i + 1) * (i + 1)) - 1);
-      table[i] = sum(sum(table[i + 1], factor, table[i + 1]), -factor, table[i]);
+      const Real ratio = Real(j * j) / Real((i + 1) * (i + 1));
+      table[i] = table[i + 1] + (table[i + 1] - table[i]) / Real(ratio - 1);
     }
   }
   return table.front();
 }
 
 /// The motion under constant torques at each of the times.
-std::vector<Motion> driven_motions(const PlanarManipulator& m, const PlanarWrench& wrench,
+std::vector<Motion> driven_motions(const ManipulatorNumbers& m, const PlanarWrench& wrench,
                                    const std::vector<Real>& torque, const Motion& start,
                                    const std::vector<Real>& times) {
-  std::vector<Real> state(6);
+  RealVector state(6);
   for (int c = 0; c < 3; ++c) {
     state[c] = start[c].value;
     state[3 + c] = start[c].rate;
   }
-  const Rate rate = [&](const std::vector<Real>& y) {
-    std::vector<Real> dy(y.begin() + 3, y.end());
-    const std::vector<Real> a = accelerations(m, wrench, torque, y);
-    dy.insert(dy.end(), a.begin(), a.end());
+  const Rate rate = [&](const RealVector& y) {
+    RealVector dy(6);
+    dy << y.tail(3), accelerations(m, wrench, torque, y);
     return dy;
   };
   std::vector<Motion> motions;
@@ -222,7 +195,7 @@ std::vector<Motion> driven_motions(const PlanarManipulator& m, const PlanarWrenc
   for (const Real& next : times) {
     if (next > time) state = extrapolated_step(rate, state, next - time);
     time = next;
-    const std::vector<Real> a = accelerations(m, wrench, torque, state);
+    const RealVector a = accelerations(m, wrench, torque, state);
     Motion motion;
     for (int c = 0; c < 3; ++c) motion[c] = {state[c], state[3 + c], a[c]};
     motions.push_back(motion);
@@ -232,7 +205,7 @@ std::vector<Motion> driven_motions(const PlanarManipulator& m, const PlanarWrenc
 
 /// Integral of the actuators' |power| over a turn of the circle: constant loads have a potential,
 /// so that it is what kinetic less potential energy rises and falls by between the zeros of power.
-Real absolute_work(const PlanarManipulator& m, const Arguments& trajectory,
+Real absolute_work(const ManipulatorNumbers& m, const Arguments& trajectory,
                    const PlanarWrench& wrench) {
   const Arguments circle(trajectory["circle"], "/trajectory/circle");
   const Real period = 2 * pi<Real>() / abs(circle.number("angular_speed_rad_s", 1));
@@ -274,7 +247,7 @@ std::vector<double> manipulator_motion_program(const Json& json) {
   const Arguments arguments(json, "",
                             {"manipulator", "trajectory", "times_s", "force_N", "moment_N_m",
                              "gravity_m_s2", "outputs", "at_rest", "torque_N_m"});
-  const PlanarManipulator manipulator = read_planar_manipulator(arguments);
+  const ManipulatorNumbers manipulator = read_planar_manipulator(arguments);
   const PlanarWrench wrench = read_wrench(arguments);
   const Arguments trajectory = read_trajectory(arguments);
   const std::vector<std::string> outputs = arguments.texts("outputs");

@@ -1,16 +1,19 @@
-#include "references/manipulator/moving_links.h"
-
 #include <algorithm>
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
-#include "references/frames/manipulator_design.h"
 #include "references/manipulator/manipulator_torques.h"
-#include "references/manipulator/newton_euler.h"
-#include "references/manipulator/platform_path.h"
+#include "references/manipulator/programs.h"
 #include "references/numerics/dense.h"
 #include "references/numerics/roots.h"
 
+/// Vibration of a planar 3-RRR with links that have mass and next to no stiffness, each one cubic
+/// element of a Timoshenko beam that is hinged at its elbow and at the platform, about its motion
+/// along a path. Written in the axes of each link, which turn at W: with the interpolation N of
+/// what its nodes do in these axes, x, and Q = diag(rho A, rho A, rho I) along the link,
+///   int N^T Q (N x.. + 2 W J N x. + (W. J - W^2 P) N x + r..) ds,
+/// J a quarter turn and P the identity of translations; r.. of the nominal motion. Damped by b M,
+/// on all of the velocities in world axes. By Fehlberg's method of order 8.
 namespace trammel::references {
 
 namespace {
@@ -18,17 +21,17 @@ namespace {
 /// u_x, u_y, theta of P; then of each limb u_x, u_y of B and the rotations of the proximal link's
 /// end, of the distal link's start and of its end.
 constexpr std::size_t kCoordinates = 18, kOfPlatform = 3, kOfLimb = 5;
-using Coordinates = std::array<Real, kCoordinates>;
+using Coordinates = Eigen::Matrix<Real, kCoordinates, 1>;
 using SystemState = std::array<Real, 2 * kCoordinates>;
-using Six = std::array<Real, 6>;
+using Six = Eigen::Matrix<Real, 6, 1>;
 
 struct SystemMotion {
-  Coordinates q{}, v{}, a{};
+  Coordinates q = Coordinates::Zero(), v = q, a = q;
 };
 
 /// What the nodes of a link do, in world axes; `damped` are velocities that are damped.
 struct LinkMotion {
-  Six u{}, v{}, a{}, damped{};
+  Six u = Six::Zero(), v = u, a = u, damped = u;
 };
 
 struct Turn {
@@ -39,12 +42,6 @@ struct Turn {
 Six turned_nodes(const Six& x, const Real& c, const Real& s, int rotations) {
   return {c * x[0] - s * x[1], s * x[0] + c * x[1], rotations * x[2],
           c * x[3] - s * x[4], s * x[3] + c * x[4], rotations * x[5]};
-}
-
-Six added(const Six& a, const Real& factor, const Six& b) {
-  Six sum = a;
-  for (std::size_t i = 0; i < 6; ++i) sum[i] += factor * b[i];
-  return sum;
 }
 
 /// A Timoshenko beam's cubic between its nodes, rows u, v, rotation (Friedman and Kosmatka 1993).
@@ -65,7 +62,8 @@ std::array<Six, 3> interpolation(const Real& x, const Real& length, const Real& 
 
 /// int N^T Q N, int N^T Q J N and int N^T Q P N of one link in its axes.
 struct LinkInertia {
-  explicit LinkInertia(const LinkNumbers& link) : matrix{{{6, 6}, {6, 6}, {6, 6}}} {
+  explicit LinkInertia(const LinkNumbers& link) {
+    matrix.fill(Eigen::Matrix<Real, 6, 6>::Zero());
     const FrameSection& section = link.section;
     const Real phi = 12 * section.EI * section.shear_compliance / (link.length * link.length);
     constexpr std::array<int, 7> kWeights = {41, 216, 27, 272, 27, 216, 41};  // Newton and Cotes
@@ -90,22 +88,15 @@ struct LinkInertia {
     const auto quarter = [&](const Six& x) { return turned_nodes(x, 0, 1, 0); };
     const Six u = in_axes(m.u), v = in_axes(m.v);
     const Six Ju = quarter(u);
-    const Six x_dot = added(v, -W, Ju);
-    Six x_ddot = added(in_axes(m.a), -2 * W, quarter(v));
-    x_ddot = added(added(x_ddot, -turn.acceleration, Ju), W * W, quarter(Ju));
-    x_ddot = added(x_ddot, 1, in_axes(m.damped));
-    Six f{};
-    for (std::size_t i = 0; i < 6; ++i) {
-      for (std::size_t j = 0; j < 6; ++j) {
-        f[i] += matrix[0](i, j) * x_ddot[j] +
-                matrix[1](i, j) * (2 * W * x_dot[j] + turn.acceleration * u[j]) -
-                matrix[2](i, j) * W * W * u[j];
-      }
-    }
+    const Six x_dot = v - W * Ju;
+    const Six x_ddot = in_axes(m.a) + in_axes(m.damped) - Real(2 * W) * quarter(v) -
+                       turn.acceleration * Ju + Real(W * W) * quarter(Ju);
+    const Six f = matrix[0] * x_ddot + matrix[1] * (Real(2 * W) * x_dot + turn.acceleration * u) -
+                  Real(W * W) * (matrix[2] * u);
     return turned_nodes(f, turn.cosine, turn.sine, 1);
   }
 
-  std::array<Dense<Real>, 3> matrix;
+  std::array<Eigen::Matrix<Real, 6, 6>, 3> matrix;
 };
 
 /// What the nominal motion is at one time.
@@ -117,8 +108,7 @@ struct Nominal {
 class Links {
  public:
   explicit Links(const Arguments& arguments)
-      : numbers_(read_manipulator_numbers(manipulator_arguments(arguments))),
-        bodies_(read_planar_manipulator(arguments)),
+      : numbers_(read_planar_manipulator(arguments)),
         trajectory_(read_trajectory(arguments)),
         wrench_(read_wrench(arguments)),
         damping_(arguments.number("mass_damping_per_s", 0)) {
@@ -128,7 +118,7 @@ class Links {
 
   [[nodiscard]] Nominal nominal(const Real& t) const {
     Nominal now{platform_motion(trajectory_, t), {}};
-    for (std::size_t i = 0; i < 3; ++i) now.joints[i] = limb_joints(bodies_.limbs[i], now.pose);
+    for (std::size_t i = 0; i < 3; ++i) now.joints[i] = limb_joints(numbers_.limbs[i], now.pose);
     return now;
   }
 
@@ -163,16 +153,13 @@ class Links {
     std::copy_n(x.begin(), kCoordinates, motion.q.begin());
     std::copy_n(x.begin() + kCoordinates, kCoordinates, motion.v.begin());
     const Coordinates r = residual(now, motion, true);
-    Dense<Real> M(kCoordinates, kCoordinates);
+    RealMatrix M(kCoordinates, kCoordinates);
     for (std::size_t j = 0; j < kCoordinates; ++j) {
       SystemMotion unit;
       unit.a[j] = 1;
-      const Coordinates column = residual(now, unit, false);
-      for (std::size_t i = 0; i < kCoordinates; ++i) M(i, j) = column[i];
+      M.col(j) = residual(now, unit, false);
     }
-    std::vector<Real> a(r.begin(), r.end());
-    if (!solve_in_place(M, a, Real("1e-40"))) throw DerivationError("a link has no mass");
-    for (std::size_t i = 0; i < kCoordinates; ++i) motion.a[i] = -a[i];
+    motion.a = -solve(M, r, "a link has no mass");
     return motion;
   }
 
@@ -208,11 +195,11 @@ class Links {
     const auto end = [at](const Coordinates& x) {
       return Six{0, 0, 0, x[at], x[at + 1], x[at + 2]};
     };
-    LinkMotion link{end(m.q), end(m.v), end(m.a), {}};
-    link.damped = added({}, damping_, link.v);
+    LinkMotion link{end(m.q), end(m.v), end(m.a), Six::Zero()};
+    link.damped = damping_ * link.v;
     if (!nominal) return link;
     const Real turning = turn_of(A, B).acceleration;
-    link.a = added(link.a, 1, {0, 0, turning, B[0].acceleration, B[1].acceleration, turning});
+    link.a += Six{0, 0, turning, B[0].acceleration, B[1].acceleration, turning};
     return link;
   }
 
@@ -235,12 +222,11 @@ class Links {
     link.u = ends(m.q, 0, m.q[2]);
     link.v = ends(m.v, -w * m.q[2], m.v[2]);
     link.a = ends(m.a, -2 * w * m.v[2] - w_dot * m.q[2], m.a[2] - w * w * m.q[2]);
-    link.damped = added({}, damping_, link.v);
+    link.damped = damping_ * link.v;
     if (!nominal) return link;
     const Real turning = turn_of(B, C).acceleration;
-    link.a = added(link.a, 1,
-                   {B[0].acceleration, B[1].acceleration, turning, C[0].acceleration,
-                    C[1].acceleration, turning});
+    link.a += Six{B[0].acceleration, B[1].acceleration, turning,
+                  C[0].acceleration, C[1].acceleration, turning};
     return link;
   }
 
@@ -260,7 +246,7 @@ class Links {
       f[k] *= m;
       if (nominal) f[k] += m * now.pose[k].acceleration;
     }
-    Coordinates r{};
+    Coordinates r = Coordinates::Zero();
     r[2] = s[0] * f[1] - s[1] * f[0] + J * (x.a[2] + damping_ * x.v[2]);
     r[0] = f[0];
     r[1] = f[1];
@@ -272,7 +258,6 @@ class Links {
   }
 
   ManipulatorNumbers numbers_;
-  PlanarManipulator bodies_;
   Arguments trajectory_;
   PlanarWrench wrench_;
   Real damping_;

@@ -1,14 +1,20 @@
-#include "references/manipulator/moving_platform.h"
-
 #include <algorithm>
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
-#include "references/frames/manipulator_design.h"
 #include "references/manipulator/manipulator_torques.h"
-#include "references/manipulator/platform_path.h"
+#include "references/manipulator/programs.h"
 #include "references/numerics/roots.h"
 
+/// Vibration of the platform of a planar 3-RRR about its motion along a path, on links without mass
+/// and hinged at both ends of the distal ones: each limb is a bar, elastic along B C,
+///   1/k = l_d/EA + l_p cos^2 b/EA + (l_p^3/(3 EI) + l_p/(kappa G A)) sin^2 b,
+/// b the angle between the links,
+/// and what is left has three coordinates about P, q = (u_x, u_y, theta), in world axes. With the
+/// centre of mass at s from P, e the axis of rotation, and W q = u + theta e x s its displacement,
+///   m W^T (W q.. + 2 W. q. + W.. q + r..) + J e (theta.. + phi..) + K(t) q = h(t) F,
+/// r.. the acceleration of the centre of mass in the nominal motion; the paper leaves W. and W..
+/// out (`rate_terms` false). By Fehlberg's method of order 8 in steps of 0.25 ms.
 namespace trammel::references {
 
 namespace {
@@ -26,7 +32,7 @@ struct Limb {
 class Platform {
  public:
   explicit Platform(const Arguments& arguments)
-      : numbers_(read_manipulator_numbers(manipulator_arguments(arguments))),
+      : numbers_(read_planar_manipulator(arguments)),
         trajectory_(read_trajectory(arguments)),
         wrench_(read_wrench(arguments)),
         rates_(arguments.flag("rate_terms", false)) {}

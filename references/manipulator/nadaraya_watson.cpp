@@ -1,9 +1,12 @@
-#include "references/manipulator/nadaraya_watson.h"
-
 #include "references/manipulator/manipulator_torques.h"
-#include "references/manipulator/platform_path.h"
+#include "references/manipulator/programs.h"
 #include "references/numerics/roots.h"
 
+/// The estimator of Nadaraya and Watson (1964), which Specht (1991) calls a general regression
+/// neural network, by its printed formula in extended precision:
+///   Y(x) = sum_i Y_i exp(-D_i^2 / 2 s^2) / sum_i exp(-D_i^2 / 2 s^2),
+/// numerator and denominator multiplied by exp(min D^2 / 2 s^2), which changes nothing but that
+/// neither underflows.
 namespace trammel::references {
 
 namespace {
@@ -31,10 +34,10 @@ struct Sample {
   std::vector<Real> torques, joints;
 };
 
-Sample sample_at(const PlanarManipulator& manipulator, const Arguments& trajectory,
+Sample sample_at(const ManipulatorNumbers& manipulator, const Arguments& trajectory,
                  const PlanarWrench& wrench, const Real& time) {
   const auto motion = platform_motion(trajectory, time);
-  const auto torques = newton_euler_torques(manipulator, motion, wrench);
+  const auto torques = newton_euler_forces(manipulator, motion, wrench).torque;
   Sample sample{{torques.begin(), torques.end()}, std::vector<Real>(6)};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto joints = limb_joints(manipulator.limbs[i], motion);
@@ -46,8 +49,7 @@ Sample sample_at(const PlanarManipulator& manipulator, const Arguments& trajecto
   return sample;
 }
 
-}  // namespace
-
+/// @param inputs, outputs  one row a sample
 std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
                                   const std::vector<Real>& query, const Real& sigma) {
   std::vector<Real> squared_distance;
@@ -72,6 +74,8 @@ std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
   return estimate;
 }
 
+}  // namespace
+
 std::vector<double> grnn_program(const Json& json) {
   const Arguments arguments(json, "", {"inputs", "outputs", "queries", "sigma", "spread"});
   const Rows inputs = read_rows(arguments, "inputs");
@@ -90,7 +94,7 @@ std::vector<double> manipulator_grnn_program(const Json& json) {
   const Arguments arguments(json, "",
                             {"manipulator", "trajectory", "force_N", "moment_N_m", "gravity_m_s2",
                              "step_s", "train", "sigma", "queries", "output"});
-  const PlanarManipulator manipulator = read_planar_manipulator(arguments);
+  const ManipulatorNumbers manipulator = read_planar_manipulator(arguments);
   const PlanarWrench wrench = read_wrench(arguments);
   const Arguments trajectory = read_trajectory(arguments);
   const Real step = arguments.positive("step_s");

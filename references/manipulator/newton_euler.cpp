@@ -27,7 +27,7 @@ enum Unknown : int { at_A = 0, at_B = 2, at_C = 4, torque = 6, per_limb = 7 };
 /// The three equations of one body: force balance and moments about its centre of mass.
 class Body {
  public:
-  Body(Dense<Real>& A, std::vector<Real>& b, std::size_t row, const PointJet& center)
+  Body(RealMatrix& A, RealVector& b, std::size_t row, const PointJet& center)
       : A_(A), b_(b), row_(row), center_(center) {}
 
   /// A force of unknown components, `sign` of which acts on this body at `point`.
@@ -52,8 +52,8 @@ class Body {
   }
 
  private:
-  Dense<Real>& A_;
-  std::vector<Real>& b_;
+  RealMatrix& A_;
+  RealVector& b_;
   std::size_t row_;
   const PointJet center_;
 };
@@ -69,58 +69,50 @@ Jet<Real> direction(const PointJet& from, const PointJet& to) {
           (x.value * y.acceleration - y.value * x.acceleration) / r2 - 2 * rate * stretch};
 }
 
-std::array<PointJet, 3> limb_joints(const LimbBodies& limb,
+std::array<PointJet, 3> limb_joints(const LimbNumbers& limb,
                                     const std::array<Jet<Real>, 3>& motion) {
   const PointJet base_joint = {limb.base[0], limb.base[1]};
   const PointJet corner = rotated(limb.corner, motion[2]);
   const PointJet C = {motion[0] + corner[0], motion[1] + corner[1]};
   return {base_joint,
-          elbow<Jet<Real>>(base_joint, C, limb.proximal_length, limb.distal_length, limb.mode), C};
+          elbow<Jet<Real>>(base_joint, C, limb.proximal.length, limb.distal.length, limb.mode), C};
 }
 
-ManipulatorForces newton_euler_forces(const PlanarManipulator& m,
+ManipulatorForces newton_euler_forces(const ManipulatorNumbers& m,
                                       const std::array<Jet<Real>, 3>& motion,
                                       const PlanarWrench& wrench) {
-  Dense<Real> A(21, 21);
-  std::vector<Real> b(21, Real(0));
+  RealMatrix A = RealMatrix::Zero(21, 21);
+  RealVector b = RealVector::Zero(21);
   const PointJet P = {motion[0], motion[1]};
   const PointJet offset = rotated(m.platform_center, motion[2]);
   Body platform(A, b, 18, {P[0] + offset[0], P[1] + offset[1]});
   platform.add_inertia(m.platform_mass, m.platform_inertia, motion[2].acceleration, m.gravity);
   platform.add_load(wrench, P);
   for (std::size_t i = 0; i < 3; ++i) {
-    const LimbBodies& limb = m.limbs[i];
+    const LimbNumbers& limb = m.limbs[i];
     const auto [base_joint, B, C] = limb_joints(limb, motion);
     const std::size_t first = per_limb * i;
-    Body proximal(A, b, 6 * i, between(base_joint, B, limb.proximal.center, limb.proximal_length));
+    Body proximal(A, b, 6 * i, between(base_joint, B, limb.proximal.center, limb.proximal.length));
     proximal.add_joint_force(first + at_A, base_joint, 1);
     proximal.add_joint_force(first + at_B, B, -1);
     proximal.add_torque(first + torque);
     proximal.add_inertia(limb.proximal.mass, limb.proximal.inertia,
                          direction(base_joint, B).acceleration, m.gravity);
-    Body distal(A, b, 6 * i + 3, between(B, C, limb.distal.center, limb.distal_length));
+    Body distal(A, b, 6 * i + 3, between(B, C, limb.distal.center, limb.distal.length));
     distal.add_joint_force(first + at_B, B, 1);
     distal.add_joint_force(first + at_C, C, -1);
     distal.add_inertia(limb.distal.mass, limb.distal.inertia, direction(B, C).acceleration,
                        m.gravity);
     platform.add_joint_force(first + at_C, C, 1);
   }
-  if (!solve_in_place(A, b, Real("1e-40"))) {
-    throw DerivationError("the posture is singular: no torques hold it");
-  }
+  const RealVector x = solve(A, b, "the posture is singular: no torques hold it");
   ManipulatorForces forces;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t first = per_limb * i;
-    forces.torque[i] = b[first + torque];
-    forces.on_platform[i] = {b[first + at_C], b[first + at_C + 1]};
+    forces.torque[i] = x[first + torque];
+    forces.on_platform[i] = {x[first + at_C], x[first + at_C + 1]};
   }
   return forces;
-}
-
-std::array<Real, 3> newton_euler_torques(const PlanarManipulator& manipulator,
-                                         const std::array<Jet<Real>, 3>& motion,
-                                         const PlanarWrench& wrench) {
-  return newton_euler_forces(manipulator, motion, wrench).torque;
 }
 
 }  // namespace trammel::references

@@ -1,5 +1,4 @@
-#include "references/manipulator/platform_path.h"
-
+#include "references/manipulator/manipulator_torques.h"
 #include "references/numerics/dense.h"
 
 namespace trammel::references {
@@ -57,11 +56,10 @@ Knots read_knots(const Arguments& spline) {
 
 /// Slopes at the knots of the cubic spline in Hermite's form: the second derivative is continuous
 /// at the inner knots, and the ends are as asked for.
-std::vector<Real> slopes(const std::vector<Real>& t, const std::vector<Real>& y,
-                         const std::string& ends) {
+RealVector slopes(const std::vector<Real>& t, const std::vector<Real>& y, const std::string& ends) {
   const std::size_t n = t.size();
-  Dense<Real> A(n, n);
-  std::vector<Real> b(n, Real(0));
+  RealMatrix A = RealMatrix::Zero(n, n);
+  RealVector b = RealVector::Zero(n);
   const auto h = [&](std::size_t k) { return Real(t[k + 1] - t[k]); };
   const auto chord_slope = [&](std::size_t k) { return Real((y[k + 1] - y[k]) / h(k)); };
   // Second derivative to the left of the end of interval `k` equals that at the start of `l`.
@@ -87,8 +85,7 @@ std::vector<Real> slopes(const std::vector<Real>& t, const std::vector<Real>& y,
     A(n - 1, 0) = 1;
     A(n - 1, n - 1) = -1;
   }
-  if (!solve_in_place(A, b, Real("1e-40"))) throw DerivationError("the spline has no solution");
-  return b;
+  return solve(A, b, "the spline has no solution");
 }
 
 Motion on_spline(const Arguments& spline, const Jet<Real>& t) {
@@ -102,7 +99,7 @@ Motion on_spline(const Arguments& spline, const Jet<Real>& t) {
   Motion motion;
   for (std::size_t c = 0; c < 3; ++c) {
     const std::vector<Real>& y = knots.pose[c];
-    const std::vector<Real> s = slopes(knots.time, y, ends);
+    const RealVector s = slopes(knots.time, y, ends);
     motion[c] = y[k] * v * v * (Real(1) + Real(2) * u) +
                 y[k + 1] * u * u * (Real(3) - Real(2) * u) +
                 h * (s[k] * u * v * v - s[k + 1] * u * u * v);

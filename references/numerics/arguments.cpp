@@ -17,6 +17,20 @@ Real decimal(const Json& number) {
   return Real(number.dump());
 }
 
+/// Returns the entries of a list that is not empty. @param is_valid  test of each entry
+template <class Convert>
+auto read_array(const Arguments& arguments, const std::string& key, const char* entries,
+                bool (Json::*is_valid)() const noexcept, const Convert& convert) {
+  const Json& value = arguments[key];
+  std::vector<decltype(convert(value))> result;
+  for (const Json& entry : value) {
+    if ((entry.*is_valid)()) result.push_back(convert(entry));
+  }
+  if (!value.is_array() || value.empty() || result.size() != value.size())
+    arguments.fail(key, std::string("expected an array of ") + entries);
+  return result;
+}
+
 }  // namespace
 
 Arguments::Arguments(const Json& object, std::string pointer)
@@ -117,14 +131,7 @@ std::string Arguments::choice(const std::string& key, const std::string& default
 }
 
 std::vector<Real> Arguments::numbers(const std::string& key) const {
-  const Json& value = (*this)[key];
-  if (!value.is_array() || value.empty()) fail(key, "expected an array of numbers");
-  std::vector<Real> result;
-  for (const Json& entry : value) {
-    if (!entry.is_number()) fail(key, "expected an array of numbers");
-    result.push_back(decimal(entry));
-  }
-  return result;
+  return read_array(*this, key, "numbers", &Json::is_number, decimal);
 }
 
 std::vector<Real> Arguments::numbers(const std::string& key, std::size_t size) const {
@@ -143,14 +150,8 @@ std::array<Real, 2> Arguments::point_or_origin(const std::string& key) const {
 }
 
 std::vector<std::string> Arguments::texts(const std::string& key) const {
-  const Json& value = (*this)[key];
-  if (!value.is_array() || value.empty()) fail(key, "expected an array of texts");
-  std::vector<std::string> result;
-  for (const Json& entry : value) {
-    if (!entry.is_string()) fail(key, "expected an array of texts");
-    result.push_back(entry.get<std::string>());
-  }
-  return result;
+  return read_array(*this, key, "texts", &Json::is_string,
+                    [](const Json& entry) { return entry.get<std::string>(); });
 }
 
 }  // namespace trammel::references

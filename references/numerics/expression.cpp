@@ -2,41 +2,40 @@
 
 #include <boost/math/special_functions/fpclassify.hpp>
 #include <cctype>
+#include <cstdlib>
 
 namespace trammel::references {
 
 namespace {
 
-template <class T>
-const std::map<std::string, T (*)(const T&)>& functions() {
-  static const std::map<std::string, T (*)(const T&)> table = {
-      {"abs", [](const T& x) -> T { return abs(x); }},
-      {"acos", [](const T& x) -> T { return acos(x); }},
-      {"asin", [](const T& x) -> T { return asin(x); }},
-      {"atan", [](const T& x) -> T { return atan(x); }},
-      {"cos", [](const T& x) -> T { return cos(x); }},
-      {"cosh", [](const T& x) -> T { return cosh(x); }},
-      {"exp", [](const T& x) -> T { return exp(x); }},
-      {"log", [](const T& x) -> T { return log(x); }},
-      {"sin", [](const T& x) -> T { return sin(x); }},
-      {"sinh", [](const T& x) -> T { return sinh(x); }},
-      {"sqrt", [](const T& x) -> T { return sqrt(x); }},
-      {"tan", [](const T& x) -> T { return tan(x); }},
-      {"tanh", [](const T& x) -> T { return tanh(x); }}};
+const std::map<std::string, Real (*)(const Real&)>& functions() {
+  static const std::map<std::string, Real (*)(const Real&)> table = {
+      {"abs", [](const Real& x) -> Real { return abs(x); }},
+      {"acos", [](const Real& x) -> Real { return acos(x); }},
+      {"asin", [](const Real& x) -> Real { return asin(x); }},
+      {"atan", [](const Real& x) -> Real { return atan(x); }},
+      {"cos", [](const Real& x) -> Real { return cos(x); }},
+      {"cosh", [](const Real& x) -> Real { return cosh(x); }},
+      {"exp", [](const Real& x) -> Real { return exp(x); }},
+      {"log", [](const Real& x) -> Real { return log(x); }},
+      {"sin", [](const Real& x) -> Real { return sin(x); }},
+      {"sinh", [](const Real& x) -> Real { return sinh(x); }},
+      {"sqrt", [](const Real& x) -> Real { return sqrt(x); }},
+      {"tan", [](const Real& x) -> Real { return tan(x); }},
+      {"tanh", [](const Real& x) -> Real { return tanh(x); }}};
   return table;
 }
 
 /// sum = product (('+'|'-') product)*; product = power (('*'|'/') power)*;
 /// power = '-' power | primary ('^' power)?;
 /// primary = number | name | function '(' sum ')' | '(' sum ')'.
-template <class T>
 class Parser {
  public:
-  Parser(const std::string& text, const std::map<std::string, T>& values)
+  Parser(const std::string& text, const std::map<std::string, Real>& values)
       : text_(text), values_(values) {}
 
-  T parse() {
-    const T value = sum();
+  Real parse() {
+    const Real value = sum();
     if (peek() != '\0') fail("expected an operator");
     return value;
   }
@@ -57,46 +56,40 @@ class Parser {
     return true;
   }
 
-  T sum() {
-    T value = product();
-    for (;;) {
-      if (accept('+')) {
-        value += product();
-      } else if (accept('-')) {
-        value -= product();
-      } else {
-        return value;
-      }
+  Real sum() {
+    Real value = product();
+    while (peek() == '+' || peek() == '-') {
+      const bool adds = text_[position_++] == '+';
+      const Real term = product();
+      value += adds ? term : -term;
     }
+    return value;
   }
 
-  T product() {
-    T value = power();
-    for (;;) {
-      if (accept('*')) {
-        value *= power();
-      } else if (accept('/')) {
-        value /= power();
-      } else {
-        return value;
-      }
+  Real product() {
+    Real value = power();
+    while (peek() == '*' || peek() == '/') {
+      const bool multiplies = text_[position_++] == '*';
+      const Real factor = power();
+      value = multiplies ? value * factor : value / factor;
     }
+    return value;
   }
 
-  T power() {
+  Real power() {
     if (accept('-')) return -power();
-    const T base = primary();
-    return accept('^') ? T(pow(base, power())) : base;
+    const Real base = primary();
+    return accept('^') ? Real(pow(base, power())) : base;
   }
 
-  T parenthesised() {
+  Real parenthesised() {
     if (!accept('(')) fail("expected '('");
-    const T value = sum();
+    const Real value = sum();
     if (!accept(')')) fail("expected ')'");
     return value;
   }
 
-  T primary() {
+  Real primary() {
     const char c = peek();
     if (c == '(') return parenthesised();
     if (std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.') return number();
@@ -104,29 +97,16 @@ class Parser {
     fail("expected a number, a name or '('");
   }
 
-  T number() {
+  Real number() {
     const std::size_t from = position_;
-    const auto digits = [&] {
-      while (position_ < text_.size() &&
-             (std::isdigit(static_cast<unsigned char>(text_[position_])) != 0)) {
-        ++position_;
-      }
-    };
-    digits();
-    if (position_ < text_.size() && text_[position_] == '.') {
-      ++position_;
-      digits();
-    }
-    if (position_ < text_.size() && text_[position_] == 'e') {
-      ++position_;
-      if (position_ < text_.size() && (text_[position_] == '-' || text_[position_] == '+'))
-        ++position_;
-      digits();
-    }
-    return T(text_.substr(from, position_ - from));
+    char* end = nullptr;
+    std::strtod(text_.c_str() + from, &end);
+    position_ = static_cast<std::size_t>(end - text_.c_str());
+    if (position_ == from) fail("expected a number");
+    return Real(text_.substr(from, position_ - from));
   }
 
-  T identifier() {
+  Real identifier() {
     const std::size_t from = position_;
     while (position_ < text_.size() &&
            (std::isalnum(static_cast<unsigned char>(text_[position_])) != 0 ||
@@ -136,28 +116,25 @@ class Parser {
     const std::string name = text_.substr(from, position_ - from);
     const auto value = values_.find(name);
     if (value != values_.end()) return value->second;
-    if (name == "pi") return pi<T>();
-    const auto function = functions<T>().find(name);
-    if (function != functions<T>().end()) return function->second(parenthesised());
+    if (name == "pi") return pi<Real>();
+    const auto function = functions().find(name);
+    if (function != functions().end()) return function->second(parenthesised());
     position_ = from;
     fail("unknown name '" + name + "'");
   }
 
   const std::string& text_;
-  const std::map<std::string, T>& values_;
+  const std::map<std::string, Real>& values_;
   std::size_t position_ = 0;
 };
 
 }  // namespace
 
-template <class T>
-T evaluate_expression(const std::string& text, const std::map<std::string, T>& values) {
-  const T value = Parser<T>(text, values).parse();
+Real evaluate_expression(const std::string& text, const std::map<std::string, Real>& values) {
+  const Real value = Parser(text, values).parse();
   if (!(boost::math::isfinite)(value)) throw DerivationError("'" + text + "' is not finite");
   return value;
 }
-
-template Real evaluate_expression<Real>(const std::string&, const std::map<std::string, Real>&);
 
 std::vector<double> formula_program(const Json& json) {
   const Arguments arguments(json, "", {"formulas", "values"});

@@ -12,16 +12,11 @@
 /// sinh, cosh, tanh.
 namespace trammel::references {
 
-/// @tparam T  the scalar; instantiated for Real.
-/// @param values  what the names of the text stand for.
-/// @throws DerivationError  with the column where the text cannot be read, or an unknown name, or
-///                          where the value is not finite.
-template <class T>
-[[nodiscard]] T evaluate_expression(const std::string& text,
-                                    const std::map<std::string, T>& values);
-
-extern template Real evaluate_expression<Real>(const std::string&,
-                                               const std::map<std::string, Real>&);
+/// @param values  values of the names in the text
+/// @throws DerivationError  with the column if the text cannot be read, if a name is unknown, or if
+///                          the value is not finite.
+[[nodiscard]] Real evaluate_expression(const std::string& text,
+                                       const std::map<std::string, Real>& values);
 
 /// Arguments: formulas (array of texts), values (object of numbers). One value a formula; each
 /// formula may use the results of those before it as v1, v2, ...

@@ -1,33 +1,58 @@
 #include "references/programs/program.h"
 
-#include "references/beams/annular_membrane.h"
 #include "references/beams/beam_modes.h"
-#include "references/beams/column_buckling.h"
-#include "references/beams/corner_singularity.h"
-#include "references/beams/deep_beam.h"
-#include "references/beams/elastic_chain.h"
-#include "references/beams/elastica.h"
-#include "references/beams/exponential_beam.h"
-#include "references/beams/parallelogram_chain.h"
-#include "references/beams/pendulum.h"
-#include "references/beams/rotating_beam.h"
-#include "references/beams/run_up.h"
-#include "references/beams/tapered_beam.h"
-#include "references/frames/frame_buckling.h"
-#include "references/frames/frame_sensitivity.h"
-#include "references/frames/frame_statics.h"
+#include "references/beams/programs.h"
+#include "references/frames/programs.h"
 #include "references/frames/wittrick_williams.h"
-#include "references/manipulator/assembly_modes.h"
-#include "references/manipulator/manipulator_motion.h"
 #include "references/manipulator/manipulator_torques.h"
-#include "references/manipulator/moving_links.h"
-#include "references/manipulator/moving_platform.h"
-#include "references/manipulator/nadaraya_watson.h"
+#include "references/manipulator/programs.h"
 #include "references/numerics/expression.h"
-#include "references/programs/parameter_sweep.h"
 #include "references/programs/proofs.h"
 
 namespace trammel::references {
+
+namespace {
+
+Json with_value(Json arguments, const std::vector<std::string>& pointers, const Json& value,
+                const Arguments& where) {
+  for (const std::string& pointer : pointers) {
+    try {
+      arguments.at(Json::json_pointer(pointer)) = value;
+    } catch (const Json::exception&) {
+      where.fail("pointers", "expected pointers to values of the arguments, not '" + pointer + "'");
+    }
+  }
+  return arguments;
+}
+
+/// Another program at each of several values, one after the other: the true values of a parameter
+/// study. Arguments: program, arguments, pointers (JSON pointers into the arguments) and values, or
+/// patches (merge patches of the arguments).
+/// @throws DerivationError  where a pointer leads nowhere.
+std::vector<double> parameter_sweep_program(const Json& json) {
+  const Arguments arguments(json, "", {"program", "arguments", "pointers", "values", "patches"});
+  const std::string program = arguments.text("program");
+  std::vector<Json> levels;
+  if (arguments.has("patches")) {
+    for (const Json& patch : arguments["patches"]) {
+      levels.push_back(arguments["arguments"]);
+      levels.back().merge_patch(patch);
+    }
+  } else {
+    const std::vector<std::string> pointers = arguments.texts("pointers");
+    for (const Json& value : arguments["values"]) {
+      levels.push_back(with_value(arguments["arguments"], pointers, value, arguments));
+    }
+  }
+  std::vector<double> values;
+  for (const Json& level : levels) {
+    const std::vector<double> found = derive(program, level);
+    values.insert(values.end(), found.begin(), found.end());
+  }
+  return values;
+}
+
+}  // namespace
 
 const std::map<std::string, Program>& programs() {
   static const std::map<std::string, Program> table = {

@@ -44,21 +44,24 @@ RigidManipulator table_1() {
   return m;
 }
 
-references::LinkBody body(const RigidLink& link) {
-  return {link.mass, link.center, link.inertia};
+references::LinkNumbers body(const RigidLink& link, double length) {
+  references::LinkNumbers numbers;
+  numbers.length = length;
+  numbers.mass = link.mass;
+  numbers.center = link.center;
+  numbers.inertia = link.inertia;
+  return numbers;
 }
 
-references::PlanarManipulator bodies(const RigidManipulator& m) {
-  references::PlanarManipulator result;
+references::ManipulatorNumbers bodies(const RigidManipulator& m) {
+  references::ManipulatorNumbers result;
   for (std::size_t i = 0; i < 3; ++i) {
-    references::LimbBodies& limb = result.limbs[i];
+    references::LimbNumbers& limb = result.limbs[i];
     limb.base = {m.geometry.base[i].x(), m.geometry.base[i].y()};
     limb.corner = {m.geometry.platform[i].x(), m.geometry.platform[i].y()};
-    limb.proximal_length = m.geometry.proximal[i];
-    limb.distal_length = m.geometry.distal[i];
     limb.mode = m.geometry.working_mode[i];
-    limb.proximal = body(m.proximal[i]);
-    limb.distal = body(m.distal[i]);
+    limb.proximal = body(m.proximal[i], m.geometry.proximal[i]);
+    limb.distal = body(m.distal[i], m.geometry.distal[i]);
   }
   result.platform_mass = m.platform.mass;
   result.platform_inertia = m.platform.inertia;
@@ -98,13 +101,15 @@ BOOST_AUTO_TEST_CASE(ten_thousand_random_states_have_the_torques_of_newton_and_e
   double worst = 0, symmetry = 0, skewness = 0, least = 1;
   std::mt19937_64 engine(2017);
   for (const RigidManipulator& m : {table_1(), uneven()}) {
-    const references::PlanarManipulator independent = bodies(m);
+    const references::ManipulatorNumbers independent = bodies(m);
     for (int trial = 0; trial < 5000; ++trial) {
       const RandomState state(engine);
       const InverseDynamics found = inverse_dynamics(m, state.motion, state.wrench);
       BOOST_TEST_REQUIRE(found.outcome.solved(), found.outcome.reason);
-      const auto expected = references::newton_euler_torques(
-          independent, state.jets(), {state.wrench(0), state.wrench(1), state.wrench(2)});
+      const auto expected =
+          references::newton_euler_forces(independent, state.jets(),
+                                          {state.wrench(0), state.wrench(1), state.wrench(2)})
+              .torque;
       Vector3d reference;
       for (Index i = 0; i < 3; ++i) {
         reference(i) = static_cast<double>(expected[static_cast<std::size_t>(i)]);
@@ -131,11 +136,13 @@ BOOST_AUTO_TEST_CASE(a_wrong_inertia_in_one_link_is_seen) {
   std::mt19937_64 engine(1);
   const RandomState state(engine);
   RigidManipulator m = uneven();
-  const references::PlanarManipulator independent = bodies(m);
+  const references::ManipulatorNumbers independent = bodies(m);
   m.distal[1].inertia *= 1 + 1e-6;
   const Vector3d torque = inverse_dynamics(m, state.motion, state.wrench).torque;
-  const auto expected = references::newton_euler_torques(
-      independent, state.jets(), {state.wrench(0), state.wrench(1), state.wrench(2)});
+  const auto expected =
+      references::newton_euler_forces(independent, state.jets(),
+                                      {state.wrench(0), state.wrench(1), state.wrench(2)})
+          .torque;
   double off = 0;
   for (Index i = 0; i < 3; ++i) {
     off += std::abs(torque(i) - static_cast<double>(expected[static_cast<std::size_t>(i)]));

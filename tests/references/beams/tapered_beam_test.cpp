@@ -1,6 +1,6 @@
-#include "references/beams/tapered_beam.h"
-
 #include <boost/test/unit_test.hpp>
+
+#include "references/beams/programs.h"
 
 BOOST_AUTO_TEST_SUITE(tapered_beam)
 
