@@ -5,21 +5,21 @@
 #include "references/manipulator/newton_euler.h"
 #include "references/numerics/arguments.h"
 
-/// Torques of the planar 3-RRR along a path.
+/// Arguments and path of the planar 3-RRR, and its torques along the path.
 namespace trammel::references {
 
-/// "manipulator", as a case file's, with "gravity_m_s2" beside it.
+/// Reads "manipulator", as in a case file, and "gravity_m_s2".
 [[nodiscard]] ManipulatorNumbers read_planar_manipulator(const Arguments& arguments);
 
-/// "force_N" and "moment_N_m".
+/// Reads "force_N" and "moment_N_m".
 [[nodiscard]] PlanarWrench read_wrench(const Arguments& arguments);
 
-/// "trajectory", for `platform_motion`.
+/// Returns "trajectory", for `platform_motion`.
 [[nodiscard]] Arguments read_trajectory(const Arguments& arguments);
 
-/// Paths of the platform, in the format of the case files' "trajectory": circle, line,
-/// rest_to_rest or spline. Only positions are written down; derivatives come by Jet.
-/// Returns x, y and orientation of the platform with their derivatives at a time.
+/// Returns x, y and orientation of the platform with their derivatives at a time. Paths have the
+/// format of the case files' "trajectory": circle, line, rest_to_rest or spline. Only positions are
+/// written down, and Jet differentiates them.
 /// @throws DerivationError  with the JSON pointer.
 [[nodiscard]] std::array<Jet<Real>, 3> platform_motion(const Arguments& trajectory,
                                                        const Real& time);

@@ -7,7 +7,6 @@
 #include "references/manipulator/manipulator_torques.h"
 #include "references/manipulator/programs.h"
 #include "references/numerics/expression.h"
-#include "references/programs/proofs.h"
 
 namespace trammel::references {
 
@@ -25,10 +24,10 @@ Json with_value(Json arguments, const std::vector<std::string>& pointers, const 
   return arguments;
 }
 
-/// Another program at each of several values, one after the other: the true values of a parameter
-/// study. Arguments: program, arguments, pointers (JSON pointers into the arguments) and values, or
-/// patches (merge patches of the arguments).
-/// @throws DerivationError  where a pointer leads nowhere.
+/// Runs another program at each of several values, one after the other: the true values of a
+/// parameter study. Arguments: program, arguments, pointers (JSON pointers into the arguments) and
+/// values, or patches (merge patches of the arguments).
+/// @throws DerivationError  if a pointer leads nowhere.
 std::vector<double> parameter_sweep_program(const Json& json) {
   const Arguments arguments(json, "", {"program", "arguments", "pointers", "values", "patches"});
   const std::string program = arguments.text("program");

@@ -25,6 +25,10 @@ struct Program {
 /// @throws DerivationError  unknown program or unusable arguments; the pointer is relative to them.
 [[nodiscard]] std::vector<double> derive(const std::string& program, const Json& arguments);
 
+/// Prove what the programs frame-frequencies and beam-roots derive.
+[[nodiscard]] std::vector<std::string> prove_frame_frequencies(const Json& arguments);
+[[nodiscard]] std::vector<std::string> prove_beam_roots(const Json& arguments);
+
 /// The values that a program proves, 30 digits each.
 /// @throws DerivationError  where it has no proof, and as `derive`.
 [[nodiscard]] std::vector<std::string> prove(const std::string& program, const Json& arguments);

@@ -1,9 +1,8 @@
-#include "references/programs/proofs.h"
-
 #include "references/beams/beam_modes.h"
 #include "references/frames/frame_json.h"
 #include "references/frames/wittrick_williams.h"
 #include "references/numerics/ball.h"
+#include "references/programs/program.h"
 
 /// Natural frequencies as proved enclosures: the count of Wittrick and Williams in ball arithmetic
 /// is an integer that no rounding can change, and what lies between two counts that differ by m are
