@@ -1,9 +1,11 @@
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_min.h>
+
 #include <algorithm>
-#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <complex>
 #include <functional>
-#include <limits>
+#include <memory>
 #include <string>
 
 #include "references/beams/programs.h"
@@ -93,16 +95,25 @@ double step_response_sum(const std::vector<Mode>& modes, double Mode::*share, do
   return sum<double>(modes, share, [t](const Mode& mode) { return step_response(mode, t); });
 }
 
+double call(double x, void* f) {
+  return -(*static_cast<const std::function<double(double)>*>(f))(x);
+}
+
 /// Where f is largest between lo and hi: the best of a grid, refined by Brent's method.
-double maximizer(const std::function<double(double)>& f, double lo, double hi, int grid) {
+double maximizer(std::function<double(double)> f, double lo, double hi, int grid) {
+  gsl_set_error_handler_off();
   const double step = (hi - lo) / grid;
   std::vector<double> values(grid + 1);
   for (int i = 0; i <= grid; ++i) values[i] = f(lo + i * step);
   const auto best = std::max_element(values.begin() + 1, values.end() - 1) - values.begin();
-  const double middle = lo + static_cast<double>(best) * step;
-  return boost::math::tools::brent_find_minima([&](double x) { return -f(x); }, middle - step,
-                                               middle + step, std::numeric_limits<double>::digits)
-      .first;
+  const std::unique_ptr<gsl_min_fminimizer, void (*)(gsl_min_fminimizer*)> minimizer(
+      gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent), gsl_min_fminimizer_free);
+  gsl_function function{&call, &f};
+  const double at = lo + static_cast<double>(best) * step;
+  if (gsl_min_fminimizer_set(minimizer.get(), &function, at, at - step, at + step) != GSL_SUCCESS)
+    throw DerivationError("no maximum was found");
+  for (int i = 0; i < 60; ++i) gsl_min_fminimizer_iterate(minimizer.get());
+  return gsl_min_fminimizer_x_minimum(minimizer.get());
 }
 
 }  // namespace
