@@ -95,10 +95,6 @@ double step_response_sum(const std::vector<Mode>& modes, double Mode::*share, do
   return sum<double>(modes, share, [t](const Mode& mode) { return step_response(mode, t); });
 }
 
-double call(double x, void* f) {
-  return -(*static_cast<const std::function<double(double)>*>(f))(x);
-}
-
 /// Where f is largest between lo and hi: the best of a grid, refined by Brent's method.
 double maximizer(std::function<double(double)> f, double lo, double hi, int grid) {
   gsl_set_error_handler_off();
@@ -108,7 +104,8 @@ double maximizer(std::function<double(double)> f, double lo, double hi, int grid
   const auto best = std::max_element(values.begin() + 1, values.end() - 1) - values.begin();
   const std::unique_ptr<gsl_min_fminimizer, void (*)(gsl_min_fminimizer*)> minimizer(
       gsl_min_fminimizer_alloc(gsl_min_fminimizer_brent), gsl_min_fminimizer_free);
-  gsl_function function{&call, &f};
+  gsl_function function{
+      [](double x, void* g) { return -(*static_cast<std::function<double(double)>*>(g))(x); }, &f};
   const double at = lo + static_cast<double>(best) * step;
   if (gsl_min_fminimizer_set(minimizer.get(), &function, at, at - step, at + step) != GSL_SUCCESS)
     throw DerivationError("no maximum was found");
