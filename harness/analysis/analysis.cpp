@@ -4,6 +4,7 @@
 #include <cfenv>
 #include <cmath>
 
+#include "harness/analysis/coarse_scene.h"
 #include "harness/analysis/registry.h"
 #include "harness/analysis/size_estimate.h"
 #include "harness/scene/with_model_errors.h"

@@ -9,10 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "harness/analysis/coarse_scene.h"
 #include "harness/analysis/effect_changes.h"
 #include "harness/analysis/effect_numbers.h"
-#include "harness/base/errors.h"
-#include "harness/base/find_or_add.h"
 #include "harness/motion/analyse_elastodynamics.h"
 #include "harness/scene/observables.h"
 #include "solver/large/large_elastodynamics.h"
@@ -29,102 +28,6 @@ constexpr double kInfinite = std::numeric_limits<double>::infinity();
 /// Share of the rest of the tolerance up to which a change that a coarse model measures counts as
 /// within it; and one near the buckling load, where a coarse mesh measures less exactly.
 constexpr double kForCoarseModel = 0.95, kForSecondOrder = 0.8;
-
-/// Elements of every member and link.
-std::vector<solver::Index*> element_counts(CaseModel& scene) {
-  std::vector<solver::Index*> counts;
-  for (solver::Member& member : scene.structure.members) counts.push_back(&member.elements);
-  if (!scene.manipulator) return counts;
-  for (auto* links : {&scene.manipulator->proximal, &scene.manipulator->distal})
-    for (solver::LinkDesign& link : *links) counts.push_back(&link.elements);
-  return counts;
-}
-
-/// The scene with at most so many elements a member and a platform of three triangles.
-CaseModel coarsened(CaseModel scene, solver::Index elements) {
-  scene.estimates_large_displacement = true;
-  for (solver::Index* count : element_counts(scene)) *count = std::min(*count, elements);
-  if (!scene.manipulator || scene.manipulator->platform.pin_radius > 0) return scene;
-  scene.manipulator->platform.refinements = 0;
-  scene.manipulator->platform.six_nodes = false;
-  return scene;
-}
-
-/// The scene on a coarse mesh: its results with sets of effects at steps of its path, each computed
-/// once.
-class CoarseScene {
- public:
-  CoarseScene(const AnalysisKind& kind, const JsonView& analysis, const CaseModel& scene,
-              solver::Index elements)
-      : kind_(kind), analysis_(analysis), scene_(coarsened(scene, elements)) {
-    model_ = first_model(scene_);
-    size_ = scales_of(model_);
-  }
-
-  /// Largest relative change between two sets of effects; infinite without a solution.
-  double change(Effects all, Effects effects, const std::set<std::size_t>& steps) {
-    const auto full = along(all, steps), other = along(effects, steps);
-    if (!full || !other) return kInfinite;
-    return max_change(changes_between(*full, *other, size_)).value;
-  }
-
-  /// Results at the steps one after the other; nothing if one of them has no solution.
-  std::optional<Quantities> along(Effects effects, const std::set<std::size_t>& steps) {
-    Quantities all;
-    for (const std::size_t step : steps) {
-      const auto& result = at(effects, step);
-      if (!result) return std::nullopt;
-      for (const auto& [name, quantity] : *result) {
-        auto& values = all[name].values;
-        values.insert(values.end(), quantity.values.begin(), quantity.values.end());
-      }
-    }
-    return all;
-  }
-
-  const std::optional<Quantities>& at(Effects effects, std::size_t step) {
-    const auto is_its = [&](const auto& run) { return run.first == effects; };
-    auto& by_step = find_or_add(runs_, is_its, {effects, {}}).second;
-    const auto known = by_step.find(step);
-    return known != by_step.end() ? known->second
-                                  : by_step.emplace(step, compute(effects, step)).first->second;
-  }
-
-  [[nodiscard]] const ModelScales& size() const { return size_; }
-  [[nodiscard]] const solver::Model& model() const { return model_; }
-  solver::Outcome outcome;  ///< the last that is not solved
-  solver::Counters counters;
-
- private:
-  std::optional<Quantities> compute(Effects effects, std::size_t step) {
-    Recorder record;
-    scene_.effects = effects;
-    try {
-      const auto* const along_path = std::get_if<AnalysePath*>(&kind_.of_scene);
-      const StepResult result =
-          along_path != nullptr
-              ? (*along_path)(analysis_, scene_, false, record)
-              : std::get<AnalyseStep*>(kind_.of_scene)(analysis_, scene_, step, false, record);
-      counters += result.counters;
-      if (result.outcome.solved()) return record.take_quantities();
-      outcome = outcome_at_path_point(scene_, step, result.outcome);
-    } catch (const solver::ModelError& error) {  // what is left has no meaning without the effect
-      if (runs_.size() == 1) throw;              // or the model itself has none
-      outcome = {solver::Status::singular, error.what()};
-    } catch (const InputError& error) {  // as fewer modes than damping ratios
-      if (runs_.size() == 1) throw;
-      outcome = {solver::Status::singular, error.what()};
-    }
-    return std::nullopt;
-  }
-
-  const AnalysisKind& kind_;
-  const JsonView& analysis_;
-  CaseModel scene_;
-  solver::Model model_;
-  ModelScales size_;
-  std::vector<std::pair<Effects, std::map<std::size_t, std::optional<Quantities>>>> runs_;
-};
 
 class Selector {
  public:
@@ -504,30 +407,6 @@ bool is_expensive(Effect effect) {
                                             .with(Effect::gyroscopic)
                                             .with(Effect::platform_flexibility);
   return kExpensive.has(effect);
-}
-
-bool halve_elements(CaseModel& scene) {
-  bool is_halved = false;
-  for (solver::Index* count : element_counts(scene)) {
-    if (*count % 2 != 0) continue;
-    *count /= 2;
-    is_halved = true;
-  }
-  return is_halved;
-}
-
-double unknowns_of(const solver::Model& model) {
-  double unknowns = 3 * static_cast<double>(model.nodes.size());
-  for (const solver::Member& member : model.members)
-    unknowns += 3 * static_cast<double>(member.elements - 1);
-  return unknowns;
-}
-
-double work_of(const solver::Counters& counters, double unknowns) {
-  constexpr double kFactorization = 8, kElement = 24;
-  return unknowns * (kFactorization * static_cast<double>(counters.factorizations) +
-                     static_cast<double>(counters.solves)) +
-         kElement * static_cast<double>(counters.element_evaluations);
 }
 
 }  // namespace trammel::harness

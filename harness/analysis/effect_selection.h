@@ -32,7 +32,7 @@ struct EffectSelection {
   /// Change by large displacement where the analysis cannot compute it; relative.
   std::optional<double> beyond_tier;
   solver::Counters counters;
-  double work = 0;  ///< of deciding, see `work_of`
+  double work = 0;  ///< of deciding, see `work_of` of coarse_scene.h
 
   [[nodiscard]] EffectEvidence& of(solver::Effect effect) {
     return evidence[static_cast<std::size_t>(effect)];
@@ -45,17 +45,5 @@ struct EffectSelection {
 
 /// @returns whether an effect changes sizes or steps, not coefficients alone
 [[nodiscard]] bool is_expensive(solver::Effect effect);
-
-/// Halves the elements of every member that has an even number of them.
-/// @returns whether there is one
-bool halve_elements(CaseModel& scene);
-
-/// Unknowns of a model before constraints.
-[[nodiscard]] double unknowns_of(const solver::Model& model);
-
-/// Work of a computation by its counters, in solves of one unknown: a factorization of a planar
-/// frame takes as long as 8 solves, an element matrix as long as 24 unknowns of a solve. Both
-/// weights are medians of times over the random scenes of the tests.
-[[nodiscard]] double work_of(const solver::Counters& counters, double unknowns);
 
 }  // namespace trammel::harness

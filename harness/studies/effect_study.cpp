@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include "harness/analysis/coarse_scene.h"
 #include "harness/analysis/registry.h"
 #include "harness/analysis/size_estimate.h"
 #include "harness/base/stopwatch.h"
