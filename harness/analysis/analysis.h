@@ -24,7 +24,7 @@ struct AnalysisResult : StepResult {
 [[nodiscard]] AnalysisResult analyse(const Document& document, const References& references,
                                      const AnalysisOptions& options);
 
-/// What results hold of the counters.
+/// Counters with their names, as results store them.
 [[nodiscard]] results::Counters named_counters(const solver::Counters& counters);
 
 /// The one key of "analysis": "modes", "statics", ...

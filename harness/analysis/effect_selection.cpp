@@ -260,7 +260,7 @@ class Selector {
     return {.phase = phase, .platform = phase};
   }
 
-  /// Whether a vibration lasts in the response, which a change of its frequency puts out of phase.
+  /// @returns whether a vibration lasts, which a change of its frequency puts out of phase
   [[nodiscard]] bool vibrates() const {
     return from_rest_ || frequency_ratio_ * frequency_ratio_ > 0.1;
   }
@@ -282,7 +282,7 @@ class Selector {
   /// Inertia by the frequency of the path, large displacement by equilibria of the coarse model at
   /// the extremes of the motion.
   void select_in_motion() {
-    /// Where linear theory is off by so much, its numbers have no meaning.
+    /// Change beyond which the numbers of linear theory have no meaning.
     constexpr double kLost = 0.5;
     CoarseScene coarse(kind_, analysis_, scene_, 1);
     select_inertia(coarse);
@@ -335,7 +335,7 @@ class Selector {
   /// start: of the first part of the motion, from which it grows with time while the vibration
   /// lasts.
   std::optional<double> change_of_theory() {
-    /// What starts on the quasi-static response swings about the response next to it, twice as far.
+    /// A vibration that starts on the quasi-static response swings twice as far as the change.
     constexpr double kSwing = 2, kShortened = 0.125;
     solver::ElastodynamicsOptions options = options_;
     const bool moves = selection_.chosen.has(Effect::inertia);
@@ -383,7 +383,7 @@ class Selector {
   double tolerance_;
   solver::Model model_;
   EffectSelection selection_;
-  // Of a motion along a path.
+  // Data of a motion along a path.
   CaseModel coarse_;
   solver::Model coarse_model_;
   solver::ElastodynamicsOptions options_;
