@@ -50,7 +50,7 @@ StepResult analyse_scene(const AnalysisKind& kind, const JsonView& analysis,
 /// What was recorded counts where a solution was found, its residuals speak for it and every number
 /// is finite.
 AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& record) {
-  AnalysisResult result{std::move(found), {}, kind.name, {}};
+  AnalysisResult result{std::move(found), {}, {}};
   if (!kind.evidence.empty())
     result.outcome = solver::outcome_by_evidence(result.outcome, result.evidence, kind.evidence);
   if (result.outcome.solved() && !record.not_finite().empty()) {

@@ -16,7 +16,6 @@ struct AnalysisOptions {
 
 struct AnalysisResult : StepResult {
   Quantities quantities;
-  std::string analysis;                     ///< its kind
   std::vector<results::EffectRow> effects;  ///< of the computation
 };
 

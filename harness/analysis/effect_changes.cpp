@@ -92,6 +92,12 @@ std::string change_kind(const std::string& quantity) {
   return "";
 }
 
+double member_length(const solver::Model& model, const solver::Member& member) {
+  return (model.nodes[solver::to_size(member.nodes[1])].position -
+          model.nodes[solver::to_size(member.nodes[0])].position)
+      .norm();
+}
+
 ModelScales scales_of(const solver::Model& model) {
   ModelScales scales;
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
@@ -102,9 +108,7 @@ ModelScales scales_of(const solver::Model& model) {
   const double length = scales.length;
   double mass = 0, stiffest = 0;
   for (const solver::Member& member : model.members) {
-    const double own = (model.nodes[solver::to_size(member.nodes[1])].position -
-                        model.nodes[solver::to_size(member.nodes[0])].position)
-                           .norm();
+    const double own = member_length(model, member);
     scales.force += member.load.norm() * own;
     mass += member.section.mass_per_length * own;
     stiffest = std::max(stiffest, member.section.EA);

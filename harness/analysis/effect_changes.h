@@ -9,6 +9,9 @@
 
 namespace trammel::harness {
 
+/// Distance between the nodes of a member [m].
+[[nodiscard]] double member_length(const solver::Model& model, const solver::Member& member);
+
 /// Scales of a model's kinds of quantities, from which the round-off error of each follows where
 /// its own observed values are all round-off. Zero if nothing is known.
 struct ModelScales {

@@ -5,8 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "harness/analysis/effect_changes.h"
-
 namespace trammel::harness {
 namespace {
 
@@ -40,12 +38,6 @@ double half_waves_at(const solver::Model& model, double omega) {
 }
 
 }  // namespace
-
-double member_length(const solver::Model& model, const solver::Member& member) {
-  return (model.nodes[solver::to_size(member.nodes[1])].position -
-          model.nodes[solver::to_size(member.nodes[0])].position)
-      .norm();
-}
 
 ResponseScale response_scale(const std::string& analysis_name, const JsonView& analysis,
                              const solver::Model& model) {

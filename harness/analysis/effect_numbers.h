@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 
+#include "harness/analysis/effect_changes.h"
 #include "harness/analysis/registry.h"
 
 /// Dimensionless numbers in closed form, by which effects are left out without a computation.
@@ -25,8 +26,6 @@ struct EffectNumber {
 };
 
 using EffectNumbers = std::array<EffectNumber, solver::kEffectCount>;
-
-[[nodiscard]] double member_length(const solver::Model& model, const solver::Member& member);
 
 [[nodiscard]] ResponseScale response_scale(const std::string& analysis_name,
                                            const JsonView& analysis, const solver::Model& model);

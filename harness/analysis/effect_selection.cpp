@@ -52,6 +52,7 @@ class Selector {
     if (name == "elastodynamics" && selection_.outcome.solved()) select_in_motion();
     if (!selection_.outcome.solved()) selection_.chosen = scope_.applicable;
     selection_.chosen = scope_.completed(selection_.chosen);
+    if (selection_.chosen == scope_.applicable) selection_.change = 0;
     return selection_;
   }
 
@@ -116,7 +117,6 @@ class Selector {
   }
 
   void add_cost(const solver::Counters& counters, const solver::Model& model) {
-    selection_.counters += counters;
     selection_.work += work_of(counters, unknowns_of(model));
   }
 
@@ -234,10 +234,10 @@ class Selector {
           "automatic effects require a constant load; a pulse may fall between the times at which "
           "they are measured");
     }
-    coarse_ = coarsened(scene_, 1);
-    coarse_.effects = scope_.without(scope_.applicable, Effect::large_displacement);
-    coarse_model_ = build_model(coarse_, 0);
-    options_ = read_elastodynamics(analysis_, coarse_);
+    CaseModel coarse = coarsened(scene_, 1);
+    coarse.effects = scope_.without(scope_.applicable, Effect::large_displacement);
+    coarse_model_ = build_model(coarse, 0);
+    options_ = read_elastodynamics(analysis_, coarse);
     const solver::ModalSolution modes =
         solver::solve_modes(solver::assemble(coarse_model_), {.count = 4});  // three may be rigid
     add_cost(modes.counters, coarse_model_);
@@ -384,7 +384,6 @@ class Selector {
   solver::Model model_;
   EffectSelection selection_;
   // Data of a motion along a path.
-  CaseModel coarse_;
   solver::Model coarse_model_;
   solver::ElastodynamicsOptions options_;
   double damping_ = 0, frequency_ratio_ = 0, phase_ = 1, lasting_ = 0;

@@ -31,7 +31,6 @@ struct EffectSelection {
   double change = 0;  ///< of the chosen set from all effects: sum of measurements and bounds
   /// Change by large displacement where the analysis cannot compute it; relative.
   std::optional<double> beyond_tier;
-  solver::Counters counters;
   double work = 0;  ///< of deciding, see `work_of` of coarse_scene.h
 
   [[nodiscard]] EffectEvidence& of(solver::Effect effect) {

@@ -43,10 +43,6 @@ RelativeTime relative_time(const std::vector<double>& times, const std::vector<d
   return {quantile(ratios, 0.5), ratios[outside], ratios[n - 1 - outside]};
 }
 
-double Timing::spread() const {
-  return (upper_quartile_s - lower_quartile_s) / median_s;
-}
-
 double quantile(std::vector<double> values, double share) {
   std::ranges::sort(values);
   const double at = share * static_cast<double>(values.size() - 1);

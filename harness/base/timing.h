@@ -21,9 +21,6 @@ struct Timing {
   double median_s = 0, lower_quartile_s = 0, upper_quartile_s = 0;
   double wall_median_s = 0;
   int runs_each = 1;  ///< computations in a measurement
-
-  /// Distance of the quartiles over the median.
-  [[nodiscard]] double spread() const;
 };
 
 /// What one computation takes over another.

@@ -41,8 +41,7 @@ class HarmonicScene {
   }
 
   /// Records a gap at a resonance without damping.
-  void record_at(std::size_t point, bool with_evidence, Recorder& record,
-                 StepResult& result) const {
+  void record_at(std::size_t point, Recorder& record, StepResult& result) const {
     const double share = static_cast<double>(point) / static_cast<double>(points - 1);
     const double frequency = low + (high - low) * share;
     const Eigen::VectorXcd q = response->at(frequency);
@@ -56,7 +55,7 @@ class HarmonicScene {
       }
     }
     if (damped_) result.counters.count(solver::Effect::damping, 1);
-    if (!with_evidence || q.size() == 0) return;
+    if (q.size() == 0) return;
     result.evidence.add(solver::Residual::equilibrium, response->backward_error(q, frequency));
     for (const Eigen::VectorXd& part : {Eigen::VectorXd(q.real()), Eigen::VectorXd(q.imag())})
       warn_of_rotation(largest_rotation(system, system.T * part), result.warnings);
@@ -168,8 +167,7 @@ StepResult analyse_harmonic(const JsonView& analysis, const CaseModel& case_mode
   StepResult result{scene.outcome, {}};
   if (draw) result.drawing = draw_model(scene.system, case_model.manipulator.has_value());
   if (!result.outcome.solved()) return result;
-  for (std::size_t point = 0; point < scene.points; ++point)
-    scene.record_at(point, true, record, result);
+  for (std::size_t point = 0; point < scene.points; ++point) scene.record_at(point, record, result);
   if (needs_forces(scene.outputs)) warn_of_redundancy(scene.system, result.warnings);
   const double peak = scene.record_peaks(record, result.warnings);
   if (result.drawing && !scene.outputs.empty()) scene.draw_at(peak, *result.drawing);

@@ -106,10 +106,7 @@ class Study {
         [this, scene = read_case_model(automatic_)] { (void)choose_effects(automatic_, scene); });
     const std::vector<Timing> timings =
         time_interleaved(works, {.repeats = options_.repeats}, nullptr);
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      runs[i]->cpu_s = timings[i].median_s;
-      runs[i]->spread = timings[i].spread() / 2;
-    }
+    for (std::size_t i = 0; i < runs.size(); ++i) runs[i]->cpu_s = timings[i].median_s;
     study_.deciding_cpu_s = timings.back().median_s;
   }
 

@@ -16,10 +16,9 @@ struct EffectRun {
   solver::Outcome outcome;
   Quantities quantities;
   solver::Counters counters;
-  double work = 0;    ///< see `work_of`
-  Changes changes;    ///< from the scene with all effects
-  double cpu_s = 0;   ///< median of the repeats; without them of one run
-  double spread = 0;  ///< half of the range between the quartiles, relative
+  double work = 0;   ///< see `work_of`
+  Changes changes;   ///< from the scene with all effects
+  double cpu_s = 0;  ///< median of the repeats; without them of one run
 
   /// Largest change; infinite without a solution.
   [[nodiscard]] double change() const { return max_change(changes).value; }

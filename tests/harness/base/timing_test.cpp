@@ -58,14 +58,6 @@ BOOST_AUTO_TEST_CASE(a_short_work_is_repeated_until_the_clock_can_tell) {
   BOOST_TEST(calls == 7 * 1000 + 2);
 }
 
-BOOST_AUTO_TEST_CASE(the_spread_is_the_distance_of_the_quartiles_over_the_median) {
-  Timing timing;
-  timing.median_s = 2;
-  timing.lower_quartile_s = 1.9;
-  timing.upper_quartile_s = 2.4;
-  BOOST_TEST(timing.spread() == 0.25, boost::test_tools::tolerance(1e-12));
-}
-
 BOOST_AUTO_TEST_CASE(what_slows_both_works_of_a_repeat_leaves_their_ratio) {
   Timing baseline, timing;
   baseline.cpu_s = {1, 5, 1, 2, 1, 9, 1};
