@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "harness/motion/analyse_elastodynamics.h"
+#include "harness/motion/analyses.h"
 #include "harness/readers/option_reader.h"
 #include "solver/large/large_elastodynamics.h"
 #include "solver/linear/validate.h"

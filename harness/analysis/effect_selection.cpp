@@ -12,7 +12,7 @@
 #include "harness/analysis/coarse_scene.h"
 #include "harness/analysis/effect_changes.h"
 #include "harness/analysis/effect_numbers.h"
-#include "harness/motion/analyse_elastodynamics.h"
+#include "harness/motion/analyses.h"
 #include "harness/scene/observables.h"
 #include "solver/large/large_elastodynamics.h"
 #include "solver/linear/modes.h"

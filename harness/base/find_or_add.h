@@ -6,6 +6,11 @@
 
 namespace trammel::harness {
 
+template <typename Range, typename Value>
+bool contains(const Range& range, const Value& value) {
+  return std::ranges::find(range, value) != std::ranges::end(range);
+}
+
 /// The first item of which `is` holds; where there is none `fresh` becomes the last.
 template <typename Item, typename Is>
 Item& find_or_add(std::vector<Item>& items, Is is, Item fresh) {

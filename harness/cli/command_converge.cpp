@@ -10,7 +10,7 @@
 #include "harness/base/text.h"
 #include "harness/cli/commands.h"
 #include "harness/input/catalogue.h"
-#include "harness/printing/print_runs.h"
+#include "harness/printing/printing.h"
 #include "harness/run/results.h"
 #include "harness/run/run.h"
 #include "harness/run/stored_results.h"

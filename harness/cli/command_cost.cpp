@@ -12,7 +12,6 @@
 #include "harness/base/text.h"
 #include "harness/cli/commands.h"
 #include "harness/input/catalogue.h"
-#include "harness/run/output_lock.h"
 #include "harness/run/results.h"
 #include "harness/run/run_store.h"
 #include "harness/run/stored_results.h"

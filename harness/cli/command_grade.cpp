@@ -5,8 +5,8 @@
 #include <iostream>
 #include <map>
 
-#include "harness/base/contains.h"
 #include "harness/base/errors.h"
+#include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
 #include "harness/base/progress.h"
@@ -14,9 +14,8 @@
 #include "harness/cli/commands.h"
 #include "harness/grade/grade.h"
 #include "harness/input/catalogue.h"
-#include "harness/printing/print_runs.h"
+#include "harness/printing/printing.h"
 #include "harness/results/run_grade.h"
-#include "harness/run/output_lock.h"
 #include "harness/run/results.h"
 #include "harness/run/stored_results.h"
 

@@ -17,7 +17,7 @@
 #include "harness/input/check.h"
 #include "harness/input/json_view.h"
 #include "harness/input/reference_library.h"
-#include "harness/printing/print_effects.h"
+#include "harness/printing/printing.h"
 #include "harness/results/quantity_definitions.h"
 #include "harness/run/run.h"
 #include "harness/scene/case_model.h"

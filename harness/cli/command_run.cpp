@@ -6,8 +6,8 @@
 #include <iostream>
 #include <map>
 
-#include "harness/base/contains.h"
 #include "harness/base/errors.h"
+#include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
 #include "harness/base/progress.h"
@@ -17,11 +17,10 @@
 #include "harness/export/vtk_files.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/document.h"
-#include "harness/printing/print_runs.h"
+#include "harness/printing/printing.h"
 #include "harness/results/run_grade.h"
 #include "harness/results/unfinished_folder.h"
 #include "harness/run/claims.h"
-#include "harness/run/output_lock.h"
 #include "harness/run/results.h"
 #include "harness/run/shards.h"
 #include "harness/run/stored_results.h"

@@ -5,8 +5,8 @@
 
 #include "harness/base/text.h"
 #include "harness/cli/commands.h"
-#include "harness/run/output_lock.h"
 #include "harness/run/shards.h"
+#include "harness/run/stored_results.h"
 
 namespace trammel::harness {
 namespace {

@@ -5,9 +5,6 @@
 #include "harness/base/processes.h"
 #include "harness/cli/command_line.h"
 #include "reports/drawing/figure.h"
-#include "reports/page/codes.h"
-#include "reports/page/comparison.h"
-#include "reports/page/junit.h"
 #include "reports/page/report.h"
 
 int main(int argc, char** argv) {

@@ -5,8 +5,8 @@
 
 #include "harness/analysis/analysis.h"
 #include "harness/analysis/registry.h"
-#include "harness/base/contains.h"
 #include "harness/base/environment.h"
+#include "harness/base/find_or_add.h"
 #include "harness/base/quantity.h"
 #include "harness/base/text.h"
 #include "harness/input/check.h"

@@ -1,6 +1,6 @@
 #include "harness/input/case.h"
 
-#include "harness/base/contains.h"
+#include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <set>
 
-#include "harness/base/contains.h"
 #include "harness/base/environment.h"
+#include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
-#include "references/data/json_files.h"
+#include "references/data/family.h"
 
 namespace trammel::harness {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "harness/base/contains.h"
+#include "harness/base/find_or_add.h"
 #include "harness/base/text.h"
 
 namespace trammel::harness {

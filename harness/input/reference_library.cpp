@@ -6,7 +6,7 @@
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
 #include "harness/input/document.h"
-#include "references/data/json_files.h"
+#include "references/data/family.h"
 
 namespace trammel::harness {
 namespace {

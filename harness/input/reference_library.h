@@ -10,7 +10,6 @@
 
 #include "harness/input/json_view.h"
 #include "references/data/family.h"
-#include "references/data/json_files.h"
 #include "references/data/reference.h"
 
 namespace trammel::harness {

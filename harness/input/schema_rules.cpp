@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <map>
 
-#include "harness/base/contains.h"
 #include "harness/base/environment.h"
 #include "harness/base/errors.h"
+#include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
 

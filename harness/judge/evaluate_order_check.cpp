@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "harness/base/contains.h"
+#include "harness/base/find_or_add.h"
 #include "harness/base/number.h"
 #include "harness/base/text.h"
 #include "harness/judge/evaluate_check.h"

@@ -1,5 +1,3 @@
-#include "harness/motion/analyse_elastodynamics.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>

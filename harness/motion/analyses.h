@@ -1,6 +1,8 @@
 #pragma once
 
+#include "harness/scene/case_model.h"
 #include "harness/statics_modes/step_result.h"
+#include "solver/manipulator/elastodynamics.h"
 
 /// Analyses of motion: kinematics, response in time and frequency, dynamics of the manipulator,
 /// networks.
@@ -33,5 +35,13 @@ AnalysePath analyse_elastodynamics;
 AnalysePath analyse_grnn;
 /// The same on samples of the case: predictions at its queries.
 AnalyseCase analyse_grnn_samples;
+
+/// The options that the analysis itself states, whatever the scene and its effects.
+[[nodiscard]] solver::ElastodynamicsOptions read_motion_options(const JsonView& analysis);
+
+/// The motion that a case of elastodynamics describes, with the scene's effects.
+/// @throws InputError  where something stands beside the manipulator or the trajectory has no time.
+[[nodiscard]] solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
+                                                                const CaseModel& case_model);
 
 }  // namespace trammel::harness

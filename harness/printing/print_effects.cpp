@@ -1,9 +1,8 @@
-#include "harness/printing/print_effects.h"
-
 #include <iostream>
 
 #include "harness/base/rows.h"
 #include "harness/base/text.h"
+#include "harness/printing/printing.h"
 
 namespace trammel::harness {
 

@@ -1,5 +1,3 @@
-#include "harness/printing/print_runs.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include "harness/base/quantity.h"
 #include "harness/base/text.h"
 #include "harness/judge/evaluate_check.h"
+#include "harness/printing/printing.h"
 #include "harness/results/run_grade.h"
 
 namespace trammel::harness {

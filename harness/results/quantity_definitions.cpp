@@ -3,7 +3,7 @@
 #include <map>
 #include <sstream>
 
-#include "harness/base/contains.h"
+#include "harness/base/find_or_add.h"
 #include "harness/base/text.h"
 
 namespace trammel::results {

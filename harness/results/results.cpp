@@ -6,7 +6,7 @@
 #include <map>
 #include <system_error>
 
-#include "harness/base/contains.h"
+#include "harness/base/find_or_add.h"
 #include "harness/results/result_fields.h"
 
 namespace trammel::results {

@@ -9,8 +9,8 @@
 #include <set>
 
 #include "harness/analysis/analysis.h"
-#include "harness/base/contains.h"
 #include "harness/base/environment.h"
+#include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
 #include "harness/base/statistic.h"
 #include "harness/base/text.h"

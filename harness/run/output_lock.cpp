@@ -1,5 +1,3 @@
-#include "harness/run/output_lock.h"
-
 #include <fcntl.h>
 #include <sys/file.h>
 #include <sys/stat.h>
@@ -15,6 +13,7 @@
 
 #include "harness/base/errors.h"
 #include "harness/results/unfinished_folder.h"
+#include "harness/run/stored_results.h"
 
 namespace trammel::harness {
 namespace {

@@ -5,7 +5,7 @@
 #include "harness/base/json.h"
 #include "harness/results/results.h"
 
-/// results.json holds what runs come to and how that was judged; their series, drawings and studies
+/// results.json holds the outcomes of runs and their verdicts. Their series, drawings and studies
 /// of convergence and uncertainty stay in the run store.
 namespace trammel::harness {
 
@@ -30,5 +30,22 @@ std::filesystem::path write_results(const results::Results& results,
 /// that, which `missing` says.
 /// @throws InputError  with the JSON pointer of what is wrong.
 [[nodiscard]] results::Results load_results(const std::filesystem::path& file);
+
+/// A folder of results that this process alone writes, as long as the lock lives. Found out before
+/// hours are spent.
+class OutputLock {
+ public:
+  /// @throws InputError  where the folder cannot be made or written, or another process has it.
+  explicit OutputLock(const std::filesystem::path& folder);
+  ~OutputLock();
+  OutputLock(const OutputLock&) = delete;
+  OutputLock& operator=(const OutputLock&) = delete;
+
+ private:
+  void acquire();
+
+  std::filesystem::path folder_, file_;
+  int descriptor_ = -1;
+};
 
 }  // namespace trammel::harness

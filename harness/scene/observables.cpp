@@ -5,7 +5,6 @@
 #include <cmath>
 #include <functional>
 
-#include "harness/base/contains.h"
 #include "harness/base/find_or_add.h"
 #include "harness/base/number.h"
 #include "harness/base/text.h"

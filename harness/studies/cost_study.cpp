@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "harness/base/contains.h"
 #include "harness/base/environment.h"
+#include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
 #include "harness/base/rows.h"
 #include "harness/base/statistic.h"

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include "harness/base/contains.h"
+#include "harness/base/find_or_add.h"
 #include "harness/base/text.h"
 #include "harness/judge/sweep.h"
 #include "harness/studies/cost_study.h"

@@ -5,7 +5,7 @@
 
 #include "references/beams/programs.h"
 #include "references/numerics/dense.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// In-plane vibration of a free annular plate in plane stress, n waves around. With a = w/c_p,
 /// c_p^2 = E/(rho (1 - nu^2)), b = w/c_s, c_s^2 = G/rho, the potentials phi and psi are J_n and Y_n

@@ -1,6 +1,6 @@
 #include "references/beams/beam_modes.h"
 
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 namespace trammel::references {
 

@@ -3,7 +3,7 @@
 #include <boost/multiprecision/cpp_complex.hpp>
 
 #include "references/beams/programs.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// Elastic buckling of one uniform column (S. P. Timoshenko, J. M. Gere, Theory of Elastic
 /// Stability, 2nd ed., chapter 2). End loads P = x^2 EI/L^2 with

@@ -1,5 +1,5 @@
 #include "references/beams/programs.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// The corner of a plate between a clamped and a free side, where displacements grow like r^l:
 ///   sin^2(l w) = (1 + k)^2/(4 k) - l^2 sin^2(w)/k

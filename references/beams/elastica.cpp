@@ -4,7 +4,7 @@
 #include <boost/math/special_functions/ellint_2.hpp>
 
 #include "references/beams/programs.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// Exact large deflections of an inextensible cantilever of length L under a dead load at its tip,
 /// by elliptic integrals.

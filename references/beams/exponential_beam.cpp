@@ -2,7 +2,7 @@
 
 #include "references/beams/programs.h"
 #include "references/numerics/dense.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// Bending vibration of a clamped-clamped beam of constant thickness whose width is
 /// b exp(-2 a x): its equations have constant coefficients. With r^2 = I/A, P = z^2 - a^2,

@@ -1,7 +1,7 @@
 #include <boost/math/special_functions/jacobi_elliptic.hpp>
 
 #include "references/beams/programs.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// The chain of N four-bar loops of the IFToMM benchmark A02: 2 N + 1 equal uniform rods of length
 /// l, of which N + 1 rotate about fixed pivots and N link them, all parallelograms. Its one

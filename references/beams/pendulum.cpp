@@ -2,7 +2,7 @@
 #include <boost/math/special_functions/jacobi_elliptic.hpp>
 
 #include "references/beams/programs.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// The plane pendulum of any amplitude by Jacobi's elliptic functions.
 namespace trammel::references {

@@ -4,7 +4,7 @@
 
 #include "references/beams/programs.h"
 #include "references/numerics/dense.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// Bending vibration of a uniform Euler-Bernoulli cantilever on a hub that rotates steadily
 /// (A. D. Wright et al., J. Appl. Mech. 49, 1982, 197-202). With x over L, eta = Omega

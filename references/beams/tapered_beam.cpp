@@ -1,6 +1,6 @@
 #include "references/beams/programs.h"
 #include "references/numerics/dense.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// Bending vibration of a clamped-free Euler-Bernoulli beam of rectangular section whose depth and
 /// width vary linearly, by Rayleigh and Ritz with s^2 x^k, k = 0 ... 31, where s runs from 0 to 1

@@ -1,14 +1,16 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-/// Family files: the references of one family of cases, each under its id, with what they have in
-/// common stated once.
+/// Family files hold the references of one family of cases, each under its id. What they have in
+/// common is stated once.
 namespace trammel::references {
 
 /// Key of a family file for what its references have in common.
@@ -42,5 +44,20 @@ struct JsonMember {
 /// Reads the references of a family file by id.
 /// @throws ReferenceError  if the file is no JSON object of objects, or if it has a key twice.
 [[nodiscard]] std::map<std::string, nlohmann::json> read_family(const std::string& file);
+
+/// The JSON files of all rooms below a folder, each with its name less ".json"; none where there is
+/// no such folder. By readdir, as std::filesystem takes 7,000 instructions a file and a walk comes
+/// before every command.
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> json_files(
+    const std::string& folder);
+
+/// Content of a file. A string would be cleared first, which takes longer than reading.
+struct FileText {
+  std::unique_ptr<char[]> bytes;
+  std::string_view text;
+};
+
+/// Reads a file. The text is empty if there is no file, or if it cannot be read.
+[[nodiscard]] FileText read_file(const std::string& file);
 
 }  // namespace trammel::references

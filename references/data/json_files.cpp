@@ -1,9 +1,9 @@
-#include "references/data/json_files.h"
-
 #include <dirent.h>
 #include <sys/stat.h>
 
 #include <cstdio>
+
+#include "references/data/family.h"
 
 namespace trammel::references {
 namespace {

@@ -1,10 +1,9 @@
 #include <algorithm>
 
-#include "references/frames/frame_json.h"
 #include "references/frames/programs.h"
 #include "references/frames/unit_load.h"
 #include "references/frames/wittrick_williams.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// Critical loads of a frame by the Wittrick-Williams count.
 namespace trammel::references {

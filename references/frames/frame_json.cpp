@@ -1,8 +1,7 @@
-#include "references/frames/frame_json.h"
-
 #include <map>
 
 #include "references/frames/manipulator_design.h"
+#include "references/frames/programs.h"
 
 namespace trammel::references {
 

@@ -1,9 +1,8 @@
 #include <sstream>
 
-#include "references/frames/frame_json.h"
 #include "references/frames/programs.h"
 #include "references/frames/wittrick_williams.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// How the exact natural frequencies of a frame change with its numbers.
 namespace trammel::references {

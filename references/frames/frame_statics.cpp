@@ -2,7 +2,6 @@
 #include <string>
 
 #include "references/frames/frame_coordinates.h"
-#include "references/frames/frame_json.h"
 #include "references/frames/programs.h"
 #include "references/frames/unit_load.h"
 

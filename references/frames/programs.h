@@ -1,11 +1,21 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "references/frames/frame.h"
 #include "references/numerics/arguments.h"
 
 /// Programs that derive exact statics and dynamics of frames.
 namespace trammel::references {
+
+/// @throws DerivationError  with the JSON pointer.
+[[nodiscard]] Frame read_frame(const Json& model, const std::string& pointer);
+
+/// The frame of the arguments: "model" (as a case file's), or "manipulator" with "pose" (x_m, y_m,
+/// phi_rad) and "loads".
+/// @throws DerivationError  with the JSON pointer.
+[[nodiscard]] Frame frame_from_arguments(const Arguments& arguments);
 
 /// Central differences of `frame_frequencies`, each good to 1e-20, at step, step / 2 and step / 4,
 /// extrapolated twice: the error is O(step^6) beside 1e-20 over the step. Of frequencies that stay

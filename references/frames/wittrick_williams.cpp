@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <utility>
 
-#include "references/frames/frame_json.h"
-#include "references/numerics/roots.h"
+#include "references/frames/programs.h"
+#include "references/numerics/real.h"
 
 namespace trammel::references {
 

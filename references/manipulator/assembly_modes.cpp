@@ -3,7 +3,7 @@
 
 #include "references/manipulator/programs.h"
 #include "references/numerics/jet.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// All poses of a planar 3-RRR at given angles of its actuators, and the proof that there are no
 /// more (J.-P. Merlet, Parallel Robots, 2nd ed., 2006, section 4.3). With the elbows B_i, the

@@ -1,10 +1,9 @@
 #include <functional>
 #include <map>
 
-#include "references/manipulator/manipulator_torques.h"
 #include "references/manipulator/programs.h"
 #include "references/numerics/dense.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// Motion of the rigid planar 3-RRR along a path or under constant torques, by name.
 namespace trammel::references {

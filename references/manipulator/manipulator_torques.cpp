@@ -1,6 +1,5 @@
-#include "references/manipulator/manipulator_torques.h"
-
-#include "references/numerics/roots.h"
+#include "references/manipulator/programs.h"
+#include "references/numerics/real.h"
 
 namespace trammel::references {
 

@@ -2,10 +2,9 @@
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
-#include "references/manipulator/manipulator_torques.h"
 #include "references/manipulator/programs.h"
 #include "references/numerics/dense.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// Vibration of a planar 3-RRR with links that have mass and next to no stiffness, each one cubic
 /// element of a Timoshenko beam that is hinged at its elbow and at the platform, about its motion

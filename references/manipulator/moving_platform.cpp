@@ -2,9 +2,8 @@
 #include <array>
 #include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
-#include "references/manipulator/manipulator_torques.h"
 #include "references/manipulator/programs.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// Vibration of the platform of a planar 3-RRR about its motion along a path, on links without mass
 /// and hinged at both ends of the distal ones: each limb is a bar, elastic along B C,

@@ -1,6 +1,5 @@
-#include "references/manipulator/manipulator_torques.h"
 #include "references/manipulator/programs.h"
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 
 /// The estimator of Nadaraya and Watson (1964), which Specht (1991) calls a general regression
 /// neural network, by its printed formula in extended precision:

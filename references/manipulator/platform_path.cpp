@@ -1,4 +1,4 @@
-#include "references/manipulator/manipulator_torques.h"
+#include "references/manipulator/programs.h"
 #include "references/numerics/dense.h"
 
 namespace trammel::references {

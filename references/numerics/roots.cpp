@@ -1,10 +1,9 @@
-#include "references/numerics/roots.h"
-
 #include <boost/math/policies/policy.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cstdint>
 
 #include "references/numerics/arguments.h"
+#include "references/numerics/real.h"
 
 namespace trammel::references {
 

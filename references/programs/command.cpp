@@ -1,5 +1,3 @@
-#include "references/programs/command.h"
-
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -10,7 +8,6 @@
 #include "references/data/family.h"
 #include "references/data/reference.h"
 #include "references/programs/derivation_comparison.h"
-#include "references/programs/embedded_text.h"
 #include "references/programs/program.h"
 
 namespace trammel::references {

@@ -4,7 +4,6 @@
 #include "references/beams/programs.h"
 #include "references/frames/programs.h"
 #include "references/frames/wittrick_williams.h"
-#include "references/manipulator/manipulator_torques.h"
 #include "references/manipulator/programs.h"
 #include "references/numerics/expression.h"
 

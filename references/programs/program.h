@@ -1,14 +1,15 @@
 #pragma once
 
 #include <functional>
+#include <iosfwd>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "references/numerics/arguments.h"
 
-/// The programs that re-derive references, by the name that a reference file gives in
-/// "derivation": {"program": NAME, "arguments": {...}}.
+/// The programs that derive references again, by the name that a reference file gives in
+/// "derivation": {"program": NAME, "arguments": {...}}, and the command trammel_derive.
 namespace trammel::references {
 
 struct Program {
@@ -32,5 +33,15 @@ struct Program {
 /// The values that a program proves, 30 digits each.
 /// @throws DerivationError  where it has no proof, and as `derive`.
 [[nodiscard]] std::vector<std::string> prove(const std::string& program, const Json& arguments);
+
+/// @param command_line  the words of it, without the program's name.
+/// @returns the exit status: 0 everything holds, 1 a stored value is not what comes out, 2 bad
+///          usage or input (one line on `err`), 3 our own fault.
+[[nodiscard]] int derive_command(const std::vector<std::string>& command_line, std::ostream& out,
+                                 std::ostream& err);
+
+/// The text of a file that is built into the program, by its name. @throws std::logic_error  if
+/// there is no such file.
+[[nodiscard]] const std::string& embedded_text(const std::string& file);
 
 }  // namespace trammel::references

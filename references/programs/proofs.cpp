@@ -1,5 +1,5 @@
 #include "references/beams/beam_modes.h"
-#include "references/frames/frame_json.h"
+#include "references/frames/programs.h"
 #include "references/frames/wittrick_williams.h"
 #include "references/numerics/ball.h"
 #include "references/programs/program.h"

@@ -1,11 +1,10 @@
-#include "reports/data/check_status.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "harness/base/find_or_add.h"
+#include "reports/data/check_text.h"
 
 namespace trammel::reports {
 

@@ -1,6 +1,5 @@
-#include "reports/data/work_counters_text.h"
-
-#include "reports/text/words.h"
+#include "reports/data/check_text.h"
+#include "reports/text/number.h"
 
 namespace trammel::reports {
 

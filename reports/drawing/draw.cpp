@@ -13,7 +13,6 @@
 #include "reports/drawing/figure.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
-#include "reports/drawing/svg.h"
 #include "reports/text/files.h"
 #include "reports/text/number.h"
 

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "reports/text/number.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 

@@ -1,5 +1,3 @@
-#include "reports/drawing/svg.h"
-
 #include <algorithm>
 #include <array>
 #include <boost/geometry.hpp>
@@ -11,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "reports/drawing/figure.h"
 #include "reports/text/number.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 

@@ -1,5 +1,3 @@
-#include "reports/figures/convergence.h"
-
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -10,10 +8,10 @@
 #include "reports/drawing/interval.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
+#include "reports/figures/figures.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -128,24 +126,6 @@ std::string law_of(const Convergence& c) {
   return "a h^" + trimmed(*c.theory_order, 3) + " + b h^" + trimmed(*c.lower_order, 3);
 }
 
-/// Where two orders mix there is no one order to fit; a law of both meets the errors, or does not.
-std::string conclusion_of_two(const Sweeps& sweeps) {
-  std::size_t met = 0;
-  double worst = 0;
-  for (const Convergence* c : sweeps) {
-    if (!c->two_term || !c->two_term->max_relative_misfit) continue;
-    ++met;
-    worst = std::max(worst, *c->two_term->max_relative_misfit);
-  }
-  const std::string law = law_of(*sweeps.front());
-  if (met == 0) return "Two orders mix by theory, but no law " + law + " meets the errors.";
-  const std::string which =
-      met == sweeps.size() ? ""
-                           : " of " + std::to_string(met) + " of " + count(sweeps.size(), "curve");
-  return "Two orders mix: the law " + law + " of the size h meets the errors" + which +
-         " at the filled marks within " + reports::relative(worst, 2, false) + ".";
-}
-
 bool any_asymptotic(const Sweeps& sweeps) {
   return std::ranges::any_of(sweeps, [](const Convergence* c) {
     const auto& inside = c->in_asymptotic_range;
@@ -153,51 +133,33 @@ bool any_asymptotic(const Sweeps& sweeps) {
   });
 }
 
+/// The fitted orders next to that of theory. If two orders mix there is no single order to fit, and
+/// a law of both is compared with the errors.
 std::string conclusion(const Sweeps& sweeps) {
-  if (sweeps.front()->lower_order && sweeps.front()->theory_order) return conclusion_of_two(sweeps);
+  const Convergence& first = *sweeps.front();
+  const bool mixed = first.lower_order && first.theory_order;
   Interval orders;
-  std::string off;
   std::size_t fitted = 0;
-  const Number theory = sweeps.front()->theory_order;
+  double misfit = 0;
   for (const Convergence* c : sweeps) {
-    if (!c->fitted_order) continue;
+    const bool has_law = c->two_term && c->two_term->max_relative_misfit;
+    if (!(mixed ? has_law : c->fitted_order.has_value())) continue;
     ++fitted;
     orders.cover(c->fitted_order);
-    if (theory && std::abs(*c->fitted_order - *theory) > 0.1)
-      add_item(off, entry_name(*c) + " (" + significant(*c->fitted_order, 3) + ")");
+    if (has_law) misfit = std::max(misfit, *c->two_term->max_relative_misfit);
   }
-  const std::string against = theory ? "; theory: " + trimmed(*theory, 3) : "";
-  std::string text;
-  if (fitted == 0) {
-    text = std::string("No order is claimed: ") +
-           (any_asymptotic(sweeps) ? "too few levels lie" : "no level lies") +
-           " in the asymptotic range";
-  } else {
-    text = sweeps.size() == 1 ? "The error falls"
-           : fitted == sweeps.size()
-               ? "All " + std::to_string(fitted) + " fall"
-               : std::to_string(fitted) + " of " + std::to_string(sweeps.size()) +
-                     " have levels in the asymptotic range and fall";
-    text += " with order " + low_to_high(significant(orders.low, 3), significant(orders.high, 3));
-  }
-  text += against + ".";
-  if (!off.empty()) {
-    text += sweeps.size() == 1 ? " That is more than 0.1 from theory."
-                               : " More than 0.1 from theory: " + off + ".";
-  }
-  return text;
-}
-
-/// What marks and ground of the picture mean, as far as there are any.
-std::string legend_sentence(const Sweeps& sweeps) {
-  const bool filled = any_asymptotic(sweeps);
-  const auto rows = floor_of(sweeps);
-  double high = 0;
-  for (const auto& row : rows) high = std::max(high, row[1]);
-  std::string text = filled ? " Filled marks lie in the asymptotic range" : "";
-  if (rows.empty()) return filled ? text + "." : "";
-  return text + (filled ? "; the" : " The") + " grey ground is round-off, at most " +
-         trimmed(high, 2) + " here.";
+  const std::string which = sweeps.size() == 1
+                                ? "The error"
+                                : std::to_string(fitted) + " of " + count(sweeps.size(), "curve");
+  if (fitted == 0)
+    return any_asymptotic(sweeps) ? "Too few levels lie in the asymptotic range to fit an order."
+                                  : "No level lies in the asymptotic range.";
+  if (mixed)
+    return which + " follows the law " + law_of(first) + " of the size h within " +
+           reports::relative(misfit, 2, false) + ".";
+  return which + (fitted == 1 ? " falls" : " fall") + " with order " +
+         low_to_high(significant(orders.low, 3), significant(orders.high, 3)) +
+         (first.theory_order ? "; theory: " + trimmed(*first.theory_order, 3) : "") + ".";
 }
 
 Table table_of(const Sweeps& sweeps) {
@@ -257,7 +219,8 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   const std::string parameter = parse_quantity(first.sweep).label, result = conclusion(sweeps);
   return {.id = slug(info.id + "-" + run.variant + "-" + first.sweep + "-" + first.quantity),
           .title = titled("Convergence of " + words + " over " + parameter, info, run),
-          .caption = result + legend_sentence(sweeps) +
+          .caption = result +
+                     " Filled marks lie in the asymptotic range; the grey ground is round-off." +
                      (exact ? ""
                             : " No exact value is at hand: errors are distances from the "
                               "Richardson-extrapolated value."),

@@ -1,5 +1,3 @@
-#include "reports/figures/cost.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -7,8 +5,8 @@
 #include "reports/drawing/interval.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
+#include "reports/figures/figures.h"
 #include "reports/text/number.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 

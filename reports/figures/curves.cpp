@@ -1,5 +1,3 @@
-#include "reports/figures/curves.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include "reports/drawing/interval.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
+#include "reports/figures/figures.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
 
@@ -157,21 +156,14 @@ void log_range(PlotScript& script, const std::string& axis,
   if (low <= high) script.log_axis(axis, low, high > low ? high : 10 * high);
 }
 
-/// "Largest magnitude: 8.13 mm (base), 8.10 mm (rigid platform)."; of more than two curves the
-/// smallest and the largest. The power of ten of an axis is no unit of a number in a text.
+/// "Largest magnitude: 8.13 mm (base)." The power of ten of an axis is no unit of a number in text.
 std::string measured(const std::vector<Series>& series, const Scale& axis,
                      const std::string& unit) {
   const Scale scale = axis.unit.starts_with("10") ? Scale{1, unit} : axis;
-  const auto said = [&](const Series& s) {
-    std::string text = trimmed(scale.factor * s.largest, 3);
-    if (!scale.unit.empty()) text += "\u202f" + scale.unit;
-    return series.size() > 1 ? text + " (" + shortened(s.label, 44) + ")" : text;
-  };
-  if (series.size() <= 2)
-    return "Largest magnitude: " + said(series.front()) +
-           (series.size() == 2 ? ", " + said(series.back()) : "") + ".";
-  const auto [low, high] = std::ranges::minmax_element(series, {}, &Series::largest);
-  return "Largest magnitude: from " + said(*low) + " to " + said(*high) + ".";
+  const Series& top = *std::ranges::max_element(series, {}, &Series::largest);
+  std::string text = "Largest magnitude: " + trimmed(scale.factor * top.largest, 3);
+  if (!scale.unit.empty()) text += "\u202f" + scale.unit;
+  return text + (series.size() > 1 ? " (" + shortened(top.label, 44) + ")." : ".");
 }
 
 Table table_of(const std::vector<Series>& series, const std::vector<const Run*>& runs,

@@ -1,19 +1,16 @@
-#include "reports/figures/effect_scenes.h"
-
 #include <algorithm>
 #include <map>
 
 #include "reports/drawing/interval.h"
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
+#include "reports/figures/figures.h"
 #include "reports/text/number.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 namespace {
 
 constexpr double kSmallestDrawnChange = 1e-9;  ///< stands for less
-constexpr double kLong_s = 0.01;  ///< of shorter scenes the time is that of reading them
 
 constexpr double kSceneMargin = 1.3;  ///< no point stands on the frame
 
@@ -57,23 +54,20 @@ Table table_of(const std::vector<EffectScene>& scenes) {
   return table;
 }
 
-/// @param alt  what the picture shows; the caption follows it
-Figure figure_of(const Scatter& scatter, const std::vector<EffectScene>& scenes,
-                 const std::string& id, const std::string& title, const std::string& caption,
-                 const std::string& alt) {
-  PlotScript script;
-  const int key_height = draw_scatter(script, scatter);
-  return {.id = id,
-          .title = title,
-          .caption = caption,
-          .alt = alt + caption,
-          .height = 350 + key_height,
-          .commands = script.commands(),
-          .data = table_of(scenes),
-          .is_linked = true};
+/// Time of deciding and running over that with all effects, all scenes together.
+double time_share(const std::vector<EffectScene>& scenes) {
+  double whole = 0, spent = 0;
+  for (const EffectScene& scene : scenes) {
+    whole += scene.whole_s;
+    spent += scene.deciding_s + scene.chosen_s;
+  }
+  return whole > 0 ? spent / whole : 0;
 }
 
-Figure obtained_figure(const std::vector<EffectScene>& scenes) {
+}  // namespace
+
+std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes) {
+  if (scenes.empty()) return {};
   Scatter scatter{
       "change asked for at most", "change obtained", {1, 0}, {1, 0}, {}, "asked for", {}};
   std::size_t within = 0, minimal = 0;
@@ -87,55 +81,23 @@ Figure obtained_figure(const std::vector<EffectScene>& scenes) {
     minimal += scene.minimal ? 1 : 0;
   }
   scatter.line = {{scatter.x.low, scatter.x.low}, {scatter.x.high, scatter.x.high}};
-  return figure_of(
-      scatter, scenes, "effects-obtained", "Effects chosen automatically: asked for and obtained",
+  PlotScript script;
+  const int key_height = draw_scatter(script, scatter);
+  const std::string caption =
       std::to_string(within) + " of " + count(scenes.size(), "scene") +
-          " keep within what was asked for (below the line); in " + std::to_string(minimal) +
-          " no chosen effect could be left out. Changes below " + power_of_ten(-9) +
-          " stand at the lower edge.",
-      "Each scene a point: the largest change that leaving effects out makes, over the "
-      "change that was allowed. ");
-}
-
-Figure time_figure(const std::vector<EffectScene>& scenes) {
-  Scatter scatter{"time with all effects [ms]",
-                  "time over that of all effects",
-                  {1e300, 0},
-                  {0.5, 2},
-                  {},
-                  "no gain",
-                  {}};
-  std::size_t long_ones = 0, faster = 0;
-  double whole = 0, spent = 0;
-  for (const EffectScene& scene : scenes) {
-    const double time = scene.deciding_s + scene.chosen_s;
-    if (!(scene.whole_s > 0 && time > 0)) continue;
-    const double whole_ms = 1e3 * scene.whole_s, share = time / scene.whole_s;
-    scatter.points[scene.analysis].push_back({whole_ms, share});
-    scatter.x.cover_around(whole_ms, kSceneMargin);
-    scatter.y.cover_around(share, kSceneMargin);
-    whole += scene.whole_s;
-    spent += time;
-    if (scene.whole_s < kLong_s) continue;
-    ++long_ones;
-    faster += time <= scene.whole_s ? 1 : 0;
-  }
-  scatter.line = {{scatter.x.low, 1}, {scatter.x.high, 1}};
-  return figure_of(scatter, scenes, "effects-time",
-                   "Effects chosen automatically: time spent and saved",
-                   std::to_string(faster) + " of " + count(long_ones, "scene") +
-                       " over 10 ms take no longer with deciding than with all effects; all scenes "
-                       "together take " +
-                       trimmed(whole > 0 ? spent / whole : 0, 3) + " times as long.",
-                   "Each scene a point: time of deciding and running over that with all effects, "
-                   "against the latter. ");
-}
-
-}  // namespace
-
-std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes) {
-  if (scenes.empty()) return {};
-  return {obtained_figure(scenes), time_figure(scenes)};
+      " keep within what was asked for (below the line); in " + std::to_string(minimal) +
+      " no chosen effect could be left out. Deciding and running took " +
+      trimmed(time_share(scenes), 3) + " times as long as running with all effects.";
+  return {{.id = "effects-obtained",
+           .title = "Effects chosen automatically: change asked for and obtained",
+           .caption = caption,
+           .alt = "Each scene is a point: the largest change that leaving effects out makes, over "
+                  "the change that was allowed. " +
+                  caption,
+           .height = 350 + key_height,
+           .commands = script.commands(),
+           .data = table_of(scenes),
+           .is_linked = true}};
 }
 
 }  // namespace trammel::reports

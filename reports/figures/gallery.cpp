@@ -6,67 +6,26 @@
 #include <set>
 
 #include "harness/base/find_or_add.h"
-#include "reports/figures/convergence.h"
-#include "reports/figures/curves.h"
-#include "reports/figures/discrepancy.h"
-#include "reports/figures/map.h"
-#include "reports/figures/mechanism.h"
-#include "reports/figures/motion.h"
-#include "reports/figures/readings.h"
-#include "reports/figures/shapes.h"
-#include "reports/figures/tolerance.h"
-#include "reports/text/words.h"
+#include "reports/figures/figures.h"
+#include "reports/text/number.h"
 
 namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxPoses = 4;
 constexpr std::size_t kMaxDrawnVariants = 12;  ///< of one case, with shapes on its page
-
-/// Joints of one name stand in one place; what has no name says nothing.
-bool same_geometry(const Drawing& a, const Drawing& b) {
-  for (const Joint& ja : a.joints) {
-    if (ja.name.empty()) continue;
-    for (const Joint& jb : b.joints) {
-      const auto& [ax, ay] = a.nodes[ja.node];
-      const auto& [bx, by] = b.nodes[jb.node];
-      if (ja.name == jb.name && std::hypot(ax - bx, ay - by) > 1e-9) return false;
-    }
-  }
-  return true;
-}
-
-/// Variants whose joints stand elsewhere than in `base`, one for each pose.
-std::vector<std::pair<std::string, const Drawing*>> further_poses(
-    const CaseInfo& info, const std::vector<const Run*>& runs, const Drawing& base) {
-  std::vector<std::pair<std::string, const Drawing*>> poses;
-  for (const Run* run : runs) {
-    if (!run->drawing || run->drawing->joints.empty() || poses.size() + 1 == kMaxPoses) continue;
-    const Drawing& drawing = *run->drawing;
-    const bool known =
-        same_geometry(base, drawing) || std::ranges::any_of(poses, [&](const auto& pose) {
-          return same_geometry(*pose.second, drawing);
-        });
-    if (!known) poses.emplace_back(info.variant_title(run->variant), &drawing);
-  }
-  return poses;
-}
 
 void append(std::vector<Figure>& figures, std::vector<Figure> more) {
   std::ranges::move(more, std::back_inserter(figures));
 }
 
 /// Drawing and shapes of the first run are shown; the shapes and convergence of others are folded.
-Gallery gallery_of(const CaseInfo& info, const Results& results,
-                   const std::vector<const Run*>& runs) {
+Gallery gallery_of(const CaseInfo& info, const std::vector<const Run*>& runs) {
   Gallery gallery;
   const auto drawn =
       std::ranges::find_if(runs, [](const Run* run) { return run->drawing.has_value(); });
-  if (drawn != runs.end()) {
-    const auto poses = further_poses(info, runs, *(*drawn)->drawing);
-    if (auto figure = mechanism_figure(info, **drawn, poses)) gallery.shown.push_back(*figure);
-  }
+  if (drawn != runs.end())
+    if (auto figure = mechanism_figure(info, **drawn)) gallery.shown.push_back(*figure);
   std::size_t variants = 0;
   for (const Run* run : runs) {
     if (auto shapes = shapes_figure(info, *run); shapes && ++variants <= kMaxDrawnVariants)
@@ -94,8 +53,6 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
       gallery.problems.push_back(request.title + " is not drawn: " + problem + ".");
     }
   }
-  append(gallery.shown, reading_figures(info, runs));
-  append(gallery.shown, discrepancy_figures(info, results, runs));
   bool first = true;
   for (const Run* run : runs) {
     auto figures = convergence_figures(info, *run);
@@ -150,7 +107,7 @@ std::vector<Family> plan_families(const Results& results) {
         Family{info.family, capitalized(spaced(info.family)), {}, {}, {}, {}});
     family.cases.push_back(&info);
     family.runs.insert(family.runs.end(), runs.begin(), runs.end());
-    family.galleries[info.id] = gallery_of(info, results, runs);
+    family.galleries[info.id] = gallery_of(info, runs);
   }
   for (Family& family : families) {
     if (auto figure = tolerance_figure(family.id, short_titles(family), family.runs))

@@ -1,12 +1,10 @@
-#include "reports/figures/history.h"
-
 #include <algorithm>
 #include <utility>
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
+#include "reports/figures/figures.h"
 #include "reports/text/number.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 

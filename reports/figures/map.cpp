@@ -1,11 +1,10 @@
-#include "reports/figures/map.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
-#include "reports/figures/curves.h"
+#include "reports/figures/figures.h"
+#include "reports/figures/outline.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
 
@@ -89,17 +88,6 @@ std::vector<PlotScript::Rows> boxes(const Field& field) {
     from = to;
   }
   return by_color;
-}
-
-/// Tics far enough apart for the width of a square plot: about four, at 1, 2 or 5 times a power of
-/// ten.
-double tic_step(const Field& field) {
-  const auto [low, high] = std::ranges::minmax_element(field.cells, {}, &Cell::x);
-  const double coarse = (high->x - low->x + field.dx) / 3;
-  const double decade = std::pow(10.0, std::floor(std::log10(coarse)));
-  for (const double step : {5.0, 2.0})
-    if (step * decade <= coarse) return step * decade;
-  return decade;
 }
 
 std::string class_name(const std::vector<double>& limits, std::size_t k) {
@@ -212,7 +200,8 @@ struct ColorClasses {
 int draw_map(PlotScript& script, const PlotRequest& request, const Run& run, const Field& field,
              const ColorClasses& classes) {
   script.command("set size ratio -1");
-  const std::string step = shortest(tic_step(field));
+  const auto [low, high] = std::ranges::minmax_element(field.cells, {}, &Cell::x);
+  const std::string step = shortest(round_step((high->x - low->x + field.dx) / 4));
   script.command("set xtics " + step);
   script.command("set ytics " + step);
   script.axis_label("x", axis_label(parse_quantity(request.x).label, "m"));

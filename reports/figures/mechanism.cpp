@@ -1,5 +1,3 @@
-#include "reports/figures/mechanism.h"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -7,9 +5,9 @@
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
+#include "reports/figures/figures.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -102,57 +100,42 @@ std::string mechanism_caption(const Box& box, std::size_t poses) {
   return text;
 }
 
-/// One of the poses laid over the model as it stands.
-struct Overlay {
-  std::string label;
-  const Drawing* drawing;
-  const std::vector<Point>* nodes;
-};
-
-/// Moments of a motion have a figure of their own.
-std::vector<Overlay> overlays_of(
-    const Drawing& drawing, const std::vector<std::pair<std::string, const Drawing*>>& further) {
-  std::vector<Overlay> overlays;
+/// Poses laid over the model as it stands; moments of a motion have a figure of their own.
+std::vector<const Pose*> overlays_of(const Drawing& drawing) {
+  std::vector<const Pose*> overlays;
   for (const Pose& pose : drawing.poses)
-    if (!pose.time_s) overlays.push_back({pose.label, &drawing, &pose.nodes});
-  for (const auto& [label, other] : further) overlays.push_back({label, other, &other->nodes});
+    if (!pose.time_s) overlays.push_back(&pose);
   return overlays;
 }
 
 /// @returns the height of the key
-int draw_overlays(PlotScript& script, Table& data, const std::vector<Overlay>& overlays,
+int draw_overlays(PlotScript& script, Table& data, const std::vector<const Pose*>& overlays,
                   const std::string& base_label, const Drawing& drawing) {
   std::vector<std::string> titles;
-  for (const Overlay& overlay : overlays) titles.push_back(overlay.label);
+  for (const Pose* pose : overlays) titles.push_back(pose->label);
   if (!titles.empty()) titles.push_back(base_label);
   for (const JointSymbol& symbol : kJointSymbols)
     if (is_drawn(drawing, symbol)) titles.emplace_back(symbol.words);
   for (std::size_t i = 0; i < overlays.size(); ++i) {
-    const Overlay& one = overlays[i];
-    draw_body(script, *one.drawing, *one.nodes, palette::color(2 + i), 1.2, one.label);
-    add_rows(data, one.label, *one.drawing, *one.nodes);
+    draw_body(script, drawing, overlays[i]->nodes, palette::color(2 + i), 1.2, overlays[i]->label);
+    add_rows(data, overlays[i]->label, drawing, overlays[i]->nodes);
   }
   return script.key_below(titles);
 }
 
 }  // namespace
 
-std::optional<Figure> mechanism_figure(
-    const CaseInfo& info, const Run& run,
-    const std::vector<std::pair<std::string, const Drawing*>>& further) {
+std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   if (!run.drawing || run.drawing->nodes.empty()) return std::nullopt;
   const Drawing& drawing = *run.drawing;
   // Points alone, as of a mass on springs, are no picture.
   if (drawing.members.empty() && drawing.triangles.empty() && drawing.joints.empty()) {
     return std::nullopt;
   }
-  const std::vector<Overlay> overlays = overlays_of(drawing, further);
+  const std::vector<const Pose*> overlays = overlays_of(drawing);
   std::vector<std::vector<Point>> sets = {drawing.nodes};
-  for (const Overlay& overlay : overlays) sets.push_back(*overlay.nodes);
-  const bool has_poses = overlays.size() > further.size();
-  const std::string base_label = overlays.empty() ? ""
-                                 : has_poses      ? "first pose"
-                                                  : info.variant_title(run.variant);
+  for (const Pose* pose : overlays) sets.push_back(pose->nodes);
+  const std::string base_label = overlays.empty() ? "" : "first pose";
   PlotScript script;
   const Box box = box_around(sets, 0.09, 0.2);
   frame(script, box);

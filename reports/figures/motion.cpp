@@ -1,13 +1,11 @@
-#include "reports/figures/motion.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
-#include "reports/figures/moving.h"
+#include "reports/figures/figures.h"
+#include "reports/figures/outline.h"
 #include "reports/text/number.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 

@@ -1,10 +1,10 @@
-#include "reports/figures/moving.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+
+#include "reports/figures/outline.h"
 
 namespace trammel::reports {
 

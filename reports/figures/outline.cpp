@@ -14,14 +14,6 @@ namespace {
 constexpr std::size_t kCoarseMesh = 12;  ///< triangles up to which every edge can be seen
 constexpr std::size_t kFineMesh = 600;  ///< and up to which thin lines show the mesh in one drawing
 
-/// 1, 2 or 5 times a power of ten, not below `least`.
-double round_step(double min_step) {
-  const double power = std::pow(10.0, std::floor(std::log10(min_step)));
-  for (const double digit : {1.0, 2.0, 5.0})
-    if (digit * power >= min_step) return digit * power;
-  return 10 * power;
-}
-
 /// Whether a line from `from` over `p` to `to` is straight for the eye.
 bool is_between(const std::vector<double>& from, const Point& p, const Point& to) {
   const double ax = p.first - from[0], ay = p.second - from[1];
@@ -80,6 +72,13 @@ std::vector<std::vector<int>> outline(const Drawing& drawing) {
 }
 
 }  // namespace
+
+double round_step(double min_step) {
+  const double power = std::pow(10.0, std::floor(std::log10(min_step)));
+  for (const double digit : {1.0, 2.0, 5.0})
+    if (digit * power >= min_step) return digit * power;
+  return 10 * power;
+}
 
 std::string titled(const std::string& what, const CaseInfo& info, const Run& run) {
   return run.variant == "base" ? what : what + ": " + info.variant_title(run.variant);

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 #include <vector>
 
 #include "reports/data/results.h"
 #include "reports/drawing/interval.h"
 #include "reports/drawing/plot_script.h"
 
+/// Lines of a drawing, rows of labels, and what moves a drawing.
 namespace trammel::reports {
 
 /// Lines of a drawing through given node positions.
@@ -44,6 +46,8 @@ struct Box {
 [[nodiscard]] Box box_around(const std::vector<std::vector<Point>>& sets, double margin,
                              double min_aspect);
 
+/// 1, 2 or 5 times a power of ten, not below `min_step`.
+[[nodiscard]] double round_step(double min_step);
 /// Sets ranges and an equal scale on both axes.
 void frame(PlotScript& script, const Box& box);
 
@@ -52,5 +56,36 @@ void frame(PlotScript& script, const Box& box);
 
 /// A title with the variant's behind it, unless it is the case as it stands.
 [[nodiscard]] std::string titled(const std::string& what, const CaseInfo& info, const Run& run);
+
+// The moving parts of a drawing are JSON for the page's script: a panel in tenths of a unit of the
+// drawing, y downwards, with the lines through the nodes that are drawn.
+
+inline constexpr double kDrawnAmplitude = 0.13;  ///< of the longer side: deflections magnified
+
+[[nodiscard]] bool are_finite(const std::vector<Point>& points);
+
+/// Modes to swing, a panel each: displacements as they are drawn.
+/// @param factor  of each shape
+/// @param panel   its width [px]
+[[nodiscard]] std::string moving_modes(const Drawing& drawing, const std::vector<double>& factor,
+                                       const Box& box, double panel);
+
+/// Moments of a motion: places at rest (only where they differ) and displaced, each less those of
+/// the moment before.
+/// @param moments  with times
+[[nodiscard]] std::string moving_poses(const Drawing& drawing, const std::vector<Pose>& moments,
+                                       double factor, const Box& box, double panel);
+
+/// Rows one under another, each with its label above its own line: long names need no margin, and
+/// a phone can show them. Row 0 is the uppermost.
+
+/// Height of the drawing for so many rows.
+[[nodiscard]] int strip_height(std::size_t rows);
+
+/// Sets the y axis and writes the labels.
+void strip_rows(PlotScript& script, const std::vector<std::string>& labels);
+
+/// Where the marks of a row stand.
+[[nodiscard]] double strip_y(std::size_t row);
 
 }  // namespace trammel::reports

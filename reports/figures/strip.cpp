@@ -1,6 +1,5 @@
-#include "reports/figures/strip.h"
-
 #include "reports/drawing/palette.h"
+#include "reports/figures/outline.h"
 #include "reports/text/number.h"
 
 namespace trammel::reports {

@@ -1,15 +1,12 @@
-#include "reports/figures/tolerance.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "harness/base/find_or_add.h"
-#include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
 #include "reports/drawing/palette.h"
-#include "reports/figures/strip.h"
+#include "reports/figures/figures.h"
+#include "reports/figures/outline.h"
 #include "reports/text/number.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 

@@ -1,5 +1,3 @@
-#include "reports/page/codes.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,10 +7,10 @@
 #include "reports/data/check_text.h"
 #include "reports/data/results.h"
 #include "reports/page/render.h"
+#include "reports/page/report.h"
 #include "reports/text/files.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
-#include "reports/text/templates.h"
 
 namespace trammel::reports {
 

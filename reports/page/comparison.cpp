@@ -1,19 +1,16 @@
-#include "reports/page/comparison.h"
-
 #include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "harness/results/unfinished_folder.h"
-#include "reports/figures/curves.h"
+#include "reports/figures/figures.h"
 #include "reports/page/render.h"
-#include "reports/sections/family.h"
+#include "reports/page/report.h"
+#include "reports/sections/sections.h"
 #include "reports/text/files.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
-#include "reports/text/templates.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 

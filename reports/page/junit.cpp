@@ -1,12 +1,9 @@
-#include "reports/page/junit.h"
-
-#include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
 #include "reports/data/results.h"
-#include "reports/drawing/svg.h"
+#include "reports/drawing/figure.h"
+#include "reports/page/report.h"
 #include "reports/text/files.h"
 #include "reports/text/number.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 

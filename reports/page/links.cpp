@@ -1,6 +1,6 @@
-#include "reports/page/links.h"
-
 #include <functional>
+
+#include "reports/page/render.h"
 
 namespace trammel::reports {
 
@@ -43,11 +43,8 @@ std::string anchor_within(const std::string& page, const std::string& fragment) 
 
 }  // namespace
 
-std::string linked_from(const std::string& html, const std::string& page,
-                        const std::map<std::string, std::string>& moved) {
-  const auto change = [&](const std::string& sought) {
-    const auto elsewhere = moved.find(sought);
-    const std::string& target = elsewhere == moved.end() ? sought : elsewhere->second;
+std::string linked_from(const std::string& html, const std::string& page) {
+  const auto change = [&](const std::string& target) {
     if (target.empty() || target[0] == '#' || is_outside(target)) return target;
     if (target.starts_with(page + "#")) return target.substr(page.size());
     return (page.find('/') == std::string::npos ? "" : "../") + target;

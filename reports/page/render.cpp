@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "reports/text/files.h"
 #include "reports/text/number.h"
-#include "reports/text/templates.h"
 
 namespace trammel::reports {
 

@@ -4,12 +4,11 @@
 #include <set>
 
 #include "harness/results/unfinished_folder.h"
+#include "reports/figures/figures.h"
 #include "reports/figures/gallery.h"
-#include "reports/figures/history.h"
-#include "reports/page/links.h"
+#include "reports/page/render.h"
 #include "reports/page/site.h"
-#include "reports/sections/cost.h"
-#include "reports/sections/tables.h"
+#include "reports/sections/sections.h"
 #include "reports/text/files.h"
 
 namespace trammel::reports {

@@ -1,9 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
+#include "harness/results/results.h"
+#include "harness/results/side_comparison.h"
 #include "reports/data/results.h"
 
+/// What the commands write: a report, a comparison, the grades of codes, JUnit.
 namespace trammel::reports {
 
 /// Writes a report of complete results into `out`: `index.html`, a page for each family and
@@ -13,5 +17,23 @@ namespace trammel::reports {
 /// @returns the path of the page to open.
 std::filesystem::path write_report(const Results& results, const std::filesystem::path& out,
                                    bool single_file = false);
+
+/// Writes sides beside each other as one page that needs no other file: what changed, time and
+/// accuracy, modes and numbers, and the curves of the runs that change most over each other.
+/// @throws std::runtime_error  where a figure cannot be drawn or the file not be written
+void write_comparison(const results::SideComparison& comparison, const std::filesystem::path& file);
+
+/// Writes `index.html` into `out`: the results of several codes, case by code, trammel's own as
+/// one of them. Each row has the check that says most of it, with the expected value; each cell how
+/// the code did there, its difference and its time.
+/// @returns the page's path. @throws std::runtime_error on an unreadable results file.
+std::filesystem::path write_codes(const std::vector<std::filesystem::path>& results_json,
+                                  const std::filesystem::path& out);
+
+/// Writes results as JUnit XML: one testsuite a case, one testcase a check and one
+/// for the ending of each run. A failed check is a failure, one that could not be judged an error,
+/// one not run or not given is skipped; a known discrepancy that is as recorded is no
+/// failure and says in its system-out that it does not agree.
+void write_junit(const results::Results& results, const std::filesystem::path& junit_xml);
 
 }  // namespace trammel::reports

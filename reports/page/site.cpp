@@ -7,25 +7,12 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
-#include "reports/page/history.h"
-#include "reports/page/links.h"
 #include "reports/page/render.h"
-#include "reports/sections/check_status_data.h"
-#include "reports/sections/claims.h"
-#include "reports/sections/coverage.h"
-#include "reports/sections/environment.h"
-#include "reports/sections/family.h"
-#include "reports/sections/orders.h"
-#include "reports/sections/references.h"
-#include "reports/sections/stress_suite.h"
-#include "reports/sections/summary.h"
-#include "reports/sections/targets.h"
-#include "reports/sections/validation_uncertainty.h"
+#include "reports/sections/sections.h"
+#include "reports/text/files.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
-#include "reports/text/templates.h"
 
 namespace trammel::reports {
 
@@ -33,19 +20,18 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kMaxSingleBytes = 5'800'000;  ///< a mail may carry 6 MB
+constexpr std::size_t kMaxDrawingBytes = 3'200'000;  ///< of a single file: a mail may carry 6 MB
 constexpr const char* kNoDrawing = "<p class=\"muted\">This drawing is left out.</p>";
-constexpr const char *kMark = "<!--drawing ", *kBody = "<!--body-->", *kLeftOut = "<!--left out-->";
+constexpr const char *kBody = "<!--body-->", *kLeftOut = "<!--left out-->";
 
 /// A section of the index: key of its data, anchor, title, and the key of its summary.
 struct IndexSection {
   const char *key, *anchor, *title, *summary;
 };
-constexpr std::array<IndexSection, 10> kIndexSections = {{
+constexpr std::array<IndexSection, 9> kIndexSections = {{
     {"claims", "claims", "The paper's claims", "overview"},
     {"cost", "cost", "Accuracy and computing time", "words"},
     {"stress_suite", "stress-suite", "Stress suite", "words"},
-    {"targets", "targets", "Published benchmark values", "words"},
     {"orders", "orders", "Orders of convergence and numerical uncertainty", "words"},
     {"validation_uncertainty", "validation-uncertainty", "Validation uncertainty", "words"},
     {"coverage", "coverage", "What is verified, and by what", "words"},
@@ -59,11 +45,25 @@ Data page_data(bool single, int level) {
   Data data = object({{"single", single},
                       {"level", std::to_string(level)},
                       {"sublevel", std::to_string(level + 1)}});
-  set_partials(data, {"summary",      "claims", "variants", "figure",
-                      "checks",       "matrix", "cost",     "stress_suite",
-                      "targets",      "orders", "coverage", "validation_uncertainty",
-                      "counts",       "rows",   "head",     "matrix_row",
-                      "cell",         "find",   "history",  "detection",
+  set_partials(data, {"summary",
+                      "claims",
+                      "variants",
+                      "figure",
+                      "checks",
+                      "matrix",
+                      "cost",
+                      "stress_suite",
+                      "orders",
+                      "coverage",
+                      "validation_uncertainty",
+                      "counts",
+                      "rows",
+                      "head",
+                      "matrix_row",
+                      "cell",
+                      "find",
+                      "history",
+                      "detection",
                       "certification"});
   return data;
 }
@@ -83,9 +83,8 @@ Data index_data(const Results& results, const std::vector<Family>& families,
        {"claims", claims_section(results)},
        {"cost", cost_section(results, families, panels)},
        {"stress_suite", stress_suite_section(families)},
-       {"targets", targets_section(results, families)},
        {"orders", orders_section(results, families)},
-       {"validation_uncertainty", validation_uncertainty_section(results, families)},
+       {"validation_uncertainty", validation_uncertainty_section(families)},
        {"coverage", coverage_section(results, false)},
        {"detection",
         object({{"words", "Faults seeded into the program, by the family that notices them."}})},
@@ -243,73 +242,25 @@ std::string references_body(const Data& references, bool single) {
   return body_of("references", references, single, 3);
 }
 
-/// References that a family is the first to use, or that only analyses use.
-struct ReferencePage {
-  std::string title, path;
-  Data references = list();
-};
-
-std::vector<ReferencePage> reference_pages(const Results& results,
-                                           const std::vector<Family>& families) {
-  std::vector<ReferencePage> pages;
-  std::map<std::string, std::size_t> family_of;
-  for (const Family& family : families) {
-    for (const CaseInfo* info : family.cases) family_of.emplace(case_link(info->id), pages.size());
-    pages.push_back({family.title, "references/" + slug(family.id) + ".html"});
-  }
-  pages.push_back({"Used by analyses alone", "references/of-analyses.html"});
-  const Data all = references_section(results);
-  for (const Data& entry : all.list_value()) {
-    std::size_t first = families.size();
-    for (const Data& user : entry.get("used_by")->list_value())
-      first = std::min(first, family_of.at(text_under(user, "case_link")));
-    pages[first].references.push_back(entry);
-  }
-  const auto is_empty = [](const auto& page) { return page.references.list_value().empty(); };
-  std::erase_if(pages, is_empty);
-  return pages;
-}
-
-/// All references by their pages, at the addresses that links name.
-std::string reference_list(const std::vector<ReferencePage>& pages) {
-  const auto group = [](const ReferencePage& page) {
-    return object(
-        {{"page_title", page.title}, {"page_link", page.path}, {"references", page.references}});
-  };
-  return render("reference_list.mustache", object({{"pages", list_of(pages, group)}}));
-}
-
-/// Marks and drawings, by the page that they stand on.
-using DrawingsByPage = std::vector<std::vector<std::pair<std::string, std::string>>>;
-
 void replace(std::string& html, const std::string& mark, const std::string& text) {
   html.replace(html.find(mark), mark.size(), text);
 }
 
-/// Takes in drawings by their marks, the first of each page before the second of any, as long as
-/// the text stays below `max_bytes`. @returns how many are left out.
-std::size_t take_in(std::string& html, const DrawingsByPage& pages, std::size_t max_bytes) {
-  std::map<std::string, std::string> fitting;
-  std::size_t size = html.size(), left_out = 0, longest = 0;
+/// Keeps the first drawing of each page before the second of any, as long as all stay below
+/// `max_bytes`. @returns how many are left out.
+std::size_t leave_out_drawings(const std::vector<std::vector<Figure*>>& pages,
+                               std::size_t max_bytes) {
+  std::size_t size = 0, left_out = 0, longest = 0;
   for (const auto& page : pages) longest = std::max(longest, page.size());
   for (std::size_t rank = 0; rank < longest; ++rank) {
     for (const auto& page : pages) {
       if (rank >= page.size()) continue;
-      const auto& [mark, svg] = page[rank];
-      const bool fits = size + svg.size() <= max_bytes;
-      const std::string& put = fitting[mark] = fits ? svg : kNoDrawing;
-      size += put.size();
-      left_out += fits ? 0 : 1;
+      Figure& figure = *page[rank];
+      figure.is_linked = false;
+      if (size + figure.svg.size() > max_bytes) figure.svg = kNoDrawing, ++left_out;
+      size += figure.svg.size();
     }
   }
-  std::string out;
-  std::size_t from = 0;
-  for (std::size_t at = 0; (at = html.find(kMark, from)) != std::string::npos;) {
-    const std::size_t end = html.find('>', at) + 1;
-    out.append(html, from, at - from) += fitting.at(html.substr(at, end - at));
-    from = end;
-  }
-  html = out.append(html, from);
   return left_out;
 }
 
@@ -321,15 +272,8 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
   Frame frame{results, index_contents(index), {}, false};
   for (const Family& family : families) frame.families.push_back(family_section(family, results));
   std::vector<SiteFile> files;
-  const std::vector<ReferencePage> references = reference_pages(results, families);
-  std::map<std::string, std::string> moved;
-  for (const ReferencePage& page : references)
-    for (const Data& entry : page.references.list_value()) {
-      const std::string anchor = "#" + text_under(entry, "anchor");
-      moved.emplace("references.html" + anchor, page.path + anchor);
-    }
   const auto add = [&](const std::string& path, const Data& title, const std::string& body) {
-    files.push_back({path, linked_from(frame.around(path, title, body), path, moved)});
+    files.push_back({path, linked_from(frame.around(path, title, body), path)});
   };
   for (std::size_t f = 0; f < families.size(); ++f) {
     const Data& section = frame.families[f];
@@ -342,12 +286,9 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
       add(case_link(info->id), title, case_body(data, false));
     }
   }
-  for (const ReferencePage& page : references) {
-    Data title = titled(page.title);
-    set(title, {{"above", "References"}, {"above_link", "references.html"}});
-    add(page.path, title, references_body(page.references, false));
-  }
-  if (!references.empty()) add("references.html", titled("References"), reference_list(references));
+  if (!results.references.empty())
+    add("references.html", titled("References"),
+        references_body(references_section(results), false));
   if (index.get("coverage")->get("has_rows")->is_true())
     add("coverage.html", titled("What is verified, and by what"),
         body_of("coverage", coverage_section(results, true), false, 2));
@@ -361,22 +302,12 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
 
 std::string single_page(const Results& results, std::vector<Family> families, CostPanels panels,
                         std::optional<Figure> over_time) {
-  DrawingsByPage drawings(1);
-  const auto take_out = [&](Figure& figure) {
-    const std::string mark = kMark + figure.id + ">";
-    figure.is_linked = false;
-    drawings.back().emplace_back(mark, std::exchange(figure.svg, mark));
-  };
-  for (Figure* figure : panels.figures()) take_out(*figure);
-  if (over_time) take_out(*over_time);
-  for (Family& family : families) {
-    drawings.emplace_back();
-    for (Figure& figure : family.overview) take_out(figure);
-    for (auto& [id, gallery] : family.galleries) {
-      drawings.emplace_back();
-      for (Figure& figure : gallery.shown) take_out(figure);
-    }
-  }
+  std::vector<std::vector<Figure*>> pages = {panels.figures()};
+  if (over_time) pages.front().push_back(&*over_time);
+  for (Family& family : families)
+    for (auto& [id, gallery] : family.galleries) gallery.folded.clear();
+  for (auto& page : figures_by_page(families)) pages.push_back(std::move(page));
+  const std::size_t left_out = leave_out_drawings(pages, kMaxDrawingBytes);
   const Data index = index_data(results, families, panels, over_time, true);
   Frame frame{results, index_contents(index), {}, true};
   std::string body = linked_within(render("index.mustache", index), "index.html");
@@ -392,7 +323,6 @@ std::string single_page(const Results& results, std::vector<Family> families, Co
   Data title = titled_index(index);
   std::string html = linked_within(frame.around("index.html", title, kBody), "index.html");
   replace(html, kBody, body);
-  const std::size_t left_out = take_in(html, drawings, kMaxSingleBytes);
   std::string note =
       "All of it in one file: without the figures of further variants, the tables of every check "
       "where they are long and how references are derived again";

@@ -6,7 +6,7 @@
 
 #include "reports/data/results.h"
 #include "reports/figures/gallery.h"
-#include "reports/sections/cost.h"
+#include "reports/sections/sections.h"
 
 namespace trammel::reports {
 

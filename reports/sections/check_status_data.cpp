@@ -1,6 +1,5 @@
-#include "reports/sections/check_status_data.h"
-
 #include "reports/drawing/figure.h"
+#include "reports/sections/sections.h"
 #include "reports/text/number.h"
 
 namespace trammel::reports {

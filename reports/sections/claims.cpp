@@ -1,13 +1,10 @@
-#include "reports/sections/claims.h"
-
 #include <algorithm>
 #include <array>
 
-#include "reports/sections/check_status_data.h"
+#include "reports/sections/sections.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 

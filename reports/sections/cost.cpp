@@ -1,14 +1,10 @@
-#include "reports/sections/cost.h"
-
 #include <algorithm>
 #include <functional>
 
 #include "harness/base/find_or_add.h"
-#include "reports/data/work_counters_text.h"
-#include "reports/figures/cost.h"
-#include "reports/figures/effect_scenes.h"
-#include "reports/sections/check_status_data.h"
-#include "reports/sections/family.h"
+#include "reports/data/check_text.h"
+#include "reports/figures/figures.h"
+#include "reports/sections/sections.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
 
@@ -98,22 +94,6 @@ Data cheapest_row(const CostStudy& study, const CheapestSetting& cheapest) {
                  {"work", work_counters_text(setting.counters)}});
 }
 
-std::string status_text(const CostSetting& setting) {
-  if (setting.status == "timed-out") return "out of time";
-  return setting.status == "diverged" ? "diverged" : "no solution";
-}
-
-Data left_out(const CostStudy& study) {
-  Data rows = list();
-  for (const CostSetting& setting : study.settings) {
-    if (!setting.without_result()) continue;
-    rows.push_back(object({{"setting", setting.title},
-                           {"status_text", status_text(setting)},
-                           {"reason", setting.reason}}));
-  }
-  return rows;
-}
-
 std::string measured_text(const CostStudy& study) {
   const CostSetting& baseline = study.settings[study.baseline];
   std::string norm = study.norm == "max"   ? "The largest error"
@@ -159,15 +139,12 @@ void set_outputs(Data& data, const CostStudy& study) {
 
 Data study_data(const CostPanel& panel) {
   const CostStudy& study = *panel.study;
-  const Data lost = left_out(study);
   Data data = object({{"anchor", study_anchor(study)},
                       {"study_title", study.title},
                       {"description", study.description},
                       {"measured", measured_text(study)},
                       {"figure", figure_data(panel.figure)},
-                      {"cheapest", cells_of(study, study.cheapest)},
-                      {"has_left_out", lost.is_non_empty_list()},
-                      {"left_out", lost}});
+                      {"cheapest", cells_of(study, study.cheapest)}});
   set_outputs(data, study);
   return data;
 }

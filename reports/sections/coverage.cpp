@@ -1,6 +1,6 @@
-#include "reports/sections/coverage.h"
-
 #include <algorithm>
+
+#include "reports/sections/sections.h"
 
 namespace trammel::reports {
 namespace {

@@ -1,10 +1,8 @@
-#include "reports/sections/effects.h"
-
 #include <algorithm>
 
+#include "reports/sections/sections.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 

@@ -1,5 +1,4 @@
-#include "reports/sections/environment.h"
-
+#include "reports/sections/sections.h"
 #include "reports/text/html.h"
 
 namespace trammel::reports {

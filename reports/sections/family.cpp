@@ -1,14 +1,7 @@
-#include "reports/sections/family.h"
-
 #include <algorithm>
 
-#include "reports/data/check_status.h"
-#include "reports/data/model_probabilities.h"
-#include "reports/sections/check_status_data.h"
-#include "reports/sections/effects.h"
-#include "reports/sections/matrix.h"
-#include "reports/sections/tables.h"
-#include "reports/sections/variant_tables.h"
+#include "reports/data/check_text.h"
+#include "reports/sections/sections.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
 

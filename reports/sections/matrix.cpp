@@ -1,13 +1,11 @@
-#include "reports/sections/matrix.h"
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
 #include "harness/base/find_or_add.h"
-#include "reports/data/check_status.h"
-#include "reports/data/variant_rows.h"
-#include "reports/sections/check_status_data.h"
+#include "reports/data/check_text.h"
+#include "reports/sections/sections.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
@@ -22,10 +20,16 @@ constexpr std::size_t kMaxUnfoldedMatrixRows =
 constexpr double kFullColourDifference = 0.4;  ///< relative difference that is drawn in full colour
 constexpr double kTargetReached = 0.01;        ///< a target nearer than this counts as reached
 
+/// A check with its comparison after ASME V&V 20, if the run has one.
+struct MatrixCell {
+  const Check* check = nullptr;
+  const Comparison* comparison = nullptr;
+};
+
 /// One variant: its checks by entry.
 struct MatrixRow {
   const Run* run;
-  std::map<int, const Check*> checks;
+  std::map<int, MatrixCell> checks;
   double distance = 0;  ///< root mean square of the relative differences
 };
 
@@ -38,9 +42,18 @@ struct MatrixSubject {
 };
 
 bool belongs(const Check& check) {
-  return check.role == "validation" && check.measure == "relative" && check.index &&
-         check.expected && check.difference && !check.reference.empty() &&
-         check.verdict != Verdict::error && check.verdict != Verdict::not_run;
+  return check.role == "validation" && check.measure == "relative" && check.expected &&
+         check.difference && !check.reference.empty() && check.verdict != Verdict::error &&
+         check.verdict != Verdict::not_run;
+}
+
+const Comparison* find_comparison(const Run& run, const Check& check) {
+  if (!run.uncertainty) return nullptr;
+  for (const Comparison& c : run.uncertainty->comparisons)
+    if (c.check == check.name && c.quantity == check.quantity &&
+        c.index == check.index.value_or(0) && c.u_val)
+      return &c;
+  return nullptr;
 }
 
 std::vector<MatrixSubject> subjects(const Family& family) {
@@ -56,8 +69,9 @@ std::vector<MatrixSubject> subjects(const Family& family) {
           harness::find_or_add(out, same, {check.reference, check.quantity, check.name, {}, {}});
       if (subject.rows.empty() || subject.rows.back().run != run)
         subject.rows.push_back({run, {}, 0});
-      subject.rows.back().checks[*check.index] = &check;
-      subject.targets.emplace(*check.index, *check.expected);
+      const int entry = check.index.value_or(0);
+      subject.rows.back().checks[entry] = {&check, find_comparison(*run, check)};
+      subject.targets.emplace(entry, *check.expected);
     }
   }
   return out;
@@ -67,7 +81,8 @@ std::vector<MatrixSubject> subjects(const Family& family) {
 void sort_rows(MatrixSubject& subject) {
   for (MatrixRow& row : subject.rows) {
     double sum = 0;
-    for (const auto& [_, check] : row.checks) sum += *check->difference * *check->difference;
+    for (const auto& [_, cell] : row.checks)
+      sum += *cell.check->difference * *cell.check->difference;
     row.distance = std::sqrt(sum / static_cast<double>(row.checks.size()));
   }
   std::ranges::stable_sort(subject.rows, [](const MatrixRow& a, const MatrixRow& b) {
@@ -82,39 +97,90 @@ std::string row_title(const Family& family, const Results& results, const Matrix
   return family.cases.size() > 1 ? variant + " – " + family.short_title(info) : variant;
 }
 
-Data cell_of(const Check* check) {
-  if (!check) return object({{"filled", false}});
-  const double d = *check->difference;
-  return with_status(check_status(*check),
-                     {{"filled", true},
-                      {"value", significant(*check->computed, 4)},
-                      {"difference", relative(d, std::abs(d) >= 0.1 ? 2 : 1, true)},
-                      {"side", d < 0 ? "below" : "above"},
-                      {"depth", trimmed(std::min(1.0, std::abs(d) / kFullColourDifference), 2)}});
+Data cell_of(const MatrixCell& cell) {
+  if (!cell.check) return object({{"filled", false}});
+  const double d = *cell.check->difference;
+  Data data =
+      with_status(check_status(*cell.check),
+                  {{"filled", true},
+                   {"value", significant(*cell.check->computed, 4)},
+                   {"difference", relative(d, std::abs(d) >= 0.1 ? 2 : 1, true)},
+                   {"side", d < 0 ? "below" : "above"},
+                   {"depth", trimmed(std::min(1.0, std::abs(d) / kFullColourDifference), 2)}});
+  if (!cell.comparison) return data;
+  const Comparison& c = *cell.comparison;
+  std::string words = c.conclusion;
+  if (!c.all_inputs.conclusion.empty())
+    words +=
+        " With nominal lengths as uncertain as their printed digits: " + c.all_inputs.conclusion;
+  set(data,
+      {{"status_text", words},
+       {"expanded_uncertainty", relative(2 * *c.u_val / std::abs(*cell.check->expected), 2, false)},
+       {"verdict", c.verdict}});
+  return data;
+}
+
+/// Number of comparisons of each verdict, and of those that an input dominates.
+struct Tally {
+  std::map<std::string, std::size_t> verdict, dominant;
+  std::size_t entries = 0;
+
+  void add(const MatrixRow& row) {
+    for (const auto& [_, cell] : row.checks) {
+      if (!cell.comparison) continue;
+      ++entries;
+      ++verdict[cell.comparison->verdict];
+      if (!cell.comparison->dominant_input.empty()) ++dominant[cell.comparison->dominant_input];
+    }
+  }
+  [[nodiscard]] std::string text() const {
+    constexpr std::array<std::pair<const char*, const char*>, 4> kWords = {{
+        {"within-uncertainty", "within the validation uncertainty"},
+        {"model-error", "with a model error"},
+        {"reference-inconsistent", "against an inconsistent reference"},
+        {"undecided", "undecided"},
+    }};
+    std::string text;
+    for (const auto& [key, words] : kWords)
+      if (verdict.contains(key)) add_item(text, std::to_string(verdict.at(key)) + " " + words);
+    text += ".";
+    const auto most = std::ranges::max_element(
+        dominant, [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (most != dominant.end())
+      text += " The dominant input is the " + spaced(most->first) + ", for " +
+              std::to_string(most->second) + " of " + std::to_string(entries) + ".";
+    return text;
+  }
+};
+
+/// The inputs that dominate a row, each with the largest share of its entries.
+std::string dominant_text(const MatrixRow& row) {
+  std::map<std::string, double> shares;
+  for (const auto& [_, cell] : row.checks) {
+    if (!cell.comparison || cell.comparison->dominant_input.empty()) continue;
+    double& share = shares[cell.comparison->dominant_input];
+    share = std::max(share, cell.comparison->dominant_share.value_or(0));
+  }
+  std::string text;
+  for (const auto& [name, share] : shares)
+    add_item(text, spaced(name) + ", up to " + relative(share, 2, false), "; ");
+  return text;
 }
 
 std::string entry_word(const MatrixSubject& subject) {
   return subject.quantity.starts_with("frequency") ? "mode" : "entry";
 }
 
-struct Nearest {
-  int entry;
-  const Check* check;
-};
-
-std::vector<Nearest> nearest_of(const MatrixSubject& subject) {
-  std::vector<Nearest> out;
-  for (const auto& [entry, _] : subject.targets) {
-    Nearest best{entry, nullptr};
-    for (const MatrixRow& row : subject.rows) {
-      const auto found = row.checks.find(entry);
-      if (found == row.checks.end()) continue;
-      if (!best.check || std::abs(*found->second->difference) < std::abs(*best.check->difference))
-        best.check = found->second;
+/// The nearest value of each entry.
+std::map<int, MatrixCell> nearest_of(const MatrixSubject& subject) {
+  std::map<int, MatrixCell> nearest;
+  for (const MatrixRow& row : subject.rows)
+    for (const auto& [entry, cell] : row.checks) {
+      const Check*& best = nearest[entry].check;
+      if (!best || std::abs(*cell.check->difference) < std::abs(*best->difference))
+        best = cell.check;
     }
-    out.push_back(best);
-  }
-  return out;
+  return nearest;
 }
 
 /// "Of 666 readings the most probable one is, under a discrepancy of 1 %: X (40 %); ..." Empty
@@ -146,9 +212,9 @@ std::string conclusion(const MatrixSubject& subject, const Family& family, const
            " over " + count(best.checks.size(), entry_word(subject)) + ".";
   std::string missed;
   std::size_t n = 0;
-  for (const Nearest& nearest : nearest_of(subject)) {
+  for (const auto& [entry, nearest] : nearest_of(subject)) {
     if (std::abs(*nearest.check->difference) <= kTargetReached) continue;
-    missed += (n++ ? ", " : "") + std::to_string(nearest.entry + 1) + " (nearest " +
+    missed += (n++ ? ", " : "") + std::to_string(entry + 1) + " (nearest " +
               relative(*nearest.check->difference, 2, true) + ")";
   }
   if (n == 0)
@@ -157,38 +223,67 @@ std::string conclusion(const MatrixSubject& subject, const Family& family, const
          (n == 1 ? " " : "s ") + missed + ".";
 }
 
+/// A cell for each target; an empty one if there is no such entry.
+Data cells_of(const MatrixSubject& subject, const std::map<int, MatrixCell>& entries) {
+  return list_of(subject.targets, [&](const auto& target) {
+    const auto found = entries.find(target.first);
+    return cell_of(found == entries.end() ? MatrixCell{} : found->second);
+  });
+}
+
+Data matrix_row(const MatrixSubject& subject, const MatrixRow& row, const Family& family,
+                const Results& results) {
+  const std::size_t whole = subject.rows.front().checks.size();
+  return object(
+      {{"title", row_title(family, results, row)},
+       {"distance", relative(row.distance, 2, false)},
+       {"best", &row == &subject.rows.front() && subject.rows.size() > 1},
+       {"partial", row.checks.size() == whole ? ""
+                                              : count(row.checks.size(), entry_word(subject)) +
+                                                    " only: not ranked with the rest"},
+       {"cells", cells_of(subject, row.checks)},
+       {"dominant", dominant_text(row)}});
+}
+
 Data matrix_of(const MatrixSubject& subject, const Family& family, const Results& results) {
   const Reference* reference = results.reference(subject.reference);
   const QuantityLabel quantity = parse_quantity(subject.quantity);
-  const auto nearest_cell = [](const Nearest& nearest) { return cell_of(nearest.check); };
-  Data matrix = object({{"title", reference ? reference->title : subject.reference},
-                        {"reference_link", reference ? reference_link(reference->id) : ""},
-                        {"quantity", axis_label(to_text(quantity), quantity.unit)},
-                        {"conclusion", conclusion(subject, family, results)},
-                        {"entry_word", entry_word(subject)},
-                        {"columns", target_columns(subject.targets, "")},
-                        {"nearest", list_of(nearest_of(subject), nearest_cell)}});
-  const std::size_t whole = subject.rows.front().checks.size();
-  set_variant_rows(matrix, subject.rows.size(), kMaxUnfoldedMatrixRows, [&](std::size_t i) {
-    const MatrixRow& row = subject.rows[i];
+  Tally tally;
+  for (const MatrixRow& row : subject.rows) tally.add(row);
+  const auto column = [](const auto& target) {
     return object(
-        {{"title", row_title(family, results, row)},
-         {"distance", relative(row.distance, 2, false)},
-         {"best", i == 0},
-         {"partial", row.checks.size() == whole ? ""
-                                                : count(row.checks.size(), entry_word(subject)) +
-                                                      " only: not ranked with the rest"},
-         {"cells", target_cells(subject.targets, row.checks, cell_of)}});
-  });
-  return matrix;
+        {{"entry", std::to_string(target.first + 1)}, {"target", trimmed(target.second, 6)}});
+  };
+  const std::size_t rows = subject.rows.size();
+  const std::size_t shown = rows > kMaxUnfoldedMatrixRows + 3 ? kMaxUnfoldedMatrixRows : rows;
+  Data unfolded = list(), folded = list();
+  for (std::size_t i = 0; i < rows; ++i)
+    (i < shown ? unfolded : folded)
+        .push_back(matrix_row(subject, subject.rows[i], family, results));
+  return object(
+      {{"title", reference ? reference->title : subject.reference},
+       {"reference_link", reference ? reference_link(reference->id) : ""},
+       {"quantity", axis_label(to_text(quantity), quantity.unit)},
+       {"conclusion", conclusion(subject, family, results)},
+       {"uncertainty",
+        tally.entries == 0 ? "" : "Of " + count(tally.entries, "comparison") + ": " + tally.text()},
+       {"entry_word", entry_word(subject)},
+       {"columns", list_of(subject.targets, column)},
+       {"has_nearest", rows > 1},
+       {"nearest", rows > 1 ? cells_of(subject, nearest_of(subject)) : list()},
+       {"rows", unfolded},
+       {"folded", folded},
+       {"folded_title", shown == rows ? "" : count(rows - shown, "further variant")}});
 }
 
 std::vector<MatrixSubject> compared(const Family& family) {
   std::vector<MatrixSubject> out;
   for (MatrixSubject& subject : subjects(family)) {
-    if (subject.rows.size() < kMinRows || subject.targets.size() < kMinColumns ||
-        subject.targets.size() > kMaxColumns)
-      continue;
+    const bool uncertain = std::ranges::any_of(subject.rows, [](const MatrixRow& row) {
+      return row.checks.begin()->second.comparison != nullptr;
+    });
+    const bool many = subject.rows.size() >= kMinRows && subject.targets.size() >= kMinColumns;
+    if (!(uncertain || many) || subject.targets.size() > kMaxColumns) continue;
     sort_rows(subject);
     out.push_back(std::move(subject));
   }
@@ -202,12 +297,21 @@ Data comparison_matrices(const Family& family, const Results& results) {
                  [&](const MatrixSubject& subject) { return matrix_of(subject, family, results); });
 }
 
-std::string comparison_conclusion(const Family& family, const Results& results,
-                                  const Check& check) {
-  for (const MatrixSubject& subject : compared(family))
-    if (subject.reference == check.reference && subject.check == check.name)
-      return conclusion(subject, family, results);
-  return "";
+Data validation_uncertainty_section(const std::vector<Family>& families) {
+  Tally all;
+  Data with = list();
+  for (const Family& family : families) {
+    Tally tally;
+    for (const MatrixSubject& subject : subjects(family))
+      for (const MatrixRow& row : subject.rows) tally.add(row), all.add(row);
+    if (tally.entries > 0)
+      with.push_back(object({{"family_title", family.title},
+                             {"family_link", family_link(family.id)},
+                             {"words", count(tally.entries, "comparison") + ": " + tally.text()}}));
+  }
+  return object({{"has_rows", all.entries > 0},
+                 {"words", count(all.entries, "comparison") + " with the paper: " + all.text()},
+                 {"families", with}});
 }
 
 }  // namespace trammel::reports

@@ -1,15 +1,12 @@
-#include "reports/sections/orders.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "harness/base/find_or_add.h"
 #include "reports/drawing/interval.h"
-#include "reports/sections/check_status_data.h"
+#include "reports/sections/sections.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -123,7 +120,6 @@ std::string observed_text(const Findings& found) {
 
 Data data_of(const OrderRow& row, const Findings& found, const CaseInfo& info) {
   const QuantityLabel quantity = parse_quantity(row.front().quantity);
-  const bool counted = found.coverage.levels > 0;
   return object(
       {{"quantity", to_text(quantity)},
        {"entries", row.entries.size() > 1 ? count(row.entries.size(), "entry", "entries") : ""},
@@ -131,11 +127,7 @@ Data data_of(const OrderRow& row, const Findings& found, const CaseInfo& info) {
        {"theory", theory_text(row.front())},
        {"observed", observed_text(found)},
        {"error", significant(found.first, 2) + " to " + significant(found.last, 2)},
-       {"off", found.off < 0 ? "–" : significant(found.off, 2)},
-       {"covered", counted ? std::to_string(found.coverage.hits) + " of " +
-                                 std::to_string(found.coverage.levels)
-                           : "–"},
-       {"ratio", or_dash(found.coverage.median(), 3)}});
+       {"off", found.off < 0 ? "–" : significant(found.off, 2)}});
 }
 
 std::string coverage_text(const GciCoverage& coverage) {

@@ -1,10 +1,8 @@
-#include "reports/sections/references.h"
-
 #include <array>
 #include <set>
 
 #include "reports/drawing/figure.h"
-#include "reports/sections/check_status_data.h"
+#include "reports/sections/sections.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"

@@ -1,15 +1,11 @@
-#include "reports/sections/stress_suite.h"
-
 #include <algorithm>
 #include <map>
 #include <set>
 
-#include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
-#include "reports/sections/check_status_data.h"
+#include "reports/sections/sections.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -76,20 +72,6 @@ Data missing_row(const std::string& check) {
                                             {"why", ""}});
 }
 
-/// Links to the figures that the case asks for.
-Data pictures_of(const CaseInfo& info, const Gallery& gallery) {
-  Data pictures = list();
-  for (const PlotRequest& request : info.figures) {
-    const auto figure = std::ranges::find_if(gallery.shown, [&](const Figure& drawn) {
-      return drawn.id == slug(info.id + "-" + request.id);
-    });
-    if (figure == gallery.shown.end()) continue;
-    pictures.push_back(object({{"link", case_link(info.id) + "#fig-" + figure->id},
-                               {"number", std::to_string(figure->number)}}));
-  }
-  return pictures;
-}
-
 /// "Stress case 7: from 1 to 10,000 elements" is listed under item 7 without its first words.
 std::string title_of(const CaseInfo& info) {
   const std::string prefix = "Stress case " + std::to_string(info.stress_suite->item) + ": ";
@@ -107,7 +89,6 @@ Data case_of(const CaseInfo& info, const Family& family, Counts& counts) {
   return object({{"item", std::to_string(info.stress_suite->item)},
                  {"case_title", title_of(info)},
                  {"case_link", case_link(info.id)},
-                 {"pictures", pictures_of(info, family.galleries.at(info.id))},
                  {"rows", rows}});
 }
 
@@ -138,14 +119,9 @@ Data stress_suite_section(const std::vector<Family>& families) {
   }
   Data in_order = list();
   for (const auto& [item, data] : cases) in_order.push_back(data);
-  std::string missing_items;
-  for (int item = 1; !items.empty() && item < *items.rbegin(); ++item) {
-    if (!items.contains(item)) add_item(missing_items, std::to_string(item));
-  }
   return object({{"has_rows", !cases.empty()},
                  {"cases", in_order},
-                 {"words", text_of(counts, items.size(), cases.size())},
-                 {"missing_items", missing_items}});
+                 {"words", text_of(counts, items.size(), cases.size())}});
 }
 
 }  // namespace trammel::reports

@@ -1,17 +1,13 @@
-#include "reports/sections/summary.h"
-
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <tuple>
 
 #include "harness/base/find_or_add.h"
-#include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
-#include "reports/sections/check_status_data.h"
-#include "reports/sections/matrix.h"
+#include "reports/sections/sections.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 
@@ -134,71 +130,17 @@ Targets targets_of(const Results& results) {
   return targets;
 }
 
-/// Differences with one and the same reason.
-struct Reason {
-  std::string text;
-  const Check* lowest;
-  const Check* highest;
-  std::vector<const Run*> runs;
-};
-
-/// Known discrepancies of a family under one name and with one reference.
+/// Known discrepancies of a case under one name.
 struct KnownDiscrepancy {
-  const Family* family;
-  const Check* first;
-  std::size_t checks = 0;
-  std::vector<const CaseInfo*> cases;
-  std::vector<Reason> reasons;
-  Targets targets = {};
+  const CaseInfo* info;
+  const Check* largest;  ///< difference of all
+  std::size_t entries = 0;
+  std::set<std::string> reasons = {};
 };
 
-void add(KnownDiscrepancy& known, const Run& run, const Check& check, const CaseInfo& info) {
-  ++known.checks;
-  find_or_add<const CaseInfo*>(
-      known.cases, [&](const CaseInfo* c) { return c == &info; }, &info);
-  Reason& reason = find_or_add(
-      known.reasons, [&](const Reason& r) { return r.text == check.why; },
-      Reason{check.why, &check, &check, {}});
-  if (check.difference < reason.lowest->difference) reason.lowest = &check;
-  if (check.difference > reason.highest->difference) reason.highest = &check;
-  find_or_add<const Run*>(
-      reason.runs, [&](const Run* r) { return r == &run; }, &run);
-}
-
-std::vector<KnownDiscrepancy> known_discrepancies(const Results& results,
-                                                  const std::vector<Family>& families) {
-  std::vector<KnownDiscrepancy> out;
-  for (const Family& family : families) {
-    for (const Run* run : family.runs) {
-      for (const Check& check : run->checks) {
-        if (check_status(check) != CheckStatus::known_discrepancy) continue;
-        const auto same = [&](const KnownDiscrepancy& known) {
-          return known.family == &family && known.first->name == check.name &&
-                 known.first->reference == check.reference && known.first->measure == check.measure;
-        };
-        auto& known = find_or_add(out, same, KnownDiscrepancy{&family, &check, 0, {}, {}});
-        add(known, *run, check, results.case_info(run->case_id));
-        known.targets.add(*run, check, results);
-      }
-    }
-  }
-  return out;
-}
-
-std::string span_text(const Check& lowest, const Check& highest) {
-  if (!lowest.difference || !highest.difference) return "";
-  return low_to_high(difference_text(lowest, *lowest.difference),
-                     difference_text(highest, *highest.difference));
-}
-
-std::string span_text(const KnownDiscrepancy& known) {
-  const Check* lowest = known.first;
-  const Check* highest = known.first;
-  for (const Reason& reason : known.reasons) {
-    if (reason.lowest->difference < lowest->difference) lowest = reason.lowest;
-    if (reason.highest->difference > highest->difference) highest = reason.highest;
-  }
-  return span_text(*lowest, *highest);
+double size_of(const Check& check) {
+  const double target = check.measure == "ratio" ? 1 : 0;
+  return std::abs(check.difference.value_or(target) - target);
 }
 
 /// What does not agree: as the case puts it, else what it is compared with.
@@ -207,64 +149,51 @@ std::string known_title(const Check& check, const Reference* reference) {
   return reference ? reference->title : check.name;
 }
 
-std::string run_names(const Reason& reason, const KnownDiscrepancy& known, const Results& results) {
-  std::string text;
-  for (const Run* run : reason.runs) {
-    const CaseInfo& info = results.case_info(run->case_id);
-    add_item(text, info.variant_title(run->variant), "; ");
-    if (known.cases.size() > 1) text += " (" + known.family->short_title(info) + ")";
-  }
-  return text;
-}
-
-Data reasons_data(const KnownDiscrepancy& known, const Results& results) {
-  return list_of(known.reasons, [&](const Reason& reason) {
-    return object({{"span", span_text(*reason.lowest, *reason.highest)},
-                   {"text", reason.text},
-                   {"variants", run_names(reason, known, results)}});
-  });
-}
-
-/// One reason stands as it is; many stand folded, under what they come to.
-Data known_data(const KnownDiscrepancy& known, const Results& results) {
-  const Reference* reference = results.reference(known.first->reference);
-  std::size_t variants = 0;
-  for (const Reason& reason : known.reasons) variants += reason.runs.size();
-  std::string extent = count(known.checks, "check");
-  if (variants > 1) extent += " of " + count(variants, "variant");
-  const bool single_reason = known.reasons.size() == 1;
-  const auto entry = [](const CaseInfo* info) {
-    return object({{"case_title", info->title}, {"case_link", case_link(info->id)}});
-  };
+Data known_data(const KnownDiscrepancy& known, const Family& family, const Results& results) {
+  const Check& check = *known.largest;
+  const Reference* reference = results.reference(check.reference);
   return object(
-      {{"cases", list_of(known.cases, entry)},
-       {"what", known_title(*known.first, reference)},
+      {{"case_title", family.short_title(*known.info)},
+       {"case_link", case_link(known.info->id)},
+       {"what", known_title(check, reference)},
        {"reference_link", reference ? reference_link(reference->id) : ""},
-       {"span", span_text(known)},
-       {"extent", extent + " with " + known.targets.text()},
-       {"reason", single_reason ? known.reasons.front().text
-                                : comparison_conclusion(*known.family, results, *known.first)},
-       {"reasons_title", single_reason ? "" : count(known.reasons.size(), "reason")},
-       {"reasons", single_reason ? list() : reasons_data(known, results)}});
+       {"difference", check.difference ? difference_text(check, *check.difference) : ""},
+       {"extent", count(known.entries, "entry", "entries")},
+       {"reason", check.why},
+       {"further_reasons", known.reasons.size() > 1
+                               ? count(known.reasons.size() - 1, "further reason") + " on its page"
+                               : ""}});
 }
 
 /// Families with known discrepancies, each with its list.
 Data known_by_family(const Results& results, const std::vector<Family>& families) {
-  const std::vector<KnownDiscrepancy> all = known_discrepancies(results, families);
   Data out = list();
-  for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
-    std::size_t checks = 0;
+  for (const Family& family : families) {
+    std::vector<KnownDiscrepancy> known;
     Targets targets;
-    Data entries = list();
-    for (to = from; to < all.size() && all[to].family == all[from].family; ++to) {
-      checks += all[to].checks;
-      targets.printed.insert(all[to].targets.printed.begin(), all[to].targets.printed.end());
-      targets.stated.insert(all[to].targets.stated.begin(), all[to].targets.stated.end());
-      entries.push_back(known_data(all[to], results));
+    std::size_t entries = 0;
+    for (const Run* run : family.runs) {
+      for (const Check& check : run->checks) {
+        if (check_status(check) != CheckStatus::known_discrepancy) continue;
+        const CaseInfo& info = results.case_info(run->case_id);
+        const auto same = [&](const KnownDiscrepancy& other) {
+          return other.info == &info && other.largest->name == check.name;
+        };
+        KnownDiscrepancy& found = find_or_add(known, same, {&info, &check});
+        if (size_of(check) > size_of(*found.largest)) found.largest = &check;
+        found.reasons.insert(check.why);
+        ++found.entries;
+        ++entries;
+        targets.add(*run, check, results);
+      }
     }
-    out.push_back(object({{"family_title", all[from].family->title},
-                          {"extent", targets.text() + " in " + count(checks, "check")},
-                          {"known", entries}}));
+    if (known.empty()) continue;
+    const auto entry = [&](const KnownDiscrepancy& one) {
+      return known_data(one, family, results);
+    };
+    out.push_back(object({{"family_title", family.title},
+                          {"extent", targets.text() + " in " + count(entries, "entry", "entries")},
+                          {"known", list_of(known, entry)}}));
   }
   return out;
 }

@@ -1,16 +1,12 @@
-#include "reports/sections/tables.h"
-
 #include <set>
 
 #include "harness/base/find_or_add.h"
 #include "harness/results/quantity_definitions.h"
-#include "reports/data/check_status.h"
 #include "reports/data/check_text.h"
 #include "reports/drawing/figure.h"
-#include "reports/sections/check_status_data.h"
+#include "reports/sections/sections.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 

@@ -1,9 +1,8 @@
-#include "reports/sections/variant_tables.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "harness/base/statistic.h"
+#include "reports/sections/sections.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
 

@@ -1,7 +1,6 @@
-#include "reports/text/csv.h"
-
 #include <cctype>
 
+#include "reports/text/files.h"
 #include "reports/text/number.h"
 
 namespace trammel::reports {

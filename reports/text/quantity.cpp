@@ -7,7 +7,6 @@
 
 #include "harness/base/quantity.h"
 #include "reports/text/number.h"
-#include "reports/text/words.h"
 
 namespace trammel::reports {
 

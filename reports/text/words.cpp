@@ -1,8 +1,8 @@
-#include "reports/text/words.h"
-
 #include <algorithm>
 #include <iterator>
 #include <sstream>
+
+#include "reports/text/number.h"
 
 namespace trammel::reports {
 

@@ -18,7 +18,7 @@
 #include "harness/run/run_store.h"
 #include "harness/studies/cost_study.h"
 #include "harness/studies/validation_uncertainty.h"
-#include "reports/page/junit.h"
+#include "reports/page/report.h"
 
 namespace trammel::fuzz {
 namespace {

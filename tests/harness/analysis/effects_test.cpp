@@ -7,7 +7,7 @@
 #include "harness/analysis/effect_numbers.h"
 #include "harness/input/catalogue.h"
 #include "harness/input/reference_library.h"
-#include "harness/printing/print_effects.h"
+#include "harness/printing/printing.h"
 #include "harness/studies/effect_study.h"
 #include "tests/support/harness/analysing.h"
 

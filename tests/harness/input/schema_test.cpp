@@ -8,7 +8,7 @@
 #include "harness/input/catalogue.h"
 #include "harness/input/document.h"
 #include "harness/input/reference_library.h"
-#include "references/data/json_files.h"
+#include "references/data/family.h"
 #include "references/data/reference.h"
 #include "tests/support/harness/support.h"
 

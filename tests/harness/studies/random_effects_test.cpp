@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "harness/input/case.h"
-#include "harness/printing/print_effects.h"
+#include "harness/printing/printing.h"
 #include "harness/studies/effect_study.h"
 #include "tests/support/harness/support.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "references/numerics/roots.h"
+#include "references/numerics/real.h"
 #include "references/programs/program.h"
 
 BOOST_AUTO_TEST_SUITE(beam_modes)

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "references/frames/dynamic_stiffness.h"
-#include "references/frames/frame_json.h"
+#include "references/frames/programs.h"
 #include "tests/support/references/frames.h"
 
 BOOST_AUTO_TEST_SUITE(wittrick_williams)

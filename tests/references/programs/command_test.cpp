@@ -1,5 +1,3 @@
-#include "references/programs/command.h"
-
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
 #include <fstream>

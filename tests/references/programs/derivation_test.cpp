@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "references/data/family.h"
-#include "references/data/json_files.h"
 #include "references/programs/derivation_comparison.h"
 #include "references/programs/program.h"
 

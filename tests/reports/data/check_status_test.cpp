@@ -1,6 +1,6 @@
-#include "reports/data/check_status.h"
-
 #include <boost/test/unit_test.hpp>
+
+#include "reports/data/check_text.h"
 
 BOOST_AUTO_TEST_SUITE(check_status)
 

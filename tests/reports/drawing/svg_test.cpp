@@ -1,7 +1,6 @@
-#include "reports/drawing/svg.h"
-
 #include <boost/test/unit_test.hpp>
 
+#include "reports/drawing/figure.h"
 #include "tests/support/reports/markup.h"
 
 BOOST_AUTO_TEST_SUITE(svg)

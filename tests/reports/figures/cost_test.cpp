@@ -1,8 +1,7 @@
-#include "reports/figures/cost.h"
-
 #include <boost/test/unit_test.hpp>
 
 #include "reports/data/results.h"
+#include "reports/figures/figures.h"
 #include "reports/page/report.h"
 #include "tests/support/reports/markup.h"
 #include "tests/support/reports/sample.h"

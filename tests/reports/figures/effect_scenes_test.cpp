@@ -1,9 +1,8 @@
-#include "reports/figures/effect_scenes.h"
-
 #include <boost/test/unit_test.hpp>
 
+#include "reports/figures/figures.h"
 #include "reports/page/report.h"
-#include "reports/sections/cost.h"
+#include "reports/sections/sections.h"
 #include "tests/support/reports/markup.h"
 #include "tests/support/reports/workspace.h"
 

@@ -1,16 +1,11 @@
+#include "reports/figures/figures.h"
+
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "reports/figures/convergence.h"
-#include "reports/figures/curves.h"
-#include "reports/figures/discrepancy.h"
 #include "reports/figures/gallery.h"
-#include "reports/figures/history.h"
-#include "reports/figures/motion.h"
 #include "reports/figures/outline.h"
-#include "reports/figures/shapes.h"
-#include "reports/figures/tolerance.h"
 
 BOOST_AUTO_TEST_SUITE(figures)
 

@@ -1,9 +1,8 @@
-#include "reports/figures/map.h"
-
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
 #include "reports/drawing/palette.h"
+#include "reports/figures/figures.h"
 
 BOOST_AUTO_TEST_SUITE(map)
 

@@ -1,7 +1,6 @@
-#include "reports/page/junit.h"
-
 #include <boost/test/unit_test.hpp>
 
+#include "reports/page/report.h"
 #include "tests/support/reports/markup.h"
 #include "tests/support/reports/sample.h"
 #include "tests/support/reports/workspace.h"

@@ -1,8 +1,8 @@
-#include "reports/sections/matrix.h"
-
 #include <boost/test/unit_test.hpp>
 #include <string>
 #include <vector>
+
+#include "reports/sections/sections.h"
 
 BOOST_AUTO_TEST_SUITE(matrix)
 

@@ -1,6 +1,6 @@
-#include "reports/sections/variant_tables.h"
-
 #include <boost/test/unit_test.hpp>
+
+#include "reports/sections/sections.h"
 
 BOOST_AUTO_TEST_SUITE(variant_tables)
 

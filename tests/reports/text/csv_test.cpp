@@ -1,6 +1,6 @@
-#include "reports/text/csv.h"
-
 #include <boost/test/unit_test.hpp>
+
+#include "reports/text/files.h"
 
 BOOST_AUTO_TEST_SUITE(csv)
 

@@ -1,6 +1,6 @@
-#include "reports/text/words.h"
-
 #include <boost/test/unit_test.hpp>
+
+#include "reports/text/number.h"
 
 BOOST_AUTO_TEST_SUITE(words)
 

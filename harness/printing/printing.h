@@ -1,11 +1,12 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "harness/analysis/case_effects.h"
 #include "harness/base/rows.h"
 #include "harness/results/results.h"
 
-/// Runs and their checks, as several commands print them to standard output.
 namespace trammel::harness {
 
 /// Columns and cells of a check: verdict, name, quantity, numbers and tolerance.
@@ -23,5 +24,11 @@ void print_numerical_uncertainty(const results::Results& results);
 
 /// Counts of runs, verdicts and validation comparisons.
 void print_summary(const results::Results& results);
+
+/// Prints the effects of a case; of automatic ones also numbers, changes and reasons.
+void print_effects(const EffectChoice& choice);
+
+/// "axial-flexibility, shear and gravity", or "none".
+[[nodiscard]] std::string effect_names(solver::Effects effects);
 
 }  // namespace trammel::harness

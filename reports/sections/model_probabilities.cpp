@@ -1,7 +1,6 @@
-#include "reports/data/model_probabilities.h"
-
 #include <string>
 
+#include "reports/sections/sections.h"
 #include "reports/text/number.h"
 
 namespace trammel::reports {
@@ -16,18 +15,10 @@ Data row_of(const std::string& title, const std::string& probability, const Numb
 }
 
 std::string caption_of(const RowProbabilities& row) {
-  std::string text = count(static_cast<std::size_t>(row.readings), "reading") + " in " +
-                     count(static_cast<std::size_t>(row.classes), "class", "classes") +
-                     " that the row could tell apart; 95\u202f% of the probability lie in " +
-                     std::to_string(row.credible_classes) + ". Logarithm of the row's evidence " +
-                     trimmed(row.log_evidence.value_or(0), 4) + "; entropy of the classes " +
-                     trimmed(row.entropy_bits.value_or(0), 3) + " bits.";
-  if (row.further_numbers.empty()) return text;
-  text += " One further number would lower it by:";
-  for (const FurtherNumber& further : row.further_numbers)
-    text += (&further == &row.further_numbers.front() ? " " : ", ") + further.name + " " +
-            trimmed(further.expected_information_bits.value_or(0), 2);
-  return text + " bits.";
+  return count(static_cast<std::size_t>(row.readings), "reading") + " in " +
+         count(static_cast<std::size_t>(row.classes), "class", "classes") +
+         " that the row could tell apart; 95\u202f% of the probability lie in " +
+         std::to_string(row.credible_classes) + ".";
 }
 
 Data table_of(const RowProbabilities& row, const std::string& variant) {
