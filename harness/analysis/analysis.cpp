@@ -136,7 +136,6 @@ AnalysisResult analyse(const Document& document, const References& references,
     const RoundingScope scope;
     EffectChoice choice = choose_effects(document, case_model);
     case_model.effects = choice.chosen;
-    if (options.half_mesh) (void)halve_elements(case_model);
     record_evidence(choice, record);
     AnalysisResult result =
         result_of(kind, analyse_scene(kind, place, case_model, options.drawing, record), record);

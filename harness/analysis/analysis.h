@@ -10,8 +10,7 @@ namespace trammel::harness {
 
 /// What to keep beside the numbers.
 struct AnalysisOptions {
-  bool drawing = true;     ///< nodes, members and shapes, for the report
-  bool half_mesh = false;  ///< half the elements of every member, see `halve_elements`
+  bool drawing = true;  ///< nodes, members and shapes, for the report
 };
 
 struct AnalysisResult : StepResult {

@@ -32,16 +32,6 @@ CaseModel coarsened(CaseModel scene, solver::Index elements) {
   return scene;
 }
 
-bool halve_elements(CaseModel& scene) {
-  bool is_halved = false;
-  for (solver::Index* count : element_counts(scene)) {
-    if (*count % 2 != 0) continue;
-    *count /= 2;
-    is_halved = true;
-  }
-  return is_halved;
-}
-
 double unknowns_of(const solver::Model& model) {
   double unknowns = 3 * static_cast<double>(model.nodes.size());
   for (const solver::Member& member : model.members)

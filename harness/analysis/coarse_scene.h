@@ -15,10 +15,6 @@ namespace trammel::harness {
 /// The scene with at most so many elements a member and a platform of three triangles.
 [[nodiscard]] CaseModel coarsened(CaseModel scene, solver::Index elements);
 
-/// Halves the elements of every member that has an even number of them.
-/// @returns whether there is one
-bool halve_elements(CaseModel& scene);
-
 /// Unknowns of a model before constraints.
 [[nodiscard]] double unknowns_of(const solver::Model& model);
 

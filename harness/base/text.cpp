@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "harness/base/find_or_add.h"
+
 namespace trammel::harness {
 
 namespace {
@@ -32,6 +34,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
   if (word.size() > 200) return {};
+  // Words that people write for a key that looks different.
+  if ((word == "entries" || word == "entry") && contains(candidates, std::string("index")))
+    return "index";
   std::string best;
   // A guess that changes more than about a third of the word is no help.
   std::size_t least = std::max<std::size_t>(2, word.size() * 2 / 5) + 1;

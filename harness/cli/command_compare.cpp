@@ -113,13 +113,9 @@ void print_sides(const SideComparison& comparison) {
   const bool errors = comparison.sides.front().median_error.has_value();
   if (errors)
     columns.insert(columns.end(), {{"median_error", "error [%]", 3, 100},
-                                   {"largest_error", "largest [%]", 3, 100},
-                                   {"rank"},
-                                   {"error_ratio", "over best", 3}});
+                                   {"largest_error", "largest [%]", 3, 100}});
   Rows(columns, to_json(comparison)["sides"]).print(std::cout);
-  if (errors)
-    std::cout << "error: median against references; over best: with the interval of 98 %, within "
-                 "which\nsides share a rank\n";
+  if (errors) std::cout << "error: median against references\n";
 }
 
 void print_modes(const ComparedRun& run, const SideComparison& comparison) {

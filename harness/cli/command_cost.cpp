@@ -153,76 +153,22 @@ void print(const results::CostStudy& study) {
             << '\n';
 }
 
-/// Settings that were tried, and the patch of the cheapest one within the accuracy, or null.
-Json choice_json(const AccuracySearch& search, const results::CostStudy& measured,
-                 double accuracy) {
-  Rows tried({"setting", "error", "reason"});
-  for (const TriedSetting& setting : search.tried)
-    tried.add({setting.title, number_or_null(setting.error), setting.reason});
-  Json json = {{"accuracy", accuracy},
-               {"reference_change", number_or_null(search.reference_change)},
-               {"out_of_time", search.out_of_time},
-               {"tried", tried.json()},
-               {"setting", nullptr},
-               {"patch", nullptr},
-               {"tied", Json::array()}};
-  const std::vector<CostPoint> points = cost_points(measured);
-  if (const auto best = cheapest(points, accuracy)) {
-    const auto title = [&](std::size_t i) { return measured.settings[i].title; };
-    json["setting"] = title(best->setting);
-    json["patch"] = search.patches[best->setting];
-    for (const std::size_t i : tied_settings(points, accuracy)) json["tied"].push_back(title(i));
-  }
-  return json;
-}
-
-void print_choice(const AccuracySearch& search, const Json& choice) {
-  Rows({{"setting", "tried"}, {"error", "", 2}, {"reason"}}, choice["tried"])
-      .print(std::cout, "  ");
-  std::cout << wrapped(
-      fmt::format("Errors against {}, which the last refinement changed by {}.",
-                  search.study.reference_description, error_text(search.reference_change)),
-      "  ");
-  if (search.out_of_time)
-    std::cout << "  Not everything was tried: --time-limit gives the search more time.\n";
-  const std::string accuracy = error_text(choice["accuracy"]);
-  if (choice["setting"].is_null()) {
-    std::cout << "No setting that was tried comes within " << accuracy << ".\n";
-    return;
-  }
-  std::vector<std::string> tied;
-  for (const Json& title : choice["tied"]) tied.push_back(quoted(title));
-  std::string words = "Within " + accuracy + ": " + quoted(choice["setting"]);
-  if (!tied.empty()) words += "; in times that cannot be told from its, also " + join(tied, "and");
-  std::cout << wrapped(words + ". As a variant of the case:", "") << choice["patch"].dump(2)
-            << '\n';
-}
-
 results::CostStudy choose_setting(const CommandOptions& options, const CostOptions& cost_options,
                                   const References& references) {
   if (options.words.size() != 1 || !options.sweeps.empty())
-    throw InputError("--accuracy: expected one case beside it, and no --sweep");
+    throw InputError("--accuracy: expected a single case, and no --sweep");
   const Case given = load_case(find_one(options.words.front(), {}));
-  const fs::path store = store_folder(options.out, options.store);
-  AccuracySearch search;
-  {
-    Progress progress("settings tried");
-    const auto show = [&](std::size_t tried) { progress.show(tried, 0); };
-    const auto compute = [&](const Setting& setting, int time_limit_s) {
-      return run_or_find(setting, time_limit_s, references, store, options.resume);
-    };
-    search = search_accuracy(given, options.variant.empty() ? kBaseVariant : options.variant,
-                             {options.accuracy, options.quantities, options.time_limit_s}, compute,
-                             show);
-  }
+  const std::string variant = options.variant.empty() ? kBaseVariant : options.variant;
+  const AccuracyRequest request{options.accuracy, options.quantities, options.time_limit_s};
+  const AccuracySearch search = search_accuracy(patched(given, variant), request, references);
   results::CostStudy measured =
-      measure_or_find(search.study, cost_options, references, store, options.resume);
-  const Json choice = choice_json(search, measured, options.accuracy);
+      measure_or_find(cost_study_of_search(given, variant, search, request), cost_options,
+                      references, store_folder(options.out, options.store), options.resume);
   if (options.json) {
-    std::cout << pretty(choice);
+    std::cout << pretty(results::to_json(search.errors));
   } else {
     print(measured);
-    print_choice(search, choice);
+    print_search(search.errors);
   }
   return measured;
 }

@@ -135,9 +135,13 @@ const std::vector<Option>& all_options() {
        "Relative change that removed effects may cause; a case's own tolerance has precedence",
        CLI::Range(1e-12, 1.0)},
       {"--seed", &Options::seed, "Seed of the order of measurements"},
+      {"--errors", &Options::all_errors,
+       "Estimate discretization errors also of cases of the catalogue"},
+      {"--no-errors", &Options::no_errors, "Estimate no discretization errors"},
+      {"--warn-above", &Options::warn_above, "Relative error above which a warning is given",
+       CLI::Range(0.0, 1e6)},
       {"--accuracy", &Options::accuracy,
-       "Search the cheapest setting of one case within this relative error: mesh, beam theory, "
-       "tier, integrator and step as far as it has them",
+       "Choose mesh and step so that the estimated relative error is below this",
        CLI::Range(1e-10, 1.0)},
       {"--quantity", &Options::quantities,
        "Quantities of --accuracy, as displacement_y_m:B or displacement_y_m"},
@@ -155,8 +159,10 @@ const std::vector<Option>& all_options() {
 }
 
 /// Pairs of options that no call may have both.
-constexpr std::pair<const char*, const char*> kExclusive[] = {
-    {"--shard", "--store"}, {"--ctest", "--json"}, {"--csv", "--json"}};
+constexpr std::pair<const char*, const char*> kExclusive[] = {{"--shard", "--store"},
+                                                              {"--errors", "--no-errors"},
+                                                              {"--ctest", "--json"},
+                                                              {"--csv", "--json"}};
 
 struct CommandEntry {
   const char* name;
@@ -173,7 +179,7 @@ constexpr CommandEntry kCommands[] = {
     {"references", references_command, "names --csv --json"},
     {"run", run_command,
      "cases --label --variant --jobs --out --resume --store --max-memory --history --shard --costs "
-     "--json --ctest --vtk"},
+     "--json --ctest --vtk --errors --no-errors --warn-above --accuracy --quantity"},
     {"compare", compare_command, "sides! --csv --json --html --gate"},
     {"converge", converge_command, "case! --variant --jobs --json"},
     {"cost", cost_command,
@@ -186,7 +192,8 @@ constexpr CommandEntry kCommands[] = {
     {"paper", paper_command, "results --json"},
     {"effects", effects_command, "cases --label --variant --tolerance --repeats --out --json", ""},
     {"report", report_command,
-     "inputs --label --jobs --out --single-file --fresh --store --history --max-memory"},
+     "inputs --label --jobs --out --single-file --fresh --store --history --max-memory --errors "
+     "--no-errors --warn-above --accuracy --quantity"},
     {"export", export_command, "case! --variant --level --sweep --out --matrices", ""},
     {"solve", solve_command, "case! result!", ""},
     {"grade", grade_command,

@@ -77,6 +77,12 @@ RunOptions run_options(const CommandOptions& given, Progress& progress) {
   options.resume = given.resume;
   options.any_machine = given.any_machine;
   options.memory_bytes = given.memory_bytes;
+  options.errors = given.all_errors  ? ErrorWish::all
+                   : given.no_errors ? ErrorWish::none
+                                     : ErrorWish::own_cases;
+  options.warn_above = given.warn_above;
+  options.accuracy = given.accuracy;
+  options.quantities = given.quantities;
   return options;
 }
 

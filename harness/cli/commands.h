@@ -45,7 +45,9 @@ struct CommandOptions {
   bool quick = false;
   int repeats = 7;
   std::size_t seed = 1;
-  double accuracy = 0;  ///< settings are searched for this relative error; 0: they are not
+  bool all_errors = false, no_errors = false;  ///< estimates of discretization errors
+  double warn_above = 0.01;                    ///< relative error
+  double accuracy = 0;  ///< mesh and step are searched for this relative error; 0: they are not
   std::vector<std::string> quantities;  ///< that the search considers
   double time_limit_s = 120;            ///< of the search
 

@@ -1,5 +1,9 @@
 #include "harness/input/case.h"
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
 #include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
@@ -229,6 +233,62 @@ std::vector<Level> levels(const Document& variant, const JsonView& sweep) {
     found.push_back(std::move(level));
   }
   return found;
+}
+
+namespace {
+
+void warn_of_degrees(const Json& json, const std::string& at, std::vector<std::string>& warnings) {
+  for (const auto& [name, value] : json.items()) {
+    const std::string place = at + "/" + name;
+    if (value.is_structured()) warn_of_degrees(value, place, warnings);
+    const bool is_angle = name.ends_with("_rad") && !name.ends_with("per_rad");
+    if (is_angle && value.is_number() && std::abs(value.get<double>()) > 2 * std::numbers::pi)
+      warnings.push_back(place + " is " + shortest(value.get<double>()) +
+                         " rad, more than a turn; is it in degrees?");
+  }
+}
+
+/// Warns of the largest length if it is a hundred times the next one.
+void warn_of_millimeters(std::vector<std::pair<double, std::string>> lengths,
+                         std::vector<std::string>& warnings) {
+  constexpr double kRatio = 100;
+  std::erase_if(lengths, [](const auto& length) { return length.first == 0; });
+  std::ranges::sort(lengths);
+  if (lengths.size() < 2) return;
+  const auto& [largest, place] = lengths.back();
+  if (largest > kRatio * lengths[lengths.size() - 2].first)
+    warnings.push_back(place + " is " + shortest(largest) +
+                       " m, more than 100 times all others; is it in millimeters?");
+}
+
+}  // namespace
+
+std::vector<std::string> unit_warnings(const Document& document) {
+  std::vector<std::string> warnings;
+  if (!document.value().contains("model")) return warnings;
+  const Json& model = document.value()["model"];
+  warn_of_degrees(model, "/model", warnings);
+  std::vector<std::pair<double, std::string>> nodes, links;
+  if (model.contains("nodes"))
+    for (const auto& [name, point] : model["nodes"].items())
+      nodes.emplace_back(
+          std::max(std::abs(point[0].get<double>()), std::abs(point[1].get<double>())),
+          "/model/nodes/" + name);
+  if (nodes.size() > 2) warn_of_millimeters(std::move(nodes), warnings);
+  const std::string manipulator = "/model/manipulator/";
+  for (const char* key :
+       {"base_side_m", "links/proximal_length_m", "links/distal_length_m", "platform/side_m"}) {
+    const JsonPointer place(manipulator + key);
+    if (!document.value().contains(place)) continue;
+    const Json& value = document.value().at(place);
+    for (std::size_t i = 0; i < value.size(); ++i) {
+      const std::string index = value.is_array() ? "/" + std::to_string(i) : "";
+      links.emplace_back((value.is_array() ? value[i] : value).get<double>(),
+                         place.to_string() + index);
+    }
+  }
+  warn_of_millimeters(std::move(links), warnings);
+  return warnings;
 }
 
 }  // namespace trammel::harness

@@ -38,6 +38,10 @@ inline constexpr const char* kBaseVariant = "base";
 /// @throws InputError  for an unknown name, or where the patched case breaks the schema.
 [[nodiscard]] Document patched(const Case& given, const std::string& variant);
 
+/// Numbers that are probably in another unit: angles above 2 pi in a key "..._rad", and coordinates
+/// or lengths a hundred times all others of their kind. Each names the pointer and the likely unit.
+[[nodiscard]] std::vector<std::string> unit_warnings(const Document& document);
+
 /// @param pointer  a place that holds a JSON pointer
 /// @throws InputError  where the pointer leads to nothing in the document.
 void require_pointer(const Document& document, const JsonView& pointer);

@@ -69,10 +69,23 @@ std::string verdict_text(const results::Check& check) {
   return is_recorded ? "does not agree" : to_string(check.verdict);
 }
 
+/// Largest estimated error of a quantity [%]; empty without an estimate.
+std::string error_text(const results::Run& run, const std::string& quantity) {
+  if (!run.errors) return "";
+  const auto& all = run.errors->quantities;
+  const auto found = std::ranges::find(all, quantity, &results::ErrorEstimate::quantity);
+  if (found == all.end()) return "";
+  double largest = 0;
+  for (const Number relative : found->relative)
+    largest = std::max(largest, relative.value_or(kNaN));
+  if (!std::isfinite(largest)) return "no estimate";
+  return fmt::format("+- {:.2g} %{}", 100 * largest, found->asymptotic ? "" : " (coarse)");
+}
+
 /// All values of short quantities, of others the range.
 void print_quantities(const results::Run& run) {
   constexpr std::size_t kMostRows = 30, kMostValues = 6;
-  Rows table({"quantity", "entries", {"values", "", 8}});
+  Rows table({"quantity", "entries", {"values", "", 8}, {"discretization"}});
   std::size_t rows = 0;
   for (const auto& [name, quantity] : run.quantities) {
     const std::vector<double>& values = quantity.values;
@@ -83,7 +96,7 @@ void print_quantities(const results::Run& run) {
       const auto [low, high] = std::ranges::minmax(values);
       cells = fmt::format("{:.6g} ... {:.6g}", low, high);
     }
-    table.add({name, values.size(), cells});
+    table.add({name, values.size(), cells, error_text(run, name)});
   }
   if (!table.empty()) table.print(std::cout, "  ");
   if (rows > kMostRows) std::cout << "  and " << rows - kMostRows << " more in results.json\n";
@@ -113,6 +126,7 @@ void print_run(const results::Run& run) {
             << to_string(run.status) << ", " << rounded(run.cost.wall_s, 2) << " s\n"
             << wrapped(run.reason, "  ");
   for (const std::string& warning : run.warnings) std::cout << wrapped("warning: " + warning, "  ");
+  if (run.errors && !run.errors->search.empty()) print_search(*run.errors);
   if (run.checks.empty()) return print_quantities(run);
   Rows table(check_columns());
   std::string messages;
@@ -125,6 +139,15 @@ void print_run(const results::Run& run) {
   }
   table.print(std::cout, "  ");
   std::cout << messages;
+}
+
+void print_search(const results::ErrorEstimates& errors) {
+  Rows table({{"setting"}, {"error", "estimated error", 2}, {"cpu_s", "processor time [s]", 2}});
+  for (const results::AccuracyStep& step : errors.search)
+    table.add({step.setting, number_or_null(step.error), step.cpu_s});
+  table.print(std::cout, "  ");
+  if (!errors.reason.empty())
+    std::cout << wrapped("The accuracy is not reached: " + errors.reason + ".", "  ");
 }
 
 void print_validation(const results::Run& run) {

@@ -16,6 +16,8 @@ namespace trammel::harness {
 /// Status, warnings and the worst entry of each check; of a run without checks its quantities.
 void print_run(const results::Run& run);
 
+/// The settings that a search for an accuracy has tried, with their estimated errors.
+void print_search(const results::ErrorEstimates& errors);
 /// The validation comparison (ASME V&V 20) of a run as a table, if it has one.
 void print_validation(const results::Run& run);
 

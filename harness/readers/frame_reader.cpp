@@ -3,6 +3,7 @@
 #include <limits>
 #include <numbers>
 
+#include "harness/readers/discretization.h"
 #include "harness/readers/field_reader.h"
 #include "harness/readers/model_reader.h"
 #include "solver/elements/frame_element.h"
@@ -98,9 +99,9 @@ solver::Member read_member(const std::string& name, const JsonView& place,
 }
 
 void read_members(const JsonView& model, const SymbolTable& symbols, solver::Model& structure) {
-  const auto elements = model.get<solver::Index>("elements", 1);
   for (const auto& [name, place] : model.entries("members")) {
-    const solver::Member member = read_member(name, place, symbols, structure.nodes, elements);
+    const solver::Member member =
+        read_member(name, place, symbols, structure.nodes, elements_of(model.document(), name));
     MemberChain chain;
     const FieldReader reader(place);
     if (place.has("arc_center_m")) reader.optional("arc_center_m", chain.arc_center.emplace());

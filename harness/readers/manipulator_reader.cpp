@@ -1,3 +1,4 @@
+#include "harness/readers/discretization.h"
 #include "harness/readers/field_reader.h"
 #include "harness/readers/model_reader.h"
 
@@ -122,7 +123,7 @@ solver::ManipulatorDesign read_manipulator(const JsonView& manipulator) {
   const JsonView links = manipulator["links"];
   solver::LinkDesign link;
   link.material = read_material(manipulator["material"]);
-  link.elements = 1;
+  link.elements = default_elements(manipulator.document());
   read_link(links, link);
   design.proximal.fill(link);
   design.distal.fill(link);

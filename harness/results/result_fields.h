@@ -104,6 +104,11 @@ TRAMMEL_FIELDS(EffectRow, required("effect", &S::name),
                TRAMMEL_REQUIRED(applicable, active, why, evaluations),
                TRAMMEL_OPTIONAL(dimensionless_number, number_definition, own_change,
                                 cumulative_change));
+TRAMMEL_FIELDS(ErrorEstimate, TRAMMEL_REQUIRED(quantity, relative, asymptotic),
+               TRAMMEL_OPTIONAL(scale, order, setting));
+TRAMMEL_FIELDS(AccuracyStep, TRAMMEL_REQUIRED(setting, error, cpu_s));
+TRAMMEL_FIELDS(ErrorEstimates, TRAMMEL_REQUIRED(quantities, companions, counters),
+               TRAMMEL_OPTIONAL(reason, search));
 TRAMMEL_FIELDS(ReadingClass, TRAMMEL_REQUIRED(title, readings, probability, values));
 TRAMMEL_KEY(FurtherNumber, name);
 TRAMMEL_FIELDS(FurtherNumber, TRAMMEL_REQUIRED(expected_information_bits));
@@ -161,7 +166,7 @@ TRAMMEL_FIELDS(SolverIdentity, TRAMMEL_REQUIRED(name),
 TRAMMEL_FIELDS(Run, required("case", &S::case_id),
                TRAMMEL_REQUIRED(variant, status, quantities, checks, cost),
                TRAMMEL_OPTIONAL(reason), TRAMMEL_STORED(convergence),
-               TRAMMEL_OPTIONAL(residuals, warnings),
+               TRAMMEL_OPTIONAL(residuals, warnings, errors),
                TRAMMEL_STORED(uncertainty, effects, model_probabilities, drawing),
                TRAMMEL_OPTIONAL(stored),
                TRAMMEL_STORE_ONLY(sweeps, references, machine, solver, fault));
@@ -256,7 +261,7 @@ TRAMMEL_FIELDS(ComparedRun, TRAMMEL_REQUIRED(name, changed, share, numbers),
                TRAMMEL_OPTIONAL(modes, remarks));
 TRAMMEL_FIELDS(ComparedSide,
                TRAMMEL_REQUIRED(label, runs, cpu_s, relative_time, work, median_error,
-                                largest_error, error_ratio, rank),
+                                largest_error),
                TRAMMEL_OPTIONAL(commit, date, processor, solver));
 TRAMMEL_FIELDS(SideComparison,
                TRAMMEL_REQUIRED(conclusion, sides, same, within_noise, changed, runs));

@@ -188,7 +188,7 @@ void give_texts(Json& json, const SharedTexts& shared) {
 
 void complete(Results& results) {
   const Place root;
-  if (results.format != 1) Place{&root, "format"}.fail("1");
+  if (results.format != 1 && results.format != 2) Place{&root, "format"}.fail("1 or 2");
   for (CaseInfo& info : results.cases) complete(info);
   const Place runs{&root, "runs"};
   for (std::size_t i = 0; i < results.runs.size(); ++i) {
@@ -246,6 +246,14 @@ Results read_results(const std::filesystem::path& file) {
 const std::vector<double>* Run::quantity(const std::string& name) const {
   const auto found = quantities.find(name);
   return found == quantities.end() ? nullptr : &found->second.values;
+}
+
+Number ErrorEstimate::half_width(std::size_t index, double value) const {
+  const Number error = relative.size() == 1      ? relative.front()
+                       : index < relative.size() ? relative[index]
+                                                 : Number();
+  if (!error) return error;
+  return *error * std::max(std::abs(value), scale.value_or(0));
 }
 
 std::size_t Cost::work() const {

@@ -187,7 +187,7 @@ struct History {
 };
 
 struct Results {
-  int format = 1;
+  int format = 2;  ///< 1 has no discretization errors
   Environment environment;
   std::vector<CaseInfo> cases;
   std::vector<Reference> references;

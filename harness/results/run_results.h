@@ -215,6 +215,36 @@ struct EffectRow {
   Number cumulative_change;  ///< ... and without those removed before it
 };
 
+/// The estimated discretization error of a quantity: half widths of bands about its numbers.
+struct ErrorEstimate {
+  std::string quantity;
+  Numbers relative;  ///< to each value or to `scale`, whichever is larger; of a curve one for all
+  Number scale;      ///< largest value of its kind over the structure [unit]; none: each value
+  Number order;      ///< lowest of the active parts; none: theory says that the values are exact
+  bool asymptotic = true;  ///< false: too coarse for that order, a lower one is used
+  std::string setting;     ///< JSON pointer of the setting that reduces the error most
+
+  /// Half width about one of the quantity's values [unit].
+  [[nodiscard]] Number half_width(std::size_t index, double value) const;
+};
+
+/// A setting of a search for an accuracy.
+struct AccuracyStep {
+  std::string setting;  ///< "8 elements, step 0.001 s"
+  Number error;         ///< largest estimate of the requested quantities, relative
+  double cpu_s = 0;
+};
+
+/// Discretization errors of a run, from coarser or finer companions of its computation. Errors of
+/// the input and of the model are not included.
+struct ErrorEstimates {
+  std::vector<ErrorEstimate> quantities;
+  std::string companions;            ///< "half the elements; twice the step"
+  std::string reason;                ///< why there is no estimate; empty: there is
+  Counters counters;                 ///< of the companions
+  std::vector<AccuracyStep> search;  ///< by --accuracy, coarse to fine; the last is the run's
+};
+
 /// Readings that a printed row cannot tell apart.
 struct ReadingClass {
   std::string title;  ///< of the most probable one
@@ -269,6 +299,7 @@ struct Run {
   std::vector<Convergence> convergence;
   std::optional<Uncertainty> uncertainty;
   std::vector<EffectRow> effects;
+  std::optional<ErrorEstimates> errors;
   std::optional<ModelProbabilities> model_probabilities;
   std::optional<Drawing> drawing;
   Cost cost;

@@ -50,10 +50,6 @@ struct ComparedSide {
   std::size_t work = 0;                ///< element evaluations, factorizations, solves and steps
   Number relative_time;                ///< of the first side's
   Number median_error, largest_error;  ///< relative, of what references are there for on all sides
-  /// Of the errors over those of the side with the least median: median, and the interval that
-  /// holds it with a probability of 98 %.
-  Numbers error_ratio;
-  std::size_t rank = 0;  ///< by error, from 1; shared where the interval holds 1; 0: no references
 };
 
 struct SideComparison {

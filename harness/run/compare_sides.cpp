@@ -355,11 +355,9 @@ std::map<std::string, double> errors_of(const std::string& name, const results::
   return errors;
 }
 
-/// Ranks the sides by their errors against the references that all of them have. Sides that cannot
-/// be distinguished from the first of a rank share it.
+/// Errors of the sides against the references that all of them have.
 void compare_errors(const std::vector<std::map<std::string, double>>& all,
                     std::vector<ComparedSide>& sides) {
-  constexpr std::size_t kFewest = 7;  // errors that give an interval
   std::vector<std::vector<double>> errors(sides.size());
   for (const auto& item : all.front()) {
     const auto has_entry = [&](const auto& other) { return other.contains(item.first); };
@@ -367,22 +365,9 @@ void compare_errors(const std::vector<std::map<std::string, double>>& all,
       errors[s].push_back(std::max(all[s].at(item.first), 1e-16));
   }
   if (errors.front().empty()) return;
-  std::vector<std::size_t> order;
   for (std::size_t s = 0; s < sides.size(); ++s) {
     sides[s].median_error = quantile(errors[s], 0.5);
     sides[s].largest_error = quantile(errors[s], 1);
-    order.push_back(s);
-  }
-  std::ranges::stable_sort(order, {}, [&](std::size_t s) { return sides[s].median_error; });
-  std::size_t head = 0;  // place of the first of a rank
-  for (std::size_t place = 0; place < order.size(); ++place) {
-    ComparedSide& side = sides[order[place]];
-    if (errors.front().size() >= kFewest) {
-      const RelativeTime ratio = relative_time(errors[order[place]], errors[order.front()]);
-      side.error_ratio = {ratio.median, ratio.low, ratio.high};
-      if (relative_time(errors[order[place]], errors[order[head]]).low > 1) head = place;
-    }
-    side.rank = head + 1;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "harness/analysis/size_estimate.h"
+#include "harness/base/environment.h"
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
 #include "harness/base/progress.h"
@@ -16,6 +17,7 @@
 #include "harness/run/results.h"
 #include "harness/run/run_store.h"
 #include "harness/run/shards.h"
+#include "harness/studies/accuracy_search.h"
 #include "harness/studies/validation_uncertainty.h"
 
 namespace trammel::harness {
@@ -32,6 +34,9 @@ struct Task {
   std::vector<Check> checks;
   bool requested = true;
   bool studies = true;  ///< refinements and validation uncertainty
+  bool errors = false;  ///< of the discretization
+  std::vector<std::string> input_warnings;
+  AccuracyRequest accuracy = {0, {}, 0};  ///< searched for; 0: not
   Run run;
 };
 
@@ -69,6 +74,7 @@ Task prepare(const Case& owner, const std::string& variant, bool requested) {
   task.run.variant = variant;
   run_guarded(task.run, [&] {
     task.document = patched(owner, variant);
+    task.input_warnings = unit_warnings(task.document);
     task.checks = read_checks(task.document, variant, owner.variants());
   });
   return task;
@@ -105,10 +111,23 @@ std::vector<Task> prepare_all(const std::vector<Case>& cases, const std::string&
   return tasks;
 }
 
+/// The computation, with its discretization errors if they are wanted.
+void compute_with_errors(Task& task, const References& references) {
+  if (task.requested && task.accuracy.accuracy > 0) {
+    AccuracySearch search = search_accuracy(task.document, task.accuracy, references);
+    task.run.errors = std::move(search.errors);
+    return record_result(std::move(search.result), task.run);
+  }
+  AnalysisResult result = analyse(task.document, references, {task.requested});
+  if (task.requested && task.errors && result.outcome.solved())
+    task.run.errors = estimate_errors(task.document, result, references);
+  record_result(std::move(result), task.run);
+}
+
 void compute(Task& task, const References& references) {
   const Stopwatch watch;
   run_guarded(task.run, [&] {
-    record_result(analyse(task.document, references, {task.requested}), task.run);
+    compute_with_errors(task, references);
     if (task.requested && task.studies) task.run.sweeps = run_sweeps(task.document, references);
   });
   task.run.cost.wall_s = watch.wall_s();
@@ -183,6 +202,14 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
   }
 }
 
+/// What else decides what a computation leaves behind.
+std::string request_of(const Task& task) {
+  std::string text = task.errors ? "errors" : "";
+  if (task.accuracy.accuracy > 0) text += shortest(task.accuracy.accuracy);
+  for (const std::string& quantity : task.accuracy.quantities) text += " " + quantity;
+  return text;
+}
+
 /// Does what the store does not have, last what was under way most often when a call was
 /// interrupted: a long run keeps no other one from being done.
 /// @returns the signal that ended it early, else 0
@@ -193,7 +220,8 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
     std::filesystem::path file;
     if (task.run.status == Status::error) continue;
     if (!options.store.empty())
-      file = options.store / computation_name(task.document, task.requested, options.solver.hash);
+      file = options.store / computation_name(task.document, task.requested,
+                                              options.solver.hash + request_of(task));
     if (options.resume && find_stored(file, task.run, options.any_machine, references)) {
       task.run.stored = file.filename().string();
       task.run.was_stored = true;
@@ -324,17 +352,37 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
     run.convergence.clear();
 }
 
+/// Estimates of discretization errors as the options and the case want them.
+void request_errors(Task& task, const RunOptions& options) {
+  if (options.solver.compute || !task.requested || task.run.status == Status::error) return;
+  const Json& json = task.document.value();
+  task.accuracy = {options.accuracy > 0 ? options.accuracy : json.value("accuracy", 0.0),
+                   options.quantities, time_limit_s(task.document) * 1.0};
+  const auto [end, rest] =
+      std::ranges::mismatch(data_root() / "cases", std::filesystem::absolute(task.owner->file));
+  const bool is_own = end != (data_root() / "cases").end();
+  task.errors =
+      options.errors == ErrorWish::all || (options.errors == ErrorWish::own_cases && is_own);
+}
+
 }  // namespace
 
 std::vector<Run> run_cases(const std::vector<Case>& cases, const References& references,
                            const RunOptions& options) {
   std::vector<Task> tasks = prepare_all(cases, options.variant);
-  for (Task& task : tasks) task.studies = options.studies;
+  for (Task& task : tasks) {
+    task.studies = options.studies;
+    request_errors(task, options);
+  }
   const int signal = compute_all(tasks, options);
   for (Task& task : tasks) {
     for (const auto& [place, hash] : task.run.references)
       if (!hash.empty()) (void)references.add(place);
     if (task.run.status == Status::not_run) task.run.interrupted_by = signal;
+    std::ranges::move(task.input_warnings, std::back_inserter(task.run.warnings));
+    if (task.run.errors)
+      std::ranges::move(error_warnings(*task.run.errors, options.warn_above),
+                        std::back_inserter(task.run.warnings));
     if (task.requested)
       run_guarded(task.run, [&] { evaluate_checks(task, tasks, references, options); });
   }
@@ -356,6 +404,7 @@ std::vector<Run> run_shown(const std::vector<Case>& cases, const References& ref
 
 ShardRuns run_shard(const std::vector<Case>& cases, const RunOptions& options, const Shard& shard) {
   std::vector<Task> tasks = prepare_all(cases, options.variant);
+  for (Task& task : tasks) request_errors(task, options);
   std::vector<std::string> names;
   for (const Task& task : tasks)
     names.push_back(task.run.case_id + ":" + task.run.variant +

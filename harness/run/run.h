@@ -27,6 +27,9 @@ struct OtherSolver {
   unsigned time_limit_s = 0;  ///< of processor time
 };
 
+/// Discretization errors: of cases outside the catalogue, of all, or of none.
+enum class ErrorWish { own_cases, all, none };
+
 /// One of so many parts that a long call is computed in.
 struct Shard {
   std::size_t number = 1, count = 1;
@@ -45,6 +48,10 @@ struct RunOptions {
   std::size_t memory_bytes = 0;      ///< that one computation may use; 0: no limit
   OtherSolver solver = {};
   bool studies = true;  ///< refinements and validation uncertainty; off without a store alone
+  ErrorWish errors = ErrorWish::own_cases;
+  double warn_above = 0.01;                ///< relative error
+  double accuracy = 0;                     ///< searched for; 0: what the case says
+  std::vector<std::string> quantities = {};  ///< of the accuracy
 };
 
 /// Runs the cases, each run in a process of its own, and judges them. The numbers do not depend on

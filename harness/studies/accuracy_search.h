@@ -1,50 +1,41 @@
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "harness/input/case.h"
 #include "harness/studies/cost_study.h"
+#include "harness/studies/discretization_error.h"
 
-/// Which settings of a case reach an accuracy: mesh, beam theory, tier of statics, integrator and
-/// step are varied as far as the analysis has them, without a study being written.
+/// The mesh and the step with which a case reaches an accuracy.
 namespace trammel::harness {
 
 struct AccuracyRequest {
-  double accuracy = 1e-3;               ///< largest relative error, > 0
-  std::vector<std::string> quantities;  ///< names, or names before the colon; empty: displacements,
-                                        ///< positions, frequencies or load factors
-  double time_limit_s = 120;            ///< of the whole search
-};
-
-struct TriedSetting {
-  std::string title;
-  Json patch;  ///< merge patch of the case
-  double error = 0;
-  std::string reason;  ///< without a solution: why
+  double accuracy = 1e-3;  ///< largest relative error, > 0
+  /// Names, or names before the colon; empty: frequencies, load factors, displacements and
+  /// positions, or all quantities if there are none of these.
+  std::vector<std::string> quantities;
+  double time_limit_s = 120;  ///< of processor time
 };
 
 struct AccuracySearch {
-  /// The case as it stands, which is the baseline, and the coarsest settings of each kind that are
-  /// within the accuracy; errors are measured against the richest model that is solved, on a mesh
-  /// and with a step that no longer change it.
-  CostStudy study;
-  std::vector<Json> patches;  ///< of the study's settings
-  std::vector<TriedSetting> tried;
-  double reference_change = 0;  ///< what the last refinement changed the reference by, relative
-  bool out_of_time = false;     ///< not everything was tried
+  std::vector<Document> tried;  ///< coarse to fine; the last one is chosen
+  AnalysisResult result;        ///< of the last one
+  results::ErrorEstimates errors;
+  bool reached = false;
 };
 
-/// How a setting is computed within so many seconds of processor time: in a process of its own.
-using ComputeSetting = std::function<SandboxedRun(const Setting& setting, int time_limit_s)>;
-
-/// @param progress  gets how many settings were tried
-/// @throws InputError  where the case itself is not solved, has no such quantity or nothing of it
-///                     can be varied.
-[[nodiscard]] AccuracySearch search_accuracy(const Case& given, const std::string& variant,
+/// From one element a member and four times the step, refines what makes the larger error until the
+/// estimate is below the request. Beam theory and tier of statics stay. Each level is the companion
+/// of the next one, so that no computation is made for an estimate alone.
+/// @throws InputError  where the case has neither mesh nor steps, no solution or no such quantity.
+[[nodiscard]] AccuracySearch search_accuracy(const Document& document,
                                              const AccuracyRequest& request,
-                                             const ComputeSetting& compute,
-                                             const std::function<void(std::size_t)>& progress);
+                                             const References& references);
+
+/// The settings that a search has tried as a study, measured against twice the elements and half
+/// the step of the last one.
+[[nodiscard]] CostStudy cost_study_of_search(const Case& given, const std::string& variant,
+                                             const AccuracySearch& search,
+                                             const AccuracyRequest& request);
 
 }  // namespace trammel::harness

@@ -11,6 +11,7 @@
 #include "harness/base/timing.h"
 #include "harness/input/reference_library.h"
 #include "harness/scene/with_model_errors.h"
+#include "harness/studies/discretization_error.h"
 #include "solver/linear/system.h"
 
 namespace trammel::harness {
@@ -77,9 +78,10 @@ class Study {
   }
 
   void compare_meshes() {
-    if (!study_.chosen.outcome.solved() || !halve_elements(scene_)) return;
-    const AnalysisResult result = analyse(with_effects(document_, study_.choice.chosen),
-                                          references_, {.drawing = false, .half_mesh = true});
+    const auto coarser = companion_of(document_, ErrorSource::mesh);
+    if (!study_.chosen.outcome.solved() || !coarser || coarser->finer) return;
+    const AnalysisResult result = analyse(with_effects(coarser->document, study_.choice.chosen),
+                                          references_, {.drawing = false});
     if (result.outcome.solved())
       study_.mesh_change =
           max_change(changes_between(study_.chosen.quantities, result.quantities, size_)).value;

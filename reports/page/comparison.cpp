@@ -57,21 +57,15 @@ PlainTable sides_table(const SideComparison& comparison) {
   PlainTable table{
       "Time beside accuracy", {"Side", "Runs", "Processor time", "Of the first", "Work"}, {}};
   if (errors)
-    for (const char* head : {"Median error", "Largest error", "Rank", "Over the best, 98\u202f%"})
-      table.heads.emplace_back(head);
+    for (const char* head : {"Median error", "Largest error"}) table.heads.emplace_back(head);
   for (const ComparedSide& side : comparison.sides) {
     std::vector<std::string> row = {
         side_text(comparison, side), std::to_string(side.runs), duration(side.cpu_s),
         side.relative_time ? "× " + trimmed(*side.relative_time, 3) : "",
         std::to_string(side.work)};
-    const Numbers& ratio = side.error_ratio;
     if (errors)
-      for (const std::string& cell :
-           {relative(side.median_error.value_or(0), 3, false),
-            relative(side.largest_error.value_or(0), 3, false), std::to_string(side.rank),
-            ratio.empty() ? ""
-                          : or_dash(ratio[0], 3) + " (" + or_dash(ratio[1], 3) + " to " +
-                                or_dash(ratio[2], 3) + ")"})
+      for (const std::string& cell : {relative(side.median_error.value_or(0), 3, false),
+                                      relative(side.largest_error.value_or(0), 3, false)})
         row.push_back(cell);
     table.rows.push_back(row);
   }

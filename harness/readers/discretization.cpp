@@ -1,0 +1,172 @@
+#include "harness/readers/discretization.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "harness/input/case.h"
+
+namespace trammel::harness {
+namespace {
+
+constexpr double kDegreesOfElement = 7.5;  // of an arc: chords change frequencies by 0.1 %
+constexpr double kToleranceRatio = 10;
+
+const Json* find(const Json& document, const std::string& pointer) {
+  const JsonPointer at(pointer);
+  return document.contains(at) ? &document.at(at) : nullptr;
+}
+
+double angle_of_arc(const Json& model, const Json& member) {
+  const auto from_center = [&](std::size_t end) {
+    const Json& node = model.at("nodes").at(member.at("nodes")[end].get<std::string>());
+    const Json& center = member.at("arc_center_m");
+    return std::atan2(node[1].get<double>() - center[1].get<double>(),
+                      node[0].get<double>() - center[0].get<double>());
+  };
+  const double turn = from_center(1) - from_center(0);
+  return turn > 0 ? turn : turn + 2 * std::numbers::pi;
+}
+
+bool is_bar(const Json& model, const Json& member) {
+  const Json* section = find(model, "/sections/" + member.value("section", ""));
+  return section != nullptr && section->value("second_moment_m4", 1.0) == 0;
+}
+
+/// Half or twice a count; nothing where it is odd.
+std::optional<solver::Index> refined(solver::Index count, Refine refine) {
+  if (refine == Refine::finer) return 2 * count;
+  if (count % 2 != 0) return std::nullopt;
+  return count / 2;
+}
+
+/// Puts half or twice a count at a place of a patch. @returns whether it can be had
+bool put(Json& place, solver::Index count, Refine refine) {
+  const auto found = refined(count, refine);
+  if (found) place = *found;
+  return found.has_value();
+}
+
+bool refine_links(const Document& document, Refine refine, Json& patch) {
+  const Json& manipulator = document.value()["model"]["manipulator"];
+  const Json& links = manipulator["links"];
+  Json& refined_links = patch["manipulator"]["links"];
+  bool all =
+      put(refined_links["elements"], links.value("elements", default_elements(document)), refine);
+  for (const char* kind : {"proximal", "distal"}) {
+    const Json* own = find(links, std::string("/") + kind + "/elements");
+    if (own != nullptr)
+      all = put(refined_links[kind]["elements"], own->get<solver::Index>(), refine) && all;
+  }
+  // Without pins the joints of a platform of triangles are points, about which nothing converges.
+  const Json& platform = manipulator["platform"];
+  if (platform["kind"] != "triangles" || platform.value("pin_radius_m", 0.0) <= 0) return all;
+  const int level = platform.value("refinements", 0) + (refine == Refine::finer ? 1 : -1);
+  patch["manipulator"]["platform"]["refinements"] = level;
+  return all && level >= 0;
+}
+
+}  // namespace
+
+std::string discretized_analysis(const Document& document) {
+  const Json& analysis = document.value().at("analysis");
+  const std::string kind = analysis.begin().key();
+  return kind == "study" ? analysis["study"]["analysis"].begin().key() : kind;
+}
+
+std::string analysis_pointer(const Document& document) {
+  const bool is_study = document.value().at("analysis").contains("study");
+  return std::string("/analysis/") + (is_study ? "study/analysis/" : "") +
+         discretized_analysis(document);
+}
+
+solver::Index default_elements(const Document& document) {
+  constexpr solver::Index kOtherwise = 4;
+  const Json* stated = find(document.value(), "/model/elements");
+  if (stated != nullptr) return stated->get<solver::Index>();
+  const std::string kind = discretized_analysis(document);
+  const Json* second_order = find(document.value(), analysis_pointer(document) + "/second_order");
+  const bool is_linear = second_order == nullptr || !second_order->get<bool>();
+  return (kind == "statics" && is_linear) || kind == "properties" ? 1 : kOtherwise;
+}
+
+solver::Index elements_of(const Document& document, const std::string& name) {
+  constexpr solver::Index kLeastOfArc = 4, kTapered = 8;
+  const Json& model = document.value()["model"];
+  const Json& member = model["members"][name];
+  if (member.contains("elements")) return member["elements"].get<solver::Index>();
+  if (model.contains("elements")) return default_elements(document);
+  if (is_bar(model, member)) return 1;
+  if (member.contains("arc_center_m")) {
+    const double degrees = angle_of_arc(model, member) * 180 / std::numbers::pi;
+    return std::max(kLeastOfArc, static_cast<solver::Index>(
+                                     std::ceil(degrees / kDegreesOfElement * (1 - 1e-12))));
+  }
+  return member.contains("end_section") ? kTapered : default_elements(document);
+}
+
+std::optional<Json> mesh_patch(const Document& document, Refine refine) {
+  if (!document.value().contains("model")) return std::nullopt;
+  const Json& model = document.value()["model"];
+  Json patch = Json::object();
+  bool all = true;
+  if (model.contains("members"))
+    for (const auto& [name, member] : model["members"].items())
+      if (!is_bar(model, member))
+        all = put(patch["members"][name]["elements"], elements_of(document, name), refine) && all;
+  if (model.contains("plates"))
+    for (const auto& [name, plate] : model["plates"].items())
+      if (plate.contains("blocks"))
+        all = put(patch["plates"][name]["divisions"], plate.value("divisions", 1), refine) && all;
+  if (model.contains("manipulator")) all = refine_links(document, refine, patch) && all;
+  if (patch.empty() || !all) return std::nullopt;
+  return Json{{"model", patch}};
+}
+
+bool has_step_tolerance(const Document& document) {
+  const Json& analysis = document.value().at(JsonPointer(analysis_pointer(document)));
+  return analysis.contains("tolerance") || analysis.contains("error_control");
+}
+
+std::optional<Json> step_patch(const Document& document, Refine refine) {
+  const std::string kind = discretized_analysis(document), place = analysis_pointer(document);
+  const Json& analysis = document.value().at(JsonPointer(place));
+  const bool is_exact =
+      analysis.value("modal_superposition", false) ||
+      (analysis.contains("method") && analysis["method"] == "modal-superposition");
+  const double longer = refine == Refine::finer ? 0.5 : 2;
+  const double looser = refine == Refine::finer ? 1 / kToleranceRatio : kToleranceRatio;
+  Json patch = Json::object();
+  if (kind == "forward-dynamics") {
+    patch["tolerance"] = looser * analysis.value("tolerance", 1e-10);
+  } else if (is_exact || !analysis.contains("step_s") || kind == "grnn") {
+    return std::nullopt;
+  } else if (analysis.contains("tolerance")) {
+    patch["tolerance"] = looser * analysis["tolerance"].get<double>();
+  } else if (analysis.contains("error_control")) {
+    patch["error_control"]["relative"] = looser * analysis["error_control"].value("relative", 1e-4);
+  } else {
+    patch["step_s"] = longer * analysis["step_s"].get<double>();
+  }
+  // The same times are recorded, as far as the steps allow.
+  if (kind == "transient" && !analysis.contains("samples")) {
+    const double steps =
+        std::ceil(analysis["duration_s"].get<double>() / analysis["step_s"].get<double>());
+    patch["samples"] = std::min(10000, static_cast<int>(steps));
+  }
+  return patch_at(document.value(), place, patch);
+}
+
+std::string mesh_pointer(const Document& document) {
+  const Json& model = document.value()["model"];
+  if (model.contains("manipulator")) return "/model/manipulator/links/elements";
+  return model.contains("members") ? "/model/elements" : "/model/plates";
+}
+
+std::string step_pointer(const Document& document) {
+  const Json& analysis = document.value().at(JsonPointer(analysis_pointer(document)));
+  const std::string place = analysis_pointer(document);
+  if (analysis.contains("error_control")) return place + "/error_control/relative";
+  return place + (analysis.contains("tolerance") ? "/tolerance" : "/step_s");
+}
+
+}  // namespace trammel::harness

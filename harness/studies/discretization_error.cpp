@@ -1,0 +1,342 @@
+#include "harness/studies/discretization_error.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "harness/analysis/effect_changes.h"
+#include "harness/base/statistic.h"
+#include "harness/base/text.h"
+#include "harness/studies/mode_match.h"
+
+namespace trammel::harness {
+namespace {
+
+using results::ErrorEstimate;
+using results::ErrorEstimates;
+
+constexpr double kSafetyFactor = 3;       // of two levels, whose order is not observed
+constexpr double kLargeDifference = 0.1;  // of levels that are not in the asymptotic range
+constexpr double kRoundoff = 1e-12;       // of numbers whose round-off error is not known
+constexpr std::size_t kMaxEntries = 12;   // more are a curve, with one error for all
+
+/// Analyses that compute nothing from a mesh or in steps.
+bool is_closed_form(const std::string& kind) {
+  static const std::vector<std::string> kinds = {
+      "properties", "kinematics", "inverse-dynamics",    "manufactured",
+      "comparison", "options",    "model-probabilities", "grnn"};
+  return contains(kinds, kind);
+}
+
+/// Whether a value stands anywhere in the model under the key.
+bool has_value(const Json& json, const std::string& key, const Json& value) {
+  if (!json.is_object()) return false;
+  for (const auto& [name, entry] : json.items())
+    if ((name == key && entry == value) || has_value(entry, key, value)) return true;
+  return false;
+}
+
+/// Order of the mesh; none if nodal values are exact.
+std::optional<double> mesh_order(const Document& document) {
+  const Json& model = document.value()["model"];
+  const std::string kind = discretized_analysis(document);
+  bool is_second = kind != "statics" && has_value(model, "mass_matrix", "lumped");
+  if (model.contains("members"))
+    for (const auto& [name, member] : model["members"].items())
+      is_second = is_second || member.contains("end_section") || member.contains("arc_center_m") ||
+                  member.contains("restrained_motions");
+  is_second = is_second || model.contains("plates") || has_value(model, "kind", "triangles");
+  if (is_second) return 2;
+  const Json* second_order = nullptr;
+  const JsonPointer place(analysis_pointer(document) + "/second_order");
+  if (document.value().contains(place)) second_order = &document.value().at(place);
+  const bool linear = second_order == nullptr || !second_order->get<bool>();
+  if (kind == "statics" && linear) return std::nullopt;
+  return 4;
+}
+
+/// Order of the step, or power of the tolerance.
+double step_order(const Document& document) {
+  const Json& analysis = document.value().at(JsonPointer(analysis_pointer(document)));
+  constexpr double kAdaptiveRungeKutta = 8.0 / 9;
+  if (discretized_analysis(document) == "forward-dynamics") return kAdaptiveRungeKutta;
+  if (has_step_tolerance(document)) return 2.0 / 3;
+  if (analysis.value("extrapolated", false)) return 3;
+  for (const char* key : {"method", "scheme"}) {
+    const JsonPointer gamma(std::string("/") + key + "/newmark/gamma");
+    if (analysis.contains(gamma) && analysis.at(gamma) != 0.5) return 1;
+  }
+  return 2;
+}
+
+/// For each entry of a series the entry of the other one at the same time; none where there is
+/// none.
+std::vector<std::optional<std::size_t>> aligned(const Quantities& own, const Quantities& other,
+                                                std::size_t size, std::size_t other_size) {
+  std::vector<std::optional<std::size_t>> places(size);
+  const auto time = own.find("time_s"), other_time = other.find("time_s");
+  const bool by_time = size != other_size && time != own.end() && other_time != other.end() &&
+                       time->second.values.size() == size &&
+                       other_time->second.values.size() == other_size;
+  std::size_t j = 0;
+  for (std::size_t i = 0; i < size; ++i) {
+    if (!by_time) {
+      if (size == other_size) places[i] = i;
+      continue;
+    }
+    const double at = time->second.values[i], near = 1e-9 * time->second.values.back();
+    while (j < other_size && other_time->second.values[j] < at - near) ++j;
+    if (j < other_size && std::abs(other_time->second.values[j] - at) <= near) places[i] = j;
+  }
+  return places;
+}
+
+/// Displacements of modes at the nodes of `drawing` that stand in the places of `nodes`.
+SampledModes sampled(const AnalysisResult& result, const std::vector<std::size_t>& nodes) {
+  SampledModes modes;
+  modes.frequency = result.quantities.at("frequency_Hz").values;
+  const auto& shapes = result.drawing->shapes;
+  modes.frequency.resize(std::min(modes.frequency.size(), shapes.size()));
+  modes.shape.resize(2 * std::ssize(nodes), std::ssize(modes.frequency));
+  for (std::size_t m = 0; m < modes.frequency.size(); ++m)
+    for (std::size_t n = 0; n < nodes.size(); ++n) {
+      const auto& [x, y] = shapes[m].displacement.at(nodes[n]);
+      modes.shape(2 * static_cast<solver::Index>(n), static_cast<solver::Index>(m)) = x;
+      modes.shape(2 * static_cast<solver::Index>(n) + 1, static_cast<solver::Index>(m)) = y;
+    }
+  return modes;
+}
+
+/// The mode of the other result that looks like each one; none where none or several do.
+std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
+                                                      const AnalysisResult& other) {
+  const auto& a = own.drawing->nodes;
+  const auto& b = other.drawing->nodes;
+  double size = 0;
+  for (const auto& [x, y] : a) size = std::max({size, std::abs(x), std::abs(y)});
+  std::map<std::pair<long, long>, std::size_t> place_of;
+  const auto key = [&](const results::Point& p) {
+    return std::pair(std::lround(1e8 * p.first / size), std::lround(1e8 * p.second / size));
+  };
+  for (std::size_t j = 0; j < b.size(); ++j) place_of.emplace(key(b[j]), j);
+  std::vector<std::size_t> in_own, in_other;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const auto found = place_of.find(key(a[i]));
+    if (found == place_of.end()) continue;
+    in_own.push_back(i);
+    in_other.push_back(found->second);
+  }
+  std::vector<std::optional<std::size_t>> places(own.quantities.at("frequency_Hz").values.size());
+  for (const ModeMatch& match : match_modes(sampled(own, in_own), sampled(other, in_other)))
+    for (std::size_t k = 0; k < match.a.size() && k < match.b.size(); ++k)
+      places[match.a[k]] = match.b[k];
+  return places;
+}
+
+bool has_shapes(const AnalysisResult& result) {
+  return result.drawing && !result.drawing->shapes.empty() &&
+         result.drawing->shapes.front().label.starts_with("mode") &&
+         result.quantities.contains("frequency_Hz");
+}
+
+bool is_estimated(const std::string& name) {
+  const std::string head = name.substr(0, name.find(':'));
+  static const std::vector<std::string> exact = {"time_s",          "pose_x_m",      "pose_y_m",
+                                                 "pose_phi_rad",    "parameter",     "status",
+                                                 "estimated_correct_digits", "frequency_gap"};
+  return !is_diagnostic(name) && !is_count(head) && !contains(exact, head) &&
+         !head.starts_with("effect_") && head.find("error") == std::string::npos &&
+         head.find("step") == std::string::npos;
+}
+
+/// What errors of a quantity are relative to at least: the largest of its kind over the structure.
+/// Frequencies count one by one, those of rigid motions against the highest.
+double scale_of(const Quantities& all, const std::string& name) {
+  const std::string kind = change_kind(name);
+  const std::vector<double>& own = all.at(name).values;
+  if (kind == "frequency" || name.starts_with("load_factor")) return 1e-6 * max_abs(own);
+  double scale = max_abs(own);
+  if (!kind.empty())
+    for (const auto& [other, quantity] : all)
+      if (change_kind(other) == kind) scale = std::max(scale, max_abs(quantity.values));
+  return scale;
+}
+
+}  // namespace
+
+std::optional<Companion> companion_of(const Document& document, ErrorSource source, Refine refine) {
+  if (is_closed_form(discretized_analysis(document))) return std::nullopt;
+  const bool is_mesh = source == ErrorSource::mesh;
+  const auto patch_of = is_mesh ? mesh_patch : step_patch;
+  std::optional<Json> patch = patch_of(document, refine);
+  Companion companion{document, refine == Refine::finer, 2, ""};
+  if (!patch && refine == Refine::coarser) {
+    patch = patch_of(document, Refine::finer);
+    companion.finer = true;
+  }
+  if (!patch) return std::nullopt;
+  const bool by_tolerance = !is_mesh && (has_step_tolerance(document) ||
+                                         discretized_analysis(document) == "forward-dynamics");
+  if (by_tolerance) companion.ratio = 10;
+  companion.words = is_mesh ? (companion.finer ? "twice the elements" : "half the elements")
+                    : by_tolerance
+                        ? (companion.finer ? "a tenth of the tolerance" : "ten times the tolerance")
+                        : (companion.finer ? "half the step" : "twice the step");
+  companion.document.apply_patch(companion.words, "", *patch);
+  return companion;
+}
+
+std::optional<double> order_of(const Document& document, ErrorSource source) {
+  return source == ErrorSource::mesh ? mesh_order(document) : step_order(document);
+}
+
+ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other,
+                       std::optional<double> order, const Companion& companion) {
+  ErrorBands bands;
+  const bool by_shape = has_shapes(own) && has_shapes(other);
+  for (const auto& [name, quantity] : own.quantities) {
+    const auto found = other.quantities.find(name);
+    if (!is_estimated(name) || found == other.quantities.end()) continue;
+    const std::vector<double>& values = quantity.values;
+    const std::vector<double>& others = found->second.values;
+    const bool is_frequency = name == "frequency_Hz" && by_shape;
+    const auto places =
+        is_frequency ? matched_modes(own, other)
+                     : aligned(own.quantities, other.quantities, values.size(), others.size());
+    const double scale = scale_of(own.quantities, name);
+    ErrorBand band{std::vector<double>(values.size(), kNaN), order, true};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (!places[i]) continue;
+      const double difference = std::abs(values[i] - others[*places[i]]);
+      const double roundoff =
+          kRoundoff * scale +
+          (i < quantity.roundoff.size() ? quantity.roundoff[i] * std::abs(values[i]) : 0);
+      const bool is_exact = !order && difference <= 100 * roundoff;
+      const bool is_large = difference > kLargeDifference * std::max(std::abs(values[i]), scale);
+      const double p = is_large ? std::min(order.value_or(2), 2.0) : order.value_or(2);
+      const double power = std::pow(companion.ratio, p);
+      band.half_width[i] = roundoff + (is_exact ? difference
+                                                : kSafetyFactor * difference *
+                                                      (companion.finer ? power : 1) / (power - 1));
+      if (!is_exact) band.order = p;
+      band.asymptotic = band.asymptotic && !is_large;
+    }
+    bands.emplace(name, std::move(band));
+  }
+  return bands;
+}
+
+std::vector<ErrorEstimate> relative_errors(const Document& document, const AnalysisResult& own,
+                                           const std::map<ErrorSource, ErrorBands>& bands) {
+  std::vector<ErrorEstimate> estimates;
+  for (const auto& [name, quantity] : own.quantities) {
+    if (bands.empty() || !std::ranges::all_of(bands, [&name = name](const auto& source) {
+          return source.second.contains(name);
+        }))
+      continue;
+    ErrorEstimate estimate;
+    estimate.quantity = name;
+    const std::vector<double>& values = quantity.values;
+    const double scale = scale_of(own.quantities, name);
+    const bool is_curve = values.size() > kMaxEntries;
+    std::vector<double> sum(values.size(), 0.0);
+    double dominant = -1;
+    for (const auto& [source, parts] : bands) {
+      const ErrorBand& band = parts.at(name);
+      double largest = 0;
+      for (std::size_t i = 0; i < values.size(); ++i) {
+        sum[i] += band.half_width[i];
+        if (std::isfinite(band.half_width[i])) largest = std::max(largest, band.half_width[i]);
+      }
+      if (band.order) estimate.order = std::min(estimate.order.value_or(*band.order), *band.order);
+      estimate.asymptotic = estimate.asymptotic && band.asymptotic;
+      if (largest <= dominant) continue;
+      dominant = largest;
+      estimate.setting =
+          source == ErrorSource::mesh ? mesh_pointer(document) : step_pointer(document);
+    }
+    Number of_curve;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double size = is_curve ? scale : std::max(std::abs(values[i]), scale);
+      const Number relative = sum[i] == 0 ? 0 : sum[i] / size;
+      if (!is_curve) estimate.relative.push_back(relative);
+      if (relative) of_curve = std::max(of_curve.value_or(0), *relative);
+    }
+    if (is_curve) estimate.relative = {of_curve};
+    if (!change_kind(name).empty() && change_kind(name) != "frequency") estimate.scale = scale;
+    if (is_curve) estimate.scale = scale;
+    estimates.push_back(std::move(estimate));
+  }
+  return estimates;
+}
+
+ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& own,
+                               const References& references) {
+  ErrorEstimates found;
+  std::map<ErrorSource, ErrorBands> bands;
+  solver::Counters counters;
+  for (const ErrorSource source : {ErrorSource::mesh, ErrorSource::step}) {
+    auto companion = companion_of(document, source);
+    while (companion) {
+      bool solved = false;
+      try {
+        companion->document.validate("case");
+        const AnalysisResult other =
+            analyse(companion->document, references, {.drawing = has_shapes(own)});
+        counters += other.counters;
+        solved = other.outcome.solved();
+        if (solved) bands[source] = error_bands(own, other, order_of(document, source), *companion);
+      } catch (const InputError&) {  // fewer modes than the case asks for
+      }
+      if (solved) {
+        found.companions += (found.companions.empty() ? "" : "; ") + companion->words;
+        break;
+      }
+      if (companion->finer) {
+        found.reason = "the computation with " + companion->words + " has no solution";
+        companion.reset();
+      } else {
+        companion = companion_of(document, source, Refine::finer);
+      }
+    }
+  }
+  if (bands.empty() && found.reason.empty())
+    found.reason = "the analysis has neither mesh nor steps";
+  if (found.reason.empty()) found.quantities = relative_errors(document, own, bands);
+  found.counters = named_counters(counters);
+  return found;
+}
+
+std::vector<std::string> error_warnings(const ErrorEstimates& errors, double limit) {
+  constexpr std::size_t kNamed = 3;
+  std::map<std::string, std::vector<std::pair<double, std::string>>> by_setting;
+  for (const ErrorEstimate& estimate : errors.quantities) {
+    std::vector<std::string> entries;
+    double largest = 0;
+    for (std::size_t i = 0; i < estimate.relative.size(); ++i) {
+      if (!(estimate.relative[i].value_or(0) > limit)) continue;
+      if (estimate.relative.size() > 1) entries.push_back(std::to_string(i));
+      largest = std::max(largest, *estimate.relative[i]);
+    }
+    if (!(largest > limit)) continue;
+    by_setting[estimate.setting].emplace_back(
+        -largest, fmt::format("{}{} {:.2g} %{}", estimate.quantity,
+                              entries.empty() ? "" : "[" + join(entries, "and") + "]",
+                              100 * largest,
+                              estimate.asymptotic ? "" : " (not in the asymptotic range)"));
+  }
+  std::vector<std::string> warnings;
+  for (auto& [setting, found] : by_setting) {
+    std::ranges::sort(found);
+    std::vector<std::string> words;
+    for (std::size_t i = 0; i < std::min(kNamed, found.size()); ++i)
+      words.push_back(found[i].second);
+    if (found.size() > kNamed) words.push_back(std::to_string(found.size() - kNamed) + " more");
+    warnings.push_back("estimated discretization errors: " + join(words, "and") + "; change " +
+                       setting);
+  }
+  return warnings;
+}
+
+}  // namespace trammel::harness

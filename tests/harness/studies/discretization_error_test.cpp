@@ -1,0 +1,258 @@
+#include "harness/studies/discretization_error.h"
+
+#include <boost/test/unit_test.hpp>
+
+#include "harness/input/catalogue.h"
+#include "harness/studies/accuracy_search.h"
+#include "tests/support/harness/support.h"
+
+BOOST_AUTO_TEST_SUITE(discretization_error)
+
+using namespace trammel;
+using namespace trammel::harness;
+using testing::cantilever;
+using testing::complaint;
+using testing::contains;
+using testing::Folder;
+
+namespace {
+
+struct Estimated {
+  AnalysisResult result;
+  results::ErrorEstimates errors;
+
+  [[nodiscard]] const results::ErrorEstimate& of(const std::string& quantity) const {
+    const auto found =
+        std::ranges::find(errors.quantities, quantity, &results::ErrorEstimate::quantity);
+    BOOST_TEST_REQUIRE((found != errors.quantities.end()), quantity << ": " << errors.reason);
+    return *found;
+  }
+  [[nodiscard]] const std::vector<double>& values(const std::string& quantity) const {
+    return result.quantities.at(quantity).values;
+  }
+};
+
+Document document_of(const Json& json) {
+  const Folder folder;
+  return patched(load_case(folder.write(json)), kBaseVariant);
+}
+
+Estimated estimated(const Json& json) {
+  const References references;
+  const Document document = document_of(json);
+  Estimated found{analyse(document, references, {}), {}};
+  BOOST_TEST_REQUIRE(found.result.outcome.solved());
+  found.errors = estimate_errors(document, found.result, references);
+  return found;
+}
+
+/// A manipulator as a new user writes it, without a mesh.
+Json own_manipulator() {
+  return Json::parse(R"({
+    "id": "own-manipulator", "title": "Own 3-RRR",
+    "model": {
+      "manipulator": {
+        "base_side_m": 0.8,
+        "links": {"proximal_length_m": 0.35, "distal_length_m": 0.3, "thickness_m": 0.003,
+                  "width_m": 0.025},
+        "platform": {"kind": "rigid", "side_m": 0.2, "thickness_m": 0.005},
+        "material": {"E_Pa": 2.1e11, "rho_kg_m3": 7850, "nu": 0.3},
+        "joints": {"active": "locked", "elbow": "hinged", "platform": "hinged"}
+      },
+      "pose": {"x_m": 0.4, "y_m": 0.23, "phi_rad": 0}
+    },
+    "analysis": {"modes": {"count": 6}}
+  })");
+}
+
+Json with_links(Json json, int elements) {
+  json["model"]["manipulator"]["links"]["elements"] = elements;
+  return json;
+}
+
+Json vibrating_cantilever() {
+  Json json = cantilever();
+  json["analysis"] = {{"transient",
+                       {{"duration_s", 0.1},
+                        {"step_s", 1e-3},
+                        {"samples", 50},
+                        {"outputs", {"displacement_y_m:B"}}}}};
+  return json;
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(errors_of_modes_hold_the_converged_values) {
+  const std::vector<double> converged =
+      estimated(with_links(own_manipulator(), 32)).values("frequency_Hz");
+  for (const Json& json : {own_manipulator(), with_links(own_manipulator(), 1),
+                           with_links(own_manipulator(), 2), with_links(own_manipulator(), 6)}) {
+    const Estimated found = estimated(json);
+    const results::ErrorEstimate& error = found.of("frequency_Hz");
+    for (std::size_t mode = 0; mode < converged.size(); ++mode) {
+      const double computed = found.values("frequency_Hz")[mode];
+      BOOST_TEST(std::abs(computed - converged[mode]) <= *error.half_width(mode, computed),
+                 "mode " << mode << ": " << computed << " against " << converged[mode]);
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(the_default_mesh_is_accurate_and_a_coarse_one_warns) {
+  const std::vector<double> converged =
+      estimated(with_links(own_manipulator(), 32)).values("frequency_Hz");
+  const Estimated by_default = estimated(own_manipulator());
+  for (std::size_t mode = 0; mode < converged.size(); ++mode)
+    BOOST_TEST(by_default.values("frequency_Hz")[mode] == converged[mode],
+               boost::test_tools::tolerance(1e-3));
+  BOOST_TEST(error_warnings(by_default.errors, 0.01).empty());
+  const auto warnings = error_warnings(estimated(with_links(own_manipulator(), 1)).errors, 0.01);
+  BOOST_TEST_REQUIRE(!warnings.empty());
+  BOOST_TEST(contains(warnings.front(), "frequency_Hz[3, 4 and 5]"));
+  BOOST_TEST(contains(warnings.front(), "/model/manipulator/links/elements"));
+}
+
+BOOST_AUTO_TEST_CASE(nodal_values_of_linear_statics_are_exact) {
+  const Estimated found = estimated(cantilever());
+  BOOST_TEST(!found.of("displacement_y_m:B").order.has_value());
+  BOOST_TEST(*found.of("displacement_y_m:B").relative.front() < 1e-10);
+}
+
+BOOST_AUTO_TEST_CASE(an_odd_mesh_has_a_finer_companion) {
+  Json json = cantilever();
+  json["analysis"] = {{"modes", {{"count", 3}}}};
+  json["model"]["elements"] = 3;
+  const Estimated found = estimated(json);
+  BOOST_TEST(found.errors.companions == "twice the elements");
+  json["model"]["elements"] = 24;
+  const std::vector<double> converged = estimated(json).values("frequency_Hz");
+  for (std::size_t mode = 0; mode < 3; ++mode) {
+    const double computed = found.values("frequency_Hz")[mode];
+    BOOST_TEST(std::abs(computed - converged[mode]) <=
+               *found.of("frequency_Hz").half_width(mode, computed));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(relative_errors_do_not_depend_on_units) {
+  Json json = cantilever();
+  json["analysis"] = {{"modes", {{"count", 3}}}};
+  const Estimated meters = estimated(json);
+  constexpr double kLength = 1e3, kMass = 1e-3;  // millimeters and tonnes; time stays
+  Json& model = json["model"];
+  model["materials"]["steel"]["E_Pa"] = 2e11 * kMass / kLength;
+  model["materials"]["steel"]["rho_kg_m3"] = 7800 * kMass / (kLength * kLength * kLength);
+  model["sections"]["bar"]["rectangle"] = {{"thickness_m", 100}, {"width_m", 50}};
+  model["nodes"]["B"] = {2000, 0};
+  const Estimated millimeters = estimated(json);
+  for (std::size_t mode = 0; mode < 3; ++mode)
+    BOOST_TEST(
+        *millimeters.of("frequency_Hz").relative[mode] == *meters.of("frequency_Hz").relative[mode],
+        boost::test_tools::tolerance(1e-6));
+}
+
+BOOST_AUTO_TEST_CASE(errors_of_steps_hold_the_motion_without_them) {
+  Json exact = vibrating_cantilever();
+  exact["analysis"]["transient"]["method"] = "modal-superposition";
+  exact["model"]["elements"] = 16;
+  const std::vector<double> truth = estimated(exact).values("displacement_y_m:B");
+  for (const double step_s : {1e-3, 5e-4, 1e-4}) {
+    Json json = vibrating_cantilever();
+    json["analysis"]["transient"]["step_s"] = step_s;
+    const Estimated found = estimated(json);
+    const std::vector<double>& computed = found.values("displacement_y_m:B");
+    const double allowed = *found.of("displacement_y_m:B").half_width(0, 0);
+    for (std::size_t i = 0; i < truth.size(); ++i)
+      BOOST_TEST_REQUIRE(std::abs(computed[i] - truth[i]) <= allowed,
+                         "step " << step_s << " s, sample " << i);
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_search_reaches_its_accuracy_and_states_its_levels) {
+  const References references;
+  const std::vector<double> converged =
+      estimated(with_links(own_manipulator(), 64)).values("frequency_Hz");
+  for (const double accuracy : {1e-2, 1e-4, 1e-6}) {
+    const AccuracySearch search =
+        search_accuracy(document_of(own_manipulator()), {accuracy, {}, 60}, references);
+    BOOST_TEST(search.reached);
+    BOOST_TEST(*search.errors.search.back().error <= accuracy);
+    const std::vector<double>& found = search.result.quantities.at("frequency_Hz").values;
+    for (std::size_t mode = 0; mode < converged.size(); ++mode)
+      BOOST_TEST(found[mode] == converged[mode], boost::test_tools::tolerance(accuracy));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(a_search_refines_mesh_and_step) {
+  const References references;
+  const AccuracySearch search =
+      search_accuracy(document_of(vibrating_cantilever()), {1e-3, {}, 60}, references);
+  BOOST_TEST(search.reached);
+  BOOST_TEST(search.tried.size() > 3U);
+}
+
+BOOST_AUTO_TEST_CASE(what_a_search_cannot_reach_is_stated) {
+  const References references;
+  const AccuracySearch search =
+      search_accuracy(document_of(own_manipulator()), {1e-10, {}, 60}, references);
+  BOOST_TEST(!search.reached);
+  BOOST_TEST(!search.errors.reason.empty());
+  const auto refusal = [&](const Json& json, const std::string& quantity) {
+    return complaint([&] {
+      (void)search_accuracy(document_of(json), {1e-3, {quantity}, 60}, references);
+    });
+  };
+  BOOST_TEST(contains(refusal(own_manipulator(), "frequncy_Hz"), "did you mean 'frequency_Hz'"));
+  Json rigid = own_manipulator();
+  rigid["analysis"] = {{"kinematics", Json::object()}};
+  BOOST_TEST(contains(refusal(rigid, "time_s"), "a mesh or a step"));
+}
+
+BOOST_AUTO_TEST_CASE(defaults_follow_the_analysis_and_the_member) {
+  Json json = cantilever();
+  json["model"].erase("elements");
+  BOOST_TEST(elements_of(document_of(json), "AB") == 1);
+  json["analysis"] = {{"modes", {{"count", 1}}}};
+  BOOST_TEST(elements_of(document_of(json), "AB") == 4);
+  json["model"]["sections"]["tip"] = json["model"]["sections"]["bar"];
+  json["model"]["members"]["AB"]["end_section"] = "tip";
+  BOOST_TEST(elements_of(document_of(json), "AB") == 8);
+  json["model"]["members"]["AB"].erase("end_section");
+  json["model"]["nodes"]["B"] = {0, 2};
+  json["model"]["members"]["AB"]["arc_center_m"] = {0, 1};
+  BOOST_TEST(elements_of(document_of(json), "AB") == 24);  // half a circle
+  json["model"]["elements"] = 3;
+  BOOST_TEST(elements_of(document_of(json), "AB") == 3);
+}
+
+BOOST_AUTO_TEST_CASE(numbers_in_a_wrong_unit_are_warned_of) {
+  Json json = own_manipulator();
+  json["model"]["pose"]["phi_rad"] = 30;
+  BOOST_TEST(contains(unit_warnings(document_of(json)).at(0), "/model/pose/phi_rad is 30 rad"));
+  json = own_manipulator();
+  json["model"]["manipulator"]["links"]["distal_length_m"] = 300;
+  BOOST_TEST(contains(unit_warnings(document_of(json)).at(0),
+                      "/model/manipulator/links/distal_length_m is 300 m"));
+  json = cantilever();
+  json["model"]["nodes"]["C"] = {1500, 0};
+  BOOST_TEST(contains(unit_warnings(document_of(json)).at(0), "/model/nodes/C is 1500 m"));
+}
+
+BOOST_AUTO_TEST_CASE(the_catalogue_has_no_numbers_in_a_wrong_unit) {
+  for (const Case& given : Catalogue().load())
+    for (const std::string& variant : given.variants())
+      for (const std::string& warning : unit_warnings(patched(given, variant)))
+        BOOST_TEST(warning.empty(), given.id() << ":" << variant << ": " << warning);
+}
+
+BOOST_AUTO_TEST_CASE(entries_in_a_check_suggest_index) {
+  Json json = cantilever();
+  json["checks"] = {{"tip",
+                     {{"quantity", "displacement_y_m:B"},
+                      {"entries", {0}},
+                      {"bound", {0, 1}},
+                      {"why", "made up"}}}};
+  const Folder folder;
+  BOOST_TEST(
+      contains(complaint([&] { (void)load_case(folder.write(json)); }), "did you mean 'index'"));
+}
+
+BOOST_AUTO_TEST_SUITE_END()
