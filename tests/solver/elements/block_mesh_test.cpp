@@ -6,8 +6,7 @@
 #include <numbers>
 
 #include "solver/elements/triangle_element.h"
-#include "solver/linear/modes.h"
-#include "solver/linear/statics.h"
+#include "solver/linear/system.h"
 #include "tests/support/solver/side_loads.h"
 
 BOOST_AUTO_TEST_SUITE(block_mesh)
@@ -54,22 +53,6 @@ double area(const Model& model) {
     }
   }
   return sum;
-}
-
-StaticSolution elliptic_membrane(Index cells, Index& D) {
-  Model model;
-  model.plates = {{"membrane", {210e9, 0, 0.3}, 0.1}};
-  Block block = elliptic_quarter(cells);
-  block.grading = {6, 12};  // fine at D
-  const BlockMesh mesh = mesh_blocks({block}, true);
-  const std::vector<Index> nodes = append(model, 0, mesh);
-  D = nodes[static_cast<std::size_t>(mesh.sides[0][0].front())];
-  for (const Index node : mesh.sides[0][0])
-    model.supports.push_back({"", nodes[static_cast<std::size_t>(node)], {false, true, false}});
-  for (const Index node : mesh.sides[0][2])
-    model.supports.push_back({"", nodes[static_cast<std::size_t>(node)], {true, false, false}});
-  model.edge_loads = side_loads(mesh, nodes, 0, 0, 1, {0, 0}, 10e6);
-  return solve_statics(assemble(model));
 }
 
 }  // namespace
@@ -151,50 +134,6 @@ BOOST_AUTO_TEST_CASE(pressure_on_a_curved_side_adds_up_to_its_projection) {
   }
   BOOST_TEST(sum.x() == 10e6 * 0.1 * 2.75, tolerance(1e-12));  // for any curve between its ends
   BOOST_TEST(sum.y() == 10e6 * 0.1 * 3.25, tolerance(1e-12));
-}
-
-BOOST_AUTO_TEST_CASE(the_elliptic_membrane_le1_has_its_stress_at_D) {
-  Index D = 0;
-  const StaticSolution coarse = elliptic_membrane(8, D);
-  BOOST_TEST(coarse.node_stress(D, 1) == 92.65818e6, tolerance(1e-2));
-  const StaticSolution fine = elliptic_membrane(32, D);
-  BOOST_TEST(fine.node_stress(D, 1) == 92.65818e6, tolerance(8e-4));
-  BOOST_TEST(fine.displacement(D, 0) == -1.022085e-4, tolerance(1e-5));
-  BOOST_TEST(fine.equilibrium_residual < 1e-3);  // of 1e6 N
-}
-
-BOOST_AUTO_TEST_CASE(cooks_membrane_converges_to_the_extrapolated_value) {
-  Block block;
-  block.corners = {Vector2d(0, 0), Vector2d(48, 44), Vector2d(48, 60), Vector2d(0, 44)};
-  block.cells = {24, 24};
-  block.grading = {1, 1};
-  const BlockMesh mesh = mesh_blocks({block}, true);
-  Model model;
-  model.plates = {{"membrane", {1, 0, 1 / 3.0}, 1}};
-  const std::vector<Index> nodes = append(model, 0, mesh);
-  for (const Index node : mesh.sides[0][3])
-    model.supports.push_back({"", nodes[static_cast<std::size_t>(node)], {true, true, false}});
-  model.edge_loads = side_loads(mesh, nodes, 0, 0, 1, {0, 1 / 16.0}, 0);
-  const StaticSolution r = solve_statics(assemble(model));
-  const auto& side = mesh.sides[0][1];
-  const Index middle = nodes[static_cast<std::size_t>(side[(side.size() - 1) / 2])];
-  BOOST_TEST(r.displacement(middle, 1) == 23.96774, tolerance(5e-4));
-  BOOST_TEST(r.displacement(middle, 0) == -10.69536, tolerance(1e-3));
-}
-
-BOOST_AUTO_TEST_CASE(the_free_annulus_has_the_exact_frequencies_and_not_the_printed_ones) {
-  std::vector<Block> blocks;
-  for (Index k = 0; k < 4; ++k) blocks.push_back(annulus_quarter(1.8, 6, k, 12, 16));
-  Model model;
-  model.plates = {{"ring", {200e9, 8000, 0.3}, 0.06}};
-  append(model, 0, mesh_blocks(blocks, true));
-  const ModalSolution m = solve_modes(assemble(model), {14, EigenMethod::automatic});
-  BOOST_REQUIRE(m.outcome.solved());
-  BOOST_TEST(m.zero_energy_mode_count == 3);
-  const double exact[] = {125.6989658, 125.6989658, 224.2039408, 232.8686569,
-                          232.8686569, 262.7577989, 262.7577989, 335.2854689,
-                          335.2854689, 375.2882926, 375.2882926};
-  for (Index i = 0; i < 11; ++i) BOOST_TEST(m.frequency[i + 3] == exact[i], tolerance(3e-4));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -50,53 +50,6 @@ BOOST_AUTO_TEST_CASE(the_stiffness_of_euler_bernoulli_is_equation_7) {
              1e-15);
 }
 
-BOOST_AUTO_TEST_CASE(the_stiffness_of_timoshenko_is_that_of_przemieniecki) {
-  const double L = 0.3;  // short: Phi = 1.4
-  const double phi = shear_ratio(kSection, BeamTheory::timoshenko, L);
-  BOOST_TEST(phi > 1);
-  const Matrix6d k = frame_stiffness(kSection, BeamTheory::timoshenko, L);
-  const double c = kSection.EI / ((1 + phi) * L);
-  BOOST_TEST(k(1, 1) == 12 * c / (L * L), boost::test_tools::tolerance(1e-14));
-  BOOST_TEST(k(1, 2) == 6 * c / L, boost::test_tools::tolerance(1e-14));
-  BOOST_TEST(k(2, 2) == (4 + phi) * c, boost::test_tools::tolerance(1e-14));
-  BOOST_TEST(k(2, 5) == (2 - phi) * c, boost::test_tools::tolerance(1e-13));
-}
-
-BOOST_AUTO_TEST_CASE(the_consistent_mass_of_euler_bernoulli_is_the_textbooks) {
-  const double L = kLength;
-  Matrix6d m;
-  m << 140, 0, 0, 70, 0, 0,                         //
-      0, 156, 22 * L, 0, 54, -13 * L,               //
-      0, 22 * L, 4 * L * L, 0, 13 * L, -3 * L * L,  //
-      70, 0, 0, 140, 0, 0,                          //
-      0, 54, 13 * L, 0, 156, -22 * L,               //
-      0, -13 * L, -3 * L * L, 0, -22 * L, 4 * L * L;
-  m *= kSection.mass_per_length * L / 420;
-  const Matrix6d got = frame_mass(kSection, BeamTheory::euler_bernoulli, MassMatrix::consistent, L);
-  BOOST_TEST(largest_difference(got, m) < 1e-15);
-}
-
-BOOST_AUTO_TEST_CASE(the_consistent_mass_of_timoshenko_is_that_of_friedman_and_kosmatka) {
-  const double L = 0.4;
-  const double phi = shear_ratio(kSection, BeamTheory::timoshenko, L);
-  const double m = kSection.mass_per_length * L / (210 * (1 + phi) * (1 + phi));
-  const double r = kSection.inertia_per_length / (30 * (1 + phi) * (1 + phi) * L);
-  const Matrix6d M = frame_mass(kSection, BeamTheory::timoshenko, MassMatrix::consistent, L);
-  const auto close = boost::test_tools::tolerance(1e-13);
-  BOOST_TEST(M(1, 1) == m * (70 * phi * phi + 147 * phi + 78) + r * 36, close);
-  BOOST_TEST(M(1, 2) == m * (35 * phi * phi + 77 * phi + 44) * L / 4 - r * (15 * phi - 3) * L,
-             close);
-  BOOST_TEST(M(1, 4) == m * (35 * phi * phi + 63 * phi + 27) - r * 36, close);
-  BOOST_TEST(M(1, 5) == -m * (35 * phi * phi + 63 * phi + 26) * L / 4 - r * (15 * phi - 3) * L,
-             close);
-  BOOST_TEST(M(2, 2) == m * (7 * phi * phi + 14 * phi + 8) * L * L / 4 +
-                            r * (10 * phi * phi + 5 * phi + 4) * L * L,
-             close);
-  BOOST_TEST(M(2, 5) == -m * (7 * phi * phi + 14 * phi + 6) * L * L / 4 +
-                            r * (5 * phi * phi - 5 * phi - 1) * L * L,
-             close);
-}
-
 BOOST_AUTO_TEST_CASE(rigid_motions_store_no_energy_and_are_the_only_ones) {
   for (const BeamTheory theory : kTheories) {
     for (const double angle : {0.0, 0.7, 2.5}) {

@@ -134,18 +134,6 @@ BOOST_AUTO_TEST_CASE(a_chain_of_inextensible_elements_stays_in_line_for_any_numb
   }
 }
 
-BOOST_AUTO_TEST_CASE(constraint_forces_of_a_rigid_body_on_a_support_reach_the_ground) {
-  Model model = rigid_triangle();
-  model.supports = {{"", 1, {true, true, false}}, {"", 2, {false, true, false}}};
-  model.loads = {{3, {1, 2, 0}}};
-  const StaticSolution r = solve_statics(assemble(model));
-  BOOST_TEST(r.outcome.solved());
-  BOOST_TEST(r.reaction(0, 0) == -1, boost::test_tools::tolerance(1e-13));
-  BOOST_TEST(r.reaction(1, 1) == (0.3 - 2 * 0.2) / 0.4, boost::test_tools::tolerance(1e-13));
-  BOOST_TEST(r.equilibrium_residual < 1e-14);
-  BOOST_TEST(r.moment_residual < 1e-14);
-}
-
 BOOST_AUTO_TEST_CASE(what_a_rigid_body_holds_can_be_clamped_and_loaded_by_a_moment) {
   const auto tip_under_moment = [](Index clamped, Index loaded) {
     Model model = beam(unit_section(), 1, 1, 0.9);

@@ -4,21 +4,14 @@
 
 #include "solver/linear/row_balance.h"
 #include "solver/motion/modal_superposition.h"
+#include "tests/support/solver/numerics.h"
 
 BOOST_AUTO_TEST_SUITE(damping)
 
 using namespace trammel::solver;
 using std::numbers::pi;
 
-namespace {
-
-SparseMatrix sparse(const Eigen::MatrixXd& A) {
-  SparseMatrix S = A.sparseView();
-  S.makeCompressed();
-  return S;
-}
-
-}  // namespace
+namespace {}  // namespace
 
 BOOST_AUTO_TEST_CASE(the_printed_factors_mean_12_percent_at_13_Hz_and_overdamping_above_106_Hz) {
   const RayleighDamping printed{.mass = 0.02, .stiffness = 0.003};

@@ -90,55 +90,6 @@ BOOST_AUTO_TEST_CASE(slow_motion_is_quasi_static) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(stiff_links_follow_the_path_and_need_the_torques_of_rigid_ones) {
-  double before = 0;
-  for (const double factor : {1e2, 1e4}) {
-    ElastodynamicsOptions options = options_on(circle(20), 0.3, 2e-4);
-    options.design.elbow.fill({ElbowKind::hinged});
-    for (std::size_t i = 0; i < 3; ++i) {
-      options.design.proximal[i].material.E *= factor;
-      options.design.distal[i].material.E *= factor;
-    }
-    options.wrench = {1, 2, 0.05};
-    options.damping = {};
-    options.time.quasi_static_start = true;
-    options.time.sample_times = {0.1, 0.2, 0.3};
-    const ElastodynamicsSolution s = solve_elastodynamics(options);
-    BOOST_TEST_REQUIRE(s.outcome.solved(), s.outcome.reason);
-    const double deflection = s.deflection.rowwise().norm().maxCoeff();
-    const double torque =
-        (s.torque - s.rigid_torque).cwiseAbs().maxCoeff() / s.rigid_torque.cwiseAbs().maxCoeff();
-    if (before > 0) {
-      BOOST_TEST(std::abs(deflection / before * 100 - 1) < 0.1);
-      BOOST_TEST(torque < 1e-4);
-    }
-    before = deflection;
-  }
-}
-
-BOOST_AUTO_TEST_CASE(a_step_load_on_a_manipulator_at_rest_keeps_its_energy_and_overshoots) {
-  const Pose pose{0.26, 0.15, 0.1};
-  ElastodynamicsOptions options = options_on(RestToRest{pose, pose, 1}, 0.2, 5e-4);
-  options.wrench = {10, 0, 0};
-  options.damping = {};
-  const ElastodynamicsSolution s = solve_elastodynamics(options);
-  BOOST_TEST_REQUIRE(s.outcome.solved(), s.outcome.reason);
-  double worst = 0;
-  double work = 0;
-  for (const MotionEnergy& energy : s.energy) {
-    work = std::max(work, std::abs(energy.work));
-    worst = std::max(worst, std::abs(energy.total()));
-  }
-  // q^T K q holds the axial stiffness EA/l = 3.1e7 N/m of twelve elements against displacements of
-  // 0.01 m: 0.7e-12 J of rounding each, 4e-11 of the work
-  BOOST_TEST(worst < 1e-10 * work);
-  options.elastic_inertia = false;
-  const double still = solve_elastodynamics(options).deflection(0, 0);
-  const double peak = s.deflection.col(0).maxCoeff();
-  BOOST_TEST(peak / still > 1.5);
-  BOOST_TEST(peak / still < 2.05);
-}
-
 BOOST_AUTO_TEST_CASE(the_deflection_along_the_path_converges_with_order_2) {
   for (const bool gyroscopic : {false, true}) {
     for (const TimeScheme& scheme : {average_acceleration(), generalized_alpha(0.8)}) {
@@ -217,20 +168,6 @@ BOOST_AUTO_TEST_CASE(steps_balance_at_their_ends_where_samples_lie_inside_them) 
   BOOST_TEST(s.evidence.largest(Residual::equation_of_motion) > 1e-10);
 }
 
-BOOST_AUTO_TEST_CASE(modes_are_not_superposed_along_a_path) {
-  ElastodynamicsOptions options = options_on(circle(1), 1, 0.1);
-  options.modal_superposition = true;
-  BOOST_CHECK_THROW(static_cast<void>(solve_elastodynamics(options)), ModelError);
-}
-
-BOOST_AUTO_TEST_CASE(modes_are_not_superposed_on_a_motion_that_rests_at_its_samples_alone) {
-  ElastodynamicsOptions options =
-      options_on(RestToRest{{0.25, 0.144, 0}, {0.28, 0.15, 0.1}, 0.2}, 0.2, 1e-3);
-  options.time.sample_times = {0, 0.2};
-  options.modal_superposition = true;
-  BOOST_CHECK_THROW(static_cast<void>(solve_elastodynamics(options)), ModelError);
-}
-
 BOOST_AUTO_TEST_CASE(where_nothing_moves_the_matrices_are_made_and_factored_once) {
   const Pose pose{0.26, 0.15, 0.1};
   ElastodynamicsOptions options = options_on(RestToRest{pose, pose, 1}, 0.1, 5e-4);
@@ -238,15 +175,6 @@ BOOST_AUTO_TEST_CASE(where_nothing_moves_the_matrices_are_made_and_factored_once
   const ElastodynamicsSolution s = solve_elastodynamics(options);
   BOOST_TEST(s.time.size() == 201U);
   BOOST_TEST(s.summary.counters.factorizations == 3);  // mass, step, stiffness
-}
-
-BOOST_AUTO_TEST_CASE(gyroscopic_terms_are_not_left_out_of_a_quasi_static_equation_in_silence) {
-  // they once stood in the forces and not in the equation: 2e-4 N were missing
-  ElastodynamicsOptions options = options_on(circle(20), 0.05, 1e-2);
-  options.wrench = {10, 0, 0};
-  options.gyroscopic = true;
-  options.elastic_inertia = false;
-  BOOST_CHECK_THROW(static_cast<void>(solve_elastodynamics(options)), ModelError);
 }
 
 BOOST_AUTO_TEST_CASE(inertia_that_is_nothing_at_the_start_may_be_more_than_the_load_later) {
@@ -262,25 +190,6 @@ BOOST_AUTO_TEST_CASE(inertia_that_is_nothing_at_the_start_may_be_more_than_the_l
   BOOST_TEST(change > 1);
   BOOST_TEST(std::abs(with.effects.nominal_inertia / change - 1) < 0.5);
   BOOST_TEST(with.effects.nominal_inertia == without.effects.nominal_inertia);
-}
-
-BOOST_AUTO_TEST_CASE(reactions_loads_inertia_and_drag_are_in_equilibrium_all_along) {
-  for (const PlatformKind kind : {PlatformKind::rigid, PlatformKind::triangles}) {
-    for (const bool gyroscopic : {false, true}) {
-      ElastodynamicsOptions options = options_on(circle(20), 0.05, 1e-3);
-      options.design = coarse_design(kind);
-      options.wrench = {10, 0, 0};
-      options.gravity = {0, -9.81};
-      options.gyroscopic = gyroscopic;
-      const ElastodynamicsSolution s = solve_elastodynamics(options);
-      BOOST_TEST_REQUIRE(s.outcome.solved(), s.outcome.reason);
-      BOOST_TEST(s.time.size() == 51U);
-      for (const StaticSolution& state : s.state) {
-        BOOST_TEST(state.equilibrium_residual < 1e-7);
-        BOOST_TEST(state.moment_residual < 1e-7);
-      }
-    }
-  }
 }
 
 BOOST_AUTO_TEST_CASE(gyroscopic_terms_matter_as_much_as_their_number_says) {
@@ -352,13 +261,6 @@ BOOST_AUTO_TEST_CASE(a_mechanism_has_no_number_for_its_inertia_beside_the_load) 
   BOOST_TEST(std::isnan(s.effects.nominal_inertia));
   BOOST_TEST(s.quasi_static_deflection.array().isNaN().all());
   BOOST_TEST(s.effects.first_frequency > 0);  // the first elastic one, after three rigid motions
-}
-
-BOOST_AUTO_TEST_CASE(a_moment_needs_a_platform_that_can_turn) {
-  ElastodynamicsOptions options = options_on(circle(1), 1, 0.1);
-  options.design = coarse_design(PlatformKind::triangles);
-  options.wrench = {0, 0, 1};
-  BOOST_CHECK_THROW(static_cast<void>(solve_elastodynamics(options)), ModelError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

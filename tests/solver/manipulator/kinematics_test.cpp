@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "tests/support/solver/differences.h"
+#include "tests/support/solver/numerics.h"
 #include "tests/support/solver/table_1.h"
 
 BOOST_AUTO_TEST_SUITE(kinematics)
@@ -32,19 +32,6 @@ Pose moved(const Pose& pose, const Vector3d& direction, double s) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(the_circle_of_table_1_stays_within_the_ticks_of_figure_17) {
-  const ManipulatorGeometry g = table_1_geometry();
-  for (int k = 0; k < 631; ++k) {
-    const double t = 0.01 * k;
-    const Posture p =
-        inverse_kinematics(g, {0.25 + 0.01 * std::cos(t), 0.144 + 0.01 * std::sin(t)});
-    BOOST_TEST_REQUIRE(p.outcome.solved());
-    BOOST_TEST((p.active[0] > -0.7 && p.active[0] < -0.5));
-    BOOST_TEST((p.active[1] > 1.4 && p.active[1] < 1.6));
-    BOOST_TEST((p.active[2] > -2.8 && p.active[2] < -2.6));
-  }
-}
-
 BOOST_AUTO_TEST_CASE(the_loops_close_to_round_off_all_around_the_circle) {
   for (const ManipulatorGeometry& g : {table_1_geometry(), uneven_geometry()}) {
     for (int k = 0; k < 631; ++k) {
@@ -60,21 +47,6 @@ BOOST_AUTO_TEST_CASE(the_loops_close_to_round_off_all_around_the_circle) {
             g.distal[i] * Vector2d(std::cos(p.passive[i]), std::sin(p.passive[i]));
         BOOST_TEST((tip - p.C[i]).norm() < 1e-15);
       }
-    }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(the_centred_pose_has_a_threefold_symmetry_for_any_orientation) {
-  const ManipulatorGeometry g = table_1_geometry();
-  for (const double phi : {0.0, 0.3, -0.5}) {
-    const Pose pose{0.25, 0.5 / (2 * std::numbers::sqrt3), phi};
-    const Posture p = inverse_kinematics(g, pose);
-    BOOST_TEST_REQUIRE(p.outcome.solved());
-    for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t j = (i + 1) % 3;
-      BOOST_TEST(std::abs(wrapped(p.active[j] - p.active[i] - 2 * kPi / 3)) < 1e-14);
-      BOOST_TEST(std::abs(wrapped(p.passive[j] - p.passive[i] - 2 * kPi / 3)) < 1e-14);
-      BOOST_TEST(std::abs(p.elbow_sine[j] - p.elbow_sine[i]) < 1e-14);
     }
   }
 }
@@ -283,22 +255,6 @@ BOOST_AUTO_TEST_CASE(distances_do_not_depend_on_the_size_of_the_manipulator) {
   BOOST_TEST(std::abs(k.parallel_distance / j.parallel_distance - 1) < 1e-13);
   BOOST_TEST(std::abs(k.serial_distance / j.serial_distance - 1) < 1e-13);
   BOOST_TEST((j.parallel_distance > 0.01 && j.parallel_distance < 1));
-}
-
-BOOST_AUTO_TEST_CASE(a_geometry_without_meaning_is_refused_with_a_sentence) {
-  const Pose pose{0.25, 0.144, 0};
-  const auto refuses = [&](auto&& change) {
-    ManipulatorGeometry g = table_1_geometry();
-    change(g);
-    BOOST_CHECK_THROW((void)inverse_kinematics(g, pose), ModelError);
-  };
-  refuses([](ManipulatorGeometry& g) { g.proximal[1] = 0; });
-  refuses([](ManipulatorGeometry& g) { g.distal[2] = -0.2; });
-  refuses([](ManipulatorGeometry& g) { g.distal[2] = std::numeric_limits<double>::infinity(); });
-  refuses([](ManipulatorGeometry& g) { g.working_mode[0] = 0; });
-  refuses([](ManipulatorGeometry& g) { g.base[0].x() = std::nan(""); });
-  refuses([](ManipulatorGeometry& g) { g.platform.fill(Vector2d::Zero()); });
-  BOOST_CHECK_THROW((void)inverse_kinematics(table_1_geometry(), {std::nan(""), 0, 0}), ModelError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

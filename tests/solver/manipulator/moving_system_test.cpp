@@ -274,30 +274,6 @@ BOOST_AUTO_TEST_CASE(gyroscopic_terms_are_the_second_derivative_of_the_turning_i
   }
 }
 
-BOOST_AUTO_TEST_CASE(an_elastic_displacement_that_all_parts_share_feels_no_gyroscopic_force) {
-  Walk walk(table_1_design(), waltz(), 0.1, true);
-  BOOST_TEST_REQUIRE(walk.go_to(0.4).solved());
-  const System& system = walk.moving.start();
-  VectorXd u = VectorXd::Zero(system.coordinates.size);
-  for (const auto& c : system.coordinates.node) u.segment<2>(c[0]) = Vector2d(0.3, -0.8);
-  // only the supports' rows do not follow; they do not enter the elements that do not touch them
-  VectorXd q(walk.moving.K().rows());
-  for (std::size_t i = 0; i < system.constraints.free.size(); ++i) {
-    if (system.constraints.free[i] >= 0) q[system.constraints.free[i]] = u[static_cast<Index>(i)];
-  }
-  const VectorXd damping = walk.moving.gyroscopic_matrix() * q;
-  const VectorXd stiffness = walk.moving.centrifugal_and_euler_matrix() * q;
-  const double scale = walk.moving.gyroscopic_matrix().norm();
-  for (std::size_t node = 6; node < 10; ++node) {  // C1 C2 C3, P
-    for (std::size_t k = 0; k < 2; ++k) {
-      const Index i =
-          system.constraints.free[static_cast<std::size_t>(system.coordinates.node[node][k])];
-      BOOST_TEST(std::abs(damping[i]) < 1e-13 * scale);
-      BOOST_TEST(std::abs(stiffness[i]) < 1e-12 * scale);
-    }
-  }
-}
-
 BOOST_AUTO_TEST_CASE(the_matrices_of_inextensible_links_grow_with_their_elements_and_not_faster) {
   // by the pattern of the constraints alone each node followed all before it on its link
   std::vector<double> entries;

@@ -31,15 +31,6 @@ Model sprung_cantilever() {
   return model;
 }
 
-double first_frequency_squared(BeamTheory theory, Index mode) {
-  Model model = testing::beam(stubby(), kLength, 32);
-  model.supports = {testing::pin(0), testing::roller(1)};
-  model.members[0].theory = theory;
-  const ModalSolution modes = solve_modes(assemble(model), {6, EigenMethod::automatic});
-  const double w = 2 * std::numbers::pi * modes.frequency[mode];
-  return w * w;
-}
-
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(every_effect_has_a_name_of_its_own) {
@@ -48,24 +39,6 @@ BOOST_AUTO_TEST_CASE(every_effect_has_a_name_of_its_own) {
   }
   BOOST_TEST(Effects::all().list().size() == kEffectCount);
   BOOST_TEST(!effect_named("friction"));
-}
-
-/// Han, Benaroya & Wei (1999): with k = pi / L between pins, w^2 = EI k^4 / rho A over
-/// 1 + k^2 I / A (Rayleigh) or 1 + k^2 EI / kappa GA (shear).
-BOOST_AUTO_TEST_CASE(a_pinned_beam_vibrates_as_each_of_the_four_theories_says) {
-  const Section s = stubby();
-  const double k = std::numbers::pi / kLength;
-  const double plain = s.EI * std::pow(k, 4) / s.mass_per_length;
-  const double turned = 1 + k * k * s.inertia_per_length / s.mass_per_length;
-  const double sheared = 1 + k * k * s.EI / s.kappa_GA;
-  // 32 elements: (k h)^4 / 720 = 1e-7 of bending; shear is constant in each, (k h)^2 / 12 of the
-  // shear's share of a tenth = 7.6e-5.
-  const auto near = boost::test_tools::tolerance(1e-6);
-  const auto near_in_shear = boost::test_tools::tolerance(1e-4);
-  BOOST_TEST(first_frequency_squared(BeamTheory::euler_bernoulli, 0) == plain, near);
-  BOOST_TEST(first_frequency_squared(BeamTheory::rayleigh, 0) == plain / turned, near);
-  BOOST_TEST(first_frequency_squared(BeamTheory::shear, 0) == plain / sheared, near_in_shear);
-  BOOST_TEST(first_frequency_squared(BeamTheory::timoshenko, 0) < plain / sheared);
 }
 
 BOOST_AUTO_TEST_CASE(what_is_off_has_no_matrix_no_coordinate_and_no_evaluation) {

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "solver/linear/row_balance.h"
+#include "tests/support/solver/numerics.h"
 
 BOOST_AUTO_TEST_SUITE(modal_superposition)
 
@@ -49,12 +50,6 @@ ImpulseResponse in_long_digits(double omega, double decay, double t) {
           .h = static_cast<double>(v),
           .h1 = static_cast<double>(y),
           .h2 = static_cast<double>(sum)};
-}
-
-SparseMatrix sparse(const Eigen::MatrixXd& A) {
-  SparseMatrix S = A.sparseView();
-  S.makeCompressed();
-  return S;
 }
 
 }  // namespace
