@@ -57,7 +57,7 @@ double area(const Model& model) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(six_node_triangles_follow_the_ellipse_and_have_its_area) {
+BOOST_AUTO_TEST_CASE(six_node_triangles_have_the_area_of_the_ellipse) {
   const double exact = kPi / 4 * (3.25 * 2.75 - 2 * 1);
   double last = 0;
   for (const Index cells : {2, 4, 8}) {
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(six_node_triangles_follow_the_ellipse_and_have_its_area) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(four_quarters_close_to_a_ring_without_a_seam) {
+BOOST_AUTO_TEST_CASE(four_quarters_close_to_a_ring) {
   std::vector<Block> blocks;
   for (Index k = 0; k < 4; ++k) blocks.push_back(annulus_quarter(1, 2, k, 2, 3));
   for (const bool six : {false, true}) {
@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(four_quarters_close_to_a_ring_without_a_seam) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(grading_makes_the_last_cell_that_many_times_the_first) {
+BOOST_AUTO_TEST_CASE(grading_is_the_ratio_of_last_and_first_cell) {
   Block block;
   block.corners = {Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1), Vector2d(0, 1)};
   block.cells = {5, 1};
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(grading_makes_the_last_cell_that_many_times_the_first) {
   BOOST_TEST((x(5) - x(4)) / (x(1) - x(0)) == 8, tolerance(1e-12));
 }
 
-BOOST_AUTO_TEST_CASE(a_mesh_is_joined_to_the_nodes_that_stand_at_its_places) {
+BOOST_AUTO_TEST_CASE(mesh_is_joined_to_existing_nodes) {
   Block block;
   block.corners = {Vector2d(0, 0), Vector2d(1, 0), Vector2d(1, 1), Vector2d(0, 1)};
   block.cells = {2, 2};
@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(a_mesh_is_joined_to_the_nodes_that_stand_at_its_places) {
   BOOST_TEST(model.nodes.size() == 10u + 9 - 3);
 }
 
-BOOST_AUTO_TEST_CASE(a_corner_off_its_ellipse_and_a_block_without_cells_are_errors) {
+BOOST_AUTO_TEST_CASE(invalid_blocks_are_refused) {
   Block block = elliptic_quarter(2);
   block.corners[1] = {3, 0};
   BOOST_CHECK_THROW((void)mesh_blocks({block}, true), ModelError);
@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(a_corner_off_its_ellipse_and_a_block_without_cells_are_erro
   BOOST_CHECK_THROW((void)mesh_blocks({block}, true), ModelError);
 }
 
-BOOST_AUTO_TEST_CASE(pressure_on_a_curved_side_adds_up_to_its_projection) {
+BOOST_AUTO_TEST_CASE(pressure_on_a_curved_side_is_that_on_its_chord) {
   const BlockMesh mesh = mesh_blocks({elliptic_quarter(4)}, true);
   Model model;
   model.plates = {{"membrane", {210e9, 1, 0.3}, 0.1}};
@@ -134,6 +134,42 @@ BOOST_AUTO_TEST_CASE(pressure_on_a_curved_side_adds_up_to_its_projection) {
   }
   BOOST_TEST(sum.x() == 10e6 * 0.1 * 2.75, tolerance(1e-12));  // for any curve between its ends
   BOOST_TEST(sum.y() == 10e6 * 0.1 * 3.25, tolerance(1e-12));
+}
+
+BOOST_AUTO_TEST_CASE(distorted_triangles_cover_the_rectangle) {
+  for (const double distortion : {0.0, 0.29}) {
+    for (const bool six : {false, true}) {
+      const Model model = mesh_rectangle({0.8, 0.5, 9, six, distortion}, {});
+      double sum = 0, smallest = 1, largest = 0;
+      for (const Triangle& triangle : model.triangles) {
+        const double part = interpolate(model, triangle, Vector3d::Constant(1.0 / 3)).signed_area;
+        smallest = std::min(smallest, part);
+        largest = std::max(largest, part);
+        sum += part;
+      }
+      BOOST_TEST(smallest > 0.02 * 0.8 * 0.5 / 81);
+      BOOST_TEST((smallest < 0.5 * largest) == (distortion > 0));
+      BOOST_TEST(model.triangles.size() == 162U);
+      BOOST_TEST(model.nodes.size() == (six ? 19U * 19U : 100U));
+      BOOST_TEST(sum == 0.4, tolerance(1e-13));
+    }
+  }
+}
+
+BOOST_AUTO_TEST_CASE(members_of_a_line_alternate_between_long_and_short) {
+  const Model model = mesh_line({Vector2d(1, 1), Vector2d(5, 4), 4, 0.25}, {});
+  BOOST_TEST(model.members.size() == 4U);
+  const auto length = [&](std::size_t i) {
+    return (model.nodes[i + 1].position - model.nodes[i].position).norm();
+  };
+  BOOST_TEST(length(0) == 5.0 / 4 * 1.25, tolerance(1e-14));
+  BOOST_TEST(length(1) == 5.0 / 4 * 0.75, tolerance(1e-14));
+}
+
+BOOST_AUTO_TEST_CASE(distortion_that_folds_an_element_is_refused) {
+  BOOST_CHECK_THROW((void)mesh_rectangle({1, 1, 4, false, 0.3}, {}), ModelError);
+  BOOST_CHECK_THROW((void)mesh_rectangle({1, 1, 4, false, -0.1}, {}), ModelError);
+  BOOST_CHECK_THROW((void)mesh_line({Vector2d(0, 0), Vector2d(1, 0), 4, 1.0}, {}), ModelError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -76,27 +76,6 @@ BOOST_AUTO_TEST_CASE(predictions_are_those_of_the_printed_formula) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(small_sigma_returns_the_nearest_sample) {
-  const MatrixXd inputs = random_matrix(50, 4, 4);
-  const MatrixXd outputs = random_matrix(50, 3, 5);
-  const MatrixXd queries = 3 * random_matrix(100, 4, 6);
-  for (const double sigma : {1e-300, 1e-30, std::numeric_limits<double>::min()}) {
-    const MatrixXd y = predict(make_grnn(inputs, outputs, sigma), queries);
-    for (Index k = 0; k < queries.rows(); ++k) {
-      Index nearest = 0;
-      (inputs.rowwise() - queries.row(k)).rowwise().squaredNorm().minCoeff(&nearest);
-      BOOST_TEST((y.row(k) - outputs.row(nearest)).norm() == 0.0);
-    }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(large_sigma_returns_the_mean) {
-  const MatrixXd outputs = random_matrix(50, 3, 5);
-  const MatrixXd y =
-      predict(make_grnn(random_matrix(50, 4, 4), outputs, 1e300), 3 * random_matrix(100, 4, 6));
-  BOOST_TEST((y.rowwise() - outputs.colwise().mean()).rowwise().norm().maxCoeff() < 1e-15);
-}
-
 BOOST_AUTO_TEST_CASE(samples_at_the_same_distance_have_equal_weights) {
   for (const double sigma : {1e-300, 0.1, 1.0, 1e300}) {
     const Grnn same = make_grnn(column({1, 1, 1}), column({3, 4, 8}), sigma);
@@ -131,15 +110,6 @@ BOOST_AUTO_TEST_CASE(constant_input_changes_nothing) {
       BOOST_TEST((y - z).norm() < 1e-13);
     }
   }
-}
-
-BOOST_AUTO_TEST_CASE(far_queries_keep_their_digits) {
-  // At x = 1e8 the weights differ by exp(-1e8 (X_m - X_i)) for sigma = 1: D^2 is 1e16 and has lost
-  // what tells 1 from 1 + 1e-9, the difference of the squares has not.
-  const double gap = std::ldexp(1.0, -27);
-  const Grnn g = make_grnn(column({1 + gap, 1}), column({0, 1}), 1);
-  const double ratio = std::exp(-(gap * (1e8 - 1) - gap * gap / 2));
-  BOOST_TEST(std::abs(predict(g, column({1e8}))(0, 0) - ratio / (1 + ratio)) < 1e-14);
 }
 
 BOOST_AUTO_TEST_CASE(scaled_inputs_do_not_depend_on_their_unit) {
