@@ -94,24 +94,6 @@ BOOST_AUTO_TEST_CASE(samples_at_the_same_distance_have_equal_weights) {
   BOOST_TEST((y == 1.0 || y == 2.0 || y == 1.5));
 }
 
-BOOST_AUTO_TEST_CASE(constant_input_changes_nothing) {
-  const MatrixXd inputs = random_matrix(30, 2, 7);
-  const MatrixXd outputs = random_matrix(30, 1, 8);
-  MatrixXd widened(30, 3);
-  widened << inputs, VectorXd::Constant(30, 0.1);
-  const MatrixXd queries = random_matrix(20, 2, 9);
-  MatrixXd widened_queries(20, 3);
-  widened_queries << queries, 5 * random_matrix(20, 1, 10);
-  for (const InputScaling scaling :
-       {InputScaling::none, InputScaling::deviation, InputScaling::range}) {
-    for (const double sigma : {1e-300, 0.2, 1e300}) {
-      const MatrixXd y = predict(make_grnn(inputs, outputs, sigma, scaling), queries);
-      const MatrixXd z = predict(make_grnn(widened, outputs, sigma, scaling), widened_queries);
-      BOOST_TEST((y - z).norm() < 1e-13);
-    }
-  }
-}
-
 BOOST_AUTO_TEST_CASE(scaled_inputs_do_not_depend_on_their_unit) {
   const MatrixXd inputs = random_matrix(40, 2, 11);
   const MatrixXd outputs = random_matrix(40, 2, 12);

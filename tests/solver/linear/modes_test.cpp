@@ -104,32 +104,6 @@ BOOST_AUTO_TEST_CASE(rigid_motions_are_counted_beyond_the_modes_requested) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(frequencies_do_not_depend_on_angle_and_unit_of_length) {
-  const Section s = rectangle({6.9e10, 2700, 0.33}, 0.0015, 0.03);
-  const auto bent = [&](double angle, double unit) {
-    Section section = s;
-    section.EA *= unit;
-    section.EI *= unit * unit * unit;
-    section.mass_per_length /= unit;
-    const double c = std::cos(angle);
-    const double d = std::sin(angle);
-    Model model;
-    for (const Vector2d& p : {Vector2d(0, 0), Vector2d(0.2, 0), Vector2d(0.3, 0.17)}) {
-      model.nodes.push_back({"", unit * Vector2d(c * p.x() - d * p.y(), d * p.x() + c * p.y())});
-    }
-    model.members = {member("", 0, 1, section, 4), member("", 1, 2, section, 4)};
-    model.members[0].axially_flexible = false;
-    model.supports = {clamp(0)};
-    return solve(model, 6).frequency;
-  };
-  const VectorXd reference = bent(0, 1);
-  for (const double angle : {0.4, 1.7, 3.0}) {
-    BOOST_TEST((bent(angle, 1) - reference).cwiseQuotient(reference).cwiseAbs().maxCoeff() < 1e-12);
-  }
-  // In millimetres, with force in mN so that mass stays in kg: E A in 1e3 mN, E I in 1e9 mN mm^2.
-  BOOST_TEST((bent(0.4, 1e3) - reference).cwiseQuotient(reference).cwiseAbs().maxCoeff() < 1e-12);
-}
-
 /// A body on a massless beam that floats: its three motions carry all the mass there is.
 BOOST_AUTO_TEST_CASE(model_with_only_rigid_modes_has_no_vibration) {
   Section section = unit_section();

@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(member_modes_lower_frequencies_to_the_full_ones) {
   BOOST_TEST(before < 1e-4);
 }
 
-BOOST_AUTO_TEST_CASE(all_member_modes_reduce_nothing) {
+BOOST_AUTO_TEST_CASE(full_set_of_member_modes_keeps_the_model) {
   const System full = assemble(angle(4));
   const System same = reduce_members(full, 9);
   BOOST_TEST(same.K.rows() == full.K.rows());

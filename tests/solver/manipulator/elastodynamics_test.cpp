@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "tests/support/solver/equal_statics.h"
-#include "tests/support/solver/numerics.h"
 #include "tests/support/solver/table_1.h"
 
 BOOST_AUTO_TEST_SUITE(elastodynamics)
@@ -93,28 +92,6 @@ BOOST_AUTO_TEST_CASE(slow_motion_is_quasi_static) {
     BOOST_TEST(difference < 0.5 * speed * speed / std::pow(2 * pi * 12, 2) * 4);
     if (before > 0) BOOST_TEST(before / difference > 2);
     before = difference;
-  }
-}
-
-BOOST_AUTO_TEST_CASE(deflection_along_the_path_converges_with_order_2) {
-  for (const bool gyroscopic : {false, true}) {
-    for (const TimeScheme& scheme : {average_acceleration(), generalized_alpha(0.8)}) {
-      const auto deflection = [&](double step) {
-        ElastodynamicsOptions options = options_on(circle(15), 0.2, step);
-        options.gyroscopic = gyroscopic;
-        options.wrench = {10, 0, 0};
-        options.time.scheme = scheme;
-        options.time.quasi_static_start = true;
-        options.time.sample_times = {0.1, 0.2};
-        const ElastodynamicsSolution s = solve_elastodynamics(options);
-        BOOST_TEST_REQUIRE(s.outcome.solved(), s.outcome.reason);
-        return Eigen::MatrixX2d(s.deflection);
-      };
-      const Eigen::MatrixX2d a = deflection(1e-3);
-      const Eigen::MatrixX2d b = deflection(5e-4);
-      const Eigen::MatrixX2d c = deflection(2.5e-4);
-      BOOST_TEST(observed_order((a - b).norm(), (b - c).norm()) == 2, tolerance(0.07));
-    }
   }
 }
 

@@ -1,6 +1,5 @@
 #include "solver/manipulator/kinematics.h"
 
-#include <Eigen/Geometry>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <functional>
@@ -21,10 +20,6 @@ constexpr double kPi = std::numbers::pi;
 
 Vector3d as_vector(const std::array<double, 3>& a) {
   return {a[0], a[1], a[2]};
-}
-
-double wrapped(double angle) {
-  return std::remainder(angle, 2 * kPi);
 }
 
 Pose moved(const Pose& pose, const Vector3d& direction, double s) {
@@ -50,21 +45,6 @@ BOOST_AUTO_TEST_CASE(loops_close_to_round_off_around_the_circle) {
       }
     }
   }
-}
-
-BOOST_AUTO_TEST_CASE(rigid_motion_turns_every_angle_alike) {
-  const ManipulatorGeometry g = uneven_geometry();
-  const Pose pose{0.27, 0.14, 0.2};
-  const double alpha = 2.5;
-  const Eigen::Rotation2Dd R(alpha);
-  const Vector2d shift(3, -7);
-  ManipulatorGeometry turned = g;
-  for (Vector2d& a : turned.base) a = R * a + shift;
-  const Vector2d P = R * Vector2d(pose.x, pose.y) + shift;
-  const Posture p = inverse_kinematics(g, pose);
-  const Posture q = inverse_kinematics(turned, {P.x(), P.y(), pose.phi + alpha});
-  for (std::size_t i = 0; i < 3; ++i)
-    BOOST_TEST(std::abs(wrapped(q.active[i] - p.active[i] - alpha)) < 1e-13);
 }
 
 BOOST_AUTO_TEST_CASE(working_mode_mirrors_the_elbow) {
@@ -121,7 +101,7 @@ BOOST_AUTO_TEST_CASE(elbow_angle_keeps_its_digits_near_full_stretch) {
     BOOST_TEST_REQUIRE(!std::isnan(p.active[0]));
     const double exact = -2 * std::asin(std::sqrt(h / 2));
     BOOST_TEST(p.active[0] == exact, tolerance(1e-15));
-    BOOST_TEST(std::abs(p.elbow_sine[0] / std::sin(-2 * exact) - 1) < 2e-15);
+    BOOST_TEST(p.elbow_sine[0] == std::sin(-2 * exact), tolerance(2e-15));
   }
 }
 
@@ -220,24 +200,6 @@ BOOST_AUTO_TEST_CASE(distal_links_through_one_point_hold_no_moment) {
     radial_modes += radial ? 1 : 0;
   }
   BOOST_TEST(radial_modes == 1);
-}
-
-BOOST_AUTO_TEST_CASE(distances_do_not_depend_on_size) {
-  const ManipulatorGeometry g = uneven_geometry();
-  ManipulatorGeometry big = g;
-  for (std::size_t i = 0; i < 3; ++i) {
-    big.base[i] *= 1000;
-    big.platform[i] *= 1000;
-    big.proximal[i] *= 1000;
-    big.distal[i] *= 1000;
-  }
-  const Pose pose{0.27, 0.14, 0.2};
-  const Pose big_pose{270, 140, 0.2};
-  const Jacobians j = jacobians(g, pose, inverse_kinematics(g, pose));
-  const Jacobians k = jacobians(big, big_pose, inverse_kinematics(big, big_pose));
-  BOOST_TEST(k.parallel_distance == j.parallel_distance, tolerance(1e-13));
-  BOOST_TEST(k.serial_distance == j.serial_distance, tolerance(1e-13));
-  BOOST_TEST((j.parallel_distance > 0.01 && j.parallel_distance < 1));
 }
 
 BOOST_AUTO_TEST_CASE(invalid_geometry_is_refused) {

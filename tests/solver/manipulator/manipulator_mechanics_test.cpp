@@ -194,16 +194,4 @@ BOOST_AUTO_TEST_CASE(threefold_pose_repeats_its_frequencies) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(response_turns_with_the_force_in_the_threefold_pose) {
-  for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
-    const ManipulatorDesign design = with_platform(kind);
-    const Vector2d along_x = of_P(solve(design, centred_pose(), {10, 0, 0}));
-    const Vector2d along_y = of_P(solve(design, centred_pose(), {0, 10, 0}));
-    // The compliance at P is then a multiple of the identity (it is symmetric besides).
-    BOOST_TEST(along_x.x() == along_y.y(), tolerance(1e-10));
-    BOOST_TEST(std::abs(along_x.y()) < 1e-10 * along_x.x());
-    BOOST_TEST(std::abs(along_y.x()) < 1e-10 * along_x.x());
-  }
-}
-
 BOOST_AUTO_TEST_SUITE_END()

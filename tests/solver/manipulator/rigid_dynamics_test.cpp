@@ -67,32 +67,6 @@ BOOST_AUTO_TEST_CASE(map_of_the_actuators_gives_velocities_and_energy) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(mass_rate_minus_2_C_is_skew_in_nine_coordinates) {
-  RandomStates random(5);
-  const RigidManipulator m = uneven_bodies();
-  for (int trial = 0; trial < 200; ++trial) {
-    const TrajectoryPoint p = random.point();
-    const RigidTerms t = rigid_terms(m, p.pose, p.velocity);
-    const Matrix9d M_dot = rates_of(mass_matrix(m, with_rates(t.q, t.q_dot)));
-    const Matrix9d S = M_dot - 2 * t.C;
-    BOOST_TEST((S + S.transpose()).norm() < 1e-14 * S.norm());
-  }
-}
-
-BOOST_AUTO_TEST_CASE(power_balances_at_every_instant) {
-  RandomStates random(7);
-  for (RigidManipulator m : {rigid_manipulator(table_1_design()), uneven_bodies()}) {
-    m.gravity = {0, -9.81};
-    for (int trial = 0; trial < 200; ++trial) {
-      const TrajectoryPoint p = random.point();
-      const InverseDynamics d = inverse_dynamics(m, p, 10 * random.vector());
-      const double fed = d.actuator_power + d.load_power + d.gravity_power;
-      const double scale = d.torque.norm() * d.q_dot.head<3>().norm();
-      BOOST_TEST(std::abs(d.kinetic_power - fed) < 1e-11 * scale);
-    }
-  }
-}
-
 BOOST_AUTO_TEST_CASE(torques_at_rest_hold_the_load) {
   for (const RigidManipulator& m : {rigid_manipulator(table_1_design()), uneven_bodies()}) {
     const TrajectoryPoint rest{0, {0.26, 0.15, 0.1}};

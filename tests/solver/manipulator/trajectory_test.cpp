@@ -10,6 +10,7 @@ BOOST_AUTO_TEST_SUITE(trajectory)
 namespace {
 
 using namespace trammel::solver;
+using boost::test_tools::tolerance;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -69,7 +70,7 @@ BOOST_AUTO_TEST_CASE(spline_reproduces_a_cubic) {
     BOOST_TEST(std::abs(p.pose.x - cubic(t)) < 1e-14);
     BOOST_TEST(std::abs(p.velocity.y() - 2 * (3 * t * t - 6 * t)) < 1e-13);
     BOOST_TEST(std::abs(p.acceleration.x() - (6 * t - 6)) < 1e-13);
-    BOOST_TEST(std::abs(p.pose.phi - 1) < 1e-15);
+    BOOST_TEST(p.pose.phi == 1, tolerance(1e-15));
   }
 }
 
@@ -100,7 +101,7 @@ BOOST_AUTO_TEST_CASE(last_sample_reaches_the_end_despite_round_off) {
       make_spline({0, 2, 6.3}, {{0.25, 0.14}, {0.26, 0.15}, {0.24, 0.15}}, SplineEnds::natural);
   BOOST_TEST(63 * 0.1 > 6.3);
   const std::vector<TrajectoryPoint> points = sample(spline, 64, 0.1);
-  BOOST_TEST(points.back().pose.x == 0.24, boost::test_tools::tolerance(1e-15));
+  BOOST_TEST(points.back().pose.x == 0.24, tolerance(1e-15));
   BOOST_CHECK_THROW((void)sample(spline, 65, 0.1), ModelError);
 }
 

@@ -33,7 +33,7 @@ Model sprung_cantilever() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(every_effect_has_a_name_of_its_own) {
+BOOST_AUTO_TEST_CASE(every_effect_has_its_own_name) {
   for (const Effect effect : Effects::all().list()) {
     BOOST_TEST((effect_named(name_of(effect)) == effect));
   }
@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(every_effect_has_a_name_of_its_own) {
   BOOST_TEST(!effect_named("friction"));
 }
 
-BOOST_AUTO_TEST_CASE(what_is_off_has_no_matrix_no_coordinate_and_no_evaluation) {
+BOOST_AUTO_TEST_CASE(inactive_effect_has_no_matrix_and_no_evaluation) {
   const Model model = sprung_cantilever();
   const Effects all = applicable_effects(model).with(Effect::inertia);
   const System whole = assemble(model, all);
@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(what_is_off_has_no_matrix_no_coordinate_and_no_evaluation) 
   BOOST_TEST(assemble(model, all.without(Effect::joint_compliance)).K.rows() == whole.K.rows() - 1);
 }
 
-BOOST_AUTO_TEST_CASE(a_model_admits_what_its_parts_have) {
+BOOST_AUTO_TEST_CASE(applicable_effects_follow_the_parts_of_a_model) {
   const Model model = sprung_cantilever();
   Effects bare = applicable_effects(testing::cantilever(stubby(), kLength, 1));
   BOOST_TEST((bare == Effects().with(Effect::axial_flexibility).with(Effect::link_mass)));
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(a_model_admits_what_its_parts_have) {
   BOOST_TEST(applicable_effects(stripped).empty());
 }
 
-BOOST_AUTO_TEST_CASE(what_parts_of_a_computation_have_evaluated_adds_up) {
+BOOST_AUTO_TEST_CASE(counters_add_up) {
   Counters all{.element_evaluations = 1, .factorizations = 2, .solves = 3, .steps = 4};
   all.count(Effect::damping, 5);
   all += all;

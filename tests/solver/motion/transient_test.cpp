@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(error_control_holds_its_tolerance_and_counts_its_steps) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_tolerance_out_of_reach_is_a_status_that_names_the_step) {
+BOOST_AUTO_TEST_CASE(unreachable_tolerance_names_the_step) {
   EquationOfMotion equation = chain(2, 1, 100);
   step_load(Eigen::Vector2d(0, 1)).apply_to(equation);
   TransientOptions options;
@@ -152,7 +152,7 @@ BOOST_AUTO_TEST_CASE(a_tolerance_out_of_reach_is_a_status_that_names_the_step) {
   check_stopped(h.summary, "step 1 at time 0 s of size 0.0125 s");
 }
 
-BOOST_AUTO_TEST_CASE(a_step_beyond_the_stability_limit_is_refused_before_it_is_taken) {
+BOOST_AUTO_TEST_CASE(step_beyond_the_stability_limit_is_refused) {
   const EquationOfMotion equation = chain(8, 1, 100);
   const double fastest = all_modes(equation.M, equation.K).omega.maxCoeff();
   TransientOptions options;
@@ -167,7 +167,7 @@ BOOST_AUTO_TEST_CASE(a_step_beyond_the_stability_limit_is_refused_before_it_is_t
   BOOST_TEST(h.summary.accepted == 0);
 }
 
-BOOST_AUTO_TEST_CASE(a_load_that_is_not_a_number_ends_the_motion_and_says_where) {
+BOOST_AUTO_TEST_CASE(load_that_is_not_a_number_ends_the_motion) {
   EquationOfMotion equation = chain(2, 1, 100);
   equation.load = [](double t, VectorXd& f) { f.setConstant(t > 0.52 ? std::nan("") : 1.0); };
   TransientOptions options;
@@ -179,8 +179,7 @@ BOOST_AUTO_TEST_CASE(a_load_that_is_not_a_number_ends_the_motion_and_says_where)
   BOOST_TEST(h.q.allFinite());
 }
 
-BOOST_AUTO_TEST_CASE(ten_thousand_steps_allocate_no_more_than_ten,
-                     *boost::unit_test::label("allocations")) {
+BOOST_AUTO_TEST_CASE(ten_thousand_steps_allocate_as_ten, *boost::unit_test::label("allocations")) {
   EquationOfMotion equation = chain(40, 1, 100);
   equation.C = damping_matrix({.mass = 0.1, .stiffness = 1e-3}, equation.M, equation.K);
   equation.load = [](double t, VectorXd& f) { f.setConstant(std::sin(t)); };
@@ -204,7 +203,7 @@ BOOST_AUTO_TEST_CASE(ten_thousand_steps_allocate_no_more_than_ten,
   BOOST_TEST(largest > 0);
 }
 
-BOOST_AUTO_TEST_CASE(a_quasi_static_start_does_not_look_past_a_jump_of_the_load) {
+BOOST_AUTO_TEST_CASE(quasi_static_start_ignores_a_later_jump) {
   EquationOfMotion equation = chain(1, 1, 100);
   const double jump = 0.003;
   equation.load = [=](double t, VectorXd& f) { f.setConstant(t < jump ? 2 * t : 50.0); };
@@ -219,7 +218,7 @@ BOOST_AUTO_TEST_CASE(a_quasi_static_start_does_not_look_past_a_jump_of_the_load)
 }
 
 /// Stiff and strongly damped masses follow a slow load without vibration from the start.
-BOOST_AUTO_TEST_CASE(a_quasi_static_start_carries_the_drag_of_its_own_velocity) {
+BOOST_AUTO_TEST_CASE(quasi_static_start_includes_its_drag) {
   EquationOfMotion equation = chain(3, 1, 1e6);
   equation.C = 0.003 * equation.K;
   const double slow = 0.5;
@@ -267,7 +266,7 @@ BOOST_AUTO_TEST_CASE(invalid_options_and_equations_are_refused) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_vibration_that_dies_out_ends_in_zeros_and_not_in_a_failure) {
+BOOST_AUTO_TEST_CASE(decayed_vibration_ends_in_zeros) {
   EquationOfMotion equation = chain(4, 1, 200);
   TransientOptions options;
   options.end = 40000;
@@ -280,7 +279,7 @@ BOOST_AUTO_TEST_CASE(a_vibration_that_dies_out_ends_in_zeros_and_not_in_a_failur
   BOOST_TEST(found.q.col(1).norm() < 1e-290);
 }
 
-BOOST_AUTO_TEST_CASE(the_peak_of_a_parabola_is_found_between_samples) {
+BOOST_AUTO_TEST_CASE(peak_of_a_parabola_is_between_samples) {
   const auto parabola = [](double t) { return 3 - 2 * (t - 1.2) * (t - 1.2); };
   const Peak found =
       peak({0.1, 0.9, 1.7}, Eigen::Vector3d(parabola(0.1), parabola(0.9), parabola(1.7)));
