@@ -12,9 +12,9 @@ BOOST_AUTO_TEST_SUITE(large_dynamics)
 namespace {
 
 using namespace trammel::solver;
-using boost::test_tools::tolerance;
 using namespace trammel::solver::large_motion;
 using namespace trammel::testing;
+using boost::test_tools::tolerance;
 
 enum class Integrator { generalized_alpha, energy_momentum };
 

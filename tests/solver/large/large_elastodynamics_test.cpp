@@ -1,7 +1,6 @@
 #include "solver/large/large_elastodynamics.h"
 
 #include <boost/test/unit_test.hpp>
-#include <cmath>
 #include <string>
 
 #include "solver/large/equilibrium.h"

@@ -1,7 +1,6 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include "solver/large/state_results.h"
 #include "solver/large/static_path.h"

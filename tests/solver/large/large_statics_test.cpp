@@ -15,9 +15,9 @@ BOOST_AUTO_TEST_SUITE(large_statics)
 namespace {
 
 using namespace trammel::solver;
-using boost::test_tools::tolerance;
 using namespace trammel::solver::large_motion;
 using namespace trammel::testing;
+using boost::test_tools::tolerance;
 
 constexpr double kPi = std::numbers::pi;
 

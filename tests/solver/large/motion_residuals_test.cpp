@@ -13,9 +13,9 @@ BOOST_AUTO_TEST_SUITE(motion_residuals)
 namespace {
 
 using namespace trammel::solver;
-using boost::test_tools::tolerance;
 using namespace trammel::solver::large_motion;
 using namespace trammel::testing;
+using boost::test_tools::tolerance;
 
 /// A mass of 1 kg on a rod of 1 m with a torque that changes with time, damped.
 GeometricallyExactSystem pendulum() {

@@ -1,7 +1,6 @@
 #include "solver/large/small_vibration.h"
 
 #include <boost/test/unit_test.hpp>
-#include <cmath>
 
 #include "solver/linear/modes.h"
 #include "solver/linear/system.h"
@@ -9,14 +8,10 @@
 
 BOOST_AUTO_TEST_SUITE(small_vibration)
 
-namespace {
-
 using namespace trammel::solver;
-using boost::test_tools::tolerance;
 using namespace trammel::solver::large_motion;
 using namespace trammel::testing;
-
-}  // namespace
+using boost::test_tools::tolerance;
 
 BOOST_AUTO_TEST_CASE(unloaded_state_has_the_frequencies_of_linear_modes) {
   const Model model = elastica(8);

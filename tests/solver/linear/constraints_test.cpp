@@ -9,8 +9,8 @@
 BOOST_AUTO_TEST_SUITE(constraints)
 
 using namespace trammel::solver;
-using boost::test_tools::tolerance;
 using namespace trammel::testing;
+using boost::test_tools::tolerance;
 
 namespace {
 

@@ -2,7 +2,6 @@
 
 #include <boost/test/unit_test.hpp>
 #include <functional>
-#include <limits>
 
 #include "solver/linear/system.h"
 #include "tests/support/solver/frames.h"

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/linear/element_operators.h"
 #include "solver/manipulator/elastodynamics.h"
 #include "solver/manipulator/moving_element.h"
 #include "solver/model/quadrature.h"

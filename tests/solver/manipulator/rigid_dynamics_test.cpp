@@ -4,7 +4,6 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
-#include "solver/manipulator/trajectory.h"
 #include "tests/support/solver/numerics.h"
 #include "tests/support/solver/table_1.h"
 

@@ -2,9 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <numbers>
 
-#include "solver/linear/modes.h"
+#include "solver/linear/system.h"
 #include "solver/linear/validate.h"
 #include "tests/support/solver/frames.h"
 

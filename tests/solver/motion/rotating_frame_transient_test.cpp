@@ -1,7 +1,6 @@
 #include "solver/motion/rotating_frame_transient.h"
 
 #include <boost/test/unit_test.hpp>
-#include <cmath>
 
 #include "solver/linear/rotating_frame.h"
 #include "solver/motion/transient.h"

@@ -10,24 +10,6 @@ BOOST_AUTO_TEST_SUITE(time_scheme)
 using namespace trammel::solver;
 using boost::test_tools::tolerance;
 
-namespace {
-
-/// Order 2 asks for gamma = 1/2 - alpha_m + alpha_f (Chung & Hulbert 1993).
-int order(const TimeScheme& s) {
-  return std::abs(s.gamma - (0.5 - s.alpha_m + s.alpha_f)) < 1e-12 ? 2 : 1;
-}
-
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(named_schemes_satisfy_the_condition_of_order_2) {
-  for (const double radius : {0.0, 0.3, 0.8, 1.0})
-    BOOST_TEST(order(generalized_alpha(radius)) == 2);
-  for (const double alpha : {-1.0 / 3, -0.1, 0.0}) BOOST_TEST(order(hht_alpha(alpha)) == 2);
-  BOOST_TEST(order(average_acceleration()) == 2);
-  BOOST_TEST(order(central_difference()) == 2);
-  BOOST_TEST(order(newmark(0.3025, 0.6)) == 1);
-}
-
 BOOST_AUTO_TEST_CASE(generalized_alpha_has_its_spectral_radius) {
   for (const double radius : {0.0, 0.2, 0.5, 0.9, 1.0}) {
     BOOST_TEST(std::abs(spectral_radius(generalized_alpha(radius), 1e5) - radius) < 1e-2);
