@@ -141,4 +141,18 @@ BOOST_AUTO_TEST_CASE(unreachable_and_singular_states_have_no_torques) {
   }
 }
 
+BOOST_AUTO_TEST_CASE(power_balances_at_every_instant) {
+  RandomStates random(7);
+  for (RigidManipulator m : {rigid_manipulator(table_1_design()), uneven_bodies()}) {
+    m.gravity = {0, -9.81};
+    for (int trial = 0; trial < 200; ++trial) {
+      const TrajectoryPoint p = random.point();
+      const InverseDynamics d = inverse_dynamics(m, p, 10 * random.vector());
+      const double fed = d.actuator_power + d.load_power + d.gravity_power;
+      const double scale = d.torque.norm() * d.q_dot.head<3>().norm();
+      BOOST_TEST(std::abs(d.kinetic_power - fed) < 1e-11 * scale);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_SUITE_END()
