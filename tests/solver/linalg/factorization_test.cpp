@@ -31,7 +31,7 @@ Eigen::SparseMatrix<double> square(Index n) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(orderings_made_side_by_side_are_those_made_one_by_one) {
+BOOST_AUTO_TEST_CASE(parallel_orderings_equal_serial_ones) {
   constexpr std::size_t kThreads = 4;
   const Eigen::SparseMatrix<double> A = square(80);  // large enough for nested dissection
   const Permutation alone = fill_reducing_order(A);
@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(orderings_made_side_by_side_are_those_made_one_by_one) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(one_coordinate_of_negative_stiffness_has_a_negative_pivot) {
+BOOST_AUTO_TEST_CASE(negative_stiffness_has_a_negative_pivot) {
   SparseMatrix A(1, 1);
   A.insert(0, 0) = -2;
   Factorization factorization;
@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(one_coordinate_of_negative_stiffness_has_a_negative_pivot) 
   BOOST_TEST(factorization.smallest_pivot() < 0);
 }
 
-BOOST_AUTO_TEST_CASE(factors_stay_for_the_same_matrix_alone) {
+BOOST_AUTO_TEST_CASE(factors_are_reused_for_the_same_matrix_only) {
   SparseMatrix A = square(3);
   SparseLdlt ldlt;
   for (const double last : {4.0, 4.0, -4.0, 4.0}) {
@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(factors_stay_for_the_same_matrix_alone) {
   for (int again = 0; again < 2; ++again) BOOST_TEST(!ldlt.factorize(A));
 }
 
-BOOST_AUTO_TEST_CASE(the_last_correction_is_told_relative_to_the_solution) {
+BOOST_AUTO_TEST_CASE(last_correction_is_relative_to_the_solution) {
   // 4 x = 8 by a factor of 5: what is wrong of x falls by 1 - 4/5 at each of the eight steps
   SparseMatrix A(1, 1);
   A.insert(0, 0) = 5;

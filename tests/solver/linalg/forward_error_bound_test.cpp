@@ -20,7 +20,7 @@ StiffnessFactors factors(const MatrixXd& A) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(the_estimated_norm_is_no_larger_than_the_norm_and_close_to_it) {
+BOOST_AUTO_TEST_CASE(estimated_norm_is_a_close_lower_bound) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> entry(-1, 1);
   for (int trial = 0; trial < 50; ++trial) {
@@ -34,7 +34,7 @@ BOOST_AUTO_TEST_CASE(the_estimated_norm_is_no_larger_than_the_norm_and_close_to_
   }
 }
 
-BOOST_AUTO_TEST_CASE(beside_a_singularity_the_condition_of_A_counts_and_not_that_of_K) {
+BOOST_AUTO_TEST_CASE(bound_follows_the_condition_of_A_near_a_singularity) {
   // q = (1 - 1/phi, 1/phi) exactly; K = A^T A has a condition number of about 16/phi^2.
   for (int power = 4; power <= 40; power += 4) {
     const double phi = std::ldexp(1.0, -power);
@@ -53,7 +53,7 @@ BOOST_AUTO_TEST_CASE(beside_a_singularity_the_condition_of_A_counts_and_not_that
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_stiff_part_costs_no_digits) {
+BOOST_AUTO_TEST_CASE(stiff_part_costs_no_digits) {
   for (const double stiff : {1.0, 1e6, 1e12}) {  // two springs in a row, the first one stiff
     StiffnessFactors K = factors(MatrixXd{{1, 0}, {-1, 1}});
     K.C = Eigen::Vector2d(stiff, 1);
@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(a_stiff_part_costs_no_digits) {
 }
 
 // Of one coordinate the norm is a sum, so that the estimate is exact.
-BOOST_AUTO_TEST_CASE(the_bound_adds_up_what_rounding_of_strains_and_of_forces_does) {
+BOOST_AUTO_TEST_CASE(bound_is_the_sum_of_rounded_strains_and_forces) {
   StiffnessFactors K = factors(MatrixXd{{1, 0}, {-3, 2}, {0.5, 1}});
   K.C = Eigen::Vector3d(2, 5, 0.7);
   const MatrixXd A = K.A;
@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(the_bound_adds_up_what_rounding_of_strains_and_of_forces_do
       boost::test_tools::tolerance(1e-12));
 }
 
-BOOST_AUTO_TEST_CASE(where_arithmetic_rounds_in_one_direction_the_bound_is_twice_as_wide) {
+BOOST_AUTO_TEST_CASE(bound_doubles_with_directed_rounding) {
   const StiffnessFactors K = factors(MatrixXd{{1, 0}, {-1, 1}});
   const VectorXd q = Eigen::Vector2d(1, 2), f = Eigen::Vector2d(0, 1);
   const AugmentedSystem augmented(K);

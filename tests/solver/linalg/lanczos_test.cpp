@@ -7,8 +7,8 @@ BOOST_AUTO_TEST_SUITE(lanczos)
 using namespace trammel::solver;
 using Eigen::VectorXd;
 
-// Spectra throws for both, which was told as our own fault.
-BOOST_AUTO_TEST_CASE(an_operator_that_is_no_number_and_a_start_of_zeros_have_no_eigenpairs) {
+// Spectra throws for both, which was once reported as an internal error.
+BOOST_AUTO_TEST_CASE(overflow_and_zero_start_have_no_eigenpairs) {
   const auto overflowing = [](const VectorXd& x) -> VectorXd { return 1e300 * (1e300 * x); };
   const auto identity = [](const VectorXd& x) { return x; };
   for (const LanczosPairs& none : {largest_eigenpairs(overflowing, VectorXd::Ones(30), {3, 12}),
@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_CASE(an_operator_that_is_no_number_and_a_start_of_zeros_have_no_
 }
 
 // Spectra's threshold is absolute below eps^(2/3): in small units vectors were hardly converged.
-BOOST_AUTO_TEST_CASE(vectors_are_as_exact_of_small_eigenvalues_as_of_large_ones) {
+BOOST_AUTO_TEST_CASE(vectors_of_small_eigenvalues_are_accurate) {
   constexpr Index kSize = 200;
   const VectorXd start = start_vectors(kSize, 1);
   for (const double unit : {1.0, 1e-18}) {

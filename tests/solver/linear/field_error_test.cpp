@@ -57,26 +57,7 @@ VectorXd nodal_bending(const t::System& system, double c) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_membrane_whose_field_is_hit_has_no_error) {
-  const t::System system = membrane();
-  const auto exact = [](const Vector2d& p) {
-    auto point = stretched(1e-3, p);
-    point.displacement.y() = 1e-3 * p.x();  // so that there is a rotation to be relative to
-    point.stress[2] = kMaterial.E / 2.6 * 1e-3;
-    return point;
-  };
-  VectorXd q = nodal_values(system, 1e-3);
-  for (std::size_t i = 0; i < system.model.nodes.size(); ++i) {
-    q[system.coordinates.node[i][1]] = 1e-3 * system.model.nodes[i].position.x();
-  }
-  const t::MembraneErrors e = t::membrane_errors(system, q, exact);
-  BOOST_TEST(e.displacement < 1e-14);
-  BOOST_TEST(e.rotation < 1e-13);
-  BOOST_TEST(e.stress < 1e-13);
-  BOOST_TEST(e.energy < 1e-13);
-}
-
-BOOST_AUTO_TEST_CASE(one_per_cent_too_much_stretch_is_one_per_cent_of_error_in_every_norm) {
+BOOST_AUTO_TEST_CASE(stretch_error_of_1_percent_is_1_percent_in_norms) {
   const t::System system = membrane();
   const auto exact = [](const Vector2d& p) { return stretched(1e-3, p); };
   const t::MembraneErrors e = t::membrane_errors(system, nodal_values(system, 1.01e-3), exact);
@@ -86,7 +67,7 @@ BOOST_AUTO_TEST_CASE(one_per_cent_too_much_stretch_is_one_per_cent_of_error_in_e
   BOOST_TEST(e.rotation == 1.0, boost::test_tools::tolerance(1e-10));  // exact 0.5e-3, found 0
 }
 
-BOOST_AUTO_TEST_CASE(the_energy_of_an_error_is_that_of_its_stresses) {
+BOOST_AUTO_TEST_CASE(energy_of_an_error_is_that_of_its_stresses) {
   const t::System system = membrane();
   const Eigen::Vector3d found = stretched(1e-3, {}).stress, exact(3e7, -5e7, 8e7);
   const auto energy = [](const Eigen::Vector3d& s) {  // s^T C^-1 s
@@ -103,7 +84,7 @@ BOOST_AUTO_TEST_CASE(the_energy_of_an_error_is_that_of_its_stresses) {
              boost::test_tools::tolerance(1e-12));
 }
 
-BOOST_AUTO_TEST_CASE(one_per_cent_too_much_bending_is_one_per_cent_of_error_in_every_norm) {
+BOOST_AUTO_TEST_CASE(bending_error_of_1_percent_is_1_percent_in_norms) {
   for (const auto theory : {t::BeamTheory::euler_bernoulli, t::BeamTheory::timoshenko}) {
     const t::System system = beam(theory);
     const auto exact = [](const Vector2d& p) { return bent(1e-3, p); };
@@ -115,14 +96,14 @@ BOOST_AUTO_TEST_CASE(one_per_cent_too_much_bending_is_one_per_cent_of_error_in_e
   }
 }
 
-BOOST_AUTO_TEST_CASE(an_error_relative_to_nothing_is_not_a_number_and_no_pass) {
+BOOST_AUTO_TEST_CASE(error_relative_to_zero_is_not_finite) {
   const t::System system = beam(t::BeamTheory::euler_bernoulli);
   const auto exact = [](const Vector2d& p) { return bent(1e-3, p); };
   const t::BeamErrors e = t::beam_errors(system, nodal_bending(system, 1e-3), exact);
   BOOST_TEST(!std::isfinite(e.axial_force));  // exact is 0
 }
 
-BOOST_AUTO_TEST_CASE(a_missing_value_spoils_every_norm) {
+BOOST_AUTO_TEST_CASE(missing_value_spoils_every_norm) {
   const t::System system = membrane();
   VectorXd q = nodal_values(system, 1e-3);
   q[3] = std::numeric_limits<double>::quiet_NaN();

@@ -41,11 +41,11 @@ Solved manipulator() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(what_is_reported_balances_at_every_node) {
+BOOST_AUTO_TEST_CASE(reported_forces_balance_at_every_node) {
   BOOST_TEST(manipulator().unbalanced() < 1e-14);
 }
 
-BOOST_AUTO_TEST_CASE(forces_of_inextensible_members_are_terms_of_the_rows_they_balance_in) {
+BOOST_AUTO_TEST_CASE(constraint_forces_are_terms_of_their_rows) {
   // along the girder of a portal nothing but its axial force acts: its rounding was over nothing
   Model model;
   model.nodes = {{"A", {0, 0}},
@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(forces_of_inextensible_members_are_terms_of_the_rows_they_b
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_wrong_sign_or_place_at_recovery_is_seen) {
+BOOST_AUTO_TEST_CASE(wrong_sign_or_place_of_a_force_is_noticed) {
   for (const Index column : {0, 1, 2}) {
     Solved sign = manipulator();
     sign.solution.resultant_start.col(column) *= -1;
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(a_wrong_sign_or_place_at_recovery_is_seen) {
   BOOST_TEST(reaction.unbalanced() > 1e-9);
 }
 
-BOOST_AUTO_TEST_CASE(a_stale_load_leaves_rows_unbalanced) {
+BOOST_AUTO_TEST_CASE(stale_load_leaves_rows_unbalanced) {
   Solved s = manipulator();
   s.system.load *= 1.0001;
   RowBalance<double> rows(s.system);

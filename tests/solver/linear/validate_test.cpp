@@ -2,7 +2,6 @@
 
 #include <boost/test/unit_test.hpp>
 #include <functional>
-#include <limits>
 
 #include "solver/linear/system.h"
 #include "tests/support/solver/frames.h"
@@ -39,13 +38,13 @@ std::string complaint(const std::function<void(Model&)>& spoil) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_sound_model_is_accepted) {
+BOOST_AUTO_TEST_CASE(valid_model_is_accepted) {
   BOOST_TEST(complaint([](Model&) {}) == "no complaint");
   const auto thin = [](Model& m) { m.nodes[2].position = {0.5, 3e-12}; };  // 1.5e-12 m2
   BOOST_TEST(complaint(thin) == "no complaint");
 }
 
-BOOST_AUTO_TEST_CASE(the_middle_of_a_side_may_lie_off_it_but_fold_the_triangle_at_no_node) {
+BOOST_AUTO_TEST_CASE(middle_node_may_not_fold_its_triangle_at_a_corner) {
   // Moved along its side and towards the third node, as shares of the ways there.
   const auto moved = [](std::size_t k, double along, double inwards) {
     return complaint([&](Model& m) {
@@ -69,7 +68,7 @@ BOOST_AUTO_TEST_CASE(the_middle_of_a_side_may_lie_off_it_but_fold_the_triangle_a
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_triangle_that_folds_at_a_middle_alone_is_refused) {
+BOOST_AUTO_TEST_CASE(triangle_folded_at_a_middle_node_is_refused) {
   const auto folded = [](Model& m) {  // det >= 0.2 at the corners, -0.2 at one middle
     m.nodes[2].position = {0, 1};
     m.triangles[0].nodes = {0, 1, 2, 3, 4, 5};
@@ -79,7 +78,7 @@ BOOST_AUTO_TEST_CASE(a_triangle_that_folds_at_a_middle_alone_is_refused) {
   BOOST_TEST(complaint(folded) == "triangle 0 is folded by the middle nodes of its sides");
 }
 
-BOOST_AUTO_TEST_CASE(each_meaningless_thing_is_told_in_one_sentence) {
+BOOST_AUTO_TEST_CASE(invalid_models_are_refused_with_the_reason) {
   const auto says = [](const std::string& expected, const std::function<void(Model&)>& spoil) {
     BOOST_TEST(complaint(spoil) == expected);
   };

@@ -33,26 +33,13 @@ bool contains(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_beam_without_supports_floats) {
+BOOST_AUTO_TEST_CASE(beam_without_supports_has_three_free_motions) {
   const std::string text = words(beam(unit_section(), 1, 4));
   BOOST_TEST(std::ranges::count(text, ';') == 2, text);  // three motions
   BOOST_TEST(contains(text, "free motion: node A along x 1, node B along x 1"), text);
 }
 
-BOOST_AUTO_TEST_CASE(a_beam_on_one_pin_turns_about_it) {
-  Model model = beam(unit_section(), 2, 4);
-  model.supports = {pin(0)};
-  BOOST_TEST(words(model) ==
-             "free motion: rotation of node A 1, node B along y 1, rotation of node B 1");
-}
-
-BOOST_AUTO_TEST_CASE(a_beam_on_two_rollers_slides) {
-  Model model = beam(unit_section(), 1, 4);
-  model.supports = {roller(0), roller(1)};
-  BOOST_TEST(words(model) == "free motion: node A along x 1, node B along x 1");
-}
-
-BOOST_AUTO_TEST_CASE(three_entries_of_a_motion_are_named_with_those_of_constrained_links) {
+BOOST_AUTO_TEST_CASE(three_largest_entries_of_a_motion_are_named) {
   for (const bool stretches : {true, false}) {
     Model model;
     model.nodes = {{"A", {0, 0}}, {"B", {0, 1}}, {"C", {2, 1}}, {"D", {2, 0}}};
@@ -65,7 +52,7 @@ BOOST_AUTO_TEST_CASE(three_entries_of_a_motion_are_named_with_those_of_constrain
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_motion_is_one_whatever_the_angle_of_the_model) {
+BOOST_AUTO_TEST_CASE(free_motion_does_not_depend_on_the_angle) {
   for (const double angle : {0.0, 0.3, 2.0}) {
     Model model = beam(unit_section(), 1, 4, angle);
     model.supports = {clamp(0)};
@@ -74,7 +61,7 @@ BOOST_AUTO_TEST_CASE(a_motion_is_one_whatever_the_angle_of_the_model) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(six_motions_of_many_are_described) {
+BOOST_AUTO_TEST_CASE(at_most_six_motions_are_described) {
   Model model = cantilever(unit_section(), 1, 2);
   model.nodes.push_back({"lost", {3, 3}});
   const std::string text = words(model);
@@ -84,15 +71,7 @@ BOOST_AUTO_TEST_CASE(six_motions_of_many_are_described) {
   BOOST_TEST(contains(words(model), "; and 2 more"));
 }
 
-BOOST_AUTO_TEST_CASE(a_long_slender_chain_is_ill_conditioned_but_no_mechanism) {
-  Model model = cantilever(unit_section(1e8), 1, 1500);
-  model.loads = {{1, {0, 1, 0}}};
-  const StaticSolution solution = solve_statics(assemble(model));
-  BOOST_TEST(solution.outcome.solved(), solution.outcome.reason);
-  BOOST_TEST(solution.displacement(1, 1) == 1 / 3.0, boost::test_tools::tolerance(1e-9));
-}
-
-BOOST_AUTO_TEST_CASE(a_soft_spring_holds_a_stiff_beam) {
+BOOST_AUTO_TEST_CASE(soft_spring_holds_a_stiff_beam) {
   Model model = beam(unit_section(1e10), 1, 4, 0.4);
   model.supports = {pin(0)};
   model.springs = {{"soft", {1, -1}, {0, 1e-6, 0}}};
@@ -100,7 +79,7 @@ BOOST_AUTO_TEST_CASE(a_soft_spring_holds_a_stiff_beam) {
   BOOST_TEST(solution.outcome.solved(), solution.outcome.reason);
 }
 
-BOOST_AUTO_TEST_CASE(a_massless_part_that_moves_freely_has_no_modes) {
+BOOST_AUTO_TEST_CASE(free_massless_part_has_no_modes) {
   Model model = cantilever(unit_section(), 1, 2);
   model.nodes.push_back({"lost", {3, 3}});
   const ModalSolution modes = solve_modes(assemble(model), {});

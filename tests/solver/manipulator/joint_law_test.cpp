@@ -8,7 +8,7 @@ BOOST_AUTO_TEST_SUITE(joint_law)
 
 using namespace trammel::solver;
 
-BOOST_AUTO_TEST_CASE(a_joint_turns_on_beyond_half_a_turn) {
+BOOST_AUTO_TEST_CASE(joint_angle_continues_beyond_half_a_turn) {
   constexpr double kRate = 3;
   const large_motion::RigidMotion crank = large_motion::once_per_time([](double t) {
     InverseDynamics motion;

@@ -1,10 +1,7 @@
 // ctest: labels=manipulator
 // The built manipulator through assembly and solution: mass, limits, symmetry, singular choices.
-#include <array>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <limits>
-#include <string>
 
 #include "solver/linear/modes.h"
 #include "solver/linear/statics.h"
@@ -15,6 +12,7 @@ BOOST_AUTO_TEST_SUITE(manipulator_mechanics)
 namespace {
 
 using namespace trammel::solver;
+using boost::test_tools::tolerance;
 
 ManipulatorDesign with_platform(PlatformDesign::Kind kind) {
   ManipulatorDesign design = table_1_design();
@@ -89,51 +87,44 @@ std::vector<ManipulatorDesign> platforms() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(the_assembled_mass_is_the_sum_of_what_is_printed_or_what_the_density_gives) {
-  for (ManipulatorDesign design : platforms()) {
+BOOST_AUTO_TEST_CASE(assembled_mass_and_inertia_are_printed_or_by_density) {
+  for (const ManipulatorDesign& by_density : platforms()) {
+    const Posture posture = inverse_kinematics(by_density.geometry, kPose);
     for (const bool printed : {false, true}) {
+      ManipulatorDesign design = by_density;
       if (printed) {
-        for (LinkDesign& link : design.proximal) link.mass = 0.0234;
-        for (LinkDesign& link : design.distal) link.mass = 0.0234;
+        for (auto* links : {&design.proximal, &design.distal}) {
+          for (LinkDesign& link : *links) {
+            link.mass = 0.0234;
+            link.inertia = 0.00078;
+          }
+        }
         design.platform.mass = 0.1205;
       }
-      const double expected =
-          printed ? 6 * 0.0234 + 0.1205 : 6 * 0.0243 + 2700 * 0.0015 * std::sqrt(0.75) * 0.02;
-      for (const MassMatrix mass : {MassMatrix::consistent, MassMatrix::lumped}) {
-        for (LinkDesign& link : design.proximal) link.mass_matrix = mass;
-        const System system = without_supports(design);
-        for (const Vector3d& field : {Vector3d(1, 0, 0), Vector3d(0, 1, 0)}) {
-          const Eigen::VectorXd q = rigid_motion(system, field);
-          BOOST_TEST(std::abs(q.dot(system.M * q) / expected - 1) < 1e-12);
-        }
-      }
-    }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(the_assembled_inertia_is_that_of_slender_links_and_plate_and_what_is_printed) {
-  for (ManipulatorDesign design : platforms()) {
-    const Posture posture = inverse_kinematics(design.geometry, kPose);
-    const PlatformMass plate = platform_mass(design);
-    double expected = plate.inertia + plate.mass * Vector2d(kPose.x, kPose.y).squaredNorm();
-    for (std::size_t i = 0; i < 3; ++i) {
-      for (const auto& [from, to] : {std::pair{design.geometry.base[i], posture.B[i]},
-                                     std::pair{posture.B[i], posture.C[i]}})
-        expected += 0.0243 * ((from + to).squaredNorm() / 4 + (to - from).squaredNorm() / 12);
-    }
-    for (const double printed : {0.0, 0.00078}) {
-      if (printed > 0) {
-        for (LinkDesign& link : design.proximal) link.inertia = printed;
-        for (LinkDesign& link : design.distal) link.inertia = printed;
+      const double link_mass = printed ? 0.0234 : 0.0243;
+      const PlatformMass plate = platform_mass(design);
+      BOOST_TEST(plate.mass == (printed ? 0.1205 : 2700 * 0.0015 * std::sqrt(0.75) * 0.02),
+                 tolerance(1e-14));
+      double inertia = plate.inertia + plate.mass * Vector2d(kPose.x, kPose.y).squaredNorm() +
+                       (printed ? 6 * 0.00078 : 0.0);
+      for (std::size_t i = 0; i < 3; ++i) {
+        for (const auto& [from, to] : {std::pair{design.geometry.base[i], posture.B[i]},
+                                       std::pair{posture.B[i], posture.C[i]}})
+          inertia += link_mass * ((from + to).squaredNorm() / 4 + (to - from).squaredNorm() / 12);
       }
       const System system = without_supports(design);
-      const Eigen::VectorXd q = rigid_motion(system, {0, 0, 1});
-      BOOST_TEST(std::abs(q.dot(system.M * q) / (expected + 6 * printed) - 1) < 1e-12);
+      const auto twice_the_energy = [&](const Vector3d& field) {
+        const Eigen::VectorXd q = rigid_motion(system, field);
+        return q.dot(system.M * q);
+      };
+      BOOST_TEST(twice_the_energy({1, 0, 0}) == 6 * link_mass + plate.mass, tolerance(1e-12));
+      BOOST_TEST(twice_the_energy({0, 1, 0}) == 6 * link_mass + plate.mass, tolerance(1e-12));
+      BOOST_TEST(twice_the_energy({0, 0, 1}) == inertia, tolerance(1e-12));
     }
   }
 }
 
-BOOST_AUTO_TEST_CASE(rigid_motions_of_the_whole_store_no_energy) {
+BOOST_AUTO_TEST_CASE(rigid_motions_store_no_energy) {
   for (const ManipulatorDesign& design : platforms()) {
     const System system = without_supports(design);
     const double stiffness = Eigen::VectorXd(system.K.diagonal()).maxCoeff();
@@ -144,40 +135,20 @@ BOOST_AUTO_TEST_CASE(rigid_motions_of_the_whole_store_no_energy) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_rigid_platform_is_the_limit_of_a_stiffer_and_stiffer_plate) {
+BOOST_AUTO_TEST_CASE(rigid_platform_is_the_limit_of_a_stiff_plate) {
   const Vector2d rigid = of_P(solve(with_platform(PlatformDesign::Kind::rigid), kPose, kForce));
   double last = 0;
   for (const double factor : {1.0, 10.0, 100.0, 1000.0}) {
     ManipulatorDesign design = with_platform(PlatformDesign::Kind::triangles);
     design.platform.material.E *= factor;
     const double difference = (of_P(solve(design, kPose, kForce)) - rigid).norm() / rigid.norm();
-    if (last > 0) BOOST_TEST(std::abs(last / difference / 10 - 1) < 1e-2);  // as one over factor
+    if (last > 0) BOOST_TEST(last / difference == 10, tolerance(1e-2));  // as one over factor
     if (factor == 100) BOOST_TEST(difference < 1e-6);
     last = difference;
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_platform_moves_as_a_rigid_body) {
-  for (const PlatformJointKind kind : {PlatformJointKind::hinged, PlatformJointKind::welded,
-                                       PlatformJointKind::sprung, PlatformJointKind::eq25_mean}) {
-    ManipulatorDesign design = with_platform(PlatformDesign::Kind::rigid);
-    design.platform_joint.fill({kind, 5});
-    const StaticSolution s = solve(design, kPose, {10, 4, 0.3});
-    const Posture posture = inverse_kinematics(design.geometry, kPose);
-    const Vector3d P = s.displacement.row(9);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto C = static_cast<Index>(6 + i);
-      const Vector2d c = posture.C[i] - Vector2d(kPose.x, kPose.y);
-      const Vector2d expected = P.head<2>() + P(2) * Vector2d(-c.y(), c.x());
-      BOOST_TEST((s.displacement.row(C).head<2>().transpose() - expected).norm() <
-                 1e-13 * P.head<2>().norm());
-      if (kind == PlatformJointKind::welded)
-        BOOST_TEST(std::abs(s.end_rotation(static_cast<Index>(2 * i + 1), 1) - P(2)) < 1e-15);
-    }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(eq_25_holds_in_the_solution_as_a_mean_or_as_a_sum) {
+BOOST_AUTO_TEST_CASE(platform_turns_by_mean_or_sum_of_equation_25) {
   for (const auto& [kind, share] : {std::pair{PlatformJointKind::eq25_mean, 1.0 / 3},
                                     std::pair{PlatformJointKind::eq25_sum, 1.0}}) {
     ManipulatorDesign design = with_platform(PlatformDesign::Kind::rigid);
@@ -190,8 +161,7 @@ BOOST_AUTO_TEST_CASE(eq_25_holds_in_the_solution_as_a_mean_or_as_a_sum) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(
-    with_hinged_elbows_the_clamps_carry_the_holding_torques_of_the_rigid_jacobian) {
+BOOST_AUTO_TEST_CASE(clamps_carry_the_holding_torques) {
   for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
     ManipulatorDesign design = with_platform(kind);
     design.elbow.fill({ElbowKind::hinged});
@@ -207,68 +177,7 @@ BOOST_AUTO_TEST_CASE(
   }
 }
 
-BOOST_AUTO_TEST_CASE(springs_approach_the_weld_as_they_stiffen_and_the_hinge_as_they_soften) {
-  const auto displacement = [](ActiveJoint active, ElbowJoint elbow, PlatformJoint platform) {
-    ManipulatorDesign design = with_platform(PlatformDesign::Kind::rigid);
-    design.active.fill(active);
-    design.elbow.fill(elbow);
-    design.platform_joint.fill(platform);
-    return of_P(solve(design, kPose, kForce));
-  };
-  const ActiveJoint locked{ActiveKind::locked};
-  const ElbowJoint welded{ElbowKind::welded};
-  const PlatformJoint fixed{PlatformJointKind::welded};
-  const Vector2d stiff = displacement(locked, welded, fixed);
-  const Vector2d free_active = displacement({ActiveKind::free}, welded, fixed);
-  const Vector2d free_elbow = displacement(locked, {ElbowKind::hinged}, fixed);
-  const Vector2d free_platform = displacement(locked, welded, {PlatformJointKind::hinged});
-  const auto check = [&](const Vector2d& soft, const auto& sprung) {
-    const double size = (soft - stiff).norm();
-    BOOST_TEST(size > 0);
-    BOOST_TEST((sprung(1e6) - stiff).norm() < 1e-4 * size);
-    BOOST_TEST((sprung(1e-5) - soft).norm() < 1e-4 * size);
-    const double ratio = (sprung(1e5) - stiff).norm() / (sprung(1e6) - stiff).norm();
-    BOOST_TEST(std::abs(ratio - 10) < 0.1);  // a series of compliances: as one over stiffness
-  };
-  check(free_active, [&](double k) {
-    return displacement({ActiveKind::sprung, k}, welded, fixed);
-  });
-  check(free_elbow, [&](double k) { return displacement(locked, {ElbowKind::sprung, k}, fixed); });
-  check(free_platform, [&](double k) {
-    return displacement(locked, welded, {PlatformJointKind::sprung, k});
-  });
-}
-
-BOOST_AUTO_TEST_CASE(limbs_pinned_at_both_ends_let_the_platform_turn_where_their_lines_meet) {
-  // Free actuators, welded elbows, hinged platform: each limb only pushes along A_i C_i, and at
-  // phi = 0 the three lines meet in one point wherever P is.
-  for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
-    ManipulatorDesign design = with_platform(kind);
-    design.active.fill({ActiveKind::free});
-    for (const Pose& pose : {centred_pose(), Pose{0.26, 0.15, 0}}) {
-      const StaticSolution s = solve(design, pose, {10, 0, 0});
-      BOOST_TEST((s.outcome.status == Status::singular));
-      BOOST_TEST(!s.outcome.reason.empty());
-      const ModalSolution m = modes(design, pose);
-      BOOST_TEST(m.zero_energy_mode_count == 1);
-      BOOST_TEST(m.frequency(0) == 0.0);
-      BOOST_TEST(m.frequency(1) > 1.0);
-    }
-    BOOST_TEST(solve(design, kPose, {10, 0, 0}).outcome.solved());
-  }
-}
-
-BOOST_AUTO_TEST_CASE(free_actuators_with_hinged_elbows_are_a_mechanism_of_three_freedoms) {
-  for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
-    ManipulatorDesign design = with_platform(kind);
-    design.active.fill({ActiveKind::free});
-    design.elbow.fill({ElbowKind::hinged});
-    BOOST_TEST(!solve(design, kPose, kForce).outcome.solved());
-    BOOST_TEST(modes(design, kPose).zero_energy_mode_count == 3);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(the_threefold_pose_repeats_its_frequencies) {
+BOOST_AUTO_TEST_CASE(threefold_pose_repeats_its_frequencies) {
   for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
     for (const double phi : {0.0, 0.3}) {
       const ModalSolution m = modes(with_platform(kind), centred_pose(phi), 9);
@@ -283,44 +192,6 @@ BOOST_AUTO_TEST_CASE(the_threefold_pose_repeats_its_frequencies) {
       BOOST_TEST(pairs == 3);
     }
   }
-}
-
-BOOST_AUTO_TEST_CASE(the_response_to_a_force_turns_with_the_force_in_the_threefold_pose) {
-  for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
-    const ManipulatorDesign design = with_platform(kind);
-    const Vector2d along_x = of_P(solve(design, centred_pose(), {10, 0, 0}));
-    const Vector2d along_y = of_P(solve(design, centred_pose(), {0, 10, 0}));
-    // The compliance at P is then a multiple of the identity (it is symmetric besides).
-    BOOST_TEST(std::abs(along_x.x() / along_y.y() - 1) < 1e-10);
-    BOOST_TEST(std::abs(along_x.y()) < 1e-10 * along_x.x());
-    BOOST_TEST(std::abs(along_y.x()) < 1e-10 * along_x.x());
-  }
-}
-
-BOOST_AUTO_TEST_CASE(the_lowest_frequencies_of_table_1_are_tens_of_hertz) {
-  for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
-    const ModalSolution m = modes(with_platform(kind), centred_pose());
-    BOOST_TEST_REQUIRE(m.outcome.solved());
-    BOOST_TEST((m.frequency(0) > 10 && m.frequency(0) < 30), m.frequency.transpose());
-    BOOST_TEST(m.frequency(5) < 150, m.frequency.transpose());
-  }
-}
-
-BOOST_AUTO_TEST_CASE(a_force_on_a_pin_has_a_limit_under_refinement_and_a_force_on_a_node_has_none) {
-  const auto displacement = [](double pin_radius, int refinements) {
-    ManipulatorDesign design = with_platform(PlatformDesign::Kind::triangles);
-    design.platform.pin_radius = pin_radius;
-    design.platform.refinements = refinements;
-    return of_P(solve(design, kPose, kForce)).x();
-  };
-  // Gains of the displacement from one mesh to the next, halved each time in size.
-  const auto gains = [&](double pin_radius) {
-    std::array<double, 3> u{};
-    for (int k = 0; k < 3; ++k) u[static_cast<std::size_t>(k)] = displacement(pin_radius, 4 + k);
-    return (u[1] - u[0]) / (u[2] - u[1]);
-  };
-  BOOST_TEST(gains(0.04) > 2.2);                // on its way to 4, as h / radius goes to 0
-  BOOST_TEST(std::abs(gains(0.0) - 1) < 0.05);  // theory: 1, a logarithm
 }
 
 BOOST_AUTO_TEST_SUITE_END()

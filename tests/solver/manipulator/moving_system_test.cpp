@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/linear/element_operators.h"
 #include "solver/manipulator/elastodynamics.h"
 #include "solver/manipulator/moving_element.h"
 #include "solver/model/quadrature.h"
@@ -79,85 +78,13 @@ struct Walk {
   }
 };
 
-/// A model at five times about now and its elastic displacements there; accelerations by the
-/// central difference of order 4.
-struct Moments {
-  double h = 0;
-  std::vector<System> systems;
-  std::vector<VectorXd> u;
-
-  template <class Quantity>
-  auto second(const Quantity& quantity) const {
-    constexpr std::array<double, 5> kWeight = {-1.0 / 12, 4.0 / 3, -2.5, 4.0 / 3, -1.0 / 12};
-    auto sum = (kWeight[0] / (h * h) * quantity(systems[0], u[0])).eval();
-    for (std::size_t k = 1; k < 5; ++k) sum += kWeight[k] / (h * h) * quantity(systems[k], u[k]);
-    return sum;
-  }
-};
-
-/// int rho W^T (W u).. dV of the links, on u.
-void add_links(const Moments& moments, VectorXd& force) {
-  const System& now = moments.systems[2];
-  for (std::size_t e = 0; e < now.mesh.frame.size(); ++e) {
-    const FrameElement& element = now.mesh.frame[e];
-    const Section& s = element.section;
-    const BeamTheory theory = now.model.members[static_cast<std::size_t>(element.member)].theory;
-    const double phi = shear_ratio(s, theory, element.length);
-    const double rotary = theory == BeamTheory::timoshenko ? s.inertia_per_length : 0;
-    for (const LineQuadraturePoint& p : line_quadrature()) {
-      const auto W = [&](const System& system) -> Eigen::Matrix<double, 3, 6> {
-        const Matrix6d T = frame_rotation(system.mesh.frame[e].direction);
-        return T.topLeftCorner<3, 3>().transpose() *
-               frame_interpolation(phi, element.length, p.xi) * T;
-      };
-      const Vector3d a = moments.second([&](const System& system, const VectorXd& u) -> Vector3d {
-        return W(system) * detail::gather(element.coordinates, u);
-      });
-      const Vector3d rho(s.mass_per_length, s.mass_per_length, rotary);
-      const Vector6d f = W(now).transpose() * (p.weight * element.length * rho).cwiseProduct(a);
-      for (std::size_t i = 0; i < 6; ++i) {
-        force[element.coordinates[i]] += f[static_cast<Index>(i)];
-      }
-    }
-  }
-}
-
-/// The same of triangles, lumps off their nodes, and inertia of link ends.
-void add_the_rest(const Moments& moments, VectorXd& force) {
-  const System& now = moments.systems[2];
-  const VectorXd a = moments.second([](const System&, const VectorXd& u) { return u; });
-  for_each_inertia(now, [&](const auto& coordinates, const auto& m) {
-    const bool frame = coordinates.size() == 6 && coordinates[2] >= 0 &&
-                       now.coordinates.is_rotation[static_cast<std::size_t>(coordinates[2])];
-    if (frame || coordinates.size() == 3) return;
-    const auto f = (m * detail::gather(coordinates, a)).eval();
-    for (std::size_t i = 0; i < coordinates.size(); ++i) {
-      force[coordinates[i]] += f[static_cast<Index>(i)];
-    }
-  });
-  for (std::size_t i = 0; i < now.model.masses.size(); ++i) {
-    const PointMass& point_mass = now.model.masses[i];
-    const auto& c = now.coordinates.node[static_cast<std::size_t>(point_mass.node)];
-    const Vector2d center =
-        moments.second([&](const System& system, const VectorXd& u) -> Vector2d {
-          const Vector2d r = system.model.masses[i].offset;
-          return Vector2d(u[c[0]] - u[c[2]] * r.y(), u[c[1]] + u[c[2]] * r.x());
-        });
-    force[c[0]] += point_mass.mass * center.x();
-    force[c[1]] += point_mass.mass * center.y();
-    force[c[2]] +=
-        point_mass.inertia * a[c[2]] +
-        point_mass.mass * (point_mass.offset.x() * center.y() - point_mass.offset.y() * center.x());
-  }
-}
-
 double difference(const MatrixXd& a, const MatrixXd& b) {
   return (a - b).norm() / b.norm();
 }
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_pose_reached_by_motion_has_the_matrices_of_a_model_built_there) {
+BOOST_AUTO_TEST_CASE(moved_system_has_the_matrices_of_a_built_one) {
   for (const ManipulatorDesign& design : designs()) {
     Walk walk(design, waltz(), 0.1, false);
     for (const double time : {0.1, 0.33, 0.7}) {
@@ -179,7 +106,7 @@ BOOST_AUTO_TEST_CASE(a_pose_reached_by_motion_has_the_matrices_of_a_model_built_
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_load_of_inertia_is_that_of_equation_14) {
+BOOST_AUTO_TEST_CASE(load_of_inertia_is_that_of_equation_14) {
   // F = T_s^T (w^2 H7^T - alpha H8^T - H9^T R^T a_A), H7 = int rho (x, 0) N, H8 = int rho (0, x) N,
   // H9 = int rho N, for every link by itself: clamped at one node, free at the other
   const double length = 0.2;
@@ -241,40 +168,7 @@ BOOST_AUTO_TEST_CASE(nominal_inertia_carries_the_momentum_of_the_bodies) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(gyroscopic_terms_are_the_second_derivative_of_the_turning_interpolation) {
-  // u(x, t) = W(t) T(t) q(t) with a quadratic q(t); its acceleration at each mass point by
-  // differences in time, against M q.. + C q. + K q with the gyroscopic C and the centrifugal and
-  // Euler K
-  for (const ManipulatorDesign& design : designs()) {
-    if (!design.proximal[0].axially_flexible) continue;  // other coordinates may be eliminated
-    const Path path = waltz();
-    const double now = 0.41;  // between two knots of the path, where it is smooth
-    Walk walk(design, path, 0.1, true);
-    BOOST_TEST_REQUIRE(walk.go_to(now).solved());
-    const Index n = walk.moving.K().rows();
-    const VectorXd q0 = VectorXd::LinSpaced(n, -1, 2).array().sin();
-    const VectorXd q1 = VectorXd::LinSpaced(n, 5, -9).array().cos() * 20;
-    const VectorXd q2 = VectorXd::LinSpaced(n, 3, 8).array().sin() * 100;
-    const VectorXd force =
-        walk.moving.gyroscopic_matrix() * q1 + walk.moving.centrifugal_and_euler_matrix() * q0;
-
-    Moments moments{.h = 1e-3, .systems = {}, .u = {}};
-    for (int k = -2; k <= 2; ++k) {
-      const double t = k * moments.h;
-      moments.systems.push_back(assemble(build_manipulator(design, at(path, now + t).pose)));
-      moments.u.emplace_back(moments.systems.back().T * (q0 + t * q1 + t * t / 2 * q2));
-    }
-    VectorXd expected = VectorXd::Zero(moments.u[2].size());
-    add_links(moments, expected);
-    add_the_rest(moments, expected);
-    const VectorXd all = moments.systems[2].T.transpose() * expected;
-    const VectorXd difference = all - (walk.moving.M() * q2 + force);
-    BOOST_TEST(force.norm() > 1e-3 * all.norm());
-    BOOST_TEST(difference.norm() < 1e-6 * force.norm());
-  }
-}
-
-BOOST_AUTO_TEST_CASE(an_elastic_displacement_that_all_parts_share_feels_no_gyroscopic_force) {
+BOOST_AUTO_TEST_CASE(common_displacement_has_no_gyroscopic_force) {
   Walk walk(table_1_design(), waltz(), 0.1, true);
   BOOST_TEST_REQUIRE(walk.go_to(0.4).solved());
   const System& system = walk.moving.start();
@@ -298,7 +192,7 @@ BOOST_AUTO_TEST_CASE(an_elastic_displacement_that_all_parts_share_feels_no_gyros
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_matrices_of_inextensible_links_grow_with_their_elements_and_not_faster) {
+BOOST_AUTO_TEST_CASE(matrices_of_inextensible_links_grow_linearly) {
   // by the pattern of the constraints alone each node followed all before it on its link
   std::vector<double> entries;
   for (const Index elements : {8, 16}) {
@@ -312,7 +206,7 @@ BOOST_AUTO_TEST_CASE(the_matrices_of_inextensible_links_grow_with_their_elements
   BOOST_TEST(entries[1] / entries[0] < 2.1);
 }
 
-BOOST_AUTO_TEST_CASE(a_pose_that_is_refused_leaves_no_trace) {
+BOOST_AUTO_TEST_CASE(refused_pose_leaves_no_trace) {
   Walk walk(designs()[3], waltz(), 0.1, false);
   MovingSystem& moving = walk.moving;
   const NominalMotion before = moving.motion();

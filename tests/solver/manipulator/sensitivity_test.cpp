@@ -8,43 +8,10 @@
 BOOST_AUTO_TEST_SUITE(sensitivity)
 
 using namespace trammel::solver;
+using boost::test_tools::tolerance;
 using Eigen::VectorXd;
 
-BOOST_AUTO_TEST_CASE(frequencies_grow_with_the_root_of_E_and_fall_with_that_of_density) {
-  const Pose pose{0.26, 0.15, 0.1};
-  for (const PlatformKind kind : {PlatformKind::rigid, PlatformKind::triangles}) {
-    ManipulatorDesign design = coarse_design();
-    design.platform.kind = kind;
-    const FrequencySensitivity s =
-        frequency_sensitivity(design, pose, {all(Kind::E), all(Kind::density)}, 8);
-    BOOST_TEST_REQUIRE(s.outcome.solved());
-    for (Index n = 0; n < 8; ++n) {
-      const double f = s.frequency[n];
-      BOOST_TEST(std::abs(s.derivative(n, 0) * 2 * 6.9e10 / f - 1) < 1e-11);
-      BOOST_TEST(std::abs(s.derivative(n, 1) * 2 * 2700 / f + 1) < 1e-11);
-    }
-  }
-}
-
-BOOST_AUTO_TEST_CASE(bending_frequencies_of_massive_links_grow_with_their_thickness) {
-  // without a platform's mass and with axially rigid links: stiffness t^3, mass t
-  ManipulatorDesign design = coarse_design();
-  design.platform.kind = PlatformKind::rigid;
-  design.platform.mass = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    design.proximal[i].axially_flexible = design.distal[i].axially_flexible = false;
-  }
-  DesignParameter links = all(Kind::thickness);
-  links.platform = false;
-  const FrequencySensitivity s =
-      frequency_sensitivity(design, {0.26, 0.15, 0.1}, {links, all(Kind::width)}, 6);
-  for (Index n = 0; n < 6; ++n) {
-    BOOST_TEST(std::abs(s.derivative(n, 0) * 0.0015 / s.frequency[n] - 1) < 1e-10);
-    BOOST_TEST(std::abs(s.derivative(n, 1) * 0.03 / s.frequency[n]) < 1e-10);  // as wide, as heavy
-  }
-}
-
-BOOST_AUTO_TEST_CASE(what_every_link_does_alone_adds_up_to_what_they_do_together) {
+BOOST_AUTO_TEST_CASE(derivatives_of_single_links_add_up) {
   std::vector<DesignParameter> parameters = {all(Kind::length)};
   for (std::size_t limb = 0; limb < 3; ++limb) {
     parameters.push_back(one_length(limb, true));
@@ -60,25 +27,7 @@ BOOST_AUTO_TEST_CASE(what_every_link_does_alone_adds_up_to_what_they_do_together
   }
 }
 
-BOOST_AUTO_TEST_CASE(holding_the_total_mass_is_not_holding_the_density) {
-  ManipulatorDesign by_density = coarse_design();
-  ManipulatorDesign by_total = coarse_design();
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double mass = link_section(by_density.proximal[i], 0.2).mass_per_length * 0.2;
-    by_total.proximal[i].mass = by_total.distal[i].mass = mass;
-  }
-  const Pose pose{0.26, 0.15, 0.1};
-  const auto lengths = {all(Kind::length), all(Kind::density)};
-  const FrequencySensitivity a = frequency_sensitivity(by_density, pose, lengths, 6);
-  const FrequencySensitivity b = frequency_sensitivity(by_total, pose, lengths, 6);
-  for (Index n = 0; n < 6; ++n) {
-    BOOST_TEST(std::abs(a.frequency[n] / b.frequency[n] - 1) < 1e-12);
-    BOOST_TEST(a.derivative(n, 0) < b.derivative(n, 0));  // longer links are heavier, too
-    BOOST_TEST(b.derivative(n, 1) > a.derivative(n, 1));  // only the platform's density counts
-  }
-}
-
-BOOST_AUTO_TEST_CASE(at_the_symmetric_pose_each_limb_matters_alike) {
+BOOST_AUTO_TEST_CASE(limbs_have_equal_derivatives_at_the_symmetric_pose) {
   // Three-fold symmetry: pairs of equal frequencies, whose shapes the eigensolver mixes at will.
   for (const double phi : {0.0, 0.3}) {
     std::vector<DesignParameter> parameters;
@@ -110,7 +59,7 @@ BOOST_AUTO_TEST_CASE(at_the_symmetric_pose_each_limb_matters_alike) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_set_cut_by_the_number_of_modes_keeps_its_lowest_derivative) {
+BOOST_AUTO_TEST_CASE(cut_set_keeps_its_lowest_derivative) {
   const ManipulatorDesign design = coarse_design();
   const DesignParameter parameter = one_length(0, true);
   const FrequencySensitivity all_six =
@@ -125,19 +74,7 @@ BOOST_AUTO_TEST_CASE(a_set_cut_by_the_number_of_modes_keeps_its_lowest_derivativ
   }
 }
 
-BOOST_AUTO_TEST_CASE(rigid_motions_stay_at_zero_whatever_the_lengths) {
-  ManipulatorDesign design = coarse_design();
-  design.active.fill({ActiveKind::free});
-  design.elbow.fill({ElbowKind::hinged});
-  const FrequencySensitivity s =
-      frequency_sensitivity(design, {0.26, 0.15, 0.1}, {all(Kind::length)}, 6);
-  BOOST_TEST_REQUIRE(s.outcome.solved());
-  BOOST_TEST(s.frequency.head(3).norm() == 0);
-  BOOST_TEST(s.derivative.topRows(3).norm() == 0);
-  BOOST_TEST(s.derivative.bottomRows(3).cwiseAbs().minCoeff() > 0);
-}
-
-BOOST_AUTO_TEST_CASE(a_straight_limb_has_no_finite_derivative_and_no_nan_goes_unnamed) {
+BOOST_AUTO_TEST_CASE(straight_limb_has_no_derivative) {
   ManipulatorDesign design = coarse_design();
   const Pose pose{0.25, 0.144, 0};
   const Posture posture = inverse_kinematics(design.geometry, pose);
@@ -148,7 +85,7 @@ BOOST_AUTO_TEST_CASE(a_straight_limb_has_no_finite_derivative_and_no_nan_goes_un
   BOOST_TEST(s.outcome.reason.find("straight") != std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(modes_that_round_off_has_eaten_are_none_and_not_a_crash) {
+BOOST_AUTO_TEST_CASE(modes_lost_to_round_off_do_not_crash) {
   // free actuators near a folded limb: eigenvalues without vectors were once read beyond their end
   ManipulatorDesign design = coarse_design();
   design.platform.kind = PlatformKind::rigid;
@@ -159,7 +96,7 @@ BOOST_AUTO_TEST_CASE(modes_that_round_off_has_eaten_are_none_and_not_a_crash) {
   BOOST_TEST(first.outcome.solved() == std::isfinite(first.frequency));
 }
 
-BOOST_AUTO_TEST_CASE(the_map_covers_the_reach_and_agrees_with_single_poses) {
+BOOST_AUTO_TEST_CASE(map_covers_the_reach_and_equals_single_poses) {
   const ManipulatorDesign design = coarse_design(1);
   const PoseGrid grid = reachable_grid(design.geometry, 0.1, 15);
   const SensitivityMap map = map_first_frequency(design, all(Kind::length), grid);
@@ -181,7 +118,7 @@ BOOST_AUTO_TEST_CASE(the_map_covers_the_reach_and_agrees_with_single_poses) {
   BOOST_TEST(reachable > grid.rows * grid.columns / 4);
 }
 
-BOOST_AUTO_TEST_CASE(the_boundary_of_the_reach_is_where_a_limb_is_straight_or_folded) {
+BOOST_AUTO_TEST_CASE(boundary_of_the_reach_has_a_singular_limb) {
   ManipulatorGeometry geometry = coarse_design().geometry;
   geometry.distal = {0.15, 0.2, 0.18};
   std::size_t all = 0;
@@ -204,7 +141,7 @@ BOOST_AUTO_TEST_CASE(the_boundary_of_the_reach_is_where_a_limb_is_straight_or_fo
   BOOST_TEST(points == 0U);
 }
 
-BOOST_AUTO_TEST_CASE(a_singular_curve_runs_where_the_parallel_distance_vanishes) {
+BOOST_AUTO_TEST_CASE(singular_curve_has_no_parallel_distance) {
   const ManipulatorGeometry geometry = coarse_design().geometry;
   const PoseGrid grid = reachable_grid(geometry, 0.1, 81);
   const std::vector<Polyline> curve = parallel_singularities(geometry, grid);

@@ -2,9 +2,8 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <numbers>
 
-#include "solver/linear/modes.h"
+#include "solver/linear/system.h"
 #include "solver/linear/validate.h"
 #include "tests/support/solver/frames.h"
 
@@ -31,18 +30,9 @@ Model sprung_cantilever() {
   return model;
 }
 
-double first_frequency_squared(BeamTheory theory, Index mode) {
-  Model model = testing::beam(stubby(), kLength, 32);
-  model.supports = {testing::pin(0), testing::roller(1)};
-  model.members[0].theory = theory;
-  const ModalSolution modes = solve_modes(assemble(model), {6, EigenMethod::automatic});
-  const double w = 2 * std::numbers::pi * modes.frequency[mode];
-  return w * w;
-}
-
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(every_effect_has_a_name_of_its_own) {
+BOOST_AUTO_TEST_CASE(every_effect_has_its_own_name) {
   for (const Effect effect : Effects::all().list()) {
     BOOST_TEST((effect_named(name_of(effect)) == effect));
   }
@@ -50,25 +40,7 @@ BOOST_AUTO_TEST_CASE(every_effect_has_a_name_of_its_own) {
   BOOST_TEST(!effect_named("friction"));
 }
 
-/// Han, Benaroya & Wei (1999): with k = pi / L between pins, w^2 = EI k^4 / rho A over
-/// 1 + k^2 I / A (Rayleigh) or 1 + k^2 EI / kappa GA (shear).
-BOOST_AUTO_TEST_CASE(a_pinned_beam_vibrates_as_each_of_the_four_theories_says) {
-  const Section s = stubby();
-  const double k = std::numbers::pi / kLength;
-  const double plain = s.EI * std::pow(k, 4) / s.mass_per_length;
-  const double turned = 1 + k * k * s.inertia_per_length / s.mass_per_length;
-  const double sheared = 1 + k * k * s.EI / s.kappa_GA;
-  // 32 elements: (k h)^4 / 720 = 1e-7 of bending; shear is constant in each, (k h)^2 / 12 of the
-  // shear's share of a tenth = 7.6e-5.
-  const auto near = boost::test_tools::tolerance(1e-6);
-  const auto near_in_shear = boost::test_tools::tolerance(1e-4);
-  BOOST_TEST(first_frequency_squared(BeamTheory::euler_bernoulli, 0) == plain, near);
-  BOOST_TEST(first_frequency_squared(BeamTheory::rayleigh, 0) == plain / turned, near);
-  BOOST_TEST(first_frequency_squared(BeamTheory::shear, 0) == plain / sheared, near_in_shear);
-  BOOST_TEST(first_frequency_squared(BeamTheory::timoshenko, 0) < plain / sheared);
-}
-
-BOOST_AUTO_TEST_CASE(what_is_off_has_no_matrix_no_coordinate_and_no_evaluation) {
+BOOST_AUTO_TEST_CASE(inactive_effect_has_no_matrix_and_no_evaluation) {
   const Model model = sprung_cantilever();
   const Effects all = applicable_effects(model).with(Effect::inertia);
   const System whole = assemble(model, all);
@@ -86,7 +58,7 @@ BOOST_AUTO_TEST_CASE(what_is_off_has_no_matrix_no_coordinate_and_no_evaluation) 
   BOOST_TEST(assemble(model, all.without(Effect::joint_compliance)).K.rows() == whole.K.rows() - 1);
 }
 
-BOOST_AUTO_TEST_CASE(a_model_admits_what_its_parts_have) {
+BOOST_AUTO_TEST_CASE(applicable_effects_follow_the_parts_of_a_model) {
   const Model model = sprung_cantilever();
   Effects bare = applicable_effects(testing::cantilever(stubby(), kLength, 1));
   BOOST_TEST((bare == Effects().with(Effect::axial_flexibility).with(Effect::link_mass)));
@@ -97,7 +69,7 @@ BOOST_AUTO_TEST_CASE(a_model_admits_what_its_parts_have) {
   BOOST_TEST(applicable_effects(stripped).empty());
 }
 
-BOOST_AUTO_TEST_CASE(what_parts_of_a_computation_have_evaluated_adds_up) {
+BOOST_AUTO_TEST_CASE(counters_add_up) {
   Counters all{.element_evaluations = 1, .factorizations = 2, .solves = 3, .steps = 4};
   all.count(Effect::damping, 5);
   all += all;

@@ -7,7 +7,7 @@ BOOST_AUTO_TEST_SUITE(evidence)
 
 using namespace trammel::solver;
 
-BOOST_AUTO_TEST_CASE(a_claim_without_residuals_does_not_count_as_solved) {
+BOOST_AUTO_TEST_CASE(result_without_residuals_is_not_solved) {
   BOOST_TEST(!outcome_by_evidence({}, {}).solved());
   Evidence other;
   other.add(Residual::load, 0);
@@ -15,7 +15,7 @@ BOOST_AUTO_TEST_CASE(a_claim_without_residuals_does_not_count_as_solved) {
   BOOST_TEST(!outcome_by_evidence({}, other, {Residual::equilibrium}).solved());
 }
 
-BOOST_AUTO_TEST_CASE(the_largest_residual_of_a_kind_decides) {
+BOOST_AUTO_TEST_CASE(largest_residual_of_a_kind_decides) {
   Evidence evidence;
   evidence.add(Residual::equilibrium, 1e-16);
   BOOST_TEST(outcome_by_evidence({}, evidence).solved());
@@ -26,7 +26,7 @@ BOOST_AUTO_TEST_CASE(the_largest_residual_of_a_kind_decides) {
   BOOST_TEST(outcome.reason.find("'equilibrium' is 1e-06") != std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_not_a_number_counts_as_infinite) {
+BOOST_AUTO_TEST_CASE(residual_that_is_not_a_number_is_infinite) {
   Evidence evidence, sum;
   evidence.add(Residual::energy, std::numeric_limits<double>::quiet_NaN());
   sum.add(Residual::energy, 0);
@@ -34,18 +34,18 @@ BOOST_AUTO_TEST_CASE(what_is_not_a_number_counts_as_infinite) {
   BOOST_TEST(!outcome_by_evidence({}, sum).solved());
 }
 
-BOOST_AUTO_TEST_CASE(a_claim_of_failure_stays_what_it_is) {
+BOOST_AUTO_TEST_CASE(failure_keeps_its_status) {
   const Outcome singular{Status::singular, "free motion"};
   BOOST_TEST((outcome_by_evidence(singular, {}).status == Status::singular));
 }
 
-BOOST_AUTO_TEST_CASE(one_missed_mode_is_enough_to_refuse) {
+BOOST_AUTO_TEST_CASE(one_missed_mode_is_refused) {
   Evidence evidence;
   evidence.add(Residual::mode_count, 1);
   BOOST_TEST(!outcome_by_evidence({}, evidence).solved());
 }
 
-BOOST_AUTO_TEST_CASE(forces_with_few_digits_are_said_and_not_refused) {
+BOOST_AUTO_TEST_CASE(load_residual_of_few_digits_is_accepted) {
   Evidence evidence;
   evidence.add(Residual::load, 1e-5);
   BOOST_TEST(outcome_by_evidence({}, evidence).solved());

@@ -32,14 +32,14 @@ double mean(int a, int b, int c) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(the_line_rule_is_exact_to_degree_nine_and_no_further) {
+BOOST_AUTO_TEST_CASE(line_rule_is_exact_to_degree_9) {
   for (int power = 0; power <= 9; ++power) {
     BOOST_TEST(line_moment(power) == 1.0 / (power + 1), boost::test_tools::tolerance(1e-14));
   }
   BOOST_TEST(std::abs(line_moment(10) - 1.0 / 11) > 1e-7);
 }
 
-BOOST_AUTO_TEST_CASE(the_triangle_rule_is_exact_to_degree_eight_and_no_further) {
+BOOST_AUTO_TEST_CASE(triangle_rule_is_exact_to_degree_8) {
   for (int degree = 0; degree <= 8; ++degree) {
     for (int a = 0; a <= degree; ++a) {
       for (int b = 0; a + b <= degree; ++b) {

@@ -29,23 +29,18 @@ Model oscillator() {
   return model;
 }
 
-/// NAFEMS Test 5H: the deep beam of FV5 under 1e6 N/m, two halves so that mid-span is a node.
-Model test_5h(Index elements) {
-  const Section section = rectangle({200e9, 8000, 0.3}, 2, 2, 0.849673);
-  Model model;
-  model.nodes = {{"A", {0, 0}}, {"C", {5, 0}}, {"B", {10, 0}}};
-  model.members = {member("AC", 0, 1, section, elements), member("CB", 1, 2, section, elements)};
-  for (Member& m : model.members) {
-    m.theory = BeamTheory::timoshenko;
-    m.load = {0, 1e6};
-  }
-  model.supports = {pin(0), roller(2)};
+/// Two welded members, clamped at one end, under a line load.
+Model frame() {
+  Model model = cantilever(unit_section(), 1, 4, 0.5);
+  model.nodes.push_back({"C", {1.4, 0.9}});
+  model.members.push_back(member("BC", 1, 2, unit_section(), 3));
+  model.members[0].load = {0.3, 1};
   return model;
 }
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(an_oscillator_answers_as_its_formula_with_either_damping) {
+BOOST_AUTO_TEST_CASE(oscillator_responds_as_its_formula) {
   const System system = assemble(oscillator());
   const double w0 = 5;
   const double ratio = 0.03;
@@ -63,56 +58,32 @@ BOOST_AUTO_TEST_CASE(an_oscillator_answers_as_its_formula_with_either_damping) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(at_rest_it_is_statics) {
-  const System system = assemble(test_5h(4));
+BOOST_AUTO_TEST_CASE(response_at_zero_frequency_is_statics) {
+  const System system = assemble(frame());
   const StaticSolution statics = solve_statics(system);
   for (const std::size_t damped : {0, 3}) {
     const HarmonicSolver response(system, {{}, std::vector<double>(damped, 0.02)});
     const Eigen::VectorXcd q = response.at(0);
     BOOST_TEST((q.real() - statics.q).norm() < 1e-9 * statics.q.norm());
     const HarmonicAmplitudes a = response.amplitudes(q, 0);
-    BOOST_TEST(a.resultant_end(0, 2) == std::abs(statics.resultant_end(0, 2)), tolerance(1e-9));
+    BOOST_TEST(a.resultant_start(0, 2) == std::abs(statics.resultant_start(0, 2)), tolerance(1e-9));
     BOOST_TEST(a.member_stress[0] == statics.member_stress[0], tolerance(1e-9));
   }
 }
 
-BOOST_AUTO_TEST_CASE(damping_more_modes_changes_only_what_is_damped) {
+BOOST_AUTO_TEST_CASE(superposition_equals_the_direct_solution) {
   // Rayleigh damping on all and none: superposing modes or solving directly is the same.
-  const System system = assemble(test_5h(4));
+  const System system = assemble(frame());
   const HarmonicSolver direct(system, {{1.0, 1e-4}, {}});
   const HarmonicSolver superposed(system, {{1.0, 1e-4}, std::vector<double>(6, 0.0)});
-  for (const double f : {10.0, 42.6, 100.0}) {
+  for (const double f : {0.2, 0.7, 3.0}) {
     BOOST_TEST((direct.at(f) - superposed.at(f)).norm() < 1e-9 * direct.at(f).norm());
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_deep_beam_of_test_5h_peaks_as_beam_theory_says) {
-  const System system = assemble(test_5h(20));
-  const HarmonicSolver response(system, {{}, std::vector<double>(16, 0.02)});
-  BOOST_REQUIRE(response.outcome().solved());
-  const HarmonicPeak peak =
-      harmonic_peak(response, 40, 45, {}, [&](const Eigen::VectorXcd& q, double f) {
-        return response.amplitudes(q, f).displacement(1, 1);
-      });
-  BOOST_TEST(peak.frequency == 42.628, tolerance(4e-5));
-  BOOST_TEST(peak.amplitude == 13.489e-3, tolerance(1e-4));
-  const HarmonicAmplitudes a = response.amplitudes(response.at(peak.frequency), peak.frequency);
-  BOOST_TEST(a.resultant_end(0, 2) / (8.0 / 6) == 242.55e6, tolerance(2e-4));
-}
-
-BOOST_AUTO_TEST_CASE(rayleigh_damping_of_test_5h_is_close_to_two_per_cent) {
-  const System system = assemble(test_5h(10));
-  const HarmonicSolver response(system, {{5.36, 7.46e-5}, {}});
-  const HarmonicPeak peak =
-      harmonic_peak(response, 40, 45, {}, [&](const Eigen::VectorXcd& q, double f) {
-        return response.amplitudes(q, f).displacement(1, 1);
-      });
-  BOOST_TEST(peak.amplitude == 13.45e-3, tolerance(1e-2));
-}
-
 // Two free masses, 2 and 3 kg, on a spring of 50 N/m: the load carries them off as F / (m w^2),
 // with what the spring lets them move apart. At 1e-5 Hz K and M differ by 1e-9.
-BOOST_AUTO_TEST_CASE(a_free_body_moves_by_its_mass_however_slowly_it_is_shaken) {
+BOOST_AUTO_TEST_CASE(slowly_shaken_free_body_moves_by_its_mass) {
   Model model;
   model.nodes = {{"A", {0, 0}}, {"B", {1, 0}}};
   model.masses = {{0, 2, 0, {0, 0}}, {1, 3, 0, {0, 0}}};
@@ -136,7 +107,7 @@ BOOST_AUTO_TEST_CASE(a_free_body_moves_by_its_mass_however_slowly_it_is_shaken) 
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_part_without_mass_that_nothing_holds_has_no_response) {
+BOOST_AUTO_TEST_CASE(free_part_without_mass_has_no_response) {
   Model model = oscillator();
   model.nodes.push_back({"loose", {1, 0}});
   model.springs.push_back({"y", {1, -1}, {0, 1000, 0}});
@@ -148,21 +119,20 @@ BOOST_AUTO_TEST_CASE(a_part_without_mass_that_nothing_holds_has_no_response) {
 }
 
 BOOST_AUTO_TEST_CASE(reciprocity_holds_with_damping) {
-  Model model = cantilever(unit_section(), 1, 4, 0.5);
-  model.nodes.push_back({"C", {1.4, 0.9}});
-  model.members.push_back(member("BC", 1, 2, unit_section(), 3));
-  const auto answer = [&](Index loaded, Index seen) {
+  const auto response = [&](Index loaded, Index observed) {
+    Model model = frame();
+    model.members[0].load.setZero();
     model.loads = {{loaded, {1, 0, 0}}};
     const System system = assemble(model);
-    const HarmonicSolver response(system, {{0.2, 0.001}, {0.01, 0.02}});
-    const Eigen::VectorXcd q = response.at(0.7);
-    const Eigen::VectorXcd u = system.T.cast<std::complex<double>>() * q;
-    return u[system.coordinates.node[static_cast<std::size_t>(seen)][0]];
+    const HarmonicSolver solver(system, {{0.2, 0.001}, {0.01, 0.02}});
+    const Eigen::VectorXcd u = system.T.cast<std::complex<double>>() * solver.at(0.7);
+    return u[system.coordinates.node[static_cast<std::size_t>(observed)][0]];
   };
-  BOOST_TEST(std::abs(answer(1, 2) - answer(2, 1)) < 1e-9 * std::abs(answer(1, 2)));
+  const std::complex<double> reciprocal = response(2, 1);
+  BOOST_TEST(std::abs(response(1, 2) - reciprocal) < 1e-9 * std::abs(reciprocal));
 }
 
-BOOST_AUTO_TEST_CASE(with_rayleigh_damping_thin_links_are_in_balance_row_by_row) {
+BOOST_AUTO_TEST_CASE(damped_thin_links_balance_in_every_row) {
   ManipulatorDesign design = table_1_design();
   design.platform.kind = PlatformKind::rigid;
   for (LinkDesign* link : {&design.proximal[0], &design.proximal[1], &design.proximal[2],
@@ -176,7 +146,7 @@ BOOST_AUTO_TEST_CASE(with_rayleigh_damping_thin_links_are_in_balance_row_by_row)
     BOOST_TEST(response.backward_error(response.at(frequency), frequency) < 1e-13);
 }
 
-BOOST_AUTO_TEST_CASE(a_negative_damping_ratio_is_an_error) {
+BOOST_AUTO_TEST_CASE(invalid_damping_ratios_are_refused) {
   const System system = assemble(oscillator());
   BOOST_CHECK_THROW(HarmonicSolver(system, {{}, {-0.1}}), ModelError);
   BOOST_CHECK_THROW(HarmonicSolver(system, {{}, {0.1, 0.1, 0.1}}), ModelError);

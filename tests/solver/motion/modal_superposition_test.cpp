@@ -6,10 +6,12 @@
 #include <numbers>
 
 #include "solver/linear/row_balance.h"
+#include "tests/support/solver/numerics.h"
 
 BOOST_AUTO_TEST_SUITE(modal_superposition)
 
 using namespace trammel::solver;
+using boost::test_tools::tolerance;
 using std::numbers::pi;
 
 namespace {
@@ -51,15 +53,9 @@ ImpulseResponse in_long_digits(double omega, double decay, double t) {
           .h2 = static_cast<double>(sum)};
 }
 
-SparseMatrix sparse(const Eigen::MatrixXd& A) {
-  SparseMatrix S = A.sparseView();
-  S.makeCompressed();
-  return S;
-}
-
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(an_oscillator_keeps_its_digits_in_every_kind_of_damping) {
+BOOST_AUTO_TEST_CASE(impulse_response_keeps_its_digits) {
   double worst = 0;
   for (const double omega : {0.0, 1e-6, 1e-2, 0.9, 3.0, 50.0}) {
     for (const double ratio :
@@ -82,18 +78,7 @@ BOOST_AUTO_TEST_CASE(an_oscillator_keeps_its_digits_in_every_kind_of_damping) {
   BOOST_TEST(worst < 2e-14);
 }
 
-BOOST_AUTO_TEST_CASE(a_free_mass_falls_by_half_a_t_squared) {
-  const SparseMatrix M = sparse(Eigen::MatrixXd::Constant(1, 1, 2.0));
-  const SparseMatrix K = sparse(Eigen::MatrixXd::Zero(1, 1));
-  const ModalBasis basis = all_modes(M, K);
-  const ModalResponse r = superpose(basis, Eigen::VectorXd::Zero(1), M,
-                                    step_load(Eigen::VectorXd::Constant(1, 2 * 9.81)), {0, 0.5, 2},
-                                    Eigen::VectorXd(), Eigen::VectorXd());
-  BOOST_TEST(std::abs(r.q(0, 1) - 0.5 * 9.81 * 0.25) < 1e-14);
-  BOOST_TEST(std::abs(r.v(0, 2) - 9.81 * 2) < 1e-13);
-}
-
-BOOST_AUTO_TEST_CASE(every_mode_is_orthogonal_and_massless_coordinates_have_none) {
+BOOST_AUTO_TEST_CASE(modes_are_orthogonal_without_massless_coordinates) {
   const SparseMatrix M = sparse(Eigen::Vector4d(1, 2, 0, 3).asDiagonal());
   const SparseMatrix K = sparse(
       (Eigen::Matrix4d() << 2, -1, -1, 0, -1, 4, -2, -1, -1, -2, 5, -2, 0, -1, -2, 3).finished());
@@ -108,7 +93,7 @@ BOOST_AUTO_TEST_CASE(every_mode_is_orthogonal_and_massless_coordinates_have_none
   BOOST_TEST(basis.omega[0] == 0);  // the four move together: K has rows that sum to zero
 }
 
-BOOST_AUTO_TEST_CASE(a_load_that_jumps_takes_the_value_after_the_jump) {
+BOOST_AUTO_TEST_CASE(load_takes_the_value_after_a_jump) {
   PiecewiseLinearLoad load;
   load.pattern = Eigen::MatrixXd::Identity(1, 1);
   load.time = {0, 1, 1, 3};
@@ -120,13 +105,13 @@ BOOST_AUTO_TEST_CASE(a_load_that_jumps_takes_the_value_after_the_jump) {
   };
   BOOST_TEST(at(-1) == 2);
   BOOST_TEST(at(0.5) == 3);
-  BOOST_TEST(at(std::nextafter(1, 0)) == 4, boost::test_tools::tolerance(1e-12));
+  BOOST_TEST(at(std::nextafter(1, 0)) == 4, tolerance(1e-12));
   BOOST_TEST(at(1) == 10);
   BOOST_TEST(at(2) == 5);
   BOOST_TEST(at(9) == 0);
 }
 
-BOOST_AUTO_TEST_CASE(a_coordinate_that_nothing_holds_and_no_mass_moves_is_singular_in_words) {
+BOOST_AUTO_TEST_CASE(coordinate_without_stiffness_and_mass_is_named) {
   const SparseMatrix one = sparse(Eigen::Vector2d(1, 0).asDiagonal());
   const ModalBasis basis = all_modes(one, one);
   BOOST_TEST((basis.outcome.status == Status::singular));
@@ -134,10 +119,34 @@ BOOST_AUTO_TEST_CASE(a_coordinate_that_nothing_holds_and_no_mass_moves_is_singul
   BOOST_TEST(basis.omega.size() == 0);
 }
 
-BOOST_AUTO_TEST_CASE(numbers_that_overflow_have_no_modes) {
+BOOST_AUTO_TEST_CASE(overflowing_numbers_have_no_modes) {
   const SparseMatrix M = sparse(Eigen::Vector2d(1e300, 1e300).asDiagonal());
   const SparseMatrix K = sparse(Eigen::Vector2d(1e308, 1e308).asDiagonal());
   BOOST_TEST(!all_modes(M, K).outcome.solved());
+}
+
+BOOST_AUTO_TEST_CASE(overdamping_begins_at_the_printed_limits) {
+  const RayleighDamping printed{.mass = 0.02, .stiffness = 0.003};
+  BOOST_TEST(damping_ratio(printed, overdamped_above(printed)) == 1, tolerance(1e-12));
+  BOOST_TEST(std::isinf(overdamped_above({.mass = 1, .stiffness = 0})));
+  BOOST_TEST(overdamped_above({.mass = 0, .stiffness = 0.5}) == 4);
+  BOOST_TEST(overdamped_above({.mass = 3, .stiffness = 1}) == 1);
+}
+
+BOOST_AUTO_TEST_CASE(modes_decouple_with_rayleigh_and_modal_damping) {
+  const SparseMatrix M = sparse(Eigen::Matrix3d{{2, .5, 0}, {.5, 3, .2}, {0, .2, 1}});
+  const SparseMatrix K = sparse(Eigen::Matrix3d{{50, -20, 0}, {-20, 60, -30}, {0, -30, 45}});
+  const ModalBasis basis = all_modes(M, K);
+  const auto modal = [&basis](const SparseMatrix& C) -> Eigen::MatrixXd {
+    return basis.shape.transpose() * (C * basis.shape);
+  };
+  const RayleighDamping rayleigh{.mass = 0.3, .stiffness = 0.01};
+  const Eigen::MatrixXd expected = 2 * decay_rates(rayleigh, basis.omega).asDiagonal();
+  BOOST_TEST((modal(damping_matrix(rayleigh, M, K)) - expected).norm() < 1e-12);
+  const Eigen::Vector3d ratio(0.02, 0.1, 1.5);
+  const Eigen::MatrixXd chosen = (2 * ratio.cwiseProduct(basis.omega)).asDiagonal();
+  BOOST_TEST((modal(modal_damping_matrix(M, basis.omega, basis.shape, ratio)) - chosen).norm() <
+             1e-12);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

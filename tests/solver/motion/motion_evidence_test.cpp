@@ -61,7 +61,7 @@ EquationOfMotion seen_wrongly(const Spoil& spoil) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(every_scheme_keeps_its_own_balance_of_energy) {
+BOOST_AUTO_TEST_CASE(every_scheme_keeps_its_balance_of_energy) {
   for (const TimeScheme& scheme :
        {average_acceleration(), linear_acceleration(), central_difference(), newmark(0.3025, 0.6),
         hht_alpha(-0.3), generalized_alpha(1), generalized_alpha(0.5), generalized_alpha(0)}) {
@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(every_scheme_keeps_its_own_balance_of_energy) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_stale_load_is_not_solved) {
+BOOST_AUTO_TEST_CASE(stale_load_is_refused) {
   EquationOfMotion equation = oscillator();
   equation.load = [first = AskedFirst{}](double t, VectorXd& f) mutable {
     f[0] = 3 + 5 * std::sin(7 * (first(t) ? t - 0.02 : t));
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(a_stale_load_is_not_solved) {
   BOOST_TEST(outcome.reason.find("equation of motion") != std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(matrices_that_the_integrator_saw_wrongly_are_not_solved) {
+BOOST_AUTO_TEST_CASE(wrong_matrices_are_refused) {
   const auto right = seen_wrongly([](auto&, auto&, auto&) {});
   BOOST_TEST(run(right).summary.outcome.solved());
   const auto damping = seen_wrongly([](auto&, SparseMatrix& C, auto&) { C = -1 * C; });
@@ -99,7 +99,7 @@ BOOST_AUTO_TEST_CASE(matrices_that_the_integrator_saw_wrongly_are_not_solved) {
 
 /// One step of the free undamped oscillator by average acceleration, its velocity with the factor
 /// gamma on the new acceleration.
-BOOST_AUTO_TEST_CASE(a_wrong_coefficient_of_newmark_is_not_solved) {
+BOOST_AUTO_TEST_CASE(wrong_newmark_coefficient_is_refused) {
   EquationOfMotion equation;
   equation.M = scalar(1), equation.K = scalar(100);
   for (const double gamma : {0.5, 0.6}) {

@@ -8,39 +8,22 @@
 BOOST_AUTO_TEST_SUITE(time_scheme)
 
 using namespace trammel::solver;
+using boost::test_tools::tolerance;
 
-namespace {
-
-/// Order 2 asks for gamma = 1/2 - alpha_m + alpha_f (Chung & Hulbert 1993).
-int order(const TimeScheme& s) {
-  return std::abs(s.gamma - (0.5 - s.alpha_m + s.alpha_f)) < 1e-12 ? 2 : 1;
-}
-
-}  // namespace
-
-BOOST_AUTO_TEST_CASE(the_named_schemes_are_of_second_order) {
-  for (const double radius : {0.0, 0.3, 0.8, 1.0})
-    BOOST_TEST(order(generalized_alpha(radius)) == 2);
-  for (const double alpha : {-1.0 / 3, -0.1, 0.0}) BOOST_TEST(order(hht_alpha(alpha)) == 2);
-  BOOST_TEST(order(average_acceleration()) == 2);
-  BOOST_TEST(order(central_difference()) == 2);
-  BOOST_TEST(order(newmark(0.3025, 0.6)) == 1);
-}
-
-BOOST_AUTO_TEST_CASE(generalized_alpha_leaves_of_fast_motions_what_its_radius_says) {
+BOOST_AUTO_TEST_CASE(generalized_alpha_has_its_spectral_radius) {
   for (const double radius : {0.0, 0.2, 0.5, 0.9, 1.0}) {
     BOOST_TEST(std::abs(spectral_radius(generalized_alpha(radius), 1e5) - radius) < 1e-2);
-    BOOST_TEST(std::abs(spectral_radius(generalized_alpha(radius), 1e-3) - 1) < 1e-8);
+    BOOST_TEST(spectral_radius(generalized_alpha(radius), 1e-3) == 1, tolerance(1e-8));
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_trapezoidal_rule_neither_damps_nor_excites_at_any_step) {
+BOOST_AUTO_TEST_CASE(trapezoidal_rule_has_spectral_radius_1) {
   for (double phase = 1e-3; phase < 1e3; phase *= 1.7) {
-    BOOST_TEST(std::abs(spectral_radius(average_acceleration(), phase) - 1) < 1e-9);
+    BOOST_TEST(spectral_radius(average_acceleration(), phase) == 1, tolerance(1e-9));
   }
 }
 
-BOOST_AUTO_TEST_CASE(implicit_schemes_are_stable_at_any_step_and_explicit_ones_up_to_theirs) {
+BOOST_AUTO_TEST_CASE(stability_limits_are_those_of_theory) {
   BOOST_TEST(std::isinf(stability_limit(average_acceleration())));
   BOOST_TEST(std::isinf(stability_limit(hht_alpha(-0.2))));
   BOOST_TEST(std::isinf(stability_limit(generalized_alpha(0.7))));
@@ -48,7 +31,7 @@ BOOST_AUTO_TEST_CASE(implicit_schemes_are_stable_at_any_step_and_explicit_ones_u
   BOOST_TEST(std::abs(stability_limit(linear_acceleration()) - std::sqrt(12.0)) < 1e-6);
 }
 
-BOOST_AUTO_TEST_CASE(parameters_without_meaning_are_refused) {
+BOOST_AUTO_TEST_CASE(invalid_parameters_are_refused) {
   BOOST_CHECK_THROW(static_cast<void>(generalized_alpha(1.1)), ModelError);
   BOOST_CHECK_THROW(static_cast<void>(generalized_alpha(std::nan(""))), ModelError);
   BOOST_CHECK_THROW(static_cast<void>(hht_alpha(0.1)), ModelError);

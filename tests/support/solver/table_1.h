@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "solver/manipulator/manipulator.h"
+#include "solver/manipulator/rigid_dynamics.h"
 
 /// The manipulator of the paper's Table 1, for the tests.
 namespace trammel::solver {
@@ -51,5 +53,44 @@ inline ManipulatorDesign table_1_design() {
   design.platform_joint.fill({PlatformJointKind::hinged});
   return design;
 }
+
+/// Unequal links with centers of mass off the middle, P off the platform's center of mass.
+inline RigidManipulator uneven_bodies() {
+  RigidManipulator m;
+  m.geometry = uneven_geometry();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto i = static_cast<double>(k);
+    m.proximal[k] = {0.02 + 0.01 * i, 0.07 + 0.02 * i, 1e-4 + 3e-5 * i};
+    m.distal[k] = {0.03 - 0.005 * i, 0.12 - 0.01 * i, 2e-4 - 4e-5 * i};
+  }
+  m.platform = {0.12, 7e-4, Vector2d(0.01, -0.02)};
+  return m;
+}
+
+/// Seeded random states near the middle of the workspace, of the order of 1 rad/s and 1 m/s.
+class RandomStates {
+ public:
+  explicit RandomStates(unsigned seed) : engine_(seed) {}
+  Vector3d vector() {
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    const double x = uniform(engine_);
+    const double y = uniform(engine_);
+    return {x, y, uniform(engine_)};
+  }
+  Pose pose() {
+    const Vector3d v = vector();
+    return {0.26 + 0.03 * v(0), 0.145 + 0.03 * v(1), 0.25 * v(2)};
+  }
+  TrajectoryPoint point() {
+    TrajectoryPoint p;
+    p.pose = pose();
+    p.velocity = vector();
+    p.acceleration = 3 * vector();
+    return p;
+  }
+
+ private:
+  std::mt19937_64 engine_;
+};
 
 }  // namespace trammel::solver

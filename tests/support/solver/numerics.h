@@ -1,5 +1,11 @@
 #pragma once
 
+#include <Eigen/SparseCore>
+#include <cmath>
+
+#include "solver/model/effects.h"
+
+/// Small numerical tools that the tests of the solver share.
 namespace trammel::solver {
 
 /// d f / d s at 0 of a function that returns a vector, by central differences extrapolated twice:
@@ -13,6 +19,17 @@ auto richardson(const F& f, double h) {
   const auto e1 = ((4 * d2 - d1) / 3).eval();
   const auto e2 = ((4 * d4 - d2) / 3).eval();
   return ((16 * e2 - e1) / 15).eval();
+}
+
+/// Order of convergence from the errors at a step and at half of it.
+inline double observed_order(double coarse, double fine) {
+  return std::log2(coarse / fine);
+}
+
+inline SparseMatrix sparse(const Eigen::MatrixXd& A) {
+  SparseMatrix S = A.sparseView();
+  S.makeCompressed();
+  return S;
 }
 
 }  // namespace trammel::solver
