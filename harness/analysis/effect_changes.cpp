@@ -29,8 +29,34 @@ std::vector<double> magnitudes(const Quantities& all, const std::string& name) {
   return size;
 }
 
-/// Scales that changes of each kind are relative to: its largest value, and never less than the
-/// round-off error that forces and displacements of the model leave in it.
+}  // namespace
+
+std::string change_kind(const std::string& quantity) {
+  static const std::vector<std::pair<std::string, std::string>> kinds = {
+      {"displacement_", "displacement"},
+      {"rotation_rad", "rotation"},
+      {"end_rotation_rad", "rotation"},
+      {"reaction_moment_", "moment"},
+      {"reaction_", "force"},
+      {"axial_force_", "force"},
+      {"shear_force_", "force"},
+      {"bending_moment_", "moment"},
+      {"stress_Pa", "stress"},
+      {"bending_stress_Pa", "stress"},
+      {"position_", "position"},
+      {"velocity_", "velocity"},
+      {"angular_velocity_", "angular velocity"},
+      {"acceleration_", "acceleration"},
+      {"angle_rad", "rotation"},
+      {"drive_force_N", "force"},
+      {"drive_torque_N_m", "moment"},
+      {"frequency_Hz", "frequency"}};
+  for (const auto& [start, kind] : kinds) {
+    if (quantity.rfind(start, 0) == 0) return kind;
+  }
+  return "";
+}
+
 std::map<std::string, double> change_scales(const Quantities& full, const ModelScales& model) {
   // Round-off of thousands of steps is about 1e-11 of the partner's scale; no tolerance is small
   // enough to notice it against this share.
@@ -62,34 +88,6 @@ std::map<std::string, double> change_scales(const Quantities& full, const ModelS
   // A position's origin is arbitrary.
   if (scale.count("position") > 0) scale["position"] = length;
   return scale;
-}
-
-}  // namespace
-
-std::string change_kind(const std::string& quantity) {
-  static const std::vector<std::pair<std::string, std::string>> kinds = {
-      {"displacement_", "displacement"},
-      {"rotation_rad", "rotation"},
-      {"end_rotation_rad", "rotation"},
-      {"reaction_moment_", "moment"},
-      {"reaction_", "force"},
-      {"axial_force_", "force"},
-      {"shear_force_", "force"},
-      {"bending_moment_", "moment"},
-      {"stress_Pa", "stress"},
-      {"bending_stress_Pa", "stress"},
-      {"position_", "position"},
-      {"velocity_", "velocity"},
-      {"angular_velocity_", "angular velocity"},
-      {"acceleration_", "acceleration"},
-      {"angle_rad", "rotation"},
-      {"drive_force_N", "force"},
-      {"drive_torque_N_m", "moment"},
-      {"frequency_Hz", "frequency"}};
-  for (const auto& [start, kind] : kinds) {
-    if (quantity.rfind(start, 0) == 0) return kind;
-  }
-  return "";
 }
 
 double member_length(const solver::Model& model, const solver::Member& member) {

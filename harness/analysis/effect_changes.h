@@ -21,6 +21,10 @@ struct ModelScales {
 };
 [[nodiscard]] ModelScales scales_of(const solver::Model& model);
 
+/// Scales that changes of each kind are relative to: its largest value, and never less than the
+/// round-off error that forces and displacements of the model leave in it.
+[[nodiscard]] std::map<std::string, double> change_scales(const Quantities& full,
+                                                          const ModelScales& model);
 /// Largest change of each kind of quantity: "displacement", "rotation", "force", "moment",
 /// "stress", each relative to the largest of its kind, and "frequency", each relative to itself.
 /// The two components of a vector are compared as one. Infinite where modes are lost. Quantities

@@ -139,7 +139,7 @@ std::optional<Json> step_patch(const Document& document, Refine refine) {
   if (kind == "forward-dynamics") {
     patch["tolerance"] = looser * analysis.value("tolerance", 1e-10);
   } else if (is_exact || !analysis.contains("step_s") || kind == "grnn") {
-    return std::nullopt;
+    if (kind != "transient" && kind != "harmonic") return std::nullopt;
   } else if (analysis.contains("tolerance")) {
     patch["tolerance"] = looser * analysis["tolerance"].get<double>();
   } else if (analysis.contains("error_control")) {
@@ -147,11 +147,16 @@ std::optional<Json> step_patch(const Document& document, Refine refine) {
   } else {
     patch["step_s"] = longer * analysis["step_s"].get<double>();
   }
-  // The same times are recorded, as far as the steps allow.
-  if (kind == "transient" && !analysis.contains("samples")) {
+  if (kind == "transient") {  // among which peaks are looked for
     const double steps =
         std::ceil(analysis["duration_s"].get<double>() / analysis["step_s"].get<double>());
-    patch["samples"] = std::min(10000, static_cast<int>(steps));
+    const int samples = analysis.value("samples", std::min(10000, static_cast<int>(steps)));
+    const auto count = refined(samples, refine);
+    patch["samples"] = count ? *count : samples;
+  } else if (kind == "harmonic") {
+    const auto count = refined(analysis.value("points", 101) - 1, refine);
+    if (!count) return std::nullopt;
+    patch["points"] = *count + 1;
   }
   return patch_at(document.value(), place, patch);
 }

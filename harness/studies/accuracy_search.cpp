@@ -175,8 +175,8 @@ class Search {
       return false;
     }
     current_ = finer->document;
-    bands_[source] = error_bands(found_.result, coarse, order_of(current_, source),
-                                 {current_, false, finer->ratio, ""});
+    bands_[source] =
+        error_bands(found_.result, coarse, source, {current_, false, finer->ratio, ""});
     for (auto other = bands_.begin(); other != bands_.end();)
       other = other->first != source && !fits(other->second) ? bands_.erase(other) : ++other;
     found_.tried.push_back(current_);

@@ -18,7 +18,6 @@ using results::ErrorEstimates;
 
 constexpr double kSafetyFactor = 3;       // of two levels, whose order is not observed
 constexpr double kLargeDifference = 0.1;  // of levels that are not in the asymptotic range
-constexpr double kRoundoff = 1e-12;       // of numbers whose round-off error is not known
 constexpr std::size_t kMaxEntries = 12;   // more are a curve, with one error for all
 
 /// Analyses that compute nothing from a mesh or in steps.
@@ -41,17 +40,20 @@ bool has_value(const Json& json, const std::string& key, const Json& value) {
 std::optional<double> mesh_order(const Document& document) {
   const Json& model = document.value()["model"];
   const std::string kind = discretized_analysis(document);
-  bool is_second = kind != "statics" && has_value(model, "mass_matrix", "lumped");
+  const auto any = [&](const char* key, const char* value) { return has_value(model, key, value); };
+  // Peaks over frequency and equilibria in large rotation converge more slowly than modes.
+  bool is_second = kind == "harmonic" || kind == "large-statics" || model.contains("plates") ||
+                   any("kind", "triangles");
+  if (kind != "statics")
+    is_second = is_second || any("mass_matrix", "lumped") || any("beam", "timoshenko") ||
+                any("beam", "shear");
   if (model.contains("members"))
     for (const auto& [name, member] : model["members"].items())
       is_second = is_second || member.contains("end_section") || member.contains("arc_center_m") ||
                   member.contains("restrained_motions");
-  is_second = is_second || model.contains("plates") || has_value(model, "kind", "triangles");
   if (is_second) return 2;
-  const Json* second_order = nullptr;
   const JsonPointer place(analysis_pointer(document) + "/second_order");
-  if (document.value().contains(place)) second_order = &document.value().at(place);
-  const bool linear = second_order == nullptr || !second_order->get<bool>();
+  const bool linear = !document.value().contains(place) || !document.value().at(place).get<bool>();
   if (kind == "statics" && linear) return std::nullopt;
   return 4;
 }
@@ -128,6 +130,8 @@ std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
     in_other.push_back(found->second);
   }
   std::vector<std::optional<std::size_t>> places(own.quantities.at("frequency_Hz").values.size());
+  // Modes beyond those with a shape are matched by their numbers.
+  for (std::size_t i = own.drawing->shapes.size(); i < places.size(); ++i) places[i] = i;
   for (const ModeMatch& match : match_modes(sampled(own, in_own), sampled(other, in_other)))
     for (std::size_t k = 0; k < match.a.size() && k < match.b.size(); ++k)
       places[match.a[k]] = match.b[k];
@@ -142,26 +146,56 @@ bool has_shapes(const AnalysisResult& result) {
 
 bool is_estimated(const std::string& name) {
   const std::string head = name.substr(0, name.find(':'));
-  static const std::vector<std::string> exact = {"time_s",          "pose_x_m",      "pose_y_m",
-                                                 "pose_phi_rad",    "parameter",     "status",
-                                                 "estimated_correct_digits", "frequency_gap"};
+  static const std::vector<std::string> exact = {"time_s",
+                                                 "pose_x_m",
+                                                 "pose_y_m",
+                                                 "pose_phi_rad",
+                                                 "parameter",
+                                                 "status",
+                                                 "estimated_correct_digits",
+                                                 "frequency_gap"};
   return !is_diagnostic(name) && !is_count(head) && !contains(exact, head) &&
          !head.starts_with("effect_") && head.find("error") == std::string::npos &&
          head.find("step") == std::string::npos;
 }
 
-/// What errors of a quantity are relative to at least: the largest of its kind over the structure.
-/// Frequencies count one by one, those of rigid motions against the highest.
-double scale_of(const Quantities& all, const std::string& name) {
-  const std::string kind = change_kind(name);
-  const std::vector<double>& own = all.at(name).values;
-  if (kind == "frequency" || name.starts_with("load_factor")) return 1e-6 * max_abs(own);
-  double scale = max_abs(own);
-  if (!kind.empty())
-    for (const auto& [other, quantity] : all)
-      if (change_kind(other) == kind) scale = std::max(scale, max_abs(quantity.values));
-  return scale;
-}
+/// What errors of quantities are relative to at least.
+class ErrorScales {
+ public:
+  ErrorScales(const Document& document, const AnalysisResult& own)
+      : own_(own.quantities), kind_(discretized_analysis(document)) {
+    if (!document.value().contains("model")) return;
+    scales_ = change_scales(own_, scales_of(first_model(read_case_model(document))));
+  }
+
+  /// A series over time or a path, or too many numbers to be stated one by one.
+  [[nodiscard]] bool is_curve(const std::string& name) const {
+    const std::size_t size = own_.at(name).values.size();
+    const auto time = own_.find("time_s");
+    const bool is_series = time != own_.end() && time->second.values.size() == size && size > 1;
+    return change_kind(name) != "frequency" && (size > kMaxEntries || is_series);
+  }
+  /// The largest of its kind over the structure; of a curve at least its largest value.
+  /// Frequencies, load factors and other numbers count one by one, those of rigid motions against
+  /// the highest.
+  [[nodiscard]] double of(const std::string& name) const {
+    const std::string kind = change_kind(name);
+    const double largest = max_abs(own_.at(name).values);
+    const auto found = scales_.find(kind);
+    if (kind == "frequency" || found == scales_.end())
+      return is_curve(name) ? largest : 1e-6 * largest;
+    return std::max(largest, found->second);
+  }
+  /// Of numbers whose round-off error is not known, relative: what iterations and steps leave.
+  [[nodiscard]] double roundoff() const {
+    return kind_ == "statics" || kind_ == "modes" || kind_ == "buckling" ? 1e-12 : 1e-9;
+  }
+
+ private:
+  const Quantities& own_;
+  std::string kind_;
+  std::map<std::string, double> scales_;
+};
 
 }  // namespace
 
@@ -187,12 +221,18 @@ std::optional<Companion> companion_of(const Document& document, ErrorSource sour
   return companion;
 }
 
-std::optional<double> order_of(const Document& document, ErrorSource source) {
-  return source == ErrorSource::mesh ? mesh_order(document) : step_order(document);
+std::optional<double> order_of(const Document& document, ErrorSource source,
+                               const std::string& quantity) {
+  if (source == ErrorSource::mesh) return mesh_order(document);
+  // A peak among samples is as good as the samples lie close.
+  const double order = step_order(document);
+  return quantity.starts_with("peak_") ? std::min(order, 2.0) : order;
 }
 
-ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other,
-                       std::optional<double> order, const Companion& companion) {
+ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other, ErrorSource source,
+                       const Companion& companion) {
+  const Document& document = companion.document;
+  const ErrorScales scales(document, own);
   ErrorBands bands;
   const bool by_shape = has_shapes(own) && has_shapes(other);
   for (const auto& [name, quantity] : own.quantities) {
@@ -204,13 +244,14 @@ ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other,
     const auto places =
         is_frequency ? matched_modes(own, other)
                      : aligned(own.quantities, other.quantities, values.size(), others.size());
-    const double scale = scale_of(own.quantities, name);
+    const double scale = scales.of(name);
+    const std::optional<double> order = order_of(document, source, name);
     ErrorBand band{std::vector<double>(values.size(), kNaN), order, true};
     for (std::size_t i = 0; i < values.size(); ++i) {
-      if (!places[i]) continue;
+      if (!places[i] || *places[i] >= others.size()) continue;
       const double difference = std::abs(values[i] - others[*places[i]]);
       const double roundoff =
-          kRoundoff * scale +
+          scales.roundoff() * std::max(scale, std::abs(values[i])) +
           (i < quantity.roundoff.size() ? quantity.roundoff[i] * std::abs(values[i]) : 0);
       const bool is_exact = !order && difference <= 100 * roundoff;
       const bool is_large = difference > kLargeDifference * std::max(std::abs(values[i]), scale);
@@ -230,6 +271,7 @@ ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other,
 std::vector<ErrorEstimate> relative_errors(const Document& document, const AnalysisResult& own,
                                            const std::map<ErrorSource, ErrorBands>& bands) {
   std::vector<ErrorEstimate> estimates;
+  const ErrorScales scales(document, own);
   for (const auto& [name, quantity] : own.quantities) {
     if (bands.empty() || !std::ranges::all_of(bands, [&name = name](const auto& source) {
           return source.second.contains(name);
@@ -238,8 +280,8 @@ std::vector<ErrorEstimate> relative_errors(const Document& document, const Analy
     ErrorEstimate estimate;
     estimate.quantity = name;
     const std::vector<double>& values = quantity.values;
-    const double scale = scale_of(own.quantities, name);
-    const bool is_curve = values.size() > kMaxEntries;
+    const double scale = scales.of(name);
+    const bool is_curve = scales.is_curve(name);
     std::vector<double> sum(values.size(), 0.0);
     double dominant = -1;
     for (const auto& [source, parts] : bands) {
@@ -264,8 +306,7 @@ std::vector<ErrorEstimate> relative_errors(const Document& document, const Analy
       if (relative) of_curve = std::max(of_curve.value_or(0), *relative);
     }
     if (is_curve) estimate.relative = {of_curve};
-    if (!change_kind(name).empty() && change_kind(name) != "frequency") estimate.scale = scale;
-    if (is_curve) estimate.scale = scale;
+    if (scale > 0) estimate.scale = scale;
     estimates.push_back(std::move(estimate));
   }
   return estimates;
@@ -286,7 +327,7 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& o
             analyse(companion->document, references, {.drawing = has_shapes(own)});
         counters += other.counters;
         solved = other.outcome.solved();
-        if (solved) bands[source] = error_bands(own, other, order_of(document, source), *companion);
+        if (solved) bands[source] = error_bands(own, other, source, *companion);
       } catch (const InputError&) {  // fewer modes than the case asks for
       }
       if (solved) {
@@ -321,10 +362,10 @@ std::vector<std::string> error_warnings(const ErrorEstimates& errors, double lim
     }
     if (!(largest > limit)) continue;
     by_setting[estimate.setting].emplace_back(
-        -largest, fmt::format("{}{} {:.2g} %{}", estimate.quantity,
-                              entries.empty() ? "" : "[" + join(entries, "and") + "]",
-                              100 * largest,
-                              estimate.asymptotic ? "" : " (not in the asymptotic range)"));
+        -largest,
+        fmt::format("{}{} {:.2g} %{}", estimate.quantity,
+                    entries.empty() ? "" : "[" + join(entries, "and") + "]", 100 * largest,
+                    estimate.asymptotic ? "" : " (not in the asymptotic range)"));
   }
   std::vector<std::string> warnings;
   for (auto& [setting, found] : by_setting) {

@@ -30,7 +30,8 @@ struct Companion {
 /// Archer, J. Struct. Div. ASCE 89, 1963); 2 for time schemes, 1 for Newmark's with numerical
 /// damping; the error of an adaptive scheme of order p follows its tolerance to the power
 /// p/(p + 1). None: theory says that nodal values are exact.
-[[nodiscard]] std::optional<double> order_of(const Document& document, ErrorSource source);
+[[nodiscard]] std::optional<double> order_of(const Document& document, ErrorSource source,
+                                             const std::string& quantity);
 
 /// Bands about the numbers of a quantity, at about 95 %.
 struct ErrorBand {
@@ -45,7 +46,7 @@ using ErrorBands = std::map<std::string, ErrorBand>;
 /// tenth of the number, the lower of p and 2 counts. If theory says exact, U is the difference and
 /// round-off. Modes are matched by their shapes if both results have them.
 [[nodiscard]] ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other,
-                                     std::optional<double> order, const Companion& companion);
+                                     ErrorSource source, const Companion& companion);
 
 /// Relative errors of a solved computation from its bands, added as magnitudes over the sources.
 [[nodiscard]] std::vector<results::ErrorEstimate> relative_errors(
