@@ -225,15 +225,4 @@ BOOST_AUTO_TEST_CASE(every_analysis_along_a_path_warns_of_a_crossed_singularity)
   }
 }
 
-BOOST_AUTO_TEST_CASE(elements_of_a_manipulator_are_stated_in_its_links) {
-  Json json = Json::parse(R"({"id": "coarse", "title": "Elements of the model",
-    "extends": "table-1.json", "analysis": {"modes": {"count": 1}}})");
-  BOOST_TEST(result_of(json).outcome.solved());
-  json["model"]["elements"] = 8;
-  BOOST_CHECK_EXCEPTION(result_of(json), InputError, [](const InputError& error) {
-    return contains(error.what(), "/model/elements") &&
-           contains(error.what(), "/model/manipulator/links");
-  });
-}
-
 BOOST_AUTO_TEST_SUITE_END()

@@ -190,16 +190,4 @@ BOOST_AUTO_TEST_CASE(a_verdict_other_than_the_recorded_one_fails) {
   BOOST_TEST(exit_status({run(testing::read(folder, json))}) == 1);
 }
 
-BOOST_AUTO_TEST_CASE(results_with_a_recorded_verdict_of_v_and_v_20_are_read_back) {
-  const Folder folder;
-  Json json = beam(folder, 0);
-  json["checks"]["printed"]["expect"] = {{"agrees", "the model is exact"},
-                                         {"relative_between", {-0.01, 0.01}},
-                                         {"validation_verdicts", {"within-uncertainty"}}};
-  const Case given = testing::read(folder, json);
-  const Json results = to_json(results_of({run(given)}, {given}, References()));
-  const auto fault = find_schema_fault(results, "results");
-  BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
-}
-
 BOOST_AUTO_TEST_SUITE_END()
