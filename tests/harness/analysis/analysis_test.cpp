@@ -12,14 +12,7 @@
 BOOST_AUTO_TEST_SUITE(analysis)
 
 using namespace trammel;
-using namespace trammel::references;
-using namespace trammel::solver;
-using namespace trammel::harness;
-using testing::complaint;
-using testing::contains;
-using testing::Folder;
-using testing::only;
-using testing::result_of;
+using namespace trammel::testing;
 
 namespace {
 
@@ -137,23 +130,6 @@ BOOST_AUTO_TEST_CASE(case_named_references_is_no_reference) {
   const Document document = patched(testing::read(folder, json), "base");
   const References references;
   BOOST_TEST(references.get(JsonView(document)["checks"]["c"]["reference"]).unit == "Hz");
-}
-
-BOOST_AUTO_TEST_CASE(drawing_bends_inside_its_elements) {
-  Json json = testing::cantilever();
-  json["model"]["elements"] = 1;
-  const AnalysisResult result = result_of(json);
-  BOOST_REQUIRE(result.drawing.has_value());
-  const Drawing& drawing = *result.drawing;
-  BOOST_REQUIRE(drawing.shapes.size() == 1);
-  BOOST_REQUIRE(drawing.shapes[0].displacement.size() == drawing.nodes.size());
-  const double EI = 2e11 * 0.05 * 1e-3 / 12;
-  for (std::size_t i = 0; i < drawing.nodes.size(); ++i) {
-    const double x = drawing.nodes[i].first;
-    // One cubic element is exact between its nodes where no load acts: P x^2 (3 L - x) / 6 EI.
-    BOOST_TEST(drawing.shapes[0].displacement[i].second == 100 * x * x * (6 - x) / (6 * EI),
-               boost::test_tools::tolerance(1e-9));
-  }
 }
 
 BOOST_AUTO_TEST_CASE(overflowing_number_is_not_solved) {

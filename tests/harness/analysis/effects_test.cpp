@@ -14,12 +14,7 @@
 BOOST_AUTO_TEST_SUITE(effects)
 
 using namespace trammel;
-using namespace trammel::references;
-using namespace trammel::solver;
-using namespace trammel::harness;
-using testing::contains;
-using testing::Folder;
-using testing::result_of;
+using namespace trammel::testing;
 
 namespace {
 
@@ -164,7 +159,7 @@ BOOST_AUTO_TEST_CASE(each_scene_gets_the_expensive_effects_it_requires) {
 }
 
 /// Large displacement used to be estimated from the linear state, which knows no 1 / (1 - P / Pcr).
-BOOST_AUTO_TEST_CASE(columns_near_their_buckling_load_get_the_tier_that_holds_them) {
+BOOST_AUTO_TEST_CASE(columns_near_buckling_get_the_required_tier) {
   const Case columns = load_named_case("scene-columns-near-buckling");
   for (const std::string& variant : columns.variants()) {
     if (variant.find("whole") != std::string::npos) continue;
@@ -214,7 +209,7 @@ BOOST_AUTO_TEST_CASE(a_motion_beyond_every_tier_says_so) {
   BOOST_TEST(study.choice.is_beyond_tier());
 }
 
-BOOST_AUTO_TEST_CASE(a_change_that_is_not_a_number_is_not_forgotten_over_the_next) {
+BOOST_AUTO_TEST_CASE(change_that_is_not_a_number_is_kept) {
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   const Quantities full = {{"displacement_x_m:B", {{1, 2, 3}, {}}}};
   const Quantities other = {{"displacement_x_m:B", {{nothing, 2, 3.1}, {}}}};

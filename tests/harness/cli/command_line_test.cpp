@@ -17,9 +17,7 @@
 BOOST_AUTO_TEST_SUITE(command_line)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::contains;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 
@@ -466,28 +464,6 @@ BOOST_AUTO_TEST_CASE(comparison_is_a_page_of_one_file) {
   BOOST_TEST(!contains(page, "src="));
   const std::filesystem::directory_iterator files(folder.path() / "out");
   BOOST_TEST(std::distance(begin(files), end(files)) == 1);
-}
-
-BOOST_AUTO_TEST_CASE(percent_of_a_comparison_is_of_the_first_side) {
-  const Folder folder;
-  Json json = testing::cantilever();
-  json["model"]["nodes"]["B"] = {1.2, 1.6};
-  json["model"]["loads"]["tip"]["force_N"] = {-80, 60};
-  json["variants"]["soft"]["model"]["materials"]["steel"]["E_Pa"] = 0.8e11;
-  (void)folder.write(json);
-  const Json found =
-      parse_json(run(folder, "compare cantilever.json cantilever.json:soft --json").out, "out");
-  std::size_t seen = 0;
-  for (const Json& number : found["runs"][0]["numbers"]) {
-    const bool moves = number["quantity"] == "displacement_y_m:B";
-    if (moves)
-      BOOST_TEST(number["percent"][1].get<double>() == 150, boost::test_tools::tolerance(1e-6));
-    const bool is_zero = number["quantity"] == "axial_force_N:AB.start";
-    if (is_zero) BOOST_TEST(number["percent"][1].is_null());
-    if (is_zero) BOOST_TEST(number["changed"] == false);
-    seen += moves || is_zero ? 1 : 0;
-  }
-  BOOST_TEST(seen == 2U);
 }
 
 BOOST_AUTO_TEST_CASE(case_is_certified_over_ways_of_rounding) {

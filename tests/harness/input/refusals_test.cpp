@@ -9,8 +9,7 @@
 BOOST_AUTO_TEST_SUITE(refusals)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::contains;
+using namespace trammel::testing;
 
 namespace {
 

@@ -35,7 +35,7 @@ Convergence mixed(double a, double b, std::size_t levels) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_mixture_of_two_orders_is_fitted_and_extrapolated_as_such) {
+BOOST_AUTO_TEST_CASE(mixture_of_two_orders_is_fitted_and_extrapolated) {
   Convergence series = mixed(0.5, 2e-3, 7);
   series.lower_order = 2;
   const Convergence found = analyse_convergence(series);
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(a_mixture_of_two_orders_is_fitted_and_extrapolated_as_such)
   for (std::size_t k = 0; k < 7; ++k) BOOST_TEST(found.in_asymptotic_range[k]);
 }
 
-BOOST_AUTO_TEST_CASE(bands_of_a_mixture_hold_with_the_small_factor_where_the_law_is_known) {
+BOOST_AUTO_TEST_CASE(bands_of_a_known_mixture_hold_with_small_factor) {
   Convergence series = mixed(0.5, 2e-3, 8);
   series.lower_order = 2;
   const Convergence found = analyse_convergence(series);
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(bands_of_a_mixture_hold_with_the_small_factor_where_the_law
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_mixture_that_theory_does_not_know_gets_the_large_factor_and_its_bands_hold) {
+BOOST_AUTO_TEST_CASE(unknown_mixture_gets_the_large_factor) {
   const Convergence found = analyse_convergence(mixed(0.5, 2e-3, 8));
   bool large = false;
   for (std::size_t k = 2; k < 8; ++k) {
@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(two_levels_get_the_order_of_theory_and_the_large_factor) {
              boost::test_tools::tolerance(1e-9));
 }
 
-BOOST_AUTO_TEST_CASE(values_that_turn_back_on_coarse_levels_settle_on_fine_ones) {
+BOOST_AUTO_TEST_CASE(values_that_turn_back_settle_on_fine_levels) {
   // h^2 - 0.8 h^3 ... falls and rises again: the coarse end is not monotone.
   Convergence series =
       series_of([](double h) { return 10 * (1 + 0.1 * h * h - 0.13 * h * h * h); }, 10);

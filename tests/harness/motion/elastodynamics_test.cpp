@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -7,11 +6,7 @@
 BOOST_AUTO_TEST_SUITE(elastodynamics)
 
 using namespace trammel;
-using namespace trammel::references;
-using namespace trammel::solver;
-using namespace trammel::harness;
-using testing::result_of;
-using testing::values;
+using namespace trammel::testing;
 
 namespace {
 
@@ -70,21 +65,6 @@ BOOST_AUTO_TEST_CASE(quasi_static_motion_has_no_work_of_its_loads) {
   BOOST_TEST(values(result, "strain_energy_J").size() == 6U);
   for (const char* name : {"load_work_J", "dissipated_energy_J", "energy_drift"})
     BOOST_TEST(result.quantities.count(name) == 0U, name);
-}
-
-BOOST_AUTO_TEST_CASE(history_multiplies_only_the_load) {
-  Json json = motion(between("line", 0));
-  options(json)["initial_state"] = "at-rest";
-  options(json)["step_errors"] = true;
-  options(json)["load_history"] = {{"time_s", {0.02, 0.03, 0.04}}, {"factor", {0, 1, 0}}};
-  const AnalysisResult result = result_of(json);
-  const std::vector<double> deflection = values(result, "deflection_m:P");
-  BOOST_TEST(deflection[1] == 0);
-  BOOST_TEST(deflection[2] > 1e-4);
-  const std::vector<double> error = values(result, "integration_error:P");
-  BOOST_TEST(*std::max_element(error.begin(), error.end()) < 0.02);
-  options(json)["modal_superposition"] = true;
-  BOOST_TEST(result_of(json).quantities.count("load_work_J") == 0U);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -7,13 +7,8 @@
 BOOST_AUTO_TEST_SUITE(large_analysis)
 
 using namespace trammel;
-using namespace trammel::references;
-using namespace trammel::solver;
-using namespace trammel::harness;
+using namespace trammel::testing;
 using boost::test_tools::tolerance;
-using testing::contains;
-using testing::only;
-using testing::result_of;
 
 namespace {
 

@@ -7,12 +7,8 @@
 BOOST_AUTO_TEST_SUITE(motion)
 
 using namespace trammel;
-using namespace trammel::references;
-using namespace trammel::solver;
-using namespace trammel::harness;
+using namespace trammel::testing;
 using boost::test_tools::tolerance;
-using testing::result_of;
-using testing::values;
 
 namespace {
 

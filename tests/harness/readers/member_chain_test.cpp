@@ -10,15 +10,8 @@
 BOOST_AUTO_TEST_SUITE(member_chain)
 
 using namespace trammel;
-using namespace trammel::references;
-using namespace trammel::solver;
-using namespace trammel::harness;
+using namespace trammel::testing;
 using boost::test_tools::tolerance;
-using testing::complaint;
-using testing::contains;
-using testing::document_of;
-using testing::only;
-using testing::result_of;
 
 namespace {
 
@@ -69,17 +62,6 @@ BOOST_AUTO_TEST_CASE(nodes_between_have_no_quantities_of_their_own) {
       tolerance(1e-9));
 }
 
-BOOST_AUTO_TEST_CASE(an_exponential_taper_has_the_geometric_mean_half_way) {
-  Json json = testing::cantilever();
-  json["model"]["sections"]["thin"] = {{"material", "steel"},
-                                       {"rectangle", {{"thickness_m", 0.1}, {"width_m", 0.0125}}}};
-  json["model"]["members"]["AB"]["end_section"] = "thin";
-  json["model"]["members"]["AB"]["taper"] = "exponential";
-  const Member member = build_model(read_case_model(document_of(json)), 0).members[0];
-  BOOST_TEST(section_at(member, 0.5).EI == std::sqrt(member.section.EI * member.end_section.EI),
-             tolerance(1e-14));
-}
-
 // A and I were linear: frequencies of a strip tapered 5 : 1 were off by up to 178 %.
 BOOST_AUTO_TEST_CASE(between_rectangles_depth_and_width_are_linear) {
   Json json = testing::cantilever();
@@ -96,16 +78,6 @@ BOOST_AUTO_TEST_CASE(between_rectangles_depth_and_width_are_linear) {
   BOOST_TEST(half_way().inertia_per_length == 7800 * w * t * t * t / 12, tolerance(1e-14));
   json["model"]["members"]["AB"]["taper"] = "linear-area-and-inertia";
   BOOST_TEST(half_way().area == (0.1 * 0.05 + 0.02 * 0.03) / 2, tolerance(1e-14));
-}
-
-BOOST_AUTO_TEST_CASE(between_circles_the_diameter_is_linear) {
-  Json json = testing::cantilever();
-  json["model"]["sections"] = {
-      {"bar", {{"material", "steel"}, {"circle", {{"diameter_m", 0.1}}}}},
-      {"thin", {{"material", "steel"}, {"circle", {{"diameter_m", 0.02}}}}}};
-  json["model"]["members"]["AB"]["end_section"] = "thin";
-  const Member member = build_model(read_case_model(document_of(json)), 0).members[0];
-  BOOST_TEST(section_at(member, 0.75).EI / member.section.EI == std::pow(0.4, 4), tolerance(1e-13));
 }
 
 BOOST_AUTO_TEST_CASE(two_parts_of_one_name_are_refused_with_both_pointers) {

@@ -11,9 +11,7 @@ BOOST_AUTO_TEST_SUITE(claims)
 
 using namespace trammel;
 using namespace trammel::references;
-using namespace trammel::harness;
-using testing::complaint;
-using testing::contains;
+using namespace trammel::testing;
 
 namespace {
 

@@ -8,8 +8,7 @@ BOOST_AUTO_TEST_SUITE(case_model)
 
 using namespace trammel;
 using namespace trammel::solver;
-using namespace trammel::harness;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 
@@ -71,18 +70,6 @@ BOOST_AUTO_TEST_CASE(corner_of_two_supported_edges_is_held_once) {
   int y = 0;
   for (const Support& support : model.supports) y += support.node == a && support.fixed[1] ? 1 : 0;
   BOOST_TEST(y == 1);
-}
-
-BOOST_AUTO_TEST_CASE(parts_are_attached_to_a_manipulator) {
-  Json json = testing::manipulator();
-  json["model"]["nodes"]["G"] = {0.25, 0.3};
-  json["model"]["springs"]["k"] = {{"nodes", {"P", "G"}}, {"stiffness_N_per_m", {10, 10}}};
-  json["model"]["supports"]["G"] = {"x", "y"};
-  json["model"]["point_masses"]["payload"] = {{"node", "P"}, {"mass_kg", 0.5}};
-  const Model model = build_model(case_model_of(json), 0);
-  BOOST_TEST(model.nodes.at(static_cast<std::size_t>(model.springs.at(0).nodes[0])).name == "P");
-  BOOST_TEST(model.nodes.at(static_cast<std::size_t>(model.springs.at(0).nodes[1])).name == "G");
-  BOOST_TEST(model.masses.back().mass == 0.5);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

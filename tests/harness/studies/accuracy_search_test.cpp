@@ -8,10 +8,7 @@
 BOOST_AUTO_TEST_SUITE(accuracy_search)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::complaint;
-using testing::contains;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 
@@ -32,7 +29,7 @@ Json with_modes() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(the_settings_found_are_within_the_accuracy_and_coarser_ones_are_not) {
+BOOST_AUTO_TEST_CASE(found_settings_are_within_the_accuracy) {
   const AccuracySearch found = searched(with_modes(), {1e-3, {}, 60});
   BOOST_TEST(!found.out_of_time);
   BOOST_TEST(found.reference_change <= 1e-4);
@@ -57,7 +54,7 @@ BOOST_AUTO_TEST_CASE(the_patch_makes_the_case_compute_what_was_measured) {
     BOOST_TEST(frequency.at(i) == exact.at(i), boost::test_tools::tolerance(1e-3));
 }
 
-BOOST_AUTO_TEST_CASE(large_displacement_is_chosen_where_linear_statics_is_not_good_enough) {
+BOOST_AUTO_TEST_CASE(large_displacement_is_chosen_where_required) {
   Json json = testing::cantilever();
   json["model"]["loads"]["tip"]["force_N"] = {0, 4e5};
   const AccuracySearch found = searched(json, {1e-3, {"displacement_y_m:B"}, 60});
@@ -66,7 +63,7 @@ BOOST_AUTO_TEST_CASE(large_displacement_is_chosen_where_linear_statics_is_not_go
   BOOST_TEST(found.study.settings.size() >= 2U);
 }
 
-BOOST_AUTO_TEST_CASE(what_cannot_be_searched_is_said_and_time_ends_the_search) {
+BOOST_AUTO_TEST_CASE(impossible_search_is_refused_and_time_limited) {
   const auto refusal = [](const AccuracyRequest& request) {
     return complaint([&] { (void)searched(with_modes(), request); });
   };

@@ -48,7 +48,7 @@ const Refusal kRefusals[] = {
       "nodes": {"A": [0, 0], "B": [1, 0]}, "supports": {"A": ["x", "y"]},
       "members": {"AB": {"nodes": ["A", "B"], "section": "bar"}},
       "loads": {"tip": {"node": "B", "force_N": [0, 1]}}}})",
-     "mechanism"}};
+     "the frame can move freely"}};
 
 }  // namespace
 

@@ -62,10 +62,6 @@ Results cost_results() {
   return results;
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(data_contain_all_settings_and_those_without_result) {

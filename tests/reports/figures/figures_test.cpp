@@ -11,16 +11,14 @@
 #include "reports/figures/outline.h"
 #include "reports/figures/shapes.h"
 #include "reports/figures/tolerance.h"
+#include "tests/support/reports/markup.h"
 
 BOOST_AUTO_TEST_SUITE(figures)
 
 using namespace trammel::reports;
+using trammel::testing::contains;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 CaseInfo beam() {
   CaseInfo info;
@@ -78,7 +76,7 @@ Check judged(const std::string& name, double difference, double tolerance) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(convergence_caption_says_what_was_fitted_and_what_theory_wants) {
+BOOST_AUTO_TEST_CASE(convergence_caption_compares_fit_and_theory) {
   const auto good = convergence_figures(beam(), run_with({sweep(0, 3.98), sweep(1, 4.01)}));
   BOOST_TEST_REQUIRE(good.size() == 1U);
   BOOST_TEST(contains(good[0].caption, "All 2 fall with order 3.98 to 4.01; theory: 4."));
@@ -90,7 +88,7 @@ BOOST_AUTO_TEST_CASE(convergence_caption_says_what_was_fitted_and_what_theory_wa
   BOOST_TEST(contains(alone[0].caption, "That is more than 0.1 from theory."));
 }
 
-BOOST_AUTO_TEST_CASE(where_two_orders_mix_the_caption_names_their_law_and_how_well_it_holds) {
+BOOST_AUTO_TEST_CASE(caption_of_two_orders_names_their_law) {
   Convergence mixed = sweep(0, 4);
   mixed.fitted_order.reset();
   mixed.lower_order = 1.354;
@@ -115,7 +113,7 @@ BOOST_AUTO_TEST_CASE(without_an_asymptotic_range_no_order_is_claimed) {
   BOOST_TEST(!contains(none[0].caption, "Filled marks"));
 }
 
-BOOST_AUTO_TEST_CASE(a_caption_says_small_numbers_in_their_unit_not_in_powers_of_the_axis) {
+BOOST_AUTO_TEST_CASE(caption_states_small_numbers_in_their_unit) {
   Run run = run_with({});
   run.quantities = {{"time_s", {{0.0, 1.0}, {}}}, {"position_error_m", {{1e-12, 5.72e-9}, {}}}};
   std::string problem;
@@ -132,7 +130,7 @@ BOOST_AUTO_TEST_CASE(a_count_that_is_right_on_every_mesh_makes_no_figure) {
   BOOST_TEST(convergence_figures(beam(), run_with({count})).empty());
 }
 
-BOOST_AUTO_TEST_CASE(tolerance_caption_names_what_is_nearest_to_its_limit_or_beyond_it) {
+BOOST_AUTO_TEST_CASE(tolerance_caption_names_the_worst_check) {
   Run run = run_with({});
   run.checks = {judged("far", 1e-6, 1e-3), judged("near", -9e-4, 1e-3)};
   auto figure = tolerance_figure("beams", {{"beam", "A beam"}}, {&run});
@@ -207,7 +205,7 @@ BOOST_AUTO_TEST_CASE(a_motion_is_drawn_magnified_and_says_how_large_it_is) {
   BOOST_TEST(contains(motion_figure(beam(), run)->caption, "2 moments"));
 }
 
-BOOST_AUTO_TEST_CASE(a_rigid_motion_says_how_far_it_goes_and_lays_few_moments_over_each_other) {
+BOOST_AUTO_TEST_CASE(rigid_motion_is_drawn_at_few_moments) {
   Run run = run_with({});
   run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}};
   for (int k = 0; k <= 20; ++k)
@@ -225,7 +223,7 @@ BOOST_AUTO_TEST_CASE(a_rigid_motion_says_how_far_it_goes_and_lays_few_moments_ov
   BOOST_TEST(!contains(figure->moving, "still"));
 }
 
-BOOST_AUTO_TEST_CASE(shapes_say_how_far_apart_modes_are_and_how_much_is_displaced) {
+BOOST_AUTO_TEST_CASE(caption_of_shapes_compares_frequencies) {
   Run run = run_with({});
   run.quantities["frequency_Hz"].values = {0.0, 10.0, 19.6, 20.0};
   run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}};
@@ -247,7 +245,7 @@ BOOST_AUTO_TEST_CASE(shapes_say_how_far_apart_modes_are_and_how_much_is_displace
              shapes_figure(beam(), run)->caption);
 }
 
-BOOST_AUTO_TEST_CASE(a_history_concludes_with_work_since_the_first_call_and_time_on_one_machine) {
+BOOST_AUTO_TEST_CASE(history_caption_states_work_and_time) {
   History history;
   const auto call = [&](const char* machine, double cpu_s, std::size_t work, std::size_t failures) {
     const auto number = static_cast<std::int64_t>(history.calls.size() + 1);
@@ -270,13 +268,13 @@ BOOST_AUTO_TEST_CASE(a_history_concludes_with_work_since_the_first_call_and_time
       contains(history_figure(history).caption, "Counted work is 1 times the first call's. "));
 }
 
-BOOST_AUTO_TEST_CASE(a_straight_limb_is_two_points_and_a_bent_one_keeps_its_corner) {
+BOOST_AUTO_TEST_CASE(straight_limb_is_two_points) {
   const std::vector<std::vector<int>> line = {{0, 1, 2, 3}};
   BOOST_TEST(rows_of(line, {{0, 0}, {1, 0}, {2, 0}, {3, 0}}).size() == 2U);
   BOOST_TEST(rows_of(line, {{0, 0}, {1, 0}, {2, 0}, {2, 1}}).size() == 3U);
 }
 
-BOOST_AUTO_TEST_CASE(members_join_to_polylines_and_a_fine_mesh_to_its_outline) {
+BOOST_AUTO_TEST_CASE(members_join_to_polylines_and_meshes_to_outlines) {
   Drawing drawing;
   drawing.members = {{0, 1}, {1, 2}, {5, 6}};
   BOOST_TEST(polylines(drawing).size() == 2U);
@@ -302,7 +300,7 @@ BOOST_AUTO_TEST_CASE(members_join_to_polylines_and_a_fine_mesh_to_its_outline) {
   BOOST_TEST(triangle_edges_inside(drawing, 20).empty());
 }
 
-BOOST_AUTO_TEST_CASE(a_discrepancy_that_could_not_be_computed_is_not_given_a_number) {
+BOOST_AUTO_TEST_CASE(discrepancy_without_value_has_no_number) {
   Run run = run_with({});
   run.checks = {judged("known", 0.1, 0.2), judged("known", 0.1, 0.2)};
   for (std::size_t i = 0; i < 2; ++i) {

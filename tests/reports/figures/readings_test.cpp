@@ -2,10 +2,13 @@
 
 #include <boost/test/unit_test.hpp>
 
+#include "tests/support/reports/markup.h"
+
 BOOST_AUTO_TEST_SUITE(readings)
 
 using namespace trammel;
 using namespace trammel::reports;
+using trammel::testing::contains;
 
 namespace {
 
@@ -28,10 +31,6 @@ std::vector<Figure> figures_of(const std::vector<results::RowProbabilities>& row
   run.model_probabilities = results::ModelProbabilities{rows, {}};
   const Run other;
   return reading_figures(info, {&other, &run});
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
 }
 
 }  // namespace

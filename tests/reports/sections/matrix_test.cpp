@@ -4,9 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/reports/markup.h"
+
 BOOST_AUTO_TEST_SUITE(matrix)
 
 using namespace trammel::reports;
+using trammel::testing::contains;
 
 namespace {
 
@@ -57,13 +60,9 @@ struct Sample {
   }
 };
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(targets_that_no_variant_reaches_are_named_with_the_nearest) {
+BOOST_AUTO_TEST_CASE(unreached_targets_are_named_with_the_nearest) {
   Sample sample;
   sample.results.runs[2].checks[0] = compared("program", 0, 0.005);
   const std::string words = sample.conclusion(sample.results.runs[0].checks[0]);
@@ -72,7 +71,7 @@ BOOST_AUTO_TEST_CASE(targets_that_no_variant_reaches_are_named_with_the_nearest)
              words);
 }
 
-BOOST_AUTO_TEST_CASE(a_check_against_other_entries_of_the_reference_is_not_put_in_its_columns) {
+BOOST_AUTO_TEST_CASE(shifted_check_has_no_column_in_the_matrix) {
   // the first mode against the second target: once it stood as the first mode's difference, and the
   // first target as reached
   Sample sample;

@@ -18,10 +18,6 @@ std::string section(const std::string& page, const std::string& id) {
   return page.substr(from, page.find("</section>", from) - from);
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 Comparison compared(int index, double simulation, double u_val, const std::string& verdict) {
   Comparison entry;
   entry.check = "ansys";
