@@ -264,6 +264,7 @@ Data matrix_of(const MatrixSubject& subject, const Family& family, const Results
       {{"title", reference ? reference->title : subject.reference},
        {"reference_link", reference ? reference_link(reference->id) : ""},
        {"quantity", axis_label(to_text(quantity), quantity.unit)},
+       {"check", subject.check},
        {"conclusion", conclusion(subject, family, results)},
        {"uncertainty",
         tally.entries == 0 ? "" : "Of " + count(tally.entries, "comparison") + ": " + tally.text()},

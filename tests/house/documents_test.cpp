@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(the_readme_names_every_analysis_that_a_case_may_ask_for) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_conventions_have_a_row_for_every_analysis_and_name_cases_that_there_are) {
+BOOST_AUTO_TEST_CASE(conventions_have_a_row_for_every_analysis) {
   const std::string text = text_of("cases/CONVENTIONS.md");
   const auto schema = nlohmann::json::parse(text_of("cases/schema/case.schema.json"));
   for (const auto& item : schema.at("definitions").at("analysis").at("properties").items())

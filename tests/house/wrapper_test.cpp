@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(two_calls_at_once_build_one_after_the_other) {
   BOOST_TEST(!fs::exists(checkout.root() / "source/build/release/faults"));
 }
 
-BOOST_AUTO_TEST_CASE(a_link_a_search_path_and_another_build_folder_leave_the_checkout_as_it_is) {
+BOOST_AUTO_TEST_CASE(other_build_folder_leaves_the_checkout_unchanged) {
   const Checkout checkout;
   const std::string said = checkout.run(
       "mkdir away; ln -s ../source/trammel away/trammel; cd away; "

@@ -10,8 +10,7 @@ BOOST_AUTO_TEST_SUITE(options)
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
-using namespace trammel::harness;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 
@@ -65,7 +64,7 @@ BOOST_AUTO_TEST_CASE(bad_values_are_refused_and_do_not_end_the_trial) {
   BOOST_TEST(number(found, "solved") == 2);
 }
 
-BOOST_AUTO_TEST_CASE(endings_that_differ_where_none_may_are_an_endless_disagreement) {
+BOOST_AUTO_TEST_CASE(different_endings_are_an_infinite_difference) {
   const Quantities found =
       tried({{"large-motion", {{"vary", {{"steps", {3, 100000}}}}, {"same_results", true}}}});
   BOOST_TEST(number(found, "result_difference_over_roundoff") > 1e300);

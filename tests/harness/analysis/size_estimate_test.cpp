@@ -97,7 +97,7 @@ Json samples(int count) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(what_is_estimated_is_what_is_needed_or_up_to_three_times_that) {
+BOOST_AUTO_TEST_CASE(estimate_is_one_to_three_times_the_measured_memory) {
   check("points of a response", [](int n) { return harmonic(10, n); }, {20000, 40000, 100000});
   check("elements that vibrate", [](int n) { return harmonic(n, 2); }, {2000, 4000, 8000});
   const auto damped = [](int n) {

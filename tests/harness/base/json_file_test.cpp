@@ -14,8 +14,7 @@
 BOOST_AUTO_TEST_SUITE(json_file)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::complaint;
+using namespace trammel::testing;
 
 namespace {
 
@@ -25,7 +24,7 @@ std::string fault(const std::string& text) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(text_that_is_no_json_is_answered_with_its_line_and_column) {
+BOOST_AUTO_TEST_CASE(invalid_json_is_refused_with_line_and_column) {
   BOOST_TEST(fault(R"({"a": nan})").rfind("x.json: line 1, column 8: expected JSON", 0) == 0);
   BOOST_TEST(fault(R"({"a": NaN})").rfind("x.json: line 1, column 7: expected JSON", 0) == 0);
   BOOST_TEST(fault(R"({"a": 1)").rfind("x.json: line 1, column 8: expected JSON", 0) == 0);
@@ -89,7 +88,7 @@ BOOST_AUTO_TEST_CASE(a_file_is_written_whole_or_not_at_all) {
   BOOST_CHECK_THROW(write_file(folder.path() / "none" / "a.json", "[1]"), InputError);
 }
 
-BOOST_AUTO_TEST_CASE(a_failed_write_leaves_no_part_and_a_link_is_replaced_not_followed) {
+BOOST_AUTO_TEST_CASE(failed_write_leaves_no_part_and_links_are_replaced) {
   const testing::Folder folder;
   std::filesystem::create_directories(folder.path() / "here/in-the-way");
   BOOST_CHECK_THROW(write_file(folder.path() / "here", "[1]"), InputError);

@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(what_ends_one_process_leaves_the_others_alone) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_process_that_cannot_be_forked_costs_its_own_task_alone) {
+BOOST_AUTO_TEST_CASE(failed_fork_affects_its_own_task_only) {
   rlimit before{};
   getrlimit(RLIMIT_NOFILE, &before);
   const int descriptor = dup(0);  // the lowest that is free: of signals, then two of a pipe

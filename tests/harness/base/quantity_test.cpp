@@ -22,7 +22,7 @@ BOOST_AUTO_TEST_CASE(the_unit_is_the_end_of_the_name) {
   BOOST_TEST(unit_of("odd:name_m") == "1");
 }
 
-BOOST_AUTO_TEST_CASE(what_says_how_well_was_computed_is_no_result_that_converges) {
+BOOST_AUTO_TEST_CASE(diagnostics_are_no_results_that_converge) {
   for (const char* name : {"frequency_roundoff", "equilibrium_residual_N", "step_residual:J",
                            "constraint_rate_residual"}) {
     BOOST_TEST(is_diagnostic(name), name);

@@ -26,7 +26,7 @@ BOOST_AUTO_TEST_CASE(the_order_is_shuffled_anew_and_the_same_for_a_seed) {
   for (std::size_t i = 0; i < sorted.size(); ++i) BOOST_TEST(sorted[i] == i);
 }
 
-BOOST_AUTO_TEST_CASE(each_repeat_runs_every_work_as_often_as_agreed_before_the_next_begins) {
+BOOST_AUTO_TEST_CASE(each_repeat_runs_all_tasks_before_the_next) {
   std::vector<std::size_t> calls;
   std::vector<std::function<void()>> works;
   for (std::size_t i = 0; i < 3; ++i) works.emplace_back([&calls, i] { calls.push_back(i); });

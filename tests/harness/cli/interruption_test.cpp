@@ -18,15 +18,13 @@
 BOOST_AUTO_TEST_SUITE(interruption)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::contains;
-using testing::Folder;
+using namespace trammel::testing;
 
 BOOST_AUTO_TEST_CASE(ten_kills_lose_and_double_nothing) {
   testing::interrupt_and_resume(10, 1);
 }
 
-BOOST_AUTO_TEST_CASE(a_computation_that_is_killed_from_outside_costs_its_run_alone) {
+BOOST_AUTO_TEST_CASE(killed_computation_affects_its_own_run_only) {
   const Folder folder;
   const auto files =
       std::array{folder.write(testing::endless()), folder.write(testing::cantilever())};

@@ -9,8 +9,7 @@
 BOOST_AUTO_TEST_SUITE(evidence_coverage)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 
@@ -48,7 +47,7 @@ using List = std::vector<std::string>;
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(keys_and_values_of_a_case_are_named_as_the_schema_names_them) {
+BOOST_AUTO_TEST_CASE(features_of_a_case_have_the_names_of_the_schema) {
   const CaseFeatures all = features_of_schema();
   for (const char* feature : {"model.members", "member.taper", "beam = timoshenko", "spring.nodes",
                               "analysis.modes.rotating", "rotating.axis = x", "effects = shear"})
@@ -61,7 +60,7 @@ BOOST_AUTO_TEST_CASE(keys_and_values_of_a_case_are_named_as_the_schema_names_the
   BOOST_TEST(std::includes(all.begin(), all.end(), own.begin(), own.end()));
 }
 
-BOOST_AUTO_TEST_CASE(a_check_counts_for_its_quantity_and_for_all_that_the_model_uses) {
+BOOST_AUTO_TEST_CASE(check_counts_for_quantity_and_features_of_the_model) {
   for (const char* feature :
        {"model.supports", "statics with model.members", "statics: displacement_y_m:NODE"})
     BOOST_TEST(evidence(printed_check(), feature) == List{"published"},
@@ -70,7 +69,7 @@ BOOST_AUTO_TEST_CASE(a_check_counts_for_its_quantity_and_for_all_that_the_model_
   BOOST_TEST(evidence(printed_check(), "slider.rail").empty());
 }
 
-BOOST_AUTO_TEST_CASE(bounds_discrepancies_and_negative_controls_are_no_independent_evidence) {
+BOOST_AUTO_TEST_CASE(bounds_and_discrepancies_are_no_independent_evidence) {
   const char* feature = "model.supports";
   BOOST_TEST(evidence({{"quantity", "displacement_y_m:B"},
                        {"role", "verification"},
@@ -88,7 +87,7 @@ BOOST_AUTO_TEST_CASE(bounds_discrepancies_and_negative_controls_are_no_independe
   BOOST_TEST(evidence(check, feature).empty());
 }
 
-BOOST_AUTO_TEST_CASE(an_error_that_a_study_takes_counts_as_what_it_is_taken_from) {
+BOOST_AUTO_TEST_CASE(error_of_a_study_counts_as_its_reference) {
   const Json study = {{"analysis", {{"statics", Json::object()}}},
                       {"pointers", {"/model/elements"}},
                       {"values", {1, 2}},

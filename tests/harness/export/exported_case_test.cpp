@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(plain_models_have_the_same_numbers_to_the_last_bit) {
 }
 
 // Pins and axial springs; sliders and drives.
-BOOST_AUTO_TEST_CASE(the_beginning_of_a_motion_has_the_same_numbers_to_the_last_bit) {
+BOOST_AUTO_TEST_CASE(beginning_of_a_motion_is_exported_bit_for_bit) {
   for (const auto& [name, end] :
        {std::pair("iftomm-a03-andrews", 1e-3), std::pair("slider-crank-flexible", 0.02)}) {
     Json json = load_named_case(name).document.value();
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(the_beginning_of_a_motion_has_the_same_numbers_to_the_last_
 
 // Sections of tapers are written as E and A, whose product is off by a bit; forces on edges are
 // summed at nodes before those of members.
-BOOST_AUTO_TEST_CASE(tapers_arcs_and_edges_have_the_same_numbers_to_round_off) {
+BOOST_AUTO_TEST_CASE(tapers_arcs_and_edges_are_exported_to_round_off) {
   check_twins({"ansys-vm34", "ansys-vm61", "cooks-membrane", "nafems-ring", "tapered-cantilever",
                "vpcs-sdll10"},
               1e-12);
@@ -188,7 +188,7 @@ BOOST_AUTO_TEST_CASE(a_network_on_samples_of_its_own_needs_no_model) {
   BOOST_TEST(!twin.json.contains("model"));
 }
 
-BOOST_AUTO_TEST_CASE(a_manipulator_on_its_path_is_said_as_bodies_joints_and_a_table) {
+BOOST_AUTO_TEST_CASE(manipulator_on_a_path_is_bodies_joints_and_a_table) {
   const ExportTwin twin = export_twin(load_named_case("circle-inverse-dynamics"), {});
   BOOST_TEST(twin.difference == 0, twin.worst);
   const Json& mechanism = twin.json["export"]["mechanism"];

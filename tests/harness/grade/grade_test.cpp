@@ -20,10 +20,7 @@
 BOOST_AUTO_TEST_SUITE(grade)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::complaint;
-using testing::contains;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 
@@ -93,7 +90,7 @@ bool is_alive(const fs::path& pid_file) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(whatever_an_adapter_does_costs_its_own_row_and_leaves_nothing_behind) {
+BOOST_AUTO_TEST_CASE(hostile_adapter_affects_its_own_row_only) {
   const Folder folder;
   std::string names;
   for (const auto& item : kHostile) {
@@ -128,7 +125,7 @@ BOOST_AUTO_TEST_CASE(whatever_an_adapter_does_costs_its_own_row_and_leaves_nothi
   BOOST_TEST(contains(read_text(out / "junit.xml"), "skipped"));
 }
 
-BOOST_AUTO_TEST_CASE(what_is_not_given_or_refused_is_no_failure_and_a_wrong_command_is_bad_usage) {
+BOOST_AUTO_TEST_CASE(missing_answer_is_no_failure_but_wrong_command_is) {
   const Folder folder;
   for (const char* id : {"cannot", "gives-nothing", "well-behaved"}) (void)folder.write(judged(id));
   const fs::path adapter = kSource / "tests/harness/grade/hostile.py";
@@ -140,7 +137,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_given_or_refused_is_no_failure_and_a_wrong_comm
   BOOST_TEST(run(folder, "grade 'python3 no-such-adapter.py' well-behaved.json") == 2);
 }
 
-BOOST_AUTO_TEST_CASE(what_the_protocol_does_not_carry_is_told_from_what_a_code_cannot_do) {
+BOOST_AUTO_TEST_CASE(not_exported_differs_from_cannot) {
   const Folder folder;
   (void)folder.write(judged("cannot"));
   const fs::path adapter = kSource / "tests/harness/grade/hostile.py";
@@ -153,7 +150,7 @@ BOOST_AUTO_TEST_CASE(what_the_protocol_does_not_carry_is_told_from_what_a_code_c
   BOOST_TEST(runs[1].reason.rfind("/analysis/", 0) == 0U, runs[1].reason);
 }
 
-BOOST_AUTO_TEST_CASE(a_grade_is_resumed_with_the_same_adapter_and_not_with_a_changed_one) {
+BOOST_AUTO_TEST_CASE(changed_adapter_is_not_resumed) {
   const Folder folder;
   (void)folder.write(judged("well-behaved"));
   const std::string source = read_text(kSource / "tests/harness/grade/hostile.py");
@@ -183,7 +180,7 @@ BOOST_AUTO_TEST_CASE(several_codes_stand_side_by_side_and_none_is_spared) {
   BOOST_TEST(run(folder, "report trammel-results/results.json is-off.json") == 2);
 }
 
-BOOST_AUTO_TEST_CASE(an_order_is_judged_by_the_one_that_the_adapter_declares_and_else_not_given) {
+BOOST_AUTO_TEST_CASE(order_is_judged_by_the_declared_one) {
   const Folder folder;
   const std::string adapter = (kSource / "tests/harness/grade/hostile.py").string();
   const auto verdict = [&](const std::string& orders) {
@@ -252,7 +249,7 @@ std::set<std::string> off_cases(const Folder& folder, const std::string& fault,
   return off;
 }
 
-BOOST_AUTO_TEST_CASE(a_right_solver_agrees_and_each_fault_is_caught_by_the_cases_that_are_named) {
+BOOST_AUTO_TEST_CASE(each_fault_of_a_solver_is_caught_by_named_cases) {
   const Folder folder;
   const auto faults = documented_faults();
   BOOST_TEST(faults.size() == 10U);

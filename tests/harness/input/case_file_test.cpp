@@ -8,10 +8,7 @@
 BOOST_AUTO_TEST_SUITE(case_file)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::complaint;
-using testing::contains;
-using testing::Folder;
+using namespace trammel::testing;
 
 BOOST_AUTO_TEST_CASE(a_variant_is_a_merge_patch) {
   const Folder folder;
@@ -139,7 +136,7 @@ BOOST_AUTO_TEST_CASE(a_sweep_sets_the_places_that_its_pointers_name) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_sweep_may_set_a_key_that_the_case_leaves_to_its_default) {
+BOOST_AUTO_TEST_CASE(sweep_may_set_a_key_with_a_default) {
   const Folder folder;
   Json json = testing::cantilever();
   json["model"].erase("elements");

@@ -7,8 +7,7 @@
 BOOST_AUTO_TEST_SUITE(catalogue)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::complaint;
+using namespace trammel::testing;
 
 BOOST_AUTO_TEST_CASE(two_rooms_cannot_hold_cases_of_one_name) {
   const testing::Folder folder;
@@ -20,7 +19,7 @@ BOOST_AUTO_TEST_CASE(two_rooms_cannot_hold_cases_of_one_name) {
                  first.string() + ")");
 }
 
-BOOST_AUTO_TEST_CASE(a_case_is_found_in_any_room_and_files_without_analysis_are_not_run) {
+BOOST_AUTO_TEST_CASE(case_is_found_in_any_folder) {
   const testing::Folder folder;
   const auto run = folder.write("a/b/runs.json", R"({"extends": "base"})");
   (void)folder.write("c/base.json", R"({"analysis": {}})");

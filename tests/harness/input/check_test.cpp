@@ -8,10 +8,7 @@
 BOOST_AUTO_TEST_SUITE(check)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::complaint;
-using testing::contains;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 
@@ -54,7 +51,7 @@ BOOST_AUTO_TEST_CASE(stated_values_share_one_half_width) {
   BOOST_TEST(one.windows[0].high == 2.5);
 }
 
-BOOST_AUTO_TEST_CASE(a_variant_states_its_own_values_and_what_is_particular_to_it) {
+BOOST_AUTO_TEST_CASE(variant_states_its_values_and_reasons) {
   Json json = expecting({{"known_discrepancy", "Reason."}, {"absolute", 2}, {"within", 0.5}});
   json["variants"]["soft"]["checks"]["c"]["expect"]["absolute"] = 1;
   const Check base = check_of(json);
@@ -65,7 +62,7 @@ BOOST_AUTO_TEST_CASE(a_variant_states_its_own_values_and_what_is_particular_to_i
   BOOST_TEST(soft.windows.at(0).low == 0.5);
 }
 
-BOOST_AUTO_TEST_CASE(a_check_applies_to_each_variant_that_it_names_and_to_no_other) {
+BOOST_AUTO_TEST_CASE(check_applies_only_to_variants_that_it_names) {
   const auto applies_to = [](const Json& variants, const std::string& variant) {
     Json json = testing::cantilever();
     json["variants"]["soft"]["title"] = "Softer";

@@ -8,10 +8,7 @@
 BOOST_AUTO_TEST_SUITE(reference_library)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::complaint;
-using testing::contains;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 

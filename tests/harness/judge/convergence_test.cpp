@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(values_that_diverge_are_not_extrapolated) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(values_that_move_away_on_coarse_meshes_alone_are_extrapolated_from_the_fine) {
+BOOST_AUTO_TEST_CASE(divergence_on_coarse_meshes_is_ignored) {
   const Convergence found = analyse_convergence(of_values({1, 2, 6, 7, 7.25, 7.3125}));
   BOOST_TEST(std::isnan(*found.gci[2]));
   BOOST_TEST(std::abs(found.richardson.value() - 7.3333333333333333) < 1e-12);
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(slow_convergence_and_noise_of_rounding_do_not_diverge) {
   BOOST_TEST(std::isfinite(*noise.gci[3]));
 }
 
-BOOST_AUTO_TEST_CASE(the_next_term_keeps_coarse_meshes_out_of_the_asymptotic_range) {
+BOOST_AUTO_TEST_CASE(next_term_limits_the_asymptotic_range) {
   Convergence series = made_up(4, 0.1, 0.5, 8);
   series.exact = 10;
   const Convergence found = analyse_convergence(series);
@@ -145,7 +145,7 @@ BOOST_AUTO_TEST_CASE(an_order_is_not_made_up_from_values_that_go_to_and_fro) {
   BOOST_TEST(!found.fitted_order.has_value());
 }
 
-BOOST_AUTO_TEST_CASE(levels_without_a_value_are_skipped_at_the_coarse_end_only) {
+BOOST_AUTO_TEST_CASE(missing_levels_are_skipped_at_the_coarse_end_only) {
   Convergence series = made_up(4, 0.1, 0, 7);
   series.exact = 10;
   series.values[0] = std::nan("");

@@ -12,10 +12,7 @@ BOOST_AUTO_TEST_SUITE(evaluate_check)
 
 using namespace trammel;
 using namespace trammel::references;
-using namespace trammel::harness;
-using testing::complaint;
-using testing::contains;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 
@@ -87,7 +84,7 @@ BOOST_AUTO_TEST_CASE(what_agrees_passes_entry_by_entry) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_difference_beyond_the_tolerance_fails_in_either_direction) {
+BOOST_AUTO_TEST_CASE(difference_beyond_tolerance_fails_with_either_sign) {
   for (const double sign : {-1.0, 1.0}) {
     Bench bench;
     bench.set(1, 20 * (1 + sign * 0.9e-3));
@@ -97,7 +94,7 @@ BOOST_AUTO_TEST_CASE(a_difference_beyond_the_tolerance_fails_in_either_direction
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_relative_difference_has_the_sign_of_the_difference_also_of_negative_values) {
+BOOST_AUTO_TEST_CASE(relative_difference_of_negative_values_keeps_its_sign) {
   Bench bench;
   bench.reference["values"] = {-10, -20, -30};
   bench.quantities["frequency_Hz"].values = {-10.005, -20, -30};
@@ -105,7 +102,7 @@ BOOST_AUTO_TEST_CASE(a_relative_difference_has_the_sign_of_the_difference_also_o
              boost::test_tools::tolerance(1e-9));
 }
 
-BOOST_AUTO_TEST_CASE(only_what_passes_is_recorded_or_not_given_leaves_the_gate_open) {
+BOOST_AUTO_TEST_CASE(verdicts_that_fail_the_gate) {
   for (const Verdict closed : {Verdict::fail, Verdict::error, Verdict::not_run})
     BOOST_TEST(fails_gate(closed), to_string(closed));
   for (const Verdict open : {Verdict::pass, Verdict::recorded, Verdict::not_given})
@@ -132,7 +129,7 @@ BOOST_AUTO_TEST_CASE(a_number_that_is_not_finite_is_an_error) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_is_no_number_is_named_computed_expected_or_their_comparison) {
+BOOST_AUTO_TEST_CASE(value_that_is_no_number_is_named) {
   Bench computed;
   computed.set(1, not_a_number);
   BOOST_TEST(computed.verdict() == "error");
@@ -189,13 +186,7 @@ BOOST_AUTO_TEST_CASE(a_wrong_unit_is_an_error) {
                       "rad/s"));
 }
 
-BOOST_AUTO_TEST_CASE(a_difference_relative_to_zero_is_an_error) {
-  Bench bench;
-  bench.reference["values"] = {0, 20, 30};
-  BOOST_TEST(bench.verdict() == "error");
-}
-
-BOOST_AUTO_TEST_CASE(a_reference_less_certain_than_the_tolerance_proves_nothing) {
+BOOST_AUTO_TEST_CASE(reference_less_certain_than_tolerance_is_an_error) {
   Bench bench;
   bench.reference["uncertainty"] = {{"absolute", 0.5}};
   BOOST_TEST(bench.verdict() == "error");
@@ -240,7 +231,7 @@ BOOST_AUTO_TEST_CASE(an_agreement_that_no_longer_holds_fails) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_known_discrepancy_that_is_no_longer_there_fails_in_either_direction) {
+BOOST_AUTO_TEST_CASE(changed_known_discrepancy_fails) {
   Bench bench = validation("known_discrepancy", {0.1, 0.2});
   bench.quantities["frequency_Hz"].values = {11.5, 23, 34.5};
   BOOST_TEST(bench.verdict() == "pass");
@@ -271,15 +262,7 @@ BOOST_AUTO_TEST_CASE(windows_are_as_many_as_the_entries) {
   BOOST_TEST(bench.verdict() == "error");
 }
 
-BOOST_AUTO_TEST_CASE(a_known_discrepancy_that_allows_none_is_refused) {
-  for (const Json& window : {Json{-0.2, 0.02}, Json{{-1, 1}, {0, 2}, {-2, 0}}}) {
-    Bench bench = validation("known_discrepancy", window);
-    BOOST_TEST(contains(complaint([&] { (void)bench.judge_all(); }),
-                        "/checks/c/expect/relative_between: expected a window without 0"));
-  }
-}
-
-BOOST_AUTO_TEST_CASE(a_validation_without_an_expectation_is_recorded_and_does_not_gate) {
+BOOST_AUTO_TEST_CASE(validation_without_expectation_is_recorded) {
   Bench bench = validation("agrees", {-1, 1});
   bench.check.erase("expect");
   bench.set(0, 25);
@@ -383,7 +366,7 @@ BOOST_AUTO_TEST_CASE(checks_that_contradict_themselves_are_refused) {
   BOOST_TEST(contains(fault("tolerance", {{"relative", 1e-3}}), "expected the key 'why'"));
 }
 
-BOOST_AUTO_TEST_CASE(a_negative_control_passes_where_the_fault_is_found_and_fails_where_it_is_not) {
+BOOST_AUTO_TEST_CASE(negative_control_passes_if_the_fault_is_found) {
   Bench bench;
   const auto control = [&](const char* verdict, const char* message, int index) {
     bench.check["negative_control"] = {
@@ -413,8 +396,7 @@ BOOST_AUTO_TEST_CASE(a_code_that_prints_four_digits_is_judged_by_four) {
   BOOST_TEST(bench.verdict() == "fail");
 }
 
-BOOST_AUTO_TEST_CASE(
-    of_another_code_what_is_missing_is_not_given_and_what_does_not_fit_is_an_error) {
+BOOST_AUTO_TEST_CASE(missing_answer_of_a_code_is_not_given) {
   const results::SolverIdentity code{"code", "1", {}, {}};
   Bench missing;
   missing.other_solver = &code;

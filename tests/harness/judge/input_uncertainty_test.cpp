@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(a_linear_model_adds_its_inputs_in_quadrature) {
   BOOST_TEST(u->at(1)[1] == 0);
 }
 
-BOOST_AUTO_TEST_CASE(sampling_finds_the_standard_deviation_of_a_uniform_input) {
+BOOST_AUTO_TEST_CASE(sampling_gives_the_deviation_of_a_uniform_input) {
   const auto u = uncertainty_by_sampling(linear_and_square, kHalfWidths, 400, 1);
   BOOST_TEST(u.samples == 400);
   BOOST_TEST(u.failed == 0);
@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(each_part_of_each_range_is_visited_once) {
   BOOST_TEST(*visited[1].rbegin() == 49);
 }
 
-BOOST_AUTO_TEST_CASE(a_deviation_of_few_samples_is_divided_by_one_less_than_their_number) {
+BOOST_AUTO_TEST_CASE(deviation_of_samples_is_unbiased) {
   Values seen;
   const auto record = [&](const Values& d) -> std::optional<Values> {
     seen.push_back(d[0]);
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(a_deviation_of_few_samples_is_divided_by_one_less_than_thei
   BOOST_TEST(u.standard[0] == std::sqrt(square / 3), boost::test_tools::tolerance(1e-12));
 }
 
-BOOST_AUTO_TEST_CASE(the_same_seed_gives_the_same_samples_and_another_gives_others) {
+BOOST_AUTO_TEST_CASE(samples_depend_on_the_seed) {
   const auto a = uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 3);
   const auto b = uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 3);
   const auto c = uncertainty_by_sampling(linear_and_square, kHalfWidths, 40, 4);
@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(samples_without_a_solution_are_counted_and_left_out) {
   BOOST_TEST(u.standard[0] == 0.15 / std::sqrt(12.0), boost::test_tools::tolerance(1e-2));
 }
 
-BOOST_AUTO_TEST_CASE(no_derivative_is_made_up_where_the_model_has_no_solution) {
+BOOST_AUTO_TEST_CASE(no_derivative_if_the_model_has_no_solution) {
   const auto nothing = [](const Values& d) -> std::optional<Values> {
     if (d[1] < 0) return std::nullopt;
     return Values{1.0};

@@ -35,7 +35,7 @@ Convergence mixed(double a, double b, std::size_t levels) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_mixture_of_two_orders_is_fitted_and_extrapolated_as_such) {
+BOOST_AUTO_TEST_CASE(mixture_of_two_orders_is_fitted_and_extrapolated) {
   Convergence series = mixed(0.5, 2e-3, 7);
   series.lower_order = 2;
   const Convergence found = analyse_convergence(series);
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(a_mixture_of_two_orders_is_fitted_and_extrapolated_as_such)
   for (std::size_t k = 0; k < 7; ++k) BOOST_TEST(found.in_asymptotic_range[k]);
 }
 
-BOOST_AUTO_TEST_CASE(bands_of_a_mixture_hold_with_the_small_factor_where_the_law_is_known) {
+BOOST_AUTO_TEST_CASE(bands_of_a_known_mixture_hold_with_small_factor) {
   Convergence series = mixed(0.5, 2e-3, 8);
   series.lower_order = 2;
   const Convergence found = analyse_convergence(series);
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(bands_of_a_mixture_hold_with_the_small_factor_where_the_law
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_mixture_that_theory_does_not_know_gets_the_large_factor_and_its_bands_hold) {
+BOOST_AUTO_TEST_CASE(unknown_mixture_gets_the_large_factor) {
   const Convergence found = analyse_convergence(mixed(0.5, 2e-3, 8));
   bool large = false;
   for (std::size_t k = 2; k < 8; ++k) {
@@ -90,26 +90,7 @@ BOOST_AUTO_TEST_CASE(two_levels_get_the_order_of_theory_and_the_large_factor) {
              boost::test_tools::tolerance(1e-9));
 }
 
-BOOST_AUTO_TEST_CASE(values_that_swing_about_their_limit_get_a_wide_band_that_holds) {
-  // Error (-1)^k h^2: no order can be observed.
-  Convergence series;
-  for (std::size_t k = 0; k < 7; ++k) {
-    const double h = std::exp2(-static_cast<double>(k));
-    series.parameter.push_back(1 / h);
-    series.size.push_back(h);
-    series.values.push_back(10 * (1 + (k % 2 == 0 ? 0.1 : -0.1) * h * h));
-    series.roundoff.push_back(1e-16);
-  }
-  series.exact = 10;
-  series.theory_order = 2;
-  const Convergence found = analyse_convergence(series);
-  for (std::size_t k = 2; k < 7; ++k) {
-    BOOST_TEST(*found.safety_factor[k] == 3);
-    BOOST_TEST(*found.gci[k] >= *found.error[k]);
-  }
-}
-
-BOOST_AUTO_TEST_CASE(values_that_turn_back_on_coarse_levels_settle_on_fine_ones) {
+BOOST_AUTO_TEST_CASE(values_that_turn_back_settle_on_fine_levels) {
   // h^2 - 0.8 h^3 ... falls and rises again: the coarse end is not monotone.
   Convergence series =
       series_of([](double h) { return 10 * (1 + 0.1 * h * h - 0.13 * h * h * h); }, 10);
@@ -120,25 +101,6 @@ BOOST_AUTO_TEST_CASE(values_that_turn_back_on_coarse_levels_settle_on_fine_ones)
   BOOST_TEST(*found.safety_factor[9] == 1.25);
   BOOST_TEST(std::abs(found.fitted_order.value() - 2) < 0.1);
   for (std::size_t k = 2; k < 10; ++k) BOOST_TEST(*found.gci[k] >= *found.error[k]);
-}
-
-BOOST_AUTO_TEST_CASE(a_floor_of_round_off_ends_the_range_and_not_the_band) {
-  // Deterministic noise of 1e-9 on an error of order 4.
-  std::size_t step = 0;
-  Convergence series = series_of(
-      [&](double h) {
-        const double noise = 1e-9 * std::sin(37.0 * static_cast<double>(++step));
-        return 10 * (1 + 0.1 * std::pow(h, 4) + noise);
-      },
-      12, 1e-9);
-  series.exact = 10;
-  series.theory_order = 4;
-  const Convergence found = analyse_convergence(series);
-  BOOST_TEST(found.in_asymptotic_range[3]);
-  BOOST_TEST(found.at_roundoff_floor[9]);
-  BOOST_TEST(!found.in_asymptotic_range[9]);
-  BOOST_TEST(std::abs(found.richardson.value() - 10) < 1e-7);
-  for (std::size_t k = 1; k < 12; ++k) BOOST_TEST(*found.gci[k] >= *found.error[k]);
 }
 
 BOOST_AUTO_TEST_CASE(values_that_are_errors_have_the_exact_value_zero) {

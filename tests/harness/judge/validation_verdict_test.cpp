@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(a_difference_beyond_the_noise_is_given_as_a_range) {
   BOOST_TEST(v.conclusion == "model error between 1.5 and 2.5 Hz, too low");
 }
 
-BOOST_AUTO_TEST_CASE(a_reference_that_splits_a_repeated_value_contradicts_itself) {
+BOOST_AUTO_TEST_CASE(reference_that_splits_a_pair_is_inconsistent) {
   const Comparison first = comparison(14.0, 12.768, 0, 0.1, 3e-4);
   const Comparison second = comparison(14.0, 15.115, 0, 0.1, 3e-4);
   const auto row = judged({first, second});
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(a_reference_that_splits_a_repeated_value_contradicts_itself
   BOOST_TEST(*row[0].difference == 14.0 - 12.768);
 }
 
-BOOST_AUTO_TEST_CASE(a_contradiction_is_no_excuse_for_a_model_that_lies_beyond_it) {
+BOOST_AUTO_TEST_CASE(inconsistency_does_not_excuse_a_model_beyond_it) {
   const Comparison first = comparison(20.0, 12.768, 0, 0.1, 3e-4);
   const Comparison second = comparison(20.0, 15.115, 0, 0.1, 3e-4);
   for (const auto& v : judged({first, second})) {
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(a_contradiction_is_no_excuse_for_a_model_that_lies_beyond_i
   }
 }
 
-BOOST_AUTO_TEST_CASE(values_that_differ_by_more_than_round_off_are_not_a_pair) {
+BOOST_AUTO_TEST_CASE(values_apart_by_more_than_round_off_are_no_pair) {
   const Comparison first = comparison(14.0, 12.768, 0, 0.1, 3e-4);
   const Comparison second = comparison(14.1, 15.115, 0, 0.1, 3e-4);
   for (const auto& v : judged({first, second})) {

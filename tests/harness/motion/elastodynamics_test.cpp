@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -7,13 +6,7 @@
 BOOST_AUTO_TEST_SUITE(elastodynamics)
 
 using namespace trammel;
-using namespace trammel::references;
-using namespace trammel::solver;
-using namespace trammel::harness;
-using testing::complaint;
-using testing::contains;
-using testing::result_of;
-using testing::values;
+using namespace trammel::testing;
 
 namespace {
 
@@ -52,7 +45,7 @@ Json& options(Json& json) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_platform_at_constant_speed_does_not_stand_still) {
+BOOST_AUTO_TEST_CASE(platform_at_constant_speed_does_not_stand_still) {
   // without acceleration its path frequency is nothing, and it was once compared with a pose held
   Json json = motion(between("line", 0.01));
   options(json)["step_errors"] = true;
@@ -64,20 +57,7 @@ BOOST_AUTO_TEST_CASE(a_platform_at_constant_speed_does_not_stand_still) {
   BOOST_TEST(values(still, "integration_error:P").size() == 6U);
 }
 
-BOOST_AUTO_TEST_CASE(what_shuts_each_other_out_is_refused_by_name) {
-  Json rates = motion(between("line", 0.01));
-  options(rates)["effects"] = {{"elastic_inertia", false}, {"transformation_rate_terms", true}};
-  const std::string terms = complaint([&] { static_cast<void>(result_of(rates)); });
-  BOOST_TEST(contains(terms, "/analysis/elastodynamics/effects/transformation_rate_terms"), terms);
-
-  Json modes = motion(between("rest_to_rest", 0.01));
-  options(modes)["modal_superposition"] = true;
-  const std::string moves = complaint([&] { static_cast<void>(result_of(modes)); });
-  BOOST_TEST(contains(moves, "/analysis/elastodynamics/modal_superposition"), moves);
-  BOOST_TEST(contains(moves, "stands still"), moves);
-}
-
-BOOST_AUTO_TEST_CASE(a_quasi_static_motion_claims_no_work_of_its_loads) {
+BOOST_AUTO_TEST_CASE(quasi_static_motion_has_no_work_of_its_loads) {
   // it once gave 0 J, nothing dissipated, and a drift of an energy of which that was a part
   Json json = motion(between("line", 0.01));
   options(json)["effects"] = {{"elastic_inertia", false}};
@@ -85,30 +65,6 @@ BOOST_AUTO_TEST_CASE(a_quasi_static_motion_claims_no_work_of_its_loads) {
   BOOST_TEST(values(result, "strain_energy_J").size() == 6U);
   for (const char* name : {"load_work_J", "dissipated_energy_J", "energy_drift"})
     BOOST_TEST(result.quantities.count(name) == 0U, name);
-}
-
-BOOST_AUTO_TEST_CASE(a_history_multiplies_the_load_and_nothing_else) {
-  Json json = motion(between("line", 0));
-  options(json)["initial_state"] = "at-rest";
-  options(json)["step_errors"] = true;
-  options(json)["load_history"] = {{"time_s", {0.02, 0.03, 0.04}}, {"factor", {0, 1, 0}}};
-  const AnalysisResult result = result_of(json);
-  const std::vector<double> deflection = values(result, "deflection_m:P");
-  BOOST_TEST(deflection[1] == 0);
-  BOOST_TEST(deflection[2] > 1e-4);
-  const std::vector<double> error = values(result, "integration_error:P");
-  BOOST_TEST(*std::max_element(error.begin(), error.end()) < 0.02);
-  options(json)["modal_superposition"] = true;
-  BOOST_TEST(result_of(json).quantities.count("load_work_J") == 0U);
-  json["effects"] = {{"auto", {{"tolerance", 0.01}}}};
-  BOOST_TEST(contains(complaint([&] { (void)result_of(json); }), "automatic effects require a constant load"));
-}
-
-BOOST_AUTO_TEST_CASE(steps_beyond_number_are_refused_before_the_first) {
-  Json json = motion(between("line", 0.01));
-  options(json)["step_s"] = 1e-12;
-  BOOST_TEST(contains(complaint([&] { (void)result_of(json); }),
-                      "/analysis/elastodynamics/step_s: expected at most ten million steps"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -145,7 +145,7 @@ std::vector<Json> further_cases() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(every_quantity_of_every_analysis_is_defined_and_every_definition_is_given) {
+BOOST_AUTO_TEST_CASE(every_quantity_is_defined_and_every_definition_used) {
   Recorded recorded;
   for (const auto& [name, variant] : kCases)
     record(patched(load_named_case(name), variant), recorded);
@@ -158,7 +158,7 @@ BOOST_AUTO_TEST_CASE(every_quantity_of_every_analysis_is_defined_and_every_defin
   BOOST_TEST(defined[item.first] == recorded[item.first], boost::test_tools::per_element());
 }
 
-BOOST_AUTO_TEST_CASE(no_quantity_is_defined_twice_for_an_analysis_or_without_a_meaning) {
+BOOST_AUTO_TEST_CASE(quantities_are_defined_once_and_with_a_meaning) {
   std::set<std::pair<std::string, std::string>> seen;
   for (const results::QuantityDefinition& one : results::quantity_definitions()) {
     BOOST_TEST(!one.meaning.empty(), one.name);

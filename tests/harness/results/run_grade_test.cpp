@@ -18,7 +18,7 @@ Run run_with(std::initializer_list<Verdict> verdicts) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_run_of_which_a_check_fails_or_could_not_be_judged_does_not_agree) {
+BOOST_AUTO_TEST_CASE(run_with_a_failed_check_does_not_agree) {
   BOOST_TEST(to_string(grade_of(run_with({Verdict::pass}))) == "agrees");
   BOOST_TEST(to_string(grade_of(run_with({Verdict::pass, Verdict::error}))) == "broken");
   BOOST_TEST(to_string(grade_of(run_with({Verdict::pass, Verdict::fail}))) == "off");

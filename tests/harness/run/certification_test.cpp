@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(digits_that_agree_are_counted_and_the_worst_is_named) {
   BOOST_TEST(found.tight.empty());
 }
 
-BOOST_AUTO_TEST_CASE(a_tolerance_of_less_than_ten_times_the_noise_is_told_once) {
+BOOST_AUTO_TEST_CASE(tolerance_below_ten_times_the_noise_is_reported) {
   const Certification found =
       certify({configuration("here", 2, 2), configuration("up", 2 + 2e-10, 2 - 5e-10),
                configuration("down", 2 - 3e-10, 2 + 1e-12)});
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(a_tolerance_of_less_than_ten_times_the_noise_is_told_once) 
   BOOST_TEST(std::abs(found.tight[0].noise - 5e-10) < 1e-14);
 }
 
-BOOST_AUTO_TEST_CASE(a_verdict_that_differs_and_a_check_that_is_not_there_are_told) {
+BOOST_AUTO_TEST_CASE(different_verdict_and_missing_check_are_reported) {
   Configuration short_one = configuration("short", 2, 2, results::Verdict::fail);
   short_one.results.runs[0].checks.pop_back();
   const Certification found = certify({configuration("here", 2, 2), short_one});
@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(a_verdict_that_differs_and_a_check_that_is_not_there_are_to
              "whole beam:base tip[0] fail pass; whole beam:base tip[1] missing pass; ");
 }
 
-BOOST_AUTO_TEST_CASE(the_worst_entry_of_a_bound_or_beside_a_variant_may_be_another_one) {
+BOOST_AUTO_TEST_CASE(worst_entry_of_a_bound_may_differ) {
   for (const bool bound : {false, true}) {
     Configuration here = configuration("here", 2, 3), there = here;
     for (Configuration* one : {&here, &there}) {
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_ends_otherwise_or_is_not_there_is_told) {
   BOOST_TEST(told(none) == "none beam:base solved missing; ");
 }
 
-BOOST_AUTO_TEST_CASE(a_run_that_no_configuration_brings_to_an_end_is_told_of_each) {
+BOOST_AUTO_TEST_CASE(run_that_ends_nowhere_is_reported_for_each) {
   Configuration here = configuration("here", 2, 2), there = configuration("there", 2, 2);
   for (Configuration* one : {&here, &there}) one->results.runs[0].status = results::Status::error;
   BOOST_TEST(told(certify({here, there})) ==

@@ -8,8 +8,7 @@
 BOOST_AUTO_TEST_SUITE(history)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 
@@ -42,7 +41,7 @@ History kept(const Folder& folder, const std::vector<results::Results>& calls) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(the_first_commit_of_a_changed_value_is_named_against_the_last_green_call) {
+BOOST_AUTO_TEST_CASE(first_commit_of_a_changed_value_is_named) {
   const Folder folder;
   const History found = kept(folder, {call("one", 10), call("two", 10 + 1e-10), call("three", 11),
                                       call("four", 11, results::Verdict::fail),
@@ -64,7 +63,7 @@ BOOST_AUTO_TEST_CASE(round_off_is_no_change_and_what_has_gone_back_is_none) {
   BOOST_TEST(back.changes.empty());
 }
 
-BOOST_AUTO_TEST_CASE(a_millionth_of_the_tolerance_is_round_off_and_a_thousandth_is_a_change) {
+BOOST_AUTO_TEST_CASE(millionth_of_the_tolerance_is_round_off) {
   const auto tolerated = [](const std::string& commit, double value) {
     results::Results made = call(commit, value);
     made.runs[0].checks[0].tolerance = results::Tolerance{-1.0, 1.0, true};
@@ -85,7 +84,7 @@ BOOST_AUTO_TEST_CASE(a_value_that_goes_one_way_in_small_steps_drifts) {
                  .drifts.empty());
 }
 
-BOOST_AUTO_TEST_CASE(counted_work_is_compared_exactly_and_a_check_that_is_gone_is_a_change) {
+BOOST_AUTO_TEST_CASE(counted_work_is_compared_exactly) {
   const Folder folder;
   results::Results without = call("two", 10, results::Verdict::pass, 11);
   without.runs[0].checks.clear();

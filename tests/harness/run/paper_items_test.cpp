@@ -7,10 +7,8 @@
 BOOST_AUTO_TEST_SUITE(paper_items)
 
 using namespace trammel;
-using namespace trammel::harness;
+using namespace trammel::testing;
 using results::PaperItem;
-using testing::complaint;
-using testing::contains;
 
 namespace {
 
@@ -28,7 +26,7 @@ std::string fault_of(Json item) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(every_equation_table_figure_and_claim_of_the_paper_has_a_row) {
+BOOST_AUTO_TEST_CASE(every_item_and_claim_of_the_paper_has_a_row) {
   const Document claim_set = load_claims();
   const std::vector<PaperItem> items = load_paper_items(claim_set, Catalogue());
   const auto has = [&](const std::string& id) {
@@ -61,7 +59,7 @@ BOOST_AUTO_TEST_CASE(what_an_item_names_must_be_there) {
   BOOST_TEST(contains(fault_of(Json::object()), "expected 'shown_by', 'claims' or 'reason'"));
 }
 
-BOOST_AUTO_TEST_CASE(verdicts_are_counted_for_the_quantity_and_the_variant_alone) {
+BOOST_AUTO_TEST_CASE(verdicts_are_counted_by_quantity_and_variant) {
   results::Check passes, differs;
   passes.quantity = differs.quantity = "displacement_x_m:P";
   passes.verdict = differs.verdict = results::Verdict::pass;

@@ -11,9 +11,7 @@
 BOOST_AUTO_TEST_SUITE(run_store)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::contains;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 
@@ -192,7 +190,7 @@ BOOST_AUTO_TEST_CASE(times_of_another_machine_are_not_taken_over) {
   BOOST_TEST(find_stored(entry, computation));
 }
 
-BOOST_AUTO_TEST_CASE(scenes_of_effects_are_measured_once_as_long_as_their_case_stands) {
+BOOST_AUTO_TEST_CASE(unchanged_scenes_of_effects_are_measured_once) {
   const Folder folder;
   int measured = 0;
   const auto measure = [&] {

@@ -9,10 +9,7 @@
 BOOST_AUTO_TEST_SUITE(shards)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::complaint;
-using testing::contains;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 
@@ -73,7 +70,7 @@ BOOST_AUTO_TEST_CASE(a_shard_is_k_of_n) {
     BOOST_TEST(contains(complaint([&] { (void)shard_from(bad); }), "expected K/N"), bad);
 }
 
-BOOST_AUTO_TEST_CASE(shards_cost_alike_and_do_not_depend_on_the_order_of_names) {
+BOOST_AUTO_TEST_CASE(shards_are_balanced_for_any_order_of_names) {
   std::vector<std::string> names;
   std::map<std::string, double> costs;
   double sum = 0, largest = 0;

@@ -9,9 +9,7 @@
 BOOST_AUTO_TEST_SUITE(stored_results)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::contains;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 
@@ -48,7 +46,7 @@ BOOST_AUTO_TEST_CASE(what_is_read_back_with_its_store_is_what_was_written) {
   BOOST_TEST(a.dump() == b.dump());
 }
 
-BOOST_AUTO_TEST_CASE(the_file_itself_holds_scalars_checks_and_verdicts_and_each_reason_once) {
+BOOST_AUTO_TEST_CASE(summary_holds_scalars_verdicts_and_each_reason_once) {
   const Folder folder;
   const Json json = read_json(write_results(computed(folder), folder.path() / "out"));
   BOOST_TEST(json["store"] == "store");
@@ -66,7 +64,7 @@ BOOST_AUTO_TEST_CASE(the_file_itself_holds_scalars_checks_and_verdicts_and_each_
   BOOST_TEST(json["reasons"][0] == "it is short");
 }
 
-BOOST_AUTO_TEST_CASE(a_citation_that_references_share_stands_once_and_is_given_back_to_each) {
+BOOST_AUTO_TEST_CASE(shared_citation_is_stored_once) {
   results::Results results;
   for (const char* id : {"a", "b"}) {
     results.references.emplace_back();
@@ -85,7 +83,7 @@ BOOST_AUTO_TEST_CASE(a_citation_that_references_share_stands_once_and_is_given_b
   BOOST_CHECK_THROW((void)results::read_results(json), std::runtime_error);
 }
 
-BOOST_AUTO_TEST_CASE(a_copy_without_its_store_is_read_and_says_what_is_missing) {
+BOOST_AUTO_TEST_CASE(copy_without_its_store_reports_what_is_missing) {
   const Folder folder;
   const fs::path file = write_results(computed(folder), folder.path() / "out");
   fs::create_directories(folder.path() / "copy");
@@ -96,7 +94,7 @@ BOOST_AUTO_TEST_CASE(a_copy_without_its_store_is_read_and_says_what_is_missing) 
   BOOST_TEST(copy.runs[0].quantity("displacement_y_m:B") != nullptr);
 }
 
-BOOST_AUTO_TEST_CASE(a_broken_file_of_the_store_and_one_of_another_run_count_as_missing) {
+BOOST_AUTO_TEST_CASE(broken_and_foreign_files_of_a_store_are_missing) {
   const Folder folder;
   const results::Results results = computed(folder);
   const fs::path file = write_results(results, folder.path() / "out");

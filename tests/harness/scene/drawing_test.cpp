@@ -9,10 +9,8 @@
 BOOST_AUTO_TEST_SUITE(drawing)
 
 using namespace trammel;
-using namespace trammel::harness;
+using namespace trammel::testing;
 using boost::test_tools::tolerance;
-using testing::result_of;
-using testing::values;
 
 namespace {
 
@@ -54,7 +52,7 @@ constexpr std::size_t kP = 9;  ///< the platform's centre among the nodes of a m
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(moments_are_of_all_of_a_slow_motion_and_of_the_beginning_of_a_fast_one) {
+BOOST_AUTO_TEST_CASE(drawn_moments_resolve_fast_motions) {
   const std::vector<std::size_t> slow = drawn_samples(wave(1), 20);
   BOOST_TEST(slow.size() == 48);
   BOOST_TEST(slow.front() == 0);
@@ -68,7 +66,7 @@ BOOST_AUTO_TEST_CASE(moments_are_of_all_of_a_slow_motion_and_of_the_beginning_of
   for (std::size_t k = 1; k < slow.size(); ++k) BOOST_TEST((slow[k] - slow[k - 1]) / 2 == 10U);
 }
 
-BOOST_AUTO_TEST_CASE(a_moment_along_a_path_is_drawn_in_its_pose_with_its_deflection) {
+BOOST_AUTO_TEST_CASE(moment_along_a_path_is_drawn_with_its_deflection) {
   for (const Json& analysis :
        {Json{{"elastodynamics", {{"step_s", 0.001}, {"initial_state", "quasi-static"}}}},
         Json{{"statics", Json::object()}}, Json{{"kinematics", Json::object()}}}) {
@@ -86,24 +84,6 @@ BOOST_AUTO_TEST_CASE(a_moment_along_a_path_is_drawn_in_its_pose_with_its_deflect
     }
     BOOST_TEST(moments(result, 6).back().time_s.value() == 0.1, tolerance(1e-12));
   }
-}
-
-BOOST_AUTO_TEST_CASE(a_moment_of_a_vibration_is_drawn_with_its_displacement) {
-  const AnalysisResult result = result_of(Json::parse(R"({
-    "id": "oscillator", "title": "A mass on a spring",
-    "model": {
-      "nodes": {"P": [0, 0]},
-      "point_masses": {"m": {"node": "P", "mass_kg": 1}},
-      "springs": {"k": {"nodes": ["P"], "stiffness_N_per_m": [100, 0]}},
-      "supports": {"P": ["y"]},
-      "loads": {"F": {"node": "P", "force_N": [1, 0]}}
-    },
-    "analysis": {"transient": {"duration_s": 0.5, "step_s": 0.001, "outputs": ["displacement_x_m:P"]}}
-  })"));
-  for (const results::Pose& moment : moments(result, 48))
-    BOOST_TEST(moment.displacement.at(0).first == at(result, "displacement_x_m:P", moment),
-               tolerance(1e-9));
-  BOOST_TEST(moments(result, 48).back().time_s.value() == 0.5);
 }
 
 BOOST_AUTO_TEST_CASE(a_moment_of_a_large_motion_is_drawn_where_it_is) {

@@ -9,10 +9,7 @@ BOOST_AUTO_TEST_SUITE(cost_study)
 
 using namespace trammel;
 using namespace trammel::references;
-using namespace trammel::harness;
-using testing::complaint;
-using testing::contains;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 
@@ -46,7 +43,7 @@ std::string fault_of(const Json& json, SweepExtent sweeping = SweepExtent::full)
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(settings_are_the_case_with_the_patches_of_study_curve_and_value) {
+BOOST_AUTO_TEST_CASE(settings_are_the_patched_case) {
   const CostStudy study = load(study_json());
   BOOST_TEST_REQUIRE(study.settings.size() == 6U);
   BOOST_TEST(study.settings[0].title == "consistent mass, 1 element");
@@ -106,7 +103,7 @@ BOOST_AUTO_TEST_CASE(bad_studies_are_answered_with_their_place) {
   BOOST_TEST(contains(fault_of(json), "expected a reference in Hz"));
 }
 
-BOOST_AUTO_TEST_CASE(several_outputs_have_a_scale_each_and_quantities_that_are_theirs) {
+BOOST_AUTO_TEST_CASE(each_output_has_a_scale_and_quantities) {
   Json json = study_json();
   json["outputs"] = {{"tones", {{"title", "frequencies"}}},
                      {"size", {{"title", "coordinates"}, {"scale", "largest"}}}};
@@ -182,7 +179,7 @@ BOOST_AUTO_TEST_CASE(the_sweeps_of_a_case_are_a_study) {
       "expected 'sweeps'"));
 }
 
-BOOST_AUTO_TEST_CASE(what_the_checks_of_a_case_know_exactly_is_what_its_sweep_is_measured_by) {
+BOOST_AUTO_TEST_CASE(sweep_is_measured_by_exact_values_of_checks) {
   const References references;
   const Case given = load_named_case("beam-cantilever");
   const CostStudy study = cost_study_of_sweeps(given, kBaseVariant, {}, references);
@@ -192,7 +189,7 @@ BOOST_AUTO_TEST_CASE(what_the_checks_of_a_case_know_exactly_is_what_its_sweep_is
   BOOST_TEST(study.settings.front().observed[0].exact.size() == 6U);
 }
 
-BOOST_AUTO_TEST_CASE(every_study_of_the_catalogue_can_be_read_in_full_and_quickly) {
+BOOST_AUTO_TEST_CASE(every_study_of_the_catalogue_can_be_read) {
   const References references;
   BOOST_TEST(!cost_study_files().empty());
   for (const auto& file : cost_study_files()) {

@@ -13,10 +13,7 @@ BOOST_AUTO_TEST_SUITE(cost)
 using namespace trammel;
 using namespace trammel::references;
 using namespace trammel::solver;
-using namespace trammel::harness;
-using testing::complaint;
-using testing::contains;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 
@@ -166,7 +163,7 @@ BOOST_AUTO_TEST_CASE(an_error_above_1000_per_cent_is_a_divergence) {
   BOOST_TEST((measured(json).settings[4].status == "diverged"));
 }
 
-BOOST_AUTO_TEST_CASE(an_exact_setting_is_a_choice_and_only_the_reference_itself_is_none) {
+BOOST_AUTO_TEST_CASE(exact_setting_that_is_not_the_reference_is_measured) {
   Json json = study_json();
   // The same frequencies from another document.
   json["curves"]["more"] = {{"title", "another name"},

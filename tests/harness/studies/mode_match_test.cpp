@@ -8,8 +8,7 @@
 BOOST_AUTO_TEST_SUITE(mode_match)
 
 using namespace trammel;
-using namespace trammel::harness;
-using testing::Folder;
+using namespace trammel::testing;
 
 namespace {
 
@@ -33,7 +32,7 @@ BOOST_AUTO_TEST_CASE(modes_are_matched_by_shape_and_not_by_number) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(repeated_modes_are_a_set_whose_single_shapes_mean_nothing) {
+BOOST_AUTO_TEST_CASE(repeated_modes_are_matched_as_a_set) {
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(5, 3);
   Eigen::MatrixXd turned = I;
   turned.col(0) = std::cos(0.7) * I.col(0) + std::sin(0.7) * I.col(1);

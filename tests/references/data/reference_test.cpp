@@ -6,7 +6,7 @@ BOOST_AUTO_TEST_SUITE(reference)
 
 using namespace trammel::references;
 
-BOOST_AUTO_TEST_CASE(a_printed_value_is_uncertain_by_half_a_unit_in_its_last_place) {
+BOOST_AUTO_TEST_CASE(printed_value_is_uncertain_by_half_a_last_unit) {
   BOOST_TEST(half_unit_in_last_place("12.768") == 5e-4);
   BOOST_TEST(half_unit_in_last_place("1.2e-2") == 5e-4);
   BOOST_TEST(half_unit_in_last_place("6.9e10") == 5e8);

@@ -9,7 +9,7 @@ BOOST_AUTO_TEST_SUITE(ball)
 
 using namespace trammel::references;
 
-BOOST_AUTO_TEST_CASE(a_ball_tells_what_holds_for_all_its_numbers_and_refuses_the_rest) {
+BOOST_AUTO_TEST_CASE(ball_decides_only_what_holds_for_all_its_numbers) {
   const Ball third = Ball(1) / 3, doubtful = Ball(Real(1) / 3);
   BOOST_TEST((third < Ball(1)));
   BOOST_TEST((Ball(1) > doubtful));
@@ -21,7 +21,7 @@ BOOST_AUTO_TEST_CASE(a_ball_tells_what_holds_for_all_its_numbers_and_refuses_the
   BOOST_CHECK_THROW((void)static_cast<int>(ceil(third * 3)), DerivationError);  // 1 or 2
 }
 
-BOOST_AUTO_TEST_CASE(digits_are_those_of_the_number_and_refused_where_they_are_not_known) {
+BOOST_AUTO_TEST_CASE(unknown_digits_are_refused) {
   BOOST_TEST(acos(Ball(-1)).digits() == "3.14159265358979323846264338328");
   BOOST_TEST(Ball(Real(3)).digits() == "3.00000000000000000000000000000");
   BOOST_CHECK_THROW((void)(Ball(Real(1) / 3) - Ball(1) / 3).digits(), DerivationError);

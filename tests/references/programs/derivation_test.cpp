@@ -50,7 +50,7 @@ double with_tenth_digit_changed(double value) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(every_stored_value_with_a_derivation_is_what_comes_out_of_it) {
+BOOST_AUTO_TEST_CASE(every_stored_value_agrees_with_its_derivation) {
   int derived = 0;
   for (const auto& [name, comparison] : comparisons()) {
     BOOST_TEST_CONTEXT(name) {
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(every_stored_value_with_a_derivation_is_what_comes_out_of_i
   BOOST_TEST(derived > 200);
 }
 
-BOOST_AUTO_TEST_CASE(an_exact_value_has_a_derivation_and_every_source_is_in_the_bibliography) {
+BOOST_AUTO_TEST_CASE(exact_values_have_a_derivation_and_all_a_source) {
   std::ifstream in(root / "bibliography.json");
   const Json bibliography = Json::parse(in);
   for (const auto& [id, reference] : stored()) {
@@ -81,8 +81,7 @@ BOOST_AUTO_TEST_CASE(an_exact_value_has_a_derivation_and_every_source_is_in_the_
   }
 }
 
-BOOST_AUTO_TEST_CASE(
-    a_stored_exact_value_corrupted_in_its_tenth_digit_or_beyond_its_uncertainty_is_caught) {
+BOOST_AUTO_TEST_CASE(corrupted_exact_value_is_caught) {
   int corrupted = 0;
   for (const auto& [name, reference] : stored()) {
     if (reference.at("kind") != "exact") continue;
@@ -102,7 +101,7 @@ BOOST_AUTO_TEST_CASE(
   BOOST_TEST(corrupted > 100);
 }
 
-BOOST_AUTO_TEST_CASE(a_proved_digit_that_is_changed_and_a_proof_that_is_not_there_are_caught) {
+BOOST_AUTO_TEST_CASE(changed_proved_digit_is_caught) {
   int proved = 0;
   for (const auto& [name, kept] : comparisons()) {
     if (kept.printed.empty()) continue;

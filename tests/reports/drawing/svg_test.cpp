@@ -31,7 +31,7 @@ constexpr const char* kDrawnSvg = R"(<?xml version="1.0"?>
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_drawing_becomes_one_element_that_can_stand_beside_others) {
+BOOST_AUTO_TEST_CASE(drawing_becomes_one_element_with_unique_ids) {
   const std::string tidy = tidy_svg(kDrawnSvg, "fig-a", "Title", "What <it> shows");
   BOOST_TEST(markup_fault(tidy, false) == "");
   BOOST_TEST(tidy.rfind("<svg ", 0) == 0U);

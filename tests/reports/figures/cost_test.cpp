@@ -1,10 +1,9 @@
 #include <boost/test/unit_test.hpp>
+#include <cmath>
 
 #include "reports/data/results.h"
 #include "reports/figures/figures.h"
-#include "reports/page/report.h"
 #include "tests/support/reports/markup.h"
-#include "tests/support/reports/sample.h"
 #include "tests/support/reports/workspace.h"
 
 BOOST_AUTO_TEST_SUITE(cost)
@@ -14,25 +13,60 @@ using namespace trammel::reports;
 
 namespace {
 
-const std::string& page() {
-  static const std::string text = text_of(sample_report() / "index.html");
-  return text;
+CostSetting measured_setting(const std::string& curve, int elements, double error, double time) {
+  CostSetting setting;
+  setting.curve = setting.curve_title = curve;
+  setting.title = curve + ", " + std::to_string(elements) + " elements";
+  setting.status = "measured";
+  setting.value = elements;
+  setting.errors = ErrorNorms{error, error / 2, error / 3};
+  setting.cpu_s = 1e-3 * time;
+  setting.relative = time;
+  setting.time = SettingTime{{1e-3 * time}, 0.95 * time, 1.05 * time, 1e-3 * time, 2};
+  setting.counters = {{"element_evaluations", 12}, {"factorizations", 2}, {"solves", 20}};
+  setting.pareto_optimal = curve == "sparse";
+  return setting;
 }
 
-CostStudies sample_studies() {
-  return *trammel::results::read_results(sample_results()).cost;
+CostSetting setting_without_result(int elements, const std::string& status,
+                                   const std::string& reason) {
+  CostSetting setting = measured_setting("dense", elements, 1, 1);
+  setting.status = status;
+  setting.reason = reason;
+  setting.errors.reset();
+  setting.time.reset();
+  return setting;
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
+/// Seven sparse settings, six dense ones and two without a result.
+Results cost_results() {
+  CostStudy study;
+  study.id = "sample-modes";
+  study.family = "modes";
+  study.title = "Frequencies of a sample";
+  study.norm = "max";
+  study.conclusion = "Within 1 %, 'sparse, 2 elements' is cheapest.";
+  for (int n = 1; n <= 64; n *= 2)
+    study.settings.push_back(measured_setting("sparse", n, 0.1 * std::pow(n, -4), 0.5 + n));
+  for (int n = 1; n <= 32; n *= 2)
+    study.settings.push_back(measured_setting("dense", n, 0.1 * std::pow(n, -4), 0.6 + n * n));
+  study.settings.push_back(setting_without_result(64, "timed-out", "not done after 60 s"));
+  study.settings.push_back(setting_without_result(128, "failed", "six modes of <three>"));
+  study.cheapest = {{0.05, 1, {0}}, {1e-3, 2, {}}, {1e-6, {}, {}}};
+  study.repeatability = {6, 7, 4, 4, 0.01, 0.034};
+  Results results = sample_of("none");
+  results.cases.clear();
+  results.references.clear();
+  results.cost = CostStudies{"quick", 1, 7, 0.05, 10, {study}};
+  return results;
 }
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(all_settings_stand_in_the_data_those_without_an_answer_too) {
-  const CostStudies cost = sample_studies();
-  const Figure figure = cost_figure(cost.studies[0]);
-  BOOST_TEST(figure.data.rows.size() == cost.studies[0].settings.size());
+BOOST_AUTO_TEST_CASE(data_contain_all_settings_and_those_without_result) {
+  CostStudy study = cost_results().cost->studies[0];
+  const Figure figure = cost_figure(study);
+  BOOST_TEST(figure.data.rows.size() == study.settings.size());
   const std::string csv = to_csv(figure.data);
   BOOST_TEST(contains(csv, "error_max,error_rms,error_mean"));
   BOOST_TEST(contains(csv, "element_evaluations,factorizations,solves"));
@@ -41,39 +75,26 @@ BOOST_AUTO_TEST_CASE(all_settings_stand_in_the_data_those_without_an_answer_too)
   // The strip, and a cross in it.
   BOOST_TEST(contains(figure.commands, "no answer"));
   BOOST_TEST(contains(figure.commands, "pt 2"));
-}
-
-BOOST_AUTO_TEST_CASE(without_failures_there_is_no_strip) {
-  CostStudy study = sample_studies().studies[0];
   study.settings.resize(7);
-  const Figure figure = cost_figure(study);
-  BOOST_TEST(!contains(figure.commands, "no answer"));
-  BOOST_TEST(figure.caption == study.conclusion);
+  const Figure without = cost_figure(study);
+  BOOST_TEST(!contains(without.commands, "no answer"));
+  BOOST_TEST(without.caption == study.conclusion);
 }
 
-BOOST_AUTO_TEST_CASE(the_page_has_figure_table_sentence_and_says_which_sweep_it_is) {
-  BOOST_TEST(contains(page(), "<figure id=\"fig-cost-sample-modes\">"));
-  BOOST_TEST(contains(page(), "This is the quick sweep"));
-  BOOST_TEST(contains(page(), "sparse, 4 elements"));
-  BOOST_TEST(contains(page(), "none of these settings"));
-  BOOST_TEST(contains(page(), "dense, 64 elements: out of time"));
-  BOOST_TEST(contains(page(), "six modes of &lt;three&gt;"));
-  BOOST_TEST(contains(page(), "6 of 7 settings on the Pareto front in both halves"));
-}
-
-BOOST_AUTO_TEST_CASE(results_of_studies_alone_are_a_page_of_their_own) {
-  auto json = sample_results();
-  json["runs"] = nlohmann::ordered_json::array();
-  json["cases"] = json["references"] = nlohmann::ordered_json::object();
-  json["cost"]["sweep"] = "full";
-  const Workspace space;
-  const std::string text = text_of(write_report_of(space.results(json), space.path()));
+BOOST_AUTO_TEST_CASE(page_of_studies_has_figure_table_and_sweep) {
+  Results results = cost_results();
+  const std::string text = page_of(results);
   BOOST_TEST(markup_fault(text, true) == "");
-  BOOST_TEST(contains(text, "<h1>Accuracy and computing time</h1>"));
-  BOOST_TEST(contains(text, "This is the full sweep"));
-  BOOST_TEST(!contains(text, "id=\"summary\""));
-  BOOST_TEST(!contains(text, "href=\"#summary\""));
-  BOOST_TEST(!contains(text, "Computing time of this report"));
+  for (const char* part :
+       {"<h1>Accuracy and computing time</h1>", "<figure id=\"fig-cost-sample-modes\">",
+        "This is the quick sweep", "sparse, 4 elements", "none of these settings",
+        "dense, 64 elements: out of time", "six modes of &lt;three&gt;",
+        "6 of 7 settings on the Pareto front in both halves"})
+    BOOST_TEST(contains(text, part), part);
+  for (const char* part : {"id=\"summary\"", "href=\"#summary\"", "Computing time of this report"})
+    BOOST_TEST(!contains(text, part), part);
+  results.cost->sweep = "full";
+  BOOST_TEST(contains(page_of(results), "This is the full sweep"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -19,10 +19,6 @@ const std::vector<EffectScene> kScenes = {
     {"short", "modes", "none", 0.001, 0, true, 0.001, 0.001, 0.004, 5, 4, {}, {}},
 };
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(captions_count_what_is_within_minimal_and_no_slower) {

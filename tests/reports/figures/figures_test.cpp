@@ -6,16 +6,14 @@
 
 #include "reports/figures/gallery.h"
 #include "reports/figures/outline.h"
+#include "tests/support/reports/markup.h"
 
 BOOST_AUTO_TEST_SUITE(figures)
 
 using namespace trammel::reports;
+using trammel::testing::contains;
 
 namespace {
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
 
 CaseInfo beam() {
   CaseInfo info;
@@ -73,19 +71,16 @@ Check judged(const std::string& name, double difference, double tolerance) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(convergence_caption_says_what_was_fitted_and_what_theory_wants) {
+BOOST_AUTO_TEST_CASE(convergence_caption_compares_fit_and_theory) {
   const auto good = convergence_figures(beam(), run_with({sweep(0, 3.98), sweep(1, 4.01)}));
   BOOST_TEST_REQUIRE(good.size() == 1U);
-  BOOST_TEST(contains(good[0].caption, "All 2 fall with order 3.98 to 4.01; theory: 4."));
+  BOOST_TEST(contains(good[0].caption, "2 of 2 curves fall with order 3.98 to 4.01; theory: 4."));
   BOOST_TEST(good[0].data.rows.size() == 14U);
-
-  const auto bad = convergence_figures(beam(), run_with({sweep(0, 4), sweep(1, 2.1)}));
-  BOOST_TEST(contains(bad[0].caption, "More than 0.1 from theory: mode 2 (2.10)."));
   const auto alone = convergence_figures(beam(), run_with({sweep(0, 2.1)}));
-  BOOST_TEST(contains(alone[0].caption, "That is more than 0.1 from theory."));
+  BOOST_TEST(contains(alone[0].caption, "The error falls with order 2.10; theory: 4."));
 }
 
-BOOST_AUTO_TEST_CASE(where_two_orders_mix_the_caption_names_their_law_and_how_well_it_holds) {
+BOOST_AUTO_TEST_CASE(caption_of_two_orders_names_their_law) {
   Convergence mixed = sweep(0, 4);
   mixed.fitted_order.reset();
   mixed.lower_order = 1.354;
@@ -93,24 +88,19 @@ BOOST_AUTO_TEST_CASE(where_two_orders_mix_the_caption_names_their_law_and_how_we
   const auto figure = convergence_figures(beam(), run_with({mixed}));
   BOOST_TEST(contains(figure[0].caption, "the law a h^4 + b h^1.35 of the size h"));
   BOOST_TEST(contains(figure[0].caption, "within 4.2\u202f%"));
-  BOOST_TEST(!contains(figure[0].caption, "No order"));
-  mixed.two_term.reset();
-  BOOST_TEST(contains(convergence_figures(beam(), run_with({mixed}))[0].caption,
-                      "no law a h^4 + b h^1.35 meets the errors"));
 }
 
-BOOST_AUTO_TEST_CASE(without_an_asymptotic_range_no_order_is_claimed) {
+BOOST_AUTO_TEST_CASE(without_an_asymptotic_range_no_order_is_stated) {
   Convergence coarse = sweep(0, 4);
   coarse.fitted_order.reset();
   const auto figure = convergence_figures(beam(), run_with({coarse}));
-  BOOST_TEST(contains(figure[0].caption, "No order is claimed: too few levels lie"));
+  BOOST_TEST(contains(figure[0].caption, "Too few levels lie in the asymptotic range"));
   coarse.in_asymptotic_range.assign(coarse.in_asymptotic_range.size(), false);
   const auto none = convergence_figures(beam(), run_with({coarse}));
-  BOOST_TEST(contains(none[0].caption, "No order is claimed: no level lies"));
-  BOOST_TEST(!contains(none[0].caption, "Filled marks"));
+  BOOST_TEST(contains(none[0].caption, "No level lies in the asymptotic range"));
 }
 
-BOOST_AUTO_TEST_CASE(a_caption_says_small_numbers_in_their_unit_not_in_powers_of_the_axis) {
+BOOST_AUTO_TEST_CASE(caption_states_small_numbers_in_their_unit) {
   Run run = run_with({});
   run.quantities = {{"time_s", {{0.0, 1.0}, {}}}, {"position_error_m", {{1e-12, 5.72e-9}, {}}}};
   std::string problem;
@@ -127,7 +117,7 @@ BOOST_AUTO_TEST_CASE(a_count_that_is_right_on_every_mesh_makes_no_figure) {
   BOOST_TEST(convergence_figures(beam(), run_with({count})).empty());
 }
 
-BOOST_AUTO_TEST_CASE(tolerance_caption_names_what_is_nearest_to_its_limit_or_beyond_it) {
+BOOST_AUTO_TEST_CASE(tolerance_caption_names_the_worst_check) {
   Run run = run_with({});
   run.checks = {judged("far", 1e-6, 1e-3), judged("near", -9e-4, 1e-3)};
   auto figure = tolerance_figure("beams", {{"beam", "A beam"}}, {&run});
@@ -154,23 +144,6 @@ BOOST_AUTO_TEST_CASE(curves_that_cannot_be_drawn_say_why) {
   BOOST_TEST(contains(problem_of({"torque_N_m:A"}), "has no torque_N_m:A"));
   run.quantities["length_m:B"].values = {1.0, 2.0};
   BOOST_TEST(contains(problem_of({"force_N:A", "length_m:B"}), "differ in unit"));
-}
-
-BOOST_AUTO_TEST_CASE(hinges_without_a_name_are_no_further_pose) {
-  Run run = run_with({});
-  run.drawing = Drawing{{{0, 0}, {1, 0}, {2, 0}},
-                        {{0, 1}, {1, 2}},
-                        {},
-                        {{0, "support", "A"}, {1, "hinged", ""}, {2, "hinged", ""}},
-                        {},
-                        {}};
-  Results results;
-  results.cases = {beam()};
-  results.runs = {run};
-  const auto families = plan_families(results);
-  const Gallery& gallery = families.front().galleries.at("beam");
-  BOOST_TEST_REQUIRE(!gallery.shown.empty());
-  BOOST_TEST(!contains(gallery.shown.front().caption, "poses"), gallery.shown.front().caption);
 }
 
 BOOST_AUTO_TEST_CASE(a_motion_is_drawn_magnified_and_says_how_large_it_is) {
@@ -202,7 +175,7 @@ BOOST_AUTO_TEST_CASE(a_motion_is_drawn_magnified_and_says_how_large_it_is) {
   BOOST_TEST(contains(motion_figure(beam(), run)->caption, "2 moments"));
 }
 
-BOOST_AUTO_TEST_CASE(a_rigid_motion_says_how_far_it_goes_and_lays_few_moments_over_each_other) {
+BOOST_AUTO_TEST_CASE(rigid_motion_is_drawn_at_few_moments) {
   Run run = run_with({});
   run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}};
   for (int k = 0; k <= 20; ++k)
@@ -220,7 +193,7 @@ BOOST_AUTO_TEST_CASE(a_rigid_motion_says_how_far_it_goes_and_lays_few_moments_ov
   BOOST_TEST(!contains(figure->moving, "still"));
 }
 
-BOOST_AUTO_TEST_CASE(shapes_say_how_far_apart_modes_are_and_how_much_is_displaced) {
+BOOST_AUTO_TEST_CASE(caption_of_shapes_compares_frequencies) {
   Run run = run_with({});
   run.quantities["frequency_Hz"].values = {0.0, 10.0, 19.6, 20.0};
   run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}};
@@ -242,7 +215,7 @@ BOOST_AUTO_TEST_CASE(shapes_say_how_far_apart_modes_are_and_how_much_is_displace
              shapes_figure(beam(), run)->caption);
 }
 
-BOOST_AUTO_TEST_CASE(a_history_concludes_with_work_since_the_first_call_and_time_on_one_machine) {
+BOOST_AUTO_TEST_CASE(history_caption_states_work_and_time) {
   History history;
   const auto call = [&](const char* machine, double cpu_s, std::size_t work, std::size_t failures) {
     const auto number = static_cast<std::int64_t>(history.calls.size() + 1);
@@ -265,13 +238,13 @@ BOOST_AUTO_TEST_CASE(a_history_concludes_with_work_since_the_first_call_and_time
       contains(history_figure(history).caption, "Counted work is 1 times the first call's. "));
 }
 
-BOOST_AUTO_TEST_CASE(a_straight_limb_is_two_points_and_a_bent_one_keeps_its_corner) {
+BOOST_AUTO_TEST_CASE(straight_limb_is_two_points) {
   const std::vector<std::vector<int>> line = {{0, 1, 2, 3}};
   BOOST_TEST(rows_of(line, {{0, 0}, {1, 0}, {2, 0}, {3, 0}}).size() == 2U);
   BOOST_TEST(rows_of(line, {{0, 0}, {1, 0}, {2, 0}, {2, 1}}).size() == 3U);
 }
 
-BOOST_AUTO_TEST_CASE(members_join_to_polylines_and_a_fine_mesh_to_its_outline) {
+BOOST_AUTO_TEST_CASE(members_join_to_polylines_and_meshes_to_outlines) {
   Drawing drawing;
   drawing.members = {{0, 1}, {1, 2}, {5, 6}};
   BOOST_TEST(polylines(drawing).size() == 2U);
@@ -295,25 +268,6 @@ BOOST_AUTO_TEST_CASE(members_join_to_polylines_and_a_fine_mesh_to_its_outline) {
   BOOST_TEST(filled_triangles(drawing, nodes).size() == 11U);
   BOOST_TEST(triangle_edges_inside(drawing).size() == (3U * 48 - 24) / 2);
   BOOST_TEST(triangle_edges_inside(drawing, 20).empty());
-}
-
-BOOST_AUTO_TEST_CASE(a_discrepancy_that_could_not_be_computed_is_not_given_a_number) {
-  Run run = run_with({});
-  run.checks = {judged("known", 0.1, 0.2), judged("known", 0.1, 0.2)};
-  for (std::size_t i = 0; i < 2; ++i) {
-    run.checks[i].index = static_cast<int>(i);
-    run.checks[i].expectation = Expectation::known_discrepancy;
-  }
-  const auto caption = [&run] {
-    const auto figures = discrepancy_figures(beam(), Results{}, {&run});
-    return figures.empty() ? std::string() : figures.front().caption;
-  };
-  BOOST_TEST(contains(caption(), "The 2 differences lie between"), caption());
-  for (Check& check : run.checks) {
-    check.difference.reset();
-    check.verdict = Verdict::error;
-  }
-  BOOST_TEST(contains(caption(), "No difference could be computed."), caption());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -3,10 +3,12 @@
 
 #include "reports/drawing/palette.h"
 #include "reports/figures/figures.h"
+#include "tests/support/reports/markup.h"
 
 BOOST_AUTO_TEST_SUITE(map)
 
 using namespace trammel::reports;
+using trammel::testing::contains;
 
 namespace {
 
@@ -46,13 +48,9 @@ std::optional<Figure> draw(const Run& run, std::string& problem) {
   return map_figure(workspace(), request, {&run}, problem);
 }
 
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_map_keeps_every_position_and_says_what_its_colours_mean) {
+BOOST_AUTO_TEST_CASE(map_keeps_every_position_and_explains_its_colors) {
   std::string problem;
   const auto figure = draw(field(14, 5), problem);
   BOOST_TEST_REQUIRE(figure.has_value(), problem);

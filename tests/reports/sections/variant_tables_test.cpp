@@ -21,7 +21,7 @@ std::string cell(const std::string& quantity, const std::string& statistic) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_column_shows_its_statistic_and_the_first_entry_where_it_names_none) {
+BOOST_AUTO_TEST_CASE(column_shows_its_statistic_or_the_first_entry) {
   BOOST_TEST(cell("frequency_Hz", "") == "3");
   BOOST_TEST(cell("frequency_Hz", "first") == "3");
   BOOST_TEST(cell("frequency_Hz", "last") == "\u22124");

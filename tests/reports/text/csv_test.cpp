@@ -6,7 +6,7 @@ BOOST_AUTO_TEST_SUITE(csv)
 
 using namespace trammel::reports;
 
-BOOST_AUTO_TEST_CASE(numbers_keep_all_digits_and_texts_are_quoted_where_they_must) {
+BOOST_AUTO_TEST_CASE(numbers_keep_all_digits_and_texts_are_quoted) {
   const Table table{{"time_s", "title, free"}, {{0.1 + 0.2, std::string("say \"no\"")}, {{}, {}}}};
   BOOST_TEST(to_csv(table) ==
              "time_s,\"title, free\"\n0.30000000000000004,\"say \"\"no\"\"\"\n,\n");

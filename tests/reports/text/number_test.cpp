@@ -29,7 +29,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_number_is_said_and_never_dressed_as_one) {
   BOOST_TEST(or_dash(std::nullopt, 3) == "–");
 }
 
-BOOST_AUTO_TEST_CASE(relative_differences_are_per_cent_until_they_are_too_small_for_it) {
+BOOST_AUTO_TEST_CASE(relative_differences_are_per_cent_unless_small) {
   BOOST_TEST(relative(0.2611, 3, true) == "+26.1\u202f%");
   BOOST_TEST(relative(-0.2, 3, true) == "\u221220\u202f%");
   BOOST_TEST(relative(2.1e-9, 3, true) == "+2.1\u202f×\u202f10⁻⁹");
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(durations_are_said_as_people_do) {
   BOOST_TEST(duration(125) == "2 min 5 s");
 }
 
-BOOST_AUTO_TEST_CASE(numbers_within_a_text_get_powers_and_what_is_no_number_does_not) {
+BOOST_AUTO_TEST_CASE(numbers_within_a_text_get_powers_of_ten) {
   BOOST_TEST(with_powers("1e-6 takes 'fine'") == "10⁻⁶ takes 'fine'");
   BOOST_TEST(with_powers("off by 2.1e-09.") == "off by 2.1\u202f×\u202f10⁻⁹.");
   for (const char* same : {"", "0.01 % of 3", "information", "v1e6", "3e5a", "1.e", "x_1e-6"})

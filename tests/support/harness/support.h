@@ -152,6 +152,30 @@ inline Json manipulator() {
   })");
 }
 
+/// A crank of 1 m, a rod of 2 m and a slider that it moves along x.
+inline Json slider_crank() {
+  return Json::parse(R"({
+    "id": "slider-crank", "title": "A slider-crank",
+    "model": {
+      "materials": {"steel": {"E_Pa": 2e11, "rho_kg_m3": 7800, "nu": 0.3}},
+      "sections": {"bar": {"material": "steel", "rectangle": {"thickness_m": 0.1, "width_m": 0.05}}},
+      "nodes": {"O": [0, 0], "A": [0, 1], "S": [1.7320508075688772, 0]},
+      "members": {
+        "crank": {"nodes": ["O", "A"], "section": "bar"},
+        "rod": {"nodes": ["A", "S"], "section": "bar", "ends": ["hinged", "hinged"]}
+      },
+      "supports": {"O": ["x", "y"]},
+      "sliders": {"S": {"node": "S", "direction_rad": 0}},
+      "loads": {"push": {"node": "S", "force_N": [-1000, 0]}}
+    },
+    "analysis": {"large-motion": {
+      "end_time_s": 1, "step_s": 0.01,
+      "drives": {"motor": {"node": "O", "motion": "rotation",
+                           "law": {"rest_to_rest": {"travel": 1, "duration_s": 1}}}}
+    }}
+  })");
+}
+
 /// A case of that JSON, as if it stood in `folder`.
 inline Case read(const Folder& folder, const Json& json) {
   return load_case(folder.write(json));

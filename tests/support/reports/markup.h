@@ -12,6 +12,10 @@ namespace trammel::testing {
 /// How often `part` stands in `text`.
 [[nodiscard]] std::size_t occurrences(const std::string& text, const std::string& part);
 
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 /// Values of all attributes of this name.
 [[nodiscard]] std::vector<std::string> attribute_values(const std::string& text,
                                                         const std::string& name);
