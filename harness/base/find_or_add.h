@@ -1,12 +1,15 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
+#include <ranges>
 #include <utility>
 #include <vector>
 
 namespace trammel::harness {
 
 template <typename Range, typename Value>
+requires std::equality_comparable_with<std::ranges::range_value_t<Range>, Value>
 bool contains(const Range& range, const Value& value) {
   return std::ranges::find(range, value) != std::ranges::end(range);
 }

@@ -94,8 +94,6 @@ std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& w
   for (std::size_t i = 0; i < works.size(); ++i) {
     Timing& timing = timings[i];
     timing.median_s = quantile(timing.cpu_s, 0.5);
-    timing.lower_quartile_s = quantile(timing.cpu_s, 0.25);
-    timing.upper_quartile_s = quantile(timing.cpu_s, 0.75);
     timing.wall_median_s = quantile(wall[i], 0.5);
   }
   return timings;

@@ -15,10 +15,10 @@ struct TimingOptions {
   double shortest_s = 2e-3;
 };
 
-/// Processor time of one computation. Medians and quartiles over the repeats.
+/// Processor time of one computation. Medians over the repeats.
 struct Timing {
   std::vector<double> cpu_s;  ///< by repeat
-  double median_s = 0, lower_quartile_s = 0, upper_quartile_s = 0;
+  double median_s = 0;
   double wall_median_s = 0;
   int runs_each = 1;  ///< computations in a measurement
 };

@@ -140,17 +140,7 @@ void print(const results::CostStudy& study) {
   if (study.outputs.empty()) add_cheapest(study, only, table);
   for (const results::CostOutput& output : study.outputs) add_cheapest(study, output, table);
   table.print(std::cout, "  ");
-  const results::Repeatability& both = study.repeatability;
-  std::cout << wrapped(study.conclusion, "  ")
-            << wrapped(
-                   fmt::format("Odd and even repeats by themselves: {} of {} settings on both "
-                               "fronts, {} of {} cheapest settings the same, times {:.2g} % apart "
-                               "(median), {:.2g} % at most.",
-                               both.on_both_fronts, both.on_either_front, both.same_cheapest,
-                               both.target_errors, 100 * both.median_difference.value_or(0),
-                               100 * both.largest_difference.value_or(0)),
-                   "  ")
-            << '\n';
+  std::cout << wrapped(study.conclusion, "  ") << '\n';
 }
 
 results::CostStudy choose_setting(const CommandOptions& options, const CostOptions& cost_options,

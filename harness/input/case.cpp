@@ -281,11 +281,8 @@ std::vector<std::string> unit_warnings(const Document& document) {
     const JsonPointer place(manipulator + key);
     if (!document.value().contains(place)) continue;
     const Json& value = document.value().at(place);
-    for (std::size_t i = 0; i < value.size(); ++i) {
-      const std::string index = value.is_array() ? "/" + std::to_string(i) : "";
-      links.emplace_back((value.is_array() ? value[i] : value).get<double>(),
-                         place.to_string() + index);
-    }
+    for (const Json& length : value.is_array() ? value : Json::array({value}))
+      links.emplace_back(length.get<double>(), place.to_string());
   }
   warn_of_millimeters(std::move(links), warnings);
   return warnings;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
+#include <tuple>
 
 #include "harness/base/find_or_add.h"
 #include "harness/base/number.h"
@@ -28,7 +29,7 @@ struct CheckSummary {
 std::vector<CheckSummary> summarise_checks(const results::Run& run) {
   std::vector<CheckSummary> summaries;
   const auto rank = [](const results::Check& check) {
-    return std::pair(fails_gate(check.verdict), severity(check));
+    return std::tuple(fails_gate(check.verdict), check.known_discrepancy(), severity(check));
   };
   for (const results::Check& check : run.checks) {
     const auto is_same = [&](const CheckSummary& known) { return known.worst->name == check.name; };
@@ -66,19 +67,17 @@ std::string tolerance_text(const results::Check& check) {
 
 std::string verdict_text(const results::Check& check) {
   const bool is_recorded = check.verdict == Verdict::pass && check.known_discrepancy();
-  return is_recorded ? "does not agree" : to_string(check.verdict);
+  return is_recorded ? "known discrepancy" : to_string(check.verdict);
 }
 
 /// Largest estimated error of a quantity [%]; empty without an estimate.
 std::string error_text(const results::Run& run, const std::string& quantity) {
   if (!run.errors) return "";
-  const auto& all = run.errors->quantities;
-  const auto found = std::ranges::find(all, quantity, &results::ErrorEstimate::quantity);
-  if (found == all.end()) return "";
+  const auto found =
+      std::ranges::find(run.errors->quantities, quantity, &results::ErrorEstimate::quantity);
+  if (found == run.errors->quantities.end()) return "";
   double largest = 0;
-  for (const Number relative : found->relative)
-    largest = std::max(largest, relative.value_or(kNaN));
-  if (!std::isfinite(largest)) return "no estimate";
+  for (const Number relative : found->relative) largest = std::max(largest, relative.value_or(0));
   return fmt::format("+- {:.2g} %{}", 100 * largest, found->asymptotic ? "" : " (coarse)");
 }
 
@@ -195,10 +194,13 @@ void print_numerical_uncertainty(const results::Results& results) {
 
 void print_summary(const results::Results& results) {
   std::map<std::string, std::size_t> verdicts, validations;
-  std::size_t checks = 0, comparisons = 0;
+  std::size_t checks = 0, entries = 0, comparisons = 0;
   for (const results::Run& run : results.runs) {
-    checks += run.checks.size();
-    for (const results::Check& check : run.checks) ++verdicts[verdict_text(check)];
+    entries += run.checks.size();
+    for (const CheckSummary& summary : summarise_checks(run)) {
+      ++checks;
+      ++verdicts[verdict_text(*summary.worst)];
+    }
     if (!run.uncertainty) continue;
     comparisons += run.uncertainty->comparisons.size();
     for (const results::Comparison& comparison : run.uncertainty->comparisons)
@@ -207,9 +209,9 @@ void print_summary(const results::Results& results) {
   const auto stored = std::ranges::count_if(results.runs, &results::Run::was_stored);
   std::cout << count_of(results.runs.size(), "run");
   if (stored > 0) std::cout << " (" << stored << " of them stored by an earlier call)";
-  std::cout << fmt::format(", {}: {} pass, {} do not agree (as recorded), {} fail",
-                           count_of(checks, "check"), verdicts["pass"], verdicts["does not agree"],
-                           verdicts["fail"]);
+  std::cout << fmt::format(", {} with {} numbers: {} pass, {} known discrepancies, {} fail",
+                           count_of(checks, "check"), entries, verdicts["pass"],
+                           verdicts["known discrepancy"], verdicts["fail"]);
   for (const char* rare : {"error", "not-run", "recorded"})
     if (verdicts[rare] > 0) std::cout << ", " << verdicts[rare] << ' ' << rare;
   std::cout << '\n';

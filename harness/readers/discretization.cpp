@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kDegreesOfElement = 7.5;  // of an arc: chords change frequencies by 0.1 %
 constexpr double kToleranceRatio = 10;
+constexpr solver::Index kMaxSamples = 50000;  // half of what a case may have
 
 const Json* find(const Json& document, const std::string& pointer) {
   const JsonPointer at(pointer);
@@ -57,9 +58,8 @@ bool refine_links(const Document& document, Refine refine, Json& patch) {
     if (own != nullptr)
       all = put(refined_links[kind]["elements"], own->get<solver::Index>(), refine) && all;
   }
-  // Without pins the joints of a platform of triangles are points, about which nothing converges.
   const Json& platform = manipulator["platform"];
-  if (platform["kind"] != "triangles" || platform.value("pin_radius_m", 0.0) <= 0) return all;
+  if (platform["kind"] != "triangles") return all;
   const int level = platform.value("refinements", 0) + (refine == Refine::finer ? 1 : -1);
   patch["manipulator"]["platform"]["refinements"] = level;
   return all && level >= 0;
@@ -111,7 +111,7 @@ std::optional<Json> mesh_patch(const Document& document, Refine refine) {
   bool all = true;
   if (model.contains("members"))
     for (const auto& [name, member] : model["members"].items())
-      if (!is_bar(model, member))
+      if (!is_bar(model, member) || elements_of(document, name) > 1)
         all = put(patch["members"][name]["elements"], elements_of(document, name), refine) && all;
   if (model.contains("plates"))
     for (const auto& [name, plate] : model["plates"].items())
@@ -152,10 +152,10 @@ std::optional<Json> step_patch(const Document& document, Refine refine) {
         std::ceil(analysis["duration_s"].get<double>() / analysis["step_s"].get<double>());
     const int samples = analysis.value("samples", std::min(10000, static_cast<int>(steps)));
     const auto count = refined(samples, refine);
-    patch["samples"] = count ? *count : samples;
+    patch["samples"] = count && *count <= kMaxSamples ? *count : samples;
   } else if (kind == "harmonic") {
     const auto count = refined(analysis.value("points", 101) - 1, refine);
-    if (!count) return std::nullopt;
+    if (!count || *count > kMaxSamples) return std::nullopt;
     patch["points"] = *count + 1;
   }
   return patch_at(document.value(), place, patch);

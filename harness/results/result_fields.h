@@ -78,8 +78,6 @@ TRAMMEL_FIELDS(Convergence,
                                 fitted_order, richardson, gci, safety_factor),
                TRAMMEL_OPTIONAL(statistic, reference, lower_order, two_term));
 TRAMMEL_FIELDS(UncertainInput, TRAMMEL_REQUIRED(name, pointers, half_width, nominal, why));
-TRAMMEL_FIELDS(NumericalEstimate, TRAMMEL_REQUIRED(refinement, quantity, index, parameter, values,
-                                                   order, safety_factor, half_width));
 TRAMMEL_FIELDS(ValidationVerdict,
                TRAMMEL_REQUIRED(u_input, u_input_sampled, u_val, interval, verdict, conclusion));
 TRAMMEL_FIELDS(Comparison,
@@ -88,7 +86,7 @@ TRAMMEL_FIELDS(Comparison,
                                 dominant_input, dominant_share, spread, difference, u_val, interval,
                                 verdict, conclusion, all_inputs));
 TRAMMEL_FIELDS(Uncertainty, TRAMMEL_REQUIRED(inputs, samples, failed, samples_all_inputs,
-                                             failed_all_inputs, numerical, comparisons));
+                                             failed_all_inputs, comparisons));
 TRAMMEL_FIELDS(Joint, TRAMMEL_REQUIRED(node, kind, name));
 TRAMMEL_FIELDS(Shape, required("displacement_m", &S::displacement), TRAMMEL_REQUIRED(label));
 TRAMMEL_FIELDS(Pose, required("nodes_m", &S::nodes), TRAMMEL_REQUIRED(label),

@@ -119,18 +119,6 @@ struct UncertainInput {
   bool nominal = false;  ///< a round design value, which is uncertain in `all_inputs` alone
 };
 
-/// The refinement of one entry on the run's own mesh.
-struct NumericalEstimate {
-  std::string refinement, quantity;
-  int index = 0;
-  Numbers parameter, values;  ///< the run's own mesh and two finer ones
-  Number order;               ///< observed; missing if the values do not approach a limit
-  Number safety_factor;       ///< Roache's, 1.25 or 3
-  /// safety_factor * |value - extrapolated value|, or the range of values that diverge: about 95 %
-  /// [unit] (L. Eca, M. Hoekstra, J. Comput. Phys. 262, 2014)
-  Number half_width;
-};
-
 /// Verdict of a comparison after ASME V&V 20.
 struct ValidationVerdict {
   Number u_input, u_input_sampled;  ///< by derivatives, and by samples
@@ -147,8 +135,8 @@ struct Comparison : ValidationVerdict {
   std::string dominant_input;  ///< the largest contribution; empty: none
   int index = 0;
   Number simulation, expected, difference;  ///< S, D, E
-  Number u_num, u_reference;                ///< of the refinement, and of the printed digits of D
-  Number dominant_share;                    ///< of u_input squared
+  Number u_num, u_reference;  ///< of the discretization, and of the printed digits of D
+  Number dominant_share;      ///< of u_input squared
   /// Signed standard contribution of each input.
   std::vector<std::pair<std::string, Number>> contributions;
   /// The paper's other rows for this entry, minus `expected`; without influence on the verdict.
@@ -160,7 +148,6 @@ struct Comparison : ValidationVerdict {
 struct Uncertainty {
   std::vector<UncertainInput> inputs;  ///< those that this variant has as numbers
   int samples = 0, failed = 0, samples_all_inputs = 0, failed_all_inputs = 0;
-  std::vector<NumericalEstimate> numerical;
   std::vector<Comparison> comparisons;
 };
 

@@ -119,7 +119,8 @@ void compute_with_errors(Task& task, const References& references) {
     return record_result(std::move(search.result), task.run);
   }
   AnalysisResult result = analyse(task.document, references, {task.requested});
-  if (task.requested && task.errors && result.outcome.solved())
+  const bool for_validation = task.studies && task.document.value().contains("uncertainty");
+  if (task.requested && (task.errors || for_validation) && result.outcome.solved())
     task.run.errors = estimate_errors(task.document, result, references);
   record_result(std::move(result), task.run);
 }
@@ -140,8 +141,9 @@ void compare_for_validation(Task& task, const References& references) {
   if (!wanted) return;
   const Stopwatch watch;
   run_guarded(task.run, [&] {
-    task.run.uncertainty = evaluate_validation_uncertainty(task.document, task.run.quantities,
-                                                           task.checks, references);
+    task.run.uncertainty = evaluate_validation_uncertainty(
+        task.document, task.run.quantities, task.checks, task.run.errors.value(), references);
+    if (!task.errors && task.accuracy.accuracy == 0) task.run.errors.reset();
   });
   if (task.run.uncertainty) task.run.cost.uncertainty_wall_s = watch.wall_s();
 }
@@ -204,10 +206,8 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
 
 /// What else decides what a computation leaves behind.
 std::string request_of(const Task& task) {
-  std::string text = task.errors ? "errors" : "";
-  if (task.accuracy.accuracy > 0) text += shortest(task.accuracy.accuracy);
-  for (const std::string& quantity : task.accuracy.quantities) text += " " + quantity;
-  return text;
+  if (task.accuracy.accuracy == 0) return task.errors ? "errors" : "";
+  return shortest(task.accuracy.accuracy) + " " + join(task.accuracy.quantities, " ");
 }
 
 /// Does what the store does not have, last what was under way most often when a call was
@@ -358,9 +358,9 @@ void request_errors(Task& task, const RunOptions& options) {
   const Json& json = task.document.value();
   task.accuracy = {options.accuracy > 0 ? options.accuracy : json.value("accuracy", 0.0),
                    options.quantities, time_limit_s(task.document) * 1.0};
-  const auto [end, rest] =
-      std::ranges::mismatch(data_root() / "cases", std::filesystem::absolute(task.owner->file));
-  const bool is_own = end != (data_root() / "cases").end();
+  const std::filesystem::path catalogue = data_root() / "cases",
+                              file = std::filesystem::absolute(task.owner->file);
+  const bool is_own = std::ranges::mismatch(catalogue, file).in1 != catalogue.end();
   task.errors =
       options.errors == ErrorWish::all || (options.errors == ErrorWish::own_cases && is_own);
 }

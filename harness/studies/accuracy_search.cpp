@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "harness/base/statistic.h"
 #include "harness/base/stopwatch.h"
 #include "harness/base/text.h"
 
@@ -68,6 +69,7 @@ class Search {
       if (!refine(dominant())) break;
     }
     found_.errors.quantities = relative_errors(current_, found_.result, bands_);
+    found_.asked = asked_;
     found_.errors.companions = "the levels of the search";
     found_.errors.counters = named_counters(counters_);
     return std::move(found_);
@@ -139,13 +141,13 @@ class Search {
   }
 
   [[nodiscard]] double largest(const std::map<ErrorSource, ErrorBands>& bands) const {
-    double error = 0;
+    double error = -1;
     for (const auto& estimate : relative_errors(current_, found_.result, bands)) {
       if (!asked_.empty() && !is_asked(estimate.quantity, asked_)) continue;
       for (const Number relative : estimate.relative)
         error = std::max(error, relative.value_or(kUnknown));
     }
-    return error;
+    return error < 0 ? kUnknown : error;
   }
   [[nodiscard]] double error_by(ErrorSource source) const {
     if (!has(source)) return 0;
@@ -170,30 +172,20 @@ class Search {
       return false;
     }
     const AnalysisResult coarse = found_.result;
-    if (!solve(finer->document)) {
+    if (!solve(finer->document)) {  // as with explicit steps on a finer mesh
+      if (source == ErrorSource::mesh && has(ErrorSource::step)) return refine(ErrorSource::step);
       found_.errors.reason = "with " + finer->words + " there is no solution: " + reason_;
       return false;
     }
     current_ = finer->document;
     bands_[source] =
         error_bands(found_.result, coarse, source, {current_, false, finer->ratio, ""});
-    for (auto other = bands_.begin(); other != bands_.end();)
-      other = other->first != source && !fits(other->second) ? bands_.erase(other) : ++other;
     found_.tried.push_back(current_);
     found_.errors.search.push_back({setting_of(current_), error(), cpu_s_});
     stalled_ = error_by(source) > 0.7 * before ? stalled_ + 1 : 0;
     if (stalled_ < 3) return true;
     found_.errors.reason = "the estimate no longer falls, as by round-off or a singularity";
     return false;
-  }
-
-  /// Whether the bands have as many entries as the result.
-  [[nodiscard]] bool fits(const ErrorBands& bands) const {
-    return std::ranges::all_of(bands, [&](const auto& item) {
-      const auto found = found_.result.quantities.find(item.first);
-      return found == found_.result.quantities.end() ||
-             found->second.values.size() == item.second.half_width.size();
-    });
   }
 
   const AccuracyRequest& request_;
@@ -220,9 +212,11 @@ CostStudy cost_study_of_search(const Case& given, const std::string& variant,
                                const AccuracySearch& search, const AccuracyRequest& request) {
   CostStudy study = empty_study(given, variant);
   std::vector<ObservedQuantity> observed;
-  for (const auto& estimate : search.errors.quantities)
-    if (request.quantities.empty() || is_asked(estimate.quantity, request.quantities))
+  for (const auto& estimate : search.errors.quantities) {
+    const bool is_zero = max_abs(search.result.quantities.at(estimate.quantity).values) == 0;
+    if (!is_zero && (search.asked.empty() || is_asked(estimate.quantity, search.asked)))
       observed.push_back({estimate.quantity, "", "", {}, false, {}});
+  }
   const auto add = [&](const Document& document) {
     Setting setting;
     setting.curve = setting.curve_title = "refinement";

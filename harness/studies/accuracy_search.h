@@ -21,6 +21,7 @@ struct AccuracySearch {
   std::vector<Document> tried;  ///< coarse to fine; the last one is chosen
   AnalysisResult result;        ///< of the last one
   results::ErrorEstimates errors;
+  std::vector<std::string> asked;  ///< names of the quantities; empty: all
   bool reached = false;
 };
 

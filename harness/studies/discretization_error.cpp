@@ -28,6 +28,15 @@ bool is_closed_form(const std::string& kind) {
   return contains(kinds, kind);
 }
 
+/// Equilibria of springs, bars and rigid bodies.
+bool is_exact(const Document& document) {
+  const std::string kind = discretized_analysis(document);
+  const bool is_statics = kind == "statics" || kind == "large-statics" || kind == "buckling";
+  return is_statics && document.value().contains("model") &&
+         !document.value()["model"].contains("plates") &&
+         !document.value()["model"].contains("manipulator");
+}
+
 /// Whether a value stands anywhere in the model under the key.
 bool has_value(const Json& json, const std::string& key, const Json& value) {
   if (!json.is_object()) return false;
@@ -41,7 +50,8 @@ std::optional<double> mesh_order(const Document& document) {
   const Json& model = document.value()["model"];
   const std::string kind = discretized_analysis(document);
   const auto any = [&](const char* key, const char* value) { return has_value(model, key, value); };
-  // Peaks over frequency and equilibria in large rotation converge more slowly than modes.
+  // Peaks over frequency and equilibria in large rotation converge more slowly than modes; the
+  // axial force of a distributed load is constant along each element.
   bool is_second = kind == "harmonic" || kind == "large-statics" || model.contains("plates") ||
                    any("kind", "triangles");
   if (kind != "statics")
@@ -49,7 +59,8 @@ std::optional<double> mesh_order(const Document& document) {
                 any("beam", "shear");
   if (model.contains("members"))
     for (const auto& [name, member] : model["members"].items())
-      is_second = is_second || member.contains("end_section") || member.contains("arc_center_m") ||
+      is_second = is_second || (kind == "buckling" && model.contains("gravity_m_s2")) ||
+                  member.contains("end_section") || member.contains("arc_center_m") ||
                   member.contains("restrained_motions");
   if (is_second) return 2;
   const JsonPointer place(analysis_pointer(document) + "/second_order");
@@ -72,12 +83,13 @@ double step_order(const Document& document) {
   return 2;
 }
 
-/// For each entry of a series the entry of the other one at the same time; none where there is
-/// none.
+/// For each entry of a series the entry of the other one at the same time or frequency; none where
+/// there is none.
 std::vector<std::optional<std::size_t>> aligned(const Quantities& own, const Quantities& other,
                                                 std::size_t size, std::size_t other_size) {
   std::vector<std::optional<std::size_t>> places(size);
-  const auto time = own.find("time_s"), other_time = other.find("time_s");
+  const std::string axis = own.contains("time_s") ? "time_s" : "frequency_Hz";
+  const auto time = own.find(axis), other_time = other.find(axis);
   const bool by_time = size != other_size && time != own.end() && other_time != other.end() &&
                        time->second.values.size() == size &&
                        other_time->second.values.size() == other_size;
@@ -253,14 +265,14 @@ ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other, E
       const double roundoff =
           scales.roundoff() * std::max(scale, std::abs(values[i])) +
           (i < quantity.roundoff.size() ? quantity.roundoff[i] * std::abs(values[i]) : 0);
-      const bool is_exact = !order && difference <= 100 * roundoff;
+      const bool is_nodal = !order && difference <= 100 * roundoff;
       const bool is_large = difference > kLargeDifference * std::max(std::abs(values[i]), scale);
       const double p = is_large ? std::min(order.value_or(2), 2.0) : order.value_or(2);
       const double power = std::pow(companion.ratio, p);
-      band.half_width[i] = roundoff + (is_exact ? difference
+      band.half_width[i] = roundoff + (is_nodal ? difference
                                                 : kSafetyFactor * difference *
                                                       (companion.finer ? power : 1) / (power - 1));
-      if (!is_exact) band.order = p;
+      if (!is_nodal) band.order = p;
       band.asymptotic = band.asymptotic && !is_large;
     }
     bands.emplace(name, std::move(band));
@@ -273,10 +285,11 @@ std::vector<ErrorEstimate> relative_errors(const Document& document, const Analy
   std::vector<ErrorEstimate> estimates;
   const ErrorScales scales(document, own);
   for (const auto& [name, quantity] : own.quantities) {
-    if (bands.empty() || !std::ranges::all_of(bands, [&name = name](const auto& source) {
-          return source.second.contains(name);
-        }))
-      continue;
+    const auto has_all = [&, &name = name, size = quantity.values.size()](const auto& source) {
+      const auto found = source.second.find(name);
+      return found != source.second.end() && found->second.half_width.size() == size;
+    };
+    if (bands.empty() || !std::ranges::all_of(bands, has_all)) continue;
     ErrorEstimate estimate;
     estimate.quantity = name;
     const std::vector<double>& values = quantity.values;
@@ -342,8 +355,12 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& o
       }
     }
   }
-  if (bands.empty() && found.reason.empty())
+  if (bands.empty() && found.reason.empty() && !is_exact(document))
     found.reason = "the analysis has neither mesh nor steps";
+  if (bands.empty() && found.reason.empty()) {  // compared with itself
+    found.companions = "none: springs, bars and rigid bodies have no mesh";
+    bands[ErrorSource::mesh] = error_bands(own, own, ErrorSource::mesh, {document, false, 2, ""});
+  }
   if (found.reason.empty()) found.quantities = relative_errors(document, own, bands);
   found.counters = named_counters(counters);
   return found;

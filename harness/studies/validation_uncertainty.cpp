@@ -7,7 +7,6 @@
 
 #include "harness/base/number.h"
 #include "harness/input/case.h"
-#include "harness/judge/convergence.h"
 
 namespace trammel::harness {
 namespace {
@@ -113,11 +112,11 @@ class ValidationStudy {
         quantities_(quantities),
         places_(compared_places(checks, JsonView(document), quantities, references)) {}
 
-  std::optional<results::Uncertainty> run() {
+  std::optional<results::Uncertainty> run(const results::ErrorEstimates& errors) {
     if (places_.empty()) return std::nullopt;
     study_.inputs = stated_inputs(document_, references_);
     for (const Place& place : places_) study_.comparisons.push_back(start(place));
-    refine();
+    take_errors(errors);
     derive();
     sample();
     evaluate_check();
@@ -160,61 +159,16 @@ class ValidationStudy {
     }
   }
 
-  void refine() {
-    std::vector<double> squares(places_.size(), 0.0);
-    for (const auto& [name, place] : stated_["refinements"].entries()) {
-      const auto pointer = place.text("pointer");
-      require_pointer(document_, place["pointer"]);
-      if (!is_number(document_, pointer)) continue;
-      std::vector<std::vector<double>> levels;
-      std::vector<double> parameter;
-      const bool halvings = place.text("refinement_by") == "halvings";
-      for (int step = 0; step < 3; ++step) {
-        double number = 0;
-        const Document finer = moved(document_, {pointer}, [&](double value) {
-          return number = halvings ? value + step : value * std::exp2(step);
-        });
-        parameter.push_back(number);
-        levels.push_back(values_of(finer).value_or(std::vector<double>(places_.size(), kNaN)));
-      }
-      estimate(name, place, parameter, levels, squares);
-    }
+  /// The discretization error of each place as a standard uncertainty.
+  void take_errors(const results::ErrorEstimates& errors) {
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      study_.comparisons[i].u_num = std::sqrt(squares[i]);
-    }
-  }
-
-  void estimate(const std::string& name, const JsonView& place,
-                const std::vector<double>& parameter,
-                const std::vector<std::vector<double>>& levels, std::vector<double>& squares) {
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-      Convergence series;
-      series.parameter = {parameter.begin(), parameter.end()};
-      series.size = {4, 2, 1};
-      series.values = {levels[0][i], levels[1][i], levels[2][i]};
-      series.roundoff = {0, 0, 0};
-      if (place.has("theory_order")) series.theory_order = place.number("theory_order");
-      const Convergence found = harness::analyse_convergence(std::move(series));
-      results::NumericalEstimate one;
-      one.refinement = name;
-      one.quantity = places_[i].check->quantity;
-      one.index = static_cast<int>(places_[i].index);
-      one.parameter = found.parameter;
-      one.values = found.values;
-      one.order = found.order[2];
-      one.safety_factor = found.safety_factor[2];
-      const auto [low, high] = std::ranges::minmax(found.values);
-      const double off = found.richardson ? std::abs(*found.values[0] - *found.richardson)
-                                          : *high - *low;  // of what has no limit, its range
-      one.half_width = *one.safety_factor * off;
-      if (!std::ranges::all_of(found.values, &Number::has_value)) one.half_width.reset();
-      squares[i] += std::pow(*one.half_width / kGciToStandard, 2);
-      const bool told =
-          std::ranges::any_of(study_.numerical, [&](const results::NumericalEstimate& other) {
-            return other.refinement == one.refinement && other.quantity == one.quantity &&
-                   other.index == one.index;
-          });
-      if (!told) study_.numerical.push_back(std::move(one));
+      const auto found = std::ranges::find(errors.quantities, places_[i].check->quantity,
+                                           &results::ErrorEstimate::quantity);
+      const Number half_width =
+          found == errors.quantities.end()
+              ? Number()
+              : found->half_width(places_[i].index, value_at(quantities_, places_[i]));
+      study_.comparisons[i].u_num = half_width.value_or(0) / kGciToStandard;
     }
   }
 
@@ -313,8 +267,8 @@ std::vector<results::UncertainInput> stated_inputs(const Document& document,
 
 std::optional<results::Uncertainty> evaluate_validation_uncertainty(
     const Document& document, const Quantities& quantities, const std::vector<Check>& checks,
-    const References& references) {
-  return ValidationStudy(document, quantities, checks, references).run();
+    const results::ErrorEstimates& errors, const References& references) {
+  return ValidationStudy(document, quantities, checks, references).run(errors);
 }
 
 }  // namespace trammel::harness

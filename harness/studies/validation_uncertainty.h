@@ -9,7 +9,7 @@
 #include "harness/judge/sweep.h"
 
 /// The validation comparison of ASME V&V 20-2009 for the checks of a run that have the role
-/// validation: what the refinement, the printed digits of the inputs and those of the reference
+/// validation: what the discretization, the printed digits of the inputs and those of the reference
 /// explain of the difference, and what is left to the model. Asked for by "uncertainty" in a case.
 namespace trammel::harness {
 
@@ -20,11 +20,12 @@ namespace trammel::harness {
 
 /// @param document    case or variant that has "uncertainty"
 /// @param quantities  of its solution
+/// @param errors      of its discretization
 /// @returns nothing if no check compares anything.
 /// @throws InputError  where a pointer leads nowhere or a patched model has no meaning.
 [[nodiscard]] std::optional<results::Uncertainty> evaluate_validation_uncertainty(
     const Document& document, const Quantities& quantities, const std::vector<Check>& checks,
-    const References& references);
+    const results::ErrorEstimates& errors, const References& references);
 
 /// Computes all levels of all sweeps of a case or variant.
 /// @throws InputError  where the values do not go from coarse to fine.

@@ -18,7 +18,7 @@ struct StatusStyle {
 
 constexpr std::array<StatusStyle, 7> kStatusStyles = {{
     {CheckStatus::passes, "passes", "passes", "✓", 0},
-    {CheckStatus::known_discrepancy, "does not agree (known)", "known-discrepancy", "≠", 1},
+    {CheckStatus::known_discrepancy, "known discrepancy", "known-discrepancy", "≠", 1},
     {CheckStatus::not_judged, "not judged", "not-judged", "○", 2},
     {CheckStatus::fails, "fails", "fails", "✗", 4},
     {CheckStatus::error, "error", "error", "!", 5},

@@ -25,7 +25,7 @@ inline constexpr std::array<CheckStatus, 7> kAllCheckStatuses = {
 /// of them pass, for then the case expects that ending.
 [[nodiscard]] CheckStatus check_status(const Run& run);
 
-/// "passes", "does not agree (known)", "not judged", "fails", "error", "not run", "not given"; and
+/// "passes", "known discrepancy", "not judged", "fails", "error", "not run", "not given"; and
 /// the class name in the style sheet; and a sign that does not need colour.
 [[nodiscard]] std::string to_text(CheckStatus status);
 [[nodiscard]] std::string css_class(CheckStatus status);

@@ -12,6 +12,11 @@
 /// The makers of figures: one for each kind, neither numbered nor drawn.
 namespace trammel::reports {
 
+/// Printed values of the references that a run is compared with, next to the computed ones with
+/// their uncertainty. Nothing where a run compares fewer than three entries.
+[[nodiscard]] std::optional<Figure> agreement_figure(const CaseInfo& info, const Results& results,
+                                                     const Run& run);
+
 /// Log-log error over one sweep of one quantity, all its indices together.
 [[nodiscard]] std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run);
 

@@ -20,12 +20,15 @@ void append(std::vector<Figure>& figures, std::vector<Figure> more) {
 }
 
 /// Drawing and shapes of the first run are shown; the shapes and convergence of others are folded.
-Gallery gallery_of(const CaseInfo& info, const std::vector<const Run*>& runs) {
+Gallery gallery_of(const CaseInfo& info, const Results& results,
+                   const std::vector<const Run*>& runs) {
   Gallery gallery;
   const auto drawn =
       std::ranges::find_if(runs, [](const Run* run) { return run->drawing.has_value(); });
   if (drawn != runs.end())
     if (auto figure = mechanism_figure(info, **drawn)) gallery.shown.push_back(*figure);
+  if (auto figure = agreement_figure(info, results, *runs.front()))
+    gallery.shown.push_back(*figure);
   std::size_t variants = 0;
   for (const Run* run : runs) {
     if (auto shapes = shapes_figure(info, *run); shapes && ++variants <= kMaxDrawnVariants)
@@ -107,7 +110,7 @@ std::vector<Family> plan_families(const Results& results) {
         Family{info.family, capitalized(spaced(info.family)), {}, {}, {}, {}});
     family.cases.push_back(&info);
     family.runs.insert(family.runs.end(), runs.begin(), runs.end());
-    family.galleries[info.id] = gallery_of(info, runs);
+    family.galleries[info.id] = gallery_of(info, results, runs);
   }
   for (Family& family : families) {
     if (auto figure = tolerance_figure(family.id, short_titles(family), family.runs))

@@ -30,10 +30,10 @@ void write_comparison(const results::SideComparison& comparison, const std::file
 std::filesystem::path write_codes(const std::vector<std::filesystem::path>& results_json,
                                   const std::filesystem::path& out);
 
-/// Writes results as JUnit XML: one testsuite a case, one testcase a check and one
-/// for the ending of each run. A failed check is a failure, one that could not be judged an error,
-/// one not run or not given is skipped; a known discrepancy that is as recorded is no
-/// failure and says in its system-out that it does not agree.
+/// Writes results as JUnit XML: a testsuite for each case, a testcase for each check of a run, and
+/// one with the name "status" for each run. Names do not depend on the outcome. A known discrepancy
+/// is skipped with the type trammel.known-discrepancy, a check that was not run with
+/// trammel.not-run. Values, reasons and warnings are in system-out.
 void write_junit(const results::Results& results, const std::filesystem::path& junit_xml);
 
 }  // namespace trammel::reports

@@ -24,97 +24,83 @@ constexpr std::size_t kMaxDrawingBytes = 3'200'000;  ///< of a single file: a ma
 constexpr const char* kNoDrawing = "<p class=\"muted\">This drawing is left out.</p>";
 constexpr const char *kBody = "<!--body-->", *kLeftOut = "<!--left out-->";
 
-/// A section of the index: key of its data, anchor, title, and the key of its summary.
-struct IndexSection {
-  const char *key, *anchor, *title, *summary;
+/// A page with some sections: the keys of their data are the names of their templates.
+struct SectionPage {
+  const char *path, *title;
+  std::vector<const char*> keys;
 };
-constexpr std::array<IndexSection, 9> kIndexSections = {{
-    {"claims", "claims", "The paper's claims", "overview"},
-    {"cost", "cost", "Accuracy and computing time", "words"},
-    {"stress_suite", "stress-suite", "Stress suite", "words"},
-    {"orders", "orders", "Orders of convergence and numerical uncertainty", "words"},
-    {"validation_uncertainty", "validation-uncertainty", "Validation uncertainty", "words"},
-    {"coverage", "coverage", "What is verified, and by what", "words"},
-    {"detection", "detection", "Faults that are noticed", "words"},
-    {"certification", "certification", "Digits under other rounding and in other builds", "words"},
-    {"history", "history", "Over time", "words"},
-}};
+const std::vector<SectionPage>& section_pages() {
+  static const std::vector<SectionPage> pages = {
+      {"paper.html", "The paper", {"claims", "known"}},
+      {"cost.html", "Accuracy and computing time", {"cost"}},
+      {"stress.html", "Numerical stability", {"stress_suite"}},
+      {"effects.html", "Effects", {"effects"}},
+      {"orders.html", "Orders of convergence", {"orders"}},
+      {"uncertainty.html", "Validation uncertainty", {"validation_uncertainty"}},
+      {"coverage.html", "Coverage", {"coverage"}},
+      {"faults.html", "Seeded faults and rounding", {"detection", "certification"}},
+      {"environment.html", "Environment", {"environment", "history"}}};
+  return pages;
+}
 
 /// What every template finds; headings below a page's title start with h`level`.
 Data page_data(bool single, int level) {
   Data data = object({{"single", single},
                       {"level", std::to_string(level)},
                       {"sublevel", std::to_string(level + 1)}});
-  set_partials(data, {"summary",
-                      "claims",
-                      "variants",
-                      "figure",
-                      "checks",
-                      "matrix",
-                      "cost",
-                      "stress_suite",
-                      "orders",
-                      "coverage",
-                      "validation_uncertainty",
-                      "counts",
-                      "rows",
-                      "head",
-                      "matrix_row",
-                      "cell",
-                      "find",
-                      "history",
-                      "detection",
-                      "certification"});
+  set_partials(
+      data, {"summary", "front", "claims_table", "questions", "roles", "families", "variants",
+             "figure", "checks", "matrix", "counts", "rows", "head", "matrix_row", "cell", "find"});
   return data;
 }
 
-bool is_there(const Data& index, const IndexSection& section) {
-  const Data& data = *index.get(section.key);
-  const Data* words = data.get(section.summary);
-  const Data* rows = data.get("has_rows");
-  return words != nullptr && words->is_string() && (!rows || rows->is_true());
+/// Whether a section has anything to show; parts of the program itself only with the catalogue.
+bool is_there(const Data& index, const std::string& key) {
+  const Data* rows = index.get(key)->get("has_rows");
+  return rows == nullptr || rows->is_true();
 }
 
 Data index_data(const Results& results, const std::vector<Family>& families,
                 const CostPanels& panels, const std::optional<Figure>& over_time, bool single) {
   Data index = page_data(single, 2);
-  set(index,
-      {{"environment", environment_section(results)},
-       {"claims", claims_section(results)},
-       {"cost", cost_section(results, families, panels)},
-       {"stress_suite", stress_suite_section(families)},
-       {"orders", orders_section(results, families)},
-       {"validation_uncertainty", validation_uncertainty_section(families)},
-       {"coverage", coverage_section(results, false)},
-       {"detection",
-        object({{"words", "Faults seeded into the program, by the family that notices them."}})},
-       {"certification",
-        object({{"words",
-                 "Verdicts and digits when the solver rounds one way or is built another "
-                 "way."}})},
-       {"history", history_section(results, over_time)},
-       {"missing", results.missing},
-       {"has_claims", results.claims.has_value()},
-       {"has_runs", !results.runs.empty() || panels.empty()}});
-  std::vector<SectionSummary> summaries;
-  for (const IndexSection& section : kIndexSections)
-    if (is_there(index, section))
-      summaries.push_back(
-          {section.title, section.anchor, text_under(*index.get(section.key), section.summary)});
-  index.set("summary", summary_section(results, families, summaries));
+  const Data of_catalogue = object({{"has_rows", results.claims.has_value()}});
+  const auto group = [&](const Family& family) {
+    Data data = object();
+    const Data section = family_section(family, results);
+    for (const char* key : {"family_link", "family_title", "extent", "counts"})
+      data.set(key, *section.get(key));
+    return data;
+  };
+  set(index, {{"environment", environment_section(results)},
+              {"claims", claims_section(results)},
+              {"known", known_section(results, families)},
+              {"cost", cost_section(results, families, panels)},
+              {"stress_suite", stress_suite_section(families)},
+              {"effects", effects_section(panels)},
+              {"orders", orders_section(results, families)},
+              {"validation_uncertainty", validation_uncertainty_section(families)},
+              {"coverage", coverage_section(results, true)},
+              {"detection", of_catalogue},
+              {"certification", of_catalogue},
+              {"history", history_section(results, over_time)},
+              {"missing", results.missing},
+              {"has_runs", !results.runs.empty() || panels.empty()},
+              {"summary", summary_section(results, families)},
+              {"front", front_section(results, families, panels, count_printed(results))},
+              {"families", list_of(families, group)}});
   return index;
 }
 
-/// The sections of the index for the contents of every page.
+bool is_there(const Data& index, const SectionPage& page) {
+  return std::ranges::any_of(page.keys, [&](const char* key) { return is_there(index, key); });
+}
+
+/// The front page and the pages of sections for the contents of every page.
 Data index_contents(const Data& index) {
   Data out = list();
-  const auto add = [&](const char* title, const std::string& anchor) {
-    out.push_back(object({{"title", title}, {"link", "index.html#" + anchor}}));
-  };
-  if (index.get("has_runs")->is_true()) add("Summary", "summary");
-  for (const IndexSection& section : kIndexSections)
-    if (is_there(index, section) || section.anchor == std::string("cost"))
-      add(section.title, section.anchor);
+  out.push_back(object({{"title", "Overview"}, {"link", "index.html"}}));
+  for (const SectionPage& page : section_pages())
+    if (is_there(index, page)) out.push_back(object({{"title", page.title}, {"link", page.path}}));
   return out;
 }
 
@@ -242,6 +228,13 @@ std::string references_body(const Data& references, bool single) {
   return body_of("references", references, single, 3);
 }
 
+std::string sections_body(const Data& index, const SectionPage& page, bool single) {
+  std::string body;
+  for (const char* key : page.keys)
+    if (is_there(index, key)) body += body_of(key, *index.get(key), single, 2);
+  return body;
+}
+
 void replace(std::string& html, const std::string& mark, const std::string& text) {
   html.replace(html.find(mark), mark.size(), text);
 }
@@ -289,9 +282,9 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
   if (!results.references.empty())
     add("references.html", titled("References"),
         references_body(references_section(results), false));
-  if (index.get("coverage")->get("has_rows")->is_true())
-    add("coverage.html", titled("What is verified, and by what"),
-        body_of("coverage", coverage_section(results, true), false, 2));
+  for (const SectionPage& page : section_pages())
+    if (is_there(index, page))
+      add(page.path, titled(page.title), sections_body(index, page, false));
   add("index.html", titled_index(index), render("index.mustache", index));
   files.push_back({"style.css", template_text("style.css")});
   files.push_back({"figures/figure.css", template_text("figure.css")});
@@ -311,6 +304,8 @@ std::string single_page(const Results& results, std::vector<Family> families, Co
   const Data index = index_data(results, families, panels, over_time, true);
   Frame frame{results, index_contents(index), {}, true};
   std::string body = linked_within(render("index.mustache", index), "index.html");
+  for (const SectionPage& page : section_pages())
+    if (is_there(index, page)) body += linked_within(sections_body(index, page, true), page.path);
   for (const Family& family : families) {
     frame.families.push_back(family_section(family, results));
     body += linked_within(family_body(frame.families.back(), true), family_link(family.id));

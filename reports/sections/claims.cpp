@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 
+#include "reports/drawing/plot_script.h"
 #include "reports/sections/sections.h"
 #include "reports/text/html.h"
 #include "reports/text/number.h"
@@ -9,6 +10,8 @@
 namespace trammel::reports {
 
 namespace {
+
+constexpr std::size_t kMaxClaim = 90;  ///< characters in the table of claims
 
 /// How the page shows a verdict: the words say it, the sign and its colour only help to
 /// find it.
@@ -77,6 +80,8 @@ Data claim_data(const Claim& claim, const Results& results) {
       claim.verdict,
       {{"id", claim.id},
        {"claim", claim.claim},
+       {"short", shortened(claim.claim, kMaxClaim)},
+       {"deciding", claim.interpretations.empty() ? "" : measured(claim.interpretations.front())},
        {"place", claim.place},
        {"conclusion", claim.verdict == "not measured" ? "No case of these results measures it."
                                                       : claim.conclusion},
@@ -132,7 +137,7 @@ std::string overview(const Claims& claims) {
 }  // namespace
 
 Data claims_section(const Results& results) {
-  if (!results.claims) return object();
+  if (!results.claims) return object({{"has_rows", false}});
   const Claims& claims = *results.claims;
   const auto item = [&](const PaperItem& shown) { return item_data(shown, claims); };
   const auto verdict = [&](const Claim& claim) { return claim_data(claim, results); };

@@ -182,9 +182,7 @@ CostPanels plan_cost(const Results& results) {
 Data cost_section(const Results& results, const std::vector<Family>& families,
                   const CostPanels& all) {
   const std::vector<CostPanel>& panels = all.studies;
-  Data section = object({{"effects", list_of(all.effects, figure_data)},
-                         {"has_effects", !all.effects.empty()},
-                         {"has_studies", !panels.empty()}});
+  Data section = object({{"has_studies", !panels.empty()}});
   set_runs(section, families);
   if (panels.empty()) return section;
   const CostStudies& cost = *results.cost;
@@ -198,6 +196,12 @@ Data cost_section(const Results& results, const std::vector<Family>& families,
                 {"studies", list_of(panels, study_data)}});
   set_overview(section, panels);
   return section;
+}
+
+Data effects_section(const CostPanels& panels) {
+  return object({{"has_rows", !panels.effects.empty()},
+                 {"words", panels.effects.empty() ? "" : panels.effects.front().caption},
+                 {"figures", list_of(panels.effects, figure_data)}});
 }
 
 }  // namespace trammel::reports

@@ -51,6 +51,9 @@ struct CostPanels {
 [[nodiscard]] Data cost_section(const Results& results, const std::vector<Family>& families,
                                 const CostPanels& panels);
 
+/// The selection of effects over the scenes of the catalogue.
+[[nodiscard]] Data effects_section(const CostPanels& panels);
+
 /// What is verified by what kind of evidence, and what by none.
 /// @param with_verified  features with independent evidence, too
 [[nodiscard]] Data coverage_section(const Results& results, bool with_verified);
@@ -86,14 +89,15 @@ void set_effects(Data& data, const std::vector<const Run*>& runs);
 /// verdict, and links to the pictures; empty where no case belongs to it.
 [[nodiscard]] Data stress_suite_section(const std::vector<Family>& families);
 
-/// What a section of the page comes to, in a sentence.
-struct SectionSummary {
-  std::string title, anchor, text;
-};
-
-/// What passes, what fails, the summaries of the sections, what does not agree and why.
-[[nodiscard]] Data summary_section(const Results& results, const std::vector<Family>& families,
-                                   const std::vector<SectionSummary>& summaries);
+/// Verdict, failures and counts of the entries of all checks.
+[[nodiscard]] Data summary_section(const Results& results, const std::vector<Family>& families);
+/// Known discrepancies by family, with their reasons.
+[[nodiscard]] Data known_section(const Results& results, const std::vector<Family>& families);
+/// Number of printed values that differ, each counted once.
+[[nodiscard]] std::size_t count_printed(const Results& results);
+/// Tiles and figures of the first page. @param printed  values that differ
+[[nodiscard]] Data front_section(const Results& results, const std::vector<Family>& families,
+                                 const CostPanels& panels, std::size_t printed);
 
 /// The tables of a case: the checks themselves if they are few, else the worst of each with all of
 /// them folded.

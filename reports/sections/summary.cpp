@@ -243,17 +243,23 @@ std::string overview_text(const Results& results, const std::vector<Family>& fam
 
 }  // namespace
 
-Data summary_section(const Results& results, const std::vector<Family>& families,
-                     const std::vector<SectionSummary>& summaries) {
+std::size_t count_printed(const Results& results) {
+  return targets_of(results).printed.size();
+}
+
+Data known_section(const Results& results, const std::vector<Family>& families) {
+  const Data known = known_by_family(results, families);
+  return object({{"has_rows", known.is_non_empty_list()},
+                 {"words", targets_of(results).text()},
+                 {"known_families", known}});
+}
+
+Data summary_section(const Results& results, const std::vector<Family>& families) {
   const Counts counts = counts_of(results, "");
   std::size_t unexpected_endings = 0;
   const Data failure_list = failures(results, unexpected_endings);
   const bool good = all_checks_pass(counts) && unexpected_endings == 0 && total(counts) > 0;
   const bool all_agree = count_of(counts, CheckStatus::known_discrepancy) == 0;
-  const Data known = known_by_family(results, families);
-  const auto answer = [](const SectionSummary& summary) {
-    return object({{"title", summary.title}, {"anchor", summary.anchor}, {"words", summary.text}});
-  };
   const auto head = [](CheckStatus which) { return with_status(which); };
   return object({{"verdict", verdict_text(counts, unexpected_endings, targets_of(results))},
                  {"verdict_class", css_class(!good       ? CheckStatus::fails
@@ -264,10 +270,6 @@ Data summary_section(const Results& results, const std::vector<Family>& families
                  {"roles", role_table(results)},
                  {"has_troubles", failure_list.is_non_empty_list()},
                  {"troubles", failure_list},
-                 {"has_answers", !summaries.empty()},
-                 {"answers", list_of(summaries, answer)},
-                 {"has_known", known.is_non_empty_list()},
-                 {"known_families", known},
                  {"heads", list_of(role_columns(counts), head)}});
 }
 

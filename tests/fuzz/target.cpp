@@ -17,6 +17,7 @@
 #include "harness/run/results.h"
 #include "harness/run/run_store.h"
 #include "harness/studies/cost_study.h"
+#include "harness/studies/discretization_error.h"
 #include "harness/studies/validation_uncertainty.h"
 #include "reports/page/report.h"
 
@@ -39,12 +40,15 @@ void compute(const Case& given, const std::string& variant, bool all) {
   Run run;
   run.case_id = given.id();
   run.variant = variant;
-  record_result(analyse(document, references, {true}), run);
+  AnalysisResult result = analyse(document, references, {true});
+  results::ErrorEstimates errors;
+  if (all && result.outcome.solved()) errors = estimate_errors(document, result, references);
+  record_result(std::move(result), run);
   if (run.is_solved()) {
     if (all) run.sweeps = run_sweeps(document, references);
     if (all && document.value().contains("uncertainty"))
       run.uncertainty =
-          evaluate_validation_uncertainty(document, run.quantities, checks, references);
+          evaluate_validation_uncertainty(document, run.quantities, checks, errors, references);
     for (const results::Sweep& sweep : run.sweeps)
       for (Convergence& found :
            study_sweep(sweep, document, checks, references, TrackedQuantities::named))

@@ -74,9 +74,9 @@ BOOST_AUTO_TEST_CASE(a_file_that_names_its_schema_names_one_that_is_there) {
   BOOST_TEST(named > 300U);
 }
 
-BOOST_AUTO_TEST_CASE(the_readme_names_every_analysis_that_a_case_may_ask_for) {
+BOOST_AUTO_TEST_CASE(case_format_names_every_analysis) {
   const auto schema = nlohmann::json::parse(text_of("cases/schema/case.schema.json"));
-  const std::string readme = text_of("README.md");
+  const std::string readme = text_of("docs/cases.md");
   const auto ref = schema.at("properties").at("analysis").at("$ref").get<std::string>();
   const auto& analyses = schema.at(nlohmann::json::json_pointer(ref.substr(1))).at("properties");
   BOOST_TEST(analyses.size() > 10U);

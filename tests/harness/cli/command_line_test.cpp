@@ -403,13 +403,14 @@ BOOST_AUTO_TEST_CASE(report_draws_its_history_and_counts_no_time_twice) {
   BOOST_TEST(calls[0]["cpu_s"].get<double>() > 0);
   BOOST_TEST(calls[1]["cpu_s"].get<double>() == 0);  // the store had the run
   BOOST_TEST(calls[1]["work"] == calls[0]["work"]);
-  const std::string page = read_text(folder.path() / "out/index.html");
+  const std::string page = read_text(folder.path() / "out/environment.html");
   BOOST_TEST(contains(page, "<section id=\"history\">"));
-  BOOST_TEST(contains(page, "2 calls; nothing has changed since call 1"));
+  BOOST_TEST(contains(page, "2 calls; nothing changed since call 1"));
   BOOST_TEST(contains(page, "<figure id=\"fig-history\">"));
   BOOST_TEST(contains(page, "Counted work is 1 times the first call"));
   BOOST_TEST(run(folder, "report out/results.json --out again").status == 0);
-  BOOST_TEST(contains(read_text(folder.path() / "again/index.html"), "<section id=\"history\">"));
+  BOOST_TEST(
+      contains(read_text(folder.path() / "again/environment.html"), "<section id=\"history\">"));
 }
 
 BOOST_AUTO_TEST_CASE(data_folder_can_be_named) {
@@ -502,7 +503,7 @@ BOOST_AUTO_TEST_CASE(second_report_computes_only_what_has_changed) {
   BOOST_TEST(!results.contains("claims"));
   BOOST_TEST(contains(run(folder, "report cantilever.json --out mine").out, stored));
   BOOST_TEST(stored_runs() == 1);
-  BOOST_TEST(contains(read_text(folder.path() / "mine/index.html"), "not computed anew"));
+  BOOST_TEST(contains(read_text(folder.path() / "mine/environment.html"), "not computed anew"));
   BOOST_TEST(!contains(run(folder, "report cantilever.json --out mine --fresh").out, "stored"));
   Json changed = judged(101);
   changed["model"]["elements"] = 2;
@@ -522,15 +523,19 @@ BOOST_AUTO_TEST_CASE(ending_of_a_singular_run_is_printed_once) {
   BOOST_TEST(outcome.out.find("node B along x", first + 1) == std::string::npos, outcome.out);
 }
 
-BOOST_AUTO_TEST_CASE(example_of_the_readme_runs_and_holds) {
-  const std::string readme = read_text(TRAMMEL_SOURCE_DIR "/README.md");
-  const std::string fence = "```json\n";
-  const auto start = readme.find(fence + "{\n  \"id\": \"short-arm\"") + fence.size();
-  const Folder folder;
-  (void)folder.write("short-arm.json", readme.substr(start, readme.find("\n```", start) - start));
-  const Outcome outcome = run(folder, "run short-arm.json");
-  BOOST_TEST(outcome.status == 0, outcome.err);
-  BOOST_TEST(contains(outcome.out, "1 check: 1 pass, 0 do not agree"));
+BOOST_AUTO_TEST_CASE(examples_of_the_documents_run) {
+  const std::string fence = "```json\n{\n  \"id\": ";
+  for (const auto& [document, words] : {std::pair("/README.md", "frequency_Hz"),
+                                        {"/docs/tutorial.md", "frequency_Hz"},
+                                        {"/docs/cases.md", "1 check"}}) {
+    const std::string text = read_text(std::string(TRAMMEL_SOURCE_DIR) + document);
+    const auto start = text.find(fence) + 8;
+    const Folder folder;
+    (void)folder.write("example.json", text.substr(start, text.find("\n```", start) - start));
+    const Outcome outcome = run(folder, "run example.json");
+    BOOST_TEST(outcome.status == 0, document << ": " << outcome.err);
+    BOOST_TEST(contains(outcome.out, words), outcome.out);
+  }
 }
 
 BOOST_AUTO_TEST_CASE(every_case_of_the_catalogue_can_be_described) {

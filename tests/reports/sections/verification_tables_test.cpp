@@ -1,6 +1,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
+#include "reports/page/report.h"
 #include "tests/support/reports/markup.h"
 #include "tests/support/reports/workspace.h"
 
@@ -80,7 +81,7 @@ BOOST_AUTO_TEST_CASE(paper_differences_are_shown_with_uncertainty) {
         "The dominant input is the link thickness, for 2 of 2."})
     BOOST_TEST(contains(words, part), part << " in " << words);
   const Workspace workspace;
-  (void)reports::write_report(results, workspace.path() / "out");
+  (void)trammel::reports::write_report(results, workspace.path() / "out");
   const std::string uncertainty = text_of(workspace.path() / "out/families/manipulator.html");
   for (const char* part :
        {"class=\"cell above model-error\"", "± 10\u202f%", "link thickness, up to 99\u202f%",
