@@ -102,10 +102,18 @@ double tolerance_fraction(const Check& check) {
   return check.verdict == Verdict::pass ? 0 : infinity;
 }
 
+double size_of_difference(const Check& check) {
+  const double target = check.measure == "ratio" ? 1 : 0;
+  return std::abs(check.difference.value_or(target) - target);
+}
+
 bool worse(const Check& a, const Check& b) {
   const int sa = severity(check_status(a));
   const int sb = severity(check_status(b));
-  return sa != sb ? sa > sb : tolerance_fraction(a) > tolerance_fraction(b);
+  if (sa != sb) return sa > sb;
+  if (a.known_discrepancy() && b.known_discrepancy())
+    return size_of_difference(a) > size_of_difference(b);
+  return tolerance_fraction(a) > tolerance_fraction(b);
 }
 
 const Check& CheckGroup::worst() const {

@@ -49,7 +49,9 @@ struct CheckGroup {
 };
 [[nodiscard]] std::vector<CheckGroup> group_checks(const Run& run);
 
-/// Whether `a` deserves attention before `b`.
+/// Distance of the difference from agreement, in the measure of the check.
+[[nodiscard]] double size_of_difference(const Check& check);
+/// Whether `a` deserves attention before `b`: of known discrepancies the larger difference.
 [[nodiscard]] bool worse(const Check& a, const Check& b);
 
 using Counts = std::map<CheckStatus, std::size_t>;

@@ -1,6 +1,7 @@
 #include "reports/figures/gallery.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <set>
@@ -67,6 +68,19 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
   return gallery;
 }
 
+/// Place of a family in the order of interest: manipulators, effects, the paper, beams, large
+/// motion, membranes, benchmarks, stress suite, controls.
+std::size_t interest_of(const Family& family) {
+  constexpr std::array<const char*, 19> kOrder = {
+      "manipulator", "elastodynamics", "sensitivity", "kinematics", "rigid-dynamics",
+      "neural",      "consistency",    "effect",      "beam",       "prestressed",
+      "rotating",    "second-order",   "buckling",    "transient",  "large",
+      "membrane",    "manufactured",   "benchmark",   "stress"};
+  const auto found = std::ranges::find_if(
+      kOrder, [&](const char* word) { return family.id.find(word) != std::string::npos; });
+  return static_cast<std::size_t>(found - kOrder.begin());
+}
+
 std::map<std::string, std::string> short_titles(const Family& family) {
   std::map<std::string, std::string> titles;
   for (const CaseInfo* info : family.cases) titles[info->id] = family.short_title(*info);
@@ -112,6 +126,7 @@ std::vector<Family> plan_families(const Results& results) {
     family.runs.insert(family.runs.end(), runs.begin(), runs.end());
     family.galleries[info.id] = gallery_of(info, results, runs);
   }
+  std::ranges::stable_sort(families, {}, interest_of);
   for (Family& family : families) {
     if (auto figure = tolerance_figure(family.id, short_titles(family), family.runs))
       family.overview.push_back(*figure);

@@ -77,6 +77,7 @@ Data case_section(const CaseInfo& info, const Family& family, const Results& res
   const std::vector<const Run*> runs = family.runs_of(info.id);
   const Gallery& gallery = family.galleries.at(info.id);
   const Data tables = variant_tables(info, runs);
+  const Data warned = warnings(info, runs);
   Data data = case_entry(info, family);
   set(data, {{"case_anchor", case_anchor(info.id)},
              {"family_title", family.title},
@@ -84,7 +85,10 @@ Data case_section(const CaseInfo& info, const Family& family, const Results& res
              {"description", info.description},
              {"labels", texts(info.labels)},
              {"endings", endings(info, runs)},
-             {"warnings", warnings(info, runs)},
+             {"warnings", warned},
+             {"warnings_title",
+              warned.is_non_empty_list() ? count(warned.list_value().size(), "warning") : ""},
+             {"warnings_open", warned.list_value().size() <= 2},
              {"problems", texts(gallery.problems)},
              {"has_figures", !gallery.shown.empty() || !gallery.problems.empty()},
              {"figures", list_of(gallery.shown, figure_data)},

@@ -36,7 +36,8 @@ Data tiles_of(const Results& results, std::size_t printed) {
   const RoleCount solver = count_role(results, "verification");
   tiles.push_back(tile(std::to_string(solver.passing) + " of " + std::to_string(solver.all),
                        "Solver verification",
-                       "checks against exact values, other codes and theory pass.", "orders.html",
+                       "checks against exact values, other codes and theory pass.",
+                       results.claims ? "orders.html" : "index.html#trust",
                        solver.passing == solver.all ? CheckStatus::passes : CheckStatus::fails));
   if (results.claims) {
     const auto count_of_verdict = [&](const std::string& verdict) {
@@ -58,18 +59,26 @@ Data tiles_of(const Results& results, std::size_t printed) {
   return tiles;
 }
 
-/// The first figure of the galleries whose name ends so, as a file of its own.
-const Figure* find_figure(const std::vector<Family>& families, const std::string& end) {
+/// The comparison of most printed numbers with computed ones and their validation uncertainty, and
+/// the case that has it.
+std::pair<const CaseInfo*, const Gallery*> find_answer(const std::vector<Family>& families) {
+  std::pair<const CaseInfo*, const Gallery*> found{nullptr, nullptr};
+  std::size_t most = 0;
   for (const Family& family : families)
-    for (const CaseInfo* info : family.cases)
-      for (const Figure& figure : family.galleries.at(info->id).shown)
-        if (figure.id.ends_with(end)) return &figure;
-  return nullptr;
+    for (const CaseInfo* info : family.cases) {
+      const Gallery& gallery = family.galleries.at(info->id);
+      if (!family.runs_of(info->id).front()->uncertainty) continue;
+      for (const Figure& figure : gallery.shown) {
+        if (!figure.id.ends_with("-agreement") || figure.data.rows.size() <= most) continue;
+        most = figure.data.rows.size();
+        found = {info, &gallery};
+      }
+    }
+  return found;
 }
 
-void add_figure(const Figure* figure, const std::string& link, Data& figures) {
-  if (figure == nullptr) return;
-  Figure linked = *figure;
+void add_figure(const Figure& figure, const std::string& link, Data& figures) {
+  Figure linked = figure;
   linked.is_linked = true;
   linked.number = static_cast<int>(figures.list_value().size()) + 1;
   Data data = figure_data(linked);
@@ -80,34 +89,30 @@ void add_figure(const Figure* figure, const std::string& link, Data& figures) {
 /// The manipulator, what the paper prints and what is computed, and the mode shapes.
 Data answer_of(const std::vector<Family>& families) {
   Data figures = list();
-  const Figure* agreement = find_figure(families, "-agreement");
-  if (agreement == nullptr) return figures;
-  for (const Family& family : families)
-    for (const CaseInfo* info : family.cases) {
-      const auto& shown = family.galleries.at(info->id).shown;
-      if (std::ranges::find(shown, agreement->id, &Figure::id) == shown.end()) continue;
-      for (const char* end : {"-mechanism", "-agreement", "-shapes"})
-        for (const Figure& figure : shown)
-          if (figure.id.ends_with(end)) {
-            add_figure(&figure, case_link(info->id), figures);
-            break;
-          }
-    }
+  const auto [info, gallery] = find_answer(families);
+  if (info == nullptr) return figures;
+  for (const char* end : {"-mechanism", "-agreement", "-shapes"}) {
+    const auto figure = std::ranges::find_if(
+        gallery->shown, [&](const Figure& shown) { return shown.id.ends_with(end); });
+    if (figure != gallery->shown.end()) add_figure(*figure, case_link(info->id), figures);
+  }
   return figures;
 }
 
 /// Cost, stability and effects, a figure each.
 Data questions_of(const std::vector<Family>& families, const CostPanels& panels) {
   Data figures = list();
-  if (!panels.studies.empty()) add_figure(&panels.studies.front().figure, "cost.html", figures);
-  for (const Family& family : families) {
-    const bool is_stress = std::ranges::any_of(
+  const auto modes = std::ranges::find_if(
+      panels.studies, [](const CostPanel& panel) { return panel.study->id == "modes-elements"; });
+  if (modes != panels.studies.end()) add_figure(modes->figure, "cost.html", figures);
+  const auto stress_cases = [](const Family& family) {
+    return std::ranges::count_if(
         family.cases, [](const CaseInfo* info) { return info->stress_suite.has_value(); });
-    if (!is_stress || family.overview.empty()) continue;
-    add_figure(&family.overview.front(), "stress.html", figures);
-    break;
-  }
-  if (!panels.effects.empty()) add_figure(&panels.effects.front(), "effects.html", figures);
+  };
+  const auto stress = std::ranges::max_element(families, {}, stress_cases);
+  if (stress != families.end() && stress_cases(*stress) > 0 && !stress->overview.empty())
+    add_figure(stress->overview.front(), "stress.html", figures);
+  if (!panels.effects.empty()) add_figure(panels.effects.front(), "effects.html", figures);
   return figures;
 }
 

@@ -63,10 +63,11 @@ Data group_of(const Check& check, Rows& table, const Data& rows, bool shared) {
                  {"reference_link", reference ? reference_link(reference->id) : ""}});
 }
 
-/// "worst of 631: point 12": for a check of which only the worst entry is shown.
+/// "largest of 631: point 12": for a check of which only the entry with the largest difference, or
+/// the largest share of its tolerance, is shown.
 std::string worst_entry(const Check& worst, std::size_t entries) {
   const std::string entry = entry_text(worst, entries);
-  return "worst of " + std::to_string(entries) + (entry.empty() ? "" : ": " + entry);
+  return "largest of " + std::to_string(entries) + (entry.empty() ? "" : ": " + entry);
 }
 
 Data group_of_worst(const Check& worst, const std::string& entry, Rows& table) {
