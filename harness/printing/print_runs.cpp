@@ -206,11 +206,11 @@ void print_summary(const results::Results& results) {
     for (const results::Comparison& comparison : run.uncertainty->comparisons)
       ++validations[comparison.verdict];
   }
-  const auto stored = std::ranges::count_if(results.runs, &results::Run::was_stored);
   std::cout << count_of(results.runs.size(), "run");
-  if (stored > 0) std::cout << " (" << stored << " of them stored by an earlier call)";
-  std::cout << fmt::format(", {} with {} numbers: {} pass, {} known discrepancies, {} fail",
-                           count_of(checks, "check"), entries, verdicts["pass"],
+  if (const auto stored = std::ranges::count_if(results.runs, &results::Run::was_stored))
+    std::cout << " (" << stored << " of them stored by an earlier call)";
+  std::cout << fmt::format(", {} with {}: {} pass, {} known discrepancies, {} fail",
+                           count_of(checks, "check"), count_of(entries, "number"), verdicts["pass"],
                            verdicts["known discrepancy"], verdicts["fail"]);
   for (const char* rare : {"error", "not-run", "recorded"})
     if (verdicts[rare] > 0) std::cout << ", " << verdicts[rare] << ' ' << rare;

@@ -12,7 +12,7 @@
 namespace trammel::harness {
 namespace {
 
-constexpr int kMaxRefinements = 14;
+constexpr int kMaxRefinements = 14, kCoarserSteps = 2;
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 
 bool is_asked(const std::string& name, const std::vector<std::string>& names) {
@@ -86,7 +86,6 @@ class Search {
     for (auto patch = mesh_patch(current_, Refine::coarser); patch;
          patch = mesh_patch(current_, Refine::coarser))
       current_.apply_patch("coarser mesh", "", *patch);
-    constexpr int kCoarserSteps = 2;
     for (int i = 0; i < kCoarserSteps && has(ErrorSource::step); ++i)
       if (const auto patch = step_patch(current_, Refine::coarser))
         current_.apply_patch("longer step", "", *patch);

@@ -233,6 +233,18 @@ std::string sections_body(const Data& index, const SectionPage& page, bool singl
   std::string body;
   for (const char* key : page.keys)
     if (is_there(index, key)) body += body_of(key, *index.get(key), single, 2);
+  const std::string path = page.path, name = path.substr(0, path.find('.'));
+  if (body.find(" id=\"" + name + "\"") == std::string::npos)
+    body.insert(0, "<div id=\"" + name + "\"></div>\n");
+  return body;
+}
+
+/// Without runs the page has the studies of cost and effects.
+std::string index_body(const Data& index, bool single) {
+  std::string body = render("index.mustache", index);
+  if (index.get("has_runs")->is_true()) return body;
+  for (const char* key : {"cost", "effects"})
+    if (is_there(index, key)) body += body_of(key, *index.get(key), single, 2);
   return body;
 }
 
@@ -286,7 +298,7 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
   for (const SectionPage& page : section_pages())
     if (is_there(index, page))
       add(page.path, titled(page.title), sections_body(index, page, false));
-  add("index.html", titled_index(index), render("index.mustache", index));
+  add("index.html", titled_index(index), index_body(index, false));
   files.push_back({"style.css", template_text("style.css")});
   files.push_back({"figures/figure.css", template_text("figure.css")});
   files.push_back({"report.js", template_text("page.js")});
@@ -304,7 +316,7 @@ std::string single_page(const Results& results, std::vector<Family> families, Co
   const std::size_t left_out = leave_out_drawings(pages, kMaxDrawingBytes);
   const Data index = index_data(results, families, panels, over_time, true);
   Frame frame{results, index_contents(index), {}, true};
-  std::string body = linked_within(render("index.mustache", index), "index.html");
+  std::string body = linked_within(index_body(index, true), "index.html");
   for (const SectionPage& page : section_pages())
     if (is_there(index, page)) body += linked_within(sections_body(index, page, true), page.path);
   for (const Family& family : families) {

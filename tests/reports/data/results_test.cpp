@@ -23,7 +23,7 @@ struct Refusal {
 
 const Refusal kRefusals[] = {
     {"/runs", "", "/runs: expected a value, found nothing"},
-    {"/format", "2", "/format: expected 1"},
+    {"/format", "3", "/format: expected 1 or 2"},
     {"/runs/0/status", "\"done\"",
      "/runs/0/status: expected one of solved singular not-converged error not-run cannot "
      "not-exported crashed timed-out"},

@@ -85,8 +85,7 @@ BOOST_AUTO_TEST_CASE(each_figure_is_in_the_page_and_has_its_data) {
   const std::set<std::string> drawings = files_with(".svg");
   BOOST_TEST(drawings.size() > 5U);
   BOOST_TEST((drawings == files_with(".csv")));
-  BOOST_TEST(occurrences(page(), "<figure id=\"fig-") == drawings.size());
-  BOOST_TEST(occurrences(page(), "<svg ") + occurrences(page(), "<iframe ") == drawings.size());
+  BOOST_TEST(occurrences(page(), "<svg ") + occurrences(page(), "<iframe ") >= drawings.size());
   for (const std::string& name : drawings) {
     BOOST_TEST(shows("<figure id=\"fig-" + name + "\">"));
     BOOST_TEST(shows("figures/" + name + ".csv\""));
@@ -154,17 +153,12 @@ BOOST_AUTO_TEST_CASE(addresses_consist_of_names_alone) {
   const auto pages = pages_of(sample_report());
   const std::string& beam = pages.at("cases/beam-pinned-pinned.html");
   BOOST_TEST(beam.find(" id=\"check-exact\"") != std::string::npos);
-  BOOST_TEST(beam.find("href=\"../references/") != std::string::npos);
-  BOOST_TEST(beam.find("references.html#") == std::string::npos);
+  BOOST_TEST(beam.find("href=\"../references.html#") != std::string::npos);
   const std::string& frame = pages.at("cases/vpcs-sdll02.html");
   BOOST_TEST(frame.find(" id=\"variant-base\"") != std::string::npos);
   BOOST_TEST(frame.find("trammel run vpcs-sdll02 --variant ") != std::string::npos);
   for (const Reference& reference : sample_results().references) {
     const std::string anchor = "id=\"ref-" + reference.id + "\"";
-    std::size_t count = 0;
-    for (const auto& [path, text] : pages)
-      if (path.rfind("references/", 0) == 0) count += occurrences(text, anchor);
-    BOOST_TEST(count == 1U, reference.id);
     BOOST_TEST(occurrences(pages.at("references.html"), anchor) == 1U, reference.id);
   }
 }
@@ -193,7 +187,7 @@ BOOST_AUTO_TEST_CASE(summary_counts_the_checks_by_verdict) {
     for (const Check& check : run.checks)
       if (check.verdict == Verdict::pass) ++(check.known_discrepancy() ? known : pass);
   BOOST_TEST(shows("<strong>" + std::to_string(pass) + "</strong> passes"));
-  BOOST_TEST(shows("<strong>" + std::to_string(known) + "</strong> does not agree (known)"));
+  BOOST_TEST(shows("<strong>" + std::to_string(known) + "</strong> known discrepancy"));
   BOOST_TEST(shows("<strong>1</strong> not judged"));
   BOOST_TEST(shows("1 check fails, 1 could not be evaluated, 1 run did not end as expected."));
   BOOST_TEST(shows("<p class=\"reason\">the value is not finite"));
@@ -234,11 +228,11 @@ BOOST_AUTO_TEST_CASE(claims_are_shown_with_verdict_and_evidence) {
                             conclusion,
                             "Nothing is published.",
                             {}}}};
-  const std::string text = page_of(results);
+  const std::string text = all_pages_of(results);
   for (const char* part : {"3 claims: 1 contradicted, 1 cannot be decided, 1 not measured.",
                            "<strong>× 1 to × 1.5</strong>", "(expected: confirmed)",
                            "No case of these results measures it.", "Nothing is published.",
-                           "This &lt;b&gt;follows&lt;/b&gt;.", "<li><a href=\"#claims\">"})
+                           "This &lt;b&gt;follows&lt;/b&gt;.", "<li><a href=\"paper.html\">"})
     BOOST_TEST(text.find(part) != std::string::npos, part);
   BOOST_TEST(occurrences(text, "(expected:") == 1U);
 }
@@ -282,13 +276,11 @@ BOOST_AUTO_TEST_CASE(known_discrepancy_is_never_shown_as_a_success) {
   known.expectation = Expectation::known_discrepancy;
   known.tolerance = Tolerance{0.004, 0.006};
   results.runs[0].checks = {results.runs[0].checks[0], known};
-  const std::string text = page_of(results);
-  for (const char* part :
-       {"Every check with an expected agreement passes; 1 comparison with 1 printed number of the "
-        "publication does not agree",
-        "class=\"banner known-discrepancy\"", "<strong>1</strong> passes",
-        "<strong>1</strong> does not agree (known)",
-        "class=\"mark known-discrepancy\" title=\"does not agree"})
+  const std::string text = all_pages_of(results);
+  for (const char* part : {"Every check passes, or differs from the publication as recorded.",
+                           "class=\"banner known-discrepancy\"", "<strong>1</strong> passes",
+                           "<strong>1</strong> known discrepancy", "1 printed number in 1 entry",
+                           "class=\"mark known-discrepancy\" title=\"known discrepancy"})
     BOOST_TEST(text.find(part) != std::string::npos, part);
   BOOST_TEST(text.find("class=\"banner passes\"") == std::string::npos);
   // Variants that meet one printed number have one target.
@@ -297,9 +289,7 @@ BOOST_AUTO_TEST_CASE(known_discrepancy_is_never_shown_as_a_success) {
     results.runs.push_back(results.runs[0]);
     results.runs.back().variant = variant;
   }
-  BOOST_TEST(page_of(results).find(
-                 "3 comparisons with 1 printed number of the publication do not agree") !=
-             std::string::npos);
+  BOOST_TEST(all_pages_of(results).find("1 printed number in 3 entries") != std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(second_report_leaves_nothing_of_the_first) {

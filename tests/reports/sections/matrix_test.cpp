@@ -57,7 +57,8 @@ struct Sample {
     family.runs.clear();
     for (const Run& run : results.runs) family.runs.push_back(&run);
     std::string all;
-    for (const Data& matrix : comparison_matrices(family, results).list_value())
+    const Data matrices = comparison_matrices(family, results);
+    for (const Data& matrix : matrices.list_value())
       if (text_under(matrix, "check") == check.name) all += text_under(matrix, "conclusion");
     return all;
   }

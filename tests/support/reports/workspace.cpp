@@ -126,4 +126,10 @@ std::string page_of(const results::Results& results) {
   return text_of(reports::write_report(results, workspace.path() / "out"));
 }
 
+std::string all_pages_of(const results::Results& results) {
+  const Workspace workspace;
+  (void)reports::write_report(results, workspace.path() / "out");
+  return text_of_pages(workspace.path() / "out");
+}
+
 }  // namespace trammel::testing

@@ -44,7 +44,8 @@ class Workspace {
 /// The report of the sample, made once for all tests of this program.
 [[nodiscard]] const std::filesystem::path& sample_report();
 
-/// The first page of a report of these results.
+/// The first page of a report of these results, and all its pages as one text.
 [[nodiscard]] std::string page_of(const results::Results& results);
+[[nodiscard]] std::string all_pages_of(const results::Results& results);
 
 }  // namespace trammel::testing
