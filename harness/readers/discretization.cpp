@@ -80,13 +80,13 @@ std::string analysis_pointer(const Document& document) {
 }
 
 solver::Index default_elements(const Document& document) {
-  constexpr solver::Index kOtherwise = 4;
   const Json* stated = find(document.value(), "/model/elements");
   if (stated != nullptr) return stated->get<solver::Index>();
   const std::string kind = discretized_analysis(document);
   const Json* second_order = find(document.value(), analysis_pointer(document) + "/second_order");
   const bool is_linear = second_order == nullptr || !second_order->get<bool>();
-  return (kind == "statics" && is_linear) || kind == "properties" ? 1 : kOtherwise;
+  if (kind == "large-statics" || kind == "properties") return 1;
+  return kind == "statics" && is_linear ? 1 : 4;
 }
 
 solver::Index elements_of(const Document& document, const std::string& name) {

@@ -15,7 +15,7 @@ namespace trammel::harness {
 [[nodiscard]] std::string analysis_pointer(const Document& document);
 
 /// Elements of the links of a manipulator that state none: those of "model", else 1 in linear
-/// statics, where nodal values are exact, and 4 otherwise.
+/// statics, where nodal values are exact, and in large statics, and 4 otherwise.
 [[nodiscard]] solver::Index default_elements(const Document& document);
 /// Elements of a member: those that it states, those of "model", else 1 of a bar, which does not
 /// bend, 8 of a tapered member, one for each 7.5 degrees of an arc and at least 4, else as links.

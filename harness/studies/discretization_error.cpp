@@ -156,19 +156,16 @@ bool has_shapes(const AnalysisResult& result) {
          result.quantities.contains("frequency_Hz");
 }
 
+/// Whether a quantity has a limit on fine meshes: not coordinates, counts and measures of quality.
 bool is_estimated(const std::string& name) {
   const std::string head = name.substr(0, name.find(':'));
-  static const std::vector<std::string> exact = {"time_s",
-                                                 "pose_x_m",
-                                                 "pose_y_m",
-                                                 "pose_phi_rad",
-                                                 "parameter",
-                                                 "status",
-                                                 "estimated_correct_digits",
-                                                 "frequency_gap"};
-  return !is_diagnostic(name) && !is_count(head) && !contains(exact, head) &&
-         !head.starts_with("effect_") && head.find("error") == std::string::npos &&
-         head.find("step") == std::string::npos;
+  static const std::vector<std::string> others = {
+      "time_s",  "pose_", "parameter", "status", "digits",           "frequency_gap",
+      "effect_", "error", "step",      "drift",  "newton_correction"};
+  const auto is_other = [&](const std::string& part) {
+    return head.find(part) != std::string::npos;
+  };
+  return !is_diagnostic(name) && !is_count(head) && std::ranges::none_of(others, is_other);
 }
 
 /// What errors of quantities are relative to at least.

@@ -99,6 +99,7 @@ Data case_section(const CaseInfo& info, const Family& family, const Results& res
              {"has_variant_tables", tables.is_non_empty_list()},
              {"variant_tables", tables},
              {"csv", "checks/" + slug(info.id) + ".csv"}});
+  set_errors(data, runs);
   set_effects(data, runs);
   set_model_probabilities(data, runs);
   return data;

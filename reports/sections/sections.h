@@ -113,6 +113,9 @@ void set_effects(Data& data, const std::vector<const Run*>& runs);
 /// The tables that a case asks for: variants down, quantities and timings across.
 [[nodiscard]] Data variant_tables(const CaseInfo& info, const std::vector<const Run*>& runs);
 
+/// The quantities of the first run with estimated discretization errors, and these.
+void set_errors(Data& data, const std::vector<const Run*>& runs);
+
 /// For each row of printed numbers and each discrepancy: the most probable classes of readings with
 /// what they predict, and what one further number would tell. Nothing where no run has them.
 void set_model_probabilities(Data& data, const std::vector<const Run*>& runs);
