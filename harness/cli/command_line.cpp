@@ -72,6 +72,17 @@ struct Option {
   }
 };
 
+/// A number from `least` to `most`; CLI::Range prints limits such as 1e-10 as 0.
+CLI::Validator within(double least, double most) {
+  const std::string limits = shortest(least) + " to " + shortest(most);
+  const auto complaint = [=](std::string& word) -> std::string {
+    double value = 0;
+    const bool fits = CLI::detail::lexical_cast(word, value) && value >= least && value <= most;
+    return fits ? "" : "expected a number from " + limits + " (got " + printable(word) + ")";
+  };
+  return {complaint, limits};
+}
+
 const std::vector<Option>& all_options() {
   static const std::vector<Option> options = {
       {"case", &Options::word, "Name or file of a case"},
@@ -92,7 +103,7 @@ const std::vector<Option>& all_options() {
       {"-L,--label", &Options::labels, "Cases of the catalogue with one of these labels"},
       {"--variant", &Options::variant, "Only this variant; 'base' is the case unpatched"},
       {"-j,--jobs", &Options::jobs, "Computations at a time; the numbers do not depend on it",
-       CLI::Range(1, 1024)},
+       within(1, 1024)},
       {"-o,--out", &Options::out, "Folder for what the command writes; of 'export' a file"},
       {"--resume", &Options::resume,
        "Take what an earlier call left in the store, and compute only what is missing"},
@@ -125,35 +136,35 @@ const std::vector<Option>& all_options() {
       {"--gate", &Options::gate, "Exit status 1 if something differs beyond round-off"},
       {"--sweep", &Options::sweeps, "Sweeps of the cases; all of them by default"},
       {"--level", &Options::level, "Level of the sweep, from 0; the case itself by default",
-       CLI::Range(0, 1000000)},
+       within(0, 1000000)},
       {"--matrices", &Options::matrices,
        "Folder for K, M, C, T and f (Matrix Market) and the mesh (VTU); the case only together "
        "with --out"},
       {"--quick", &Options::quick, "Few values of each study, as the report shows them"},
-      {"--repeats", &Options::repeats, "Measurements of each setting", CLI::Range(0, 10000)},
+      {"--repeats", &Options::repeats, "Measurements of each setting", within(0, 10000)},
       {"--tolerance", &Options::tolerance,
        "Relative change that removed effects may cause; a case's own tolerance has precedence",
-       CLI::Range(1e-12, 1.0)},
+       within(1e-12, 1.0)},
       {"--seed", &Options::seed, "Seed of the order of measurements"},
       {"--errors", &Options::all_errors,
        "Estimate discretization errors also of cases of the catalogue"},
       {"--no-errors", &Options::no_errors, "Estimate no discretization errors"},
       {"--warn-above", &Options::warn_above, "Relative error above which a warning is given",
-       CLI::Range(0.0, 1e6)},
+       within(0.0, 1e6)},
       {"--accuracy", &Options::accuracy,
        "Choose mesh and step so that the estimated relative error is below this",
-       CLI::Range(1e-10, 1.0)},
+       within(1e-10, 1.0)},
       {"--quantity", &Options::quantities,
        "Quantities of --accuracy, as displacement_y_m:B or displacement_y_m"},
       {"--time-limit", &Options::time_limit_s, "Time limit of the search by --accuracy [s]",
-       CLI::Range(1.0, 1e6)},
+       within(1.0, 1e6)},
       {"--results", &Options::builds, "results.json of the same cases by other builds"},
       {"--gaps", &Options::gaps, "Only rows without independent evidence"},
       {"--max-time", &Options::max_time_s, "Wall time of one call of the adapter [s]",
-       CLI::Range(0.01, 1e6)},
+       within(0.01, 1e6)},
       {"--max-disk", &Options::max_disk_bytes, "What one call of the adapter may write, as 1GB",
        CLI::AsSizeValue(false)},
-      {"--shards", &Options::shard_count, "Jobs of the array", CLI::Range(1, 100000)},
+      {"--shards", &Options::shard_count, "Jobs of the array", within(1, 100000)},
       {"--time", &Options::job_time, "Limit of a job, as sbatch reads it, such as 2:00:00"}};
   return options;
 }

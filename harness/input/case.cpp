@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
@@ -248,15 +249,14 @@ void warn_of_degrees(const Json& json, const std::string& at, std::vector<std::s
   }
 }
 
-/// Warns of the largest length if it is a hundred times the next one.
-void warn_of_millimeters(std::vector<std::pair<double, std::string>> lengths,
-                         std::vector<std::string>& warnings) {
-  constexpr double kRatio = 100;
-  std::erase_if(lengths, [](const auto& length) { return length.first == 0; });
-  std::ranges::sort(lengths);
+using Lengths = std::set<std::pair<double, std::string>>;  // [m], with pointers to them
+
+/// Warns of the largest length if it is more than a hundred times the next one.
+void warn_of_millimeters(const Lengths& lengths, std::vector<std::string>& warnings) {
   if (lengths.size() < 2) return;
-  const auto& [largest, place] = lengths.back();
-  if (largest > kRatio * lengths[lengths.size() - 2].first)
+  const auto& [largest, place] = *lengths.rbegin();
+  const double next = std::next(lengths.rbegin())->first;
+  if (next > 0 && largest > 100 * next)
     warnings.push_back(place + " is " + shortest(largest) +
                        " m, more than 100 times all others; is it in millimeters?");
 }
@@ -265,26 +265,28 @@ void warn_of_millimeters(std::vector<std::pair<double, std::string>> lengths,
 
 std::vector<std::string> unit_warnings(const Document& document) {
   std::vector<std::string> warnings;
-  if (!document.value().contains("model")) return warnings;
-  const Json& model = document.value()["model"];
+  const Json model = document.value().value("model", Json::object());
   warn_of_degrees(model, "/model", warnings);
-  std::vector<std::pair<double, std::string>> nodes, links;
-  if (model.contains("nodes"))
-    for (const auto& [name, point] : model["nodes"].items())
-      nodes.emplace_back(
-          std::max(std::abs(point[0].get<double>()), std::abs(point[1].get<double>())),
-          "/model/nodes/" + name);
-  if (nodes.size() > 2) warn_of_millimeters(std::move(nodes), warnings);
-  const std::string manipulator = "/model/manipulator/";
+  Lengths nodes, links;
+  const Json members = model.value("members", Json::object());
+  const Json points = model.value("nodes", Json::object());
+  for (const auto& [name, member] : members.items())
+    for (const Json& node : member.value("nodes", Json::array())) {
+      const auto end = node.get<std::string>();
+      const Json point = points.value(end, Json::array({0, 0}));
+      nodes.emplace(std::max(std::abs(point[0].get<double>()), std::abs(point[1].get<double>())),
+                    "/model/nodes/" + end);
+    }
+  if (nodes.size() > 2) warn_of_millimeters(nodes, warnings);
   for (const char* key :
        {"base_side_m", "links/proximal_length_m", "links/distal_length_m", "platform/side_m"}) {
-    const JsonPointer place(manipulator + key);
-    if (!document.value().contains(place)) continue;
-    const Json& value = document.value().at(place);
+    const JsonPointer place("/manipulator/" + std::string(key));
+    if (!model.contains(place)) continue;
+    const Json& value = model.at(place);
     for (const Json& length : value.is_array() ? value : Json::array({value}))
-      links.emplace_back(length.get<double>(), place.to_string());
+      links.emplace(length.get<double>(), "/model" + place.to_string());
   }
-  warn_of_millimeters(std::move(links), warnings);
+  warn_of_millimeters(links, warnings);
   return warnings;
 }
 

@@ -64,16 +64,14 @@ std::optional<double> mesh_order(const Document& document) {
                   member.contains("restrained_motions");
   if (is_second) return 2;
   const JsonPointer place(analysis_pointer(document) + "/second_order");
-  const bool linear = !document.value().contains(place) || !document.value().at(place).get<bool>();
-  if (kind == "statics" && linear) return std::nullopt;
+  if (kind == "statics" && !document.value().value(place, false)) return std::nullopt;
   return 4;
 }
 
 /// Order of the step, or power of the tolerance.
 double step_order(const Document& document) {
   const Json& analysis = document.value().at(JsonPointer(analysis_pointer(document)));
-  constexpr double kAdaptiveRungeKutta = 8.0 / 9;
-  if (discretized_analysis(document) == "forward-dynamics") return kAdaptiveRungeKutta;
+  if (discretized_analysis(document) == "forward-dynamics") return 8.0 / 9;  // adaptive Runge-Kutta
   if (has_step_tolerance(document)) return 2.0 / 3;
   if (analysis.value("extrapolated", false)) return 3;
   for (const char* key : {"method", "scheme"}) {
@@ -95,10 +93,8 @@ std::vector<std::optional<std::size_t>> aligned(const Quantities& own, const Qua
                        other_time->second.values.size() == other_size;
   std::size_t j = 0;
   for (std::size_t i = 0; i < size; ++i) {
-    if (!by_time) {
-      if (size == other_size) places[i] = i;
-      continue;
-    }
+    if (!by_time && size == other_size) places[i] = i;
+    if (!by_time) continue;
     const double at = time->second.values[i], near = 1e-9 * time->second.values.back();
     while (j < other_size && other_time->second.values[j] < at - near) ++j;
     if (j < other_size && std::abs(other_time->second.values[j] - at) <= near) places[i] = j;
@@ -330,17 +326,15 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& o
   for (const ErrorSource source : {ErrorSource::mesh, ErrorSource::step}) {
     auto companion = companion_of(document, source);
     while (companion) {
-      bool solved = false;
       try {
         companion->document.validate("case");
         const AnalysisResult other =
             analyse(companion->document, references, {.drawing = has_shapes(own)});
         counters += other.counters;
-        solved = other.outcome.solved();
-        if (solved) bands[source] = error_bands(own, other, source, *companion);
+        if (other.outcome.solved()) bands[source] = error_bands(own, other, source, *companion);
       } catch (const InputError&) {  // fewer modes than the case asks for
       }
-      if (solved) {
+      if (bands.contains(source)) {
         found.companions += (found.companions.empty() ? "" : "; ") + companion->words;
         break;
       }

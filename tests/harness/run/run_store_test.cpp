@@ -93,7 +93,8 @@ BOOST_AUTO_TEST_CASE(what_was_under_way_at_an_interruption_is_resumed_last) {
   const Folder folder;
   const Json json = cases(folder, 100);
   const Document base = patched(testing::read(folder, json), kBaseVariant);
-  const fs::path store = folder.path() / "store", first = store / computation_name(base, true);
+  const fs::path store = folder.path() / "store",
+                 first = store / computation_name(base, true, "errors");
   fs::create_directories(store);
   mark_started(first);
   mark_started(first);
