@@ -181,17 +181,6 @@ Json read_json(const std::filesystem::path& file) {
 
 namespace {
 
-/// A text of plain letters needs no writer of its own.
-void put_line(const Json& json, std::string& text) {
-  const auto* const plain = json.get_ptr<const std::string*>();
-  if (plain && std::all_of(plain->begin(), plain->end(), [](char letter) {
-        return letter >= ' ' && letter < '\x7f' && letter != '"' && letter != '\\';
-      }))
-    text.append(1, '"').append(*plain).append(1, '"');
-  else
-    text += json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 void put(const Json& json, std::size_t depth, std::size_t deepest, std::string& text) {
   // Text of a limited depth, as of results, has many lines: their indentation would be 2 % of it.
   const std::size_t most = deepest < kMaxDepth ? 1 : kMaxDepth;
@@ -204,8 +193,11 @@ void put(const Json& json, std::size_t depth, std::size_t deepest, std::string& 
   const bool last = json.is_object() && depth + 1 == deepest;
   const bool expanded =
       !json.empty() && depth < deepest && !last && (nested || (json.is_object() && depth < 2));
+  const auto one_line = [](const Json& value) {
+    return value.dump(-1, ' ', false, Json::error_handler_t::replace);
+  };
   if (!expanded) {
-    put_line(json, text);
+    text += one_line(json);
     return;
   }
   text += json.is_object() ? '{' : '[';
@@ -215,8 +207,7 @@ void put(const Json& json, std::size_t depth, std::size_t deepest, std::string& 
     first = false;
     line(depth + 1);
     if (json.is_object()) {
-      put_line(item.key(), text);
-      text += ": ";
+      text += one_line(item.key()) + ": ";
     }
     put(item.value(), depth + 1, deepest, text);
   }

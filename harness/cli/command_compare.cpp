@@ -31,14 +31,6 @@ using results::ComparedSide;
 using results::Number;
 using results::SideComparison;
 
-/// Case and variant of a name; a colon in a file's own name is no variant.
-std::pair<std::string, std::string> parted(const std::string& name) {
-  const auto colon = name.rfind(':');
-  const bool split =
-      colon != std::string::npos && name.find('/', colon) == std::string::npos && colon > 0;
-  return {split ? name.substr(0, colon) : name, split ? name.substr(colon + 1) : ""};
-}
-
 /// Computes one variant, without its refinements.
 Side side_of(const Case& given, const std::string& variant) {
   const References references;

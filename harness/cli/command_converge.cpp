@@ -4,7 +4,6 @@
 #include <cmath>
 #include <iostream>
 
-#include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 #include "harness/base/rows.h"
 #include "harness/base/text.h"

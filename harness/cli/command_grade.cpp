@@ -93,8 +93,7 @@ int grade_command(const CommandOptions& options, const Renderers& renderers) {
   Adapter adapter{adapter_words(options.adapter),
                   std::filesystem::absolute(options.out) / "calls",
                   {options.max_time_s, options.memory_bytes, options.max_disk_bytes}};
-  const bool all = options.words.empty() && options.labels.empty();
-  std::vector<Case> cases = all ? Catalogue().load() : select_cases(options);
+  std::vector<Case> cases = select_cases(options);
   if (options.words.empty()) std::erase_if(cases, is_control);
   const OutputLock lock(options.out);
   end_on_signals(kInterrupted);

@@ -1,5 +1,7 @@
 #include "harness/cli/command_line.h"
 
+#include <fmt/format.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -8,13 +10,13 @@
 #include <iostream>
 #include <new>
 #include <sstream>
-#include <stdexcept>
 #include <streambuf>
 #include <system_error>
 #include <type_traits>
 #include <utility>
 #include <variant>
 
+#include "harness/base/environment.h"
 #include "harness/base/errors.h"
 #include "harness/base/processes.h"
 #include "harness/base/text.h"
@@ -45,12 +47,13 @@ class PrintableStream : std::streambuf {
   std::streambuf* target_;
 };
 
-/// A section of help.txt; a command's has what it does in the first line.
+/// Returns a section of help.txt, or "" if there is none. The first line of a command's section is
+/// its summary.
 std::string help_text(const std::string& section) {
   const std::string& all = embedded_text("help.txt");
   const std::string head = "[" + section + "]\n";
   const std::size_t place = all.find(head);
-  if (place == std::string::npos) throw std::logic_error("no help for " + section);
+  if (place == std::string::npos) return "";
   const std::size_t begin = place + head.size();
   const std::size_t end = std::min(all.find("\n\n[", begin), all.size() - 1);
   return all.substr(begin, end - begin);
@@ -100,7 +103,10 @@ const std::vector<Option>& all_options() {
       {"adapter", &Options::adapter, "Program, or program with arguments in one word"},
       {"result", &Options::out, "File of the result"},
       {"file", &Options::word, "The SQLite file"},
-      {"-L,--label", &Options::labels, "Cases of the catalogue with one of these labels"},
+      {"pattern", &Options::word, "Text in the name or title of a case, in any case of letters"},
+      {"-L,--label", &Options::labels,
+       "Cases of the catalogue with this label, or with all of them"},
+      {"--label-any", &Options::any_labels, "Cases of the catalogue with one of these labels"},
       {"--variant", &Options::variant, "Only this variant; 'base' is the case unpatched"},
       {"-j,--jobs", &Options::jobs, "Computations at a time; the numbers do not depend on it",
        within(1, 1024)},
@@ -121,13 +127,8 @@ const std::vector<Option>& all_options() {
       {"--shard", &Options::shard,
        "K/N: only the K-th of N parts, for 'trammel merge'; without cases and labels of the full "
        "catalogue"},
-      {"--costs", &Options::costs,
-       "results.json of an earlier run, whose times balance the shards; the same file for all of "
-       "them"},
       {"--json", &Options::json, "As JSON; of a command that runs cases or studies results.json"},
       {"--csv", &Options::csv, "As CSV: a row for each number"},
-      {"--ctest", &Options::measurements,
-       "Also checks, worst share of a tolerance and time as ctest's measurements"},
       {"--vtk", &Options::vtk,
        "Also OUT/vtk: shapes, poses and motions for ParaView, each set as PVD of VTU files"},
       {"--single-file", &Options::single_file,
@@ -170,10 +171,8 @@ const std::vector<Option>& all_options() {
 }
 
 /// Pairs of options that no call may have both.
-constexpr std::pair<const char*, const char*> kExclusive[] = {{"--shard", "--store"},
-                                                              {"--errors", "--no-errors"},
-                                                              {"--ctest", "--json"},
-                                                              {"--csv", "--json"}};
+constexpr std::pair<const char*, const char*> kExclusive[] = {
+    {"--shard", "--store"}, {"--errors", "--no-errors"}, {"--csv", "--json"}};
 
 struct CommandEntry {
   const char* name;
@@ -184,37 +183,50 @@ struct CommandEntry {
 
 /// In the order of the help.
 constexpr CommandEntry kCommands[] = {
-    {"list", list_command, "--label --json"},
+    {"list", list_command, "pattern --label --label-any --json"},
     {"describe", describe_command, "case! --json"},
     {"quantities", quantities_command, "case --json"},
     {"references", references_command, "names --csv --json"},
     {"run", run_command,
-     "cases --label --variant --jobs --out --resume --store --max-memory --history --shard --costs "
-     "--json --ctest --vtk --errors --no-errors --warn-above --accuracy --quantity"},
+     "cases --label --label-any --variant --jobs --out --resume --store --max-memory --history "
+     "--shard "
+     "--json --vtk --errors --no-errors --warn-above --accuracy --quantity"},
     {"compare", compare_command, "sides! --csv --json --html --gate"},
     {"converge", converge_command, "case! --variant --jobs --json"},
     {"cost", cost_command,
      "what --sweep --variant --quick --repeats --seed --out --accuracy --quantity --time-limit "
      "--resume --store --json",
      "trammel-cost"},
-    {"certify", certify_command, "cases --label --results --jobs --json --max-memory"},
+    {"certify", certify_command, "cases --label --label-any --results --jobs --json --max-memory"},
     {"claims", claims_command, "--jobs --json"},
     {"coverage", coverage_command, "results --gaps --json"},
     {"paper", paper_command, "results --json"},
     {"effects", effects_command, "cases --label --variant --tolerance --repeats --out --json", ""},
     {"report", report_command,
-     "inputs --label --jobs --out --single-file --fresh --store --history --max-memory --errors "
+     "inputs --label --label-any --jobs --out --single-file --fresh --store --history --max-memory "
+     "--errors "
      "--no-errors --warn-above --accuracy --quantity"},
     {"export", export_command, "case! --variant --level --sweep --out --matrices", ""},
     {"solve", solve_command, "case! result!", ""},
     {"grade", grade_command,
-     "adapter! cases --label --variant --jobs --out --resume --store --json --max-memory "
+     "adapter! cases --label --label-any --variant --jobs --out --resume --store --json "
+     "--max-memory "
      "--max-time --max-disk",
      "trammel-grade"},
     {"merge", merge_command, "shards! --jobs --out --max-memory --json"},
-    {"slurm", slurm_command, "--shards! cases --label --variant --jobs --time --costs --out"},
+    {"slurm", slurm_command, "--shards! cases --label --label-any --variant --jobs --time --out"},
     {"history", history_command, "file! --json"},
 };
+
+/// Version, commit and libraries, each in a line.
+std::string version_text() {
+  const Json all = environment();
+  std::string text =
+      fmt::format("trammel {}\ncommit {}", TRAMMEL_VERSION, all["commit"].get<std::string>());
+  for (const auto& [name, version] : all["libraries"].items())
+    text += "\n" + name + " " + version.get<std::string>();
+  return text;
+}
 
 /// All words of the command line, and what to do with them.
 class CommandLine {
@@ -224,13 +236,16 @@ class CommandLine {
   CommandLine(const Renderers& renderers, const std::string& first) : renderers_(renderers) {
     app_.name("trammel");
     app_.footer("\n" + help_text("trammel"));
-    app_.set_version_flag("--version", TRAMMEL_VERSION);
+    app_.set_version_flag("--version", version_text());
     app_.require_subcommand(1);
     for (const CommandEntry& command : kCommands)
       if (!is_command(first) || first == command.name) define(command);
   }
 
   int run(const std::vector<std::string>& arguments) {
+    const std::string first = arguments.empty() ? "" : arguments.front();
+    if (!is_command(first) && !first.starts_with('-'))
+      throw InputError("trammel: " + expected_command(first));
     // CLI11 takes them from the back, and keeps what is left.
     std::vector<std::string> stack(arguments.rbegin(), arguments.rend());
     try {
@@ -248,16 +263,17 @@ class CommandLine {
                                [&](const CommandEntry& command) { return name == command.name; });
   }
 
+  static std::string expected_command(const std::string& word) {
+    if (word.empty()) return "expected a command (see trammel --help)";
+    std::vector<std::string> names;
+    for (const CommandEntry& command : kCommands) names.emplace_back(command.name);
+    return "expected a command (got '" + printable(word) + "')" + did_you_mean(word, names);
+  }
+
   std::string explained(const CLI::ParseError& error, const std::vector<std::string>& arguments) {
-    const std::string first = arguments.empty() ? "" : arguments.front();
-    if (first.empty()) return "expected a command (see trammel --help)";
-    if (!is_command(first) && first.front() != '-') {
-      std::vector<std::string> names;
-      for (const CommandEntry& command : kCommands) names.emplace_back(command.name);
-      return "expected a command (got '" + printable(first) + "')" + did_you_mean(first, names);
-    }
-    std::string line = printable(error.what(), 200);
-    return line + " (see trammel " + (is_command(first) ? first + " " : "") + "--help)";
+    const std::string first = arguments.front();
+    return printable(error.what(), 200) + " (see trammel " +
+           (is_command(first) ? first + " " : "") + "--help)";
   }
 
   void define(const CommandEntry& command) {
@@ -316,8 +332,15 @@ int run_command_line(const std::vector<std::string>& arguments, const Renderers&
   end_on_signals("trammel: interrupted; the same command begins anew\n");
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit of files fails instead
   try {
-    const int status =
-        CommandLine(renderers, arguments.empty() ? "" : arguments.front()).run(arguments);
+    std::vector<std::string> words = arguments;
+    if (!words.empty() && words.front() == "help") {
+      words.erase(words.begin());
+      const std::string text = words.empty() ? "" : help_text("topic " + words.front());
+      std::cout << text << (text.empty() ? "" : "\n");
+      if (!text.empty()) return 0;
+      words.emplace_back("--help");
+    }
+    const int status = CommandLine(renderers, words.empty() ? "" : words.front()).run(words);
     if (!std::cout.flush()) throw InputError("expected a standard output that can be written");
     return status;
   } catch (const InputError& error) {

@@ -2,6 +2,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <iostream>
 
 #include "harness/analysis/analysis.h"
@@ -76,12 +77,7 @@ std::string describe_check(const Check& check) {
   if (!check.reference.empty()) text += " against " + check.reference;
   if (!check.against_quantity.empty()) text += " against " + check.against_quantity;
   if (!check.against_variant.empty()) text += " of variant " + check.against_variant;
-  if (check.order && check.order->two_term_within)
-    return text + fmt::format(", a law of two orders along sweep {} within {} of the errors",
-                              check.order->sweep, *check.order->two_term_within);
-  if (check.order)
-    return text + fmt::format(", order along sweep {} within {} of theory", check.order->sweep,
-                              check.order->within);
+  if (check.order) return text + ", order of convergence along sweep " + check.order->sweep;
   text += check.windows.empty() ? ", " : std::string(", ") + to_string(check.measure) + " ";
   text += describe_windows(check);
   return check.expectation == Expectation::known_discrepancy
@@ -230,7 +226,10 @@ Rows quantity_rows(const Case& given) {
 int list_command(const CommandOptions& options, const Renderers& /*renderers*/) {
   Rows rows(
       {{"id", "case"}, {"title"}, {"family"}, {"labels"}, {"analysis"}, {"variants"}, {"file"}});
-  const std::vector<Case> cases = Catalogue().load(options.labels);
+  std::vector<Case> cases = Catalogue().load(options.labels, options.any_labels);
+  std::erase_if(cases, [&](const Case& given) {
+    return !boost::icontains(given.id() + ": " + given.title(), options.word);
+  });
   for (const Case& given : cases)
     rows.add({given.id(), given.title(), given.document.value().value("family", ""), given.labels(),
               analysis_kind(given.document), given.variants(), given.file.string()});
@@ -278,18 +277,13 @@ int describe_command(const CommandOptions& options, const Renderers& /*renderers
 }
 
 int quantities_command(const CommandOptions& options, const Renderers& /*renderers*/) {
-  const bool all = options.word.empty();
-  const Rows rows = all ? analysis_rows() : quantity_rows(load_named_case(options.word));
+  const Rows rows =
+      options.word.empty() ? analysis_rows() : quantity_rows(load_named_case(options.word));
   if (options.json) {
     std::cout << pretty(rows.json(), 1);
-    return 0;
+  } else {
+    rows.print(std::cout);
   }
-  rows.print(std::cout);
-  if (all)
-    std::cout
-        << "A colon is followed by what the quantity is of: a node, a member and its end, ...\n"
-           "Quantities along a trajectory come with times and poses; a study gives the\n"
-           "quantities of its analysis. './trammel quantities CASE' names those of a case.\n";
   return 0;
 }
 

@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <csignal>
 #include <functional>
@@ -27,6 +25,11 @@
 
 namespace trammel::harness {
 namespace {
+
+/// Returns whether a call names neither cases nor labels.
+bool is_catalogue(const CommandOptions& options) {
+  return options.words.empty() && options.labels.empty() && options.any_labels.empty();
+}
 
 /// Cases to run, and the runs of those that could not even be read.
 struct Selection {
@@ -65,9 +68,11 @@ void require_distinct(const std::vector<Case>& cases) {
   }
 }
 
-void require_variant(const std::vector<Case>& cases, const std::string& variant) {
-  if (variant.empty()) return;
-  for (const Case& test_case : cases) (void)patched(test_case, variant);
+void require_variants(const std::vector<Case>& cases, const std::string& variant) {
+  for (const Case& test_case : cases) {
+    if (!variant.empty()) (void)patched(test_case, variant);
+    for (const std::string& chosen : test_case.chosen_variants) (void)patched(test_case, chosen);
+  }
 }
 
 RunOptions run_options(const CommandOptions& given, Progress& progress) {
@@ -94,31 +99,6 @@ std::vector<Run> compute(const Selection& selection, const References& reference
   return runs;
 }
 
-/// Numbers for a dashboard, as ctest extracts them from the output of a test.
-void print_measurements(const results::Results& results) {
-  std::size_t checks = 0, failures = 0;
-  double share = 0, cpu_s = 0;
-  for (const Run& run : results.runs) {
-    cpu_s += run.cost.cpu_s;
-    for (const results::Check& check : run.checks) {
-      ++checks;
-      failures += fails_gate(check.verdict) ? 1 : 0;
-      const bool is_limited = check.tolerance && check.tolerance->low && check.tolerance->high;
-      if (is_limited) share = std::max(share, results::tolerance_share(check));
-    }
-  }
-  const auto print = [](const char* name, auto value) {
-    std::cout << fmt::format(
-        "<CTestMeasurement type=\"numeric/double\" name=\"{}\">{:.6g}</CTestMeasurement>\n", name,
-        static_cast<double>(value));
-  };
-  print("runs", results.runs.size());
-  print("checks", checks);
-  print("failed checks", failures);
-  print("worst share of a tolerance", share);
-  print("processor time of the runs [s]", cpu_s);
-}
-
 void print_run_errors(const std::vector<Run>& runs) {
   std::vector<std::string> told;
   for (const Run& run : runs) {
@@ -134,20 +114,26 @@ void print_run_errors(const std::vector<Run>& runs) {
 /// neither.
 Selection select(const CommandOptions& options) {
   const Catalogue catalogue;
-  if (options.words.empty() && options.labels.empty())
-    return load(catalogue.runnable_files(), catalogue);
+  if (is_catalogue(options)) return load(catalogue.runnable_files(), catalogue);
   std::vector<std::filesystem::path> files;
-  for (const std::string& name : options.words) files.push_back(catalogue.find_case(name));
+  std::map<std::filesystem::path, std::vector<std::string>> chosen;
+  for (const std::string& word : options.words) {
+    const auto [name, variant] = parted(word);
+    const std::filesystem::path file = catalogue.find_case(name);
+    if (variant.empty() || !chosen.contains(file)) files.push_back(file);
+    if (!variant.empty()) chosen[file].push_back(variant);
+  }
   Selection selection = load(files, catalogue);
-  if (!options.labels.empty()) {
-    for (Case& test_case : catalogue.load(options.labels)) {
+  for (Case& test_case : selection.cases) test_case.chosen_variants = chosen[test_case.file];
+  if (!options.labels.empty() || !options.any_labels.empty()) {
+    for (Case& test_case : catalogue.load(options.labels, options.any_labels)) {
       const bool there = std::ranges::any_of(
           selection.cases, [&](const Case& other) { return other.id() == test_case.id(); });
       if (!there) selection.cases.push_back(std::move(test_case));
     }
   }
   require_distinct(selection.cases);
-  require_variant(selection.cases, options.variant);
+  require_variants(selection.cases, options.variant);
   return selection;
 }
 
@@ -217,16 +203,21 @@ int report_results(const CommandOptions& options, const Renderers& renderers) {
 /// The selection in words that mean the same in another folder.
 Json selection_of(const CommandOptions& options) {
   Json cases = Json::array();
-  for (const std::string& name : options.words)
-    cases.push_back(std::filesystem::exists(name) ? std::filesystem::absolute(name).string()
-                                                  : name);
-  return {{"cases", cases}, {"labels", options.labels}, {"variant", options.variant}};
+  for (const std::string& word : options.words) {
+    const auto [name, variant] = parted(word);
+    const bool is_file = std::filesystem::exists(name);
+    cases.push_back((is_file ? std::filesystem::absolute(name).string() : name) +
+                    (variant.empty() ? "" : ":" + variant));
+  }
+  return {{"cases", cases},
+          {"labels", options.labels},
+          {"any_labels", options.any_labels},
+          {"variant", options.variant}};
 }
 
 /// Computes a part of what is selected and judges nothing.
 int compute_shard(const CommandOptions& options) {
-  Shard shard = shard_from(options.shard);
-  if (!options.costs.empty()) shard.costs = earlier_costs(options.costs);
+  const Shard shard = shard_from(options.shard);
   const Selection selection = select(options);
   const OutputLock lock(options.out);
   end_on_signals(kInterrupted);
@@ -272,6 +263,14 @@ int add_studies(results::Results& results, const std::vector<Case>& cases,
 
 }  // namespace
 
+std::pair<std::string, std::string> parted(const std::string& name) {
+  const auto colon = name.rfind(':');
+  const bool is_split = colon != std::string::npos && colon > 0 &&
+                        name.find('/', colon) == std::string::npos &&
+                        !std::filesystem::exists(name);
+  return {is_split ? name.substr(0, colon) : name, is_split ? name.substr(colon + 1) : ""};
+}
+
 std::vector<Case> select_cases(const CommandOptions& options) {
   Selection selection = select(options);
   if (!selection.broken.empty()) throw InputError(selection.broken.front().reason);
@@ -289,7 +288,7 @@ std::filesystem::path write_pages(const results::Results& results, const std::st
 
 int run_command(const CommandOptions& options, const Renderers& renderers) {
   if (!options.shard.empty()) return compute_shard(options);
-  if (options.words.empty() && options.labels.empty())
+  if (is_catalogue(options))
     throw InputError("expected a case or a label (see trammel run --help)");
   const Selection selection = select(options);
   const OutputLock lock(options.out);
@@ -310,7 +309,6 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
     print_summary(results);
     std::cout << "results in " << file.string() << std::endl;
   }
-  if (options.measurements) print_measurements(results);
   if (options.vtk)
     for (const Run& run : runs) write_vtk(run, out / "vtk");
   print_run_errors(runs);
@@ -322,7 +320,7 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
 int report_command(const CommandOptions& options, const Renderers& renderers) {
   const std::size_t stored = std::ranges::count_if(options.words, is_results_file);
   if (stored > 0) {
-    if (stored < options.words.size() || !options.labels.empty())
+    if (stored < options.words.size() || !options.labels.empty() || !options.any_labels.empty())
       throw InputError("expected cases, or results files alone; each file has to be there");
     return report_results(options, renderers);
   }
@@ -340,8 +338,8 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
   const std::vector<Run>& runs = results.runs;
   for (const Run& run : runs)
     if (fails_gate(run) && run.fault == results::Fault::none) print_run(run);
-  const bool catalogue = options.words.empty() && options.labels.empty();
-  const int status = catalogue ? add_studies(results, selection.cases, references, options) : 0;
+  const int status =
+      is_catalogue(options) ? add_studies(results, selection.cases, references, options) : 0;
   if (!options.history.empty()) {
     append_history(options.history, results);
     results.history = read_history(options.history);

@@ -18,6 +18,8 @@ std::string words_of(const CommandOptions& options) {
   std::string words;
   for (const std::string& name : options.words) words += " " + shell_quoted(name);
   for (const std::string& label : options.labels) words += " -L " + shell_quoted(label);
+  for (const std::string& label : options.any_labels)
+    words += " --label-any " + shell_quoted(label);
   return words;
 }
 
@@ -31,6 +33,7 @@ int merge_command(const CommandOptions& options, const Renderers& renderers) {
                                         store_folder(options.out, options.store));
     selection.at("cases").get_to(run.words);
     selection.at("labels").get_to(run.labels);
+    selection.at("any_labels").get_to(run.any_labels);
     selection.at("variant").get_to(run.variant);
   }
   run.resume = run.any_machine = true;
@@ -41,8 +44,6 @@ int slurm_command(const CommandOptions& options, const Renderers& /*renderers*/)
   const auto option = [](const char* name, const std::string& value) {
     return value.empty() ? "" : std::string(name) + shell_quoted(value);
   };
-  const std::string costs =
-      options.costs.empty() ? "" : fs::absolute(options.costs).lexically_normal().string();
   std::cout << fmt::format(
       fmt::runtime(embedded_text("slurm.sh.in")), fmt::arg("count", options.shard_count),
       fmt::arg("jobs", options.jobs),
@@ -50,7 +51,6 @@ int slurm_command(const CommandOptions& options, const Renderers& /*renderers*/)
       fmt::arg("out", shell_quoted(fs::absolute(options.out).lexically_normal().string())),
       fmt::arg("words", words_of(options)),
       fmt::arg("variant", option(" --variant ", options.variant)),
-      fmt::arg("costs", option(" --costs ", costs)),
       fmt::arg("time", options.job_time.empty() ? "" : option("--time=", options.job_time) + " "));
   return 0;
 }

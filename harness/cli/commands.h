@@ -21,7 +21,7 @@ namespace trammel::harness {
 struct CommandOptions {
   std::vector<std::string> words;  ///< arguments without a dash: cases, files, folders, names
   std::string word;                ///< the same of a command that has one
-  std::vector<std::string> labels;
+  std::vector<std::string> labels, any_labels;  ///< all of them, one of them
   std::string variant;
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
   std::string out;    ///< folder; of `export` and `solve` a file; empty: standard output
@@ -32,10 +32,8 @@ struct CommandOptions {
   bool json = false, csv = false;
 
   std::string shard;    ///< of `run`: "K/N"
-  std::string costs;    ///< results.json that shards are balanced by
   std::string history;  ///< SQLite file that the call is added to; empty: none
   bool single_file = false;
-  bool measurements = false;
   bool vtk = false;
 
   std::string html;  ///< of `compare`: file of the page; empty: none
@@ -78,6 +76,10 @@ Command export_command, solve_command, grade_command;
 /// The cases that are named, and those with the labels; the full catalogue if there are neither.
 /// @throws InputError  if one of them cannot be read.
 [[nodiscard]] std::vector<Case> select_cases(const CommandOptions& options);
+
+/// Name or file of a case and its variant, "" without one: "portal-frame:lumped". A colon in the
+/// name of a folder or of a file that exists starts no variant.
+[[nodiscard]] std::pair<std::string, std::string> parted(const std::string& name);
 
 /// The results file that a name means: the file itself, or results.json in the folder.
 [[nodiscard]] std::filesystem::path results_path(const std::string& name);

@@ -15,6 +15,7 @@ class Catalogue;
 struct Case {
   std::filesystem::path file;
   Document document;
+  std::vector<std::string> chosen_variants = {};  ///< that are to be run; empty: all
 
   [[nodiscard]] std::string id() const { return document.value().at("id").get<std::string>(); }
   [[nodiscard]] std::string title() const {

@@ -96,23 +96,24 @@ fs::path Catalogue::find_base_case(const std::string& name_or_file, const fs::pa
                                 name_or_file, names()));
 }
 
-std::vector<Case> Catalogue::load(const std::vector<std::string>& labels) const {
+std::vector<Case> Catalogue::load(const std::vector<std::string>& labels,
+                                  const std::vector<std::string>& any_labels) const {
   std::vector<Case> chosen;
   std::set<std::string> known;
   for (const fs::path& file : runnable_files()) {
     Case loaded = load_case(file, *this);
     const std::vector<std::string> case_labels = loaded.labels();
     known.insert(case_labels.begin(), case_labels.end());
-    const bool wanted =
-        labels.empty() || std::ranges::any_of(labels, [&](const std::string& label) {
-          return contains(case_labels, label);
-        });
-    if (wanted) chosen.push_back(std::move(loaded));
+    const auto has = [&](const std::string& label) { return contains(case_labels, label); };
+    if (std::ranges::all_of(labels, has) &&
+        (any_labels.empty() || std::ranges::any_of(any_labels, has)))
+      chosen.push_back(std::move(loaded));
   }
-  for (const std::string& label : labels) {
-    if (known.count(label) > 0) continue;
-    throw InputError(unknown_name("a label of the catalogue", label, {known.begin(), known.end()}));
-  }
+  for (const auto* given : {&labels, &any_labels})
+    for (const std::string& label : *given)
+      if (!known.contains(label))
+        throw InputError(
+            unknown_name("a label of the catalogue", label, {known.begin(), known.end()}));
   return chosen;
 }
 

@@ -30,9 +30,10 @@ class Catalogue {
   [[nodiscard]] std::filesystem::path find_base_case(const std::string& name_or_file,
                                                      const std::filesystem::path& from) const;
 
-  /// All cases that carry one of the labels; all cases when no label is given.
-  /// @throws InputError  for a label that no case carries.
-  [[nodiscard]] std::vector<Case> load(const std::vector<std::string>& labels = {}) const;
+  /// Returns the cases that have all `labels` and at least one of `any_labels`, if there are any.
+  /// @throws InputError  for a label that no case has.
+  [[nodiscard]] std::vector<Case> load(const std::vector<std::string>& labels = {},
+                                       const std::vector<std::string>& any_labels = {}) const;
 
  private:
   [[nodiscard]] std::filesystem::path by_name(const std::string& name) const;

@@ -28,9 +28,11 @@ double angle_of_arc(const Json& model, const Json& member) {
   return turn > 0 ? turn : turn + 2 * std::numbers::pi;
 }
 
+/// Returns whether a member cannot be divided: nodes inside it would move sideways freely.
 bool is_bar(const Json& model, const Json& member) {
   const Json* section = find(model, "/sections/" + member.value("section", ""));
-  return section != nullptr && section->value("second_moment_m4", 1.0) == 0;
+  return section != nullptr && section->value("second_moment_m4", 1.0) == 0 &&
+         !member.contains("restrained_motions");
 }
 
 /// Half or twice a count; nothing where it is odd.
@@ -127,6 +129,23 @@ bool has_step_tolerance(const Document& document) {
   return analysis.contains("tolerance") || analysis.contains("error_control");
 }
 
+std::optional<Sampling> sampling_of(const Document& document) {
+  const std::string kind = discretized_analysis(document), place = analysis_pointer(document);
+  const Json& analysis = document.value().at(JsonPointer(place));
+  if (kind == "harmonic") return Sampling{place + "/points", analysis.value("points", 101) - 1};
+  if (kind != "transient") return std::nullopt;
+  const double steps =
+      std::ceil(analysis["duration_s"].get<double>() / analysis["step_s"].get<double>());
+  return Sampling{place + "/samples",
+                  analysis.value("samples", std::min(10000, static_cast<int>(steps)))};
+}
+
+Json sampling_patch(const Document& document, solver::Index intervals) {
+  const Sampling sampling = *sampling_of(document);
+  const bool counts_points = sampling.pointer.ends_with("/points");
+  return patch_at(document.value(), sampling.pointer, intervals + (counts_points ? 1 : 0));
+}
+
 std::optional<Json> step_patch(const Document& document, Refine refine) {
   const std::string kind = discretized_analysis(document), place = analysis_pointer(document);
   const Json& analysis = document.value().at(JsonPointer(place));
@@ -147,18 +166,14 @@ std::optional<Json> step_patch(const Document& document, Refine refine) {
   } else {
     patch["step_s"] = longer * analysis["step_s"].get<double>();
   }
-  if (kind == "transient") {  // among which peaks are looked for
-    const double steps =
-        std::ceil(analysis["duration_s"].get<double>() / analysis["step_s"].get<double>());
-    const int samples = analysis.value("samples", std::min(10000, static_cast<int>(steps)));
-    const auto count = refined(samples, refine);
-    patch["samples"] = count && *count <= kMaxSamples ? *count : samples;
-  } else if (kind == "harmonic") {
-    const auto count = refined(analysis.value("points", 101) - 1, refine);
-    if (!count || *count > kMaxSamples) return std::nullopt;
-    patch["points"] = *count + 1;
+  Json all = patch_at(document.value(), place, patch);
+  if (const auto sampling = sampling_of(document)) {  // peaks are those of samples
+    const auto intervals = refined(sampling->intervals, refine);
+    const bool fits = intervals && *intervals <= kMaxSamples;
+    if (!fits && kind == "harmonic") return std::nullopt;
+    all.merge_patch(sampling_patch(document, fits ? *intervals : sampling->intervals));
   }
-  return patch_at(document.value(), place, patch);
+  return all;
 }
 
 std::string mesh_pointer(const Document& document) {

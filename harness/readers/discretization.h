@@ -32,6 +32,14 @@ enum class Refine { coarser, finer };
 /// The pointer of the setting that decides the mesh or the step, for messages.
 [[nodiscard]] std::string mesh_pointer(const Document& document);
 [[nodiscard]] std::string step_pointer(const Document& document);
+/// The number of recorded times of a transient response, or of frequencies of a harmonic one.
+struct Sampling {
+  std::string pointer;
+  solver::Index intervals = 0;
+};
+[[nodiscard]] std::optional<Sampling> sampling_of(const Document& document);
+/// Patch that records at `intervals` equal intervals.
+[[nodiscard]] Json sampling_patch(const Document& document, solver::Index intervals);
 /// Whether steps are controlled by a tolerance.
 [[nodiscard]] bool has_step_tolerance(const Document& document);
 

@@ -70,22 +70,6 @@ double stated_roundoff(const results::Run& run, const std::string& name, std::si
   return stated;
 }
 
-/// The difference that the checks of a run allow because of round-off.
-double allowed_by_checks(const results::Run& run, const std::string& name, std::size_t i) {
-  double allowed = 0;
-  for (const results::Check& check : run.checks) {
-    const bool here =
-        check.quantity == name && (!check.index || *check.index == static_cast<int>(i));
-    if (!here || !check.tolerance || !check.tolerance->symmetric || !check.expected) continue;
-    if (check.why.find("ound-off") == std::string::npos) continue;
-    const double size = std::abs(*check.expected), high = check.tolerance->high.value_or(0);
-    const double width = check.measure == "relative" ? high * size : high;
-    if (check.measure != "relative" && check.measure != "absolute") continue;
-    if (width <= kLargestRoundoff * size) allowed = std::max(allowed, width);
-  }
-  return allowed;
-}
-
 /// Orders runs and numbers by what changes most.
 constexpr auto changed_more = [](const auto& a, const auto& b) {
   return std::pair(a.changed, a.share) > std::pair(b.changed, b.share);
@@ -124,7 +108,7 @@ ComparedNumber compare_entry(const std::string& name, std::size_t i, const Runs&
     found.values.push_back((*run->quantity(name))[i]);
     const double roundoff =
         stated_roundoff(*run, name, i) * std::abs(found.values.back().value_or(0));
-    found.noise = std::max({found.noise, roundoff, allowed_by_checks(*run, name, i)});
+    found.noise = std::max(found.noise, roundoff);
   }
   judge(found, scale);
   return found;
@@ -445,15 +429,6 @@ std::string conclusion_of_variants(const SideComparison& comparison) {
                      sides.front().label, count, all, most_changed(run, sides));
 }
 
-/// Of two sides; one measurement of a short time says nothing.
-std::string time_text(const std::vector<ComparedSide>& sides) {
-  constexpr double kShort_s = 0.1;
-  if (sides.size() != 2 || std::min(sides.front().cpu_s, sides.back().cpu_s) < kShort_s) return "";
-  const bool elsewhere = sides.front().processor != sides.back().processor;
-  return fmt::format("; {:.3g} times the processor time{}", *sides.back().relative_time,
-                     elsewhere ? ", on another processor" : "");
-}
-
 /// The runs of all sides by name; those of variants computed now stand beside each other.
 std::map<std::string, Runs> runs_by_name(std::vector<Side>& sides) {
   std::map<std::string, Runs> by_name;
@@ -538,7 +513,6 @@ SideComparison compare_sides(std::vector<Side> sides, bool series) {
   compare_errors(errors, comparison.sides);
   comparison.conclusion =
       (documents.front() ? conclusion_of_variants(comparison) : conclusion_of_runs(comparison)) +
-      time_text(comparison.sides) +
       (lost > 0 ? "; " + count_of(lost, "run") + " without series, which the stores lack" : "") +
       ".";
   return comparison;

@@ -81,13 +81,11 @@ Task prepare(const Case& owner, const std::string& variant, bool requested) {
 }
 
 std::vector<Task> prepare_case(const Case& owner, const std::string& chosen) {
-  const std::vector<std::string> variants = owner.variants();
+  std::vector<std::string> variants = owner.chosen_variants;
+  if (variants.empty()) variants = owner.variants();
+  if (!chosen.empty()) variants = {chosen};
   std::vector<Task> tasks;
-  if (!chosen.empty()) {
-    tasks.push_back(prepare(owner, chosen, true));
-  } else {
-    for (const std::string& variant : variants) tasks.push_back(prepare(owner, variant, true));
-  }
+  for (const std::string& variant : variants) tasks.push_back(prepare(owner, variant, true));
   std::set<std::string> looked_at;
   for (const Task& task : tasks) {
     for (const Check& check : task.checks) {
@@ -409,12 +407,11 @@ ShardRuns run_shard(const std::vector<Case>& cases, const RunOptions& options, c
   for (const Task& task : tasks)
     names.push_back(task.run.case_id + ":" + task.run.variant +
                     (task.requested ? "" : " (compared with)"));
-  const std::vector<std::size_t> shards = balanced(names, shard.costs, shard.count);
   std::vector<Task> own;
   ShardRuns found;
   found.in_all = tasks.size();
   for (std::size_t i = 0; i < tasks.size(); ++i) {
-    if (shards[i] != shard.number) continue;
+    if (i % shard.count + 1 != shard.number) continue;
     own.push_back(std::move(tasks[i]));
     found.names.push_back(names[i]);
   }

@@ -2,7 +2,6 @@
 
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -33,7 +32,6 @@ enum class ErrorWish { own_cases, all, none };
 /// One of so many parts that a long call is computed in.
 struct Shard {
   std::size_t number = 1, count = 1;
-  std::map<std::string, double> costs;  ///< by name of computation; any unit
 };
 
 struct RunOptions {

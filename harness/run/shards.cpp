@@ -1,14 +1,10 @@
 #include "harness/run/shards.h"
 
-#include <algorithm>
 #include <charconv>
-#include <numeric>
-#include <set>
 
 #include "harness/base/environment.h"
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
-#include "harness/base/statistic.h"
 #include "harness/base/text.h"
 #include "harness/results/results.h"
 #include "harness/run/stored_results.h"
@@ -88,39 +84,6 @@ Shard shard_from(const std::string& text) {
   return shard;
 }
 
-std::map<std::string, double> earlier_costs(const fs::path& results) {
-  std::map<std::string, double> costs;
-  for (const results::Run& run : read_summary(results).runs)
-    costs[run.case_id + ":" + run.variant] = run.cost.cpu_s;
-  return costs;
-}
-
-std::vector<std::size_t> balanced(const std::vector<std::string>& names,
-                                  const std::map<std::string, double>& costs, std::size_t count) {
-  std::vector<double> known;
-  for (const std::string& name : names)
-    if (const auto found = costs.find(name); found != costs.end()) known.push_back(found->second);
-  const double usual = known.empty() ? 1 : upper_median(std::move(known));
-  std::vector<double> cost;
-  for (const std::string& name : names)
-    cost.push_back(costs.count(name) > 0 ? costs.at(name) : usual);
-  std::vector<std::size_t> order(names.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
-    return std::tie(cost[b], names[a]) < std::tie(cost[a], names[b]);
-  });
-  std::set<std::pair<double, std::size_t>> load;  // of each shard
-  for (std::size_t number = 1; number <= count; ++number) load.emplace(0, number);
-  std::vector<std::size_t> shards(names.size());
-  for (const std::size_t i : order) {
-    const auto [sum, number] = *load.begin();
-    load.erase(load.begin());
-    load.emplace(sum + cost[i], number);
-    shards[i] = number;
-  }
-  return shards;
-}
-
 void write_shard(const fs::path& folder, const Shard& shard, const Json& selection,
                  const ShardRuns& done) {
   write_file(folder / kShardFile, pretty({{"shard", shard.number},
@@ -148,7 +111,7 @@ Json merge_shards(const std::vector<fs::path>& folders, const fs::path& store) {
   const Json& first = shards[folders.front()];
   if (first["in_all"] != computed.size())
     throw InputError("expected " + first["in_all"].dump() + " computations in all shards (got " +
-                     std::to_string(computed.size()) + "); were they made with one --costs?");
+                     std::to_string(computed.size()) + ")");
   fs::create_directories(store);
   for (const fs::path& folder : folders)
     for (const auto& entry : fs::directory_iterator(folder / kStoreFolder))

@@ -16,17 +16,6 @@ namespace trammel::harness {
 /// @throws InputError  where the text is none.
 [[nodiscard]] Shard shard_from(const std::string& text);
 
-/// Processor time [s] of each "case:variant" of a results.json.
-[[nodiscard]] std::map<std::string, double> earlier_costs(const std::filesystem::path& results);
-
-/// For each computation, by name, the shard from 1 to `count` that it belongs to: the most
-/// expensive first, each to the shard that has the least so far (Graham, SIAM J. Appl. Math. 17,
-/// 1969: at most 4/3 of the shortest time). What has no cost counts as the median of those that
-/// have one.
-[[nodiscard]] std::vector<std::size_t> balanced(const std::vector<std::string>& names,
-                                                const std::map<std::string, double>& costs,
-                                                std::size_t count);
-
 /// Says in `folder` that a shard of the selection is done: what it has computed is in `store`.
 void write_shard(const std::filesystem::path& folder, const Shard& shard, const Json& selection,
                  const ShardRuns& done);

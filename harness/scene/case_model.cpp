@@ -1,6 +1,5 @@
 #include "harness/scene/case_model.h"
 
-#include <cstring>
 #include <map>
 #include <set>
 

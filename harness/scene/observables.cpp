@@ -1,7 +1,6 @@
 #include "harness/scene/observables.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 

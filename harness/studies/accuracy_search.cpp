@@ -21,12 +21,14 @@ bool is_asked(const std::string& name, const std::vector<std::string>& names) {
   });
 }
 
-/// The times that are recorded, the same for every step.
+/// Patch that records the same times with every step.
 Json fixed_outputs(const Document& document) {
   const std::string kind = discretized_analysis(document), place = analysis_pointer(document);
   const Json& analysis = document.value().at(JsonPointer(place));
+  if (const auto sampling = sampling_of(document))
+    return sampling_patch(document, sampling->intervals);
   if (kind != "large-motion" || analysis.contains("output_step_s")) return Json::object();
-  return patch_at(document.value(), place + "/output_step_s", 4 * analysis["step_s"].get<double>());
+  return patch_at(document.value(), place + "/output_step_s", analysis["step_s"]);
 }
 
 /// "8 elements, step 0.001 s"
@@ -50,11 +52,31 @@ std::string setting_of(const Document& document) {
   return text;
 }
 
+/// Returns bands with the safety factor 1.25 instead of 3 where three levels show the order of
+/// theory (Roache 1998, Verification and Validation in Computational Science and Engineering, 5.9).
+ErrorBands narrowed(ErrorBands bands, const ErrorBands& coarser, double ratio) {
+  constexpr double kFactor = 1.25 / 3, kNearOrder = 0.5;
+  for (auto& [name, band] : bands) {
+    const auto before = coarser.find(name);
+    if (before == coarser.end() || !band.order || !band.asymptotic) continue;
+    const std::vector<double>& wider = before->second.half_width;
+    for (std::size_t i = 0; i < std::min(wider.size(), band.half_width.size()); ++i) {
+      const double order = std::log(wider[i] / band.half_width[i]) / std::log(ratio);
+      if (std::abs(order - *band.order) < kNearOrder) band.half_width[i] *= kFactor;
+    }
+  }
+  return bands;
+}
+
 class Search {
  public:
   Search(const Document& document, const AccuracyRequest& request, const References& references)
-      : request_(request), references_(references), current_(document) {
-    current_.apply_patch("recorded times", "", fixed_outputs(document));
+      : request_(request),
+        references_(references),
+        current_(document),
+        outputs_(fixed_outputs(document)),
+        sampling_(sampling_of(document)) {
+    current_.apply_patch("recorded times", "", outputs_);
   }
 
   AccuracySearch run() {
@@ -69,6 +91,7 @@ class Search {
       if (!refine(dominant())) break;
     }
     found_.errors.quantities = relative_errors(current_, found_.result, bands_);
+    keep_requested_samples();
     found_.asked = asked_;
     found_.errors.companions = "the levels of the search";
     found_.errors.counters = named_counters(counters_);
@@ -86,9 +109,38 @@ class Search {
     for (auto patch = mesh_patch(current_, Refine::coarser); patch;
          patch = mesh_patch(current_, Refine::coarser))
       current_.apply_patch("coarser mesh", "", *patch);
-    for (int i = 0; i < kCoarserSteps && has(ErrorSource::step); ++i)
+    for (int i = 0; i < kCoarserSteps && has(ErrorSource::step) && may_be_longer(); ++i)
       if (const auto patch = step_patch(current_, Refine::coarser))
         current_.apply_patch("longer step", "", *patch);
+    current_.apply_patch("recorded times", "", outputs_);
+  }
+
+  /// Returns whether twice the step is no longer than the interval of the recorded times.
+  [[nodiscard]] bool may_be_longer() const {
+    const Json& analysis = current_.value().at(JsonPointer(analysis_pointer(current_)));
+    return !analysis.contains("output_step_s") || !analysis.contains("step_s") ||
+           2 * analysis["step_s"].get<double>() <=
+               (1 + 1e-9) * analysis["output_step_s"].get<double>();
+  }
+
+  /// Removes samples between those of the case, which refinements have added.
+  void keep_requested_samples() {
+    if (!sampling_) return;
+    const auto factor = sampling_of(current_)->intervals / sampling_->intervals;
+    Quantities& quantities = found_.result.quantities;
+    const auto axis = quantities.find(quantities.contains("time_s") ? "time_s" : "frequency_Hz");
+    if (factor < 2 || axis == quantities.end()) return;
+    const std::size_t size = axis->second.values.size();
+    const auto thin = [&](std::vector<double>& values) {
+      if (values.size() != size) return;
+      std::size_t kept = 0;
+      for (std::size_t i = 0; i < size; i += factor) values[kept++] = values[i];
+      values.resize(kept);
+    };
+    for (auto& [name, quantity] : quantities) {
+      thin(quantity.values);
+      thin(quantity.roundoff);
+    }
   }
 
   /// @returns whether it has a solution
@@ -177,8 +229,10 @@ class Search {
       return false;
     }
     current_ = finer->document;
-    bands_[source] =
+    ErrorBands two_levels =
         error_bands(found_.result, coarse, source, {current_, false, finer->ratio, ""});
+    bands_[source] = narrowed(two_levels, two_levels_[source], finer->ratio);
+    two_levels_[source] = std::move(two_levels);
     found_.tried.push_back(current_);
     found_.errors.search.push_back({setting_of(current_), error(), cpu_s_});
     stalled_ = error_by(source) > 0.7 * before ? stalled_ + 1 : 0;
@@ -190,10 +244,12 @@ class Search {
   const AccuracyRequest& request_;
   const References& references_;
   Document current_;
+  Json outputs_;  // patch of the recorded times
+  std::optional<Sampling> sampling_;
   Stopwatch watch_;
   AccuracySearch found_;
   std::vector<std::string> asked_;
-  std::map<ErrorSource, ErrorBands> bands_;
+  std::map<ErrorSource, ErrorBands> bands_, two_levels_;  // with factors from three and two levels
   solver::Counters counters_;
   std::string reason_;
   double cpu_s_ = 0;

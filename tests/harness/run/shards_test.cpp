@@ -48,7 +48,7 @@ std::vector<fs::path> computed_shards(const Folder& folder, const std::vector<Ca
   std::vector<fs::path> folders;
   for (std::size_t number = 1; number <= count; ++number) {
     folders.push_back(folder.path() / std::to_string(number));
-    const Shard shard{number, count, {}};
+    const Shard shard{number, count};
     write_shard(folders.back(), shard, {{"labels", {"x"}}},
                 run_shard(all, into(folders.back()), shard));
   }
@@ -68,34 +68,6 @@ BOOST_AUTO_TEST_CASE(a_shard_is_k_of_n) {
   BOOST_TEST(shard_from("8/8").count == 8U);
   for (const char* bad : {"", "2", "0/3", "4/3", "1/100001", "-1/3", "1/3 ", "1/", "/3", "a/b"})
     BOOST_TEST(contains(complaint([&] { (void)shard_from(bad); }), "expected K/N"), bad);
-}
-
-BOOST_AUTO_TEST_CASE(shards_are_balanced_for_any_order_of_names) {
-  std::vector<std::string> names;
-  std::map<std::string, double> costs;
-  double sum = 0, largest = 0;
-  for (int i = 0; i < 200; ++i) {
-    names.push_back("case-" + std::to_string(i));
-    if (i % 10 == 0) continue;  // those are of usual cost
-    costs[names.back()] = 1 + (i * i) % 97;
-  }
-  const auto load_of = [&](const std::vector<std::size_t>& shards) {
-    std::map<std::size_t, double> load;
-    for (std::size_t i = 0; i < names.size(); ++i)
-      if (costs.count(names[i]) > 0) load[shards[i]] += costs[names[i]];
-    return load;
-  };
-  for (const auto& [name, cost] : costs) {
-    sum += cost;
-    largest = std::max(largest, cost);
-  }
-  const auto shards = balanced(names, costs, 7);
-  BOOST_TEST(load_of(shards).size() == 7U);
-  for (const auto& [number, load] : load_of(shards)) BOOST_TEST(load < 4.0 / 3 * sum / 7);
-  std::vector<std::string> reversed(names.rbegin(), names.rend());
-  const auto again = balanced(reversed, costs, 7);
-  BOOST_TEST(std::vector<std::size_t>(again.rbegin(), again.rend()) == shards,
-             boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_CASE(merged_shards_equal_a_run_in_one) {

@@ -139,8 +139,8 @@ def main():
         folder.chmod(0o755)
         whole, out, script = folder / "whole", folder / "out", folder / "job.sh"
         subprocess.run([program, "run", *CASES, "--out", str(whole)], stdout=subprocess.DEVNULL, check=True)
-        script.write_text(said(program, "slurm", "--shards", str(SHARDS), *CASES, "--jobs", "1", "--costs",
-                               str(whole / "results.json"), "--out", str(out)))
+        script.write_text(said(program, "slurm", "--shards", str(SHARDS), *CASES, "--jobs", "1", "--out",
+                               str(out)))
         cluster = Cluster(folder)
         try:
             wait_for("two idle nodes", lambda: said("sinfo", "-h", "-o", "%D %T") == "2 idle", 60)
