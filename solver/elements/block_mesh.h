@@ -55,12 +55,12 @@ struct BlockMesh {
 /// Adds the triangles of a mesh and its new nodes (without names) to a model. A mesh node is merged
 /// with a model node if their distance is below 1e-9 of the mesh size. If several model nodes
 /// match, nodes in `corners` have priority, then the first node of the model.
-/// @param corners  model nodes at the corners of the blocks
-/// @returns the index of the model node for each mesh node
+/// @param corners  model nodes at the corners of the blocks.
+/// @returns the index of the model node for each mesh node.
 std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh,
                           const std::vector<Index>& corners = {});
 
-// // Meshes for verifying orders of convergence. They are regular, or distorted in a pattern that
+// Meshes for verifying orders of convergence. They are regular, or distorted in a pattern that
 // repeats from cell to cell. Refinement therefore does not smooth out the distortion.
 
 /// Parameters of a mesh of a rectangle with one corner at the origin.
@@ -87,7 +87,7 @@ struct DistortedLine {
 
 /// Returns a model with one member per cell. Its first node is at the start of the line.
 /// @param mesh  geometry of the line and its distortion.
-/// @param member  properties of all members; its nodes and number of elements are ignored
+/// @param member  properties of all members; its nodes and number of elements are ignored.
 /// @throws ModelError  if the distortion is outside its range and could invert a member.
 [[nodiscard]] Model mesh_line(const DistortedLine& mesh, const Member& member);
 

@@ -85,9 +85,9 @@ template <Real T>
 }
 
 /// Returns the stiffness in element axes, 6 x 6.
-/// @param section  cross-section of the element
-/// @param theory  beam theory
-/// @param length  L > 0 [m]
+/// @param section  cross-section of the element.
+/// @param theory  beam theory.
+/// @param length  L > 0 [m].
 ///
 /// Source: paper Eq. (7); Przemieniecki (1968) with shear.
 [[nodiscard]] Matrix6d frame_stiffness(const Section& section, BeamTheory theory, double length);

@@ -33,9 +33,9 @@ struct TriangleMesh {
 /// weights transmit a moment correctly. A plain mean over the sector at a corner would move the
 /// force to the centroid of the sector. A rigid rotation of the plate would then strain the link.
 /// Source: moment-corrected kernel of reproducing-kernel methods (Liu, Jun, Zhang 1995).
-/// @param mesh  triangles of the platform
-/// @param x0  position of the pin [m]
-/// @param radius  radius of the pin [m]
+/// @param mesh  triangles of the platform.
+/// @param x0  position of the pin [m].
+/// @param radius  radius of the pin [m].
 /// @throws ModelError  if no triangle is within the radius.
 [[nodiscard]] std::vector<std::pair<Index, double>> pin_weights(const TriangleMesh& mesh,
                                                                 const Vector2d& x0, double radius);

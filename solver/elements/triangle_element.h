@@ -54,8 +54,8 @@ struct TriangleInterpolation {
                                                                    bool six_nodes);
 
 /// Evaluates the shape functions of a triangle at one point.
-/// @param nodes  positions of the 3 or 6 nodes [m]
-/// @param at  area coordinates L_0, L_1, L_2 of the corners [-]; their sum is 1
+/// @param nodes  positions of the 3 or 6 nodes [m].
+/// @param at  area coordinates L_0, L_1, L_2 of the corners [-]; their sum is 1.
 [[nodiscard]] TriangleInterpolation interpolate(std::span<const Vector2d> nodes,
                                                 const Vector3d& at);
 /// Evaluates the shape functions of a triangle of a model at the area coordinates `at`.

@@ -61,7 +61,7 @@ Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
       network.scale.cwiseInverse().asDiagonal() * queries.transpose();  // input x query
   require(squarable(scaled), "a query is not finite or too large to be squared");
 
-  // // Process queries in blocks. One matrix product combines the weights of a block with the
+  // Process queries in blocks. One matrix product combines the weights of a block with the
   // outputs and with a column of ones for the sums of the weights. It covers only samples within
   // reach of any query of the block.
   constexpr Index kBlock = 32;

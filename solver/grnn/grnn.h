@@ -27,10 +27,10 @@ struct Grnn {
 };
 
 /// Builds a network with a scale computed from the samples.
-/// @param inputs   sample x input
-/// @param outputs  sample x output
-/// @param sigma    smoothing, in scaled distance [-]
-/// @param scaling  rule for the scale of the inputs
+/// @param inputs   sample x input.
+/// @param outputs  sample x output.
+/// @param sigma    smoothing, in scaled distance [-].
+/// @param scaling  rule for the scale of the inputs.
 /// @throws ModelError  if there is no sample, the numbers of samples differ, or a number is not
 ///   finite or too large to be squared.
 [[nodiscard]] Grnn make_grnn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs,
@@ -53,14 +53,14 @@ struct Grnn {
 /// which remain accurate far from the samples. The limit for sigma -> 0 is the nearest sample, or
 /// the mean of the samples at that distance. The limit for sigma -> infinity is the mean of all
 /// samples.
-/// @param network  samples, scale and sigma
-/// @param queries  query x input
-/// @return         query x output
+/// @param network  samples, scale and sigma.
+/// @param queries  query x input.
+/// @return         query x output.
 /// @throws ModelError  if a query is not finite or has the wrong number of inputs, or sigma is not
 ///   a positive normal number.
 [[nodiscard]] Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries);
 
-// // Kernel weights of a GRNN, shared by prediction and cross-validation.
+// Kernel weights of a GRNN, shared by prediction and cross-validation.
 
 /// Returns the divisor of each column; 1 for a constant column.
 [[nodiscard]] Eigen::VectorXd scale_of(const Eigen::MatrixXd& columns, InputScaling scaling);
@@ -72,15 +72,15 @@ struct Grnn {
 /// Computes D_i^2 - D_m^2 >= 0 between every sample i and a query, where m is the nearest sample.
 class ExcessDistances {
  public:
-  /// @param samples  sample x input, scaled; must outlive this object
+  /// @param samples  sample x input, scaled; must outlive this object.
   explicit ExcessDistances(const Eigen::MatrixXd& samples)
       : samples_(samples), excess_(samples.rows()), last_(samples.rows()) {}
 
   /// Computes the excess of every sample.
-  /// @param query  scaled input
+  /// @param query  scaled input.
   /// @param reach  excess above which a lower bound is sufficient: samples beyond it may get any
-  ///   excess that is at least `reach`
-  /// @param skip   samples to leave out (their excess is infinite), or null
+  ///   excess that is at least `reach`.
+  /// @param skip   samples to leave out (their excess is infinite), or null.
   const Eigen::ArrayXd& compute(const Eigen::Ref<const Eigen::VectorXd>& query, double reach,
                                 const Eigen::Array<bool, Eigen::Dynamic, 1>* skip = nullptr);
 
@@ -96,10 +96,10 @@ class ExcessDistances {
 
 /// Computes the weights exp(-excess / 2 sigma^2). The weight of the nearest sample is 1 for any
 /// sigma. All weights are at least e^-708, which is a normal number and negligible compared with 1.
-/// @param excess   [count]
-/// @param count    number of samples
-/// @param sigma    smoothing [-]
-/// @param weights  [count], output
+/// @param excess   [count].
+/// @param count    number of samples.
+/// @param sigma    smoothing [-].
+/// @param weights  [count], output.
 void kernel_weights(const double* excess, Index count, double sigma, double* weights);
 
 /// Returns the excess above which a weight is negligible; infinite if sigma^2 overflows.

@@ -34,7 +34,7 @@ enum class Split {
 };
 
 /// Selects the training samples.
-/// @return  for each sample: true if it is one of the `train` training samples
+/// @return  for each sample: true if it is one of the `train` training samples.
 /// @throws ModelError  unless 1 <= train <= samples.
 [[nodiscard]] std::vector<bool> training_mask(Index samples, Index train, Split split,
                                               std::uint64_t seed = 1);
@@ -42,7 +42,7 @@ enum class Split {
 /// Returns the root mean square of the prediction errors. The network predicts each sample without
 /// the samples of its fold. Each output is divided by its standard deviation over all samples, or
 /// by 1 if it is constant. Predicting the mean of all samples therefore has an error near 1.
-/// @return  one error for each sigma [-]
+/// @return  one error for each sigma [-].
 [[nodiscard]] Eigen::VectorXd cross_validation_error(const Grnn& network,
                                                      const Eigen::VectorXd& sigmas,
                                                      const CrossValidation& validation);

@@ -32,8 +32,8 @@ using PrescribedVelocities = std::vector<std::pair<Index, double>>;
 
 /// Velocities of every coordinate where members move as rigid bars, for `make_consistent`: a
 /// mechanism that starts in motion without vibration.
-/// @param node    of each model node (x, y [m/s], rotation [rad/s])
-/// @param member  angular velocity of each member [rad/s]
+/// @param node    of each model node (x, y [m/s], rotation [rad/s]).
+/// @param member  angular velocity of each member [rad/s].
 [[nodiscard]] PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& system,
                                                            const Eigen::MatrixX3d& node,
                                                            const VectorXd& member);

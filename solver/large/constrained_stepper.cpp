@@ -114,7 +114,7 @@ class StepConvergence {
   /// stopped to shrink at round-off.
   /// @param acceleration  h^2 beta a, what the accelerations contribute to the step; velocity: h v;
   ///                     position: q; all over the scale.
-  /// @param limit  of the next correction of the motion
+  /// @param limit  of the next correction of the motion.
   [[nodiscard]] bool converged(double acceleration, double velocity, double position,
                                double limit) const {
     const double next = next_of(step_correction_, previous_step_correction_);

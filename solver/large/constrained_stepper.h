@@ -24,7 +24,7 @@ class MotionResiduals {
   explicit MotionResiduals(const ConstrainedSystem& system);
 
   /// Row by row over |M| |a| + |K| |q| + |G^T| |lambda|.
-  /// @param residual  of the scheme's equation of motion
+  /// @param residual  of the scheme's equation of motion.
   [[nodiscard]] double equation_of_motion(const State& state, const VectorXd& residual);
   [[nodiscard]] ConstraintGaps constraints(const State& state);
 
@@ -73,7 +73,7 @@ class StepConvergence;
 /// and the equations are scaled by h^2, so tiny steps are harmless.
 class ConstrainedStepper : public Stepper {
  public:
-  /// @param start  consistent.   @pre all but it outlive this
+  /// @param start  consistent.   @pre all but it outlive this.
   ConstrainedStepper(const ConstrainedSystem& system, const TransientOptions& options,
                      const State& start, const Observer& observe);
 

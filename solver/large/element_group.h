@@ -24,13 +24,13 @@ struct RowScales {
 
 class PenaltyScales {
  public:
-  /// @param mass  diagonal of the mass matrix, one entry a coordinate [kg or kg m^2]
-  /// @param size  of the model [m]
+  /// @param mass  diagonal of the mass matrix, one entry a coordinate [kg or kg m^2].
+  /// @param size  of the model [m].
   PenaltyScales(const Model& model, const LargeMotionModel& large_motion, const Layout& layout,
                 const Eigen::VectorXd& mass, double size);
 
   /// In a row of displacements rotations count, by their lever, if displacements have none.
-  /// @param lever  of the row's rotations, if others are displacements [m]
+  /// @param lever  of the row's rotations, if others are displacements [m].
   [[nodiscard]] RowScales of_row(std::span<const Index> coordinates, double lever) const;
 
  private:
@@ -115,7 +115,7 @@ class ElementGroup {
   }
 
   /// Sets the rows' properties and penalties from the parts that they join.
-  /// @param free  number of free coordinates; those from there on are held by supports
+  /// @param free  number of free coordinates; those from there on are held by supports.
   void connect(Index free, const PenaltyScales& scales, SystemRows& system) {
     first_block_ = std::ssize(system.blocks);
     for (Index e = 0; e < size(); ++e) {

@@ -103,7 +103,7 @@ void apply_correction(State& state, const VectorXd& step, double factor = 1);
 namespace trammel::solver {
 
 /// Adds the evaluations of the elements of so many tangents, by effect.
-/// @param moving  with the masses
+/// @param moving  with the masses.
 void count_tangents(const large_motion::GeometricallyExactSystem& system, std::int64_t tangents,
                     bool moving, Counters& counters);
 

@@ -50,7 +50,7 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   [[nodiscard]] Energy energy(const State& state) const;
   /// Work that changes the energy in a step [J]: of drives, of loads that change or follow their
   /// nodes, less what damping takes.
-  /// @param lambda  means of the step
+  /// @param lambda  means of the step.
   [[nodiscard]] double nonconservative_work(const State& from, const State& to,
                                             const VectorXd& lambda) const;
 

@@ -32,7 +32,7 @@ class KktMatrix {
   using Blocks = std::vector<std::vector<Index>>;
   using Extended = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
-  /// @param blocks  each lists the unknowns that an element couples; rows are numbered from
+  /// @param blocks  each lists the unknowns that an element couples; rows are numbered from.
   ///                `coordinates` on; every row belongs to one block only; unknowns below 0 or not
   ///                listed as free take no part.
   KktMatrix(Index coordinates, Index constraints, const Blocks& blocks);

@@ -119,7 +119,7 @@ class LargeElastodynamics {
     return nominal_motion(from.model, to.dynamics, from.dynamics.q, to.point, options_.gravity);
   }
 
-  /// @param moves  else the drives stand where the model was built
+  /// @param moves  else the drives stand where the model was built.
   [[nodiscard]] LargeMotionModel drives(Model& model, const std::vector<DrivenEnd>& ends,
                                         bool moves) const {
     LargeMotionModel large_motion;
@@ -302,7 +302,7 @@ class LargeElastodynamics {
   }
 
   /// A state as seen from the nominal position.
-  /// @param built  the pose of the system's model
+  /// @param built  the pose of the system's model.
   [[nodiscard]] StaticSolution sample_of(const GeometricallyExactSystem& system, const State& state,
                                          const NominalState& built, const NominalState& now) const {
     const NominalMotion moved = motion_between(built, now);

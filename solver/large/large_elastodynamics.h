@@ -28,7 +28,7 @@ namespace trammel::solver {
     const ElastodynamicsOptions& options);
 
 /// What of a motion `solve_large_elastodynamics` does not know; null where it knows all.
-/// @param model  of the manipulator where the motion starts
+/// @param model  of the manipulator where the motion starts.
 [[nodiscard]] const char* beyond_large_displacement(const ElastodynamicsOptions& options,
                                                     const Model& model);
 
@@ -61,7 +61,7 @@ struct DrivenEnd {
 
 /// Rates of the coordinates where all parts move as rigid ones: velocities or accelerations, the
 /// derivative of order 1 or 2.
-/// @param ends  the last nodes of the model; the others are the builder's
+/// @param ends  the last nodes of the model; the others are the builder's.
 [[nodiscard]] VectorXd nominal_rates(const GeometricallyExactSystem& system,
                                      const NominalMotion& motion, int order,
                                      const std::vector<DrivenEnd>& ends = {});

@@ -142,8 +142,8 @@ struct Spectrum {
   double shift = 0;
 };
 
-/// @param K  K - shift M
-/// @param L  of `mass_factor`
+/// @param K  K - shift M.
+/// @param L  of `mass_factor`.
 Spectrum spectrum(const ShiftedStiffness& K, const MatrixXd& L, double shift, bool symmetric) {
   const Index n = L.rows();
   MatrixXd flexibility(n, L.cols());  // (K - shift M)^-1 (L, 0)

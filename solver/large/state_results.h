@@ -27,7 +27,7 @@ namespace trammel::solver::large_motion {
 /// loads, weight and inertia in the place where they are.
 class MemberBalance {
  public:
-  /// @param state  meets the equation of motion
+  /// @param state  meets the equation of motion.
   void add(const GeometricallyExactSystem& system, const State& state);
   /// The largest sum of forces, or of moments about a first end, over the largest terms of such
   /// sums: states and members whose forces are rounding of the others' do not count.

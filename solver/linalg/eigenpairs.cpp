@@ -27,7 +27,7 @@ constexpr double kConvergenceTolerance =
 constexpr double kClusterGap =
     1e-3;  // relative gap between distinct neighbors that are certainly no copies
 
-// // K and B are symmetric. Products use their transpose, because Eigen then sums each row in
+// K and B are symmetric. Products use their transpose, because Eigen then sums each row in
 // registers.
 
 /// Solves A x = lambda B x in coordinates scaled to a unit diagonal of B.

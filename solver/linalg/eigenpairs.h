@@ -50,15 +50,16 @@ struct Eigenpairs {
 /// - Lanczos' method may miss copies of a repeated value. It continues in the complement of the
 ///   known vectors until the count agrees.
 ///
-/// @param pencil  K, B and s
+/// @param pencil  K, B and s.
 /// @param null  q x r, known vectors with K x = 0, B-orthonormal. They count as the first
 ///   eigenvalues, 0, and are not returned.
-/// @param count  number of pairs; if B is not assembled, all pairs below `check_shift` are returned
-/// @param method  dense, sparse or automatic
-/// @param factorization  of `shifted(K, B, s)`; overwritten
-/// @param counters  incremented by the factorizations and solves
+/// @param count  number of pairs; if B is not assembled, all pairs below `check_shift` are
+/// returned.
+/// @param method  dense, sparse or automatic.
+/// @param factorization  of `shifted(K, B, s)`; overwritten.
+/// @param counters  incremented by the factorizations and solves.
 /// @returns the pairs; `outcome` is not_converged if the matrix is too ill-conditioned or pairs are
-///   missing
+///   missing.
 [[nodiscard]] Eigenpairs lowest_eigenpairs(const Pencil& pencil, const Eigen::MatrixXd& null,
                                            Index count, EigenMethod method,
                                            Factorization& factorization, Counters& counters);
@@ -71,20 +72,20 @@ struct Eigenpairs {
 
 /// Returns the number of eigenvalues that are missing or superfluous among those found. The count
 /// is compared at the last clear gap among them. The result is infinite if no gap can be counted.
-/// @param found  eigenvalues, ascending, >= 0; 0 for rigid modes
-/// @param count_below  as in `Pencil`
+/// @param found  eigenvalues, ascending, >= 0; 0 for rigid modes.
+/// @param count_below  as in `Pencil`.
 [[nodiscard]] double miscounted_eigenvalues(
     const Eigen::VectorXd& found, const std::function<std::optional<Index>(double)>& count_below);
 
 /// Counts missing or superfluous eigenvalues of A x = t B x with a positive semidefinite A. It uses
 /// the negative pivots of A - t B (Sylvester). If the count at `shift_above` agrees, the result is
 /// 0. Otherwise the count at the last clear gap is used.
-/// @param A  positive semidefinite
-/// @param B  symmetric
-/// @param found  eigenvalues, ascending, >= 0
+/// @param A  positive semidefinite.
+/// @param B  symmetric.
+/// @param found  eigenvalues, ascending, >= 0.
 /// @param spent  factorization that is no longer needed. Its ordering is reused, and its factors if
 ///   it is of A - shift_above B.
-/// @param shift_above  shift above all found values, or 0
+/// @param shift_above  shift above all found values, or 0.
 [[nodiscard]] double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
                                             const Eigen::VectorXd& found,
                                             Factorization&& spent = {}, double shift_above = 0);
@@ -108,18 +109,18 @@ struct LanczosPairs {
 
 /// Computes the largest eigenvalues of a symmetric operator by Lanczos' method with implicit
 /// restarts (Spectra).
-/// @param apply  x -> A x
-/// @param start  start vector
-/// @param options  number of eigenvalues, size of the subspace, tolerance
+/// @param apply  x -> A x.
+/// @param start  start vector.
+/// @param options  number of eigenvalues, size of the subspace, tolerance.
 [[nodiscard]] LanczosPairs largest_eigenpairs(
     const std::function<Eigen::VectorXd(const Eigen::Ref<const Eigen::VectorXd>&)>& apply,
     const Eigen::VectorXd& start, const LanczosOptions& options);
 
 /// Returns start vectors for an eigenvalue iteration: numbers in [-1, 1) that are the same on every
 /// machine.
-/// @param rows  number of rows
-/// @param columns  number of vectors
-/// @param variant  selects a different sequence
+/// @param rows  number of rows.
+/// @param columns  number of vectors.
+/// @param variant  selects a different sequence.
 [[nodiscard]] Eigen::MatrixXd start_vectors(Index rows, Index columns, Index variant = 0);
 
 }  // namespace trammel::solver

@@ -11,7 +11,7 @@
 #include <numeric>
 #include <vector>
 
-// // must follow <iostream>
+// must follow <iostream>
 #include <Eigen/MetisSupport>
 
 namespace trammel::solver {

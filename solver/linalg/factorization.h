@@ -31,8 +31,8 @@ class SparseLdlt {
                       Ordering ordering = Ordering::fill_reducing);
 
   /// Factors A. It keeps the factors if A equals the last matrix.
-  /// @param A  compressed, with the pattern of both triangles
-  /// @returns false if a pivot is zero or not finite; then no other function may be called
+  /// @param A  compressed, with the pattern of both triangles.
+  /// @returns false if a pivot is zero or not finite; then no other function may be called.
   [[nodiscard]] bool factorize(const SparseMatrix& A);
 
   [[nodiscard]] const Eigen::VectorXd& pivots() const;
@@ -126,11 +126,11 @@ struct RefinedSolution {
 /// Solves A x = b with a factorization of A and improves x with residuals from `A`. It stops when
 /// the error of the correction is round-off, or when the correction no longer halves. (The residual
 /// is no suitable criterion: round-off of stiff axial parts hides errors in soft bending.)
-/// @param A  operator for the residuals
-/// @param factorization  of the assembled A
-/// @param b  right-hand side
-/// @param guess  initial solution; a good one requires a single solve
-/// @param counters  incremented by the solves
+/// @param A  operator for the residuals.
+/// @param factorization  of the assembled A.
+/// @param b  right-hand side.
+/// @param guess  initial solution; a good one requires a single solve.
+/// @param counters  incremented by the solves.
 [[nodiscard]] RefinedSolution refined_solve(const Operator& A, const Factorization& factorization,
                                             const Eigen::VectorXd& b, const Eigen::VectorXd& guess,
                                             Counters& counters);

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-// // Scale of s. It is far below the relevant singular values of the scaled A. Row exchanges therefore
+// Scale of s. It is far below the relevant singular values of the scaled A. Row exchanges therefore
 // take pivots from A, and K is not formed in the process.
 // Source: Bjorck (1996), ch. 2.5.3
 constexpr double kAlpha = 1e-12;

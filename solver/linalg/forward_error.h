@@ -40,9 +40,9 @@ class AugmentedSystem {
 /// Estimates the 1-norm of an operator from products with it and its transpose. The estimate is a
 /// lower bound, and nearly always within a factor of 3.
 /// Source: Hager (1984), Higham (1988).
-/// @param columns  number of columns of B
-/// @param B  x -> B x
-/// @param Bt  y -> B^T y
+/// @param columns  number of columns of B.
+/// @param B  x -> B x.
+/// @param Bt  y -> B^T y.
 [[nodiscard]] double estimate_norm(
     Eigen::Index columns, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& B,
     const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& Bt);
@@ -58,11 +58,11 @@ class AugmentedSystem {
 /// instead of K. Near a singularity, this limits the loss to the condition number of A.
 /// Source: Oettli & Prager (1964), Skeel (1979); Bjorck (1991), BIT 31, for least squares; LAPACK's
 /// xPORFS for the maximum over the signs; Higham & Mary (2019), SIAM J. Sci. Comput., for c.
-/// @param factors  A, its magnitudes and C
-/// @param R  requested quantities as a function of q, in comparable units
-/// @param q  solution
-/// @param f  right-hand side
-/// @param solve  x -> K^-1 x
+/// @param factors  A, its magnitudes and C.
+/// @param R  requested quantities as a function of q, in comparable units.
+/// @param q  solution.
+/// @param f  right-hand side.
+/// @param solve  x -> K^-1 x.
 [[nodiscard]] double forward_error(const StiffnessFactors& factors, const SparseMatrix& R,
                                    const Eigen::VectorXd& q, const Eigen::VectorXd& f,
                                    const Operator& solve);

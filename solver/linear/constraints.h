@@ -33,7 +33,7 @@ struct Constraints {
 
   /// Returns the multipliers lambda, one for each row, with C^T lambda = `force`. They are the
   /// generalized forces [N, N m] of the constraints. Dropped rows have 0.
-  /// @param force  force on each unconstrained coordinate [N, N m]
+  /// @param force  force on each unconstrained coordinate [N, N m].
   [[nodiscard]] Eigen::VectorXd multipliers(const Eigen::VectorXd& force) const;
 };
 

@@ -83,8 +83,8 @@ void for_each_deformation(const System& system, Visit&& visit) {
 }
 
 /// Returns the nodal forces in world axes [N, N m] of a uniform load on an element.
-/// @param element  frame element
-/// @param load  load per unit length in world axes [N/m]
+/// @param element  frame element.
+/// @param load  load per unit length in world axes [N/m].
 [[nodiscard]] Vector6d element_load(const FrameElement& element, const Vector2d& load);
 
 /// Returns K u on the unconstrained coordinates [N, N m].
@@ -108,10 +108,10 @@ void for_each_deformation(const System& system, Visit&& visit) {
 [[nodiscard]] double strain_magnitude(const System& system, const Eigen::VectorXd& u);
 
 /// Returns the stress (sxx, syy, sxy) [Pa] of a triangle at a point.
-/// @param system  assembled model
-/// @param triangle  triangle of the model
-/// @param at  area coordinates of the point [-]
-/// @param u  unconstrained coordinates [m]
+/// @param system  assembled model.
+/// @param triangle  triangle of the model.
+/// @param at  area coordinates of the point [-].
+/// @param u  unconstrained coordinates [m].
 [[nodiscard]] Vector3d plate_stress(const System& system, const Triangle& triangle,
                                     const Vector3d& at, const Eigen::VectorXd& u);
 
@@ -140,12 +140,12 @@ void for_each_plate_mass(const System& system, Visit&& visit) {
   }
 }
 
-// // Inertia on the unconstrained coordinates u, without an assembled mass matrix.
+// Inertia on the unconstrained coordinates u, without an assembled mass matrix.
 
 /// Returns the mass matrix of a point mass on (x, y, rotation) of its node.
-/// @param mass  [kg]
-/// @param inertia  about the center of mass [kg m^2]
-/// @param offset  of the center of mass from the node, world axes [m]
+/// @param mass  [kg].
+/// @param inertia  about the center of mass [kg m^2].
+/// @param offset  of the center of mass from the node, world axes [m].
 template <Real T>
 [[nodiscard]] Eigen::Matrix3<T> point_inertia(const T& mass, const T& inertia,
                                               const Vector2d& offset) {

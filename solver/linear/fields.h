@@ -28,7 +28,7 @@ void add_edge_traction(System& system, const Traction& traction);
 /// Adds a line load on all frame elements that bend.
 void add_line_load(System& system, const LineLoad& load);
 
-// // Errors of a discrete solution compared with an exact field. They are norms over the
+// Errors of a discrete solution compared with an exact field. They are norms over the
 // interpolation of the elements, computed by quadrature. Each error is relative to the same norm of
 // the exact field.
 
@@ -52,9 +52,9 @@ struct MembraneErrors {
 };
 
 /// Returns the relative errors of a plane-stress solution.
-/// @param system  assembled model
-/// @param q  free coordinates
-/// @param exact  exact field
+/// @param system  assembled model.
+/// @param q  free coordinates.
+/// @param exact  exact field.
 [[nodiscard]] MembraneErrors membrane_errors(const System& system, const Eigen::VectorXd& q,
                                              const MembraneField& exact);
 

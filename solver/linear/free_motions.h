@@ -30,9 +30,9 @@ struct ZeroEnergyModes {
 [[nodiscard]] std::string describe_mechanism(const System& system, const ZeroEnergyModes& modes);
 
 /// Returns `singular` with a description of the zero-energy modes, if there are any.
-/// @param system  assembled model
-/// @param K  factors of the stiffness
-/// @param counters  incremented by the factorizations and solves
+/// @param system  assembled model.
+/// @param K  factors of the stiffness.
+/// @param counters  incremented by the factorizations and solves.
 [[nodiscard]] Outcome require_held(const System& system, const Factorization& K,
                                    Counters& counters);
 

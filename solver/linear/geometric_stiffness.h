@@ -43,19 +43,19 @@ struct BodyForces {
 [[nodiscard]] BodyForces body_forces(const System& system);
 
 /// Computes the forces of a state.
-/// @param system  assembled model
-/// @param u  displacements of the unconstrained coordinates [m, rad]
+/// @param system  assembled model.
+/// @param u  displacements of the unconstrained coordinates [m, rad].
 /// @param multipliers  multipliers of the constraints in the state: forces of inextensible members
-///   and rigid bodies
-/// @param body  forces on masses and members
+///   and rigid bodies.
+/// @param body  forces on masses and members.
 [[nodiscard]] Prestress prestress(const System& system, const Eigen::VectorXd& u,
                                   const Eigen::VectorXd& multipliers, const BodyForces& body);
 
 /// Returns the round-off errors of the forces of a state q, with the same sign everywhere. They
 /// include forces of members, forces on arms of rigid bodies, and stresses of plates. The stress
 /// error is represented as equal tension in all directions.
-/// @param system  assembled model
-/// @param q  free coordinates
+/// @param system  assembled model.
+/// @param q  free coordinates.
 [[nodiscard]] Prestress prestress_roundoff(const System& system, const Eigen::VectorXd& q);
 
 /// Returns `singular` if redundant constraints stiffen or soften a free motion. Statics does not
@@ -94,10 +94,10 @@ struct BodyForces {
 
 /// Returns the round-off error of x^T K_G x [J], including that of the forces
 /// (`prestress_roundoff`).
-/// @param system  assembled model
-/// @param K_G  geometric stiffness, q x q
-/// @param roundoff  round-off errors of the forces
-/// @param x  free coordinates
+/// @param system  assembled model.
+/// @param K_G  geometric stiffness, q x q.
+/// @param roundoff  round-off errors of the forces.
+/// @param x  free coordinates.
 [[nodiscard]] double geometric_energy_roundoff(const System& system, const SparseMatrix& K_G,
                                                const Prestress& roundoff, const Eigen::VectorXd& x);
 

@@ -57,8 +57,8 @@ double floating_shift(const System& system, const MatrixXd& Z, Counters& counter
 
 /// Adds the residuals of modes to the evidence: the largest backward error of (K + K_G) x = w^2 M
 /// x, and the number of miscounted modes.
-/// @param K  K + K_G
-/// @param K_G  empty without prestress
+/// @param K  K + K_G.
+/// @param K_G  empty without prestress.
 void judge(const System& system, const SparseMatrix& K, const SparseMatrix& K_G,
            ModalSolution& solution, Factorization&& spent = {}, double shift_above = 0) {
   if (!solution.outcome.solved()) return;
@@ -78,7 +78,7 @@ void judge(const System& system, const SparseMatrix& K, const SparseMatrix& K_G,
 }
 
 /// Computes the modes of (K + K_G) x = w^2 M x.
-/// @param state  state whose forces define K_G; null: unloaded, without K_G
+/// @param state  state whose forces define K_G; null: unloaded, without K_G.
 ModalSolution solve(const System& system, const ModesOptions& options,
                     const StaticSolution* state) {
   ModalSolution solution;

@@ -18,10 +18,10 @@ namespace trammel::solver {
 /// The frequencies are those of a constrained model, which are at least those of the full model.
 /// Source: Guyan (1965); Craig & Bampton (1968).
 ///
-/// @param system  full model
+/// @param system  full model.
 /// @param modes  number of modes of the interior of each member. If it is at least the number of
 ///   interior coordinates, the member is not condensed.
-/// @param loads  loads on the free coordinates that act independently [SI]
+/// @param loads  loads on the free coordinates that act independently [SI].
 /// @returns the same model in fewer coordinates: T, K, M and f are reduced, and all other data are
 ///   unchanged. Motions, strain energies and drawings follow from the reduced coordinates as from
 ///   q. `constraints` are those of the full model.
@@ -37,10 +37,10 @@ namespace trammel::solver {
 /// The response equals that of the full model at frequencies far below the omitted modes. Loads
 /// that the modes represent exactly have no r.
 ///
-/// @param system  full model
-/// @param modes  modes of the same system, with Phi^T M Phi = I
-/// @param loads  loads on the free coordinates that act independently [SI]
-/// @returns the reduced model, as `reduce_members`
+/// @param system  full model.
+/// @param modes  modes of the same system, with Phi^T M Phi = I.
+/// @param loads  loads on the free coordinates that act independently [SI].
+/// @returns the reduced model, as `reduce_members`.
 /// @throws ModelError  if the stiffness is singular although there are no rigid modes.
 [[nodiscard]] System reduce_to_modes(const System& system, const ModalSolution& modes,
                                      const std::vector<Eigen::VectorXd>& loads);

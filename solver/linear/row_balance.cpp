@@ -131,7 +131,7 @@ SparseMatrix damping_matrix(const RayleighDamping& damping, const SparseMatrix& 
 SparseMatrix modal_damping_matrix(const SparseMatrix& M, const Eigen::VectorXd& omega,
                                   const Eigen::MatrixXd& shape, const Eigen::VectorXd& ratio) {
   if (shape.rows() != M.rows() || shape.cols() != omega.size() || ratio.size() != omega.size()) {
-    throw ModelError("modal damping has one ratio for each mode");
+    throw ModelError("modal damping needs one ratio for each mode");
   }
   const Eigen::MatrixXd inertia = M * shape;
   const Eigen::VectorXd factor = 2 * ratio.cwiseProduct(omega);

@@ -53,7 +53,7 @@ class RowBalance {
   Eigen::MatrixXd terms_, free_terms_;
 };
 
-// // Viscous damping: its parameters and its matrix.
+// Viscous damping: its parameters and its matrix.
 
 /// Rayleigh damping, C = mass * M + stiffness * K (paper Eq. 19 with w1 and w2).
 struct RayleighDamping {
@@ -62,8 +62,8 @@ struct RayleighDamping {
 };
 
 /// Returns the damping ratio [-], (mass / w + stiffness * w) / 2.
-/// @param damping  factors of mass and stiffness
-/// @param omega  w > 0 [rad/s]
+/// @param damping  factors of mass and stiffness.
+/// @param omega  w > 0 [rad/s].
 [[nodiscard]] double damping_ratio(const RayleighDamping& damping, double omega);
 
 /// Returns the decay rates ratio * w = (mass + stiffness * w^2) / 2 [1/s], also at w = 0.
@@ -89,10 +89,10 @@ struct RayleighDamping {
 ///
 /// The given modes have their damping ratio, and all others have zero. The matrix is dense in the
 /// coordinates that the modes move. Large models use `superpose` instead.
-/// @param M  mass matrix
-/// @param omega  angular frequency of each mode [rad/s]
-/// @param shape  coordinate x mode
-/// @param ratio  damping ratio of each mode [-]
+/// @param M  mass matrix.
+/// @param omega  angular frequency of each mode [rad/s].
+/// @param shape  coordinate x mode.
+/// @param ratio  damping ratio of each mode [-].
 /// @throws ModelError  if the sizes differ.
 [[nodiscard]] SparseMatrix modal_damping_matrix(const SparseMatrix& M, const Eigen::VectorXd& omega,
                                                 const Eigen::MatrixXd& shape,

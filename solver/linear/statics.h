@@ -87,8 +87,8 @@ struct ForceRoundoff {
   double force = 0, moment = 0;
 };
 /// Returns the round-off level of the forces of a state.
-/// @param ends  forces on the frame elements
-/// @param size  size of the model [m]
+/// @param ends  forces on the frame elements.
+/// @param size  size of the model [m].
 [[nodiscard]] ForceRoundoff force_roundoff(const ElementForces& ends, double size);
 
 /// Returns force over area, or moment over section modulus [Pa]. If the section does not define the
@@ -114,10 +114,10 @@ struct ForceSum {
   void add(const Vector2d& at, const Vector2d& f, double m);
 };
 /// Sums the loads on the unconstrained coordinates and the reactions of supports.
-/// @param system  assembled model
-/// @param position  positions of the mesh nodes [m]
-/// @param load  loads on the unconstrained coordinates [N, N m]
-/// @param solution  contains the reactions
+/// @param system  assembled model.
+/// @param position  positions of the mesh nodes [m].
+/// @param load  loads on the unconstrained coordinates [N, N m].
+/// @param solution  contains the reactions.
 [[nodiscard]] ForceSum sum_forces(const System& system, const std::vector<Vector2d>& position,
                                   const Eigen::VectorXd& load, const StaticSolution& solution);
 
@@ -139,10 +139,10 @@ void postprocess(const System& system, const ElasticState& state, StaticSolution
 /// member ends, forces of springs and triangles, reactions, forces of other constraints, and nodal
 /// loads. Returns the largest sum over `terms`. The value is small even if the equation was not
 /// solved, because it only checks that the forces belong to the state.
-/// @param system  assembled model
-/// @param state  displacements, loads and accelerations
-/// @param solution  reported forces
-/// @param terms  sums of the magnitudes of K u and the loads on the unconstrained coordinates
+/// @param system  assembled model.
+/// @param state  displacements, loads and accelerations.
+/// @param solution  reported forces.
+/// @param terms  sums of the magnitudes of K u and the loads on the unconstrained coordinates.
 [[nodiscard]] double unbalanced_forces(const System& system, const ElasticState& state,
                                        const StaticSolution& solution,
                                        const Eigen::VectorXd& terms);

@@ -10,7 +10,7 @@ namespace trammel::solver {
 /// @throws ModelError  with one sentence that names the part and the problem.
 void validate(const Model& model);
 
-// // Effects are removed from a model before assembly.
+// Effects are removed from a model before assembly.
 
 /// Returns the effects that the parts of the model have. Effects of an analysis are not included:
 /// inertia, damping, gyroscopic forces, geometric stiffening and large displacement.

@@ -31,7 +31,7 @@ struct WholeBalance {
 /// Displacements, reactions, section forces and stresses of the elastic motion at one pose, in
 /// equilibrium with inertia and damping. A member's stress is the largest at the ends of its
 /// elements.
-/// @param q  free coordinates;  @param forces  of the same motion;  @param balance  to add it to
+/// @param q  free coordinates;  @param forces  of the same motion;  @param balance  to add it to.
 [[nodiscard]] StaticSolution postprocess_motion(const MovingSystem& moving,
                                                 const Eigen::VectorXd& q,
                                                 const MovingSystem::Forces& forces,
@@ -336,7 +336,7 @@ class MotionSolver {
 };
 
 /// Rotation that best fits the displacements of C1 C2 C3 [rad].
-/// @param displacement  of C1 C2 C3 x (ux, uy) [m]
+/// @param displacement  of C1 C2 C3 x (ux, uy) [m].
 double mean_platform_rotation(const ManipulatorGeometry& geometry, double phi,
                               const Eigen::Matrix<double, 3, 2>& displacement) {
   const auto& C = geometry.platform;

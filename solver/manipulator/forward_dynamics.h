@@ -46,9 +46,9 @@ struct ForwardDynamics {
 
 /// Integrates pose and velocity of the platform, so that the loops stay closed by themselves, with
 /// the embedded pair of Dormand and Prince (1980), order 5(4), local extrapolation (Boost.Odeint).
-/// @param start   pose and velocity at start.time [s]
-/// @param torque  of the actuators at a time [N m]
-/// @param times   ascending, from start.time on [s]
+/// @param start   pose and velocity at start.time [s].
+/// @param torque  of the actuators at a time [N m].
+/// @param times   ascending, from start.time on [s].
 /// @throws ModelError  where the times do not ascend or the tolerance is not positive.
 [[nodiscard]] ForwardDynamics forward_dynamics(const RigidManipulator& manipulator,
                                                const TrajectoryPoint& start,

@@ -117,7 +117,7 @@ class SetDerivative {
     }
   }
 
-  /// @returns mode x mode, symmetric; not finite where a limb is straight or folded
+  /// @returns mode x mode, symmetric; not finite where a limb is straight or folded.
   [[nodiscard]] MatrixXd of(const SeededDesign& design) const {
     MatrixXd sum = MatrixXd::Zero(U_.cols(), U_.cols());
     for (const FrameElement& e : system_.mesh.frame)
@@ -218,7 +218,7 @@ double relative_gap(const VectorXd& frequency, const FrequencySet& set) {
 }
 
 /// Derivatives of one set of equal frequencies by the parameters with a seeded design.
-/// @param shown  of the set, the first
+/// @param shown  of the set, the first.
 Outcome differentiate_set(const System& system, const ModalSolution& modes, const FrequencySet& set,
                           Index shown, const std::vector<std::optional<SeededDesign>>& designs,
                           FrequencySensitivity& result) {

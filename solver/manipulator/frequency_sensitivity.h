@@ -79,7 +79,7 @@ struct FrequencySet {
   Index count = 1;
 };
 
-/// @param frequency  ascending [Hz]
+/// @param frequency  ascending [Hz].
 [[nodiscard]] std::vector<FrequencySet> equal_frequencies(const Eigen::VectorXd& frequency);
 
 struct FrequencySensitivity {
@@ -99,7 +99,7 @@ struct FrequencySensitivity {
   Counters counters;
 };
 
-/// @param count  modes; of a set that goes on beyond, the lowest derivatives are returned
+/// @param count  modes; of a set that goes on beyond, the lowest derivatives are returned.
 /// @throws ModelError  as `build_manipulator`.
 [[nodiscard]] FrequencySensitivity frequency_sensitivity(
     const ManipulatorDesign& design, const Pose& pose,

@@ -82,7 +82,7 @@ struct ForwardKinematics {
   double closure_error = 0;  ///< as in Posture [m]
   int iterations = 0;
 };
-/// @param active  theta_ai [rad]
+/// @param active  theta_ai [rad].
 [[nodiscard]] ForwardKinematics forward_kinematics(const ManipulatorGeometry& geometry,
                                                    const std::array<double, 3>& active,
                                                    const Pose& start);
@@ -116,7 +116,7 @@ struct HoldingTorques {
 /// Virtual work: torque . dtheta_a + wrench . dx = 0. With unit vectors e_i = d_i / |d_i| the
 /// tensions solve sum_i T_i (e_i, cross(C_i - P, e_i)) = wrench, and tau_i = -T_i cross(B_i - A_i,
 /// e_i), so that a serial singularity needs no torque and does no harm.
-/// @param wrench  (Fx, Fy [N], moment [N m]) applied to the platform at P
+/// @param wrench  (Fx, Fy [N], moment [N m]) applied to the platform at P.
 [[nodiscard]] HoldingTorques holding_torques(const Jacobians& jacobians, const Vector3d& wrench);
 
 }  // namespace trammel::solver

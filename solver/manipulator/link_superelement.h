@@ -23,7 +23,7 @@ struct LinkSuperelement {
   double coupling = 0;
 };
 
-/// @param length  of the whole member [m]
+/// @param length  of the whole member [m].
 [[nodiscard]] LinkSuperelement condense(const Member& member, double length);
 
 }  // namespace trammel::solver

@@ -14,8 +14,8 @@ namespace trammel::solver {
 /// X the eliminated coordinates (columns p of C) of the free ones (f).
 class MovingConstraints {
  public:
-  /// @param start  the system where it was built;  @param motion  of no part
-  /// @param derivatives  T. and T.. too
+  /// @param start  the system where it was built;  @param motion  of no part.
+  /// @param derivatives  T. and T.. too.
   MovingConstraints(const System& start, const NominalMotion& motion, bool derivatives);
 
   /// singular: the coordinates that the constraints eliminate do not suit this pose; nothing

@@ -46,7 +46,7 @@ struct NominalMotion {
 }
 
 /// The nominal motion of every part of the built model, from that of the platform.
-/// @param model  as built at joint coordinates `from` (theta_a, theta_p, x, y, phi)
+/// @param model  as built at joint coordinates `from` (theta_a, theta_p, x, y, phi).
 [[nodiscard]] NominalMotion nominal_motion(const Model& model, const InverseDynamics& motion,
                                            const Vector9d& from, const TrajectoryPoint& point,
                                            const Vector2d& gravity);
@@ -104,7 +104,7 @@ struct MovingElement {
 
 /// Frame elements in the order of the mesh, then triangles, point masses, rotary inertias of the
 /// members' ends, springs.
-/// @param links  condensed members, in place of the frame elements; empty: none is condensed
+/// @param links  condensed members, in place of the frame elements; empty: none is condensed.
 /// @throws ModelError  for triangles of six nodes.
 [[nodiscard]] std::vector<MovingElement> moving_elements(
     const System& system, const std::vector<LinkSuperelement>& links);

@@ -13,7 +13,7 @@ namespace trammel::solver {
 class DenseLdlt {
  public:
   /// Returns false if a pivot is zero or not finite; there is no factorization then.
-  /// @param A  its lower triangle is read
+  /// @param A  its lower triangle is read.
   [[nodiscard]] bool compute(const Eigen::MatrixXd& A);
 
   /// Of the scaled matrix: below 1, and for a positive definite one no less than its smallest
@@ -79,7 +79,7 @@ struct ModeMeasures {
 /// follow by inertia alone.
 class MovingPencil {
  public:
-  /// @param model  at the pose, with the number of elements a link that are condensed; without
+  /// @param model  at the pose, with the number of elements a link that are condensed; without.
   ///               inactive effects
   MovingPencil(const Model& model, const ManipulatorGeometry& geometry, const Pose& pose);
 
@@ -103,7 +103,7 @@ class MovingPencil {
   /// Y = X M.
   template <int rows>
   void mass_times(const VectorBlock<rows>& X, VectorBlock<rows>& Y) const;
-  /// @param MX  X M
+  /// @param MX  X M.
   template <int rows>
   [[nodiscard]] ModeMeasures<rows> measure(const VectorBlock<rows>& X, const VectorBlock<rows>& MX,
                                            Workspace<rows>& space) const;

@@ -76,8 +76,8 @@ class MovingSystem {
     Eigen::VectorXd external;  ///< loads and weight, less inertia and the damping by mass
     WorkingMotion working;     ///< energies, and the forces that do work
   };
-  /// @param q, v, a  free coordinates and their rates
-  /// @param with_inertia  of the nominal motion
+  /// @param q, v, a  free coordinates and their rates.
+  /// @param with_inertia  of the nominal motion.
   [[nodiscard]] Forces forces(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                               const Eigen::VectorXd& a, const RayleighDamping& damping,
                               bool with_inertia) const;

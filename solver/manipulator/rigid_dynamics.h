@@ -96,7 +96,7 @@ struct RigidTerms {
   std::array<BodyTerms, 7> bodies;  ///< proximal 1-3, distal 1-3, platform
 };
 
-/// @param velocity  of the platform (xdot, ydot [m/s], phidot [rad/s])
+/// @param velocity  of the platform (xdot, ydot [m/s], phidot [rad/s]).
 /// @throws ModelError  as `inverse_kinematics`.
 [[nodiscard]] RigidTerms rigid_terms(const RigidManipulator& manipulator, const Pose& pose,
                                      const Vector3d& velocity);
@@ -138,7 +138,7 @@ struct InverseDynamics {
   double gravity_power = kNaN;
 };
 
-/// @param wrench  load on the platform at P: (Fx, Fy [N], moment [N m]) in world axes
+/// @param wrench  load on the platform at P: (Fx, Fy [N], moment [N m]) in world axes.
 [[nodiscard]] InverseDynamics inverse_dynamics(const RigidManipulator& manipulator,
                                                const TrajectoryPoint& motion,
                                                const Vector3d& wrench = Vector3d::Zero());

@@ -57,7 +57,7 @@ using Polyline = std::vector<Vector2d>;  ///< (x, y) of P [m]
 
 /// Where the reach ends: arcs on which one limb is straight or folded (serial singularities) and
 /// the others are within reach.
-/// @param points  of a whole circle
+/// @param points  of a whole circle.
 [[nodiscard]] std::vector<Polyline> workspace_boundary(const ManipulatorGeometry& geometry,
                                                        double phi, Index points);
 

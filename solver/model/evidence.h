@@ -17,7 +17,7 @@ struct Outcome {
   [[nodiscard]] bool solved() const { return status == Status::solved; }
 };
 
-// // Independent residuals that support a solution. Solving did not use them.
+// Independent residuals that support a solution. Solving did not use them.
 
 /// Kind of a residual. Each residual is relative to the magnitudes of the terms in its sum.
 /// Round-off alone leaves a few eps; a meaningless solution leaves about 1.

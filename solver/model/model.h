@@ -210,7 +210,7 @@ inline void require(bool condition, const std::string& message) {
   if (!condition) throw ModelError(message);
 }
 
-// // Labels of parts of a model in messages: the name, or the number of a part without a name.
+// Labels of parts of a model in messages: the name, or the number of a part without a name.
 
 [[nodiscard]] std::string node_label(const Model& model, Index node);
 [[nodiscard]] std::string member_label(const Model& model, Index member);
@@ -229,8 +229,8 @@ inline void require(bool condition, const std::string& message) {
 }
 
 /// Returns the vector turned counterclockwise.
-/// @param v  vector
-/// @param angle  [rad]
+/// @param v  vector.
+/// @param angle  [rad].
 [[nodiscard]] inline Vector2d rotated(const Vector2d& v, double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
@@ -239,8 +239,8 @@ inline void require(bool condition, const std::string& message) {
 
 /// Returns the diagonal of the bounding box of points [m], or 1 if the range is empty or all points
 /// coincide. This length scales rotations for comparison with translations.
-/// @param range  entries with positions
-/// @param position  function that returns the position of an entry
+/// @param range  entries with positions.
+/// @param position  function that returns the position of an entry.
 template <class Range, class Position = std::identity>
 [[nodiscard]] double box_diagonal(const Range& range, Position position = {}) {
   if (std::empty(range)) return 1;

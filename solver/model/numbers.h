@@ -24,7 +24,7 @@ inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   return std::isnan(a) || b <= a ? a : b;
 }
 
-// // Exact derivatives without finite differences. The functions that build elements from a design
+// Exact derivatives without finite differences. The functions that build elements from a design
 // are templates over `Real`. The same code therefore computes their derivatives.
 
 /// Value and its derivative with respect to one parameter.
