@@ -55,6 +55,9 @@ struct BlockMesh {
 /// Adds the triangles of a mesh and its new nodes (without names) to a model. A mesh node is merged
 /// with a model node if their distance is below 1e-9 of the mesh size. If several model nodes
 /// match, nodes in `corners` have priority, then the first node of the model.
+/// @param model  model to which the mesh is added.
+/// @param plate  index of the plate of the triangles.
+/// @param mesh  mesh of blocks.
 /// @param corners  model nodes at the corners of the blocks.
 /// @returns the index of the model node for each mesh node.
 std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh,

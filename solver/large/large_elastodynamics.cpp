@@ -119,8 +119,7 @@ class LargeElastodynamics {
     return nominal_motion(from.model, to.dynamics, from.dynamics.q, to.point, options_.gravity);
   }
 
-  /// Returns the drives of the joints.
-  /// @param moves  false: the drives remain at the pose of the model.
+  /// Returns the drives of the joints. They remain at the pose of the model if `moves` is false.
   [[nodiscard]] LargeMotionModel drives(Model& model, const std::vector<DrivenEnd>& ends,
                                         bool moves) const {
     LargeMotionModel large_motion;
@@ -304,8 +303,8 @@ class LargeElastodynamics {
     solution_.state.push_back(std::move(sample));
   }
 
-  /// Returns the results of a state relative to the nominal position.
-  /// @param built  pose of the model of the system.
+  /// Returns the results of a state relative to the nominal position. `built` is the pose of the
+  /// model of the system.
   [[nodiscard]] StaticSolution sample_of(const GeometricallyExactSystem& system, const State& state,
                                          const NominalState& built, const NominalState& now) const {
     const NominalMotion moved = motion_between(built, now);

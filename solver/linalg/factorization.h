@@ -93,7 +93,7 @@ class Factorization {
 };
 
 /// LU factorization of a sparse square matrix with row exchanges, compiled once. Scalar is double
-/// or std::complex<double>. The first call of `factorize` computes the ordering. Later matrices
+/// or `std::complex<double>`. The first call of `factorize` computes the ordering. Later matrices
 /// must have the same pattern.
 template <class Scalar>
 class SparseLu {

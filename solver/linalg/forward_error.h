@@ -50,8 +50,11 @@ class AugmentedSystem {
 /// Estimates max |R dq| / max |R q| for q with A^T C A q = f. Here dq is the effect of rounding the
 /// rows of A, their products with q, and f:
 ///
-///   dq = K^-1 (A^T C g + h),  |g| <= c size |q|,  |h| <= c (size^T |C A q| + |f|),
-///   c = (n + 1)^1/2 u with n terms in a row or column.
+///   dq = K^-1 (A^T C g + h),  |g| <= c size |q|,  |h| <= c (size^T |C A q| + |f|).
+///
+/// With n terms in a row or column,
+///
+///   c = (n + 1)^1/2 u.
 ///
 /// u = eps / 2, or eps while arithmetic rounds in one direction. Rounding errors are assumed
 /// independent within a sum. All signs are at their worst beyond it. The factors of K are perturbed

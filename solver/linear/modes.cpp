@@ -56,9 +56,7 @@ double floating_shift(const System& system, const MatrixXd& Z, Counters& counter
 }
 
 /// Adds the residuals of modes to the evidence: the largest backward error of (K + K_G) x = w^2 M
-/// x, and the number of miscounted modes.
-/// @param K  K + K_G.
-/// @param K_G  empty without prestress.
+/// x, and the number of miscounted modes. K is the sum K + K_G, and K_G is empty without prestress.
 void judge(const System& system, const SparseMatrix& K, const SparseMatrix& K_G,
            ModalSolution& solution, Factorization&& spent = {}, double shift_above = 0) {
   if (!solution.outcome.solved()) return;
@@ -77,8 +75,8 @@ void judge(const System& system, const SparseMatrix& K, const SparseMatrix& K_G,
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
 }
 
-/// Computes the modes of (K + K_G) x = w^2 M x.
-/// @param state  state whose forces define K_G; null: unloaded, without K_G.
+/// Computes the modes of (K + K_G) x = w^2 M x. K_G follows from the forces of `state`. It is
+/// omitted if `state` is null.
 ModalSolution solve(const System& system, const ModesOptions& options,
                     const StaticSolution* state) {
   ModalSolution solution;

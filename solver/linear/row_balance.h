@@ -11,7 +11,7 @@ namespace trammel::solver {
 /// element matrices that are computed again. Each coordinate counts with at least `kLeastShare` of
 /// the largest motion of its state (rotations times the model size). Rows in which only round-off
 /// moves could otherwise not be judged. Scalar is double or, for damped vibration,
-/// std::complex<double>.
+/// `std::complex<double>`.
 template <class Scalar>
 class RowBalance {
  public:
