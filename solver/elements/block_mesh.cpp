@@ -251,8 +251,8 @@ Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate) {
   BlockMesh block = mesh_blocks(
       {{{Vector2d::Zero(), x, size, y}, {}, {mesh.cells, mesh.cells}, {1, 1}}}, mesh.six_nodes);
   const auto distort = [&](Vector2d& position) {
-    Vector2d at =
-        (cells * position.cwiseQuotient(size)).array().round();  // row and column of the corner
+    // Row and column of the corner.
+    Vector2d at = (cells * position.cwiseQuotient(size)).array().round();
     const auto i = static_cast<Index>(at.x()), j = static_cast<Index>(at.y());
     const bool inside = i > 0 && j > 0 && i < mesh.cells && j < mesh.cells;
     if (inside) at += mesh.distortion * Vector2d(pattern(i + 2 * j), pattern(2 * i + j + i * j));

@@ -25,20 +25,20 @@ struct Ellipse {
 /// Quadrilateral block of a mapped mesh.
 struct Block {
   std::array<Vector2d, 4> corners;  ///< counterclockwise [m]
-  std::array<std::optional<Ellipse>, 4>
-      sides;  ///< side i runs from corner i to corner i + 1; empty: straight
-  std::array<Index, 2> cells{1,
-                             1};  ///< numbers of cells along sides 0 and 2, and along sides 1 and 3
-  std::array<double, 2> grading{
-      1, 1};  ///< length of the last cell over that of the first, counted from corner 0
+  /// Side i runs from corner i to corner i + 1; empty: straight.
+  std::array<std::optional<Ellipse>, 4> sides;
+  /// Numbers of cells along sides 0 and 2, and along sides 1 and 3.
+  std::array<Index, 2> cells{1, 1};
+  /// Length of the last cell over that of the first, counted from corner 0.
+  std::array<double, 2> grading{1, 1};
 };
 
 /// Nodes and triangles of a mesh of blocks.
 struct BlockMesh {
   bool six_nodes = false;
   std::vector<Vector2d> positions;  ///< [m]
-  std::vector<std::array<Index, 6>>
-      triangles;  ///< counterclockwise; entries 3 to 5 are -1 for three-node triangles
+  /// Counterclockwise; entries 3 to 5 are -1 for three-node triangles.
+  std::vector<std::array<Index, 6>> triangles;
   /// Nodes of each side of each block, from corner to corner, with mid-side nodes:
   /// sides[block][side].
   std::vector<std::array<std::vector<Index>, 4>> sides;
@@ -70,8 +70,8 @@ std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh,
 struct RectangleMesh {
   double length = 0;  ///< along x, from the origin [m]
   double height = 0;  ///< along y [m]
-  Index cells =
-      1;  ///< along each side; each cell is split into two triangles with alternating diagonals
+  /// Along each side; each cell is split into two triangles with alternating diagonals.
+  Index cells = 1;
   bool six_nodes = false;
   double distortion = 0;  ///< displacement of the inner corners [cells]; 0 <= distortion < 0.3
 };

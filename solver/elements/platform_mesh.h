@@ -11,8 +11,8 @@ namespace trammel::solver {
 
 /// Triangles and nodes of a platform.
 struct TriangleMesh {
-  using Nodes =
-      std::array<Index, 6>;     ///< corners counterclockwise, then mid-side nodes 01, 12, 20 or -1
+  /// Corners counterclockwise, then mid-side nodes 01, 12, 20 or -1.
+  using Nodes = std::array<Index, 6>;
   std::vector<Vector2d> nodes;  ///< [m]; the first four are C1, C2, C3, P
   std::vector<Nodes> triangles;
 };

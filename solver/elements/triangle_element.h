@@ -37,8 +37,8 @@ struct TriangleInterpolation {
   Eigen::Matrix<double, 6, 1> N;         ///< values [-]
   Eigen::Matrix<double, 2, 6> gradient;  ///< dN/dx, dN/dy [1/m]
   Vector2d position = Vector2d::Zero();  ///< world axes [m]
-  double signed_area =
-      0;  ///< half the Jacobian determinant [m^2]; positive if the corners run counterclockwise
+  /// Half the Jacobian determinant [m^2]; positive if the corners run counterclockwise.
+  double signed_area = 0;
   double area = 0;  ///< absolute value of `signed_area` [m^2]
 };
 
@@ -107,8 +107,8 @@ template <int nodes>
 template <std::size_t n>
 struct TriangleStiffness {
   static constexpr int kRows = n == 3 ? 3 : 18;
-  Eigen::Matrix<double, kRows, static_cast<int>(2 * n)>
-      B;                              ///< deformations at the integration points [1/m]
+  /// Deformations at the integration points [1/m].
+  Eigen::Matrix<double, kRows, static_cast<int>(2 * n)> B;
   Eigen::Matrix<double, kRows, 1> c;  ///< [N m]
 };
 

@@ -93,8 +93,8 @@ Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
 
 namespace {
 
-constexpr double kLeastExponent =
-    -708;  // smaller exponents give results that are not normal numbers
+// Smaller exponents give results that are not normal numbers.
+constexpr double kLeastExponent = -708;
 
 }  // namespace
 
@@ -102,8 +102,8 @@ const Eigen::ArrayXd& ExcessDistances::compute(const Eigen::Ref<const Eigen::Vec
                                                double reach,
                                                const Eigen::Array<bool, Eigen::Dynamic, 1>* skip) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  constexpr double kRounding =
-      1e-12;  // above the round-off error of the squares of a thousand inputs
+  // Above the round-off error of the squares of a thousand inputs.
+  constexpr double kRounding = 1e-12;
   const Index count = samples_.rows();
   excess_ = (query(0) - samples_.col(0).array()).square();
   for (Index f = 1; f < samples_.cols(); ++f)

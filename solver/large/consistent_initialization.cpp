@@ -223,8 +223,8 @@ Outcome make_consistent(const ConstrainedSystem& system, State& state,
 
 std::string contradictory_drives(const GeometricallyExactSystem& system, const State& state,
                                  double step) {
-  constexpr double kContradiction =
-      1e-3;  // relative to the fastest motion; round-off leaves much less
+  // Relative to the fastest motion; round-off leaves much less.
+  constexpr double kContradiction = 1e-3;
   const std::vector<Drive>& drives = system.large_motion().drives;
   if (drives.empty() || !state.q.allFinite()) return "";
   for (const double aside : {0.5, -0.5}) {  // drives may start from rest or stop at this time

@@ -14,8 +14,8 @@ namespace trammel::solver::large_motion {
 /// Largest residuals of the rigid constraints of a state.
 struct ConstraintGaps {
   double position = 0, rate = 0;  ///< [m or rad], [m/s or rad/s]
-  double relative_position = 0,
-         relative_rate = 0;  ///< relative to the model size or 1 rad [-], [1/s]
+  /// Relative to the model size or 1 rad [-], [1/s].
+  double relative_position = 0, relative_rate = 0;
 };
 
 /// Computes residuals of the state at the end of a step by a separate evaluation.

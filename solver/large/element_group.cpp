@@ -82,9 +82,8 @@ RowScales PenaltyScales::of_row(std::span<const Index> coordinates, double lever
   const bool turns =
       std::ranges::all_of(coordinates, [&](Index k) { return k < 0 || layout_.is_rotation(k); });
   const auto largest = [&](const Eigen::VectorXd& values, double mean) {
-    double value = 0,
-           levered =
-               0;  // entries of the same kind as the row, and rotations in a row of displacements
+    // Entries of the same kind as the row, and rotations in a row of displacements.
+    double value = 0, levered = 0;
     for (const Index k : coordinates) {
       if (k < 0) continue;
       double& kind = layout_.is_rotation(k) && !turns ? levered : value;

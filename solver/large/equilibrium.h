@@ -27,10 +27,10 @@ using LoadControl = std::function<double(const VectorXd& correction, const Vecto
 /// Result of Newton's method. Each list has one entry per iteration.
 struct NewtonResult {
   Outcome outcome;
-  std::vector<double>
-      correction;  ///< size of the correction; translations relative to the model size
-  std::vector<double>
-      force_residual;  ///< residual of equilibrium; forces times the model size [N m]
+  /// Size of the correction; translations relative to the model size.
+  std::vector<double> correction;
+  /// Residual of equilibrium; forces times the model size [N m].
+  std::vector<double> force_residual;
   std::vector<double>
       constraint_residual;  ///< residual of the constraints and of stretch and shear of beams [m]
 };

@@ -20,9 +20,9 @@ struct SystemParts {
              ElementGroup<PointInertia>>
       groups;
   Index rows = 0;  ///< number of constraint rows
-  std::vector<Index>
-      group_index;  ///< for each element of a member: its index among the beams or the bars
-  VectorXd loads;   ///< dead loads, one per coordinate [N, N m]
+  /// For each element of a member: its index among the beams or the bars.
+  std::vector<Index> group_index;
+  VectorXd loads;  ///< dead loads, one per coordinate [N, N m]
 
   template <class Element>
   [[nodiscard]] const ElementGroup<Element>& group() const {

@@ -20,12 +20,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr Index kDenseSize =
-    64;  // number of free coordinates above which Lanczos' method is faster for a few modes
+// Number of free coordinates above which Lanczos' method is faster for a few modes.
+constexpr Index kDenseSize = 64;
 constexpr double kConvergenceTolerance =
     1e-11;  // relative change of an eigenvalue in one inverse iteration
-constexpr double kClusterGap =
-    1e-3;  // relative gap between distinct neighbors that are certainly no copies
+// Relative gap between distinct neighbors that are certainly no copies.
+constexpr double kClusterGap = 1e-3;
 
 // K and B are symmetric. Products use their transpose, because Eigen then sums each row in
 // registers.
@@ -190,8 +190,8 @@ class Solver {
   void iterate_beside_each() {
     constexpr double kAside = 1e-4, kWideSpread = 1e4;
     constexpr int kPasses = 4;
-    constexpr double kEnough =
-        1e-9;  // relative change; a pass reduces other components by the factor kAside
+    // Relative change; a pass reduces other components by the factor kAside.
+    constexpr double kEnough = 1e-9;
     const Index wanted = std::min(count_, X_.cols());
     if (wanted == 0 || !pencil_.B) return;
     bool moved = false;
@@ -420,8 +420,8 @@ class Solver {
   MatrixXd all_;     // dense method: all vectors
   Index taken_ = 0;  // dense method: number of vectors returned so far
   Index checked_ = 0, counted_ = 0;
-  bool clear_of_rounding_ =
-      true;  // true: the last check shift is further from the values than their round-off error
+  // True: the last check shift is further from the values than their round-off error.
+  bool clear_of_rounding_ = true;
   bool failed_ = false;  // an eigenvalue iteration or inverse iteration has not converged
   Eigenpairs pairs_;
 };
@@ -518,8 +518,8 @@ struct SpectraOperator {
 /// zero or not finite.
 double fitting_scale(const SpectraOperator& op, const Eigen::VectorXd& start, double tolerance) {
   const Eigen::VectorXd image = op.apply(start);
-  const double largest =
-      op.apply(image).norm() / image.norm();  // estimate of the largest eigenvalue
+  // Estimate of the largest eigenvalue.
+  const double largest = op.apply(image).norm() / image.norm();
   const double fitting = tolerance / std::cbrt(kEps) / 4;
   return std::isnormal(largest) ? std::exp2(std::round(std::log2(fitting / largest))) : 1;
 }

@@ -23,8 +23,8 @@ struct Pencil {
   double shift = 0;
   bool indefinite = false;  ///< true: B is indefinite and negative eigenvalues exist
   Operator K_times;         ///< x -> K x, more accurate than the assembled K
-  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>
-      K_products;    ///< X -> X^T K X, equally accurate
+  /// X -> X^T K X, equally accurate.
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> K_products;
   Operator B_times;  ///< x -> B x for a B that is not assembled
   /// Returns the number of eigenvalues below a shift, or an empty value if round-off dominates it.
   std::function<std::optional<Index>(double)> count_below;
@@ -35,10 +35,10 @@ struct Eigenpairs {
   Outcome outcome;  ///< not_converged: fewer pairs than the inertia count requires
   Eigen::VectorXd value;
   Eigen::MatrixXd vector;  ///< q x pair, x^T |B| x = 1
-  Eigen::VectorXd
-      error;  ///< relative error, from the residual; of second order in the error of the vector
-  double check_shift =
-      0;  ///< shift above these values and below all others, checked by the inertia of LDL^T
+  /// Relative error, from the residual; of second order in the error of the vector.
+  Eigen::VectorXd error;
+  /// Shift above these values and below all others, checked by the inertia of LDL^T.
+  double check_shift = 0;
 };
 
 /// Computes the lowest eigenpairs of a pencil. It solves B x = mu (K - s B) x for the largest mu =

@@ -76,8 +76,8 @@ struct SparseLdlt::Factors {
   std::vector<int> columns, rows;  // pattern to which the ordering applies
   Permutation P;                   // coordinate -> its position in the order of elimination
   SparseMatrix upper;              // upper triangle in that order
-  std::vector<Index> from,
-      mirror;  // entry of `upper` -> entry of A, and the entry across its diagonal
+  // Entry of `upper` -> entry of A, and the entry across its diagonal.
+  std::vector<Index> from, mirror;
   Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt;
   VectorXd pivots, root;  // D and, for half solves, |D|^(1/2)
   mutable VectorXd ordered, solved;

@@ -116,9 +116,9 @@ using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 /// Solution of a linear system by iterative refinement.
 struct RefinedSolution {
   Eigen::VectorXd x;
-  double correction =
-      0;  ///< last correction relative to x. The remaining error is about its square over the
-          ///< previous correction. x is meaningless if it is near 1 or above.
+  /// Last correction relative to x. The remaining error is about its square over the previous
+  /// correction. x is meaningless if it is near 1 or above.
+  double correction = 0;
   /// Returns false if the matrix is too ill-conditioned for any correct digits.
   [[nodiscard]] bool converged() const { return correction < 1e-4; }
 };

@@ -29,8 +29,8 @@ struct Linearization {
 };
 
 Linearization linearize(const GyroscopicPencil& pencil) {
-  constexpr double kHelp =
-      1e-12;  // relative addition to the mass, which is singular for a mass offset from its node
+  // Relative addition to the mass, which is singular for a mass offset from its node.
+  constexpr double kHelp = 1e-12;
   const Index n = pencil.K.rows();
   const VectorXd diagonal = pencil.M.diagonal();
   std::vector<Eigen::Triplet<double>> massive;

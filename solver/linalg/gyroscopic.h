@@ -16,8 +16,8 @@ namespace trammel::solver {
 struct GyroscopicPencil {
   SparseMatrix K, C, M;
   Operator K_times;  ///< x -> K x, more accurate than the assembled K
-  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>
-      K_products;  ///< X -> X^T K X, equally accurate
+  /// X -> X^T K X, equally accurate.
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> K_products;
 };
 
 /// Vibration modes of a gyroscopic system.

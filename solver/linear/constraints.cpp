@@ -118,8 +118,8 @@ class Elimination {
   };
   struct Entry {
     double value = 0;
-    double magnitude =
-        0;  ///< sum of the magnitudes of all added terms; separates small values from round-off
+    /// Sum of the magnitudes of all added terms; separates small values from round-off.
+    double magnitude = 0;
   };
   using Row = std::map<Index, Entry>;
 

@@ -24,8 +24,8 @@ struct ConstraintRow {
 /// are multiplied by the size of the model first, so that the pivots do not depend on the unit of
 /// length. Redundant rows are dropped.
 struct Constraints {
-  std::vector<ConstraintRow>
-      rows;                  ///< all rows, in the order supports, linear, rigid, inextensible
+  /// All rows, in the order supports, linear, rigid, inextensible.
+  std::vector<ConstraintRow> rows;
   std::vector<Index> pivot;  ///< row -> eliminated coordinate, or -1 for a dropped row
   std::vector<Index> free;   ///< coordinate u -> q, or -1 for an eliminated coordinate
   Index free_count = 0;

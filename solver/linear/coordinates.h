@@ -17,8 +17,8 @@ struct FrameElement {
   Section section;  ///< at the midpoint of the element
   /// Length [m].
   double length = 0;
-  Vector2d direction =
-      Vector2d::UnitX();  ///< direction of the full member, so that its elements are collinear
+  /// Direction of the full member, so that its elements are collinear.
+  Vector2d direction = Vector2d::UnitX();
   [[nodiscard]] bool is_bar() const { return coordinates[2] < 0; }
 };
 

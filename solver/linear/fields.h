@@ -83,10 +83,10 @@ struct BeamErrors {
   double shear_force = 0;
   double bending_moment = 0;
   double energy = 0;
-  double nodal_deflection =
-      0;  ///< largest error at a node, relative to the largest deflection at a node
-  double nodal_rotation =
-      0;  ///< largest error at a node, relative to the largest rotation at a node
+  /// Largest error at a node, relative to the largest deflection at a node.
+  double nodal_deflection = 0;
+  /// Largest error at a node, relative to the largest rotation at a node.
+  double nodal_rotation = 0;
 };
 
 /// Returns the relative errors of a frame solution.

@@ -25,8 +25,8 @@ constexpr double kShift = 1e-12;  // relative to the diagonal
 /// Pivots below this limit start a search. Pivots of a mechanism are round-off errors, up to 1.2e-9
 /// for 1152 coordinates if all errors have the same sign.
 constexpr double kSmallPivot = 1e-8;
-constexpr double kDeformation =
-    1e-28;  // (45 eps)^2, relative to `strain_magnitude`; smaller energies are round-off
+// (45 eps)^2, relative to `strain_magnitude`; smaller energies are round-off.
+constexpr double kDeformation = 1e-28;
 constexpr Index kMaxModes = 48;
 
 }  // namespace

@@ -34,8 +34,8 @@ struct Prestress {
 /// Forces on masses: gravity of the model and additional forces, such as the centrifugal forces of
 /// a rotating frame.
 struct BodyForces {
-  std::vector<Vector2d>
-      element;  ///< per length of each frame element, including member loads [N/m]
+  /// Per length of each frame element, including member loads [N/m].
+  std::vector<Vector2d> element;
   std::vector<Vector2d> point_mass;  ///< on the center of mass of each point mass [N]
 };
 

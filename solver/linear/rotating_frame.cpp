@@ -161,8 +161,8 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
         detail::scatter(coordinates, (w2 * (S * detail::gather(coordinates, position))).eval(),
                         force);
       });
-  for (const FrameElement& e :
-       system.mesh.frame) {  // the interpolation lacks the heights of the sections
+  // The interpolation lacks the heights of the sections.
+  for (const FrameElement& e : system.mesh.frame) {
     if (frame.axis == RotationAxis::normal || e.section.inertia_per_length == 0) continue;
     const Vector2d swept = e.length * (perpendicular_matrix() * e.direction);
     Vector6d unit_turn;
@@ -171,8 +171,8 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
     const double moment = w2 * section_pull(P, e.direction).moment;
     detail::scatter(e.coordinates, (moment * (rotary_mass(e, member) * unit_turn)).eval(), force);
   }
-  for (const PointMass& point_mass :
-       system.model.masses) {  // the interpolation lacks the constant offset
+  // The interpolation lacks the constant offset.
+  for (const PointMass& point_mass : system.model.masses) {
     detail::scatter(system.coordinates.node[to_size(point_mass.node)],
                     (w2 * point_mass.mass * centre_of_mass_interpolation(point_mass).transpose() *
                      P * point_mass.offset)

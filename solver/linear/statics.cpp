@@ -391,8 +391,8 @@ void add_constraints(const System& system, const ElasticState& state,
     double force = multipliers[static_cast<Index>(i)];
     for (const auto& [coordinate, coefficient] : row.terms)
       magnitudes[coordinate] += std::abs(coefficient * force);
-    if (row.source == ConstraintRow::Source::inextensible)
-      continue;  // included in the section forces
+    // Included in the section forces.
+    if (row.source == ConstraintRow::Source::inextensible) continue;
     if (row.source == ConstraintRow::Source::support)
       force = solution.reaction(row.index, support_component(system, row));
     for (const auto& [coordinate, coefficient] : row.terms) sum[coordinate] -= coefficient * force;

@@ -33,8 +33,8 @@ struct StaticSolution {
   Eigen::MatrixX3d displacement;  ///< model node x (ux [m], uy [m], rotation [rad]); NaN for a node
                                   ///< without rotation
   Eigen::MatrixX2d end_rotation;  ///< member x (first end, second end) [rad]
-  Eigen::MatrixX3d
-      reaction;  ///< support x (Fx, Fy [N], moment [N m]), forces of the ground on the node
+  /// Support x (Fx, Fy [N], moment [N m]), forces of the ground on the node.
+  Eigen::MatrixX3d reaction;
   Eigen::MatrixX3d resultant_start;  ///< member x (N [N], V [N], M [N m]) at its first node
   Eigen::MatrixX3d resultant_end;    ///< member x (N [N], V [N], M [N m]) at its second node
   Eigen::VectorXd member_stress;     ///< largest |N|/A + |M|/W along each member [Pa]

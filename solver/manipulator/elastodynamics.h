@@ -49,8 +49,8 @@ struct ElastodynamicsEffects {
   double damping_ratio = kNaN;    ///< damping ratio of that mode
   double nominal_inertia = 0;     ///< |f| / |T^T F| in the norm of K^-1; infinite without a load
   double elastic_inertia = 0;     ///< path frequency over the first frequency, squared
-  double gyroscopic =
-      0;  ///< twice the largest angular velocity of a part over the first angular frequency
+  /// Twice the largest angular velocity of a part over the first angular frequency.
+  double gyroscopic = 0;
 };
 
 /// Solution of an elastodynamic analysis. Each vector has one entry per sample, in the order of

@@ -30,10 +30,10 @@ struct PlatformAcceleration {
 
 /// Options of forward dynamics.
 struct ForwardOptions {
-  double tolerance =
-      1e-10;  ///< allowed local error of a step [-]. Positions are relative to the largest
-              ///< position, but at least the platform radius. Velocities are relative to the
-              ///< largest velocity, but at least the radius over the duration of the motion.
+  /// Allowed local error of a step [-]. Positions are relative to the largest position, but at
+  /// least the platform radius. Velocities are relative to the largest velocity, but at least the
+  /// radius over the duration of the motion.
+  double tolerance = 1e-10;
   Index max_steps = 100000;  ///< limit, including rejected steps
 };
 

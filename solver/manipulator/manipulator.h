@@ -46,8 +46,8 @@ struct LinkDesignOf {
   MassMatrix mass_matrix = MassMatrix::consistent;
   Index elements = 4;
   bool axially_flexible = true;
-  std::optional<double>
-      mass;  ///< printed total, distributed over the length [kg]; empty: from density
+  /// Printed total, distributed over the length [kg]; empty: from density.
+  std::optional<double> mass;
   /// Printed inertia J [kg m^2]. J/2 turns with each end of the link for any mesh, in addition to
   /// the inertia of the distributed mass. Empty: inertia of the distributed mass only.
   std::optional<double> inertia;

@@ -160,8 +160,7 @@ Outcome MovingConstraints::move(const System& start, const NominalMotion& from,
   const MatrixXd X = dependent_coordinates(start, to);
   if (!(X.allFinite() && X.cwiseAbs().maxCoeff() < kLargestT)) {
     return {Status::singular,
-            "the coordinates that the constraints eliminated at the start are unsuitable for this "
-            "pose"};
+            "the coordinates eliminated at the start are unsuitable for this pose"};
   }
   for (const std::size_t r : dependent_rows_) {
     ConstraintRow& row = constraints_.rows[r];

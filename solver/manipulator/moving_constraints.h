@@ -50,8 +50,8 @@ class MovingConstraints {
   RowMajorMatrix T_dot_, T_ddot_;
   std::vector<std::size_t> dependent_rows_;  // rows of C except supports
   std::vector<Index> dependent_row_of_;      // for each coordinate that they eliminate, or -1
-  RowMajorMatrix select_free_,
-      select_dependent_;  // u x q and u x row, with ones at the selected coordinates
+  // u x q and u x row, with ones at the selected coordinates.
+  RowMajorMatrix select_free_, select_dependent_;
   Eigen::PartialPivLU<Eigen::MatrixXd> pivots_;
 };
 

@@ -80,9 +80,9 @@ struct MovingElement {
   Matrix6d m = Matrix6d::Zero();
   Matrix6d first_derivative = Matrix6d::Zero();   ///< int rho N^T dN/dangle
   Matrix6d second_derivative = Matrix6d::Zero();  ///< int rho N^T d2N/dangle2
-  Vector2d axis =
-      Vector2d::UnitX();  ///< element x axis at the pose at which the model was built, world axes
-  Index part = -1;        ///< index in NominalMotion::part; -1: does not turn
+  /// Element x axis at the pose at which the model was built, world axes.
+  Vector2d axis = Vector2d::UnitX();
+  Index part = -1;                           ///< index in NominalMotion::part; -1: does not turn
   Vector2d first_moment = Vector2d::Zero();  ///< mass * offset of a point mass [kg m]
 
   [[nodiscard]] PartMotion motion(const NominalMotion& nominal) const {

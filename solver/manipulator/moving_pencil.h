@@ -54,8 +54,8 @@ class DenseLdlt {
 template <int rows>
 struct VectorBlock {
   Eigen::Matrix<double, rows, Eigen::Dynamic> ends;  ///< free coordinates of the joints
-  Eigen::Matrix<double, rows, Eigen::Dynamic>
-      inside;  ///< modes of the link interiors, link by link
+  /// Modes of the link interiors, link by link.
+  Eigen::Matrix<double, rows, Eigen::Dynamic> inside;
 };
 
 /// Temporary blocks, kept to avoid memory allocation in each step.

@@ -126,8 +126,8 @@ class MovingSystem {
   std::vector<LinkSuperelement> links_;
   std::vector<MovingElement> elements_;
   std::vector<Contribution> contributions_;
-  std::vector<std::size_t>
-      first_contribution_;  // index of the first of each element, then their number
+  // Index of the first of each element, then their number.
+  std::vector<std::size_t> first_contribution_;
   std::vector<Span> span_;  // of each mesh node
   SparseMatrix K_, M_, C_gyroscopic_, K_centrifugal_euler_, K_T_dot_, M_T_dot_;
   Eigen::VectorXd inertia_u_, load_u_, inertia_load_, load_;

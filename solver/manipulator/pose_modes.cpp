@@ -24,8 +24,8 @@ constexpr Index kLargest = 48;           // joint coordinates above which sparse
 constexpr double kSmallestPivot = 1e-9;  // of the scaled stiffness: a loss of nine digits
 constexpr double kLargestCoupling = 1e-7;  // an eigenvalue changes by its square
 constexpr double kTolerance = 1e-11;  // relative change of an eigenvalue in one inverse iteration
-constexpr double kResidual =
-    1e-11;  // backward error of a mode; up to ten times this value is accepted
+// Backward error of a mode; up to ten times this value is accepted.
+constexpr double kResidual = 1e-11;
 constexpr double kClearGap = 1e-3;  // relative gap between distinct neighbors
 
 /// Data shared by all threads. Each thread writes results of different poses.
@@ -94,8 +94,8 @@ class BlockSolver {
     ++counters.factorizations;
     if (!(stiffness_.compute(pencil_.K()) && stiffness_.smallest_pivot() > kSmallestPivot))
       return false;
-    for (int trial = warm_ ? 0 : 1; trial < 2;
-         ++trial) {  // the second trial uses new start vectors
+    // The second trial uses new start vectors.
+    for (int trial = warm_ ? 0 : 1; trial < 2; ++trial) {
       if (trial > 0) begin();
       if (iterate(trial == 0) && certify(at)) return warm_ = true;
     }
@@ -246,8 +246,8 @@ void solve_blocks(const Task& task, std::vector<Solver> solvers) {
   std::vector<std::future<void>> threads;
   for (Solver& solver : solvers)
     threads.push_back(std::async(std::launch::async, work, std::ref(solver)));
-  for (const std::future<void>& thread : threads)
-    thread.wait();  // wait for all before an error is thrown
+  // Wait for all before an error is thrown.
+  for (const std::future<void>& thread : threads) thread.wait();
   for (std::future<void>& thread : threads) thread.get();
   for (const Solver& solver : solvers) {
     task.result.counters += solver.counters;

@@ -34,8 +34,8 @@ template <class T>
 struct SectionOf {
   T EA = T(0);  ///< axial stiffness [N]
   T EI = T(0);  ///< in-plane bending stiffness [N m^2]
-  T kappa_GA =
-      T(0);  ///< shear stiffness with its correction factor [N], if the theory includes shear
+  /// Shear stiffness with its correction factor [N], if the theory includes shear.
+  T kappa_GA = T(0);
   T mass_per_length = T(0);     ///< rho A [kg/m]
   T inertia_per_length = T(0);  ///< rho I [kg m], if the theory includes rotary inertia
   T area = T(0);                ///< A [m^2], for stresses

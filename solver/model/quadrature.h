@@ -18,9 +18,9 @@ struct LineQuadraturePoint {
 
 /// Point of a rule on a triangle.
 struct TriangleQuadraturePoint {
-  Eigen::Vector3d area_coordinates =
-      Eigen::Vector3d::Zero();  ///< area coordinates of the corners [-]
-  double weight = 0;            ///< the weights sum to 1
+  /// Area coordinates of the corners [-].
+  Eigen::Vector3d area_coordinates = Eigen::Vector3d::Zero();
+  double weight = 0;  ///< the weights sum to 1
 };
 
 /// Returns the product of two five-point rules with one side of the square collapsed to a corner.

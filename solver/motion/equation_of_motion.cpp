@@ -117,8 +117,7 @@ void PiecewiseLinearLoad::at(double t, VectorXd& f) const {
 void PiecewiseLinearLoad::check() const {
   if (factor.cols() != std::ssize(time) || factor.rows() != pattern.cols() || time.empty())
     throw ModelError("a piecewise linear load needs a factor for each of its loads and times");
-  if (!std::is_sorted(time.begin(), time.end()))
-    throw ModelError("the times of a load must ascend");
+  if (!std::is_sorted(time.begin(), time.end())) throw ModelError("load times must ascend");
 }
 
 void PiecewiseLinearLoad::apply_to(EquationOfMotion& equation) const {

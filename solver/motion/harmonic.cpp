@@ -107,8 +107,8 @@ VectorXcd HarmonicSolver::at(double frequency) const {
   ++counters_.factorizations;
   counters_.solves += 2;
   if (q.size() == 0) return q;
-  if (participation_.size() >
-      0) {  // the direct response contains damped modes only by round-off near resonance
+  // The direct response contains damped modes only by round-off near resonance.
+  if (participation_.size() > 0) {
     const VectorXcd image = system_.M * q;
     q -= modes_.shape * (modes_.shape.transpose() * image);
   }
@@ -175,8 +175,8 @@ HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequen
   result.resultant_start.resize(members, 3);
   result.resultant_end.resize(members, 3);
   result.member_stress.setZero(members);
-  for (Index i = size.rows();
-       i-- > 0;) {  // backward, so that the first element of a member comes last
+  // Backward, so that the first element of a member comes last.
+  for (Index i = size.rows(); i-- > 0;) {
     const FrameElement& e = system_.mesh.frame[static_cast<std::size_t>(i)];
     const bool last = i + 1 == size.rows() ||
                       system_.mesh.frame[static_cast<std::size_t>(i + 1)].member != e.member;

@@ -14,8 +14,8 @@ namespace trammel::solver {
 /// Damping of a harmonic response.
 struct HarmonicDamping {
   RayleighDamping rayleigh;  ///< acts on all coordinates
-  std::vector<double>
-      modal_ratio;  ///< additional damping ratios of the first modes, one by one [-]
+  /// Additional damping ratios of the first modes, one by one [-].
+  std::vector<double> modal_ratio;
 };
 
 /// Amplitudes over a cycle.

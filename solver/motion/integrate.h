@@ -38,8 +38,8 @@ struct TransientOptions {
   /// Sample times, ascending, within [start, end] [s]; empty: every step. Steps of geometrically
   /// exact systems end at each sample time. Linear motions are interpolated.
   std::vector<double> sample_times;
-  bool quasi_static_start =
-      false;               ///< true: start from K q = f - C v with its velocity; false: from q0, v0
+  /// True: start from K q = f - C v with its velocity; false: from q0, v0.
+  bool quasi_static_start = false;
   Eigen::VectorXd q0, v0;  ///< empty: zero
 
   // Options of geometrically exact systems.
@@ -64,8 +64,8 @@ struct TransientSummary {
   std::int64_t rejected = 0;
   std::int64_t iterations = 0;
   double smallest_step = 0, largest_step = 0;  ///< [s]
-  double largest_residual =
-      0;  ///< largest |M a + C v + K q - f| relative to the sum of the four norms
+  /// Largest |M a + C v + K q - f| relative to the sum of the four norms.
+  double largest_residual = 0;
   Counters counters;
 };
 
@@ -82,8 +82,8 @@ struct StepReport {
   Status status = Status::not_converged;
   int iterations = 0;
   double residual = 0;  ///< of the equations, or the last correction relative to the model size [-]
-  double error =
-      0;  ///< estimated local error relative to the allowed error; 0 without error control
+  /// Estimated local error relative to the allowed error; 0 without error control.
+  double error = 0;
   bool leaves_branch = false;  ///< the mechanism changes its assembly mode within the step
 };
 

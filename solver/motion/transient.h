@@ -30,8 +30,8 @@ struct MotionSample {
   const Eigen::VectorXd& v;    ///< q' [SI/s]
   const Eigen::VectorXd& a;    ///< q'' [SI/s^2]
   const MotionEnergy& energy;  ///< [J]
-  bool interpolated =
-      false;  ///< true: inside a step; the equation holds up to the error of the steps
+  /// True: inside a step; the equation holds up to the error of the steps.
+  bool interpolated = false;
 };
 /// Receives the samples of a motion.
 using MotionObserver = std::function<void(const MotionSample&)>;

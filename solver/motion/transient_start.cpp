@@ -31,8 +31,8 @@ void solve_refined(const SparseMatrix& K, SparseLdlt& factor, const VectorXd& f,
 }  // namespace
 
 double smooth_span(const std::vector<double>& breakpoints, const TransientOptions& options) {
-  constexpr double kBefore =
-      0.999;  // below 1, because the load at a jump has the value after the jump
+  // Below 1, because the load at a jump has the value after the jump.
+  constexpr double kBefore = 0.999;
   double span = std::min(options.step, options.end - options.start);
   for (const double time : breakpoints)
     if (time > options.start) span = std::min(span, kBefore * (time - options.start));
