@@ -150,8 +150,8 @@ template <Real T>
 /// axes. They are the same for all theories.
 [[nodiscard]] Vector6d frame_uniform_load(const Vector2d& load, double length);
 
-/// Returns T_s, 6 x 6, which maps world degrees of freedom to element degrees of freedom. Source:
-/// paper Eq. (10).
+/// Returns T_s, 6 x 6, which maps world degrees of freedom to element degrees of freedom.
+/// Source: paper Eq. (10).
 template <Real T = double>
 [[nodiscard]] Matrix6<T> frame_rotation(const Eigen::Vector2<T>& direction) {
   Matrix6<T> R = Matrix6<T>::Zero();

@@ -30,8 +30,8 @@ template <std::size_t n>
 using TriangleMatrix = Eigen::Matrix<double, static_cast<int>(2 * n), static_cast<int>(2 * n)>;
 
 /// Shape functions at one point. Three nodes have L_i. Six nodes have L_i (2 L_i - 1) at the
-/// corners and 4 L_i L_j at the mid-sides. Entries beyond the number of nodes are 0. Source:
-/// Zienkiewicz & Taylor, The Finite Element Method, vol. 1.
+/// corners and 4 L_i L_j at the mid-sides. Entries beyond the number of nodes are 0.
+/// Source: Zienkiewicz & Taylor, The Finite Element Method, vol. 1.
 struct TriangleInterpolation {
   Index nodes = 3;                       ///< 3 or 6
   Eigen::Matrix<double, 6, 1> N;         ///< values [-]
@@ -99,8 +99,8 @@ template <int nodes>
 /// Returns the diagonal stiffness [N m] of the three deformations for a plate volume [m^3].
 [[nodiscard]] Vector3d membrane_rigidity(const Material& material, double volume);
 
-/// Returns the stresses (sxx, syy, sxy) [Pa] of the three deformations in plane stress. Source:
-/// paper Eq. (8).
+/// Returns the stresses (sxx, syy, sxy) [Pa] of the three deformations in plane stress.
+/// Source: paper Eq. (8).
 [[nodiscard]] Vector3d membrane_stress(const Material& material, const Vector3d& deformation);
 
 /// Stiffness in factored form, k = B^T diag(c) B, with three rows for each integration point.

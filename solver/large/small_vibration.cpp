@@ -23,8 +23,8 @@ constexpr double kRoundoffShare = 1e-7;
 /// Ratio of w^2 of some modes to that of the next below which K^-1 has few digits of the other
 /// modes.
 constexpr double kSoftShare = 1e-10;
-/// Accuracy of the lowest w^2 above soft modes in K^-1, as a factor. Massless coordinates are not
-/// even known to this factor.
+/// Factor within which K^-1 determines the lowest w^2 above the soft modes. It is exceeded if the
+/// parts above the soft modes are massless.
 constexpr double kAlike = 1e6;
 /// Relative distance of the shift from w^2 of a mode in the inverse iteration.
 constexpr double kAside = 1e-3;

@@ -54,7 +54,7 @@ struct Eigenpairs {
 /// @param null  q x r, known vectors with K x = 0, B-orthonormal. They count as the first
 ///   eigenvalues, 0, and are not returned.
 /// @param count  number of pairs; if B is not assembled, all pairs below `check_shift` are
-/// returned.
+///   returned.
 /// @param method  dense, sparse or automatic.
 /// @param factorization  of `shifted(K, B, s)`; overwritten.
 /// @param counters  incremented by the factorizations and solves.

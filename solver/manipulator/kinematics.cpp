@@ -69,7 +69,7 @@ std::string out_of_reach(std::size_t i, double a, double b, double r) {
   std::ostringstream why;
   why << "limb " << i + 1 << " (A" << i + 1 << "-B" << i + 1 << "-C" << i + 1 << ")";
   if (beyond <= roundoff && within <= roundoff) {
-    why << " has C on A: with links of equal length its direction is free";
+    why << " has C on A: with links of equal length its direction is undetermined";
   } else {
     why << " cannot reach: C is " << r << " m from A, " << std::max(beyond, within)
         << (beyond > roundoff ? " m beyond the sum of its link lengths"
