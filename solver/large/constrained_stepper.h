@@ -61,6 +61,7 @@ class AssemblyBranch {
   std::optional<KktMatrix> matrix_;  ///< empty: the orientation is undefined
 };
 
+/// Receives a state to output.
 using Observer = std::function<void(const State&)>;
 
 class StepConvergence;

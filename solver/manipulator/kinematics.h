@@ -50,6 +50,7 @@ struct Pose {
   [[nodiscard]] Vector2d position() const { return {x, y}; }
   [[nodiscard]] Vector3d vector() const { return {x, y, phi}; }
 };
+/// Returns the pose (x, y [m], phi [rad]) given as a vector.
 [[nodiscard]] inline Pose pose_of(const Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }

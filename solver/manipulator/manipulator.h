@@ -54,6 +54,7 @@ struct LinkDesignOf {
 };
 using LinkDesign = LinkDesignOf<double>;
 
+/// Kind of platform: a rigid body, or a plate of triangles.
 enum class PlatformKind { rigid, triangles };
 
 /// Platform: a rigid body or a plate of triangles.

@@ -64,6 +64,7 @@ enum class SplineEnds { natural, at_rest, periodic };
 [[nodiscard]] Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& poses,
                                  SplineEnds ends);
 
+/// Prescribed motion of the platform.
 using Path = std::variant<Circle, Line, RestToRest, Spline>;
 
 /// Returns the motion at a time.

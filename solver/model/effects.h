@@ -12,6 +12,7 @@
 /// assembly. It causes no degrees of freedom, no matrices and no evaluations.
 namespace trammel::solver {
 
+/// Physical effect of a scene.
 enum class Effect : std::uint8_t {
   axial_flexibility,     ///< members that bend also stretch; off: inextensible, by constraints
   shear,                 ///< shear of the sections; off: Euler-Bernoulli or Rayleigh beam

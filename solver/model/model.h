@@ -47,21 +47,26 @@ using Section = SectionOf<double>;
 /// S. M. Han, H. Benaroya, T. Wei, Journal of Sound and Vibration 225 (1999).
 enum class BeamTheory { euler_bernoulli, rayleigh, shear, timoshenko };
 
+/// Returns true for a shear beam or a Timoshenko beam.
 [[nodiscard]] constexpr bool has_shear_deformation(BeamTheory theory) {
   return theory == BeamTheory::shear || theory == BeamTheory::timoshenko;
 }
+/// Returns true for a Rayleigh beam or a Timoshenko beam.
 [[nodiscard]] constexpr bool has_rotary_inertia(BeamTheory theory) {
   return theory == BeamTheory::rayleigh || theory == BeamTheory::timoshenko;
 }
+/// Returns the theory with the given effects in addition to bending.
 [[nodiscard]] constexpr BeamTheory beam_theory(bool shear, bool rotary_inertia) {
   if (shear) return rotary_inertia ? BeamTheory::timoshenko : BeamTheory::shear;
   return rotary_inertia ? BeamTheory::rayleigh : BeamTheory::euler_bernoulli;
 }
+/// Mass matrix of a member: consistent, or lumped at the nodes.
 enum class MassMatrix { consistent, lumped };
 
 /// Connection of a member end to the rotation of its node.
 enum class EndFixity { welded, hinged, sprung };
 
+/// Joint between the end of a member and its node.
 struct MemberEnd {
   EndFixity fixity = EndFixity::welded;
   double stiffness = 0;  ///< of the rotational spring between end and node [N m/rad]; `sprung` only
@@ -105,6 +110,7 @@ struct Triangle {
   [[nodiscard]] bool quadratic() const { return nodes[3] >= 0; }
 };
 
+/// Node of the model.
 struct Node {
   std::string name;
   Vector2d position = Vector2d::Zero();  ///< [m]
@@ -163,6 +169,7 @@ struct LinearConstraint {
   std::optional<Rail> rail = {};
 };
 
+/// Force and moment on a node, in world axes.
 struct NodalLoad {
   Index node = 0;
   Vector3d force = Vector3d::Zero();  ///< Fx, Fy [N], moment [N m]
@@ -179,6 +186,7 @@ struct EdgeLoad {
   double normal = 0;                       ///< [Pa], tension positive
 };
 
+/// Planar model.
 struct Model {
   std::vector<Node> nodes;
   std::vector<Member> members;
@@ -212,8 +220,11 @@ inline void require(bool condition, const std::string& message) {
 
 // Labels of parts of a model in messages: the name, or the number of a part without a name.
 
+/// Returns "node" and the name or number of a node.
 [[nodiscard]] std::string node_label(const Model& model, Index node);
+/// Returns "member" and the name or number of a member.
 [[nodiscard]] std::string member_label(const Model& model, Index member);
+/// Returns the kind and the name of a part, or its number if the name is empty.
 [[nodiscard]] std::string part_label(const char* kind, const std::string& name, std::size_t index);
 
 // Vectors in the plane.

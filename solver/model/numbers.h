@@ -14,6 +14,7 @@ using Index = Eigen::Index;
 inline constexpr double kEps = std::numeric_limits<double>::epsilon();
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
+/// Converts an index >= 0 to an unsigned size.
 [[nodiscard]] inline std::size_t to_size(Index index) {
   return static_cast<std::size_t>(index);
 }
@@ -33,12 +34,15 @@ using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
 template <class T>
 concept Real = std::same_as<T, double> || std::same_as<T, Dual>;
 
+/// Returns the value without its derivative.
 [[nodiscard]] inline double value(double x) {
   return x;
 }
+/// Returns the value without its derivative.
 [[nodiscard]] inline double value(const Dual& x) {
   return x.value();
 }
+/// Returns the derivative.
 [[nodiscard]] inline double derivative(const Dual& x) {
   return x.derivatives()[0];
 }

@@ -61,6 +61,9 @@ struct Peak {
   double time = 0;
   double value = 0;
 };
+/// Returns the refined largest magnitude, or zeros for an empty vector.
+/// @param time  equally spaced times [s].
+/// @param value  values at the times.
 [[nodiscard]] Peak peak(const std::vector<double>& time, const Eigen::VectorXd& value);
 
 /// State at the end of a time step.
