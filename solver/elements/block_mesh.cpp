@@ -14,12 +14,12 @@ namespace trammel::solver {
 
 namespace {
 
-/// How far apart nodes of one place may be.
+/// Returns the distance [m] below which two nodes are merged.
 double merge_tolerance(const std::vector<Vector2d>& points) {
   return 1e-9 * box_diagonal(points);
 }
 
-/// Finds nodes by their place.
+/// Finds nodes by their position.
 class Places {
  public:
   explicit Places(double tolerance) : tolerance_(tolerance) {}
@@ -28,7 +28,7 @@ class Places {
     by_x_.emplace(position.x(), Place{by_x_.size(), node, position});
   }
 
-  /// The node there that was added first, or -1.
+  /// Returns the first node that was added at the position, or -1.
   [[nodiscard]] Index find(const Vector2d& position) const {
     const Place* first = nullptr;
     auto at = by_x_.lower_bound(position.x() - tolerance_);
@@ -50,7 +50,7 @@ class Places {
   double tolerance_;
 };
 
-/// A side as a curve over 0 <= s <= 1.
+/// Side of a block as a curve over 0 <= s <= 1.
 class Side {
  public:
   Side(const Vector2d& from, const Vector2d& to, const std::optional<Ellipse>& ellipse)
@@ -63,7 +63,7 @@ class Side {
   }
 
   [[nodiscard]] Vector2d at(double s) const {
-    if (s == 0) return from_;  // corners exactly, so that blocks share them
+    if (s == 0) return from_;  // exact corners, so that adjacent blocks share them
     if (s == 1) return to_;
     if (!ellipse_) return (1 - s) * from_ + s * to_;
     const double t = start_ + s * turn_;
@@ -86,7 +86,8 @@ class Side {
   double turn_ = 0;
 };
 
-/// Parameters of 2 n + 1 lines, or n + 1; the middle ones half-way between their neighbours.
+/// Returns the parameters of the n + 1 mesh lines. With mid-side nodes it returns 2 n + 1 lines,
+/// where each additional line is halfway between its neighbors.
 std::vector<double> lines(Index cells, double grading, bool with_mid_side_nodes) {
   const double q = cells > 1 ? std::pow(grading, 1.0 / static_cast<double>(cells - 1)) : 1;
   std::vector<double> at = {0};
@@ -137,7 +138,7 @@ class Mesher {
     grid_.clear();
     for (std::size_t j = 0; j < t.size(); ++j) {
       for (std::size_t i = 0; i < s.size(); ++i) {
-        // A node on a side may be another block's as well.
+        // A node on a side may belong to another block as well.
         const bool outer = i == 0 || j == 0 || i + 1 == s.size() || j + 1 == t.size();
         const Vector2d position = point(s[i], t[j]);
         Index node = outer ? outer_.find(position) : -1;
@@ -173,7 +174,7 @@ class Mesher {
         const std::array<Place, 4> q = {Place{i * step, j * step}, Place{(i + 1) * step, j * step},
                                         Place{(i + 1) * step, (j + 1) * step},
                                         Place{i * step, (j + 1) * step}};
-        const std::size_t k = (i + j) % 2;  // which diagonal
+        const std::size_t k = (i + j) % 2;  // selects the diagonal
         triangle(q[k], q[k + 1], q[k + 2]);
         triangle(q[k], q[k + 2], q[(k + 3) % 4]);
       }
@@ -190,7 +191,7 @@ class Mesher {
   }
 
   BlockMesh mesh_;
-  Places outer_;             // nodes on the sides so far
+  Places outer_;             // nodes on the sides of all blocks so far
   std::vector<Index> grid_;  // nodes of the current block, row by row
   std::size_t width_ = 0;
 };
@@ -233,7 +234,7 @@ std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh,
 
 namespace {
 
-/// -1, 0 or 1: a pattern with a period of three cells.
+/// Returns -1, 0 or 1 in a pattern with a period of three cells.
 double pattern(Index n) {
   return static_cast<double>(n % 3) - 1;
 }
@@ -250,7 +251,8 @@ Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate) {
   BlockMesh block = mesh_blocks(
       {{{Vector2d::Zero(), x, size, y}, {}, {mesh.cells, mesh.cells}, {1, 1}}}, mesh.six_nodes);
   const auto distort = [&](Vector2d& position) {
-    Vector2d at = (cells * position.cwiseQuotient(size)).array().round();  // its row and column
+    // Row and column of the corner.
+    Vector2d at = (cells * position.cwiseQuotient(size)).array().round();
     const auto i = static_cast<Index>(at.x()), j = static_cast<Index>(at.y());
     const bool inside = i > 0 && j > 0 && i < mesh.cells && j < mesh.cells;
     if (inside) at += mesh.distortion * Vector2d(pattern(i + 2 * j), pattern(2 * i + j + i * j));

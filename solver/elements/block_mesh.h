@@ -6,71 +6,92 @@
 
 #include "solver/model/model.h"
 
-/// Mapped meshes of plates: quadrilateral blocks with straight or elliptic sides, joined where
-/// their sides coincide. Pure functions; the result is nodes and triangles of a Model.
+/// Mapped meshes of plates. A mesh consists of quadrilateral blocks with straight or elliptic
+/// sides, which are joined where their sides coincide. All functions are pure; they return nodes
+/// and triangles of a Model.
 namespace trammel::solver {
 
-/// x = centre.x + semi_axes.x cos t, y = centre.y + semi_axes.y sin t. A side on it runs the
-/// shorter way, at even steps of t.
+/// Ellipse with axes parallel to x and y:
+///
+///   `x = centre.x + semi_axes.x cos t`,  `y = centre.y + semi_axes.y sin t`.
+///
+/// A side on the ellipse follows the shorter arc between its corners, with nodes at equal steps of
+/// t if the grading is 1.
 struct Ellipse {
   Vector2d centre = Vector2d::Zero();     ///< [m]
   Vector2d semi_axes = Vector2d::Ones();  ///< along x and y [m]
 };
 
+/// Quadrilateral block of a mapped mesh.
 struct Block {
-  std::array<Vector2d, 4> corners;              ///< counterclockwise [m]
-  std::array<std::optional<Ellipse>, 4> sides;  ///< side i from corner i to i + 1; empty: straight
-  std::array<Index, 2> cells{1, 1};             ///< along sides 0 and 2, along sides 1 and 3
-  std::array<double, 2> grading{1, 1};          ///< last cell over first, from corner 0
+  std::array<Vector2d, 4> corners;  ///< counterclockwise [m]
+  /// Side i runs from corner i to corner i + 1; empty: straight.
+  std::array<std::optional<Ellipse>, 4> sides;
+  /// Numbers of cells along sides 0 and 2, and along sides 1 and 3.
+  std::array<Index, 2> cells{1, 1};
+  /// Length of the last cell over that of the first, counted from corner 0.
+  std::array<double, 2> grading{1, 1};
 };
 
+/// Nodes and triangles of a mesh of blocks.
 struct BlockMesh {
   bool six_nodes = false;
-  std::vector<Vector2d> positions;              ///< [m]
-  std::vector<std::array<Index, 6>> triangles;  ///< counterclockwise; -1 behind three nodes
-  /// block -> side -> its nodes from corner to corner, middles included
+  std::vector<Vector2d> positions;  ///< [m]
+  /// Counterclockwise; entries 3 to 5 are -1 for three-node triangles.
+  std::vector<std::array<Index, 6>> triangles;
+  /// Nodes of each side of each block, from corner to corner, with mid-side nodes:
+  /// sides[block][side].
   std::vector<std::array<std::vector<Index>, 4>> sides;
 };
 
-/// Each cell becomes two triangles, with diagonals that alternate; inner points by transfinite
-/// interpolation (Gordon & Hall 1973), which puts the middle nodes of six-node triangles on the
-/// curves. Nodes of different blocks within 1e-9 of the mesh's size of one another are one node.
-/// @throws ModelError  for a corner that is not on its ellipse, or a block without cells.
+/// Divides each cell of each block into two triangles with alternating diagonals. Inner points
+/// follow from transfinite interpolation (Gordon & Hall 1973). This places the middle nodes of
+/// six-node triangles on the curved sides. Nodes of different blocks are merged if their distance
+/// is below 1e-9 of the mesh size.
+/// @throws ModelError  if there is no block, a corner is not on its ellipse, a block has no cells,
+///   or a grading is not positive.
 [[nodiscard]] BlockMesh mesh_blocks(const std::vector<Block>& blocks, bool six_nodes);
 
-/// Adds the triangles, and those nodes that do not stand in the model yet, without names: where the
-/// model has a node within 1e-9 of the mesh's size, the mesh is joined to it (of several to a
-/// corner, else to the first).
-/// @param corners  the model's nodes that the blocks were made of
-/// @returns the model's node of each of the mesh's
+/// Adds the triangles of a mesh and its new nodes (without names) to a model. A mesh node is merged
+/// with a model node if their distance is below 1e-9 of the mesh size. If several model nodes
+/// match, nodes in `corners` have priority, then the first node of the model.
+/// @param model  model to which the mesh is added.
+/// @param plate  index of the plate of the triangles.
+/// @param mesh  mesh of blocks.
+/// @param corners  model nodes at the corners of the blocks.
+/// @returns the index of the model node for each mesh node.
 std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh,
                           const std::vector<Index>& corners = {});
 
-// Meshes for the verification of orders: regular, or distorted in a pattern that repeats from cell
-// to cell, so that refinement does not smooth it out.
+// Meshes for verifying orders of convergence. They are regular, or distorted in a pattern that
+// repeats from cell to cell. Refinement therefore does not smooth out the distortion.
 
+/// Parameters of a mesh of a rectangle with one corner at the origin.
 struct RectangleMesh {
   double length = 0;  ///< along x, from the origin [m]
   double height = 0;  ///< along y [m]
-  Index cells = 1;    ///< along either side; each cell is two triangles, diagonals alternate
+  /// Along each side; each cell is split into two triangles with alternating diagonals.
+  Index cells = 1;
   bool six_nodes = false;
-  double distortion = 0;  ///< how far inner corners are moved, in cells; below 0.3
+  double distortion = 0;  ///< displacement of the inner corners [cells]; 0 <= distortion < 0.3
 };
 
-/// A model with one plate and its triangles: neither supports nor loads.
-/// @throws ModelError  for a distortion that could turn a triangle over.
+/// Returns a model with one plate and its triangles, without supports and loads.
+/// @throws ModelError  if the distortion is outside its range and could invert a triangle.
 [[nodiscard]] Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate);
 
+/// Parameters of a mesh of a straight line.
 struct DistortedLine {
   Vector2d start = Vector2d::Zero();  ///< [m]
   Vector2d end = Vector2d::Zero();    ///< [m]
   Index cells = 1;
-  double distortion = 0;  ///< how far every other inner node is moved, in cells; below 1
+  double distortion = 0;  ///< displacement of every second inner node [cells]; 0 <= distortion < 1
 };
 
-/// A model with one member a cell, its first node at the start.
-/// @param member  its nodes and number of elements do not matter
-/// @throws ModelError  for a distortion that could turn a member over.
+/// Returns a model with one member per cell. Its first node is at the start of the line.
+/// @param mesh  geometry of the line and its distortion.
+/// @param member  properties of all members; its nodes and number of elements are ignored.
+/// @throws ModelError  if the distortion is outside its range and could invert a member.
 [[nodiscard]] Model mesh_line(const DistortedLine& mesh, const Member& member);
 
 }  // namespace trammel::solver

@@ -5,7 +5,8 @@
 namespace trammel::solver {
 namespace {
 
-/// A section with mix(a, b, n) of each property of two, which goes with depth^n width.
+/// Returns a section whose properties are mix(a, b, n) of the properties a and b of two sections. A
+/// property scales with depth^n width.
 template <class Mix>
 Section mixed(const Section& first, const Section& second, const Mix& mix) {
   Section section;
@@ -19,7 +20,7 @@ Section mixed(const Section& first, const Section& second, const Mix& mix) {
   return section;
 }
 
-/// The depth is in proportion to the radius of gyration.
+/// Interpolates depth and width linearly. The depth is proportional to the radius of gyration.
 Section with_linear_dimensions(const Section& first, const Section& second, double at) {
   const double depth_ratio = std::sqrt(second.EI / second.EA / (first.EI / first.EA));
   const double width_ratio = second.area / first.area / depth_ratio;

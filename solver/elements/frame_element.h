@@ -7,21 +7,29 @@
 #include "solver/model/numbers.h"
 #include "solver/model/quadrature.h"
 
-/// The two-node planar frame element, as pure functions. Element axes: x from the first node to the
-/// second, y to its left; dofs (u1 v1 θ1 u2 v2 θ2) [m, m, rad].
+/// Two-node planar frame element, as pure functions. The element x axis points from the first node
+/// to the second, and y points to its left. The degrees of freedom are (u1 v1 θ1 u2 v2 θ2) [m, m,
+/// rad].
 ///
-/// All beam theories share one interpolation, exact for a prismatic beam loaded at its ends, with
-/// Phi = 12 EI / (kappa GA L^2) (Przemieniecki 1968; Friedman & Kosmatka 1993); Phi = 0 gives the
-/// Hermite cubics of Euler-Bernoulli and Rayleigh. It cannot lock in shear.
+/// All beam theories share one interpolation, which is exact for a prismatic beam loaded at its
+/// ends (Przemieniecki 1968; Friedman & Kosmatka 1993). It depends on the shear ratio
 ///
-/// The stiffness is written in the three motions that deform the element, d = B u:
-///   elongation u2 - u1, symmetric bending θ2 - θ1, antisymmetric bending θ1 + θ2 - 2 (v2 - v1) /
-///   L,
-/// in which it is diagonal: k = B^T diag(EA/L, EI/L, 3 EI / (L (1 + Phi))) B. Energies and forces
-/// taken from d keep the digits of bending beside a much stiffer axial part; the entries of k in
-/// world axes do not.
+///   Phi = 12 EI / (kappa GA L^2).
 ///
-/// Functions of T exist for double and Dual.
+/// Phi = 0 gives the Hermite cubics of the Euler-Bernoulli and Rayleigh theories. The element does
+/// not lock in shear.
+///
+/// The stiffness is diagonal in three measures of deformation, d = B u:
+///
+///   elongation              u2 - u1,
+///   symmetric bending       θ2 - θ1,
+///   antisymmetric bending   θ1 + θ2 - 2 (v2 - v1) / L,
+///   k = B^T diag(EA/L, EI/L, 3 EI / (L (1 + Phi))) B.
+///
+/// Energies and forces computed from d keep the significant digits of bending next to a much
+/// stiffer axial part. The entries of k in world axes lose them.
+///
+/// Functions of T are defined for double and Dual.
 namespace trammel::solver {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
@@ -32,10 +40,11 @@ template <class T>
 using Matrix36 = Eigen::Matrix<T, 3, 6>;
 using FrameDeformation = Matrix36<double>;
 
-/// Section of a member at the fraction 0 <= at <= 1 of its length, by its taper.
+/// Returns the section of a member at the fraction 0 <= at <= 1 of its length, according to its
+/// taper.
 [[nodiscard]] Section section_at(const Member& member, double at);
 
-/// Phi = 12 EI / (kappa GA L^2) [-]; 0 for a theory without shear.
+/// Returns Phi = 12 EI / (kappa GA L^2) [-], or 0 for a theory without shear deformation.
 template <Real T>
 [[nodiscard]] T shear_ratio(const SectionOf<T>& section, BeamTheory theory,
                             const std::type_identity_t<T>& length) {
@@ -43,7 +52,8 @@ template <Real T>
   return 12.0 * section.EI / (section.kappa_GA * length * length);
 }
 
-/// B of the element along `direction` (unit vector, world axes): world dofs -> d [m, rad, rad].
+/// Returns B, 3 x 6, of the element along `direction` (unit vector, world axes). B maps world
+/// degrees of freedom to d [m, rad, rad].
 template <Real T = double>
 [[nodiscard]] Matrix36<T> frame_deformation_matrix(const Eigen::Vector2<T>& direction,
                                                    const std::type_identity_t<T>& length) {
@@ -66,7 +76,7 @@ template <Real T = double>
   return B;
 }
 
-/// Diagonal stiffness of the three deformations [N/m, N m, N m].
+/// Returns the diagonal stiffness of the three deformations [N/m, N m, N m].
 template <Real T>
 [[nodiscard]] Eigen::Vector3<T> frame_rigidity(const SectionOf<T>& section, BeamTheory theory,
                                                const std::type_identity_t<T>& length) {
@@ -74,12 +84,18 @@ template <Real T>
   return {section.EA / length, section.EI / length, 3.0 * section.EI / (length * (1.0 + phi))};
 }
 
-/// Stiffness in element axes.
-/// @param length  L > 0 [m].   Source: paper Eq. (7); Przemieniecki (1968) with shear.
+/// Returns the stiffness in element axes, 6 x 6.
+/// @param section  cross-section of the element.
+/// @param theory  beam theory.
+/// @param length  L > 0 [m].
+///
+/// Source: paper Eq. (7); Przemieniecki (1968) with shear.
 [[nodiscard]] Matrix6d frame_stiffness(const Section& section, BeamTheory theory, double length);
 
-/// Rows (axial displacement, transverse displacement, rotation of the section) at the fraction
-/// 0 <= xi <= 1 of the length, for each dof in element axes. Source: Friedman & Kosmatka (1993).
+/// Returns the interpolation at the fraction 0 <= xi <= 1 of the length, 3 x 6. The rows are the
+/// axial displacement, the transverse displacement and the rotation of the section. The columns are
+/// the degrees of freedom in element axes.
+/// Source: Friedman & Kosmatka (1993).
 template <Real T>
 [[nodiscard]] Matrix36<T> frame_interpolation(const T& shear_ratio,
                                               const std::type_identity_t<T>& length, double xi) {
@@ -102,9 +118,11 @@ template <Real T>
   return N;
 }
 
-/// Mass in element axes. Consistent: integral of rho A (u^2 + v^2) and, with rotary inertia, rho I
-/// θ^2 over the interpolation. Lumped: half of each at either node, so that rotations carry none
-/// without rotary inertia.   Source: paper Eq. (6, 7); Friedman & Kosmatka (1993).
+/// Returns the mass matrix in element axes, 6 x 6. The consistent matrix is the integral of rho A
+/// (u^2 + v^2) and, with rotary inertia, of rho I θ^2 over the interpolation. The lumped matrix
+/// assigns half of the mass and of the rotary inertia to each node. Rotations are therefore
+/// massless without rotary inertia.
+/// Source: paper Eq. (6, 7); Friedman & Kosmatka (1993).
 template <Real T>
 [[nodiscard]] Matrix6<T> frame_mass(const SectionOf<T>& section, BeamTheory theory, MassMatrix mass,
                                     const std::type_identity_t<T>& length) {
@@ -124,13 +142,16 @@ template <Real T>
   return (M + M.transpose().eval()) * T(0.5);
 }
 
-/// Mass of a bar that does not bend (E I = 0), linear in both directions; rotations carry none.
+/// Returns the mass matrix of a bar that does not bend (E I = 0), 6 x 6. Both displacements are
+/// linear, and rotations are massless.
 [[nodiscard]] Matrix6d bar_mass(const Section& section, MassMatrix mass, double length);
 
-/// Nodal forces of a uniform load (qx, qy) [N/m] in element axes; the same for all theories.
+/// Returns the consistent nodal forces [N, N, N m] of a uniform load (qx, qy) [N/m] in element
+/// axes. They are the same for all theories.
 [[nodiscard]] Vector6d frame_uniform_load(const Vector2d& load, double length);
 
-/// T_s: world dofs -> element dofs.   Source: paper Eq. (10).
+/// Returns T_s, 6 x 6, which maps world degrees of freedom to element degrees of freedom.
+/// Source: paper Eq. (10).
 template <Real T = double>
 [[nodiscard]] Matrix6<T> frame_rotation(const Eigen::Vector2<T>& direction) {
   Matrix6<T> R = Matrix6<T>::Zero();

@@ -19,10 +19,10 @@ double twice_area(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return cross(b - a, c - a);
 }
 
-/// Adds the nodes at the middles of the sides, one for the two triangles of a side.
+/// Adds the mid-side nodes. Two triangles with a common side share its node.
 void add_middles(TriangleMesh& mesh) {
   mesh.nodes.reserve(mesh.nodes.size() + 2 * mesh.triangles.size());
-  std::unordered_map<Index, Index> middle;  // side by its two ends
+  std::unordered_map<Index, Index> middle;  // key: the two end nodes of the side
   middle.reserve(2 * mesh.triangles.size());
   for (TriangleMesh::Nodes& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -34,7 +34,7 @@ void add_middles(TriangleMesh& mesh) {
   }
 }
 
-/// Splits every triangle in four at its mid-sides.
+/// Splits every triangle into four at its mid-side nodes.
 TriangleMesh split(TriangleMesh mesh) {
   add_middles(mesh);
   TriangleMesh fine{std::move(mesh.nodes), {}};
@@ -48,7 +48,7 @@ TriangleMesh split(TriangleMesh mesh) {
   return fine;
 }
 
-/// Degree-5 rule of seven points on a triangle (Radon 1948): barycentric coordinates and weight.
+/// Degree-5 rule with seven points on a triangle (Radon 1948): barycentric coordinates and weight.
 struct RulePoint {
   Vector3d barycentric;
   double weight;
@@ -72,8 +72,9 @@ const std::array<RulePoint, 7>& radon_rule() {
   return rule;
 }
 
-/// Calls visit(point, its share of the area) for a quadrature of the triangle near the disc, in
-/// pieces that are small beside the disc; what lies outside the disc is left out.
+/// Calls visit(point, area share) for the points of a quadrature of the triangle near the disc. The
+/// triangle is divided into pieces that are small compared with the disc. Pieces outside the disc
+/// are skipped.
 template <class Visit>
 void integrate_near(const Corners& t, const Vector2d& x0, double radius, const Visit& visit) {
   const Vector2d centroid = (t[0] + t[1] + t[2]) / 3;
@@ -96,7 +97,8 @@ void integrate_near(const Corners& t, const Vector2d& x0, double radius, const V
   }
 }
 
-/// Moments of one node's share: int N_i phi (1, xi, eta) dA with (xi, eta) = (x - x0) / radius.
+/// Moments of the share of one node, int N_i phi (1, xi, eta) dA with (xi, eta) = (x - x0) /
+/// radius.
 using Shares = std::unordered_map<Index, Vector3d>;
 
 void add_shares(const TriangleMesh& mesh, const TriangleMesh::Nodes& nodes, const Vector2d& x0,
@@ -159,7 +161,7 @@ std::vector<std::pair<Index, double>> pin_weights(const TriangleMesh& mesh, cons
   for (const auto& share : shares) weights.emplace_back(share.first, 0.0);
   std::sort(weights.begin(), weights.end());
 
-  // Kernel (a, b): sum_i w_i (1, (x_i - x0) / radius) = (1, 0, 0).
+  // Coefficients (a, b) of the kernel: sum_i w_i (1, (x_i - x0) / radius) = (1, 0, 0).
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   const auto local = [&](Index node) {
     const Vector2d xi = (mesh.nodes[static_cast<std::size_t>(node)] - x0) / radius;

@@ -10,7 +10,8 @@ namespace trammel::solver {
 
 namespace {
 
-/// Derivatives with respect to L_0 and L_1, with L_2 = 1 - L_0 - L_1.
+/// Returns the derivatives of the shape functions with respect to L_0 and L_1, with L_2 = 1 - L_0 -
+/// L_1.
 Eigen::Matrix<double, 2, 6> local_gradient(bool six_nodes, const Vector3d& L) {
   Eigen::Matrix<double, 2, 6> d = Eigen::Matrix<double, 2, 6>::Zero();
   if (!six_nodes) {
@@ -40,7 +41,7 @@ TriangleInterpolation interpolate(std::span<const Vector2d> nodes, const Vector3
   result.nodes = std::ssize(nodes);
   result.N = triangle_shape_functions(at, nodes.size() == 6);
   const Eigen::Matrix<double, 2, 6> local = local_gradient(nodes.size() == 6, at);
-  Eigen::Matrix2d J = Eigen::Matrix2d::Zero();  // d(x, y) / d(L_0, L_1), by rows of L
+  Eigen::Matrix2d J = Eigen::Matrix2d::Zero();  // d(x, y) / d(L_0, L_1); one row for each L
   for (Index i = 0; i < result.nodes; ++i) {
     const Vector2d& p = nodes[to_size(i)];
     result.position += result.N[i] * p;
@@ -129,7 +130,7 @@ TriangleMatrix<6> triangle_mass(const TriangleNodes<6>& nodes, const Plate& plat
 
 namespace {
 
-/// Shape functions of a side's ends and its middle, and their derivatives, at a fraction of it.
+/// Shape functions of the two end nodes and the middle node of a side, and their derivatives.
 struct SideShape {
   std::array<double, 3> N, dN;
 };

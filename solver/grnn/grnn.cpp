@@ -12,7 +12,7 @@ Eigen::VectorXd scale_of(const Eigen::MatrixXd& inputs, InputScaling scaling) {
   for (Index f = 0; f < inputs.cols(); ++f) {
     const Eigen::VectorXd column = inputs.col(f);
     const double range = column.maxCoeff() - column.minCoeff();
-    if (range == 0) continue;  // a constant input: the mean could differ from it by a rounding
+    if (range == 0) continue;  // constant input; its mean could differ from it by round-off
     const double deviation = std::sqrt((column.array() - column.mean()).square().mean());
     scale(f) = scaling == InputScaling::range ? range : deviation;
   }
@@ -61,8 +61,9 @@ Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
       network.scale.cwiseInverse().asDiagonal() * queries.transpose();  // input x query
   require(squarable(scaled), "a query is not finite or too large to be squared");
 
-  // Queries in blocks: the weights of a block meet the outputs, and ones for their sums, in one
-  // matrix product of the samples within reach of any.
+  // Process queries in blocks. One matrix product combines the weights of a block with the
+  // outputs and with a column of ones for the sums of the weights. It covers only samples within
+  // reach of any query of the block.
   constexpr Index kBlock = 32;
   const Index columns = network.outputs.cols();
   Eigen::MatrixXd targets(samples.rows(), columns + 1);
@@ -92,7 +93,8 @@ Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
 
 namespace {
 
-constexpr double kLeastExponent = -708;  // below, results are no normal numbers
+// Smaller exponents give results that are not normal numbers.
+constexpr double kLeastExponent = -708;
 
 }  // namespace
 
@@ -100,7 +102,8 @@ const Eigen::ArrayXd& ExcessDistances::compute(const Eigen::Ref<const Eigen::Vec
                                                double reach,
                                                const Eigen::Array<bool, Eigen::Dynamic, 1>* skip) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  constexpr double kRounding = 1e-12;  // more than that of squares of a thousand inputs
+  // Above the round-off error of the squares of a thousand inputs.
+  constexpr double kRounding = 1e-12;
   const Index count = samples_.rows();
   excess_ = (query(0) - samples_.col(0).array()).square();
   for (Index f = 1; f < samples_.cols(); ++f)
@@ -113,7 +116,7 @@ const Eigen::ArrayXd& ExcessDistances::compute(const Eigen::Ref<const Eigen::Vec
   for (first_ = 0; first_ < nearest && !(excess_(first_) <= limit);) ++first_;
   for (last_ = count; last_ > nearest + 1 && !(excess_(last_ - 1) <= limit);) --last_;
 
-  // Further away D_i^2 stays, which is no less than its excess.
+  // Samples that are further away keep D_i^2, which is at least their excess.
   auto near = excess_.segment(first_, last_ - first_);
   near.setZero();
   for (Index f = 0; f < samples_.cols(); ++f) {
@@ -122,13 +125,14 @@ const Eigen::ArrayXd& ExcessDistances::compute(const Eigen::Ref<const Eigen::Vec
     near += (m - s) * ((x - s) + (x - m));
   }
   if (skip) near = skip->segment(first_, near.size()).select(kInfinity, near);
-  // Rounding may have named the second nearest: count from the least, so that none is negative.
+  // Round-off may have selected the second nearest sample. Subtract the minimum, so that no excess
+  // is negative.
   near -= near.minCoeff();
   return excess_;
 }
 
 void kernel_weights(const double* excess, Index count, double sigma, double* weights) {
-  // Two divisions, since sigma^2 may underflow or overflow where excess / sigma / sigma has its
+  // Divide twice, because sigma^2 may underflow or overflow although excess / sigma / sigma has a
   // proper limit.
   const double inverse = 1 / sigma;
   const Eigen::Map<const Eigen::ArrayXd> e(excess, count);

@@ -4,74 +4,87 @@
 
 #include "solver/model/model.h"
 
-/// General regression neural network (Specht 1991; the estimator of Nadaraya and Watson 1964).
+/// General regression neural network (Specht 1991), the estimator of Nadaraya and Watson (1964).
 namespace trammel::solver {
 
-/// What an input is divided by before distances are taken. A constant input is divided by 1.
+/// Divisor of each input before distances are computed. A constant input is divided by 1.
 enum class InputScaling {
   none,
-  deviation,  ///< its standard deviation over the samples
-  range       ///< its largest less its smallest value
+  deviation,  ///< standard deviation over the samples
+  range       ///< largest minus smallest value
 };
 
-/// The samples are the network: there is nothing else to train but sigma.
+/// General regression neural network. It consists of its samples; sigma is the only parameter to
+/// train.
+///
 ///   Y(x) = sum_i Y_i w_i / sum_i w_i,  w_i = exp(-D_i^2 / 2 sigma^2)   (paper Eq. 36),
 ///   D_i^2 = sum_f ((x_f - X_if) / scale_f)^2                            (paper Eq. 37)
 struct Grnn {
   Eigen::MatrixXd inputs;   ///< sample x input
   Eigen::MatrixXd outputs;  ///< sample x output
-  Eigen::VectorXd scale;    ///< of each input, > 0, in its unit
+  Eigen::VectorXd scale;    ///< divisor of each input, > 0, in the unit of the input
   double sigma = 1;         ///< smoothing, in scaled distance [-]
 };
 
-/// @param inputs   sample x input
-/// @param outputs  sample x output
-/// @throws ModelError  where there is no sample, the numbers of samples differ, or a number is not
-///                     finite or too large to be squared.
+/// Builds a network with a scale computed from the samples.
+/// @param inputs   sample x input.
+/// @param outputs  sample x output.
+/// @param sigma    smoothing, in scaled distance [-].
+/// @param scaling  rule for the scale of the inputs.
+/// @throws ModelError  if there is no sample, the numbers of samples differ, or a number is not
+///   finite or too large to be squared.
 [[nodiscard]] Grnn make_grnn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs,
                              double sigma, InputScaling scaling = InputScaling::none);
 
-/// The same with a bandwidth for each input as its scale: an isotropic network has sigma = 1 then.
+/// Builds a network with the given scale. If each scale is the bandwidth of its input, use sigma =
+/// 1.
 [[nodiscard]] Grnn make_grnn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs,
                              double sigma, const Eigen::VectorXd& scale);
 
-/// sigma of MATLAB's newgrnn(P, T, spread), which has exp(-(0.8326 D / spread)^2): 0.8326 is
-/// sqrt(ln 2) to four digits, so that the weight is one half at D = spread.
+/// Returns sigma [-] of MATLAB's newgrnn(P, T, spread), which uses exp(-(0.8326 D / spread)^2).
+/// 0.8326 is sqrt(ln 2) to four digits, so that the weight is one half at D = spread.
 [[nodiscard]] double sigma_of_spread(double spread);
 
-/// Never 0/0: the weights are relative to the nearest sample's, from the differences
+/// Returns the outputs for queries. The result is never 0/0, because weights are relative to that
+/// of the nearest sample m. They follow from the differences
+///
 ///   D_i^2 - D_m^2 = sum_f (X_mf - X_if) ((x_f - X_if) + (x_f - X_mf)) / scale_f^2,
-/// which keep their digits far from the samples, too. As sigma -> 0 it is the nearest sample (the
-/// mean of those at the same distance), as sigma -> infinity the mean of all.
-/// @param queries  query x input
-/// @return         query x output
-/// @throws ModelError  where a query is not finite or has the wrong number of inputs, or sigma is
-///                     not a positive normal number.
+///
+/// which remain accurate far from the samples. The limit for sigma -> 0 is the nearest sample, or
+/// the mean of the samples at that distance. The limit for sigma -> infinity is the mean of all
+/// samples.
+/// @param network  samples, scale and sigma.
+/// @param queries  query x input.
+/// @return         query x output.
+/// @throws ModelError  if a query is not finite or has the wrong number of inputs, or sigma is not
+///   a positive normal number.
 [[nodiscard]] Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries);
 
-// The kernel weights of a GRNN, shared by prediction and cross-validation.
+// Kernel weights of a GRNN, shared by prediction and cross-validation.
 
-/// The divisor of each column; 1 for a constant one.
+/// Returns the divisor of each column; 1 for a constant column.
 [[nodiscard]] Eigen::VectorXd scale_of(const Eigen::MatrixXd& columns, InputScaling scaling);
-/// The inputs in scaled distances, sample x input.
+/// Returns the inputs divided by their scales, sample x input [-].
 [[nodiscard]] inline Eigen::MatrixXd scaled_inputs(const Grnn& network) {
   return network.inputs * network.scale.cwiseInverse().asDiagonal();
 }
 
-/// D_i^2 - D_m^2 >= 0 of every sample to a query, m the nearest sample.
+/// Computes D_i^2 - D_m^2 >= 0 between every sample i and a query, where m is the nearest sample.
 class ExcessDistances {
  public:
-  /// @param samples  sample x input, scaled; must outlive this object
+  /// @param samples  sample x input, scaled; must outlive this object.
   explicit ExcessDistances(const Eigen::MatrixXd& samples)
       : samples_(samples), excess_(samples.rows()), last_(samples.rows()) {}
 
-  /// @param query  scaled
-  /// @param reach  of what lies further only an excess that is at least as large need be told
-  /// @param skip   samples to leave out (their excess is infinite), or null
+  /// Computes the excess of every sample.
+  /// @param query  scaled input.
+  /// @param reach  excess above which a lower bound is sufficient: samples beyond it may get any
+  ///   excess that is at least `reach`.
+  /// @param skip   samples to leave out (their excess is infinite), or null.
   const Eigen::ArrayXd& compute(const Eigen::Ref<const Eigen::VectorXd>& query, double reach,
                                 const Eigen::Array<bool, Eigen::Dynamic, 1>* skip = nullptr);
 
-  /// Samples [first, last) hold all within reach of the last query.
+  /// Range [first, last) of samples that contains all samples within reach of the last query.
   [[nodiscard]] Index first() const { return first_; }
   [[nodiscard]] Index last() const { return last_; }
 
@@ -81,13 +94,15 @@ class ExcessDistances {
   Index first_ = 0, last_;
 };
 
-/// exp(-excess / 2 sigma^2): 1 for the nearest, whatever sigma; at least e^-708, which is a normal
-/// number and nothing beside 1.
-/// @param excess   [count]
-/// @param weights  [count]
+/// Computes the weights exp(-excess / 2 sigma^2). The weight of the nearest sample is 1 for any
+/// sigma. All weights are at least e^-708, which is a normal number and negligible compared with 1.
+/// @param excess   [count].
+/// @param count    number of samples.
+/// @param sigma    smoothing [-].
+/// @param weights  [count], output.
 void kernel_weights(const double* excess, Index count, double sigma, double* weights);
 
-/// The excess from which on a weight is nothing; infinite where sigma^2 overflows.
+/// Returns the excess above which a weight is negligible; infinite if sigma^2 overflows.
 [[nodiscard]] double reach_of_kernel(double sigma);
 
 }  // namespace trammel::solver

@@ -15,12 +15,13 @@ namespace trammel::solver {
 namespace {
 
 void check_sigmas(const Eigen::VectorXd& sigmas) {
-  require(sigmas.size() >= 1, "no sigma to try");
+  require(sigmas.size() >= 1, "at least one sigma is required");
   require(sigmas.allFinite() && (sigmas.array() >= std::numeric_limits<double>::min()).all(),
-          "every sigma to try must be a positive normal number");
+          "every sigma must be a positive normal number");
 }
 
-/// 0, 1, ..., by Fisher-Yates if shuffled; the library's shuffle is not the same everywhere.
+/// Returns 0, 1, ..., shuffled by Fisher-Yates on request. std::shuffle differs between standard
+/// libraries.
 std::vector<Index> order_of(Index samples, bool shuffled, std::uint64_t seed) {
   std::vector<Index> order(to_size(samples));
   std::iota(order.begin(), order.end(), Index{0});
@@ -44,11 +45,12 @@ std::vector<Index> fold_of_samples(Index samples, const CrossValidation& validat
 }
 
 std::vector<bool> training_mask(Index samples, Index train, Split split, std::uint64_t seed) {
-  require(train >= 1 && train <= samples, "expected to train with at least one and at most all");
+  require(train >= 1 && train <= samples,
+          "the number of training samples must be between 1 and the number of samples");
   const std::vector<Index> order = order_of(samples, split == Split::shuffled, seed);
   std::vector<bool> trains(order.size(), false);
   for (Index k = 0; k < train; ++k) {
-    // The middle of the k-th of `train` equal pieces.
+    // Middle of the k-th of `train` equal intervals.
     const Index rank = split == Split::interleaved ? (2 * k + 1) * samples / (2 * train) : k;
     trains[to_size(order[to_size(rank)])] = true;
   }
@@ -65,7 +67,8 @@ Eigen::VectorXd cross_validation_error(const Grnn& network, const Eigen::VectorX
   const Eigen::RowVectorXd importance =
       scale_of(network.outputs, InputScaling::deviation).cwiseInverse();
 
-  // Samples in blocks: their weights meet the outputs, and ones for their sums, in one product.
+  // Process samples in blocks. One matrix product combines their weights with the outputs and with
+  // a column of ones for the sums of the weights.
   constexpr Index kBlock = 32;
   const Index columns = network.outputs.cols();
   Eigen::MatrixXd targets(n, columns + 1);
@@ -104,7 +107,7 @@ Eigen::VectorXd logarithmic_grid(double from, double to, Index count) {
 Eigen::VectorXd default_grid(const Grnn& network, Index count) {
   const Eigen::MatrixXd samples = scaled_inputs(network);
   const double extent = (samples.colwise().maxCoeff() - samples.colwise().minCoeff()).norm();
-  if (extent == 0) return logarithmic_grid(0.1, 10, count);  // all samples at one place
+  if (extent == 0) return logarithmic_grid(0.1, 10, count);  // all samples coincide
   std::vector<double> nearest;
   for (Index i = 0; i < samples.rows(); ++i) {
     double min_distance = extent;
@@ -145,8 +148,8 @@ SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,
     }
     return error;
   };
-  // Relative to the middle of the bracket, so that the unit of the inputs does not matter: sigma to
-  // better than 1e-3.
+  // Search relative to the middle of the bracket, so that the unit of the inputs does not matter.
+  // This determines sigma to better than 1e-3.
   constexpr int kBits = 12;
   std::uintmax_t evaluations = 100;
   boost::math::tools::brent_find_minima(error_at, std::log(grid(best - 1) / middle),

@@ -6,62 +6,69 @@
 
 #include "solver/grnn/grnn.h"
 
-/// Choosing the smoothing of a GRNN by cross-validation.
+/// Choice of the smoothing of a GRNN by cross-validation.
 namespace trammel::solver {
 
-/// How samples go into folds. In a time series neighbours are nearly copies: folds that interleave
-/// or shuffle measure interpolation, folds of consecutive blocks come nearer to extrapolation.
+/// Assignment of samples to folds. Neighbors in a time series are nearly equal. Interleaved or
+/// shuffled folds therefore measure interpolation. Folds of consecutive blocks are closer to
+/// extrapolation.
 enum class FoldOrder { interleaved, shuffled, blocks };
 
+/// Options of a cross-validation.
 struct CrossValidation {
   Index folds = 0;  ///< 0: leave one out
   FoldOrder order = FoldOrder::interleaved;
-  std::uint64_t seed = 1;  ///< of `shuffled`
+  std::uint64_t seed = 1;  ///< used by `shuffled`
 };
 
-/// Fold of each sample, each fold as large as the others but for one; the same on every machine.
-/// @throws ModelError  where there are fewer than two folds, or fewer samples than folds.
+/// Returns the fold of each sample. The sizes of the folds differ by at most one. The result is the
+/// same on every machine.
+/// @throws ModelError  if there are fewer than two folds, or fewer samples than folds.
 [[nodiscard]] std::vector<Index> fold_of_samples(Index samples, const CrossValidation& validation);
 
-/// Which samples train a network when the others are held out.
+/// Choice of the samples that train a network. The others are held out.
 enum class Split {
-  first,        ///< the first ones in time, as in the paper: what is held out is extrapolated
-  interleaved,  ///< spread evenly over all
+  first,  ///< first samples in time, as in the paper: the held-out samples require extrapolation
+  interleaved,  ///< spread evenly over all samples
   shuffled      ///< drawn with `seed`, the same on every machine
 };
 
-/// @return  for each sample whether it trains, `train` of them
+/// Selects the training samples.
+/// @return  for each sample: true if it is one of the `train` training samples.
 /// @throws ModelError  unless 1 <= train <= samples.
 [[nodiscard]] std::vector<bool> training_mask(Index samples, Index train, Split split,
                                               std::uint64_t seed = 1);
 
-/// Root mean square of what the network without a sample's fold predicts wrongly for it, one row a
-/// sigma: each output divided by its standard deviation over all samples (by 1 where constant), so
-/// that the mean of all samples has an error near 1.
-/// @return  one error for each sigma [-]
+/// Returns the root mean square of the prediction errors. The network predicts each sample without
+/// the samples of its fold. Each output is divided by its standard deviation over all samples, or
+/// by 1 if it is constant. Predicting the mean of all samples therefore has an error near 1.
+/// @return  one error for each sigma [-].
 [[nodiscard]] Eigen::VectorXd cross_validation_error(const Grnn& network,
                                                      const Eigen::VectorXd& sigmas,
                                                      const CrossValidation& validation);
 
+/// Result of a search for sigma.
 struct SigmaSearch {
-  double sigma = 0;            ///< the refined one
+  double sigma = 0;            ///< refined sigma [-]
   double error = 0;            ///< its cross-validation error [-]
-  bool bracketed = false;      ///< false: the least error lies at an end of the grid
-  Eigen::VectorXd grid;        ///< sigmas tried first, ascending
-  Eigen::VectorXd grid_error;  ///< their errors
-  Index evaluations = 0;       ///< sigmas tried in all
+  bool bracketed = false;      ///< false: the least error is at an end of the grid
+  Eigen::VectorXd grid;        ///< sigmas of the grid, ascending
+  Eigen::VectorXd grid_error;  ///< cross-validation errors on the grid [-]
+  Index evaluations = 0;       ///< total number of sigmas evaluated
 };
 
-/// `count` sigmas spaced evenly in their logarithm.
+/// Returns `count` sigmas with equal spacing of their logarithms.
 [[nodiscard]] Eigen::VectorXd logarithmic_grid(double from, double to, Index count);
-/// From a tenth of the median distance to the nearest other sample to the extent of all.
+/// Returns a grid from a tenth of the median nearest-neighbor distance to the extent of all
+/// samples.
 [[nodiscard]] Eigen::VectorXd default_grid(const Grnn& network, Index count = 41);
 
-/// Grid search as in the paper, then golden-section search in log sigma between the neighbours of
-/// the best grid point, to a relative width of 1e-4. Of equal errors the smaller sigma's
-/// counts; the result is the least error seen, which is a local minimum where there are several.
-/// @throws ModelError  where the grid does not ascend from a positive number, or as
-///                     `fold_of_samples`.
+/// Searches the sigma with the least cross-validation error. A grid search as in the paper is
+/// followed by Brent's method in log sigma between the neighbors of the best grid point. If errors
+/// are equal on the grid, the smaller sigma is selected. The result has the least error of all
+/// evaluations. It is a local minimum if there are several.
+/// @throws ModelError  if the grid does not ascend from a positive number, or for the reasons of
+///   `fold_of_samples`.
 [[nodiscard]] SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,
                                        const CrossValidation& validation);
 

@@ -9,14 +9,15 @@ namespace {
 constexpr int kNodes = BeamInterpolation::kNodes, kPoints = BeamInterpolation::kPoints;
 using NodeValues = Eigen::Matrix<double, kNodes, 1>;
 using Monomials = Eigen::Matrix<double, 1, kNodes>;
-/// Rotations among the coordinates.
+/// Indices of the rotations among the coordinates.
 const auto kTurns = Eigen::seqN(Eigen::fix<2>, Eigen::fix<kNodes>, Eigen::fix<3>);
 
 Monomials monomials(double x) {
   return {1, x, x * x, x * x * x};
 }
 
-/// On the Lobatto points and Gauss rules of [-1, 1], whose lengths are twice those of [0, 1].
+/// Computes the table from Lobatto points and Gauss rules of [-1, 1], whose lengths are twice those
+/// of [0, 1].
 BeamInterpolation make_interpolation() {
   const std::array<double, kNodes> lobatto = {-1, -std::sqrt(0.2), std::sqrt(0.2), 1};
   const std::array<double, kPoints> point = {-std::sqrt(0.6), 0, std::sqrt(0.6)};
@@ -50,7 +51,7 @@ BeamInterpolation make_interpolation() {
   return s;
 }
 
-/// Strains and section axes of one Gauss point.
+/// Strains and section axes of a Gauss point.
 struct Strain {
   Vector2d e1, e2;
   double stretch = 0, shear = 0;
@@ -71,7 +72,7 @@ struct Strain {
     shear = e2.dot(slope) - sine;
   }
 
-  /// Sets the rows of a Gauss point by the factors of displacements and of rotations.
+  /// Sets the rows of a Gauss point with the factors of displacements and of rotations.
   void set_rows(int g, int a, double slope, double value, Beam::Gradient& G) const {
     G.block<1, 2>(2 * g, 3 * a) = slope * e1.transpose();
     G(2 * g, 3 * a + 2) = value * shear;
@@ -133,9 +134,9 @@ Beam::Gradient Beam::discrete_gradient(const Coordinates& q0, const Coordinates&
   return D;
 }
 
-/// From rotations relative to the first node's, so that a common rotation cancels before it is
-/// multiplied. Its rounding would be a moment at every node of a row, n^2 eps EI/L in all of n
-/// elements.
+/// Uses rotations relative to the first node, so that a common rotation cancels before
+/// multiplication. Its round-off error would otherwise act as a moment at every node, n^2 eps EI/L
+/// in total for n elements.
 Beam::Coordinates Beam::forces(const Coordinates& q, const Coordinates& v, double tau) const {
   NodeValues relative = q(kTurns).array() - q[2];
   if (tau != 0) relative.array() += tau * (v(kTurns).array() - v[2]);

@@ -37,7 +37,7 @@ class ConsistentInitialization {
     return {};
   }
 
-  /// Rates of the constraints that remain with the velocities that fit best.
+  /// Returns the remaining rates of the constraints with the best-fitting velocities.
   VectorXd rate_defect() {
     state_.v.setZero(n_);
     if (!solve_velocities({})) return VectorXd::Zero(m_);
@@ -61,14 +61,14 @@ class ConsistentInitialization {
     return {Status::not_converged, message.str()};
   }
 
-  /// Over the model's size or 1 rad.
+  /// Returns the largest residual relative to the model size or 1 rad.
   double rigid_constraint_residual() const {
     if (m_ == 0) return 0;
     return rigid_.cwiseProduct(constraint_residual_.cwiseQuotient(system_.row_unit()))
         .lpNorm<Eigen::Infinity>();
   }
 
-  /// Solves for forces and for what the rigid rows lack.
+  /// Solves for a force and for the residuals of the rigid rows.
   /// @return false if the matrix is singular.
   bool solve(const VectorXd& force, const VectorXd& row) {
     solution_ << force, -rigid_.cwiseProduct(row);
@@ -76,7 +76,7 @@ class ConsistentInitialization {
     return solution_.allFinite();
   }
 
-  /// S = M + (fraction of step)^2 K.
+  /// Assembles S = M + (fraction of step)^2 K.
   void assemble(double fraction) {
     const double stiffness = fraction * fraction * step_ * step_;
     matrix_.clear();
@@ -101,7 +101,7 @@ class ConsistentInitialization {
 
   bool solve_velocities(const PrescribedVelocities& given) {
     assemble(1e-3);
-    // More than masses and the stiffness in S, both for unit changes of the coordinates.
+    // The penalty exceeds masses and the stiffness in S, both for unit changes of the coordinates.
     const VectorXd& scale = system_.scale();
     VectorXd units = VectorXd::Zero(n_ + m_), rows = units;
     units.head(n_) = scale;
@@ -113,7 +113,7 @@ class ConsistentInitialization {
     if (!matrix_.factor(system_.symmetric())) return false;
     VectorXd penalty_force = VectorXd::Zero(n_);
     for (int i = 0; i < 8; ++i) {
-      // Each pass also takes away what the last one left of the given values.
+      // Each pass also corrects the remaining error of the given values.
       for (const auto& [k, value] : given) penalty_force[k] += penalty(k) * (value - state_.v[k]);
       State at_rest = state_;
       at_rest.v.setZero();
@@ -132,7 +132,7 @@ class ConsistentInitialization {
     return true;
   }
 
-  /// Sum of the forces that unit accelerations of all coordinates require, in their units.
+  /// Returns the sum of the forces for unit accelerations of all coordinates, in their units.
   double mass_scale() {
     State probe = state_;
     VectorXd forces(n_);
@@ -154,8 +154,8 @@ class ConsistentInitialization {
     system_.force_residual(state_, force_residual_);
     if (!solve_with_mass_scaling(0.5, bias)) return false;
     const VectorXd resolved = solution_;
-    // Nearly the exact acceleration, unless it is more than four times that of an implicit step:
-    // then something vibrates faster than the step resolves, or has no mass.
+    // This is nearly the exact acceleration. If it exceeds four times that of an implicit step, the
+    // step does not resolve a vibration or a coordinate is massless.
     if (!solve_with_mass_scaling(1e-4, bias) ||
         weighted_rms_norm(system_, solution_.head(n_)) >
             4 * weighted_rms_norm(system_, resolved.head(n_))) {
@@ -167,7 +167,8 @@ class ConsistentInitialization {
     return state_.a.allFinite() && state_.lambda.allFinite();
   }
 
-  /// Removes what the stiffness in S left of the equation of motion, as long as that shrinks.
+  /// Removes the residual of the equation of motion that the stiffness in S leaves, while it
+  /// decreases.
   void refine_accelerations() {
     double last = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < 3; ++pass) {
@@ -186,8 +187,8 @@ class ConsistentInitialization {
     return matrix_.factor(system_.symmetric()) && solve(-force_residual_, bias);
   }
 
-  /// d(G v + dg/dt)/dt without accelerations, by a central difference along the motion. The
-  /// acceleration only starts the integrator, so ten digits are enough.
+  /// Returns d(G v + dg/dt)/dt without accelerations, by a central difference along the motion. Ten
+  /// digits are sufficient, because the acceleration only starts the integrator.
   VectorXd acceleration_bias() {
     const double speed = state_.v.size() > 0 ? weighted_rms_norm(system_, state_.v) : 0.0;
     double d = 1e-2 * step_;
@@ -207,8 +208,8 @@ class ConsistentInitialization {
   State& state_;
   double step_;
   Index n_, m_;
-  bool resolved_ = true;  ///< nothing vibrates faster than a step
-  VectorXd rigid_;        ///< 1 for each rigid row, 0 for each compliant one
+  bool resolved_ = true;  ///< true: the step resolves all vibrations
+  VectorXd rigid_;        ///< 1 for each rigid row, 0 for each compliant row
   KktMatrix matrix_;
   VectorXd constraint_residual_, constraint_rate_, force_residual_, solution_;
 };
@@ -222,10 +223,11 @@ Outcome make_consistent(const ConstrainedSystem& system, State& state,
 
 std::string contradictory_drives(const GeometricallyExactSystem& system, const State& state,
                                  double step) {
-  constexpr double kContradiction = 1e-3;  // of the fastest motion; round-off leaves far less
+  // Relative to the fastest motion; round-off leaves much less.
+  constexpr double kContradiction = 1e-3;
   const std::vector<Drive>& drives = system.large_motion().drives;
   if (drives.empty() || !state.q.allFinite()) return "";
-  for (const double aside : {0.5, -0.5}) {  // drives may start from rest there, or come to rest
+  for (const double aside : {0.5, -0.5}) {  // drives may start from rest or stop at this time
     State at = state;
     at.t += aside * step;
     at.load = system.load_factor(at.t);
@@ -251,8 +253,8 @@ Outcome make_accelerations_consistent(const ConstrainedSystem& system, State& st
 
 PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& system,
                                              const Eigen::MatrixX3d& node, const VectorXd& member) {
-  // The value set last holds for a coordinate. A map would take a noticeable part of the time of
-  // motions with damping, which request these velocities in every iteration.
+  // The last value for a coordinate is used. A map would be too slow for motions with damping,
+  // which request these velocities in every iteration.
   VectorXd values = VectorXd::Constant(system.coordinates(), kNaN);
   const auto set = [&](Index k, double value) {
     if (k >= 0 && k < values.size()) values[k] = value;

@@ -10,30 +10,35 @@
 
 namespace trammel::solver::large_motion {
 
-/// Which coordinates start with which velocity.
+/// Coordinates and their initial velocities.
 using PrescribedVelocities = std::vector<std::pair<Index, double>>;
 
-/// Makes a state consistent: positions and velocities onto the rigid constraints (velocities by
-/// least kinetic energy around those given), then accelerations and multipliers from the equations
-/// of motion. What vibrates faster than `step` resolves, and coordinates without mass, take the
-/// acceleration that an implicit step of that size gives them.
-/// @param state  t and q are the guess; v, a, lambda are replaced.
+/// Makes a state consistent. Positions and velocities are projected onto the rigid constraints.
+/// Velocities have the least kinetic energy for the given ones. Accelerations and multipliers then
+/// follow from the equations of motion. Massless coordinates and vibrations that `step` does not
+/// resolve get the acceleration of an implicit step of that size.
+/// @param system  equations.
+/// @param state  t and q are the guess; v, a and lambda are replaced.
+/// @param given  prescribed velocities.
+/// @param step  size of the first step [s].
 [[nodiscard]] Outcome make_consistent(const ConstrainedSystem& system, State& state,
                                       const PrescribedVelocities& given, double step);
 
-/// Half a sentence for the reason of a failure: the drives whose motions the constraints and the
-/// other drives do not admit half a step before or after a state; empty if there are none.
+/// Returns a clause for the reason of a failure. It lists drives whose motions contradict the
+/// constraints and the other drives, half a step before or after a state. The text is empty if
+/// there are none.
 [[nodiscard]] std::string contradictory_drives(const GeometricallyExactSystem& system,
                                                const State& state, double step);
 
-/// Sets the accelerations and multipliers of a state from its positions and velocities.
+/// Computes the accelerations and multipliers of a state from its positions and velocities.
 [[nodiscard]] Outcome make_accelerations_consistent(const ConstrainedSystem& system, State& state,
                                                     double step);
 
-/// Velocities of every coordinate where members move as rigid bars, for `make_consistent`: a
-/// mechanism that starts in motion without vibration.
-/// @param node    of each model node (x, y [m/s], rotation [rad/s])
-/// @param member  angular velocity of each member [rad/s]
+/// Returns velocities of all coordinates for members that move as rigid bars. With
+/// `make_consistent`, a mechanism then starts in motion without vibration.
+/// @param system  equations.
+/// @param node    velocities of each model node (x, y [m/s], rotation [rad/s]).
+/// @param member  angular velocity of each member [rad/s].
 [[nodiscard]] PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& system,
                                                            const Eigen::MatrixX3d& node,
                                                            const VectorXd& member);

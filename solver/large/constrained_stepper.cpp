@@ -33,7 +33,8 @@ double MotionResiduals::equation_of_motion(const State& state, const VectorXd& r
   terms_.setZero();
   unknowns_.head(n) = state.a;
   unknowns_.tail(state.lambda.size()).setZero();
-  // Hardly any stiffness, and not none: rows of what has no mass would divide by it.
+  // A negligible stiffness instead of zero, because rows of massless coordinates would be divided
+  // by zero.
   add_terms({.mass = 1, .damping = 0, .stiffness = 1e-30, .compliance = 1}, state);
   unknowns_ << state.q, state.lambda;
   add_terms({}, state);
@@ -90,7 +91,7 @@ double AssemblyBranch::orientation(const State& state) {
   if (freedom_ == 1) {
     const VectorXd rate = state.v.cwiseQuotient(system_.scale());
     const double speed = rate.norm();
-    // A drive moves the mechanism as well: then its velocity has no orientation.
+    // A drive also moves the mechanism. Its velocity then has no orientation.
     if (speed == 0 || (G.topRows(n - 1) * rate).norm() > 1e-6 * speed) return 0;
     G.bottomRows<1>() = rate.normalized().transpose();
   }
@@ -99,8 +100,8 @@ double AssemblyBranch::orientation(const State& state) {
          static_cast<double>(lu.permutationP().determinant());
 }
 
-/// Watches the corrections of one step's iteration: of the motion, and of the positions onto the
-/// constraints.
+/// Monitors the corrections in the iteration of a step: those of the motion, and those of the
+/// positions onto the constraints.
 class StepConvergence {
  public:
   void record(double step_correction, double projection) {
@@ -110,15 +111,17 @@ class StepConvergence {
     projection_ = projection;
     ++count_;
   }
-  /// True if the next corrections would be small enough, by how fast they shrink, or if they have
-  /// stopped to shrink at round-off.
-  /// @param acceleration  h^2 beta a, what the accelerations contribute to the step; velocity: h v;
-  ///                     position: q; all over the scale.
-  /// @param limit  of the next correction of the motion
+  /// Returns true if the next corrections would be small enough according to their rate of
+  /// convergence, or if they no longer decrease at the level of round-off. All arguments are
+  /// relative to the scale.
+  /// @param acceleration  h^2 beta a, the contribution of the accelerations to the step.
+  /// @param velocity  h v.
+  /// @param position  q.
+  /// @param limit  limit of the next correction of the motion.
   [[nodiscard]] bool converged(double acceleration, double velocity, double position,
                                double limit) const {
     const double next = next_of(step_correction_, previous_step_correction_);
-    // Near a singular position corrections multiply the round-off error of positions.
+    // Near a singular position, corrections amplify the round-off error of positions.
     const double least = 1e-11 * (velocity + acceleration) + 1e-13 * position;
     const bool motion_met = next <= limit || step_correction_ <= 1e-16 * velocity ||
                             (stalled() && step_correction_ <= least);
@@ -136,7 +139,7 @@ class StepConvergence {
   [[nodiscard]] double last() const { return step_correction_ + projection_; }
 
  private:
-  /// The next correction at the same rate of convergence; this one if there was none before.
+  /// Returns the next correction at the same rate of convergence, or this one if it is the first.
   [[nodiscard]] double next_of(double correction, double previous) const {
     return count_ > 1 && correction < previous ? correction * (correction / previous) : correction;
   }
@@ -201,12 +204,13 @@ StepReport ConstrainedStepper::attempt(const Step& step) {
     work_ = A1_ - A0_;
     if (options_.adaptive)
       report.error = scheme_.error_constant * h * h * size(work_) / options_.adaptive->relative;
-    // A path through a singular position keeps its direction however short the step is.
+    // A path through a singular position keeps its direction for any short step.
     constexpr double kShortest = 1e-3;
     report.leaves_branch = h > kShortest * options_.step && branch_.changes(from_, to_);
     end_step(h);
   }
-  // A rejected step must not scale A0 twice; an accepted one has no more use for it.
+  // A0 is restored, because it must not be scaled twice after a rejected step. It is not needed
+  // after an accepted step.
   A0_ = saved_A0_;
   return report;
 }
@@ -240,7 +244,7 @@ std::string ConstrainedStepper::describe(const StepReport& report) const {
   return text.str();
 }
 
-/// Iterates with the tangent of an earlier step as long as it serves, then with exact ones.
+/// Iterates with the tangent of an earlier step while it converges, then with exact tangents.
 StepReport ConstrainedStepper::iterate(const Step& step) {
   StepReport report = newton(step, false);
   if (report.status == Status::solved) return report;
@@ -252,7 +256,7 @@ StepReport ConstrainedStepper::iterate(const Step& step) {
 }
 
 StepReport ConstrainedStepper::newton(const Step& step, bool exact) {
-  // Energy is kept by iterating to the end, also if the iteration converges slowly.
+  // Iterate to full convergence to conserve energy, even if the convergence is slow.
   const int max_iterations = scheme_.keeps_rates ? 20 : 30;
   const Index n = system_.coordinates();
   const double h = step.size;
@@ -281,7 +285,7 @@ StepReport ConstrainedStepper::newton(const Step& step, bool exact) {
     report.residual = convergence.last();
     if (has_converged(h, convergence)) {
       report.status = Status::solved;
-      // Many iterations: the factorization is out of date, the next step makes a new one.
+      // Many iterations indicate an outdated factorization. The next step computes a new one.
       if (i > 3) factored_step_ = 0;
       return report;
     }
@@ -307,10 +311,10 @@ double ConstrainedStepper::elastic_row(Index r, double h) const {
   return -(sum - system_.compliance()[r] * to_.lambda[r]) / (1 + tau * per_velocity(h));
 }
 
-/// The positions are solved for first, with the constraints themselves; then the accelerations,
-/// with the rates that the new positions give. Both take the same matrix, the second sees what the
-/// first has done, so the corrections shrink quadratically, next to a singular position too. The
-/// difference of the two is p.
+/// Corrects positions first, with the residuals of the constraints. Then it corrects the
+/// accelerations, with the rates at the new positions. Both use the same matrix. The second
+/// correction uses the result of the first, so that the corrections decrease quadratically, even
+/// near a singular position. The difference of both is p.
 void ConstrainedStepper::correct(double h) {
   const Index n = system_.coordinates(), m = system_.constraints();
   residual(velocity_correction_.head(n));
@@ -339,7 +343,7 @@ void ConstrainedStepper::correct(double h) {
 }
 
 bool ConstrainedStepper::has_converged(double h, const StepConvergence& convergence) const {
-  // Between the estimate for one rounding of each force and what several of them add up to.
+  // Factor between the estimate for a single rounding of each force and the accumulated error.
   constexpr double kRoundoffErrors = 10;
   const double acceleration =
       scheme_.acceleration_share * scheme_.relations.beta * h * h * size(A1_);
@@ -351,9 +355,9 @@ bool ConstrainedStepper::has_converged(double h, const StepConvergence& converge
           convergence.last() <= kRoundoffErrors * correction_roundoff(h));
 }
 
-/// Size of a correction by the round-off errors of constraint forces and residuals, with arbitrary
-/// signs. A small motion under large forces that balance each other, or near a singular position,
-/// is not known better.
+/// Returns the size of a correction by the round-off errors of constraint forces and residuals,
+/// with arbitrary signs. It limits the accuracy of a small motion under large forces in mutual
+/// equilibrium, or near a singular position.
 double ConstrainedStepper::correction_roundoff(double h) const {
   const Index n = system_.coordinates(), m = system_.constraints();
   VectorXd multipliers = VectorXd::Zero(n + m), errors(n + m);
@@ -367,13 +371,13 @@ double ConstrainedStepper::correction_roundoff(double h) const {
 
 namespace {
 
-/// While a step is attempted, `to_.lambda` is its mean.
+/// Stepper of the energy-momentum method. During an attempted step, `to_.lambda` is its mean.
 class EnergyMomentum final : public ConstrainedStepper {
  public:
   EnergyMomentum(const GeometricallyExactSystem& system, const TransientOptions& options,
                  const State& start, const Observer& observe)
-      // A residual of Newton's method is lost or gained energy: it iterates to a tenth of the
-      // rounding of the positions.
+      // The residual of Newton's method changes the energy. The iteration therefore continues to a
+      // tenth of the round-off error of the positions.
       : ConstrainedStepper(system, options, start, observe,
                            {.relations = {.beta = 0.5, .gamma = 1},
                             .error_constant = 1.0 / 12,
@@ -429,7 +433,7 @@ bool EnergyMomentum::tangent(double h, bool exact) {
   coefficients.damping = h / 2;
   coefficients.stiffness = h * h / 4;
   coefficients.compliance = 2 / (h * h) / (0.5 + system_.strain_rate_damping() / h);
-  if (exact) {  // next to singular positions
+  if (exact) {  // near singular positions
     system_.discrete_gradient_tangent(from_, to_, midpoint_, coefficients, matrix_);
     return false;
   }
@@ -444,8 +448,8 @@ double EnergyMomentum::elastic_row(Index r, double h) const {
   return -(sum - system_.compliance()[r] * to_.lambda[r]) / (0.5 + rate);
 }
 
-/// Multipliers at the end: elastic rows from the strain itself, rigid ones by extrapolation from
-/// the steps' means.
+/// Computes multipliers at the end of the step: those of elastic rows from the strain, those of
+/// rigid rows by extrapolation from the means of the steps.
 void EnergyMomentum::end_step(double h) {
   const double tau = system_.strain_rate_damping();
   const double extrapolation = first_ ? 1.0 : h / (h + last_step_);
@@ -458,7 +462,7 @@ void EnergyMomentum::end_step(double h) {
   }
 }
 
-/// Also adds the difference of work and change of energy in the step.
+/// Also accumulates the difference of work and change of energy in the step.
 void EnergyMomentum::advance() {
   ConstrainedStepper::advance();
   std::swap(previous_mean_lambda_, mean_lambda_);

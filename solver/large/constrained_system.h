@@ -6,35 +6,36 @@
 
 #include "solver/large/kkt_matrix.h"
 
-/// The equations that statics and every time integrator of this tier solve:
+/// Equations of statics and of all time integrators of this tier:
 ///
 ///     M(q) a = f(t, q, v) - G(t, q)^T lambda,      g(t, q) + tau dg/dt = C lambda,
 ///
-/// with C = diag(c). A row with c = 0 is a rigid constraint (joint, drive, Euler-Bernoulli shear);
-/// a row with c > 0 is an elastic one (stretch, a spring), with tau its strain-rate damping.
+/// with C = diag(c). A row with c = 0 is a rigid constraint (joint, drive, Euler-Bernoulli shear).
+/// A row with c > 0 is elastic (stretch, a spring), and tau is its strain-rate damping.
 namespace trammel::solver::large_motion {
 
+/// State of a constrained system.
 struct State {
-  double t = 0;        ///< time [s]; in statics the load factor
+  double t = 0;        ///< time [s]; the load factor in statics
   double load = 1;     ///< factor on the loads [-]
   double gravity = 1;  ///< factor on gravity [-]
-  VectorXd q;          ///< coordinates: displacements [m] and rotations [rad] from the model's pose
+  VectorXd q;          ///< displacements [m] and rotations [rad] relative to the pose of the model
   VectorXd v;          ///< velocities [1/s]
   VectorXd a;          ///< accelerations [1/s^2]
   VectorXd lambda;     ///< multipliers: forces [N] or moments [N m] of the constraints
 };
 
-/// S = mass M + damping D + stiffness K and C scaled by `compliance`; D = -df/dv and
-/// K = d(M a - f + G^T lambda)/dq.
+/// Coefficients of S = mass M + damping D + stiffness K, and the factor `compliance` of C. D =
+/// -df/dv and K = d(M a - f + G^T lambda)/dq.
 struct TangentCoefficients {
   double mass = 0;
   double damping = 0;
   double stiffness = 1;
   double compliance = 1;
-  bool has_penalty = true;  ///< false: the matrix without the penalties of `KktMatrix`
+  bool has_penalty = true;  ///< false: omit the penalties of `KktMatrix`
 };
 
-/// Matrix sizes of an element with that number of coordinates and constraint rows.
+/// Matrix sizes of an element with given numbers of coordinates and constraint rows.
 template <int Coords, int Count>
 struct ElementSizes {
   static constexpr int N = Coords, R = Count;
@@ -44,6 +45,7 @@ struct ElementSizes {
   using Square = Eigen::Matrix<double, N, N>;
 };
 
+/// Interface of the equations.
 class ConstrainedSystem {
  public:
   ConstrainedSystem() = default;
@@ -51,28 +53,28 @@ class ConstrainedSystem {
 
   [[nodiscard]] virtual Index coordinates() const = 0;
   [[nodiscard]] virtual Index constraints() const = 0;
-  /// c >= 0 of each row.
+  /// Returns c >= 0 of each row.
   [[nodiscard]] virtual const VectorXd& compliance() const = 0;
-  /// What counts as a unit change of each coordinate: the model's size [m] or 1 rad.
+  /// Returns the unit change of each coordinate: the model size [m] or 1 rad.
   [[nodiscard]] virtual const VectorXd& scale() const = 0;
-  /// Unit of each constraint's residual: the model's size [m] or 1 rad.
+  /// Returns the unit of the residual of each constraint: the model size [m] or 1 rad.
   [[nodiscard]] virtual VectorXd row_unit() const;
-  /// What each element couples, for `KktMatrix`.
+  /// Returns the unknowns that each element couples, for `KktMatrix`.
   [[nodiscard]] virtual std::vector<std::vector<Index>> blocks() const = 0;
 
-  /// r = M a - f + G^T lambda.
+  /// Computes r = M a - f + G^T lambda.
   virtual void force_residual(const State& state, Eigen::Ref<VectorXd> r) const = 0;
-  /// g and dg/dt = G v + partial g / partial t.
+  /// Computes g and dg/dt = G v + partial g / partial t.
   virtual void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
                                    Eigen::Ref<VectorXd> rate) const = 0;
-  /// Fills the matrix (cleared by the caller).
+  /// Fills the matrix, which the caller has cleared.
   virtual void tangent(const State& state, const TangentCoefficients& coefficients,
                        KktMatrix& matrix) const = 0;
-  /// False where S is not symmetric, as with follower loads.
+  /// Returns false if S is not symmetric, as with follower loads.
   [[nodiscard]] virtual bool symmetric() const { return true; }
-  /// tau [s].
+  /// Returns tau [s].
   [[nodiscard]] virtual double strain_rate_damping() const { return 0; }
-  /// Factor on the loads at time t.
+  /// Returns the factor on the loads at time t.
   [[nodiscard]] virtual double load_factor(double) const { return 1; }
 
  protected:
@@ -82,7 +84,7 @@ class ConstrainedSystem {
   ConstrainedSystem& operator=(ConstrainedSystem&&) = default;
 };
 
-/// The model's size [m], by which translations count.
+/// Returns the model size [m], which scales translations.
 [[nodiscard]] inline double length_scale(const ConstrainedSystem& system) {
   if (system.coordinates() == 0) return 1;
   const double least = system.scale().minCoeff();
@@ -93,7 +95,7 @@ inline VectorXd ConstrainedSystem::row_unit() const {
   return VectorXd::Constant(constraints(), length_scale(*this));
 }
 
-/// Root mean square of a change of coordinates over their scale [-].
+/// Returns the root mean square of a change of coordinates relative to their scale [-].
 [[nodiscard]] inline double weighted_rms_norm(const ConstrainedSystem& system,
                                               const Eigen::Ref<const VectorXd>& change) {
   if (change.size() == 0) return 0;
@@ -101,10 +103,11 @@ inline VectorXd ConstrainedSystem::row_unit() const {
          std::sqrt(static_cast<double>(change.size()));
 }
 
+/// Energies of a state.
 struct Energy {
   double kinetic = 0;  ///< [J]
   double strain = 0;   ///< of members, plates and springs [J]
-  double load = 0;     ///< minus the work of gravity and dead loads since the model's pose [J]
+  double load = 0;     ///< minus the work of gravity and dead loads since the pose of the model [J]
   [[nodiscard]] double total() const { return kinetic + strain + load; }
 };
 

@@ -7,8 +7,8 @@ namespace trammel::solver::large_motion {
 
 namespace {
 
-/// Stiffness of the elements at each coordinate: EA/h of bars, 12 EI/h^3 and 12 EI/h of beams, E t
-/// of triangles, and that of springs.
+/// Returns the stiffness of the elements at each coordinate: EA/h of bars, 12 EI/h^3 and 12 EI/h of
+/// beams, E t of triangles, and the stiffness of springs.
 Eigen::VectorXd coordinate_stiffness(const Model& model, const LargeMotionModel& large_motion,
                                      const Layout& layout) {
   Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(layout.total);
@@ -39,7 +39,7 @@ Eigen::VectorXd coordinate_stiffness(const Model& model, const LargeMotionModel&
   return stiffness;
 }
 
-/// Sum of the magnitudes of all loads, in forces [N].
+/// Returns the sum of the magnitudes of all loads, as forces [N].
 double load_size(const Model& model, const LargeMotionModel& large_motion, double size) {
   double sum = 0, mass = 0;
   const auto add = [&](const Vector3d& load) {
@@ -51,7 +51,7 @@ double load_size(const Model& model, const LargeMotionModel& large_motion, doubl
   return sum + mass * model.gravity.norm();
 }
 
-/// Mean over the coordinates that have any; `none` if none has.
+/// Returns the mean over the positive values, or `none` if there are none.
 double mean_of_positive(const Eigen::VectorXd& values, double none) {
   const Index count = (values.array() > 0).count();
   const double mean = count > 0 ? values.sum() / static_cast<double>(count) : 0.0;
@@ -82,14 +82,15 @@ RowScales PenaltyScales::of_row(std::span<const Index> coordinates, double lever
   const bool turns =
       std::ranges::all_of(coordinates, [&](Index k) { return k < 0 || layout_.is_rotation(k); });
   const auto largest = [&](const Eigen::VectorXd& values, double mean) {
-    double value = 0, levered = 0;  // of the row's own kind, of rotations beside displacements
+    // Entries of the same kind as the row, and rotations in a row of displacements.
+    double value = 0, levered = 0;
     for (const Index k : coordinates) {
       if (k < 0) continue;
       double& kind = layout_.is_rotation(k) && !turns ? levered : value;
       kind = std::max(kind, values[k]);
     }
     if (!(value > 0) && lever > 0) {
-      constexpr double kShortest = 1e-3;  // an offset of round-off is no lever
+      constexpr double kShortest = 1e-3;  // an offset at round-off level is no lever
       const double length = std::max(lever, kShortest * size_);
       value = levered / (length * length);
     }

@@ -14,28 +14,35 @@
 
 namespace trammel::solver::large_motion {
 
-/// Scales of the parts that a constraint row joins; its penalty rho follows (see `KktMatrix`).
+/// Scales of the parts that a constraint row joins. They determine its penalty rho (`KktMatrix`).
 struct RowScales {
-  double unit = 1;  ///< of the residual: 1 rad if all coordinates are rotations, otherwise the
-                    ///< model's size [m]
-  double stiffness = 0, mass = 0;  ///< the largest, in the unit of the row; the model's mean if the
-                                   ///< coordinates have none
+  double unit = 1;  ///< unit of the residual: 1 rad if all coordinates are rotations, otherwise the
+                    ///< model size [m]
+  double stiffness = 0, mass = 0;  ///< the largest, in the unit of the row; the mean of the model
+                                   ///< if the coordinates have none
 };
 
+/// Computes the scales of constraint rows.
 class PenaltyScales {
  public:
-  /// @param mass  diagonal of the mass matrix, one entry a coordinate [kg or kg m^2]
-  /// @param size  of the model [m]
+  /// Computes the stiffness and mass of each coordinate.
+  /// @param model  model.
+  /// @param large_motion  additional parts in large motion.
+  /// @param layout  numbering of coordinates.
+  /// @param mass  diagonal of the mass matrix, one entry per coordinate [kg or kg m^2].
+  /// @param size  size of the model [m].
   PenaltyScales(const Model& model, const LargeMotionModel& large_motion, const Layout& layout,
                 const Eigen::VectorXd& mass, double size);
 
-  /// In a row of displacements rotations count, by their lever, if displacements have none.
-  /// @param lever  of the row's rotations, if others are displacements [m]
+  /// Returns the scales of a row. In a row of displacements, rotations count with their lever if
+  /// the displacements have no scale.
+  /// @param coordinates  coordinates of the row.
+  /// @param lever  lever of the rotations of the row, if it also contains displacements [m].
   [[nodiscard]] RowScales of_row(std::span<const Index> coordinates, double lever) const;
 
  private:
   const Layout& layout_;
-  double size_;                ///< of the model [m]
+  double size_;                ///< size of the model [m]
   Eigen::VectorXd stiffness_;  ///< of each coordinate [N/m or N m/rad]
   Eigen::VectorXd mass_;       ///< of each coordinate [kg or kg m^2]
   double mean_stiffness_, mean_mass_;
@@ -45,7 +52,8 @@ class PenaltyScales {
 template <int N>
 using CoordinateIndices = Eigen::Matrix<Index, N, 1>;
 
-/// Values of an element's coordinates; what a support holds (beyond the vector) is zero.
+/// Returns the values of the coordinates of an element. Coordinates held by supports (beyond the
+/// vector) have 0.
 template <int N>
 Eigen::Matrix<double, N, 1> gather(const VectorXd& values, const CoordinateIndices<N>& where) {
   Eigen::Matrix<double, N, 1> local(where.size());
@@ -56,6 +64,7 @@ Eigen::Matrix<double, N, 1> gather(const VectorXd& values, const CoordinateIndic
   return local;
 }
 
+/// Adds the values of an element to those of its free coordinates.
 template <int N>
 void scatter(const Eigen::Matrix<double, N, 1>& local, const CoordinateIndices<N>& where,
              Eigen::Ref<VectorXd> values) {
@@ -64,16 +73,16 @@ void scatter(const Eigen::Matrix<double, N, 1>& local, const CoordinateIndices<N
   }
 }
 
-/// Properties of the constraint rows and what each element couples.
+/// Properties of the constraint rows, and the unknowns that each element couples.
 struct SystemRows {
-  std::vector<std::vector<Index>> blocks;  ///< of each element, for `KktMatrix`
+  std::vector<std::vector<Index>> blocks;  ///< for each element, used by `KktMatrix`
   VectorXd compliance;                     ///< c >= 0 of each row
-  VectorXd unit;                           ///< of each row: the model's size [m] or 1 rad
+  VectorXd unit;                           ///< of each row: the model size [m] or 1 rad
 };
 
 /// Elements of one type and their terms in the equations of `GeometricallyExactSystem`. An element
-/// has any of: constraint rows g(q, t) = C lambda (beams, bars, joints), an elastic energy
-/// (triangles, springs, the bending of beams), a load, a mass.
+/// may have constraint rows g(q, t) = C lambda (beams, bars, joints), an elastic energy (triangles,
+/// springs, bending of beams), a load, and a mass.
 template <class Element>
 class ElementGroup {
  public:
@@ -98,7 +107,7 @@ class ElementGroup {
   void for_each_coordinate(const Function& function) {
     for (CoordinateIndices<N>& where : where_) std::ranges::for_each(where, function);
   }
-  /// Rows are numbered one group after the other.
+  /// Sets the first row. The rows of the groups are numbered in sequence.
   void set_first_row(Index row) { first_row_ = row; }
 
   void append_masses(std::vector<Eigen::Triplet<double>>& masses) const {
@@ -114,8 +123,10 @@ class ElementGroup {
     }
   }
 
-  /// Sets the rows' properties and penalties from the parts that they join.
-  /// @param free  number of free coordinates; those from there on are held by supports
+  /// Sets the properties and penalties of the rows from the parts that they join.
+  /// @param free  number of free coordinates; coordinates with larger indices are held by supports.
+  /// @param scales  scales of stiffness and mass.
+  /// @param system  receives the properties of the rows.
   void connect(Index free, const PenaltyScales& scales, SystemRows& system) {
     first_block_ = std::ssize(system.blocks);
     for (Index e = 0; e < size(); ++e) {
@@ -138,7 +149,7 @@ class ElementGroup {
     }
   }
 
-  /// Adds -f + G^T lambda, with strain-rate damping tau.
+  /// Adds -f + G^T lambda with strain-rate damping tau.
   void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const {
     if constexpr (R == 0 && !kIsElastic && !kIsLoad) return;
     for (Index e = 0; e < size(); ++e) {
@@ -163,7 +174,7 @@ class ElementGroup {
     }
   }
 
-  // Ref is a view.
+  // Eigen::Ref is a view.
   // NOLINTNEXTLINE(performance-unnecessary-value-param)
   void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
                            Eigen::Ref<VectorXd> rate) const {
@@ -192,7 +203,7 @@ class ElementGroup {
     }
   }
 
-  /// Strain energy except that of compliant rows [J].
+  /// Returns the strain energy [J], except that of compliant rows.
   [[nodiscard]] double energy(const State& state) const {
     double sum = 0;
     if constexpr (kIsElastic) {
@@ -202,7 +213,8 @@ class ElementGroup {
     return sum;
   }
 
-  /// The same as `forces` between two states, doing exactly the work of the energy's change.
+  /// Adds forces like `forces` between two states. Their work equals the change of the energy
+  /// exactly.
   void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda,
                                 double tau, Eigen::Ref<VectorXd> r) const {
     if constexpr (R == 0 && !kIsElastic && !kIsLoad) return;
@@ -219,8 +231,8 @@ class ElementGroup {
     }
   }
 
-  /// The derivative of `discrete_gradient_forces` and of the rows with respect to the second state,
-  /// up to terms of the step's square; `midpoint` has the mean coordinates.
+  /// Adds the derivative of `discrete_gradient_forces` and of the rows with respect to the second
+  /// state, up to terms of the squared step. `midpoint` has the mean coordinates.
   void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
                                  double tau, const TangentCoefficients& coefficients,
                                  KktMatrix& matrix) const {

@@ -29,10 +29,10 @@ Equilibrium::Equilibrium(const GeometricallyExactSystem& system, const NewtonOpt
 bool Equilibrium::converged(const std::vector<double>& correction, double displacement) const {
   const std::size_t count = correction.size();
   const double last = correction[count - 1];
-  // What is left after a correction is its square, so 1e-15 of the model's size is no loss however
-  // small the displacement.
+  // The remaining error is the square of the correction. 1e-15 of the model size is therefore
+  // sufficient for any small displacement.
   if (last <= options_.tolerance * displacement + 1e-15) return true;
-  // Where nothing is deflected, rounding over what is left of the stiffness beside a bifurcation.
+  // Without deflection, the error is round-off over the remaining stiffness near a bifurcation.
   return count > 1 && last < 1e-8 * displacement + 1e-11 && last > 0.3 * correction[count - 2];
 }
 
@@ -122,7 +122,7 @@ double Equilibrium::backward_error(const State& state) {
 double Equilibrium::smallest_eigenpair(VectorXd& shape) {
   const Index n = system_.coordinates(), m = system_.constraints();
   if (n == 0) return 0;
-  // A start vector without symmetry is orthogonal to no mode.
+  // A start vector without symmetry is not orthogonal to any mode.
   VectorXd x(n + m);
   for (Index i = 0; i < n; ++i) {
     x[i] = system_.scale()[i] * (1 + 0.37 * std::sin(1.7 * static_cast<double>(i) + 0.4));
@@ -143,7 +143,7 @@ double Equilibrium::smallest_eigenpair(VectorXd& shape) {
 }
 
 Equilibrium::FreeMotion Equilibrium::free_motion(const State& state) {
-  constexpr double kDriven = 1e-9;  // share of the work of loads along the motion
+  constexpr double kDriven = 1e-9;  // fraction of the work of loads along the motion
   FreeMotion found;
   const Index n = system_.coordinates();
   if (n == 0) return found;
@@ -250,10 +250,10 @@ StaticSolution solve_large_statics(const Model& model,
 
 StaticSolution estimate_large_statics(const Model& model,
                                       const large_motion::LargeMotionModel& large_motion) {
-  // Bending and the axial forces that follow from it correct each other in turns: every second
-  // correction is smaller, and those that shrink fast have six digits after ten.
+  // Bending and the resulting axial forces correct each other alternately, so that every second
+  // correction is smaller. Fast convergence yields six digits after ten corrections.
   const large_motion::NewtonOptions options{
-      .max_iterations = 12, .tolerance = 1e-6, .same_state = 1e300};  // never
+      .max_iterations = 12, .tolerance = 1e-6, .same_state = 1e300};  // never factored again
   const large_motion::GeometricallyExactSystem system(model, large_motion);
   large_motion::Equilibrium equilibrium(system, options);
   large_motion::State state = system.reference_state();

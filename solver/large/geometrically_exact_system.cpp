@@ -8,7 +8,7 @@ namespace trammel::solver::large_motion {
 
 namespace {
 
-/// Diagonal of the box about all nodes and mass centres [m].
+/// Returns the diagonal of the bounding box of all nodes and centers of mass [m].
 double model_size(const Model& model) {
   std::vector<Vector2d> points;
   for (const Node& node : model.nodes) points.push_back(node.position);
@@ -17,7 +17,7 @@ double model_size(const Model& model) {
   return box_diagonal(points);
 }
 
-/// A unit change of each free coordinate: the model's size [m] or 1 rad.
+/// Returns the unit change of each free coordinate: the model size [m] or 1 rad.
 VectorXd coordinate_scales(const Model& model, const Layout& layout) {
   const double size = model_size(model);
   VectorXd scale(layout.free);
@@ -25,7 +25,8 @@ VectorXd coordinate_scales(const Model& model, const Layout& layout) {
   return scale;
 }
 
-/// Gravity at every translation, zero at rotations [m/s^2]: the weight is M times this.
+/// Returns gravity at every translation and zero at rotations [m/s^2]. The weight is M times this
+/// field.
 VectorXd gravity_field(const Model& model, const Layout& layout) {
   VectorXd field = VectorXd::Zero(layout.total);
   for (Index k = 0; k < layout.total; ++k) {
@@ -172,7 +173,8 @@ double GeometricallyExactSystem::nonconservative_work(const State& from, const S
   padded_.head(n) = (from.v + to.v) / 2;
   product_.noalias() = mass_ * padded_;
   work -= h * large_motion_.mass_damping * padded_.head(n).dot(product_.head(n));
-  // Rows change by the motion and by the drives; the constraint forces do the work of the former.
+  // Rows change by the motion and by the drives. Constraint forces do the work of the former
+  // change.
   VectorXd before = VectorXd::Zero(parts_.rows), after = before, rate = before;
   State held = to;
   held.t = from.t;

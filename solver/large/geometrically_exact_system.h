@@ -13,11 +13,12 @@
 
 namespace trammel::solver::large_motion {
 
-/// A planar model in large motion: Simo-Reissner beams, total-Lagrangian triangles, rigid bodies
-/// and joints, in absolute coordinates. One object serves one thread.
+/// Planar model in large motion, in absolute coordinates: Simo-Reissner beams, total-Lagrangian
+/// triangles, rigid bodies and joints. An object must not be shared between threads.
 class GeometricallyExactSystem final : public ConstrainedSystem {
  public:
-  /// @throws ModelError  where the model has no meaning.
+  /// Builds the equations.
+  /// @throws ModelError  if the model is invalid.
   explicit GeometricallyExactSystem(Model model, LargeMotionModel large_motion = {});
 
   [[nodiscard]] Index coordinates() const override { return layout_.free; }
@@ -37,54 +38,58 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   }
   [[nodiscard]] double load_factor(double t) const override;
 
-  // Discrete gradients: forces between two states that do exactly the work by which the energy
-  // changes.
+  // Discrete gradients: forces between two states whose work equals the change of the energy
+  // exactly.
 
-  /// r = M (v1 - v0) / h - f + D^T lambda, with D (q1 - q0) = g(q1) - g(q0) exactly.
+  /// Computes r = M (v1 - v0) / h - f + D^T lambda, with D (q1 - q0) = g(q1) - g(q0) exactly.
   void discrete_gradient_residual(const State& from, const State& to, const VectorXd& lambda,
                                   Eigen::Ref<VectorXd> r) const;
-  /// Its derivative with respect to the second state, up to terms of the step's square: not
-  /// symmetric.
+  /// Fills the derivative of r with respect to the second state, up to terms of the squared step.
+  /// It is not symmetric.
   void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
                                  const TangentCoefficients& coefficients, KktMatrix& matrix) const;
   [[nodiscard]] Energy energy(const State& state) const;
-  /// Work that changes the energy in a step [J]: of drives, of loads that change or follow their
-  /// nodes, less what damping takes.
-  /// @param lambda  means of the step
+  /// Returns the work that changes the energy in a step [J]. It is the work of drives and of loads
+  /// that vary or follow their nodes, minus the energy dissipated by damping.
+  /// @param from  state at the start.
+  /// @param to  state at the end.
+  /// @param lambda  mean multipliers of the step.
   [[nodiscard]] double nonconservative_work(const State& from, const State& to,
                                             const VectorXd& lambda) const;
 
-  /// In statics the inertia of these accelerations of the free coordinates acts beside the loads.
+  /// Sets accelerations of the free coordinates. In statics, their inertia acts in addition to the
+  /// loads.
   void set_accelerations(VectorXd accelerations) { accelerations_ = std::move(accelerations); }
-  /// Damping by mass resists velocities less these of the free coordinates at a time.
+  /// Sets velocities of the free coordinates as a function of time. Mass-proportional damping acts
+  /// on velocities relative to these.
   void set_undamped_velocities(std::function<VectorXd(double)> velocities) {
     undamped_velocities_ = std::move(velocities);
   }
-  /// What damping by mass resists.
+  /// Returns the velocities on which mass-proportional damping acts.
   [[nodiscard]] VectorXd damped_velocities(const State& state) const;
 
-  /// Loads, gravity, inertia and drives of statics at a load factor.
+  /// Sets loads, gravity, inertia and drives of statics at a load factor.
   void set_load(State& state, double load) const;
-  /// d(force residual)/d(load factor), gravity and inertia included.
+  /// Computes d(force residual)/d(load factor), including gravity and inertia.
   void load_derivative(const State& state, Eigen::Ref<VectorXd> r) const;
 
-  /// The model's pose at rest without forces, at time 0.
+  /// Returns the pose of the model at rest without forces, at time 0.
   [[nodiscard]] State reference_state() const;
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const LargeMotionModel& large_motion() const { return large_motion_; }
   [[nodiscard]] const Layout& layout() const { return layout_; }
   [[nodiscard]] const SystemParts& parts() const { return parts_; }
-  /// Row of a drive's multiplier.
+  /// Returns the row of the multiplier of a drive.
   [[nodiscard]] Index drive_row(Index drive) const {
     return parts_.group<DrivenCoordinate>().first_row(drive);
   }
-  /// Element tangents filled so far: of members and triangles.
+  /// Returns the number of computed element tangents of members and triangles.
   [[nodiscard]] std::int64_t element_evaluations() const { return element_evaluations_; }
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
 
  private:
-  /// Counts the elements of a tangent. @return the coefficients with damping by mass.
+  /// Counts the elements of a tangent. @return the coefficients with mass-proportional damping.
   TangentCoefficients begin_tangent(TangentCoefficients coefficients) const;
   void add_torques(double factor, double t, Eigen::Ref<VectorXd> r) const;
 

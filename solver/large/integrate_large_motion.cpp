@@ -21,7 +21,8 @@ void add_constraints(const ConstraintGaps& gaps, IntegrationSummary& summary) {
   largest.relative_position = nan_max(largest.relative_position, gaps.relative_position);
 }
 
-/// @param conservative  the system, for the energy-momentum method; null for generalized-alpha
+/// Integrates from a state. `conservative` is the system for the energy-momentum method, or null
+/// for generalized-alpha.
 IntegrationSummary run(const ConstrainedSystem& system,
                        const GeometricallyExactSystem* conservative, State& state,
                        const TransientOptions& options, const Observer& observe) {
@@ -47,14 +48,15 @@ IntegrationSummary run(const ConstrainedSystem& system,
   return summary;
 }
 
-/// Of a start velocity; -1 where a support holds the node, or it has no rotation.
+/// Returns the coordinate of an initial velocity, or -1 if a support holds the node or the node has
+/// no rotation.
 Index coordinate_of(const GeometricallyExactSystem& system, const InitialVelocity& initial) {
   const Index k = system.layout().node[static_cast<std::size_t>(initial.node)]
                                       [static_cast<std::size_t>(initial.direction)];
   return k < system.coordinates() ? k : -1;
 }
 
-/// A given velocity, but for one, that the constraints do not admit; null where they admit all.
+/// Returns a given velocity, except `left_out`, that the constraints do not admit, or null.
 const InitialVelocity* refused_velocity(const GeometricallyExactSystem& system, const State& state,
                                         const InitialVelocity* left_out = nullptr) {
   constexpr double kRounding = 1e-6;
@@ -72,7 +74,7 @@ const InitialVelocity* refused_velocity(const GeometricallyExactSystem& system, 
 
 constexpr std::array kVelocityUnits = {" m/s", " m/s", " rad/s"};
 
-/// A given velocity as text: "node B start with 3 m/s along x".
+/// Describes a given velocity, such as "node B start with 3 m/s along x".
 std::string describe_start(const GeometricallyExactSystem& system, const InitialVelocity& initial) {
   constexpr std::array kDirections = {" along x", " along y", ""};
   const auto direction = static_cast<std::size_t>(initial.direction);
@@ -82,7 +84,7 @@ std::string describe_start(const GeometricallyExactSystem& system, const Initial
   return text.str();
 }
 
-/// Consistent start of a model: pose, start velocities, accelerations, multipliers.
+/// Computes a consistent start of a model: pose, initial velocities, accelerations, multipliers.
 Outcome initialize_state(const GeometricallyExactSystem& system, State& state, double step) {
   const std::vector<InitialVelocity>& initial_velocities = system.large_motion().initial_velocities;
   for (const InitialVelocity& initial : initial_velocities) {
@@ -107,7 +109,7 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
   std::ostringstream message;
   message.precision(9);
   message << "the constraints do not let " << describe_start(system, *refused);
-  // The others determine it: a velocity that they leave free would not have been refused.
+  // The other velocities determine this one. Otherwise it would have been admitted.
   State admitted;
   if (!start_without(refused, admitted).solved() || refused_velocity(system, admitted, refused)) {
     message << ", nor do they admit the other given velocities together";
@@ -124,13 +126,13 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
   return {Status::singular, message.str()};
 }
 
-/// If two runs differ by their leading error alone, their combination meets the constraints far
-/// better than either state resembles the other.
+/// Checks the extrapolation. If both runs differ only by their leading error, their combination
+/// satisfies the constraints much better than the two states agree.
 Outcome outcome_of_extrapolation(const IntegrationSummary& summary) {
   constexpr double kLimit = 1e-3;
   if (summary.constraints.relative_position <= kLimit) return {};
   std::ostringstream message;
-  message << "the steps are too long to be extrapolated: what the two runs give together misses a "
+  message << "the steps are too long to be extrapolated: the combination of both runs violates a "
              "constraint by "
           << summary.constraints.relative_position << " of the model's size or of 1 rad";
   return {Status::not_converged, message.str()};
@@ -153,11 +155,12 @@ IntegrationSummary integrate(const GeometricallyExactSystem& system, State& stat
   MemberBalance balance;
   Outcome recovered;
   summary = run(system, conserves ? &system : nullptr, state, options, [&](const State& at) {
-    // What vibrates faster than a step starts with the acceleration of an implicit one.
+    // Unresolved vibrations start with the acceleration of an implicit step.
     if (at.t > start && !conserves) balance.add(system, at);
     if (!observe) return;
     if (at.t == start || !conserves) return observe(at);
-    // The multipliers of a step by energy-momentum are means, which alternate about the motion's.
+    // The multipliers of an energy-momentum step are means, which alternate about those of the
+    // motion.
     State shown = at;
     if (recovered.solved()) recovered = make_accelerations_consistent(system, shown, options.step);
     observe(shown);

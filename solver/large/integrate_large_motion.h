@@ -7,25 +7,26 @@
 
 namespace trammel::solver::large_motion {
 
+/// Result of an integration in large motion.
 struct IntegrationSummary : TransientSummary {
-  ConstraintGaps constraints;  ///< the largest at any observed time
+  ConstraintGaps constraints;  ///< largest at any observed time
 };
 
-/// Integrates by generalized-alpha from a consistent state to the end time; `state` becomes the
-/// last one reached.
+/// Integrates by generalized-alpha from a consistent state to the end time. `state` becomes the
+/// last state.
 [[nodiscard]] IntegrationSummary integrate(const ConstrainedSystem& system, State& state,
                                            const TransientOptions& options,
                                            const Observer& observe = {});
 
-/// The same from the model's pose with the model's initial velocities, also by energy-momentum.
+/// Integrates from the pose of the model with its initial velocities, also by energy-momentum.
 [[nodiscard]] IntegrationSummary integrate(const GeometricallyExactSystem& system, State& state,
                                            const TransientOptions& options,
                                            const Observer& observe = {});
 
-/// Two runs with steps `step` and `step`/2, combined to what their common second-order error
-/// leaves: order 3 (order 4 by energy-momentum). The step is fixed and sample times are multiples
-/// of it; the state that is observed has q, v and lambda only, and meets constraints as well as its
-/// error lets it: not_converged if a thousandth of the model's size is missing.
+/// Integrates with `step` and `step`/2 and extrapolates to remove the common second-order error.
+/// The result has order 3 (order 4 by energy-momentum). The step is fixed, and sample times must be
+/// multiples of it. Observed states contain q, v and lambda only. They satisfy constraints up to
+/// their error. The outcome is not_converged if this error exceeds a thousandth of the model size.
 [[nodiscard]] IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system,
                                                         State& state,
                                                         const TransientOptions& options,

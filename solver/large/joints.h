@@ -7,17 +7,17 @@
 #include "solver/large/large_motion_model.h"
 #include "solver/model/model.h"
 
-/// Joints, springs, bars and masses, with the same functions as `Beam`. Of a constraint row: g and
-/// its gradient G, the second derivative times the multipliers unless it is zero, and the discrete
-/// gradient D with D (q1 - q0) = g(q1) - g(q0) unless it is G (O. Gonzalez, J. Nonlinear Sci. 6,
-/// 1996).
+/// Joints, springs, bars and masses with the same functions as `Beam`. A constraint row has g and
+/// its gradient G. It has the second derivative times the multipliers, unless this is zero. It has
+/// the discrete gradient D with D (q1 - q0) = g(q1) - g(q0), unless D equals G (O. Gonzalez, J.
+/// Nonlinear Sci. 6, 1996).
 namespace trammel::solver::large_motion {
 
-/// Rigid rows; `rho` follows from the parts that are joined.
+/// Rigid rows. Their `rho` follows from the parts that they join.
 template <int Coords, int Count>
 struct Joint : ElementSizes<Coords, Count> {
   using typename ElementSizes<Coords, Count>::Rows;
-  double stiffness_scale = 1, mass_scale = 1;  ///< of what is joined, for rho [N/m], [kg]
+  double stiffness_scale = 1, mass_scale = 1;  ///< of the joined parts, for rho [N/m], [kg]
 
   [[nodiscard]] Rows compliance() const { return Rows::Zero(); }
   [[nodiscard]] Rows penalty(const TangentCoefficients& coefficients) const {
@@ -26,10 +26,10 @@ struct Joint : ElementSizes<Coords, Count> {
   }
 };
 
-/// Two nodes of one rigid body, u_b - u_a - (R(theta_a) - I) d = 0 (paper Eq. 20-24).
-/// Coordinates: ua (2), theta_a, ub (2).
+/// Two nodes of a rigid body, u_b - u_a - (R(theta_a) - I) d = 0 (paper Eq. 20-24). Coordinates: ua
+/// (2), theta_a, ub (2).
 struct RigidLink : Joint<5, 2> {
-  Vector2d offset = Vector2d::Zero();  ///< d, from a to b when unloaded [m]
+  Vector2d offset = Vector2d::Zero();  ///< d, from a to b without load [m]
 
   void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
     const Vector2d normal = perpendicular(offset);
@@ -54,11 +54,11 @@ struct RigidLink : Joint<5, 2> {
   }
 };
 
-/// Node b slides along a line that rotates with node a (or is fixed where a is the ground),
-/// n(theta_a) . (x_b - x_a) = const. Coordinates: ua (2), theta_a, ub (2).
+/// Node b slides along a line that turns with node a, or is fixed if a is the ground: n(theta_a) .
+/// (x_b - x_a) = const. Coordinates: ua (2), theta_a, ub (2).
 struct SlidingJoint : Joint<5, 1> {
-  Vector2d normal = Vector2d::UnitY();  ///< n of the line when unloaded
-  Vector2d offset = Vector2d::Zero();   ///< x_b - x_a when unloaded [m]
+  Vector2d normal = Vector2d::UnitY();  ///< n of the line without load
+  Vector2d offset = Vector2d::Zero();   ///< x_b - x_a without load [m]
 
   void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
     const Vector2d n = rotated(normal, q[2]);
@@ -90,8 +90,8 @@ struct SlidingJoint : Joint<5, 1> {
   }
 };
 
-/// A coordinate that follows a law of time as seen from another (or the ground), u - u0 - law(t) =
-/// 0. Coordinates: u, u0.
+/// Coordinate that follows a function of time relative to another one or the ground, u - u0 -
+/// law(t) = 0. Coordinates: u, u0.
 struct DrivenCoordinate : Joint<2, 1> {
   TimeFunction law;
 
@@ -99,12 +99,12 @@ struct DrivenCoordinate : Joint<2, 1> {
     residual[0] = q[0] - q[1] - law(t)[0];
     G << 1, -1;
   }
-  /// Partial derivative of g with respect to time.
+  /// Returns the partial derivative of g with respect to time.
   [[nodiscard]] Rows time_rate(double t) const { return Rows(-law(t)[1]); }
 };
 
-/// A linear constraint, sum of factor * coordinate = 0. Either all coordinates are translations or
-/// all are rotations, because only such constraints hold in large motion.
+/// Linear constraint, sum of factor * coordinate = 0. The coordinates are either all translations
+/// or all rotations, because only such constraints are valid in large motion.
 struct LinearRow : Joint<Eigen::Dynamic, 1> {
   VectorXd factors;
 
@@ -117,10 +117,10 @@ struct LinearRow : Joint<Eigen::Dynamic, 1> {
   }
 };
 
-/// Spring along the line between two nodes, g = |x_b - x_a| - rest, c = 1/k (0: a rigid rod).
+/// Spring along the line between two nodes, g = |x_b - x_a| - rest, c = 1/k. c = 0 is a rigid rod.
 /// Coordinates: ua (2), ub (2).
 struct LineSpringElement : Joint<4, 1> {
-  Vector2d offset = Vector2d::Zero();  ///< x_b - x_a in the model's pose [m]
+  Vector2d offset = Vector2d::Zero();  ///< x_b - x_a in the pose of the model [m]
   double initial_elongation = 0;       ///< |offset| - rest length [m]
   double flexibility = 0;              ///< 1/k [m/N]
 
@@ -153,7 +153,7 @@ struct LineSpringElement : Joint<4, 1> {
   [[nodiscard]] Rows compliance() const { return Rows::Constant(flexibility); }
 };
 
-/// Member without bending stiffness: a line spring of 1/k = h/EA with its mass, linear between the
+/// Member without bending stiffness: a line spring with 1/k = h/EA and a mass, linear between the
 /// ends.
 struct Bar : LineSpringElement {
   double total_mass = 0;  ///< [kg]
@@ -165,7 +165,7 @@ struct Bar : LineSpringElement {
     const Eigen::Matrix2d I = Eigen::Matrix2d::Identity();
     return (Square() << diagonal * I, off_diagonal * I, off_diagonal * I, diagonal * I).finished();
   }
-  /// Forces at the nodes of a distributed load [N/m].
+  /// Returns the nodal forces of a distributed load [N/m].
   [[nodiscard]] Coordinates distributed_load(const Vector2d& force_per_length) const {
     return offset.norm() / 2 * force_per_length.replicate<2, 1>();
   }
@@ -201,17 +201,17 @@ struct PointInertia : ElementSizes<1, 0> {
   [[nodiscard]] Square mass() const { return Square(value); }
 };
 
-/// A force [N, N] and a moment [N m] that rotate with their node. Coordinates: (ux, uy, theta).
+/// Force [N, N] and moment [N m] that rotate with their node. Coordinates: (ux, uy, theta).
 struct FollowerForce : ElementSizes<3, 0> {
-  Vector3d force = Vector3d::Zero();  ///< in the model's pose
+  Vector3d force = Vector3d::Zero();  ///< in the pose of the model
 
-  /// For a load factor of 1.
+  /// Returns the force for a load factor of 1.
   [[nodiscard]] Coordinates load(const Coordinates& q) const {
     Coordinates f = force;
     f.head<2>() = rotated(force.head<2>(), q[2]);
     return f;
   }
-  /// dload/dq, not symmetric.
+  /// Returns dload/dq, which is not symmetric.
   [[nodiscard]] Square load_derivative(const Coordinates& q) const {
     Square derivative = Square::Zero();
     derivative.block<2, 1>(0, 2) = perpendicular(rotated(force.head<2>(), q[2]));

@@ -23,16 +23,16 @@ namespace trammel::solver::large_motion {
 
 namespace {
 
-constexpr Index kPlatform = 8;  ///< of the parts in `InverseDynamics::q`
+constexpr Index kPlatform = 8;  ///< index of the platform in `InverseDynamics::q`
 
-/// The rigid motion at one time.
+/// Rigid motion at one time.
 struct NominalState {
   TrajectoryPoint point;
   InverseDynamics dynamics;
-  Model model;  ///< built there, with the loads and the weight
+  Model model;  ///< model at this pose, with loads and weight
 };
 
-/// An equilibrium at one time.
+/// Equilibrium at one time.
 struct StaticInstant {
   NominalState nominal;
   std::vector<DrivenEnd> ends;
@@ -40,7 +40,7 @@ struct StaticInstant {
   State state;
 };
 
-/// Splits the joints that resist turning.
+/// Splits the joints that resist relative rotation.
 std::vector<DrivenEnd> add_driven_ends(Model& model) {
   std::vector<DrivenEnd> ends;
   for (std::size_t m = 1; m < model.members.size(); m += 2) {
@@ -76,7 +76,7 @@ class LargeElastodynamics {
     if (const char* reason = beyond_large_displacement(options_, start_.model))
       throw ModelError(std::string("large displacement: ") + reason);
     if (!options_.elastic_inertia && options_.time.sample_times.empty())
-      throw ModelError("equilibria along a path need times");
+      throw ModelError("equilibria along a path need sample times");
   }
 
   ElastodynamicsSolution run() {
@@ -95,7 +95,7 @@ class LargeElastodynamics {
     solution_.outcome =
         outcome_by_evidence(solution_.outcome, solution_.evidence, {Residual::equation_of_motion});
     finish();
-    // It comes with large displacement and cannot be left out by itself.
+    // Geometric stiffening is part of large displacement and cannot be removed separately.
     solution_.summary.counters.effects[static_cast<std::size_t>(Effect::geometric_stiffening)] = 0;
     return std::move(solution_);
   }
@@ -113,13 +113,13 @@ class LargeElastodynamics {
     return state;
   }
 
-  /// What the rigid parts do from one pose on.
+  /// Returns the motion of the rigid parts relative to a pose.
   [[nodiscard]] NominalMotion motion_between(const NominalState& from,
                                              const NominalState& to) const {
     return nominal_motion(from.model, to.dynamics, from.dynamics.q, to.point, options_.gravity);
   }
 
-  /// @param moves  else the drives stand where the model was built
+  /// Returns the drives of the joints. They remain at the pose of the model if `moves` is false.
   [[nodiscard]] LargeMotionModel drives(Model& model, const std::vector<DrivenEnd>& ends,
                                         bool moves) const {
     LargeMotionModel large_motion;
@@ -138,8 +138,8 @@ class LargeElastodynamics {
     return large_motion;
   }
 
-  /// Equilibrium at a time under loads, weight and nominal inertia, without damping; nothing where
-  /// it was not reached.
+  /// Computes the equilibrium at a time under loads, weight and nominal inertia, without damping.
+  /// Returns an empty value on failure.
   [[nodiscard]] std::optional<StaticInstant> equilibrium_at(double time) {
     StaticInstant now{at_time(time), {}, {}, {}};
     if (!now.nominal.dynamics.outcome.solved()) {
@@ -176,8 +176,8 @@ class LargeElastodynamics {
     return nominal_rates(*now.system, motion_between(now.nominal, now.nominal), order, now.ends);
   }
 
-  /// Moves an equilibrium to where it holds with what damping takes up at these rates of its
-  /// deflections.
+  /// Corrects an equilibrium for the damping forces at the given rates of its deflections. Returns
+  /// false on failure.
   [[nodiscard]] bool add_damping(StaticInstant& now, const VectorXd& rates) {
     State& state = now.state;
     const VectorXd nominal = rates_of(now, 1);
@@ -196,8 +196,8 @@ class LargeElastodynamics {
     return true;
   }
 
-  /// K q = f - C v with what damping takes up, at the rates v of K q = f, by differences of second
-  /// order; so starts linear elastodynamics, too.
+  /// Solves K q = f - C v with damping, where v are the rates of K q = f by second-order
+  /// differences. Linear elastodynamics starts in the same way.
   [[nodiscard]] bool start_quasi_statically(State& state, VectorXd& rates) {
     const double h = smooth_span(options_.load_history.bends(), options_.time) / 2;
     std::array<std::optional<StaticInstant>, 3> found;
@@ -241,7 +241,8 @@ class LargeElastodynamics {
     solution_.outcome = make_consistent(system, state, given, options_.time.step);
     if (solution_.outcome.solved()) integrate_from(system, state);
     if (solution_.state.empty() || solution_.time.front() != options_.time.start) return;
-    // The integrator starts with the accelerations of an implicit step: not those of the motion.
+    // The integrator starts with the accelerations of an implicit step instead of those of the
+    // motion.
     if (!options_.time.quasi_static_start) {
       replace_start_by_linear_theory();
     } else {
@@ -249,7 +250,8 @@ class LargeElastodynamics {
     }
   }
 
-  /// Before anything has moved linear theory is exact; the forces of that moment are inertia alone.
+  /// Replaces the first sample by linear theory, which is exact before anything has moved. Its
+  /// forces are due to inertia only.
   void replace_start_by_linear_theory() {
     ElastodynamicsOptions first = options_;
     first.time.sample_times = {first.time.start};
@@ -291,7 +293,7 @@ class LargeElastodynamics {
       result.counters.count(Effect::damping, summary.iterations);
   }
 
-  /// Adds what a state is at a time.
+  /// Adds a state as a sample at a time.
   void add_sample(const GeometricallyExactSystem& system, const State& state,
                   const NominalState& built, const NominalState& now) {
     StaticSolution sample = sample_of(system, state, built, now);
@@ -301,8 +303,8 @@ class LargeElastodynamics {
     solution_.state.push_back(std::move(sample));
   }
 
-  /// A state as seen from the nominal position.
-  /// @param built  the pose of the system's model
+  /// Returns the results of a state relative to the nominal position. `built` is the pose of the
+  /// model of the system.
   [[nodiscard]] StaticSolution sample_of(const GeometricallyExactSystem& system, const State& state,
                                          const NominalState& built, const NominalState& now) const {
     const NominalMotion moved = motion_between(built, now);
@@ -338,10 +340,10 @@ class LargeElastodynamics {
   const ElastodynamicsOptions& options_;
   RigidManipulator rigid_;
   RigidMotion rigid_motion_;
-  Outcome reached_;  ///< not solved from where the path leaves what the rigid links reach
+  Outcome reached_;  ///< failure when the path leaves the reach of the rigid links
   NominalState start_;
   ElastodynamicsSolution solution_;
-  StaticSolution start_sample_;  ///< of a quasi-static start
+  StaticSolution start_sample_;  ///< first sample of a quasi-static start
   MemberBalance balance_;
   std::vector<Vector3d> rigid_torque_;
 };
@@ -362,16 +364,16 @@ const char* beyond_large_displacement(const ElastodynamicsOptions& options, cons
   const bool six_nodes = std::any_of(model.triangles.begin(), model.triangles.end(),
                                      [](const Triangle& triangle) { return triangle.quadratic(); });
   const std::vector<double>& times = options.load_history.time;
-  if (!driven) return "it takes actuators that are driven, not free";
-  if (tied) return "it does not know how Eq. 25 ties rotations";
-  if (!options.nominal_inertia) return "it takes nominal inertia";
-  if (options.modal_superposition) return "it takes no superposed modes";
-  if (options.time.adaptive) return "it takes fixed steps, without control of their error";
+  if (!driven) return "it requires driven actuators instead of free ones";
+  if (tied) return "it does not support Eq. 25";
+  if (!options.nominal_inertia) return "it requires nominal inertia";
+  if (options.modal_superposition) return "it does not support modal superposition";
+  if (options.time.adaptive) return "it requires fixed steps without error control";
   if (std::adjacent_find(times.begin(), times.end()) != times.end())
-    return "it takes a load history without jumps: steps would see none";
+    return "it requires a load history without jumps, which its steps do not resolve";
   if (std::isfinite(stability_limit(options.time.scheme)))
-    return "it takes a scheme that is stable whatever the step";
-  if (six_nodes) return "triangles of six nodes do not move yet";
+    return "it requires a scheme that is stable for any step";
+  if (six_nodes) return "it does not support six-node triangles";
   return nullptr;
 }
 
@@ -385,11 +387,12 @@ namespace trammel::solver::large_motion {
 
 namespace {
 
-/// How far a part has turned by a time [rad], and how fast [rad/s].
+/// Rotation of a part at a time [rad], and its rate [rad/s].
 struct Turn {
   double time = 0, angle = 0, rate = 0;
 };
 
+/// Returns the law, extended beyond the ends of the path with the acceleration and its rate there.
 TimeFunction extended(const TimeFunction& law, const Path& path) {
   return [law, limits = time_span(path)](double t) {
     const double end = std::clamp(t, limits.first, limits.second), d = t - end;

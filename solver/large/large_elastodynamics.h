@@ -10,58 +10,74 @@
 
 namespace trammel::solver {
 
-/// Elastodynamics with large displacement, in the geometrically exact tier (solver/large_motion):
-/// what vibrates and how it starts as in `solve_elastodynamics`. Actuators follow the path exactly;
-/// where a joint is welded or sprung, one link's turn against the other is driven as in the nominal
-/// motion, in which nothing is stressed. Without elastic inertia every sample is an equilibrium
-/// under loads, weight and nominal inertia. Displacements are from the nominal position, section
-/// forces along the axes of the rotated sections; there are no stresses, energies and numbers of
-/// effects, and no quasi-static motion beside a dynamic one. Gyroscopic terms cannot be left out.
-/// Schemes become generalized-alpha with their spectral radius at infinite frequency. Steps end
-/// where samples are asked for and the load history bends. A quasi-static start: three equilibria
-/// give the rates of the deflection; the first is moved to where it holds with what damping takes
-/// up at them.
-/// not_converged: a path of equilibria or a step that does not reach its end.
-/// @throws ModelError  as `solve_elastodynamics`; where it is `beyond_large_displacement`; without
-///                     elastic inertia and times of samples.
+/// Solves elastodynamics with large displacement in the geometrically exact tier (solver/large).
+/// Vibration and start are as in `solve_elastodynamics`:
+///
+/// - Actuators follow the path exactly. The relative rotation at welded or sprung joints is driven
+///   as in the nominal motion, in which the links are free of stress.
+/// - Without elastic inertia, each sample is an equilibrium under loads, weight and nominal
+///   inertia.
+/// - Displacements are relative to the nominal position. Section forces refer to the axes of the
+///   rotated sections.
+/// - Stresses, energies, numbers of effects, and a quasi-static motion in addition to a dynamic one
+///   are not available.
+/// - Gyroscopic terms are always included.
+/// - Schemes are replaced by generalized-alpha with the same spectral radius at infinite frequency.
+/// - Steps end at sample times and at bends of the load history.
+/// - A quasi-static start computes the rates of the deflection from three equilibria. The first
+///   equilibrium is then corrected for damping at these rates.
+///
+/// The outcome is not_converged if a path of equilibria or a step fails.
+/// @throws ModelError  as `solve_elastodynamics`; if `beyond_large_displacement` returns a reason;
+///   or without elastic inertia if there are no sample times.
 [[nodiscard]] ElastodynamicsSolution solve_large_elastodynamics(
     const ElastodynamicsOptions& options);
 
-/// What of a motion `solve_large_elastodynamics` does not know; null where it knows all.
-/// @param model  of the manipulator where the motion starts
+/// Returns the reason why `solve_large_elastodynamics` does not support a motion, or null.
+/// @param options  motion.
+/// @param model  manipulator at the start of the motion.
 [[nodiscard]] const char* beyond_large_displacement(const ElastodynamicsOptions& options,
                                                     const Model& model);
 
 }  // namespace trammel::solver
 
-/// Joints of the rigid manipulator on its path, as laws for drives in large motion.
+/// Joint motions of the rigid manipulator on its path, as laws of drives in large motion.
 namespace trammel::solver::large_motion {
 
-/// The rigid manipulator at a time.
+/// Returns the rigid motion at a time.
 using RigidMotion = std::function<const InverseDynamics&(double)>;
 
-/// Several joints and every correction of a step ask for one time: it is reckoned once.
+/// Caches the last evaluation, because all joints and all corrections of a step request the same
+/// time.
 [[nodiscard]] RigidMotion once_per_time(std::function<InverseDynamics(double)> reckon);
 
-/// How far a part has turned since `start`, as seen from another part or the ground (-1), whole
-/// turns and all [rad]: from where it was asked for last it is followed in turns of 0.5 rad. It
-/// goes on beyond the ends of the path, with the acceleration and its rate there: the solver takes
-/// differences about the first instant and the last.
-/// @param part, from  as in `InverseDynamics::q`: proximal links 0 to 2, distal links 3 to 5,
-/// platform 8
+/// Returns the rotation of a part since `start` relative to another part or the ground (-1) [rad],
+/// including full turns. It is followed from the last request in increments of 0.5 rad. The law
+/// continues beyond the ends of the path with the acceleration and its rate there. The solver
+/// requires this for differences about the first and last times.
+/// @param motion  rigid motion.
+/// @param path  path of the platform.
+/// @param start  time with zero rotation [s].
+/// @param part  index in `InverseDynamics::q`: proximal links 0 to 2, distal links 3 to 5, platform
+///   8.
+/// @param from  reference part, or -1.
 [[nodiscard]] TimeFunction joint_law(const RigidMotion& motion, const Path& path, double start,
                                      Index part, Index from = -1);
 
-/// A node beside that of a joint, on which the end of a distal link is; its turn is driven.
+/// Additional node at a joint for the end of a distal link. Its rotation is driven relative to the
+/// node of the joint.
 struct DrivenEnd {
   Index node = 0, beside = 0;
-  Index part = 0, from = 0;  ///< of `InverseDynamics::q`
+  Index part = 0, from = 0;  ///< indices in `InverseDynamics::q`
   std::size_t member = 0;
 };
 
-/// Rates of the coordinates where all parts move as rigid ones: velocities or accelerations, the
-/// derivative of order 1 or 2.
-/// @param ends  the last nodes of the model; the others are the builder's
+/// Returns rates of the coordinates if all parts move rigidly: velocities (order 1) or
+/// accelerations (order 2).
+/// @param system  equations.
+/// @param motion  nominal motion.
+/// @param order  1 or 2.
+/// @param ends  the last nodes of the model; the builder created the others.
 [[nodiscard]] VectorXd nominal_rates(const GeometricallyExactSystem& system,
                                      const NominalMotion& motion, int order,
                                      const std::vector<DrivenEnd>& ends = {});

@@ -9,16 +9,16 @@
 
 #include "solver/model/model.h"
 
-/// What large motion adds to a `Model`: drives, torques, sliding joints, springs along a line,
-/// follower loads, histories, damping and a start. Everything in SI units and the model's pose.
+/// Additional parts of a `Model` in large motion: drives, torques, sliding joints, springs along a
+/// line, follower loads, histories, damping and a start. All quantities are in SI units and refer
+/// to the pose of the model.
 namespace trammel::solver::large_motion {
 
-/// Value, rate and second derivative at a time or, in statics, at a load factor.
+/// Returns value, rate and second derivative at a time or, in statics, at a load factor.
 using TimeFunction = std::function<std::array<double, 3>(double)>;
 
-/// A node's displacement or rotation, seen from another node's or the ground's (-1), prescribed as
-/// a function of time; its multiplier is the force or torque that the drive takes from the
-/// structure.
+/// Displacement or rotation of a node relative to another node or the ground (-1), prescribed as a
+/// function of time. Its multiplier is the force or torque that the structure exerts on the drive.
 struct Drive {
   std::string name;
   Index node = 0;
@@ -27,21 +27,21 @@ struct Drive {
   Index from = -1;
 };
 
-/// A torque on a node as a function of time, whatever the load factor.
+/// Torque on a node as a function of time, independent of the load factor.
 struct Torque {
   std::string name;
   Index node = 0;
   std::function<double(double)> law;  ///< [N m]
 };
 
-/// A node slides along a line through its position in the model's pose; the line rotates with the
-/// node `rail`, or is fixed (-1).
+/// Node that slides along a line through its position in the pose of the model. The line turns with
+/// the node `rail`, or is fixed (-1).
 struct Slider {
   std::string name;
   Index node = 0;
   Index rail = -1;
-  double direction = 0;      ///< of the line in the model's pose [rad]
-  bool keeps_angle = false;  ///< true: prismatic, the node rotates as the rail does
+  double direction = 0;      ///< direction of the line in the pose of the model [rad]
+  bool keeps_angle = false;  ///< true: prismatic joint, the node rotates with the rail
 };
 
 /// Spring along the line between two nodes.
@@ -49,23 +49,24 @@ struct LineSpring {
   std::string name;
   std::array<Index, 2> nodes{-1, -1};
   double stiffness = 0;  ///< [N/m]
-  /// Length without force [m]; not given: the length in the model's pose.
+  /// Length without force [m]; NaN: the length in the pose of the model.
   double rest_length = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// A force and a moment on a node that rotate with the node.
+/// Force and moment on a node that rotate with the node.
 struct FollowerLoad {
   Index node = 0;
-  Vector3d force = Vector3d::Zero();  ///< in the model's pose [N, N, N m]
+  Vector3d force = Vector3d::Zero();  ///< in the pose of the model [N, N, N m]
 };
 
-/// Velocity of a node at the start; those that are not given minimize the kinetic energy.
+/// Initial velocity of a node. Velocities that are not given minimize the kinetic energy.
 struct InitialVelocity {
   Index node = 0;
   int direction = 0;  ///< 0: x [m/s], 1: y [m/s], 2: rotation [rad/s]
   double value = 0;
 };
 
+/// Parts of a model in large motion.
 struct LargeMotionModel {
   std::vector<Drive> drives;
   std::vector<Torque> torques;
@@ -74,60 +75,62 @@ struct LargeMotionModel {
   std::vector<FollowerLoad> follower_loads;
   std::vector<InitialVelocity> initial_velocities;
   std::function<double(double)> load_history;  ///< factor on the loads (not gravity); empty: 1
-  std::vector<double> load_breakpoints;        ///< where it bends, ascending [s]
+  std::vector<double> load_breakpoints;        ///< times of its bends, ascending [s]
   double mass_damping = 0;                     ///< forces -mass_damping M v [1/s]
-  double strain_rate_damping = 0;              ///< stress from strain + this times strain rate [s]
+  double strain_rate_damping = 0;  ///< stress from strain + strain_rate_damping * strain rate [s]
 };
 
-/// @throws ModelError  where a part of the large-motion model names a node that does not exist, or
-///                     its numbers have no meaning.
+/// Checks indices and numbers.
+/// @throws ModelError  if a part refers to a node that does not exist, or its numbers are invalid.
 void validate(const LargeMotionModel& large_motion, const Model& model);
 
 }  // namespace trammel::solver::large_motion
 
 namespace trammel::solver {
 
-/// Adds a revolute joint between two coincident nodes, in every tier: equal translations.
+/// Adds a revolute joint between two coincident nodes as equal translations, for every tier.
 void add_pin(Model& model, const std::string& name, const std::array<Index, 2>& nodes);
 
-/// A slider in small motion, for the linear tiers: no displacement across the line as the rail
-/// carries it, n . (u - u_rail) = n . (k x (p - p_rail)) theta_rail.
+/// Adds a slider in small motion, for the linear tiers. The displacement normal to the line, which
+/// moves with the rail, is zero:
+///
+///   n . (u - u_rail) = n . (k x (p - p_rail)) theta_rail.
 void add_linear_slider(Model& model, const large_motion::Slider& slider);
 
 }  // namespace trammel::solver
 
 namespace trammel::solver::large_motion {
 
-/// An element of a member with its coordinates along it: (ux, uy, theta) of each node; of a bar
-/// (EI = 0) only (ux, uy) of its ends.
+/// Element of a member with its coordinates: (ux, uy, theta) of each node. A bar (EI = 0) has only
+/// (ux, uy) of its ends.
 struct MemberElement {
   Index member = 0;
-  Vector2d start = Vector2d::Zero();  ///< in the model's pose [m]
+  Vector2d start = Vector2d::Zero();  ///< in the pose of the model [m]
   Vector2d end = Vector2d::Zero();
   Section section;
   std::vector<Index> coordinates;
   [[nodiscard]] bool is_bar() const { return coordinates.size() == 4; }
   [[nodiscard]] double length() const { return (end - start).norm(); }
-  /// Coordinates of a node.
+  /// Returns the number of coordinates per node.
   [[nodiscard]] std::size_t stride() const { return is_bar() ? 2 : 3; }
   [[nodiscard]] std::size_t nodes() const { return coordinates.size() / stride(); }
-  /// Position of a node in the model's pose [m].
+  /// Returns the position of a node in the pose of the model [m].
   [[nodiscard]] Vector2d position(std::size_t node) const;
 };
 
-/// Numbers the coordinates: the free ones first, then those that supports hold, so that an index at
-/// or above `free` means a displacement of zero. Joints share coordinates where they can: a
-/// revolute joint shares translations (so does a constraint that makes two coordinates equal), a
-/// welded end and a rigid body's nodes share the rotation.
+/// Numbering of the coordinates. Free coordinates come first, then those held by supports. An index
+/// >= `free` therefore means zero displacement. Joints share coordinates if possible. A revolute
+/// joint shares translations, and so does a constraint that makes two coordinates equal. A welded
+/// end and the nodes of a rigid body share the rotation.
 struct Layout {
   Index free = 0;
   Index total = 0;
-  std::vector<std::array<Index, 3>> node;          ///< x, y, rotation (-1: the node has none)
-  std::vector<std::array<Index, 2>> end_rotation;  ///< of each member's ends
+  std::vector<std::array<Index, 3>> node;  ///< x, y, rotation (-1 for a node without rotation)
+  std::vector<std::array<Index, 2>> end_rotation;  ///< rotations of the ends of each member
   std::vector<MemberElement> elements;
-  std::vector<Index> first_element;  ///< of each member, one past the last at the end
+  std::vector<Index> first_element;  ///< of each member; one past the last at the end
   std::vector<std::array<Index, 2>>
-      mass_centre;             ///< of each point mass with an offset; else node's
+      mass_centre;             ///< of each point mass with an offset; otherwise those of the node
   std::vector<int> direction;  ///< of each coordinate: 0: x, 1: y, 2: rotation
 
   [[nodiscard]] bool is_rotation(Index coordinate) const {

@@ -18,19 +18,20 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Extended = KktMatrix::Extended;
 
-/// Below this share of |s| its real or imaginary part is round-off.
+/// Fraction of |s| below which the real or imaginary part of s is round-off.
 constexpr double kRoundoffShare = 1e-7;
-/// Where w^2 of some modes is below this share of that of the next, K^-1 has few digits of the
-/// others.
+/// Ratio of w^2 of some modes to that of the next below which K^-1 has few digits of the other
+/// modes.
 constexpr double kSoftShare = 1e-10;
-/// The lowest w^2 above them is known in K^-1 to some orders of magnitude; of what has no mass, to
-/// none.
+/// Factor within which K^-1 determines the lowest w^2 above the soft modes. It is exceeded if the
+/// parts above the soft modes are massless.
 constexpr double kAlike = 1e6;
-/// How far from a mode's w^2 the matrix is factored that its vector is solved for with.
+/// Relative distance of the shift from w^2 of a mode in the inverse iteration.
 constexpr double kAside = 1e-3;
 
-/// K - w2 M on the constraints, factored with penalties and again without, for exact products:
-/// those of stiff members would round off the stiffness of soft joints.
+/// K - w2 M on the constraints. It is factored with penalties, and assembled again without
+/// penalties for exact products. Round-off errors of stiff members would otherwise hide the
+/// stiffness of soft joints.
 class ShiftedStiffness {
  public:
   ShiftedStiffness(const GeometricallyExactSystem& system, const State& state, double w2)
@@ -47,13 +48,13 @@ class ShiftedStiffness {
     system.tangent(state, coefficients, plain_);
   }
 
-  /// False if it is singular.
+  /// Returns false if it is singular.
   [[nodiscard]] bool exists() const { return exists_; }
 
-  /// (x, y) of K (x, y) = (f, 0), by iterative refinement until it stands still.
+  /// Returns (x, y) of K (x, y) = (f, 0), by iterative refinement until convergence.
   [[nodiscard]] Extended solve(const Extended& force) const {
     constexpr double kEnough = 1e-13;
-    constexpr int kPasses = 30;  // corrections of ill-conditioned matrices do not shrink evenly
+    constexpr int kPasses = 30;  // corrections of ill-conditioned matrices do not decrease evenly
     const Index n = system_.coordinates();
     Extended x = Extended::Zero(n + system_.constraints());
     last_correction_ = 1;
@@ -63,7 +64,8 @@ class ShiftedStiffness {
       VectorXd correction = residual.cast<double>();
       factored_.solve(correction);
       x += correction.cast<long double>();
-      // Motions over themselves, forces of constraints over what acts on the coordinates as well.
+      // Motions are relative to themselves. Forces of constraints are relative to all forces,
+      // including those on the coordinates.
       const auto size_of = [&](const VectorXd& values, const VectorXd& unit, Index begin) {
         return values.segment(begin, unit.size()).cwiseProduct(unit).norm();
       };
@@ -81,12 +83,12 @@ class ShiftedStiffness {
     return x;
   }
 
-  /// True if the last solution is known to six digits: the factors have enough of the matrix's.
+  /// Returns true if the last solution is accurate to six digits.
   [[nodiscard]] bool converged() const { return last_correction_ < 1e-6; }
 
-  /// Row by row, K (x, y) = (w^2 M x, 0) for the real or the imaginary part of a mode; a coordinate
-  /// counts with at least a thousandth of the largest motion, as in row_balance.h, and a row with
-  /// at least 1e-9 of the largest of its kind.
+  /// Returns the backward error of K (x, y) = (w^2 M x, 0) for the real or the imaginary part of a
+  /// mode, row by row. Each coordinate counts with at least `kLeastShare` of the largest motion, as
+  /// in row_balance.h. The terms of each row are at least 1e-9 of the largest of its kind.
   [[nodiscard]] double residual(const Extended& mode, const Extended& inertia) const {
     constexpr double kLeastRow = 1e-9;
     const VectorXd& scale = system_.scale();
@@ -98,7 +100,7 @@ class ShiftedStiffness {
     plain_.term_magnitudes(size, terms);
     residual.head(n) -= inertia;
     terms.head(n) += inertia.cast<double>().cwiseAbs();
-    VectorXd unit(mode.size());  // of forces and of the constraints' residuals
+    VectorXd unit(mode.size());  // units of forces and of residuals of constraints
     unit << scale.cwiseInverse(), system_.row_unit();
     for (const auto& [begin, count] : {std::pair(Index{0}, n), std::pair(n, mode.size() - n)}) {
       if (count == 0) continue;
@@ -109,7 +111,7 @@ class ShiftedStiffness {
     return largest_ratio(residual.cast<double>(), terms);
   }
 
-  /// As `KktMatrix::energy_over_roundoff`.
+  /// Returns the same as `KktMatrix::energy_over_roundoff`.
   [[nodiscard]] double energy_over_roundoff(const Extended& mode) const {
     return plain_.energy_over_roundoff(mode);
   }
@@ -121,29 +123,32 @@ class ShiftedStiffness {
   mutable double last_correction_ = 1;
 };
 
-/// L with M = L L^T and a column for each motion that has mass. Coordinates without mass, which
-/// have no mode, would leave eigenvalues of round-off.
+/// Returns L with M = L L^T and one column for each motion that has mass. Massless coordinates have
+/// no mode. They would cause eigenvalues of round-off.
 MatrixXd mass_factor(const MatrixXd& M) {
   const VectorXd size = M.diagonal().cwiseMax(0).cwiseSqrt();
   const VectorXd inverse = size.unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
   const SymmetricEigenpairs pairs =
       symmetric_eigenpairs((inverse.asDiagonal() * M * inverse.asDiagonal()).eval());
-  const double rounding = static_cast<double>(M.rows()) * kEps;  // of a unit diagonal
+  const double rounding = static_cast<double>(M.rows()) * kEps;  // relative to a unit diagonal
   const Index rank = (pairs.value.array() > rounding).count();
   return size.asDiagonal() * pairs.vector.rightCols(rank) *
          pairs.value.tail(rank).cwiseSqrt().asDiagonal();
 }
 
-/// The modes by their |w^2|, ascending.
+/// Modes in ascending order of |w^2|.
 struct Spectrum {
   bool converged = false;
-  std::vector<std::complex<double>> w2;  // infinite for what constraints hold
+  std::vector<std::complex<double>> w2;  // infinite for motions held by constraints
   std::vector<VectorXcd> x;
   double shift = 0;
 };
 
-/// @param K  K - shift M
-/// @param L  of `mass_factor`
+/// Computes all modes.
+/// @param K  K - shift M.
+/// @param L  factor from `mass_factor`.
+/// @param shift  shift of K.
+/// @param symmetric  true if K is symmetric.
 Spectrum spectrum(const ShiftedStiffness& K, const MatrixXd& L, double shift, bool symmetric) {
   const Index n = L.rows();
   MatrixXd flexibility(n, L.cols());  // (K - shift M)^-1 (L, 0)
@@ -161,7 +166,7 @@ Spectrum spectrum(const ShiftedStiffness& K, const MatrixXd& L, double shift, bo
   found.converged = pairs.converged;
   found.shift = shift;
   if (!pairs.converged) return found;
-  // Motions that constraints hold have no mode.
+  // Motions held by constraints have no mode.
   const double held = 1e-4 * kEps * pairs.value.cwiseAbs().maxCoeff();
   std::vector<std::pair<std::complex<double>, Index>> order;  // w^2 of each eigenvector
   for (Index j = 0; j < pairs.value.size(); ++j)
@@ -174,7 +179,7 @@ Spectrum spectrum(const ShiftedStiffness& K, const MatrixXd& L, double shift, bo
   return found;
 }
 
-/// w^2 of the lowest mode above those that are free or nearly so, 0 where none is.
+/// Returns w^2 of the lowest mode above those that are free or nearly free, or 0 if there is none.
 double lowest_above_soft(const Spectrum& modes) {
   for (std::size_t k = 1; k < modes.w2.size(); ++k) {
     const double above = std::abs(modes.w2[k]);
@@ -183,11 +188,12 @@ double lowest_above_soft(const Spectrum& modes) {
   return 0;
 }
 
-/// The same where K is singular to working precision, so that all modes of K^-1 are mixed with the
-/// free ones: with shifts from above all modes down to the lowest that is not free.
+/// Returns w^2 of the lowest mode above the free ones if K is singular to working precision. All
+/// modes of K^-1 are then mixed with the free ones. The shifts start above all modes and decrease
+/// to the lowest that is not free.
 double lowest_above_free(const GeometricallyExactSystem& system, const State& state,
                          const MatrixXd& L, const Spectrum& mixed) {
-  constexpr double kNear = 1e-4;  // of the shift: known to more than ten digits
+  constexpr double kNear = 1e-4;  // relative to the shift; the value has more than ten digits
   double shift = mixed.w2.empty() ? 0 : std::abs(mixed.w2.back());
   for (int pass = 0; pass < 8 && shift > 0; ++pass) {
     const ShiftedStiffness K(system, state, -shift);
@@ -203,18 +209,18 @@ double lowest_above_free(const GeometricallyExactSystem& system, const State& st
   return 0;
 }
 
-/// Inverse iteration with K - t M factored next to a real w^2, and w^2 by it. The matrix of all
-/// modes has the rounding of its lowest mode, and K^-1 leaves more of that in a higher one, by the
-/// ratio of both; here the higher one is the largest.
+/// Improves a real mode and its w^2 by inverse iteration with K - t M, where t is next to w^2. The
+/// round-off error of the matrix of all modes is relative to its lowest mode. It contaminates a
+/// higher mode by the ratio of both. With t, the requested mode is the largest.
 Extended beside(const GeometricallyExactSystem& system, const State& state, const MatrixXd& M,
                 std::complex<double>& w2, Extended mode) {
   const Index n = system.coordinates();
-  // Farther away if the factors' own errors are larger than the distance.
+  // Increase the distance if the errors of the factors exceed it.
   for (const double aside : {kAside, 0.03, 0.3}) {
     const double t = w2.real() - aside * std::abs(w2);
     const ShiftedStiffness K(system, state, t);
     if (!K.exists()) continue;
-    const int passes = aside == kAside ? 4 : 20;  // each leaves this share of the other modes
+    const int passes = aside == kAside ? 4 : 20;  // each pass reduces other modes by this factor
     for (int pass = 0; pass < passes; ++pass) {
       const Extended inertia = M.cast<long double>() * mode.head(n);
       const Extended next = K.solve(inertia);
@@ -234,7 +240,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
                                Index count) {
   const Index n = system.coordinates();
   if (n > kMaxVibrationCoordinates)
-    throw ModelError("small vibration about a large displacement takes at most " +
+    throw ModelError("small vibration about a large displacement supports at most " +
                      std::to_string(kMaxVibrationCoordinates) + " coordinates; the model has " +
                      std::to_string(n));
   SmallVibration found;
@@ -260,7 +266,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
     stiffened.emplace(system, state, -above);
     const Spectrum clear =
         stiffened->exists() ? spectrum(*stiffened, L, -above, system.symmetric()) : Spectrum();
-    // Otherwise all that it is soft compared with has no mass.
+    // Otherwise the stiff parts above the soft modes are massless.
     const double next = lowest_above_soft(clear);
     if (next > above / kAlike && next < kAlike * above) {
       modes = clear;
@@ -270,7 +276,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
   }
   const ShiftedStiffness& shifted = stiffened ? *stiffened : K;
   if (!modes.converged) {
-    found.outcome = {Status::not_converged, "the eigenvalues of the dense matrix"};
+    found.outcome = {Status::not_converged, "the eigenvalues of the dense matrix did not converge"};
     return found;
   }
   count = std::min(count, std::ssize(modes.w2));
@@ -301,7 +307,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
       found.evidence.add(Residual::eigenvalue_equation, kEps * K.energy_over_roundoff(mode));
       continue;
     }
-    // The frequency is the root of the energy.
+    // The factor 0.5 follows from the frequency being the square root of the energy.
     if (w2.imag() == 0) found.roundoff[k] = 0.5 / K.energy_over_roundoff(mode);
     const Extended real = M.cast<long double>() * mode.head(n);
     const Extended other = M.cast<long double>() * imaginary.head(n);

@@ -15,7 +15,7 @@ double value_or(const VectorXd& values, Index k, double absent) {
   return k < values.size() ? values[k] : 0.0;
 }
 
-/// An element of a member in a state.
+/// Element of a member in a state.
 template <class Element>
 struct PlacedElement {
   using Coordinates = typename Element::Coordinates;
@@ -32,7 +32,7 @@ struct PlacedElement {
   Coordinates q = gather<N>(state.q, where);
   int stride = static_cast<int>(placed.stride());
 
-  /// Loads + M (g - a - alpha v) at each node [N, N, N m].
+  /// Returns loads + M (g - a - alpha v) at each node [N, N, N m].
   [[nodiscard]] Coordinates applied_forces() const {
     const Member& member = system.model().members[to_size(placed.member)];
     Coordinates field = Coordinates::Zero();  // g - a - alpha v
@@ -46,8 +46,8 @@ struct PlacedElement {
     return element.mass() * field + element.distributed_load(state.load * member.load);
   }
 
-  /// Forces and moments at the nodes that the rest of the structure applies,
-  /// G^T lambda + K (q + tau v) - applied forces [N, N, N m].
+  /// Returns the forces and moments that the remaining structure applies to the nodes, G^T lambda +
+  /// K (q + tau v) - applied forces [N, N, N m].
   [[nodiscard]] Coordinates nodal_forces() const {
     typename Element::Rows residual;
     typename Element::Gradient G;
@@ -58,7 +58,7 @@ struct PlacedElement {
     return f - applied_forces();
   }
 
-  /// (N, V, M) at the first or the last node.
+  /// Returns (N, V, M) at the first or the last node [N, N, N m].
   [[nodiscard]] Eigen::RowVector3d resultants(bool first) const {
     const int node = first ? 0 : N / stride - 1;
     const Coordinates f = nodal_forces();
@@ -78,7 +78,7 @@ struct PlacedElement {
   }
 };
 
-/// Sums of forces and of moments about a point, and of their terms' magnitudes.
+/// Sums of forces and of moments about a point, and of the magnitudes of their terms.
 struct FreeBody {
   Vector2d about;
   Vector2d force = Vector2d::Zero();
@@ -93,7 +93,7 @@ struct FreeBody {
   }
 };
 
-/// The elements of a member that bends, cut free at both ends.
+/// Returns the balance of a member that bends, cut free at both ends.
 FreeBody cut_free(const GeometricallyExactSystem& system, const State& state, Index first,
                   Index last) {
   constexpr int kLast = BeamInterpolation::kNodes - 1;
@@ -110,14 +110,14 @@ FreeBody cut_free(const GeometricallyExactSystem& system, const State& state, In
     const Beam::Coordinates f = beam.applied_forces();
     for (int a = 0; a <= kLast; ++a)
       body.add(beam.position(a), beam.node_force(f, a), beam.moment(f, a));
-    // Moments are differences of rotations, however far the member has turned.
+    // Moments are differences of rotations, for any rotation of the member.
     body.moment_terms +=
         (beam.element.tangent(beam.q, 1, 0).cwiseAbs() * beam.q.cwiseAbs()).maxCoeff();
   }
   return body;
 }
 
-/// (N, V, M) at the first or the second end of an element.
+/// Returns (N, V, M) at the first or the second end of an element [N, N, N m].
 Eigen::RowVector3d element_resultants(const GeometricallyExactSystem& system, const State& state,
                                       Index index, bool first) {
   if (system.layout().elements[to_size(index)].is_bar())
@@ -231,13 +231,13 @@ Index redundant_constraints(const GeometricallyExactSystem& system, const State&
       matrix.constraint_gradient(system.scale(), system.row_unit()).transpose().sparseView();
   VectorXd factor = VectorXd::Zero(columns.cols());
   for (Index r = 0; r < columns.cols(); ++r) {
-    const double size = columns.col(r).norm();  // 0 for what supports hold at both ends
+    const double size = columns.col(r).norm();  // 0 if supports hold both ends
     if (system.compliance()[r] == 0 && size > 0) factor[r] = 1 / size;
   }
   columns = columns * factor.asDiagonal();
   columns.prune(0.0);
   Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr;
-  qr.setPivotThreshold(1e-10);  // of unit columns; rounding leaves far less
+  qr.setPivotThreshold(1e-10);  // relative to unit columns; round-off leaves much less
   qr.compute(columns);
   return rigid - qr.rank();
 }

@@ -15,22 +15,23 @@ namespace trammel::solver::large_motion {
 
 namespace {
 
-/// Least cosine of the angle between the tangents at two neighbouring points of a path.
+/// Least cosine of the angle between the tangents at two adjacent points of a path.
 constexpr double kTurn = 0.95;
 
-/// What has moved less needs no new factorization to tell its stability.
+/// Relative change of the state below which no new factorization is required to count unstable
+/// directions.
 constexpr double kSame = 1e-9;
 
-/// A point between two others of the path: how far from the first, what is to vanish, the count of
-/// unstable directions, and the state.
+/// Point between two others of the path: distance from the first, indicator that vanishes at the
+/// critical point, number of unstable directions, and state.
 struct Trial {
   double arc, f;
   Index unstable;
   State state;
 };
 
-/// A root between two points by the Illinois variant of regula falsi (M. Dowell, P. Jarratt, BIT
-/// 11, 1971).
+/// Bracket of a root between two points, for the Illinois variant of regula falsi (M. Dowell, P.
+/// Jarratt, BIT 11, 1971).
 class IllinoisBracket {
  public:
   IllinoisBracket(Trial left, Trial right) : left_(std::move(left)), right_(std::move(right)) {}
@@ -44,8 +45,8 @@ class IllinoisBracket {
   }
   [[nodiscard]] const Trial& left() const { return left_; }
   [[nodiscard]] const Trial& right() const { return right_; }
-  /// How far the load of a point is from the extremum, where the indicator is its derivative: the
-  /// load is a parabola there.
+  /// Returns the distance of the load of a point from its extremum if the indicator is the
+  /// derivative of the load. The load is approximated by a parabola.
   [[nodiscard]] double distance_to_extremum(double f) const {
     return f * f / 2 * width() / std::abs(right_.f - left_.f);
   }
@@ -64,17 +65,17 @@ class IllinoisBracket {
   bool was_updated_ = false, was_left_ = false;
 };
 
-/// Factor of the next step. The ratio of the first two corrections grows with the square of the
-/// step (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 5.1), and a tenth is
-/// wanted. Unlike a number of iterations, the ratio is continuous: rounding does not change the
-/// path's points.
+/// Returns the factor of the next step. The ratio of the first two corrections grows with the
+/// square of the step (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 5.1). Its
+/// target is a tenth. Unlike the number of iterations, the ratio is continuous, so that round-off
+/// does not change the points of the path.
 double step_factor(const std::vector<double>& correction) {
   constexpr double kWantedRatio = 0.1;
   if (correction.size() < 2) return 2;
   return std::clamp(std::sqrt(kWantedRatio * correction[0] / correction[1]), 0.5, 2.0);
 }
 
-/// The coordinate that moves most in a shape, in words: "rotation of node P".
+/// Describes the coordinate with the largest motion in a shape, such as "rotation of node P".
 std::string describe_largest_coordinate(const GeometricallyExactSystem& system,
                                         const VectorXd& shape) {
   const Layout& layout = system.layout();
@@ -103,11 +104,11 @@ std::string describe_largest_coordinate(const GeometricallyExactSystem& system,
   return description;
 }
 
-/// A limit point or a bifurcation between two points of a path.
+/// Limit point or bifurcation between two points of a path.
 struct CriticalPoint {
-  bool load_reversed = false;  ///< a limit point
-  std::optional<double> load;  ///< nothing where it is not found
-  PathPoint point;             ///< near it
+  bool load_reversed = false;  ///< true: limit point
+  std::optional<double> load;  ///< empty if it was not found
+  PathPoint point;             ///< point near it
 };
 
 class PathFollower {
@@ -134,7 +135,7 @@ class PathFollower {
     point.state = system_.reference_state();
     point.newton = equilibrium_.solve(point.state, 0);
     if (!point.newton.outcome.solved()) return stop(point.newton.outcome);
-    const bool at_rest = point.newton.correction.size() == 1;  // where it was factored
+    const bool at_rest = point.newton.correction.size() == 1;  // the tangent was factored here
     if (!at_rest && !equilibrium_.factor(point.state))
       return stop({Status::singular, "the tangent is singular"});
     for (Index found = 0; found <= system_.coordinates(); ++found) {
@@ -168,7 +169,8 @@ class PathFollower {
     return true;
   }
 
-  /// Of the way to the target, linear: drives that start from rest move nothing at first.
+  /// Returns the mean response from the start to the target in linear theory. Drives that start
+  /// from rest have no initial response.
   double mean_response(const State& start) {
     State end = start;
     system_.set_load(end, options_.target);
@@ -184,7 +186,7 @@ class PathFollower {
     return false;
   }
 
-  // Directions in (q, lambda, load), of unit length in the path's metric.
+  // Directions in (q, lambda, load) have unit length in the metric of the path.
 
   static VectorXd with_load(const VectorXd& step, double load) {
     return (VectorXd(step.size() + 1) << step, load).finished();
@@ -193,7 +195,7 @@ class PathFollower {
   double dot(const VectorXd& a, const VectorXd& b) const { return a.cwiseProduct(metric_).dot(b); }
   VectorXd normalized(const VectorXd& d) const { return d / std::sqrt(dot(d, d)); }
 
-  /// Tangent of the path with the matrix factored last, along `along`.
+  /// Returns the tangent of the path with the last factors, oriented as `along`.
   VectorXd tangent(const State& state, const VectorXd& along) {
     VectorXd step;
     equilibrium_.load_direction(state, step);
@@ -201,7 +203,7 @@ class PathFollower {
     return dot(along, d) < 0 ? VectorXd(-d) : d;
   }
 
-  /// Newton on the plane normal to the direction at distance `arc`.
+  /// Solves by Newton's method on the plane normal to the direction at the distance `arc`.
   bool corrector(const VectorXd& d, double arc, PathPoint& point) {
     point.state = last().state;
     apply_correction(point.state, d, arc);
@@ -226,8 +228,8 @@ class PathFollower {
     std::optional<CriticalPoint> critical;
     for (int cut = 0;; ++cut) {
       if (cut == 40) return not_converged("no step is small enough");
-      // A step beyond the target ends on the target, or is halved; so is one that may have come to
-      // another branch, which passes near by.
+      // A step beyond the target ends on the target, or is halved. A step that may have reached
+      // another branch nearby is also halved.
       const bool reached = crosses_target() ? solve_at_target(point)
                                             : corrector(direction_, arc_step_, point) &&
                                                   !passed_target(point.state) &&
@@ -251,7 +253,7 @@ class PathFollower {
     return switched || !done;
   }
 
-  /// What lies between two points, if anything does.
+  /// Returns the critical point between two points, if any.
   std::optional<CriticalPoint> find_critical_point(const PathPoint& to, const VectorXd& ahead) {
     CriticalPoint critical{load_of(ahead) * load_of(direction_) < 0, {}, to};
     const Index unstable = last().unstable_directions;
@@ -261,8 +263,8 @@ class PathFollower {
     return critical;
   }
 
-  /// Whether it is on the way from one to the other: a limit point has a load beyond both of
-  /// theirs, a bifurcation has one between them.
+  /// Returns true if the critical point lies between both points. A limit point has a load beyond
+  /// both of their loads. A bifurcation has a load between them.
   bool lies_on_path(const CriticalPoint& critical, double end) const {
     if (last().unstable_directions < 0) return true;
     if (!critical.load) return false;
@@ -302,7 +304,7 @@ class PathFollower {
     return (last().state.load - options_.target) * (to.load - options_.target) < 0;
   }
 
-  /// The last step ends on the target itself.
+  /// Solves the last step, which ends on the target.
   bool solve_at_target(PathPoint& point) {
     point.state = last().state;
     const double arc = (options_.target - point.state.load) / load_of(direction_);
@@ -316,13 +318,15 @@ class PathFollower {
            equilibrium_.factor_if_moved(point.state, kSame);
   }
 
-  /// Records what lies between two points. @return true: the path goes on along another branch.
+  /// Records the events between two points. @return true if the path continues along another
+  /// branch.
   bool record_event(const CriticalPoint& critical, const PathPoint& point, bool done) {
     PathEvent event;
     event.load = critical.load.value_or(critical.point.state.load);
     if (!equilibrium_.factor(critical.point.state)) return false;
     equilibrium_.smallest_eigenpair(event.shape);
-    // One for each direction that becomes unstable or stable; a limit point is one of them.
+    // There is one event for each direction that becomes unstable or stable. A limit point is one
+    // of them.
     const Index unstable = last().unstable_directions;
     Index bifurcations = unstable < 0 ? 1 : std::abs(point.unstable_directions - unstable);
     if (critical.load_reversed) {
@@ -338,16 +342,19 @@ class PathFollower {
     return switches;
   }
 
-  /// Of a path's length: at the distance w from a bifurcation rounding moves states aside, by the
-  /// share epsilon/w of the model's size, which has to be small beside w.
+  /// Returns the smallest useful distance from a bifurcation, relative to the length of the path.
+  /// At a distance w, round-off moves states sideways by epsilon/w of the model size, which must be
+  /// small compared with w.
   double nearest_to_bifurcation() const {
     const double size = std::max(std::sqrt(displacement_weight_), 1.0);
     return 8 * std::sqrt(std::numeric_limits<double>::epsilon() * size);
   }
 
-  /// Finds along the arc where dload/darc vanishes (a limit point) or the smallest eigenvalue does
-  /// (a bifurcation), between states on both sides of it. @returns the load there, or nothing where
-  /// it is not found, the path has a gap, or there is another event; `critical` is left near it.
+  /// Locates a critical point along the arc between states on both sides of it. dload/darc vanishes
+  /// at a limit point, and the smallest eigenvalue vanishes at a bifurcation. `critical` is set to
+  /// a state near it.
+  /// @returns the load, or an empty value if the point is not found, the path has a gap, or there
+  ///   is another event.
   std::optional<double> locate(bool load_reversed, const PathPoint& to, PathPoint& critical) {
     const VectorXd& d = direction_;
     const State& from = last().state;
@@ -370,7 +377,7 @@ class PathFollower {
     IllinoisBracket bracket(std::move(first), trial_at(interval, to.state));
     const double nearest =
         nearest_to_bifurcation() * std::max(std::abs(to.state.load), std::abs(interval));
-    double f = 0;  // of the last trial
+    double f = 0;  // indicator of the last trial
     const auto solve_at = [&](double arc, PathPoint& trial) {
       if (!corrector(d, arc, trial) || !equilibrium_.factor(trial.state)) return false;
       Trial found = trial_at(arc, trial.state);
@@ -379,7 +386,7 @@ class PathFollower {
       return true;
     };
     std::optional<double> load;
-    // At a bifurcation itself the equations are singular.
+    // The equations are singular at the bifurcation itself.
     const auto solve_beside = [&](double root, PathPoint& trial) {
       const double least = load ? nearest : std::max(1e-3 * bracket.width(), nearest);
       for (const double aside : {least, 4 * least})
@@ -401,7 +408,8 @@ class PathFollower {
       if (!solve_beside(root, trial)) return {};
       if (!load) critical = std::move(trial);
     }
-    // What is on both sides of a gap is not one path: it goes aside more than the path bends.
+    // Both sides of a gap do not belong to one path: the sideways distance exceeds the curvature of
+    // the path.
     const Trial &left = bracket.left(), &right = bracket.right();
     const VectorXd across = chord_between(left.state, right.state);
     const double along = dot(normalized(chord), across);
@@ -417,7 +425,7 @@ class PathFollower {
     direction_.setZero();
     direction_.head(n) = shape;
     direction_ = normalized(direction_);
-    // The buckling shape's first noticeable amplitude, whatever the response before it was.
+    // First noticeable amplitude of the buckling shape, independent of the previous response.
     arc_step_ = 1e-3 * std::sqrt(displacement_weight_);
     append(critical);
     path_.points.back().unstable_directions = -1;
@@ -439,7 +447,7 @@ class PathFollower {
   StaticPath path_;
   MemberBalance balance_;
   VectorXd direction_, metric_;
-  double displacement_weight_ = 1;  ///< of the displacements beside the load factor
+  double displacement_weight_ = 1;  ///< weight of the displacements relative to the load factor
   double arc_step_ = 0;
   std::size_t point_count_ = 0;
   bool switched_ = false;

@@ -10,46 +10,49 @@
 
 namespace trammel::solver::large_motion {
 
+/// Options of a path of equilibria.
 struct StaticPathOptions {
-  double target = 1;  ///< load factor to reach
+  double target = 1;  ///< load factor at the end of the path
   double first_step =
-      0.1;  ///< of the load factor; later steps follow from the number of Newton iterations
-  /// A response to the whole load below it, relative to the model, is tried in one step.
+      0.1;  ///< of the load factor; later steps follow from the convergence of Newton's method
+  /// Relative response to the full load below which the load is applied in one step.
   double small_response = 0;
-  int max_points = 2000;       ///< at most
+  int max_points = 2000;       ///< limit
   bool switch_branch = false;  ///< leave the first bifurcation along its buckling shape
-  bool keep_points = true;     ///< false: keep the last point only
-  /// Parts that move freely and that no load drives stay where they are; false: they are singular.
+  bool keep_points = true;     ///< false: keep only the last point
+  /// true: free parts without driving loads remain in place; false: they are singular.
   bool keep_free_parts = false;
   NewtonOptions newton;
 };
 
+/// Point of a path.
 struct PathPoint {
   State state;                    ///< state.load is the load factor
-  Index unstable_directions = 0;  ///< negative pivots of the tangent: directions in which it is
-                                  ///< unstable; -1 where follower loads leave no such count
+  Index unstable_directions = 0;  ///< negative pivots of the tangent, the number of unstable
+                                  ///< directions; -1 if follower loads prevent such a count
   NewtonResult newton;
 };
 
+/// Critical point of a path.
 struct PathEvent {
   enum class Kind { limit_point, bifurcation };
   Kind kind = Kind::limit_point;
   double load = 0;  ///< load factor
-  VectorXd shape;   ///< critical mode there, over the coordinates
+  VectorXd shape;   ///< critical mode at this point, over the coordinates
 };
 
-/// The path of equilibria from load factor 0 to the target.
+/// Path of equilibria from load factor 0 to the target.
 struct StaticPath {
-  Outcome outcome;  ///< not_converged names the load factor, the step and the residual
+  Outcome outcome;  ///< not_converged: the reason states load factor, step and residual
   std::vector<PathPoint> points;
   std::vector<PathEvent> events;
-  Evidence evidence;  ///< of every point passed
+  Evidence evidence;  ///< residuals of all points
   Counters counters;
 };
 
-/// Follows the equilibria by arc-length continuation (E. Riks, IJSS 15, 1979) with automatic steps:
-/// limit points are passed, a change of the number of negative pivots without one is a bifurcation,
-/// and both are located.
+/// Follows the equilibria by arc-length continuation (E. Riks, IJSS 15, 1979) with automatic steps.
+/// The path passes limit points. A change of the number of negative pivots without a limit point is
+/// a bifurcation. Both kinds are located.
 [[nodiscard]] StaticPath follow_static_path(const GeometricallyExactSystem& system,
                                             const StaticPathOptions& options = {});
 

@@ -13,7 +13,7 @@ namespace trammel::solver::large_motion {
 
 namespace {
 
-/// Sets of coordinates that are one, each named by one of them.
+/// Sets of equal coordinates, each identified by one of them.
 class MergedSets {
  public:
   Index add() {
@@ -24,15 +24,15 @@ class MergedSets {
     while (parent_[to_size(i)] != i) i = parent_[to_size(i)];
     return i;
   }
-  /// The set of `second` also names that of `first`.
+  /// Merges both sets. The representative of `second` becomes that of `first`.
   void merge(Index first, Index second) { parent_[to_size(find(first))] = find(second); }
 
  private:
   std::vector<Index> parent_;
 };
 
-/// Gives every node three coordinates, adds the elements, and then drops the rotations that no
-/// element and no moment turns.
+/// Builds the numbering and the elements. Every node first gets three coordinates. Rotations
+/// without elements and moments are removed after the elements are added.
 class SystemBuilder {
  public:
   SystemBuilder(const Model& model, const LargeMotionModel& large_motion, Layout& layout)
@@ -140,17 +140,17 @@ class SystemBuilder {
     return group.size() - 1;
   }
 
-  /// Coordinate of a node, -1 on the ground.
+  /// Returns a coordinate of a node; negative for the ground.
   [[nodiscard]] Index coordinate(Index node, std::size_t direction) const {
     return node < 0 ? node : layout_.node[to_size(node)][direction];
   }
 
-  /// From the first node to the second in the model's pose [m].
+  /// Returns the vector from the first node to the second in the pose of the model [m].
   [[nodiscard]] Vector2d offset(Index from, Index to) const {
     return model_.nodes[to_size(to)].position - model_.nodes[to_size(from)].position;
   }
 
-  /// Zero compliance if the member's theory excludes a strain.
+  /// Creates a beam. A strain that the theory of the member excludes has zero compliance.
   static Beam make_beam(const Member& member, const MemberElement& element) {
     const Section& section = element.section;
     Beam beam;
@@ -281,7 +281,7 @@ class SystemBuilder {
     }
   }
 
-  /// Adds one row a drive, in their order.
+  /// Adds one row per drive, in their order.
   void add_drives() {
     for (const Drive& drive : large_motion_.drives) {
       DrivenCoordinate driven;
@@ -304,8 +304,8 @@ class SystemBuilder {
     return coordinate(named.node, static_cast<std::size_t>(named.kind));
   }
 
-  /// A constraint that makes two coordinates equal, such as a revolute joint between nodes in one
-  /// place, is one coordinate.
+  /// Adds linear constraints. A constraint that makes two coordinates equal merges them into one
+  /// coordinate, such as a revolute joint between coincident nodes.
   void add_linear_constraints() {
     for (const LinearConstraint& constraint : model_.constraints) {
       std::vector<double> factors;
@@ -352,7 +352,7 @@ class SystemBuilder {
   }
 
   /// Counts the elements and moments that use each coordinate.
-  /// @throws ModelError  if a drive moves a coordinate to which nothing is joined.
+  /// @throws ModelError  if a drive moves an unconnected coordinate.
   std::vector<int> count_uses() {
     std::vector<int> uses(to_size(layout_.total), 0);
     const auto use = [&](Index k) {
@@ -373,7 +373,7 @@ class SystemBuilder {
     return uses;
   }
 
-  /// Coordinates that supports hold, by the names of their sets.
+  /// Returns the coordinates held by supports, by the representatives of their sets.
   [[nodiscard]] std::vector<bool> held_coordinates() const {
     std::vector<bool> held(to_size(layout_.total), false);
     for (const Support& support : model_.supports) {

@@ -11,7 +11,7 @@
 
 namespace trammel::solver::large_motion {
 
-/// The elements and loads of a model.
+/// Elements and loads of a model.
 struct SystemParts {
   std::tuple<ElementGroup<Beam>, ElementGroup<Bar>, ElementGroup<Triangle2d<3>>,
              ElementGroup<Triangle2d<6>>, ElementGroup<CoordinateSpring>, ElementGroup<RigidLink>,
@@ -19,9 +19,10 @@ struct SystemParts {
              ElementGroup<DrivenCoordinate>, ElementGroup<LinearRow>, ElementGroup<FollowerForce>,
              ElementGroup<PointInertia>>
       groups;
-  Index rows = 0;                  ///< number of constraint rows
-  std::vector<Index> group_index;  ///< of each element of a member among the beams or the bars
-  VectorXd loads;                  ///< dead loads, one a coordinate [N, N m]
+  Index rows = 0;  ///< number of constraint rows
+  /// For each element of a member: its index among the beams or the bars.
+  std::vector<Index> group_index;
+  VectorXd loads;  ///< dead loads, one per coordinate [N, N m]
 
   template <class Element>
   [[nodiscard]] const ElementGroup<Element>& group() const {
@@ -38,10 +39,9 @@ struct SystemParts {
 };
 
 /// Builds the elements and numbers coordinates and rows.
-/// @throws ModelError  where the model has no meaning; if a triangle has no area, a drive moves
-///                     what a support holds or a coordinate to which nothing is joined, or a
-///                     constraint names a part that does not exist or mixes translations and
-///                     rotations.
+/// @throws ModelError  if the model is invalid. Examples: a triangle has no area; a drive moves a
+///   supported or unconnected coordinate; a constraint refers to a missing part or mixes
+///   translations and rotations.
 [[nodiscard]] SystemParts build_parts(const Model& model, const LargeMotionModel& large_motion,
                                       Layout& layout);
 

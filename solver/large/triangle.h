@@ -9,8 +9,11 @@
 namespace trammel::solver::large_motion {
 
 /// Total-Lagrangian membrane triangle of a St. Venant-Kirchhoff material in plane stress, with 3 or
-/// 6 nodes (mid-sides 01, 12, 20): E = (H + H^T + H^T H)/2, H = du/dX, S = D E,
-/// energy = t A sum of w E:S/2. Coordinates: (ux, uy) of each node [m].
+/// 6 nodes (mid-sides 01, 12, 20):
+///
+///   E = (H + H^T + H^T H)/2, H = du/dX, S = D E, energy = t A sum of w E:S/2.
+///
+/// Coordinates are (ux, uy) of each node [m].
 template <int Nodes>
 class Triangle2d : public ElementSizes<2 * Nodes, 0> {
   static_assert(Nodes == 3 || Nodes == 6);
@@ -19,16 +22,17 @@ class Triangle2d : public ElementSizes<2 * Nodes, 0> {
   using typename ElementSizes<2 * Nodes, 0>::Coordinates;
   using typename ElementSizes<2 * Nodes, 0>::Square;
 
+  /// Computes the integration points and the mass matrix.
   /// @throws ModelError  if the triangle has no area.
   Triangle2d(const Model& model, const Triangle& triangle);
 
   [[nodiscard]] double energy(const Coordinates& q) const;
-  /// dEnergy/dq plus strain-rate damping, S = D (E + tau dE/dt).
+  /// Returns dEnergy/dq plus strain-rate damping, S = D (E + tau dE/dt).
   [[nodiscard]] Coordinates forces(const Coordinates& q, const Coordinates& v, double tau) const;
-  /// stiffness K + damping tau K_material: the derivative of `forces` with v = 0.
+  /// Returns stiffness K + damping tau K_material, the derivative of `forces` with v = 0.
   [[nodiscard]] Square tangent(const Coordinates& q, double stiffness, double damping) const;
-  /// Forces f with f . (q1 - q0) = energy(q1) - energy(q0) where tau = 0 (J. C. Simo,
-  /// N. Tarnow, ZAMP 43, 1992); `rate` is tau over the step.
+  /// Returns forces f with f . (q1 - q0) = energy(q1) - energy(q0) if tau = 0 (J. C. Simo, N.
+  /// Tarnow, ZAMP 43, 1992). `rate` is tau over the step.
   [[nodiscard]] Coordinates discrete_gradient_forces(const Coordinates& q0, const Coordinates& q1,
                                                      double rate) const;
   [[nodiscard]] const Square& mass() const { return mass_; }
@@ -38,7 +42,7 @@ class Triangle2d : public ElementSizes<2 * Nodes, 0> {
   using Strain = Eigen::Vector3d;  ///< E11, E22, 2 E12
   using Operator = Eigen::Matrix<double, 3, 2 * Nodes>;
 
-  /// A point of the integration rule.
+  /// Point of the integration rule.
   struct Point {
     Gradients gradients;
     double volume = 0;  ///< thickness times area times weight [m^3]

@@ -20,14 +20,17 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr Index kDenseSize = 64;  // free coordinates; above, Lanczos is faster for a few modes
+// Number of free coordinates above which Lanczos' method is faster for a few modes.
+constexpr Index kDenseSize = 64;
 constexpr double kConvergenceTolerance =
-    1e-11;                            // relative change of an eigenvalue in one inverse iteration
-constexpr double kClusterGap = 1e-3;  // between neighbours that are certainly not copies
+    1e-11;  // relative change of an eigenvalue in one inverse iteration
+// Relative gap between distinct neighbors that are certainly no copies.
+constexpr double kClusterGap = 1e-3;
 
-// K and B are symmetric. Products use their transpose, whose rows are summed in registers.
+// K and B are symmetric. Products use their transpose, because Eigen then sums each row in
+// registers.
 
-/// A x = lambda B x in coordinates scaled to a unit diagonal of B.
+/// Solves A x = lambda B x in coordinates scaled to a unit diagonal of B.
 SymmetricEigenpairs scaled_eigenpairs(const MatrixXd& A, const MatrixXd& B) {
   const VectorXd scale = B.diagonal().cwiseSqrt().cwiseInverse();
   SymmetricEigenpairs pairs = symmetric_eigenpairs(scale.asDiagonal() * A * scale.asDiagonal(),
@@ -95,34 +98,34 @@ class Solver {
     return BX;
   }
 
-  /// (K - s B) x.
+  /// Returns (K - s B) x.
   [[nodiscard]] VectorXd apply(const VectorXd& x) const {
     VectorXd y = pencil_.K_times(x);
     if (pencil_.shift != 0) y -= pencil_.shift * times_B(x);
     return y;
   }
 
-  /// The same by the assembled K.
+  /// Returns (K - s B) x with the assembled K.
   [[nodiscard]] VectorXd assembled(const VectorXd& x) const {
     VectorXd y = pencil_.K->transpose() * x;
     if (pencil_.shift != 0) y -= pencil_.shift * times_B(x);
     return y;
   }
 
-  /// About `count` vectors of the largest mu > 0 that are not known yet, or all that remain; fewer
-  /// if Lanczos' method gave up.
+  /// Returns about `count` further vectors with the largest mu > 0, or all remaining ones. It
+  /// returns fewer if Lanczos' method fails.
   MatrixXd next_block(Index count) {
     if (!dense_) return lanczos(count);
     if (all_.rows() == 0) {
       all_ = dense_vectors();
-      taken_ = std::min(null_.cols(), all_.cols());  // their mu is the largest
+      taken_ = std::min(null_.cols(), all_.cols());  // the null vectors have the largest mu
     }
     const Index kept = std::min(count, all_.cols() - taken_);
     taken_ += kept;
     return all_.middleCols(taken_ - kept, kept);
   }
 
-  /// All with mu > 0, the largest first.
+  /// Returns all vectors with mu > 0 in descending order of mu.
   MatrixXd dense_vectors() {
     const MatrixXd B = times_B(MatrixXd::Identity(size_, size_));
     const SymmetricEigenpairs pairs =
@@ -133,7 +136,8 @@ class Solver {
     return pairs.vector.rightCols((pairs.value.array() > zero).count()).rowwise().reverse();
   }
 
-  /// Eigenvectors of F^-1 B F^-T, F F^T = K - s B, in the complement of the known vectors.
+  /// Returns eigenvectors of F^-1 B F^-T, with F F^T = K - s B, in the complement of the known
+  /// vectors.
   [[nodiscard]] MatrixXd lanczos(Index count) const {
     const Index known_count = null_.cols() + X_.cols(), dimension = size_ - known_count;
     const Index wanted = std::min(count, dimension - 1);
@@ -166,7 +170,7 @@ class Solver {
     return found;
   }
 
-  /// B-orthogonal to the null vectors.
+  /// Makes x B-orthogonal to the null vectors.
   void remove_null(Eigen::Ref<VectorXd> x) const {
     if (null_.cols() > 0) x -= null_ * (null_.transpose() * times_B(x));
   }
@@ -178,14 +182,16 @@ class Solver {
     for (Index j = old; j < X_.cols(); ++j) remove_null(X_.col(j));
   }
 
-  /// More inverse iterations of the wanted vectors that need them, with K - t B factored next to
-  /// their own values. (K - s B)^-1 B has the rounding of its largest |mu|, and leaves more of that
-  /// vector in one of a smaller mu, by the ratio of both; here its own is the largest. Negative mu
-  /// are not known.
+  /// Applies further inverse iterations to the requested vectors that need them. K - t B is
+  /// factored with t next to each eigenvalue. The round-off error of (K - s B)^-1 B is relative to
+  /// its largest |mu|. It contaminates the vector of a smaller mu by the ratio of both values. With
+  /// t, the mu of the requested vector is the largest. Vectors of negative mu are unknown, so that
+  /// deflation cannot remove them.
   void iterate_beside_each() {
     constexpr double kAside = 1e-4, kWideSpread = 1e4;
     constexpr int kPasses = 4;
-    constexpr double kEnough = 1e-9;  // a pass divides what other vectors leave by 1 / kAside
+    // Relative change; a pass reduces other components by the factor kAside.
+    constexpr double kEnough = 1e-9;
     const Index wanted = std::min(count_, X_.cols());
     if (wanted == 0 || !pencil_.B) return;
     bool moved = false;
@@ -214,12 +220,13 @@ class Solver {
     if (moved) values();
   }
 
-  /// Repeats until the wanted values stand still. What a step changes, the next one would change
-  /// by the square of the ratio to the last value of the block: that is the error left.
+  /// Iterates until the requested values converge. The next iteration would change a value by the
+  /// last change times the squared ratio to the last value of the block. This product estimates the
+  /// remaining error.
   void iterate_to_convergence() {
     constexpr int kSteps = 4;
     values();
-    if (X_.cols() == 0) return;  // rigid motions and massless coordinates only
+    if (X_.cols() == 0) return;  // only rigid motions and massless coordinates
     for (int step = 0; step < kSteps; ++step) {
       const VectorXd before = pairs_.value;
       inverse_iteration();
@@ -229,13 +236,14 @@ class Solver {
           (now - before.head(now.size())).cwiseAbs().cwiseQuotient(now.cwiseAbs());
       const VectorXd ratio = now / now[now.size() - 1];
       pairs_.error = change.cwiseProduct(ratio.cwiseAbs2());
-      const Index wanted = std::min(count_, now.size());  // none when rigid motions are all
+      const Index wanted = std::min(count_, now.size());  // zero if all requested modes are rigid
       if (wanted == 0 || change.head(wanted).maxCoeff() < kConvergenceTolerance) return;
     }
   }
 
-  /// One inverse iteration of the whole block with refined solutions, then Rayleigh-Ritz with K's
-  /// exact products, in the form (K - s B)^-1 B so that the lowest values keep all their digits.
+  /// Performs one inverse iteration of the full block with refined solutions, followed by
+  /// Rayleigh-Ritz with accurate products of K. The form (K - s B)^-1 B keeps all digits of the
+  /// lowest values.
   void inverse_iteration() {
     const MatrixXd BX = times_B(X_);
     MatrixXd Y(size_, X_.cols());
@@ -257,8 +265,9 @@ class Solver {
     values();
   }
 
-  /// In K - s B, against the columns before it; normalised. Again where most of it went: else a
-  /// second pass would only find rounding (Daniel, Gragg, Kaufman and Stewart 1976).
+  /// Orthonormalizes column j against the preceding columns in K - s B. A second pass follows if
+  /// the first removed most of the vector, because the remainder is then dominated by round-off
+  /// (Daniel, Gragg, Kaufman and Stewart 1976).
   void orthogonalise(MatrixXd& Y, Index j) const {
     for (const bool first : {true, false}) {
       const VectorXd image = assembled(Y.col(j));
@@ -271,7 +280,7 @@ class Solver {
     }
   }
 
-  /// Rayleigh quotients, ascending.
+  /// Computes the Rayleigh quotients and sorts them in ascending order.
   void values() {
     if (pencil_.indefinite) keep_positive();
     const VectorXd energy = pencil_.K_products(X_).diagonal();
@@ -286,8 +295,8 @@ class Solver {
     X_ = X_(Eigen::all, order).eval();
   }
 
-  /// Without the vectors whose x^T B x is not positive but by rounding: where there are no more
-  /// eigenvalues, the null space of B offers some, which turn to its negative ones.
+  /// Removes vectors whose x^T B x is not positive beyond round-off. If no positive eigenvalues
+  /// remain, the null space of B contributes vectors that converge to negative eigenvalues.
   void keep_positive() {
     const MatrixXd BX = pencil_.B->transpose() * X_;
     const MatrixXd terms = pencil_.B->cwiseAbs().transpose() * X_.cwiseAbs();
@@ -303,8 +312,8 @@ class Solver {
     X_.conservativeResize(Eigen::NoChange, kept);
   }
 
-  /// Largest relative change of the values in the matrix that is factored, whose entries are
-  /// rounded: a count by its inertia knows no smaller differences.
+  /// Returns the largest relative change of the values by rounding of the factored matrix. A count
+  /// by inertia cannot resolve smaller differences.
   [[nodiscard]] double rounding_of_values() const {
     if (X_.cols() == 0) return 0;
     const MatrixXd KX = pencil_.K->transpose() * X_;
@@ -312,7 +321,8 @@ class Solver {
     return (value - pairs_.value).cwiseQuotient(pairs_.value).cwiseAbs().maxCoeff();
   }
 
-  /// Counts the eigenvalues below a shift into `counted_`; false if it is not reliable.
+  /// Counts the eigenvalues below a shift and stores the count in `counted_`. Returns false if the
+  /// count is unreliable.
   bool count_below(double t) {
     if (pencil_.count_below) {
       const std::optional<Index> count = pencil_.count_below(t);
@@ -324,7 +334,8 @@ class Solver {
     return factorization_.is_reliable();
   }
 
-  /// Number of eigenvalues below a shift that splits no cluster; `checked_` of them were found.
+  /// Returns the number of eigenvalues below a shift that splits no cluster. `checked_` of them
+  /// were found.
   Index sturm_check() {
     const VectorXd& v = pairs_.value;
     const Index p = v.size();
@@ -332,7 +343,7 @@ class Solver {
     const Index cut = cluster_boundary(rounding);
     checked_ = cut + null_.cols();
     double& shift = pairs_.check_shift;
-    for (const double fraction : {0.5, 0.37, 0.61, 0.45}) {  // until no pivot comes near zero
+    for (const double fraction : {0.5, 0.37, 0.61, 0.45}) {  // until no pivot is near zero
       if (p == 0) {
         shift = std::abs(pencil_.shift) * fraction;
       } else {
@@ -347,22 +358,24 @@ class Solver {
     return counted_;
   }
 
-  /// Whether B has more positive eigenvalues than pairs were found, which are fewer than wanted:
-  /// the others are so far from the first that its rounding hides them.
+  /// Returns true if B has more positive eigenvalues than pairs were found, and these are fewer
+  /// than requested. The other eigenvalues are then so far from the first that its round-off error
+  /// hides them.
   [[nodiscard]] bool some_are_hidden() {
-    constexpr double kNoMass = 1e-12;  // of B scaled to a unit diagonal
+    constexpr double kNoMass = 1e-12;  // relative to B scaled to a unit diagonal
     if (X_.cols() >= count_ || pencil_.indefinite || !pencil_.B) return false;
     const VectorXd diagonal = pencil_.B->diagonal();
     SparseMatrix B = *pencil_.B;
     for (Index i = 0; i < B.rows(); ++i) {
-      B.coeffRef(i, i) -= diagonal[i] > 0 ? kNoMass * diagonal[i] : 1;  // a row of zeros
+      B.coeffRef(i, i) -= diagonal[i] > 0 ? kNoMass * diagonal[i] : 1;  // 1: row of zeros
     }
     factorization_.compute(B);
     ++counters_.factorizations;
     return factorization_.exists() && B.rows() - factorization_.negative_pivots() > checked_;
   }
 
-  /// Number of found values below a gap: the first clear one at or after the wanted, or the widest.
+  /// Returns the number of found values below a gap. This is the first clear gap at or after the
+  /// requested count, or otherwise the widest gap.
   [[nodiscard]] Index cluster_boundary(double rounding) const {
     const VectorXd& v = pairs_.value;
     const Index p = v.size();
@@ -375,7 +388,7 @@ class Solver {
     return cut < p && gap(cut) < 1e-7 ? p : cut;
   }
 
-  /// No pairs, also if some values have converged.
+  /// Returns a failure without pairs, even if some values have converged.
   Eigenpairs no_eigenpairs() {
     pairs_ = {};
     X_.resize(size_, 0);
@@ -384,7 +397,7 @@ class Solver {
 
   Eigenpairs missing_eigenpairs(Index expected) {
     return finish(std::to_string(checked_) +
-                  " eigenvalues were found where the inertia of the matrices counts " +
+                  " eigenvalues were found, but the inertia of the matrices requires " +
                   std::to_string(expected));
   }
 
@@ -404,16 +417,17 @@ class Solver {
   Counters& counters_;
   Factorization& factorization_;
   MatrixXd X_;
-  MatrixXd all_;     // dense: every vector
-  Index taken_ = 0;  // dense: number of vectors returned so far
+  MatrixXd all_;     // dense method: all vectors
+  Index taken_ = 0;  // dense method: number of vectors returned so far
   Index checked_ = 0, counted_ = 0;
-  bool clear_of_rounding_ = true;  // distance of the last check shift from the values
-  bool failed_ = false;            // an eigenvalue or inverse iteration has not converged
+  // True: the last check shift is further from the values than their round-off error.
+  bool clear_of_rounding_ = true;
+  bool failed_ = false;  // an eigenvalue iteration or inverse iteration has not converged
   Eigenpairs pairs_;
 };
 
-/// A shift far above all eigenvalues that can matter, in coordinates scaled to a unit diagonal of
-/// A, so that units of length and rotation do not mix.
+/// Returns a shift far above all relevant eigenvalues. It is computed in coordinates scaled to a
+/// unit diagonal of A, so that units of length and rotation do not mix.
 double shift_above_all(const SparseMatrix& A, const SparseMatrix& B) {
   const VectorXd scale =
       A.diagonal().cwiseAbs().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0.0; });
@@ -444,7 +458,7 @@ SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t) {
 
 double miscounted_eigenvalues(const VectorXd& found,
                               const std::function<std::optional<Index>(double)>& count_below) {
-  constexpr double kClearGap = 1e-6;  // rounding leaves much less between repeated values
+  constexpr double kClearGap = 1e-6;  // round-off leaves much smaller gaps between repeated values
   for (Index below = found.size() - 1; below >= 0; --below) {
     const double low = below > 0 ? found[below - 1] : 0;
     const double gap = found[below] - low;
@@ -463,7 +477,7 @@ double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B, cons
   if (A.rows() == 0) return static_cast<double>(found.size());
   Factorization factorization = std::move(spent);
   const auto count_below = [&](double t) { return factorization.inertia(shifted(A, B, t)); };
-  if (found.size() == 0) {  // none at all, however large the shift
+  if (found.size() == 0) {  // the count must be zero for any large shift
     const std::optional<Index> counted = count_below(shift_above_all(A, B));
     return counted ? static_cast<double>(*counted) : kInfinity;
   }
@@ -473,17 +487,17 @@ double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B, cons
 
 Index dependent_vectors(const SparseMatrix& metric, const MatrixXd& X) {
   if (X.cols() == 0) return 0;
-  constexpr double kDependent = 1e-3;  // eigenvectors leave 1, twice the same rounding
+  constexpr double kDependent = 1e-3;  // eigenvectors leave 1; a duplicate leaves round-off
   const MatrixXd products = X.transpose() * (metric * X);
   const VectorXd scale = products.diagonal().cwiseSqrt().cwiseInverse();
   const SymmetricEigenpairs pairs =
       symmetric_eigenpairs(scale.asDiagonal() * products * scale.asDiagonal());
-  return X.cols() - (pairs.value.array() > kDependent).count();  // all if they are not numbers
+  return X.cols() - (pairs.value.array() > kDependent).count();  // all if not finite
 }
 
 namespace {
 
-/// What Spectra asks of an operator.
+/// Operator interface required by Spectra.
 struct SpectraOperator {
   using Scalar = double;
   const std::function<Eigen::VectorXd(const Eigen::Ref<const Eigen::VectorXd>&)>& apply;
@@ -498,13 +512,14 @@ struct SpectraOperator {
   }
 };
 
-/// A power of two that makes the operator of the size that suits Spectra, which takes any pair for
-/// converged within tolerance * eps^(2/3), in whatever units it is: that is to be some eps of the
-/// largest eigenvalue, its rounding. 1 where the operator makes nothing of the start, or what is
-/// not finite.
+/// Returns a power of two that scales the operator for Spectra. Spectra accepts a pair as converged
+/// within tolerance * eps^(2/3) in absolute terms. With the scale, this equals a few eps of the
+/// largest eigenvalue, which is its round-off error. Returns 1 if the image of the start vector is
+/// zero or not finite.
 double fitting_scale(const SpectraOperator& op, const Eigen::VectorXd& start, double tolerance) {
   const Eigen::VectorXd image = op.apply(start);
-  const double largest = op.apply(image).norm() / image.norm();  // about
+  // Estimate of the largest eigenvalue.
+  const double largest = op.apply(image).norm() / image.norm();
   const double fitting = tolerance / std::cbrt(kEps) / 4;
   return std::isnormal(largest) ? std::exp2(std::round(std::log2(fitting / largest))) : 1;
 }
@@ -523,9 +538,9 @@ LanczosPairs largest_eigenpairs(
     solver.init(start.data());
     solver.compute(Spectra::SortRule::LargestAlge, kMaxRestarts, options.tolerance);
     return {solver.eigenvalues() / op.scale, solver.eigenvectors()};
-  } catch (const std::runtime_error&) {  // no eigenvalues of what it projected to: not finite
+  } catch (const std::runtime_error&) {  // the projected matrix is not finite
     return none;
-  } catch (const std::invalid_argument&) {  // a start, or an image of it, that is zero
+  } catch (const std::invalid_argument&) {  // the start vector or its image is zero
     return none;
   }
 }

@@ -11,91 +11,116 @@
 
 namespace trammel::solver {
 
+/// Method for eigenvalues; `automatic` selects by the size of the problem.
 enum class EigenMethod { automatic, dense, sparse };
 
-/// The pencil K x = lambda B x with K - s B positive definite; B is symmetric and may be
-/// semi-definite (massless coordinates, s <= 0) or indefinite (buckling, s below the first positive
-/// eigenvalue).
+/// Pencil K x = lambda B x with positive definite K - s B. B is symmetric. It may be semidefinite
+/// (massless coordinates, s <= 0) or indefinite (buckling, s below the first positive eigenvalue).
 struct Pencil {
   const SparseMatrix* K = nullptr;
-  const SparseMatrix* B = nullptr;  ///< null: `B_times` and `count_below`, with s = 0
+  const SparseMatrix* B = nullptr;  ///< null: use `B_times` and `count_below`, with s = 0
+  /// Shift s.
   double shift = 0;
-  bool indefinite = false;  ///< B: there are negative eigenvalues, too
-  Operator K_times;         ///< x -> K x, more exact than the assembled K
-  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> K_products;  ///< X -> X^T K X, the same
-  Operator B_times;  ///< x -> B x of a B that is not assembled
-  /// Number of eigenvalues below a shift; nothing if round-off dominates it.
+  bool indefinite = false;  ///< true: B is indefinite and negative eigenvalues exist
+  Operator K_times;         ///< x -> K x, more accurate than the assembled K
+  /// X -> X^T K X, equally accurate.
+  std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> K_products;
+  Operator B_times;  ///< x -> B x for a B that is not assembled
+  /// Returns the number of eigenvalues below a shift, or an empty value if round-off dominates it.
   std::function<std::optional<Index>(double)> count_below;
 };
 
-/// The lowest positive eigenvalues (above s), copies of repeated ones included.
+/// Lowest positive eigenvalues (above s), including copies of repeated eigenvalues.
 struct Eigenpairs {
-  Outcome outcome;  ///< not_converged: fewer than the inertia count
+  Outcome outcome;  ///< not_converged: fewer pairs than the inertia count requires
   Eigen::VectorXd value;
   Eigen::MatrixXd vector;  ///< q x pair, x^T |B| x = 1
-  Eigen::VectorXd error;   ///< relative, from the residual; second order in the vector's error
-  double check_shift = 0;  ///< above them and below all others, by the inertia of LDL^T
+  /// Relative error, from the residual; of second order in the error of the vector.
+  Eigen::VectorXd error;
+  /// Shift above these values and below all others, checked by the inertia of LDL^T.
+  double check_shift = 0;
 };
 
-/// Solves B x = mu (K - s B) x for the largest mu = 1 / (lambda - s), dense or by Lanczos' method.
-/// B is never factored. Every pair is improved by inverse iteration with residuals of `K_times`,
-/// and counted: K - t B with t just above the last one, between clusters, must have as many
-/// negative pivots as pairs were found (Sylvester). Lanczos' method may miss copies of a repeated
-/// value; it then continues in the complement of the known vectors until the count agrees.
+/// Computes the lowest eigenpairs of a pencil. It solves B x = mu (K - s B) x for the largest mu =
+/// 1 / (lambda - s), by a dense method or Lanczos' method. B is never factored. The steps are:
 ///
-/// @param null  q x r, known vectors with K x = 0, B-orthonormal; they count as the first
-///              eigenvalues, 0, and are not returned.
-/// @param count  number of pairs; of a B that is not assembled all below `check_shift` are returned
+/// - Every pair is improved by inverse iteration with residuals of `K_times`.
+/// - The pairs are counted: K - t B must have as many negative pivots as pairs were found
+///   (Sylvester). The shift t is just above the last pair, between clusters.
+/// - Lanczos' method may miss copies of a repeated value. It continues in the complement of the
+///   known vectors until the count agrees.
+///
+/// @param pencil  K, B and s.
+/// @param null  q x r, known vectors with K x = 0, B-orthonormal. They count as the first
+///   eigenvalues, 0, and are not returned.
+/// @param count  number of pairs; if B is not assembled, all pairs below `check_shift` are
+///   returned.
+/// @param method  dense, sparse or automatic.
 /// @param factorization  of `shifted(K, B, s)`; overwritten.
+/// @param counters  incremented by the factorizations and solves.
+/// @returns the pairs; `outcome` is not_converged if the matrix is too ill-conditioned or pairs are
+///   missing.
 [[nodiscard]] Eigenpairs lowest_eigenpairs(const Pencil& pencil, const Eigen::MatrixXd& null,
                                            Index count, EigenMethod method,
                                            Factorization& factorization, Counters& counters);
 
-/// True if both are compressed and hold entries at the same places.
+/// Returns true if both matrices are compressed and have entries at the same positions.
 [[nodiscard]] bool same_pattern(const SparseMatrix& A, const SparseMatrix& B);
 
-/// K - t B, with the pattern of both for any t.
+/// Returns K - t B. Its pattern combines those of K and B for any t.
 [[nodiscard]] SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t);
 
-/// Number of eigenvalues that are missing or too many among those found, judged at the last clear
-/// gap among them; infinite if no gap can be counted.
-/// @param found  ascending, >= 0; 0 of free motions
-/// @param count_below  as of `Pencil`
+/// Returns the number of eigenvalues that are missing or superfluous among those found. The count
+/// is compared at the last clear gap among them. The result is infinite if no gap can be counted.
+/// @param found  eigenvalues, ascending, >= 0; 0 for rigid modes.
+/// @param count_below  as in `Pencil`.
 [[nodiscard]] double miscounted_eigenvalues(
     const Eigen::VectorXd& found, const std::function<std::optional<Index>(double)>& count_below);
 
-/// The same of A x = t B x, A positive semidefinite, by the negative pivots of A - t B (Sylvester):
-/// at the given shift above all found, if the two agree there, otherwise at the last clear gap.
-/// @param spent  a factorization that is no longer needed, reused for its ordering and, if it is of
-///               A - shift_above B, for its factors
+/// Counts missing or superfluous eigenvalues of A x = t B x with a positive semidefinite A. It uses
+/// the negative pivots of A - t B (Sylvester). If the count at `shift_above` agrees, the result is
+/// 0. Otherwise the count at the last clear gap is used.
+/// @param A  positive semidefinite.
+/// @param B  symmetric.
+/// @param found  eigenvalues, ascending, >= 0.
+/// @param spent  factorization that is no longer needed. Its ordering is reused, and its factors if
+///   it is of A - shift_above B.
+/// @param shift_above  shift above all found values, or 0.
 [[nodiscard]] double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
                                             const Eigen::VectorXd& found,
                                             Factorization&& spent = {}, double shift_above = 0);
 
-/// Number of eigenvectors that depend on the others, by their products in a metric in which they
-/// are orthogonal: a mode that was found twice counts once.
+/// Returns the number of eigenvectors that depend linearly on the others. The test uses their
+/// products in a metric in which distinct modes are orthogonal. A duplicate mode counts once.
 [[nodiscard]] Index dependent_vectors(const SparseMatrix& metric, const Eigen::MatrixXd& X);
 
+/// Options of Lanczos' method.
 struct LanczosOptions {
-  Index wanted = 1;    ///< eigenvalues, below the operator's size
-  Index subspace = 2;  ///< vectors kept between restarts, above `wanted`
+  Index wanted = 1;    ///< number of eigenvalues, below the size of the operator
+  Index subspace = 2;  ///< number of vectors kept between restarts, above `wanted`
   double tolerance = 1e-9;
 };
 
-/// Those that converged; there may be fewer than were wanted, or none.
+/// Converged eigenpairs. There may be fewer than requested, or none.
 struct LanczosPairs {
   Eigen::VectorXd value;   ///< descending
-  Eigen::MatrixXd vector;  ///< one a column
+  Eigen::MatrixXd vector;  ///< one eigenvector per column
 };
 
-/// Largest eigenvalues of a symmetric operator, by Lanczos' method with implicit restarts
-/// (Spectra).
+/// Computes the largest eigenvalues of a symmetric operator by Lanczos' method with implicit
+/// restarts (Spectra).
+/// @param apply  x -> A x.
+/// @param start  start vector.
+/// @param options  number of eigenvalues, size of the subspace, tolerance.
 [[nodiscard]] LanczosPairs largest_eigenpairs(
     const std::function<Eigen::VectorXd(const Eigen::Ref<const Eigen::VectorXd>&)>& apply,
     const Eigen::VectorXd& start, const LanczosOptions& options);
 
-/// Columns for an eigenvalue iteration to start from: numbers in [-1, 1), the same everywhere.
-/// @param variant  another sequence
+/// Returns start vectors for an eigenvalue iteration: numbers in [-1, 1) that are the same on every
+/// machine.
+/// @param rows  number of rows.
+/// @param columns  number of vectors.
+/// @param variant  selects a different sequence.
 [[nodiscard]] Eigen::MatrixXd start_vectors(Index rows, Index columns, Index variant = 0);
 
 }  // namespace trammel::solver

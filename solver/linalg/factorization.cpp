@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <iostream>  // MetisSupport needs it
+#include <iostream>  // required by MetisSupport
 #include <limits>
 #include <mutex>
 #include <numeric>
 #include <vector>
 
-// after <iostream>
+// must follow <iostream>
 #include <Eigen/MetisSupport>
 
 namespace trammel::solver {
@@ -20,8 +20,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// The upper triangle of P A P^T, whose values are the places of its entries among those of one
-/// triangle of A.
+/// Returns the upper triangle of P A P^T. Its values are the positions of its entries among the
+/// values of one triangle of A.
 template <unsigned Triangle>
 SparseMatrix permuted_places(const SparseMatrix& A, const Permutation& P) {
   SparseMatrix places = A;
@@ -31,14 +31,14 @@ SparseMatrix permuted_places(const SparseMatrix& A, const Permutation& P) {
   return upper;
 }
 
-/// The same matrix, each column by rising rows.
+/// Returns the same matrix with ascending rows in each column.
 SparseMatrix sorted(const SparseMatrix& A) {
   const SparseMatrix rows = A.transpose();
   return rows.transpose();
 }
 
-/// x becomes L^-T x, L with a diagonal of ones that is not stored. From its last entry to the
-/// first: memory is fetched ahead in one direction only.
+/// Replaces x by L^-T x. The unit diagonal of L is not stored. The loop runs from the last entry to
+/// the first, because memory is prefetched in one direction only.
 void solve_transposed(const SparseMatrix& L, VectorXd& x) {
   const int *start = L.outerIndexPtr(), *row = L.innerIndexPtr();
   const double* value = L.valuePtr();
@@ -57,12 +57,12 @@ std::vector<Index> values_of(const SparseMatrix& places) {
 
 Permutation fill_reducing_order(const SparseMatrix& A) {
   constexpr Index kSmall = 5000;
-  Permutation elimination;  // its entry k is the coordinate eliminated k-th
+  Permutation elimination;  // entry k is the coordinate that is eliminated k-th
   if (A.rows() == 0) return elimination;
   if (A.rows() < kSmall) {
     Eigen::AMDOrdering<int>()(A, elimination);
   } else {
-    // METIS seeds and draws from the one random sequence of the process.
+    // METIS uses the global random sequence of the process.
     static std::mutex one_at_a_time;
     const std::lock_guard lock(one_at_a_time);
     Eigen::MetisOrdering<int>()(A, elimination);
@@ -73,10 +73,11 @@ Permutation fill_reducing_order(const SparseMatrix& A) {
 struct SparseLdlt::Factors {
   Ordering ordering;
   Triangle triangle;
-  std::vector<int> columns, rows;   // pattern that the order is of
-  Permutation P;                    // coordinate -> its place in the order of elimination
-  SparseMatrix upper;               // upper triangle in that order
-  std::vector<Index> from, mirror;  // entry of upper -> that of A, and the one across its diagonal
+  std::vector<int> columns, rows;  // pattern to which the ordering applies
+  Permutation P;                   // coordinate -> its position in the order of elimination
+  SparseMatrix upper;              // upper triangle in that order
+  // Entry of `upper` -> entry of A, and the entry across its diagonal.
+  std::vector<Index> from, mirror;
   Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt;
   VectorXd pivots, root;  // D and, for half solves, |D|^(1/2)
   mutable VectorXd ordered, solved;
@@ -95,7 +96,7 @@ struct SparseLdlt::Factors {
     } else {
       P.setIdentity(A.rows());
     }
-    if (triangle == Triangle::mean) {  // sorted, so that the two agree entry by entry
+    if (triangle == Triangle::mean) {  // sorted, so that both triangles agree entry by entry
       upper = sorted(permuted_places<Eigen::Lower>(A, P));
       mirror = values_of(sorted(permuted_places<Eigen::Upper>(A, P)));
     } else {
@@ -257,17 +258,17 @@ RefinedSolution refined_solve(const Operator& A, const Factorization& factorizat
                               const Eigen::VectorXd& b, const Eigen::VectorXd& guess,
                               Counters& counters) {
   constexpr int kMaxSteps = 8;
-  constexpr double kSmall = 1e-10;  // a correction whose own error no longer counts
+  constexpr double kSmall = 1e-10;  // a correction whose own error is negligible
   RefinedSolution result{guess, 0};
-  double last = std::numeric_limits<double>::infinity();  // of a guess nothing is known
+  double last = std::numeric_limits<double>::infinity();  // the error of the guess is unknown
   for (int step = 0; step < kMaxSteps; ++step) {
     const Eigen::VectorXd correction = factorization.solve(b - A(result.x));
     ++counters.solves;
-    // In the scaling of the matrix, so that meters and radians have one unit.
+    // Use the scaling of the matrix, so that meters and radians are comparable.
     const double size = correction.cwiseQuotient(factorization.scaling()).norm();
     const double whole = result.x.cwiseQuotient(factorization.scaling()).norm();
     result.correction = size == 0 ? 0 : size / whole;
-    if (!(size < last)) break;  // it no longer converges: what is left is rounding, or hopeless
+    if (!(size < last)) break;  // no further convergence: round-off or a failed solution remains
     result.x += correction;
     if (size <= kSmall * whole || size > 0.5 * last) break;
     last = size;

@@ -12,8 +12,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-// Scales s: far below the singular values of the scaled A that matter, so that row exchanges take
-// pivots from A and K is not formed on the way.   Source: Bjorck (1996), ch. 2.5.3
+// Scale of s. It is far below the relevant singular values of the scaled A. Row exchanges therefore
+// take pivots from A, and K is not formed in the process.
+// Source: Bjorck (1996), ch. 2.5.3
 constexpr double kAlpha = 1e-12;
 
 }  // namespace

@@ -8,22 +8,26 @@
 
 namespace trammel::solver {
 
-/// K = A^T diag(C) A, C > 0: deformations d = A q and their rigidities. `size` >= |A| has the
-/// magnitudes of what A was added up from, so that eps times it is what rounding can change.
+/// Factors of the stiffness, K = A^T diag(C) A with C > 0. They consist of the deformations d = A q
+/// and their rigidities C. `size` >= |A| contains the magnitudes of the terms of which A is the
+/// sum. eps times `size` is therefore the effect of rounding on A.
 struct StiffnessFactors {
   SparseMatrix A, size;
   Eigen::VectorXd C;
 };
 
-/// K q = f from  C^-1 s = A q, A^T s = f  with row exchanges: what is lost is the condition number
-/// of A, where a factorization of K loses its square.
+/// Solves K q = f with row exchanges in the form
+///
+///   C^-1 s = A q,  A^T s = f.
+///
+/// The loss of accuracy is the condition number of A. A factorization of K loses its square.
 /// Source: Bjorck (1996), Numerical Methods for Least Squares Problems, ch. 2.5 (augmented system).
 class AugmentedSystem {
  public:
   explicit AugmentedSystem(StiffnessFactors factors);
-  /// False where the matrix is singular; then nothing may be solved.
+  /// Returns false if the matrix is singular. Then `solve` must not be called.
   [[nodiscard]] bool exists() const { return exists_; }
-  /// q, refined with the residuals of both equations.
+  /// Returns q, refined with the residuals of both equations.
   [[nodiscard]] RefinedSolution solve(const Eigen::VectorXd& f) const;
 
  private:
@@ -33,23 +37,35 @@ class AugmentedSystem {
   bool exists_ = false;
 };
 
-/// Estimate of the 1-norm of an operator from products with it and its transpose; a lower bound,
-/// nearly always within a factor of 3.   Source: Hager (1984), Higham (1988).
+/// Estimates the 1-norm of an operator from products with it and its transpose. The estimate is a
+/// lower bound, and nearly always within a factor of 3.
+/// Source: Hager (1984), Higham (1988).
+/// @param columns  number of columns of B.
+/// @param B  x -> B x.
+/// @param Bt  y -> B^T y.
 [[nodiscard]] double estimate_norm(
     Eigen::Index columns, const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& B,
     const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& Bt);
 
-/// Estimate of max |R dq| / max |R q| for q with A^T C A q = f, where dq is what rounding of the
-/// rows of A, of their products with q and of f can do:
-///   dq = K^-1 (A^T C g + h),  |g| <= c size |q|,  |h| <= c (size^T |C A q| + |f|),
-/// c = (n + 1)^1/2 u with n terms in a row or column, u = eps / 2, or eps while arithmetic rounds
-/// in one direction: roundings are taken as independent within a sum, and all signs at their worst
-/// beyond it. Perturbing the factors of K, and not K itself, keeps what is lost beside a
-/// singularity to the condition number of A. Source: Oettli & Prager (1964), Skeel (1979); Bjorck
-/// (1991), BIT 31, for least squares; the maximum over the signs as in LAPACK's xPORFS; c from
-/// Higham & Mary (2019), SIAM J. Sci. Comput.
-/// @param R  what is wanted of q, in units that compare
-/// @param solve  x -> K^-1 x
+/// Estimates max |R dq| / max |R q| for q with A^T C A q = f. Here dq is the effect of rounding the
+/// rows of A, their products with q, and f:
+///
+///   dq = K^-1 (A^T C g + h),  |g| <= c size |q|,  |h| <= c (size^T |C A q| + |f|).
+///
+/// With n terms in a row or column,
+///
+///   c = (n + 1)^1/2 u.
+///
+/// u = eps / 2, or eps while arithmetic rounds in one direction. Rounding errors are assumed
+/// independent within a sum. All signs are at their worst beyond it. The factors of K are perturbed
+/// instead of K. Near a singularity, this limits the loss to the condition number of A.
+/// Source: Oettli & Prager (1964), Skeel (1979); Bjorck (1991), BIT 31, for least squares; LAPACK's
+/// xPORFS for the maximum over the signs; Higham & Mary (2019), SIAM J. Sci. Comput., for c.
+/// @param factors  A, its magnitudes and C.
+/// @param R  requested quantities as a function of q, in comparable units.
+/// @param q  solution.
+/// @param f  right-hand side.
+/// @param solve  x -> K^-1 x.
 [[nodiscard]] double forward_error(const StiffnessFactors& factors, const SparseMatrix& R,
                                    const Eigen::VectorXd& q, const Eigen::VectorXd& f,
                                    const Operator& solve);

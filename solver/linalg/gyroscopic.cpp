@@ -19,14 +19,18 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
-/// A z = s G z with z = (x, s x_m), s = i w, x_m the coordinates that have mass: A = diag(K, M),
-/// G = [-C, -M; M, 0].
+/// Linearization A z = s G z with z = (x, s x_m) and s = i w:
+///
+///   A = diag(K, M),  G = [-C, -M; M, 0].
+///
+/// x_m are the coordinates that have mass.
 struct Linearization {
   SparseMatrix mass, A, G;
 };
 
 Linearization linearize(const GyroscopicPencil& pencil) {
-  constexpr double kHelp = 1e-12;  // of the mass, which is singular for a mass off its node
+  // Relative addition to the mass, which is singular for a mass offset from its node.
+  constexpr double kHelp = 1e-12;
   const Index n = pencil.K.rows();
   const VectorXd diagonal = pencil.M.diagonal();
   std::vector<Eigen::Triplet<double>> massive;
@@ -51,7 +55,7 @@ Linearization linearize(const GyroscopicPencil& pencil) {
   return linear;
 }
 
-/// Rayleigh functional of a shape: the positive root of m w^2 - c w - k = 0.
+/// Returns the Rayleigh functional of a shape: the positive root of m w^2 - c w - k = 0.
 double frequency_of(const GyroscopicPencil& pencil, const VectorXcd& x) {
   const VectorXd a = x.real();
   const VectorXd b = x.imag();
@@ -114,10 +118,12 @@ GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, Index co
   modes.shape.resize(n, kept);
   modes.growth_rate.setZero(kept);
   if (kept == 0) {
-    if (modes.outcome.solved()) modes.outcome = {Status::not_converged, "no frequency is a number"};
+    if (modes.outcome.solved())
+      modes.outcome = {Status::not_converged, "no finite frequency was found"};
     return modes;
   }
-  // i G in the space of the pairs, whose vectors have z^T A z = w^2: 1 / w of +w and of -w.
+  // Solve with i G in the space of the pairs, whose vectors have z^T A z = w^2. Its eigenvalues are
+  // 1 / w for +w and -w.
   const MatrixXd V = pairs.vector * pairs.value.cwiseSqrt().cwiseInverse().asDiagonal();
   const MatrixXd skew = V.transpose() * (G * V);
   const Eigen::SelfAdjointEigenSolver<MatrixXcd> ritz(Complex(0, 0.5) * (skew - skew.transpose()));
@@ -130,7 +136,7 @@ GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, Index co
 }
 
 GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil) {
-  // G z = mu A z with mu = 1 / s, in coordinates scaled to a unit diagonal of |A|.
+  // Solve G z = mu A z with mu = 1 / s, in coordinates scaled to a unit diagonal of |A|.
   GyroscopicModes modes;
   const Index n = pencil.K.rows();
   const Linearization linear = linearize(pencil);
@@ -153,7 +159,7 @@ GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil) {
   const double largest = pairs.value.cwiseAbs().maxCoeff();
   for (Index j = 0; j < pairs.value.size(); ++j) {
     const Complex mu = pairs.value[j];
-    if (std::abs(mu) < 1e-9 * largest) continue;  // without mass
+    if (std::abs(mu) < 1e-9 * largest) continue;  // massless
     Complex lambda = 1.0 / mu;
     if (std::abs(lambda.real()) < 1e-7 * std::abs(lambda)) lambda.real(0);
     if (std::abs(lambda.imag()) < 1e-7 * std::abs(lambda)) lambda.imag(0);

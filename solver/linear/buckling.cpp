@@ -15,21 +15,21 @@
 namespace trammel::solver {
 namespace {
 
-/// Brackets the first load factor by inertia. Sylvester: K - t B has as many negative pivots as
-/// there are factors in (0, t).
+/// Bracket of the first load factor by inertia counts. K - t B has as many negative pivots as there
+/// are factors in (0, t) (Sylvester).
 struct FirstFactor {
-  bool determined = false;  ///< false if no count can be relied on
-  bool exists = false;      ///< false if there is none up to `checked`
-  double below = 0;         ///< no factor lies below it, and the first one below four times it
-  double checked = 0;       ///< largest t whose inertia was counted
+  bool determined = false;  ///< false: no count is reliable
+  bool exists = false;      ///< false: there is no factor up to `checked`
+  double below = 0;  ///< no factor is below this value, and the first is below four times the value
+  double checked = 0;  ///< largest t whose inertia was counted
 };
 
 FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
                                  Factorization& factorization, Counters& counters) {
   constexpr int kHalvings = 200;  // 60 orders of magnitude
   FirstFactor first;
-  // Entries of B over those of K scaled to a unit diagonal: `least` without round-off of the
-  // largest.
+  // Entries of B relative to those of K, which is scaled to a unit diagonal. `least` excludes the
+  // round-off error of the largest entry.
   constexpr double kRoundoff = 1e4 * kEps;
   const Eigen::VectorXd scale = K.diagonal().cwiseSqrt().cwiseInverse();
   const SparseMatrix scaled = (scale.asDiagonal() * B * scale.asDiagonal()).cwiseAbs();
@@ -38,12 +38,12 @@ FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
   double least = largest;
   for (const double size : scaled.coeffs())
     if (size > kRoundoff * largest) least = std::min(least, size);
-  // The loads dominate each entry a thousandfold, while ten digits are left of the stiffness that
-  // they do not change.
+  // At this factor the loads exceed each entry a thousandfold, and unaffected stiffness keeps ten
+  // digits.
   const double farthest = std::min(1e3 / least, 1e10 / largest);
   double counted = 0;
   const auto has_factor_below = [&](double t) -> std::optional<bool> {
-    for (const double share : {1.0, 0.93, 0.87}) {  // until no pivot comes near zero
+    for (const double share : {1.0, 0.93, 0.87}) {  // until no pivot is near zero
       counted = share * t;
       ++counters.factorizations;
       if (const std::optional<Index> count = factorization.inertia(shifted(K, B, counted)))
@@ -96,8 +96,8 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   pencil.K = &system.K;
   pencil.B = &softening;
   pencil.indefinite = true;
-  // Without a shift the factors of members in large tension, negative and small, would have the
-  // largest 1/factor, and its round-off hides the others.
+  // Shift, because members in large tension have small negative factors. Without a shift they would
+  // have the largest 1/factor, whose round-off error hides the others.
   pencil.shift = first.below;
   pencil.K_times = stiffness_operator(system);
   pencil.K_products = [&system](const Eigen::MatrixXd& X) {

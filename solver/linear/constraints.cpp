@@ -13,8 +13,8 @@ namespace {
 
 using Terms = std::vector<std::pair<Index, double>>;
 
-constexpr double kRedundant = 1e-11;      // what is left of a row that follows from the others
-constexpr double kPivotThreshold = 0.25;  // of the largest entry; bounds the growth of T
+constexpr double kRedundant = 1e-11;      // relative size of the remainder of a redundant row
+constexpr double kPivotThreshold = 0.25;  // relative to the largest entry; bounds the growth of T
 
 std::vector<ConstraintRow> support_rows(const Model& model, const Coordinates& coordinates) {
   std::vector<ConstraintRow> rows;
@@ -83,7 +83,7 @@ void add_inextensible_rows(const Model& model, const Mesh& mesh, std::vector<Con
   }
 }
 
-/// Gaussian elimination of sparse rows. Coordinates are scaled: rotation times size of the model.
+/// Gaussian elimination of sparse rows. Rotations are scaled by the model size.
 class Elimination {
  public:
   Elimination(const Coordinates& coordinates, double size)
@@ -105,7 +105,7 @@ class Elimination {
     return pivots;
   }
 
-  /// u = sum over free coordinates, for an eliminated u; null where u is free.
+  /// Returns an eliminated u as a sum over free coordinates, or null if u is free.
   [[nodiscard]] const Terms* expression(Index u) const {
     const Index row = row_of_[to_size(u)];
     return row < 0 ? nullptr : &expressions_[static_cast<std::size_t>(row)].terms;
@@ -118,7 +118,8 @@ class Elimination {
   };
   struct Entry {
     double value = 0;
-    double magnitude = 0;  ///< sum of what was added up, to tell a small value from round-off
+    /// Sum of the magnitudes of all added terms; separates small values from round-off.
+    double magnitude = 0;
   };
   using Row = std::map<Index, Entry>;
 
@@ -128,7 +129,7 @@ class Elimination {
     entry.magnitude += magnitude;
   }
 
-  /// Sum of scaled terms with the eliminated coordinates replaced until none is left.
+  /// Returns the sum of scaled terms, in which all eliminated coordinates are replaced.
   [[nodiscard]] Row substitute(const Terms& terms) const {
     Row row;
     for (const auto& [u, c] : terms) add(row, u, c, std::abs(c));
@@ -150,7 +151,7 @@ class Elimination {
     return row;
   }
 
-  /// Entries of a row, but for the pivot and round-off, over a divisor.
+  /// Returns the entries of a row over a divisor, except the pivot and round-off.
   static Terms significant_terms(const Row& row, Index pivot, double divisor) {
     Terms terms;
     for (const auto& [u, entry] : row) {
@@ -175,8 +176,9 @@ class Elimination {
     return pivot;
   }
 
-  /// Of the entries large enough, the coordinate that the fewest rows name (it spreads least), then
-  /// the larger entry, then the later coordinate.
+  /// Selects the pivot among sufficiently large entries. The first criterion is the coordinate that
+  /// occurs in the fewest rows, which causes the least fill-in. The next criteria are the larger
+  /// entry and the later coordinate.
   [[nodiscard]] Index choose_pivot(const Row& row, double largest) const {
     Index best = -1;
     for (const auto& [u, entry] : row) {
@@ -193,11 +195,12 @@ class Elimination {
     return best;
   }
 
-  /// An expression names only coordinates eliminated after it, or free ones; so backwards.
+  /// Substitutes backward, because an expression contains only free coordinates and coordinates
+  /// that were eliminated later.
   void resolve() {
     for (std::size_t i = expressions_.size(); i-- > 0;)
       expressions_[i].terms = significant_terms(substitute(expressions_[i].terms), -1, 1);
-    for (Expression& expression : expressions_) {  // back to the coordinates' own units
+    for (Expression& expression : expressions_) {  // return to the units of the coordinates
       const double scale = scale_[to_size(expression.pivot)];
       for (auto& [u, c] : expression.terms) c *= scale / scale_[to_size(u)];
     }
@@ -241,8 +244,8 @@ Constraints build_constraints(const Model& model, const Discretisation& discreti
 }
 
 Eigen::VectorXd Constraints::multipliers(const Eigen::VectorXd& force) const {
-  // Square system of the kept rows and their pivots; supports, of one entry each, take what is
-  // left.
+  // Solve the square system of the kept rows and their pivots. Each support has a single entry and
+  // receives the remaining force.
   std::vector<Index> kept, supports, number_of_pivot(to_size(T.rows()), -1);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (pivot[i] < 0) continue;

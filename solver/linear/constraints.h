@@ -11,7 +11,7 @@ namespace trammel::solver {
 
 using RowMajorMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-/// One homogeneous sum over unconstrained coordinates: sum of coefficient * u = 0.
+/// Homogeneous constraint on unconstrained coordinates: sum of coefficient * u = 0.
 struct ConstraintRow {
   enum class Source { support, linear, rigid_body, inextensible };
   Source source = Source::linear;
@@ -19,23 +19,26 @@ struct ConstraintRow {
   std::vector<std::pair<Index, double>> terms;
 };
 
-/// Supports, linear constraints, rigid bodies and inextensible elements as u = T q: sparse
-/// elimination of the constraint rows with threshold pivoting, after rotations have been multiplied
-/// by the size of the model so that the choice of pivots does not depend on the unit of length. A
-/// row that follows from those before it is dropped.
+/// Supports, linear constraints, rigid bodies and inextensible elements in the form u = T q. The
+/// constraint rows are eliminated by sparse Gaussian elimination with threshold pivoting. Rotations
+/// are multiplied by the size of the model first, so that the pivots do not depend on the unit of
+/// length. Redundant rows are dropped.
 struct Constraints {
-  std::vector<ConstraintRow> rows;  ///< all, in the order supports, linear, rigid, inextensible
-  std::vector<Index> pivot;         ///< row -> coordinate it eliminates, -1 where it was dropped
-  std::vector<Index> free;          ///< coordinate u -> q, or -1 where it is eliminated
+  /// All rows, in the order supports, linear, rigid, inextensible.
+  std::vector<ConstraintRow> rows;
+  std::vector<Index> pivot;  ///< row -> eliminated coordinate, or -1 for a dropped row
+  std::vector<Index> free;   ///< coordinate u -> q, or -1 for an eliminated coordinate
   Index free_count = 0;
   RowMajorMatrix T;  ///< u x q
 
-  /// Multipliers lambda, one a row, with C^T lambda = `force` [a force on each coordinate u]: the
-  /// generalised forces by which the constraints hold the model. 0 for a dropped row.
+  /// Returns the multipliers lambda, one for each row, with C^T lambda = `force`. They are the
+  /// generalized forces [N, N m] of the constraints. Dropped rows have 0.
+  /// @param force  force on each unconstrained coordinate [N, N m].
   [[nodiscard]] Eigen::VectorXd multipliers(const Eigen::VectorXd& force) const;
 };
 
-/// @throws ModelError  where a constraint names a coordinate that does not exist.
+/// Builds the constraint rows and T.
+/// @throws ModelError  if a constraint refers to a coordinate that does not exist.
 [[nodiscard]] Constraints build_constraints(const Model& model,
                                             const Discretisation& discretisation);
 

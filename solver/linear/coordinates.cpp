@@ -10,7 +10,7 @@ bool turns_with_node(const MemberEnd& end) {
   return end.fixity != EndFixity::hinged;
 }
 
-/// Model node -> has a rotation of its own.
+/// Returns for each model node: true if it has a rotation.
 std::vector<bool> nodes_with_rotation(const Model& model) {
   std::vector<bool> turns(model.nodes.size(), false);
   std::vector<bool> joined(model.nodes.size(), false);

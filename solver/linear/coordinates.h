@@ -7,37 +7,44 @@
 
 namespace trammel::solver {
 
-/// A member's element: one equal part of it, between two nodes of the mesh.
+/// Element of a member: one of its equal parts, between two nodes of the mesh.
 struct FrameElement {
   Index member = 0;
   std::array<Index, 2> nodes{};
-  /// Unconstrained coordinates (u1 v1 θ1 u2 v2 θ2), world axes; θ is -1 in a bar without bending.
+  /// Unconstrained coordinates (u1 v1 θ1 u2 v2 θ2) in world axes. θ is -1 for a bar without
+  /// bending.
   std::array<Index, 6> coordinates{};
-  Section section;  ///< at its middle
+  Section section;  ///< at the midpoint of the element
+  /// Length [m].
   double length = 0;
-  Vector2d direction = Vector2d::UnitX();  ///< of the whole member, so that its parts are in line
+  /// Direction of the full member, so that its elements are collinear.
+  Vector2d direction = Vector2d::UnitX();
   [[nodiscard]] bool is_bar() const { return coordinates[2] < 0; }
 };
 
-/// The model's nodes, in their order, followed by those that cut the members into elements.
+/// Nodes and frame elements. The nodes of the model come first, in their order. They are followed
+/// by the nodes that divide members into elements.
 struct Mesh {
   std::vector<Vector2d> positions;  ///< [m]
-  std::vector<FrameElement> frame;  ///< in the order of the members, first to second node
+  std::vector<FrameElement> frame;  ///< in the order of the members, from first to second node
 };
 
-/// The unconstrained coordinates u: translations of every mesh node, rotations of the nodes that
-/// have one, and rotations of the member ends that are released from theirs.
+/// Unconstrained coordinates u. They are the translations of every mesh node, the rotations of
+/// nodes, and the rotations of released member ends.
 ///
-/// What gives a node its rotation: a welded or sprung member end, a rigid body, a rotational
-/// spring, inertia or an offset mass; or a rotational support where a member ends.
+/// A node has a rotation if at least one of these applies:
+///
+/// - A welded or sprung member end, a rigid body or a rotational spring is connected to it.
+/// - It carries rotary inertia or an offset mass.
+/// - A rotational support acts on it and a member ends there.
 struct Coordinates {
   Index size = 0;
   std::vector<std::array<Index, 3>> node;        ///< mesh node -> (x, y, rotation or -1)
-  std::vector<std::array<Index, 2>> member_end;  ///< member -> rotations of its ends, or -1
-  std::vector<Index> node_of;                    ///< coordinate -> mesh node it moves or turns at
-  std::vector<bool> is_rotation;                 ///< coordinate
+  std::vector<std::array<Index, 2>> member_end;  ///< member -> rotations of its two ends, or -1
+  std::vector<Index> node_of;                    ///< coordinate -> mesh node to which it belongs
+  std::vector<bool> is_rotation;                 ///< coordinate -> true for a rotation
 
-  /// (u1 v1 u2 v2 ...) of a triangle's first n / 2 nodes; -1 for a node that it does not have.
+  /// Returns (u1 v1 u2 v2 ...) of the first n / 2 nodes of a triangle. Missing nodes have -1.
   template <std::size_t n>
   [[nodiscard]] std::array<Index, n> of_triangle(const Triangle& triangle) const {
     std::array<Index, n> numbers{};
@@ -46,17 +53,18 @@ struct Coordinates {
     return numbers;
   }
 
-  /// Number of a coordinate of the model.
-  /// @throws ModelError  naming the node or member end that has no such coordinate.
+  /// Returns the index of a coordinate of the model.
+  /// @throws ModelError  if the node or member end has no such coordinate.
   [[nodiscard]] Index number(const Model& model, const Coordinate& coordinate) const;
 };
 
+/// Mesh and numbering of a model.
 struct Discretisation {
   Mesh mesh;
   Coordinates coordinates;
 };
 
-/// Cuts the members and numbers the coordinates. The model has passed `validate`.
+/// Divides the members into elements and numbers the coordinates. The model must pass `validate`.
 [[nodiscard]] Discretisation discretise(const Model& model);
 
 }  // namespace trammel::solver

@@ -7,7 +7,7 @@ namespace trammel::solver {
 
 namespace {
 
-/// Sums up forces(B, c, the element's coordinates) of all elements.
+/// Sums forces(B, c, values of the element coordinates) over all elements.
 template <class Forces>
 Eigen::VectorXd sum_of_elements(const System& system, const Eigen::VectorXd& u, Forces&& forces) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(u.size());
@@ -17,7 +17,8 @@ Eigen::VectorXd sum_of_elements(const System& system, const Eigen::VectorXd& u, 
   return sum;
 }
 
-/// Stress of the deformation that `apply` makes of a triangle's matrix and displacements.
+/// Returns the stress of the deformation that `apply` computes from the matrix and the
+/// displacements of a triangle.
 template <class Apply>
 Vector3d stress_by_deformation(const System& system, const Triangle& triangle, const Vector3d& at,
                                const Eigen::VectorXd& u, Apply&& apply) {
@@ -46,7 +47,7 @@ Eigen::VectorXd internal_force_roundoff(const System& system, const Eigen::Vecto
 Eigen::MatrixXd strain_products(const System& system, const Eigen::MatrixXd& U) {
   const Index k = U.cols();
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(k, k);
-  Eigen::MatrixXd d(18, k);  // the most that an element has
+  Eigen::MatrixXd d(18, k);  // largest number of deformations of an element
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
     constexpr int m = std::decay_t<decltype(c)>::SizeAtCompileTime;
     for (Index j = 0; j < k; ++j) {

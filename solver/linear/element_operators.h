@@ -15,14 +15,18 @@
 #include "solver/linear/system.h"
 #include "solver/model/numbers.h"
 
-/// Strain energy, internal forces and their round-off straight from the elements' deformations
-/// d = B u, without an assembled stiffness: k = B^T C B with C diagonal and positive, so that what
-/// is added up are squares. Bending keeps its digits beside a stiff axial part; a rigid motion
-/// stores no energy but that of its own rounding.
+/// Strain energy, internal forces and their round-off errors, computed from the deformations d = B
+/// u of the elements without an assembled stiffness:
+///
+///   k = B^T C B, C diagonal and positive.
+///
+/// All terms of the energy are squares. Bending therefore keeps its significant digits next to a
+/// stiff axial part. A rigid motion has no strain energy beyond its round-off error.
 namespace trammel::solver {
 
 namespace detail {
 
+/// Returns the values of the coordinates of an element. Missing coordinates (-1) have 0.
 template <std::size_t n, class Vector>
 auto gather(const std::array<Index, n>& coordinates, const Vector& u) {
   using Scalar = typename Vector::Scalar;
@@ -32,14 +36,14 @@ auto gather(const std::array<Index, n>& coordinates, const Vector& u) {
   return local;
 }
 
-/// eps |B|^T C |B| |u|: what rounding of an element's u changes in B^T C B u.
+/// Returns the change of B^T C B u caused by rounding u of an element: eps |B|^T C |B| |u|.
 template <class Matrix, class Rigidity, class Vector>
 auto force_roundoff(const Matrix& B, const Rigidity& c, const Vector& u) {
   const auto size = (B.cwiseAbs() * u.cwiseAbs()).eval();
   return (kEps * (B.cwiseAbs().transpose() * c.cwiseProduct(size))).eval();
 }
 
-/// Adds an element's values to those of its coordinates.
+/// Adds the values of an element to those of its coordinates.
 template <std::size_t n, class Vector, class Sum>
 void scatter(const std::array<Index, n>& coordinates, const Vector& local, Sum&& u) {
   for (std::size_t i = 0; i < n; ++i) {
@@ -49,7 +53,7 @@ void scatter(const std::array<Index, n>& coordinates, const Vector& local, Sum&&
 
 }  // namespace detail
 
-/// Calls visit(coordinates, B, c) for every triangle, as `for_each_deformation` does.
+/// Calls visit(coordinates, B, c) for every triangle, like `for_each_deformation`.
 template <class Visit>
 void for_each_plate_deformation(const System& system, Visit&& visit) {
   for (const Triangle& triangle : system.model.triangles) {
@@ -61,8 +65,8 @@ void for_each_plate_deformation(const System& system, Visit&& visit) {
   }
 }
 
-/// Calls visit(coordinates, B, c) for every element: coordinates (array of n indices into u, -1
-/// for none), B (m x n) and the diagonal c (m) of its stiffness B^T diag(c) B.
+/// Calls visit(coordinates, B, c) for every element. `coordinates` is an array of n indices into u,
+/// or -1 for none. B (m x n) and the diagonal c (m) define the stiffness B^T diag(c) B.
 template <class Visit>
 void for_each_deformation(const System& system, Visit&& visit) {
   for (const FrameElement& e : system.mesh.frame) {
@@ -78,39 +82,47 @@ void for_each_deformation(const System& system, Visit&& visit) {
   }
 }
 
-/// Nodal forces in world axes of a uniform load per unit length [N/m, world axes] on an element.
+/// Returns the nodal forces in world axes [N, N m] of a uniform load on an element.
+/// @param element  frame element.
+/// @param load  load per unit length in world axes [N/m].
 [[nodiscard]] Vector6d element_load(const FrameElement& element, const Vector2d& load);
 
-/// K u on the unconstrained coordinates.
+/// Returns K u on the unconstrained coordinates [N, N m].
 [[nodiscard]] Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u);
 
-/// What rounding of u changes in that: eps sum over elements of |B|^T C |B| |u|.
+/// Returns the change of K u caused by rounding u [N, N m]: eps times the sum of |B|^T C |B| |u|
+/// over all elements.
 [[nodiscard]] Eigen::VectorXd internal_force_roundoff(const System& system,
                                                       const Eigen::VectorXd& u);
 
-/// U^T K U for the columns of U (u x k): twice the strain energies.
+/// Returns U^T K U for the columns of U (u x k), which is twice the strain energies [J].
 [[nodiscard]] Eigen::MatrixXd strain_products(const System& system, const Eigen::MatrixXd& U);
 
-/// What rounding u to doubles can change in u^T K u: 2 eps sum over elements of |d|^T C |B| |u|.
+/// Returns the change of u^T K u caused by rounding u [J]: 2 eps times the sum of |d|^T C |B| |u|
+/// over all elements.
 [[nodiscard]] double strain_roundoff(const System& system, const Eigen::VectorXd& u);
 
-/// Rounding level of the deformation energy: sum over elements of (|B| |u|)^T C (|B| |u|). A motion
-/// whose u^T K u is below about eps^2 times this does not deform anything.
+/// Returns the scale of the round-off error of the strain energy [J]: the sum of (|B| |u|)^T C (|B|
+/// |u|) over all elements. A motion deforms nothing if its u^T K u is below about eps^2 times this
+/// value.
 [[nodiscard]] double strain_magnitude(const System& system, const Eigen::VectorXd& u);
 
-/// (sxx, syy, sxy) of a triangle [Pa] at a point in area coordinates.
-/// @param corners  where they are; of a six-node triangle those of the model
+/// Returns the stress (sxx, syy, sxy) [Pa] of a triangle at a point.
+/// @param system  assembled model.
+/// @param triangle  triangle of the model.
+/// @param at  area coordinates of the point [-].
+/// @param u  unconstrained coordinates [m].
 [[nodiscard]] Vector3d plate_stress(const System& system, const Triangle& triangle,
                                     const Vector3d& at, const Eigen::VectorXd& u);
 
-/// What rounding of u changes in that, at most [Pa].
+/// Returns a bound of the change of the stress [Pa] caused by rounding u.
 [[nodiscard]] double plate_stress_roundoff(const System& system, const Triangle& triangle,
                                            const Vector3d& at, const Eigen::VectorXd& u);
 
-/// K x from the elements' deformations.
+/// Returns an operator q -> K q on the free coordinates that uses the deformations of the elements.
 [[nodiscard]] Operator stiffness_operator(const System& system);
 
-/// Mass of a frame element in world axes.
+/// Returns the mass matrix of a frame element in world axes.
 [[nodiscard]] inline Matrix6d world_mass(const FrameElement& e, const Member& member) {
   if (e.is_bar()) return bar_mass(e.section, member.mass, e.length);
   const Matrix6d R = frame_rotation(e.direction);
@@ -128,10 +140,12 @@ void for_each_plate_mass(const System& system, Visit&& visit) {
   }
 }
 
-// What has mass, on the unconstrained coordinates u, without an assembled mass matrix.
+// Inertia on the unconstrained coordinates u, without an assembled mass matrix.
 
-/// Mass matrix of a point mass on (x, y, rotation) of its node; the inertia is about its own
-/// centre, which sits at `offset` from the node [m, world axes].
+/// Returns the mass matrix of a point mass on (x, y, rotation) of its node.
+/// @param mass  [kg].
+/// @param inertia  about the center of mass [kg m^2].
+/// @param offset  of the center of mass from the node, world axes [m].
 template <Real T>
 [[nodiscard]] Eigen::Matrix3<T> point_inertia(const T& mass, const T& inertia,
                                               const Vector2d& offset) {
@@ -144,7 +158,8 @@ template <Real T>
 }
 
 /// Calls visit(coordinates, m) for every frame element, triangle, point mass and member end with
-/// inertia: coordinates (array of n indices into u, -1 for none) and m (n x n), world axes.
+/// inertia. `coordinates` is an array of n indices into u, or -1 for none. m is n x n, in world
+/// axes.
 template <class Visit>
 void for_each_inertia(const System& system, Visit&& visit) {
   for (const FrameElement& e : system.mesh.frame) {
@@ -167,11 +182,12 @@ void for_each_inertia(const System& system, Visit&& visit) {
   }
 }
 
-/// M a on the unconstrained coordinates [N, N m].
+/// Returns M a on the unconstrained coordinates [N, N m].
 [[nodiscard]] Eigen::VectorXd inertia_forces(const System& system, const Eigen::VectorXd& a);
 
-/// Sums symmetric element matrices of unconstrained coordinates to a matrix of the free ones,
-/// through T's rows. Entries at the same place are added in the order in which they came.
+/// Sums symmetric element matrices of unconstrained coordinates to a matrix of the free
+/// coordinates, using the rows of T. Entries at the same position are added in the order in which
+/// they were given.
 class Projection {
  public:
   explicit Projection(const Constraints& constraints) : T_(constraints.T) {}
@@ -196,12 +212,12 @@ class Projection {
       }
     }
   }
-  /// Adds to an entry of the lower triangle.
+  /// Adds a value to an entry of the lower triangle.
   void add(Index i, Index j, double value) {
     entries_.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
   }
 
-  /// Both triangles.
+  /// Returns the matrix with both triangles.
   [[nodiscard]] SparseMatrix build() const {
     SparseMatrix lower(T_.cols(), T_.cols());
     lower.setFromTriplets(entries_.begin(), entries_.end());
@@ -213,8 +229,8 @@ class Projection {
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
-/// K of the free coordinates in factors: B T and C of all elements (for_each_deformation), without
-/// the rows that have no rigidity.
+/// Returns K of the free coordinates in factored form: B T and C of all elements
+/// (`for_each_deformation`). Rows without rigidity are omitted.
 [[nodiscard]] StiffnessFactors stiffness_factors(const System& system);
 
 }  // namespace trammel::solver

@@ -90,7 +90,7 @@ void add_line_load(System& system, const LineLoad& load) {
 
 namespace {
 
-/// Sums of the squares of errors and of exact values.
+/// Sums of squared errors and of squared exact values.
 template <int n>
 struct Squares {
   using Values = Eigen::Array<double, n, 1>;
@@ -100,7 +100,7 @@ struct Squares {
     error += weight * error_squared;
     exact += weight * exact_squared;
   }
-  /// NaN where the exact field is zero: there is nothing to be relative to.
+  /// Returns relative errors; NaN if the exact field is zero.
   [[nodiscard]] Values relative() const { return (error / exact).sqrt(); }
 };
 
@@ -118,14 +118,15 @@ MembraneFieldPoint membrane_point(const System& system, const Triangle& triangle
   return point;
 }
 
-/// sigma : epsilon [Pa].
+/// Returns sigma : epsilon [Pa].
 double energy_density(const Material& material, const Vector3d& s) {
   return (s[0] * s[0] + s[1] * s[1] - 2 * material.nu * s[0] * s[1] +
           2 * (1 + material.nu) * s[2] * s[2]) /
          material.E;
 }
 
-/// Interpolation of a frame element whose coordinates are `world`; V and N are uniform.
+/// Evaluates the interpolation of a frame element with the coordinates `world`. V and N are
+/// uniform.
 BeamFieldPoint frame_point(const FrameElement& e, BeamTheory theory, const Vector6d& world,
                            double xi) {
   const double L = e.length, phi = shear_ratio(e.section, theory, L);

@@ -4,44 +4,46 @@
 
 #include "solver/linear/system.h"
 
-/// Loads given as functions of position, turned into consistent nodal forces (integral of N^T load)
-/// by quadrature and added to the system's `load` and `f`.
+/// Loads given as functions of position. Quadrature converts them to consistent nodal forces, the
+/// integral of N^T load. They are added to `load` and `f` of the system.
 namespace trammel::solver {
 
-/// World point [m] -> force per volume [N/m^3].
+/// Force per volume [N/m^3] at a world point [m].
 using BodyForce = std::function<Vector2d(const Vector2d&)>;
 
-/// World point [m], outward normal [-] -> force per area [Pa].
+/// Force per area [Pa] at a world point [m] with an outward normal [-].
 using Traction = std::function<Vector2d(const Vector2d&, const Vector2d&)>;
 
-/// World point [m] -> force per length along world x, y [N/m] and moment per length [N m/m].
+/// Force per length along world x, y [N/m] and moment per length [N m/m] at a world point [m].
 using LineLoad = std::function<Vector3d(const Vector2d&)>;
 
-/// On all triangles.
+/// Adds a body force on all triangles.
 void add_body_force(System& system, const BodyForce& force);
 
-/// On every side that belongs to one triangle only. What falls on supported coordinates goes to the
-/// ground.
-/// @pre the triangles run counterclockwise, as readers and meshes make them
+/// Adds a traction on every side that belongs to a single triangle. Forces on supported coordinates
+/// act on the ground.
+/// @pre The triangles run counterclockwise, as readers and meshes provide them.
 void add_edge_traction(System& system, const Traction& traction);
 
-/// On all frame elements that bend.
+/// Adds a line load on all frame elements that bend.
 void add_line_load(System& system, const LineLoad& load);
 
-// How far a discrete solution is from a field that is known at every point: norms over the
-// elements' interpolation, by quadrature. All errors are relative to the same norm of the exact
-// field.
+// Errors of a discrete solution compared with an exact field. They are norms over the
+// interpolation of the elements, computed by quadrature. Each error is relative to the same norm of
+// the exact field.
 
+/// Values of a plane-stress field at a point.
 struct MembraneFieldPoint {
   Vector2d displacement = Vector2d::Zero();  ///< [m]
   double rotation = 0;                       ///< (dv/dx - du/dy) / 2 [rad]
   Vector3d stress = Vector3d::Zero();        ///< sxx, syy, sxy [Pa]
 };
 
-/// At a world point [m].
+/// Plane-stress field at a world point [m].
 using MembraneField = std::function<MembraneFieldPoint(const Vector2d&)>;
 
-/// L2 norms over the triangles; energy is the root of integral of sigma : epsilon of the error.
+/// L2 norms over the triangles [-]. The energy error is the square root of the integral of sigma :
+/// epsilon of the error.
 struct MembraneErrors {
   double displacement = 0;
   double rotation = 0;
@@ -49,12 +51,15 @@ struct MembraneErrors {
   double energy = 0;
 };
 
-/// @param q  free coordinates
+/// Returns the relative errors of a plane-stress solution.
+/// @param system  assembled model.
+/// @param q  free coordinates.
+/// @param exact  exact field.
 [[nodiscard]] MembraneErrors membrane_errors(const System& system, const Eigen::VectorXd& q,
                                              const MembraneField& exact);
 
-/// In the axes of the element: along it, and to its left. N = EA u', M = EI θ', V = -dM/dx where no
-/// moment is distributed.
+/// Values of a beam field in element axes: along the element, and to its left. N = EA u', M = EI
+/// θ', and V = -dM/dx without distributed moments.
 struct BeamFieldPoint {
   double axial = 0;           ///< [m]
   double deflection = 0;      ///< [m]
@@ -64,12 +69,12 @@ struct BeamFieldPoint {
   double bending_moment = 0;  ///< [N m]
 };
 
-/// At a world point [m].
+/// Beam field at a world point [m].
 using BeamField = std::function<BeamFieldPoint(const Vector2d&)>;
 
-/// L2 norms over the frame elements; energy is that of bending and, for Timoshenko members, shear.
-/// The energy norm of stretching is `axial_force` where EA is uniform. Resultants are those of the
-/// interpolation: M linear, N and V uniform in each element.
+/// L2 norms over the frame elements [-]. The energy error covers bending and, for Timoshenko
+/// members, shear. The energy norm of stretching equals `axial_force` if EA is uniform. Section
+/// forces are those of the interpolation: M is linear, N and V are uniform in each element.
 struct BeamErrors {
   double axial_displacement = 0;
   double deflection = 0;
@@ -78,10 +83,13 @@ struct BeamErrors {
   double shear_force = 0;
   double bending_moment = 0;
   double energy = 0;
-  double nodal_deflection = 0;  ///< largest at a node, relative to the largest deflection at one
-  double nodal_rotation = 0;    ///< the same for rotations
+  /// Largest error at a node, relative to the largest deflection at a node.
+  double nodal_deflection = 0;
+  /// Largest error at a node, relative to the largest rotation at a node.
+  double nodal_rotation = 0;
 };
 
+/// Returns the relative errors of a frame solution.
 [[nodiscard]] BeamErrors beam_errors(const System& system, const Eigen::VectorXd& q,
                                      const BeamField& exact);
 

@@ -21,11 +21,12 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kShift = 1e-12;  // of the diagonal
-/// Pivots below it make us look: those of a mechanism are rounding, 1.2e-9 in 1,152 coordinates
-/// where all of it has one sign.
+constexpr double kShift = 1e-12;  // relative to the diagonal
+/// Pivots below this limit start a search. Pivots of a mechanism are round-off errors, up to 1.2e-9
+/// for 1152 coordinates if all errors have the same sign.
 constexpr double kSmallPivot = 1e-8;
-constexpr double kDeformation = 1e-28;  // of the magnitude, (45 eps)^2: below it, nothing deforms
+// (45 eps)^2, relative to `strain_magnitude`; smaller energies are round-off.
+constexpr double kDeformation = 1e-28;
 constexpr Index kMaxModes = 48;
 
 }  // namespace
@@ -35,7 +36,8 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
   const Index n = system.K.rows();
   ZeroEnergyModes modes{MatrixXd(n, 0), true};
   if (n == 0 || (K.exists() && K.smallest_pivot() > kSmallPivot)) return modes;
-  // Inverse iteration with K + t D on a block, D the diagonal of K, orthonormal in D.
+  // Inverse iteration with K + t D on a block. D is the diagonal of K, and the block is
+  // D-orthonormal.
   VectorXd D = system.K.diagonal();
   const double largest = D.maxCoeff();
   D = D.unaryExpr([&](double d) { return d > 0 ? d : largest > 0 ? largest : 1; }).eval();
@@ -60,7 +62,7 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
       X = qr.householderQ() * MatrixXd::Identity(n, block);
       X = root.cwiseInverse().asDiagonal() * X;
     }
-    // Ritz vectors by rising strain energy; NaN if they did not converge.
+    // Ritz vectors in ascending order of strain energy; NaN if the iteration did not converge.
     X = X * symmetric_eigenpairs(strain_products(system, system.T * X)).vector;
     if (!X.allFinite()) {
       modes.all_found = false;
@@ -70,7 +72,7 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
     while (count < block) {
       const VectorXd u = system.T * X.col(count);
       const double energy = strain_products(system, u)(0, 0);
-      // x^T D x = 1 stands for parts that nothing deforms, whatever they do.
+      // x^T D x = 1 is the scale for parts that nothing deforms.
       if (!(energy <= kDeformation * std::max(1.0, strain_magnitude(system, u)))) break;
       ++count;
     }
@@ -82,14 +84,15 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
 
 namespace {
 
-constexpr std::size_t kMaxEntries = 3;  // of one mode
+constexpr std::size_t kMaxEntries = 3;  // entries per mode
 constexpr Index kMaxMotions = 6;
-/// Entries below this share of the largest are round-off, and so are differences of equal ones.
+/// Entries below this fraction of the largest are round-off, and so are differences of equal
+/// entries.
 constexpr double kRoundoff = 1e-6;
 
 using NamedRows = std::vector<std::pair<std::string, Index>>;
 
-/// The coordinates that have a name, and their rows of u.
+/// Returns the coordinates with names and their rows in u.
 NamedRows named_rows(const System& system) {
   const Model& model = system.model;
   NamedRows rows;
@@ -111,7 +114,7 @@ NamedRows named_rows(const System& system) {
   return rows;
 }
 
-/// The first of the largest entries, but for round-off.
+/// Returns the index of the first entry that is the largest up to round-off.
 Index first_largest(const VectorXd& x) {
   const double enough = (1 - kRoundoff) * x.cwiseAbs().maxCoeff();
   Index i = 0;
@@ -119,7 +122,7 @@ Index first_largest(const VectorXd& x) {
   return i;
 }
 
-/// Reduced echelon form of the columns: each has 1 where the others have 0.
+/// Transforms the columns to reduced echelon form: each column has 1 where the others have 0.
 void reduce(MatrixXd& U) {
   for (Index j = 0; j < U.cols(); ++j) {
     const Index pivot = first_largest(U.col(j));

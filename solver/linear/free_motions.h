@@ -12,24 +12,27 @@ namespace trammel::solver {
 /// Motions of the free coordinates that deform nothing: the null space of K.
 struct ZeroEnergyModes {
   Eigen::MatrixXd basis;  ///< q x count
-  bool all_found = true;  ///< false: there are more than were looked for
+  bool all_found = true;  ///< false: there are more modes than the search covers
   [[nodiscard]] Eigen::Index count() const { return basis.cols(); }
 };
 
-/// Looks for free motions where the factored K gives cause for it (a small, zero or negative
-/// pivot), by inverse iteration with a slight shift. Whether a motion is free is judged by the
-/// elements' deformations (u^T K u against its own rounding), not by the size of a pivot: a long
-/// slender chain is ill-conditioned, but it is not a mechanism.
+/// Searches for zero-energy modes if the factors of K suggest them by a small, zero or negative
+/// pivot. It uses inverse iteration with a small shift. The criterion is the strain energy u^T K u
+/// of the elements compared with its round-off error. The size of a pivot is no criterion, because
+/// a long slender chain is ill-conditioned without being a mechanism.
 [[nodiscard]] ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization& K,
                                                      Counters& counters);
 
-/// "free motion: node B along x 1, rotation of node A -0.5"; several are separated by semicolons.
-/// Empty without modes. Each names its three largest entries, rotations times the model's size,
-/// relative to the largest; the motions are those of the basis in echelon form, which have few.
+/// Describes a mechanism in words, such as "free motion: node B along x 1, rotation of node A
+/// -0.5". Several motions are separated by semicolons. The text is empty without modes. Each motion
+/// lists its three largest entries, relative to the largest. Rotations are multiplied by the size
+/// of the model. The motions are the basis in echelon form, which has few entries.
 [[nodiscard]] std::string describe_mechanism(const System& system, const ZeroEnergyModes& modes);
 
-/// Singular with the free motions in words, if there are any.
-/// @param K  the factored stiffness
+/// Returns `singular` with a description of the zero-energy modes, if there are any.
+/// @param system  assembled model.
+/// @param K  factors of the stiffness.
+/// @param counters  incremented by the factorizations and solves.
 [[nodiscard]] Outcome require_held(const System& system, const Factorization& K,
                                    Counters& counters);
 

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// L H of geometric_stiffness.h.
+/// Returns L H of geometric_stiffness.h.
 Eigen::Matrix3d geometric_rigidity(const FrameElement& e, BeamTheory theory, double N, double n) {
   Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
   H(0, 0) = N;
@@ -53,8 +53,8 @@ void visit_plate_geometric_stiffness(const std::array<Index, n>& coordinates,
   visit(coordinates, B, Eigen::Matrix4d(Eigen::Vector4d(s[0], s[0], s[1], s[1]).asDiagonal()));
 }
 
-/// Calls visit(row, triangle, at, weight) for the points at which stresses of plates are taken: row
-/// of Prestress::stress, area coordinates, share of the triangle's area.
+/// Calls visit(row, triangle, at, weight) for the stress points of plates. The arguments are the
+/// row of Prestress::stress, area coordinates, and the share of the area of the triangle.
 template <class Visit>
 void for_each_stress_point(const Model& model, Visit&& visit) {
   Index row = 0;
@@ -68,16 +68,24 @@ void for_each_stress_point(const Model& model, Visit&& visit) {
   }
 }
 
-/// A row for each of those points.
+/// Returns zero stress with a row for each stress point.
 Eigen::MatrixX3d no_stress(const Model& model) {
   Index rows = 0;
   for_each_stress_point(model, [&](Index row, const auto&...) { rows = row + 1; });
   return Eigen::MatrixX3d::Zero(rows, 3);
 }
 
-/// A slider on a line of direction t and normal n, at d from the node whose rotation θ turns it:
-/// n . w - θ t . d = 0 for small displacements w from that node, and to the second order
-/// n . w - θ t . (d + w) - θ^2 n . d / 2. The rail's force times that is the work.
+/// Returns the second-order work of a slider on a rail with direction t and normal n. The slider is
+/// at d from the node whose rotation θ turns the rail. Small displacements w relative to that node
+/// satisfy
+///
+///   n . w - θ t . d = 0,
+///
+/// and to the second order
+///
+///   n . w - θ t . (d + w) - θ^2 n . d / 2 = 0.
+///
+/// The work is the force of the rail times this expression.
 TurningPart rail_part(const System& system, const LinearConstraint::Rail& rail, double force) {
   const auto& node = system.coordinates.node[to_size(rail.node)];
   const auto& slider = system.coordinates.node[to_size(rail.slider)];
@@ -123,10 +131,10 @@ void add_turning(Index rotation, double moment, std::vector<TurningPart>& parts)
   parts.back().H(0, 0) = moment;
 }
 
-/// A rigid arm R carries its end to x_r + R: turning by θ shifts the end by -R θ^2 / 2 as well, so
-/// that the force F which the arm's end feels does the work -F R θ^2 / 2. The constraint's
-/// multiplier is the opposite of F.
-/// @returns the moment F R of a constraint row; 0 where it is not that of an arm's end
+/// Returns the moment F R of a constraint row, or 0 if it does not describe the end of an arm. A
+/// rigid arm moves its end to x_r + R. A rotation θ also shifts the end by -R θ^2 / 2. The force F
+/// on the end of the arm therefore does the work -F R θ^2 / 2. The multiplier of the constraint is
+/// -F.
 double arm_moment(const System& system, const ConstraintRow& row, double multiplier) {
   if (row.source != ConstraintRow::Source::rigid_body || row.terms.size() != 3) return 0;
   const Index attached = row.terms[0].first;
@@ -218,7 +226,7 @@ Prestress prestress_roundoff(const System& system, const VectorXd& q) {
   for (Index i = 0; i < roundoff.axial.size(); ++i) {
     const FrameElement& e = frame[to_size(i)];
     if (!system.model.members[to_size(e.member)].axially_flexible) continue;
-    // A stiff element's elongation is what remains of motions that cancel.
+    // The elongation of a stiff element is a difference of nearly equal motions.
     const Vector2d size(u[e.coordinates[3]] + u[e.coordinates[0]],
                         u[e.coordinates[4]] + u[e.coordinates[1]]);
     roundoff.axial[i] = kEps * e.section.EA / e.length * e.direction.cwiseAbs().dot(size);
@@ -240,7 +248,7 @@ Outcome require_determined_stiffening(const System& system) {
   const Constraints& constraints = system.constraints;
   VectorXd selfstress = VectorXd::Zero(std::ssize(constraints.rows));
   VectorXd force = VectorXd::Zero(system.T.rows());
-  double amount = 1;  // of each redundant constraint another, so that they do not cancel
+  double amount = 1;  // a different value for each redundant constraint, so that they do not cancel
   for (Index i = 0; i < selfstress.size(); ++i) {
     if (constraints.pivot[to_size(i)] >= 0) continue;
     selfstress[i] = amount;

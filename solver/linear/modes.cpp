@@ -18,16 +18,16 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Whether a motion beyond the free ones moves mass: otherwise there is nothing that swings.
+/// Returns true if a motion other than zero-energy modes moves mass. Otherwise nothing vibrates.
 bool has_elastic_inertia(const SparseMatrix& M, const MatrixXd& Z) {
   VectorXd x = start_vectors(M.rows(), 1);
   const double total = x.dot(M * x);
   for (int pass = 0; pass < 2; ++pass) x -= Z * (Z.transpose() * (M * x));
-  return x.dot(M * x) > 1e-24 * total;  // rounding of a motion squared: 1e-32
+  return x.dot(M * x) > 1e-24 * total;  // 1e-32: square of the round-off error of a motion
 }
 
-/// A shift s < 0 of the size of the lowest elastic eigenvalue, for models that float: K - s M is
-/// then as well-conditioned as the elastic part of K.
+/// Returns a shift s < 0 of the magnitude of the lowest elastic eigenvalue, for models with rigid
+/// modes. K - s M is then as well-conditioned as the elastic part of K.
 double floating_shift(const System& system, const MatrixXd& Z, Counters& counters) {
   SparseMatrix shifted = system.K;
   const VectorXd diagonal = system.K.diagonal(), squared_length = squared_lengths(system);
@@ -55,9 +55,8 @@ double floating_shift(const System& system, const MatrixXd& Z, Counters& counter
   return quotient > 0 && std::isfinite(quotient) ? -quotient : -1;
 }
 
-/// Largest backward error of (K + K_G) x = w^2 M x over the modes, and the number of modes.
-/// @param K  the sum of both
-/// @param K_G  empty without prestress
+/// Adds the residuals of modes to the evidence: the largest backward error of (K + K_G) x = w^2 M
+/// x, and the number of miscounted modes. K is the sum K + K_G, and K_G is empty without prestress.
 void judge(const System& system, const SparseMatrix& K, const SparseMatrix& K_G,
            ModalSolution& solution, Factorization&& spent = {}, double shift_above = 0) {
   if (!solution.outcome.solved()) return;
@@ -76,8 +75,8 @@ void judge(const System& system, const SparseMatrix& K, const SparseMatrix& K_G,
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
 }
 
-/// The modes of (K + K_G) x = w^2 M x.
-/// @param state  that K_G is of; null: unloaded, without K_G
+/// Computes the modes of (K + K_G) x = w^2 M x. K_G follows from the forces of `state`. It is
+/// omitted if `state` is null.
 ModalSolution solve(const System& system, const ModesOptions& options,
                     const StaticSolution* state) {
   ModalSolution solution;
@@ -153,7 +152,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
 bool orthonormalise(const System& system, MatrixXd& Z) {
   if (Z.cols() == 0) return true;
   const SparseMatrix& M = system.M;
-  // Masses of rotations are counted as inertia over the square of the model's size.
+  // Rotary inertia is divided by the square of the model size to be comparable with mass.
   const VectorXd squared_length = squared_lengths(system);
   VectorXd mass = M.diagonal().cwiseQuotient(squared_length);
   const double largest = mass.maxCoeff();
@@ -163,7 +162,7 @@ bool orthonormalise(const System& system, MatrixXd& Z) {
   const MatrixXd gram = Z.transpose() * (M * Z);
   const MatrixXd size = Z.transpose() * weight.asDiagonal() * Z;
   const SymmetricEigenpairs pairs = symmetric_eigenpairs(gram, size);
-  if (!(pairs.value[0] > 1e-18)) return false;  // rounding of a motion squared: 1e-32
+  if (!(pairs.value[0] > 1e-18)) return false;  // 1e-32: square of the round-off error of a motion
   const VectorXd inverse = pairs.value.cwiseSqrt().cwiseInverse();
   Z = Z * pairs.vector * inverse.asDiagonal();
   return true;

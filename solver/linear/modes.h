@@ -9,49 +9,53 @@
 
 namespace trammel::solver {
 
+/// Options of a vibration analysis.
 struct ModesOptions {
   Index count = 6;
-  EigenMethod method =
-      EigenMethod::automatic;  ///< automatic: dense below a few hundred free coordinates
+  EigenMethod method = EigenMethod::automatic;  ///< automatic: dense for small models
 };
 
-/// Free vibration K x = w^2 M x (paper Eq. 28, 29), x^T M x = 1 (Eq. 33).
+/// Result of free vibration, K x = w^2 M x (paper Eq. 28, 29) with x^T M x = 1 (Eq. 33).
 ///
-/// Frequencies are Rayleigh quotients whose strain energy is summed over the elements' deformations
-/// (see element_operators.h), with vectors improved by inverse iteration with the same residuals:
-/// their round-off grows with the digits lost in taking the deformations from the displacements
-/// (about the square of the number of elements a wavelength), not with the condition number of K
-/// (its fourth power).
+/// Frequencies are Rayleigh quotients. Their strain energy is summed over the deformations of the
+/// elements (element_operators.h). Inverse iteration with the same residuals improves the vectors.
+/// The round-off error of a frequency grows with the loss of digits in the deformations, about the
+/// square of the number of elements per wavelength. It does not grow with the condition number of
+/// K, which is the fourth power of that number.
 struct ModalSolution {
-  /// singular: a massless part moves freely; not_converged: fewer modes than the inertia count says
+  /// singular: a massless part moves freely; not_converged: fewer modes than the inertia count
   Outcome outcome;
   Eigen::VectorXd
-      frequency;  ///< ascending, copies of repeated ones included [Hz]; rigid motions are 0
-  /// Estimate of each frequency's relative round-off error [-]: half of 2 eps sum |d|^T C |B||u|
-  /// over w^2 (what rounding the mode to doubles can do to its strain energy), and the error left
-  /// by the residual.
+      frequency;  ///< ascending, including copies of repeated frequencies [Hz]; rigid modes have 0
+  /// Estimated relative round-off error of each frequency [-]. It is half of 2 eps sum |d|^T C |B|
+  /// |u| / w^2, plus the error estimated from the residual. The first term bounds the effect on the
+  /// strain energy of rounding the mode.
   Eigen::VectorXd roundoff;
   Eigen::MatrixXd shape;             ///< free coordinate x mode; see node_motion
-  Index zero_energy_mode_count = 0;  ///< how many leading frequencies are zero
+  Index zero_energy_mode_count = 0;  ///< number of leading frequencies that are zero
   Evidence evidence;
   Counters counters;
 };
 
+/// Computes the lowest natural frequencies and mode shapes.
 [[nodiscard]] ModalSolution solve_modes(const System& system, const ModesOptions& options);
 
-/// Small vibration about the state in which the model's loads hold it: (K + K_G) x = w^2 M x, K_G
-/// from the forces of second-order statics. The state's displacements are small: the geometry is
-/// the undeformed one. Singular without a stable state, for the reason given by statics.
+/// Computes small vibrations about the loaded equilibrium, (K + K_G) x = w^2 M x. K_G follows from
+/// the forces of second-order statics. The displacements of the equilibrium are small, so that the
+/// geometry is undeformed. The outcome is that of statics if there is no stable equilibrium.
 [[nodiscard]] ModalSolution solve_prestressed_modes(const System& system,
                                                     const ModesOptions& options);
 
-/// Makes the columns of Z, free motions of a system, orthonormal in its mass; returns false if one
-/// of them moves no mass.
+/// Makes the columns of Z orthonormal in the mass matrix. The columns are zero-energy modes.
+/// Returns false if one of them moves no mass.
 [[nodiscard]] bool orthonormalise(const System& system, Eigen::MatrixXd& Z);
 
-/// Natural frequencies below `frequency` [Hz], copies of repeated ones and rigid motions included,
-/// by the negative pivots of K - (2 pi f)^2 M (Sylvester); nothing where the factorization loses
-/// its digits, as on a natural frequency.
+/// Returns the number of natural frequencies below `frequency`, including copies of repeated
+/// frequencies and rigid modes. The count uses the negative pivots of K - (2 pi f)^2 M (Sylvester).
+/// The result is empty if the factorization is dominated by round-off, for example at a natural
+/// frequency.
+/// @param system  assembled model.
+/// @param frequency  f [Hz].
 [[nodiscard]] std::optional<Index> sturm_count(const System& system, double frequency);
 
 }  // namespace trammel::solver

@@ -14,13 +14,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Triplets = std::vector<Eigen::Triplet<double>>;
 
-/// The free coordinates of the nodes that cut the members, in sets that nothing couples: one for
-/// each member.
+/// Returns the free coordinates of the nodes that divide members into elements, in uncoupled sets.
+/// There is one set for each member.
 std::vector<std::vector<Index>> interior_sets(const System& system) {
   const auto free_coordinate = [&system](Index u) {
     return u < 0 ? Index{-1} : system.constraints.free[to_size(u)];
   };
-  std::vector<Index> root(to_size(system.K.rows()), -1);  // -1 on the boundary
+  std::vector<Index> root(to_size(system.K.rows()), -1);  // -1 for boundary coordinates
   for (std::size_t n = system.model.nodes.size(); n < system.coordinates.node.size(); ++n) {
     for (const Index u : system.coordinates.node[n]) {
       const Index q = free_coordinate(u);
@@ -38,7 +38,8 @@ std::vector<std::vector<Index>> interior_sets(const System& system) {
     for (Index j = 0; j < matrix->outerSize(); ++j)
       for (SparseMatrix::InnerIterator entry(*matrix, j); entry; ++entry) join(entry.row(), j);
   }
-  // Bending and stretching of a member along an axis are not coupled, but belong to one set.
+  // Bending and stretching of a member along a coordinate axis are uncoupled, but belong to one
+  // set.
   std::vector<Index> first(system.model.members.size(), -1);
   for (const FrameElement& element : system.mesh.frame) {
     Index& own = first[to_size(element.member)];
@@ -57,7 +58,7 @@ std::vector<std::vector<Index>> interior_sets(const System& system) {
   return sets;
 }
 
-/// Columns of the identity matrix.
+/// Returns columns of the identity matrix.
 SparseMatrix selection(Index size, const std::vector<Index>& chosen) {
   SparseMatrix S(size, std::ssize(chosen));
   for (Index j = 0; j < S.cols(); ++j) S.insert(chosen[to_size(j)], j) = 1;
@@ -65,7 +66,7 @@ SparseMatrix selection(Index size, const std::vector<Index>& chosen) {
   return S;
 }
 
-/// The lowest modes with the boundary held.
+/// Returns the lowest modes with a held boundary.
 MatrixXd fixed_interface_modes(const SparseMatrix& K, const SparseMatrix& M, Index modes,
                                Factorization& factorization, Counters& counters) {
   Pencil pencil;
@@ -86,11 +87,11 @@ void add_column(const VectorXd& values, const std::vector<Index>& set, Index col
   }
 }
 
-/// Share of a load's static response that is round-off.
+/// Relative round-off level of the static response to a load.
 constexpr double kCarried = 1e-10;
 
-/// Parts of static responses beyond the modes, of unit strain energy, each orthogonal to those
-/// before it in K.
+/// Returns the parts of static responses beyond the modes. They have unit strain energy, and each
+/// is K-orthogonal to the preceding ones.
 MatrixXd beyond_modes(const SparseMatrix& K, const SparseMatrix& M, const MatrixXd& modes,
                       const std::vector<VectorXd>& responses) {
   MatrixXd parts(K.rows(), 0);
@@ -106,7 +107,8 @@ MatrixXd beyond_modes(const SparseMatrix& K, const SparseMatrix& M, const Matrix
   return parts;
 }
 
-/// R in q = R p: the boundary coordinates, then modes and responses of one set after the other.
+/// Returns R in q = R p. The columns are the boundary coordinates, followed by the modes and
+/// responses of each set.
 SparseMatrix reduction(const System& system, Index modes, const std::vector<VectorXd>& loads,
                        Counters& counters) {
   const std::vector<std::vector<Index>> sets = interior_sets(system);
@@ -157,11 +159,11 @@ SparseMatrix reduction(const System& system, Index modes, const std::vector<Vect
 
 SparseMatrix projected(const SparseMatrix& matrix, const SparseMatrix& R) {
   const SparseMatrix product = R.transpose() * (matrix * R);
-  // Symmetric to the last digit, as what is factored must be.
+  // Symmetric to the last digit, as the factorization requires.
   return 0.5 * (product + SparseMatrix(product.transpose()));
 }
 
-/// The system in p, q = R p.
+/// Returns the system in the coordinates p with q = R p.
 System in_coordinates(const System& system, const SparseMatrix& R) {
   System reduced = system;
   reduced.T = system.T * R;
@@ -183,7 +185,7 @@ System reduce_members(const System& system, Index modes, const std::vector<Vecto
 
 System reduce_to_modes(const System& system, const ModalSolution& modes,
                        const std::vector<VectorXd>& loads) {
-  constexpr double kShift = 1e-4;  // below the modes that are left out
+  constexpr double kShift = 1e-4;  // relative to the omitted modes
   const MatrixXd& shape = modes.shape;
   Counters counters = modes.counters;
   SparseMatrix K = system.K;
@@ -203,11 +205,12 @@ System reduce_to_modes(const System& system, const ModalSolution& modes,
     }
     if (!factorization.exists()) throw ModelError("a reduction to modes needs a stiff model");
     VectorXd answer = factorization.solve(rest);
-    answer += factorization.solve(rest - system.K * answer);  // without the shift
+    answer += factorization.solve(rest - system.K * answer);  // corrects the effect of the shift
     counters.solves += 2;
     responses.push_back(answer);
   }
-  // They have unit strain energy, not unit mass: coordinates without mass may respond too.
+  // The responses have unit strain energy instead of unit mass, because massless coordinates may
+  // respond too.
   const MatrixXd beyond = beyond_modes(system.K, system.M, shape, responses);
   MatrixXd basis(shape.rows(), shape.cols() + beyond.cols());
   basis << shape, beyond;

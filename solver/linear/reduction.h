@@ -7,34 +7,41 @@
 
 namespace trammel::solver {
 
-/// Component mode synthesis: the free coordinates inside the members (of the nodes that cut them
-/// into elements) follow the rest statically and, beyond that, in their lowest modes with the
-/// members' ends held,
-///   q_i = -K_ii^-1 K_ib q_b + X p + r s,   K_ii x = w^2 M_ii x,
-/// with r the part of K_ii^-1 f_i beyond X for each of `loads`, so that the static response and the
-/// forces inside the members are exact. Without modes and loads it is static condensation.
-/// Frequencies are those of a constrained model, never below the full one's. Source: Guyan (1965);
-/// Craig & Bampton (1968).
+/// Reduces the model by component mode synthesis. The interior coordinates of a member belong to
+/// the nodes that divide it into elements. They follow the other coordinates statically. In
+/// addition they move in the lowest modes with held member ends:
 ///
-/// @param modes  of each member's inside [-]; as many as there are coordinates or more: none is
-///               condensed
-/// @param loads  of the free coordinates, that act one without another [SI]
-/// @returns the same model in fewer coordinates: T, K, M and f are reduced, the rest is as it was,
-///          so that motions, strain energies and drawings follow from the reduced coordinates as
-///          they do from q. Its `constraints` are still those of the full model.
-/// @throws ModelError  for a negative number of modes.
+///   q_i = -K_ii^-1 K_ib q_b + X p + r s,   K_ii x = w^2 M_ii x.
+///
+/// r is the part of K_ii^-1 f_i beyond X for each of `loads`. It makes the static response and the
+/// internal forces of the members exact. Without modes and loads the method is static condensation.
+/// The frequencies are those of a constrained model, which are at least those of the full model.
+/// Source: Guyan (1965); Craig & Bampton (1968).
+///
+/// @param system  full model.
+/// @param modes  number of modes of the interior of each member. If it is at least the number of
+///   interior coordinates, the member is not condensed.
+/// @param loads  loads on the free coordinates that act independently [SI].
+/// @returns the same model in fewer coordinates: T, K, M and f are reduced, and all other data are
+///   unchanged. Motions, strain energies and drawings follow from the reduced coordinates as from
+///   q. `constraints` are those of the full model.
+/// @throws ModelError  if the number of modes is negative.
 [[nodiscard]] System reduce_members(const System& system, Index modes,
                                     const std::vector<Eigen::VectorXd>& loads = {});
 
-/// Modal truncation with static correction (mode acceleration): q = Phi p + r s, with r what each
-/// load does beyond the modes,
-///   K r = f - M Phi Phi^T f.
-/// At frequencies far below those left out the response is that of the full model. Loads that the
-/// modes carry whole have no r.
+/// Reduces the model to modes with static correction (mode acceleration), q = Phi p + r s. r is the
+/// response to each load beyond the modes:
 ///
-/// @param modes  found modes of the same system, with Phi^T M Phi = I
-/// @param loads  that act one without another [SI]
-/// @returns as `reduce_members`
+///   K r = f - M Phi Phi^T f.
+///
+/// The response equals that of the full model at frequencies far below the omitted modes. Loads
+/// that the modes represent exactly have no r.
+///
+/// @param system  full model.
+/// @param modes  modes of the same system, with Phi^T M Phi = I.
+/// @param loads  loads on the free coordinates that act independently [SI].
+/// @returns the reduced model, as `reduce_members`.
+/// @throws ModelError  if the stiffness is singular although there are no rigid modes.
 [[nodiscard]] System reduce_to_modes(const System& system, const ModalSolution& modes,
                                      const std::vector<Eigen::VectorXd>& loads);
 

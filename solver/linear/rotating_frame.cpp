@@ -20,20 +20,22 @@ const Eigen::Matrix2d& perpendicular_matrix() {
   return J;
 }
 
-/// The part of a vector that leads away from the axis.
+/// Returns the projector to the direction away from the axis.
 Eigen::Matrix2d distance_projector(RotationAxis axis) {
   return Eigen::Vector2d(axis == RotationAxis::x ? 0 : 1, axis == RotationAxis::y ? 0 : 1)
       .asDiagonal();
 }
 
-/// Translation of a point mass's centre from (x, y, rotation) of its node.
+/// Returns the matrix from (x, y, rotation) of a node to the translation of the center of its point
+/// mass.
 Eigen::Matrix<double, 2, 3> centre_of_mass_interpolation(const PointMass& point_mass) {
   Eigen::Matrix<double, 2, 3> B;
   B << Eigen::Matrix2d::Identity(), perpendicular_matrix() * point_mass.offset;
   return B;
 }
 
-/// integral rho N^T A N of a frame element in its axes; lumped mass turns nothing.
+/// Returns integral rho N^T A N of a frame element in its axes. Lumped mass acts on translations
+/// only.
 Matrix6d frame_mass_with(const Eigen::Matrix2d& A, const FrameElement& e, const Member& member) {
   Matrix6d integral = Matrix6d::Zero();
   if (member.mass == MassMatrix::lumped || e.is_bar()) {
@@ -54,16 +56,20 @@ Matrix6d frame_mass_with(const Eigen::Matrix2d& A, const FrameElement& e, const 
   return integral;
 }
 
-/// integral rho I N^T N of the rotation of a frame element's sections, in world axes.
+/// Returns integral rho I N^T N of the rotation of the sections of a frame element, in world axes.
 Matrix6d rotary_mass(FrameElement e, const Member& member) {
   e.section.mass_per_length = 0;
   return world_mass(e, member);
 }
 
-/// What a section of unit rotary inertia feels about an axis in the plane. Its points at a height y
-/// stand y (n cos a - d sin a) beside the axis of the member, d along and n across it, so that the
-/// square of their distance adds y^2 (2 moment a + stiffness a^2): the section turns across the
-/// axis.
+/// Effect of a rotation axis in the plane on a section of unit rotary inertia. Points of the
+/// section at a height y are displaced by y (n cos a - d sin a) from the axis of the member. d is
+/// the direction along the member, n is normal to it, and a is the rotation. Their squared distance
+/// from the rotation axis contains the additional term
+///
+///   y^2 (2 moment a + stiffness a^2).
+///
+/// The section therefore turns to be perpendicular to the axis.
 struct SectionPull {
   double moment, stiffness;
 };
@@ -72,7 +78,7 @@ SectionPull section_pull(const Eigen::Matrix2d& P, const Vector2d& d) {
   return {-n.dot(P * d), d.dot(P * d) - n.dot(P * n)};
 }
 
-/// Calls visit(coordinates, S, G) for everything that has mass, in world axes.
+/// Calls visit(coordinates, S, G) for all parts with mass, in world axes.
 template <class Visit>
 void for_each_rotating_mass(const System& system, RotationAxis axis, Visit&& visit) {
   const Model& model = system.model;
@@ -135,11 +141,12 @@ SparseMatrix gyroscopic_matrix(const System& system) {
   on_u.setFromTriplets(entries.begin(), entries.end());
   const SparseMatrix matrix = system.T.transpose() * on_u * system.T;
   const SparseMatrix transposed = matrix.transpose();
-  return 0.5 * (matrix - transposed);  // skew to the last bit
+  return 0.5 * (matrix - transposed);  // skew-symmetric to the last bit
 }
 
 VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, const VectorXd& u) {
-  // The interpolation holds the position of every point: the nodes' positions with no rotation.
+  // The interpolation represents the position of every point by the node positions with zero
+  // rotation.
   VectorXd position = u;
   for (std::size_t node = 0; node < system.coordinates.node.size(); ++node) {
     const Vector2d arm = system.mesh.positions[node] - frame.centre;
@@ -154,7 +161,8 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
         detail::scatter(coordinates, (w2 * (S * detail::gather(coordinates, position))).eval(),
                         force);
       });
-  for (const FrameElement& e : system.mesh.frame) {  // but for the sections' heights
+  // The interpolation lacks the heights of the sections.
+  for (const FrameElement& e : system.mesh.frame) {
     if (frame.axis == RotationAxis::normal || e.section.inertia_per_length == 0) continue;
     const Vector2d swept = e.length * (perpendicular_matrix() * e.direction);
     Vector6d unit_turn;
@@ -163,7 +171,8 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
     const double moment = w2 * section_pull(P, e.direction).moment;
     detail::scatter(e.coordinates, (moment * (rotary_mass(e, member) * unit_turn)).eval(), force);
   }
-  for (const PointMass& point_mass : system.model.masses) {  // nor for the offset itself
+  // The interpolation lacks the constant offset.
+  for (const PointMass& point_mass : system.model.masses) {
     detail::scatter(system.coordinates.node[to_size(point_mass.node)],
                     (w2 * point_mass.mass * centre_of_mass_interpolation(point_mass).transpose() *
                      P * point_mass.offset)
@@ -202,14 +211,15 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
-/// Solves for the steady state; returns false if the forces do not settle or it does not exist.
+/// Solves for the steady state. Returns false if the forces do not converge or the state does not
+/// exist.
 bool find_steady_state(const System& system, const RotatingOptions& options,
                        StiffenedEquilibrium& steady, StaticState& state, Counters& counters) {
   const RotatingFrame& frame = options.frame;
   const VectorXd undeformed = VectorXd::Zero(system.T.rows());
   const VectorXd rhs =
       system.f + system.T.transpose() * centrifugal_forces(system, frame, undeformed);
-  // Forces in q, which the centrifugal forces of displacements u hold.
+  // Returns the forces in q under the centrifugal forces of displacements u.
   const auto forces = [&](const VectorXd& q, const VectorXd& u, const Prestress* before) {
     return forces_of(system, system.T * q, system.load + centrifugal_forces(system, frame, u),
                      body_forces(system, frame, u), before);
@@ -228,7 +238,7 @@ bool find_steady_state(const System& system, const RotatingOptions& options,
   return steady.solve(rhs, state);
 }
 
-/// Equilibrium of the steady state: (K + K_G - W^2 S) q = f + W^2 f_c.
+/// Returns the backward error of the steady state, (K + K_G - W^2 S) q = f + W^2 f_c.
 double steady_backward_error(const System& system, const SparseMatrix& added, const VectorXd& q,
                              const RotatingFrame& frame) {
   RowBalance<double> rows(system);
@@ -239,7 +249,8 @@ double steady_backward_error(const System& system, const SparseMatrix& added, co
   return rows.backward_error();
 }
 
-/// (K + K_G - W^2 S + s 2 W G + s^2 M) x = 0, s = growth rate + i w, of all modes.
+/// Returns the largest backward error of the modes, (K + K_G - W^2 S + s 2 W G + s^2 M) x = 0 with
+/// s = growth rate + i w.
 double mode_backward_error(const System& system, const SparseMatrix& added, const SparseMatrix& C,
                            const MatrixXcd& x, const VectorXcd& s) {
   const MatrixXcd u = system.T * x;
@@ -251,8 +262,8 @@ double mode_backward_error(const System& system, const SparseMatrix& added, cons
   return rows.backward_error();
 }
 
-/// Modes missed or too many: of a stable state those below the last clear gap, of an unstable one
-/// all, as many as the rank of the mass matrix.
+/// Returns the number of missing or superfluous modes. A stable state is checked below the last
+/// clear gap. An unstable state must have as many modes as the rank of the mass matrix.
 double miscounted_modes(const GyroscopicPencil& pencil, const GyroscopicModes& modes, bool stable) {
   const VectorXd& w = modes.omega;
   if (stable) {
@@ -296,7 +307,7 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
   StiffenedEquilibrium steady(system, result.counters, &softening);
   StaticState state{{}, VectorXd::Zero(system.K.rows()), {}, 0};
   if (!find_steady_state(system, options, steady, state, result.counters)) {
-    result.outcome = {Status::not_converged, "the steady state of the rotating frame is not found"};
+    result.outcome = {Status::not_converged, "no steady state of the rotating frame was found"};
     return result;
   }
   result.q = state.q;
@@ -315,7 +326,7 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
       [&](const MatrixXd& X) -> MatrixXd {
         return strain_products(system, system.T * X) + X.transpose() * (added * X);
       }};
-  if (system.M.coeffs().isZero(0)) return result;  // nothing swings
+  if (system.M.coeffs().isZero(0)) return result;  // no mass, no vibration
   const bool stable = steady.is_stable();
   const GyroscopicModes modes = gyroscopic_modes(pencil, stable, options, result.counters);
   result.outcome = modes.outcome;

@@ -8,71 +8,88 @@
 #include "solver/linear/system.h"
 #include "solver/model/evidence.h"
 
-/// What a steadily rotating frame adds to the equations of the motion relative to it, at angular
-/// speed W (counterclockwise) about a centre c. The acceleration of a mass at x is
-///   u.. + 2 W J u. - W^2 (x - c + u),   J = [0 -1; 1 0],
-/// so that M q.. + 2 W G q. + (K + K_G - W^2 S) q = f + W^2 f_c. Rotary inertia of point masses
-/// feels neither term: as much of it is taken to lie along as across the axis. That of sections
-/// feels none about the normal of the plane.
+/// Equations of motion relative to a frame that rotates with constant angular speed W
+/// (counterclockwise) about a center c. The acceleration of a mass at x is
+///
+///   u.. + 2 W J u. - W^2 (x - c + u),   J = [0 -1; 1 0].
+///
+/// The equation of motion is
+///
+///   M q.. + 2 W G q. + (K + K_G - W^2 S) q = f + W^2 f_c.
+///
+/// Neither term acts on the rotary inertia of point masses, which is assumed equal along and across
+/// the axis. Neither term acts on the rotary inertia of sections if the axis is normal to the
+/// plane.
 namespace trammel::solver {
 
-/// About the normal of the plane, or about an axis in it: then the centrifugal forces pull away
-/// from that axis alone, motion along the axis (the flapping of a blade) is not softened, and the
-/// Coriolis forces point out of the plane, where nothing moves.
+/// Axis of rotation: the normal of the plane, or an axis in the plane. An axis in the plane has
+/// these effects:
+///
+/// - Centrifugal forces point away from the axis.
+/// - Motion along the axis (flapping of a blade) is not softened.
+/// - Coriolis forces are normal to the plane, in which direction nothing moves.
 enum class RotationAxis { normal, x, y };
 
+/// Steady rotation of a reference frame.
 struct RotatingFrame {
   double speed = 0;                    ///< W [rad/s]
-  Vector2d centre = Vector2d::Zero();  ///< c, a point of the axis [m]
+  Vector2d centre = Vector2d::Zero();  ///< c, a point on the axis [m]
   RotationAxis axis = RotationAxis::normal;
 };
 
-/// S: the mass of the motions away from the axis, q x q.
+/// Returns S, the mass matrix of motions away from the axis, q x q [SI].
 [[nodiscard]] SparseMatrix centrifugal_softening(const System& system,
                                                  RotationAxis axis = RotationAxis::normal);
 
-/// G = integral rho N^T J N dV, q x q; skew.   Source: Coriolis force on the interpolation.
+/// Returns G = integral rho N^T J N dV, q x q, skew-symmetric [SI].
+/// Source: Coriolis force on the interpolation.
 [[nodiscard]] SparseMatrix gyroscopic_matrix(const System& system);
 
-/// Centrifugal forces W^2 integral rho N^T (x - c + u) dV on the unconstrained coordinates.
+/// Returns the centrifugal forces W^2 integral rho N^T (x - c + u) dV on the unconstrained
+/// coordinates [N, N m].
 [[nodiscard]] Eigen::VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame,
                                                  const Eigen::VectorXd& u);
 
-/// The model's own body forces and the centrifugal ones of displacements u.
+/// Returns the body forces of the model plus the centrifugal forces at displacements u.
 [[nodiscard]] BodyForces body_forces(const System& system, const RotatingFrame& frame,
                                      const Eigen::VectorXd& u);
 
+/// Options of a vibration analysis in a rotating frame.
 struct RotatingOptions {
   RotatingFrame frame;
   Index count = 6;
   EigenMethod method =
-      EigenMethod::automatic;  ///< of a stable state; an unstable one is always dense
-  bool gyroscopic = true;      ///< false: leaves G out
-  bool stiffening = true;      ///< false: leaves K_G out
-  /// K_G from the forces in the steady state; false: from those of linear statics under the
-  /// centrifugal forces on the undeformed frame, as the classical equations of blades have it.
+      EigenMethod::automatic;  ///< for a stable state; an unstable state requires the dense method
+  bool gyroscopic = true;      ///< false: omit G
+  bool stiffening = true;      ///< false: omit K_G
+  /// true: K_G follows from the forces in the steady state. false: K_G follows from linear statics
+  /// under the centrifugal forces on the undeformed frame, as in the classical equations of blades.
   bool prestress_at_steady_state = true;
 };
 
-/// Small vibration of a frame that rotates steadily, seen from it, about its steady state:
-///   (K + K_G - W^2 S) q = f + W^2 f_c,   and with that K_G
-///   (K + K_G - W^2 S + i w 2 W G - w^2 M) x = 0
-/// (rotating_frame.h for S, G, f_c). The supports rotate with the frame; the geometry is the
-/// undeformed one.
+/// Small vibrations about the steady state of a rotating frame, relative to the frame. The steady
+/// state and the modes satisfy
 ///
-/// Stable states have real w: a Hermitian problem in 1 / w, of which none is missed, for the matrix
-/// above at a w just beyond the last has as many negative pivots as there are below it.
+///   (K + K_G - W^2 S) q = f + W^2 f_c,
+///   (K + K_G - W^2 S + i w 2 W G - w^2 M) x = 0.
+///
+/// The supports rotate with the frame, and the geometry is undeformed.
+///
+/// Stable states have real w. They lead to a Hermitian problem in 1 / w, whose modes are counted
+/// completely. At a w just above the last mode, the matrix of the second equation has as many
+/// negative pivots as there are modes below.
 struct RotatingModes {
   Outcome outcome;              ///< singular: a mechanism; not_converged: see the reason
   Eigen::VectorXd q;            ///< steady state, free coordinates; see node_motion
-  bool stable = true;           ///< false where a motion grows
-  Eigen::VectorXd frequency;    ///< ascending [Hz]; 0 for what grows without turning over
-  Eigen::VectorXd growth_rate;  ///< of each [1/s]; 0 in a stable state
+  bool stable = true;           ///< false: a motion grows
+  Eigen::VectorXd frequency;    ///< ascending [Hz]; 0 for monotonic growth
+  Eigen::VectorXd growth_rate;  ///< growth rate of each mode [1/s]; 0 in a stable state
   Eigen::MatrixXcd shape;       ///< free coordinate x mode, q(t) = Re(x e^{i w t}), |x| = 1
   Evidence evidence;
   Counters counters;
 };
 
+/// Computes the steady state of a rotating frame and the modes about it.
 [[nodiscard]] RotatingModes solve_rotating_modes(const System& system,
                                                  const RotatingOptions& options);
 

@@ -16,7 +16,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Adds k u to the rows of the element's coordinates, for each column of u.
+/// Adds k u to the rows of the coordinates of the element, for each column of u.
 template <class Coordinates, class Stiffness, class Matrix>
 void add_product(const Coordinates& coordinates, const Stiffness& k, const Matrix& u, Matrix& sum) {
   for (Index state = 0; state < u.cols(); ++state)
@@ -100,7 +100,7 @@ double RowBalance<Scalar>::residual_over_load() const {
   const VectorXd scale = system_.K.diagonal().cwiseAbs().unaryExpr(
       [](double k) { return k > 0 ? 1 / std::sqrt(k) : 0; });
   const VectorXd load = system_.T.cwiseAbs().transpose() * system_.load.cwiseAbs();
-  // Round-off errors cancel at some angles of the model and not at others.
+  // Round-off errors cancel at some orientations of the model and not at others.
   const VectorXd residual = rows().col(0).cwiseAbs().cwiseMax(kEps * row_terms().col(0));
   const double size = scale.cwiseProduct(residual).norm();
   return size == 0 ? 0 : size / scale.cwiseProduct(load).norm();
@@ -131,7 +131,7 @@ SparseMatrix damping_matrix(const RayleighDamping& damping, const SparseMatrix& 
 SparseMatrix modal_damping_matrix(const SparseMatrix& M, const Eigen::VectorXd& omega,
                                   const Eigen::MatrixXd& shape, const Eigen::VectorXd& ratio) {
   if (shape.rows() != M.rows() || shape.cols() != omega.size() || ratio.size() != omega.size()) {
-    throw ModelError("modal damping has one ratio for each mode");
+    throw ModelError("modal damping needs one ratio for each mode");
   }
   const Eigen::MatrixXd inertia = M * shape;
   const Eigen::VectorXd factor = 2 * ratio.cwiseProduct(omega);

@@ -28,7 +28,7 @@ StaticState solve_linear_statics(const System& system, Counters& counters) {
     solution.q = q;
     const double bound = forward_error(factors, R, q, system.f, inverse);
     solution.error = bound + left;
-    return left <= bound;  // not for NaN
+    return left <= bound;  // not satisfied by NaN
   };
   const auto solve = [&](const VectorXd& b) -> VectorXd {
     ++counters.solves;
@@ -81,9 +81,9 @@ double force_roundoff(const System& system, const VectorXd& q) {
 
 namespace {
 
-constexpr double kSmallestStep = 1e-4;  // share of the loads
+constexpr double kSmallestStep = 1e-4;  // fraction of the loads
 
-/// Forces that hold q under a share of the loads.
+/// Returns the forces of q under a fraction of the loads.
 Prestress forces_at(const System& system, double load, const VectorXd& q, const Prestress* before) {
   BodyForces weights = body_forces(system);
   for (Vector2d& weight : weights.element) weight *= load;
@@ -114,14 +114,15 @@ void StiffenedEquilibrium::iterate(const VectorXd& f, const Forces& forces, Stat
     const double ratio = change / last_change;
     const bool slow = !(ratio < 0.5);
     left_ = size > 0 ? change / size * (ratio < 1 ? ratio / (1 - ratio) : 1) : 0;
-    // Forces can change where nothing moves: they are those that were factored from the second on.
+    // Forces can change even if nothing moves. Convergence therefore requires at least two
+    // iterations.
     const bool settled =
         change <= 1e-14 * size || (slow && change <= force_rounding(state) + 1e-8 * size);
     if (k > 0 && settled) return;
     growing = change < last_change ? 0 : growing + 1;
     last_change = change;
   }
-  state.outcome = {Status::not_converged, "the forces of the state do not settle"};
+  state.outcome = {Status::not_converged, "the forces of the state do not converge"};
 }
 
 bool StiffenedEquilibrium::solve(const VectorXd& f, StaticState& state) {
@@ -180,7 +181,7 @@ StaticState solve_second_order(const System& system, const VectorXd& linear, Cou
   reached.outcome = require_determined_stiffening(system);
   if (!reached.outcome.solved()) return reached;
   StiffenedEquilibrium equilibrium(system, counters);
-  Outcome whole;  // of the first attempt, under the whole load
+  Outcome whole;  // outcome of the first attempt under the full load
   double load = 0, step = 1;
   while (load < 1) {
     const double target = std::min(1.0, load + step);

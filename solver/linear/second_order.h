@@ -12,57 +12,65 @@ namespace trammel::solver {
 
 /// Displacements of a static state.
 struct StaticState {
-  Outcome outcome;    ///< singular with the free motion in words; not converged below one digit
+  Outcome outcome;    ///< singular: the reason describes the zero-energy mode; not_converged: less
+                      ///< than one correct digit
   Eigen::VectorXd q;  ///< free coordinates [m, rad]
-  Prestress forces;   ///< second-order theory: of q
-  double error = 1;   ///< bound of max |du| / max |u|, rotations times the size of the model
+  Prestress forces;   ///< second-order theory: forces of q
+  double error = 1;   ///< bound of max |du| / max |u|; rotations are multiplied by the model size
 };
 
-/// K q = f, refined with residuals from the elements. If K has lost too many digits to be factored,
-/// q is solved for from the deformations of the elements and their forces (forward_error.h).
+/// Solves K q = f with iterative refinement and residuals from the elements. If K is too
+/// ill-conditioned to be factored, the deformations of the elements and their forces are solved
+/// together (forward_error.h).
 [[nodiscard]] StaticState solve_linear_statics(const System& system, Counters& counters);
 
-/// Not converged where a relative error of the displacements leaves less than one digit.
+/// Returns `not_converged` if the relative error of the displacements exceeds 0.1, which leaves
+/// less than one digit.
 [[nodiscard]] Outcome outcome_by_error(double error);
 
-/// What rounding leaves uncertain of the largest force of an element on a node, of that force: a
-/// stiff element's deformation is what remains of motions that cancel.
+/// Returns the round-off error of the forces of elements on nodes, relative to the largest such
+/// force. The deformation of a stiff element is a difference of nearly equal motions.
 [[nodiscard]] double force_roundoff(const System& system, const Eigen::VectorXd& q);
 
-/// Forces of a state under loads.
-/// @param u, load  of the unconstrained coordinates
-/// @param before  if given, the constraint forces include the second-order terms of these
+/// Computes the forces of a state under loads.
+/// @param system  assembled model.
+/// @param u  displacements of the unconstrained coordinates [m, rad].
+/// @param load  loads on the unconstrained coordinates [N, N m].
+/// @param body  forces on masses and members.
+/// @param before  if given, the constraint forces include the second-order terms of these forces.
 [[nodiscard]] Prestress forces_of(const System& system, const Eigen::VectorXd& u,
                                   const Eigen::VectorXd& load, const BodyForces& body,
                                   const Prestress* before = nullptr);
 
-/// Equilibrium (K + A + K_G) q = f of a state whose own forces hold it, K_G from these forces and A
-/// the softening of a rotating frame, if there is one. Without A the state has to be stable:
-/// K + K_G has no negative pivot (Sylvester). Functions that fail set the outcome of the state.
+/// Equilibrium (K + A + K_G) q = f with K_G from the forces of q itself. A is the softening matrix
+/// of a rotating frame, or absent. Without A the state must be stable: K + K_G has no negative
+/// pivot (Sylvester). Functions that fail set the outcome of the state.
 class StiffenedEquilibrium {
  public:
-  /// Forces in q, from q and the forces of the matrix that q was solved with.
+  /// Returns the forces in q, from q and the forces of the matrix that was used to solve for q.
   using Forces = std::function<Prestress(const Eigen::VectorXd&, const Prestress*)>;
 
   StiffenedEquilibrium(const System& system, Counters& counters,
                        const SparseMatrix* softening = nullptr);
 
-  /// Solves with K_G of the state's forces, none if they are empty; returns false if it fails.
+  /// Solves with K_G of the forces of the state, or without K_G if they are empty. Returns false on
+  /// failure.
   bool solve(const Eigen::VectorXd& f, StaticState& state);
-  /// Solves and updates the forces until they repeat, from a state nearby.
+  /// Solves and updates the forces until they converge, starting from a nearby state.
   void iterate(const Eigen::VectorXd& f, const Forces& forces, StaticState& state);
 
-  /// StaticState::error of the state that was solved last.
+  /// Returns StaticState::error of the state that was solved last.
   [[nodiscard]] double error(const StaticState& state) const;
-  /// A + K_G of the last solution, and (K + A + K_G) q with K q from the elements' deformations.
+  /// Returns A + K_G of the last solution.
   [[nodiscard]] const SparseMatrix& added() const { return added_; }
+  /// Returns (K + A + K_G) q [N, N m], with K q from the deformations of the elements.
   [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& q) const;
   [[nodiscard]] bool is_stable() const { return factorization_.smallest_pivot() > 0; }
 
  private:
-  /// max |u|, rotations times the size of the model.
+  /// Returns max |u| [m]; rotations are multiplied by the model size.
   [[nodiscard]] double measure(const Eigen::VectorXd& q) const;
-  /// What rounding of the state's forces does to the displacements.
+  /// Returns the effect of the round-off error of the forces on the displacements [m].
   [[nodiscard]] double force_rounding(const StaticState& state) const;
 
   const System& system_;
@@ -71,18 +79,20 @@ class StiffenedEquilibrium {
   SparseMatrix lengths_, added_;
   Operator elastic_;
   Factorization factorization_;
-  double left_ = 0;  // of q, what the latest iteration leaves
+  double left_ = 0;  // relative change of q that the last iteration leaves
 };
 
-/// Second-order theory: (K + K_G) q = f, K_G from the forces that hold q itself. Singular if a
-/// motion buckles on the way; not converged if there is no equilibrium beyond the share of the
-/// loads that the reason names. The error includes rounding of the state's forces and the last
-/// iteration.
+/// Solves (K + K_G) q = f by second-order theory, with K_G from the forces of q itself. The outcome
+/// is `singular` if the model buckles below the full load. It is `not_converged` if no equilibrium
+/// exists beyond the load factor that the reason states. The error includes the round-off error of
+/// the forces and the last iteration.
 ///
-/// Follows the equilibria from the unloaded state: where K + K_G of the latest forces, solved again
-/// and again, does not settle under the whole load, the load is put on in steps. The state found is
-/// stable: K + K_G has no negative pivot (Sylvester) in any step.
-/// @param linear  solution of K q = f
+/// The method follows the equilibria from the unloaded state. If fixed-point iteration with K + K_G
+/// does not converge under the full load, the load is applied in steps. The state is stable in each
+/// step: K + K_G has no negative pivot (Sylvester).
+/// @param system  assembled model.
+/// @param linear  solution of K q = f.
+/// @param counters  incremented by the factorizations and solves.
 [[nodiscard]] StaticState solve_second_order(const System& system, const Eigen::VectorXd& linear,
                                              Counters& counters);
 

@@ -18,14 +18,18 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Digits that a relative error leaves, no more than a double has.
+/// Returns the number of correct digits for a relative error, limited to the precision of a double.
 double digits(double error) {
   return -std::log10(std::clamp(error, kEps, 1.0));
 }
 
-/// What second-order theory adds to the first is d = -(K + K_G)^-1 K_G q: the stiffness K of that
-/// motion over what the forces leave of it, d^T K d / d^T (K + K_G) d. Of one buckling shape it is
-/// 1 / (1 - share of its load), whatever else the loads move.
+/// Returns the amplification of the second-order contribution d = -(K + K_G)^-1 K_G q. It is the
+/// stiffness of this motion relative to its remaining stiffness:
+///
+///   d^T K d / d^T (K + K_G) d.
+///
+/// For a single buckling shape it is 1 / (1 - fraction of the buckling load). Other motions of the
+/// loads do not affect it.
 double amplification(const System& system, const VectorXd& first, const StaticState& second) {
   const VectorXd added = second.q - first;
   const double stiffness = strain_products(system, system.T * added)(0, 0);
@@ -35,14 +39,15 @@ double amplification(const System& system, const VectorXd& first, const StaticSt
   return stiffness > 0 && left > 0 ? stiffness / left : 1;
 }
 
-/// The claimed state's equation with K and K_G formed afresh, and the equilibrium of its forces.
+/// Adds the residual of the equation of the state, with K and K_G computed again, and the
+/// equilibrium of its forces.
 void take_residuals(const System& system, const ElasticState& state, StaticSolution& solution) {
   RowBalance<double> rows(system);
   rows.add_stiffness(state.u);
   rows.add_load(-system.load);
   if (state.prestress) {
     rows.add(geometric_stiffness(system, *state.prestress), solution.q);
-    // The forces of the state are differences of larger ones.
+    // The forces of the state are differences of larger values.
     const Prestress roundoff = prestress_roundoff(system, solution.q);
     rows.add_terms(geometric_stiffness_forces(system, roundoff, state.u).cwiseAbs() / kEps);
   }
@@ -81,21 +86,23 @@ StaticSolution solve_statics(const System& system, const StaticsOptions& options
 
 namespace {
 
-/// Section forces along one element: N, V and M, the forces on a face whose normal points from the
-/// first to the second node; EI v'' = M, dM/dx = -V, dV/dx = -qy, dN/dx = -qx.
+/// Section forces N, V and M along one element. They act on a face whose normal points from the
+/// first to the second node:
+///
+///   EI v'' = M, dM/dx = -V, dV/dx = -qy, dN/dx = -qx.
 struct SectionForces {
   Vector3d start;
   Vector3d end;
-  Vector2d load;  ///< mean (qx, qy) along and across the element, inertia among it [N/m]
+  Vector2d load;  ///< mean (qx, qy) along and across the element, including inertia [N/m]
 
-  /// Between the ends: parabolas through both moments.
+  /// Returns the forces between the ends, with a parabola through both end moments.
   [[nodiscard]] Vector3d at(double x, double length) const {
     const double straight = start[2] + (end[2] - start[2]) * x / length;
     return {start[0] - load.x() * x, start[1] - load.y() * x,
             straight - load.y() * x * (length - x) / 2};
   }
-  /// dM/dx = -V at the first end; V itself is taken across the undeformed axis, and under second
-  /// order theory the axial force adds its share.
+  /// Returns dM/dx = -V at the first end. V acts across the undeformed axis. In second-order theory
+  /// the axial force contributes to dM/dx.
   [[nodiscard]] double slope(double length) const {
     return (end[2] - start[2]) / length - load.y() * length / 2;
   }
@@ -106,8 +113,8 @@ SectionForces section_forces(const Vector6d& end, double length) {
   return {-end.head<3>(), end.tail<3>(), load};
 }
 
-/// |N| / A + |M| / W at a point of an element; 0 at the end of a taper that comes to a point, NaN
-/// if the section has no area or modulus and the force is more than round-off.
+/// Returns |N| / A + |M| / W at a point of an element [Pa]. It is 0 at the pointed end of a taper.
+/// It is NaN if the section has no area or modulus and the force exceeds round-off.
 double stress_at(const Member& member, const FrameElement& e, double from_start, double x,
                  const Vector3d& forces, const ForceRoundoff& roundoff) {
   const double length = e.length * static_cast<double>(member.elements);
@@ -120,8 +127,9 @@ double stress_at(const Member& member, const FrameElement& e, double from_start,
   return axial + bending;
 }
 
-/// Both ends and, under a load across, the two places where |N|/A + |M|/W can be stationary; along
-/// a taper points between as well.
+/// Returns the largest stress of an element [Pa]. It evaluates both ends and, under a transverse
+/// load, the two possible stationary points of |N|/A + |M|/W. For a taper it also evaluates
+/// intermediate points.
 double largest_stress(const Member& member, const FrameElement& e, double from_start,
                       const SectionForces& f, const ForceRoundoff& roundoff) {
   double largest = 0;
@@ -133,7 +141,7 @@ double largest_stress(const Member& member, const FrameElement& e, double from_s
   evaluate(e.length);
   const bool tapers = member.section.section_modulus != member.end_section.section_modulus ||
                       member.section.area != member.end_section.area;
-  constexpr int kPoints = 16;  // of a smooth maximum between two of them less than 1 % is lost
+  constexpr int kPoints = 16;  // underestimates a smooth maximum by less than 1 %
   for (int k = 1; tapers && k < kPoints; ++k) evaluate(e.length * k / kPoints);
   if (f.load.y() != 0) {
     const double lever =
@@ -157,7 +165,7 @@ void recover_displacements(const System& system, const RecoveredForces& forces,
         (solution.displacement.row(second) - solution.displacement.row(first)).head<2>();
     for (std::size_t end = 0; end < 2; ++end) {
       const Index c = system.coordinates.member_end[i][end];
-      // A bar turns as a whole.
+      // A bar turns as a rigid line.
       solution.end_rotation(static_cast<Index>(i), static_cast<Index>(end)) =
           c < 0 ? cross(span, shift) / span.squaredNorm() : forces.u[c];
     }
@@ -206,12 +214,12 @@ void recover_triangles(const System& system, const VectorXd& u, StaticSolution& 
   for (Index node = 0; node < area.size(); ++node) solution.node_stress.row(node) /= area[node];
 }
 
-/// All external actions on the model: loads, reactions, springs to the ground; equilibrium is that
-/// of the theory solved.
+/// Sums all external actions on the model: loads, reactions and springs to the ground. Equilibrium
+/// refers to the theory that was solved.
 void sum_external_forces(const System& system, const ElasticState& state,
                          StaticSolution& solution) {
   VectorXd load = acting_load(system, state);
-  if (state.prestress) {  // second-order theory: the forces turn with what they act on
+  if (state.prestress) {  // second-order theory: forces turn with the part on which they act
     load -= geometric_stiffness_forces(system, *state.prestress, state.u);
   }
   for (const SpringElement& spring : system.springs) {
@@ -245,7 +253,7 @@ VectorXd constraint_forces(const System& system, const ElasticState& state) {
 }
 
 ForceRoundoff force_roundoff(const ElementForces& ends, double size) {
-  constexpr double kShare = 1e-10;  // the limit of the residual of equilibrium
+  constexpr double kShare = 1e-10;  // limit of the equilibrium residual
   if (ends.cols() == 0) return {};
   double force = 0, moment = 0;
   for (const Index end : {0, 3}) {
@@ -336,7 +344,7 @@ void postprocess(const System& system, const ElasticState& state, StaticSolution
 
 namespace {
 
-/// Forces that the nodes exert on the members by their section forces, less the members' loads.
+/// Adds the forces of nodes on members according to the section forces, without the member loads.
 void add_members(const System& system, const ElasticState& state, const StaticSolution& solution,
                  VectorXd& sum) {
   const ElementForces forces = end_forces(system, state);
@@ -349,14 +357,14 @@ void add_members(const System& system, const ElasticState& state, const StaticSo
     if (first) force.head<3>() = -solution.resultant_start.row(e.member).transpose();
     if (last) force.tail<3>() = solution.resultant_end.row(e.member).transpose();
     force = frame_rotation(e.direction).transpose() * force;
-    // A bar's section forces hold its loads already; a beam's are those at its very ends.
+    // The section forces of a bar include its loads. Those of a beam act at its ends.
     detail::scatter(e.coordinates, (force + element_load(e, acting_load(system, state, e))).eval(),
                     sum);
   }
 }
 
-/// Forces of springs and triangles, and second-order forces of all but the members: the section
-/// forces of members include theirs.
+/// Adds the forces of springs and triangles, and second-order forces of all parts except members.
+/// The section forces of members include theirs.
 void add_other_elements(const System& system, const ElasticState& state, VectorXd& sum) {
   const auto add = [&](const auto& coordinates, const auto& B, const auto& c) {
     const auto deformation = (B * detail::gather(coordinates, state.u)).eval();
@@ -374,7 +382,7 @@ void add_other_elements(const System& system, const ElasticState& state, VectorX
   sum += geometric_stiffness_forces(system, rest, state.u);
 }
 
-/// Adds what supports and other constraints exert, with its magnitudes.
+/// Adds the forces of supports and other constraints and their magnitudes.
 void add_constraints(const System& system, const ElasticState& state,
                      const StaticSolution& solution, VectorXd& sum, VectorXd& magnitudes) {
   const VectorXd multipliers = constraint_forces(system, state);
@@ -383,7 +391,8 @@ void add_constraints(const System& system, const ElasticState& state,
     double force = multipliers[static_cast<Index>(i)];
     for (const auto& [coordinate, coefficient] : row.terms)
       magnitudes[coordinate] += std::abs(coefficient * force);
-    if (row.source == ConstraintRow::Source::inextensible) continue;  // the members have it
+    // Included in the section forces.
+    if (row.source == ConstraintRow::Source::inextensible) continue;
     if (row.source == ConstraintRow::Source::support)
       force = solution.reaction(row.index, support_component(system, row));
     for (const auto& [coordinate, coefficient] : row.terms) sum[coordinate] -= coefficient * force;
@@ -399,8 +408,8 @@ double unbalanced_forces(const System& system, const ElasticState& state,
   add_members(system, state, solution, sum);
   add_other_elements(system, state, sum);
   add_constraints(system, state, solution, sum, magnitudes);
-  // Constraints carry the round-off of a force to other coordinates, as a chain of inextensible
-  // elements does to its loose end.
+  // Constraints transfer the round-off error of a force to other coordinates, for example along a
+  // chain of inextensible elements to its free end.
   const VectorXd length = length_scales(system);
   const double largest = magnitudes.cwiseQuotient(length).maxCoeff();
   return largest_ratio(sum, magnitudes.cwiseMax(kLeastShare * largest * length));

@@ -32,7 +32,8 @@ std::vector<SpringElement> spring_elements(const Model& model, const Coordinates
   return springs;
 }
 
-/// Free coordinates that carry nothing keep their place on the diagonal.
+/// Returns a sum with a zero on each diagonal position, so that unloaded free coordinates remain in
+/// the pattern.
 Projection empty_sum(const System& system) {
   const auto& triangles = system.model.triangles;
   const bool quadratic = !triangles.empty() && triangles.front().quadratic();
@@ -95,7 +96,7 @@ Eigen::VectorXd weight_of(const System& system) {
   for (const FrameElement& e : system.mesh.frame)
     detail::scatter(e.coordinates, element_load(e, e.section.mass_per_length * gravity), weight);
   for_each_plate_mass(system, [&](const auto& coordinates, const auto& m) {
-    Eigen::VectorXd fall(m.cols());  // the same acceleration at every node
+    Eigen::VectorXd fall(m.cols());  // same acceleration at every node
     for (Index i = 0; i < fall.size(); ++i) fall[i] = gravity[i % 2];
     detail::scatter(coordinates, (m * fall).eval(), weight);
   });
@@ -107,13 +108,13 @@ Eigen::VectorXd weight_of(const System& system) {
   return weight;
 }
 
-/// Loads on nodes, members and sides of plates.
+/// Returns the loads on nodes, members and sides of plates.
 Eigen::VectorXd applied_load(const System& system) {
   const Model& model = system.model;
   const auto& node = system.coordinates.node;
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(system.coordinates.size);
   for (const NodalLoad& load : model.loads) {
-    if (load.force[2] != 0) {  // asks for the rotation, so that a node without one is an error
+    if (load.force[2] != 0) {  // throws if the node has no rotation
       (void)system.coordinates.number(model, {Coordinate::Kind::rotation, load.node, -1, 0});
     }
     detail::scatter(node[to_size(load.node)], load.force, sum);
@@ -156,7 +157,7 @@ System assemble(const Model& model, Effects active) {
   system.springs = spring_elements(system.model, system.coordinates);
   system.T = system.constraints.T;
   const bool has_inertia = active.has(Effect::inertia);
-  stiffness(system, system.counters).swap(system.K);  // Eigen 3.4 copies what is assigned
+  stiffness(system, system.counters).swap(system.K);  // Eigen 3.4 copies on assignment
   if (has_inertia) mass(system, system.counters).swap(system.M);
   count_effects(system, has_inertia, system.counters);
   system.weight = weight_of(system);

@@ -13,45 +13,45 @@
 
 namespace trammel::solver {
 
-/// A linear spring between two unconstrained coordinates, or from one to the ground (-1).
+/// Linear spring between two unconstrained coordinates, or between one and the ground (-1).
 struct SpringElement {
   std::array<Index, 2> coordinates{-1, -1};
   double stiffness = 0;  ///< [N/m] or [N m/rad]
 };
 
-/// The assembled linear model. The unconstrained coordinates u (node translations, node rotations,
-/// rotations of released member ends) follow from the free ones q by u = T q: supports, hinges,
-/// rigid bodies, Eq. 25 and inextensible members are all rows of T.
+/// Assembled linear model. The unconstrained coordinates u are node translations, node rotations,
+/// and rotations of released member ends. They follow from the free coordinates q by u = T q. The
+/// rows of T express supports, hinges, rigid bodies, Eq. 25 and inextensible members.
 struct System {
   Model model;
-  Mesh mesh;                ///< node positions and elements, for drawing
+  Mesh mesh;                ///< node positions and elements, also for drawing
   Coordinates coordinates;  ///< numbering of u
   Constraints constraints;
   std::vector<SpringElement> springs;
 
-  SparseMatrix T;          ///< u x q
-  SparseMatrix K;          ///< stiffness, q x q [SI]; symmetric, stored whole
-  SparseMatrix M;          ///< mass, q x q [SI]; symmetric, stored whole; 0 x 0 without inertia
-  Eigen::VectorXd f;       ///< loads on q [SI]
+  SparseMatrix T;     ///< u x q
+  SparseMatrix K;     ///< stiffness, q x q [SI]; symmetric, both triangles stored
+  SparseMatrix M;     ///< mass, q x q [SI]; symmetric, both triangles stored; 0 x 0 without inertia
+  Eigen::VectorXd f;  ///< loads on q [SI]
   Eigen::VectorXd load;    ///< loads on u [SI]; f = T^T load
-  Eigen::VectorXd weight;  ///< what of them is weight
+  Eigen::VectorXd weight;  ///< part of `load` that is weight [SI]
   Counters counters;
 };
 
-/// Builds K, M, f of the free coordinates (paper Eq. 7-11) of the model without the effects that
-/// are not active; without inertia there is no M.
-/// @throws ModelError  where the model has no meaning.
+/// Builds K, M and f of the free coordinates (paper Eq. 7-11). Effects that are not active are
+/// removed from the model first. M is empty without inertia.
+/// @throws ModelError  if the model is invalid.
 [[nodiscard]] System assemble(const Model& model, Effects active = Effects::all());
 
-/// Node motions of free coordinates q: model node x (ux [m], uy [m], rotation [rad]); NaN rotation
-/// where a node has none.
+/// Returns the node motions of free coordinates q: model node x (ux [m], uy [m], rotation [rad]).
+/// The rotation is NaN for a node without rotation.
 [[nodiscard]] Eigen::MatrixX3d node_motion(const System& system, const Eigen::VectorXd& q);
 
-/// The same of the unconstrained coordinates u.
+/// Returns the node motions of unconstrained coordinates u.
 [[nodiscard]] Eigen::MatrixX3d motion_of_nodes(const System& system, const Eigen::VectorXd& u);
 
-/// What makes lengths of the unconstrained coordinates u: 1 for translations, the model's size [m]
-/// for rotations.
+/// Returns factors that convert the unconstrained coordinates u to lengths: 1 for translations, the
+/// model size [m] for rotations.
 [[nodiscard]] inline Eigen::VectorXd length_scales(const System& system) {
   const double size = box_diagonal(system.mesh.positions);
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(system.coordinates.size);
@@ -61,12 +61,12 @@ struct System {
   return scale;
 }
 
-/// From the free coordinates q to u, all in lengths.
+/// Returns the matrix from the free coordinates q to u in lengths.
 [[nodiscard]] inline SparseMatrix free_length_scales(const System& system) {
   return length_scales(system).asDiagonal() * system.T;
 }
 
-/// Square of the length [m] that a unit of each free coordinate moves.
+/// Returns the squared length [m^2] that a unit of each free coordinate moves.
 [[nodiscard]] inline Eigen::VectorXd squared_lengths(const System& system) {
   const SparseMatrix lengths = free_length_scales(system);
   return lengths.cwiseAbs2().transpose() * Eigen::VectorXd::Ones(lengths.rows());

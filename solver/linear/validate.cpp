@@ -16,7 +16,7 @@ void require(bool holds, const std::string& part, const char* what) {
   if (!holds) throw ModelError(part + ' ' + what);
 }
 
-/// Zero and positive; false for NaN and infinity.
+/// Returns true for zero and positive numbers, and false for NaN and infinity.
 bool is_amount(double value) {
   return std::isfinite(value) && value >= 0;
 }
@@ -134,7 +134,8 @@ class Validator {
     }
   }
 
-  /// The map from area coordinates must not fold: same sign of its determinant at all six nodes.
+  /// Checks that the mapping from area coordinates does not fold: its determinant has the same sign
+  /// at all six nodes and at the centroid.
   void curved(const Triangle& triangle, const std::string& part) const {
     const auto area_at = [&](const Vector3d& at) {
       return interpolate(model_, triangle, at).signed_area;
@@ -267,7 +268,7 @@ Model restrict_effects(Model model, Effects active) {
 
 bool is_axially_overconstrained(const Model& model) {
   Model stiff = restrict_effects(model, Effects::all().without(Effect::axial_flexibility));
-  for (Member& member : stiff.members) member.elements = 1;  // what is inside is free to follow
+  for (Member& member : stiff.members) member.elements = 1;  // interior nodes can follow freely
   const Constraints constraints = build_constraints(stiff, discretise(stiff));
   for (std::size_t i = 0; i < constraints.rows.size(); ++i) {
     const bool along = constraints.rows[i].source == ConstraintRow::Source::inextensible;

@@ -5,24 +5,23 @@
 
 namespace trammel::solver {
 
-/// Checks what `assemble` relies on: indices inside their ranges, finite positions, positive
-/// lengths, areas and stiffnesses.
-/// @throws ModelError  one sentence that names the part and what is wrong with it.
+/// Checks the requirements of `assemble`: valid indices, finite positions, positive lengths, areas
+/// and stiffnesses.
+/// @throws ModelError  with one sentence that names the part and the problem.
 void validate(const Model& model);
 
-// Effects are taken out of a model before anything is assembled from it.
+// Effects are removed from a model before assembly.
 
-/// The effects that the parts have, as they are described. What belongs to an analysis rather than
-/// to parts (inertia, damping, gyroscopic forces, geometric stiffening, large displacement) is not
-/// among them.
+/// Returns the effects that the parts of the model have. Effects of an analysis are not included:
+/// inertia, damping, gyroscopic forces, geometric stiffening and large displacement.
 [[nodiscard]] Effects applicable_effects(const Model& model);
 
-/// The model without the effects that are not in `active`.
+/// Returns the model without the effects that are not in `active`.
 [[nodiscard]] Model restrict_effects(Model model, Effects active);
 
-/// Whether the members, if they did not stretch, would be held more than once along themselves, as
-/// a beam between two walls: their forces are then not determined, and the geometrically exact tier
-/// has no solution, for a beam that bends between walls must stretch.
+/// Returns true if inextensible members would be overconstrained along their axes, as in a beam
+/// between two walls. Their forces would be undetermined. The geometrically exact tier would have
+/// no solution, because a beam that bends between walls must stretch.
 [[nodiscard]] bool is_axially_overconstrained(const Model& model);
 
 }  // namespace trammel::solver

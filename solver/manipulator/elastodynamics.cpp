@@ -16,9 +16,10 @@
 
 namespace trammel::solver {
 
-/// Balance of all forces, and of all moments, on the whole: the largest residual and the largest
-/// sum of magnitudes over the samples [N], [N m]. Rows of the equation of motion are held to terms
-/// that include the rounding of a very stiff part; this balance has no such terms.
+/// Balance of all forces, and of all moments, on the full model: the largest residual and the
+/// largest sum of magnitudes over the samples [N], [N m]. Rows of the equation of motion are
+/// compared with terms that include the round-off error of very stiff parts. This balance has no
+/// such terms.
 struct WholeBalance {
   Vector2d residual = Vector2d::Zero(), terms = Vector2d::Zero();
 
@@ -28,10 +29,13 @@ struct WholeBalance {
   }
 };
 
-/// Displacements, reactions, section forces and stresses of the elastic motion at one pose, in
-/// equilibrium with inertia and damping. A member's stress is the largest at the ends of its
-/// elements.
-/// @param q  free coordinates;  @param forces  of the same motion;  @param balance  to add it to
+/// Computes displacements, reactions, section forces and stresses of the elastic motion at one
+/// pose, in equilibrium with inertia and damping. The stress of a member is the largest at the ends
+/// of its elements.
+/// @param moving  system at the pose.
+/// @param q  free coordinates.
+/// @param forces  forces of the same motion.
+/// @param balance  balance to which the residuals are added.
 [[nodiscard]] StaticSolution postprocess_motion(const MovingSystem& moving,
                                                 const Eigen::VectorXd& q,
                                                 const MovingSystem::Forces& forces,
@@ -44,12 +48,12 @@ using Eigen::VectorXd;
 std::vector<double> sample_times(const TransientOptions& options) {
   if (!options.sample_times.empty()) return options.sample_times;
   if (!(options.step > 0 && options.end > options.start)) {
-    throw ModelError("a motion ends after it starts, and its step is positive");
+    throw ModelError("a motion must end after its start, and its step must be positive");
   }
   return even_times(options.start, options.end, options.step);
 }
 
-/// One row a sample.
+/// Returns one row per sample.
 Eigen::MatrixX3d stack(const std::vector<Vector3d>& samples) {
   Eigen::MatrixX3d rows(std::ssize(samples), 3);
   for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = samples[to_size(i)];
@@ -83,13 +87,14 @@ class MotionSolver {
   }
 
  private:
-  /// Written anew at every time, unless the platform stands still.
+  /// Returns the equation of motion. Its matrices are updated at every time unless the platform is
+  /// at rest.
   EquationOfMotion equation() {
     EquationOfMotion equation;
     equation.M = equation.K = moving_.K();
     if (follower_.damped() || options_.gyroscopic) equation.C = moving_.K();
     follower_.matrices(equation.M, equation.C, equation.K);
-    // Where there is no pose the numbers end, and with them the integration.
+    // The load is NaN if there is no pose, which ends the integration.
     equation.load = [this](double time, VectorXd& f) {
       if (follower_.update_to(time)) {
         f = follower_.load();
@@ -100,7 +105,7 @@ class MotionSolver {
     if (!options_.load_history.constant()) equation.breakpoints = options_.load_history.time;
     if (options_.gyroscopic) {
       equation.working_motion = [this](double time, const VectorXd& q, const VectorXd& v) {
-        follower_.update_to(time);  // where there is no pose the numbers have ended before
+        follower_.update_to(time);  // without a pose, the load has become NaN before
         return follower_.forces(q, v, VectorXd::Zero(q.size())).working;
       };
     }
@@ -112,13 +117,13 @@ class MotionSolver {
     return equation;
   }
 
-  /// The time whose loads act on a sample.
+  /// Returns the time whose loads act on a sample.
   [[nodiscard]] double load_time(double time) const {
     const bool begins = time == options_.time.start;
     return begins ? time : options_.load_history.end_of_step(time);
   }
 
-  /// K q = F + f at every sample.
+  /// Solves K q = F + f at every sample.
   void solve_quasi_statically() {
     VectorXd q;
     const VectorXd still = VectorXd::Zero(moving_.K().rows());
@@ -138,7 +143,7 @@ class MotionSolver {
     solution_.evidence = evidence.result();
   }
 
-  /// A sample that no scheme has computed.
+  /// Records a sample that was computed without a time scheme.
   void record_exact(const MotionSample& sample, double load_time, MotionEvidence& evidence) {
     evidence.add_equilibrium(sample.time, load_time, sample.q, sample.v, sample.a,
                              options_.time.step);
@@ -146,7 +151,7 @@ class MotionSolver {
     solution_.summary.time = sample.time;
   }
 
-  /// The acting forces at the present pose, and the wrench by its history.
+  /// Returns the acting forces at the current pose, with the wrench scaled by its history.
   [[nodiscard]] PiecewiseLinearLoad load_in_time(const VectorXd& f) const {
     const LoadHistory& history = options_.load_history;
     if (history.constant()) return step_load(f, options_.time.start);
@@ -155,14 +160,13 @@ class MotionSolver {
     return load_by_history(history, applied, f - history.at(options_.time.start) * applied);
   }
 
-  /// All modes at every sample, each by its closed form.
+  /// Superposes all modes at every sample by closed-form solutions.
   void superpose_modes() {
     const std::vector<double> times = sample_times(options_.time);
     if (!follower_.stands_still()) {
-      throw ModelError("modes are superposed where the matrices are constant: the platform moves");
+      throw ModelError("modal superposition requires constant matrices, but the platform moves");
     }
-    if (options_.gyroscopic)
-      throw ModelError("a platform that stands still has no gyroscopic terms");
+    if (options_.gyroscopic) throw ModelError("a platform at rest has no gyroscopic terms");
     const SparseMatrix& M = moving_.M();
     const SparseMatrix& K = moving_.K();
     const VectorXd f = follower_.load();
@@ -190,7 +194,7 @@ class MotionSolver {
       MotionEnergy energy{.kinetic = v.dot(M * v) / 2, .strain = q.dot(K * q) / 2};
       // The work of a variable load is not integrated here.
       energy.work = options_.load_history.constant() ? f.dot(q - q0) : kNaN;
-      // The rest has been dissipated; without damping it shows the round-off.
+      // The remaining energy has been dissipated. Without damping it shows the round-off error.
       if (follower_.damped())
         energy.dissipated = strain_at_start + energy.work - energy.kinetic - energy.strain;
       record_exact({0, times[i], q, v, a, energy}, times[i], evidence);
@@ -208,8 +212,8 @@ class MotionSolver {
         damping_ratio(options_.damping, 2 * std::numbers::pi * *first);
   }
 
-  /// K q = f - T^T C u., with the velocity of K q = f. Elastic inertia does not enter: its terms
-  /// depend, one by one, on which coordinates are free.
+  /// Solves K q = f - T^T C u., with the velocity of K q = f. Elastic inertia is omitted, because
+  /// each of its terms depends on the choice of free coordinates.
   Outcome start_with_rates(TransientOptions& time, Counters& counters) {
     EquationOfMotion equation = this->equation();
     equation.C = {};
@@ -228,7 +232,7 @@ class MotionSolver {
       return outcome;
     const VectorXd drag = follower_.forces(time.q0, time.v0, zero).working.drag;
     const VectorXd f = follower_.load() - moving_.constraints().T.transpose() * drag;
-    // T. q changes with q: of the velocities that suit it, take the one whose strains stay.
+    // T. q changes with q. Among the consistent velocities, use the one that keeps the strains.
     VectorXd q, change;
     if (!follower_.solve_statically(f, q) ||
         !follower_.solve_statically(moving_.K_T_dot() * (q - time.q0), change)) {
@@ -239,8 +243,8 @@ class MotionSolver {
     return outcome;
   }
 
-  /// The work of free coordinates depends on the axes if inextensible links move and the rates of T
-  /// are left out.
+  /// Returns true if the work of free coordinates depends on the axes. This is the case if
+  /// inextensible links move and the rates of T are omitted.
   [[nodiscard]] bool work_depends_on_axes() const {
     return !options_.gyroscopic && !follower_.stands_still() &&
            std::ranges::any_of(moving_.constraints().rows, [](const ConstraintRow& row) {
@@ -248,7 +252,7 @@ class MotionSolver {
            });
   }
 
-  /// By a scheme.
+  /// Integrates with a time scheme.
   void integrate() {
     TransientOptions time = options_.time;
     Counters start;
@@ -267,12 +271,12 @@ class MotionSolver {
     solution_.evidence = solution_.summary.evidence;
   }
 
-  /// Moves the follower to the time whose loads act on the sample; records nothing where there is
-  /// no pose.
+  /// Moves the follower to the time whose loads act on the sample, and records the state. Nothing
+  /// is recorded without a pose.
   void record(const MotionSample& sample, double load_time) {
     if (!follower_.update_to(load_time)) return;
     const MovingSystem::Forces forces = follower_.forces(sample.q, sample.v, sample.a);
-    if (sample.index < 0) {  // the end of a step inside which samples lie
+    if (sample.index < 0) {  // end of a step that contains samples
       static_cast<void>(postprocess_motion(moving_, sample.q, forces, balance_));
       return;
     }
@@ -280,7 +284,7 @@ class MotionSolver {
     solution_.nominal.push_back(follower_.point());
     solution_.nominal.back().time = sample.time;
     solution_.energy.push_back(sample.energy);
-    // Coordinates without mass do not follow a load yet that begins or jumps.
+    // Massless coordinates do not yet follow a load that starts or jumps.
     const std::vector<double>& jumps = options_.load_history.time;
     const bool jumps_here = std::ranges::find(jumps, sample.time) != jumps.end();
     const bool begins =
@@ -293,7 +297,7 @@ class MotionSolver {
     update_effect_numbers();
   }
 
-  /// Displacement of P, as a row of displacements.
+  /// Returns the displacement of P, as a row of displacements [m, m, rad].
   [[nodiscard]] Vector3d quasi_static_displacement(const StaticSolution& state) {
     const Index P = moving_.start().model.find_node("P");
     if (!options_.elastic_inertia) return state.displacement.row(P);
@@ -335,8 +339,10 @@ class MotionSolver {
   double max_angular_velocity_ = 0, max_velocity_ = 0, max_acceleration_ = 0;
 };
 
-/// Rotation that best fits the displacements of C1 C2 C3 [rad].
-/// @param displacement  of C1 C2 C3 x (ux, uy) [m]
+/// Returns the rotation that best fits the displacements of C1 C2 C3 [rad].
+/// @param geometry  dimensions.
+/// @param phi  orientation of the platform [rad].
+/// @param displacement  C1 C2 C3 x (ux, uy) [m].
 double mean_platform_rotation(const ManipulatorGeometry& geometry, double phi,
                               const Eigen::Matrix<double, 3, 2>& displacement) {
   const auto& C = geometry.platform;
@@ -355,8 +361,7 @@ double mean_platform_rotation(const ManipulatorGeometry& geometry, double phi,
 
 ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options) {
   if (options.gyroscopic && !options.elastic_inertia) {
-    throw ModelError(
-        "gyroscopic terms are inertia of the elastic motion: without it there are none");
+    throw ModelError("gyroscopic terms require elastic inertia");
   }
   return MotionSolver(options).run();
 }
@@ -374,7 +379,7 @@ void set_platform_motion(const ManipulatorGeometry& geometry, ElastodynamicsSolu
     const TrajectoryPoint& nominal = solution.nominal[to_size(i)];
     const Vector2d deflection = state.displacement.row(kP).head<2>();
     const Vector2d velocity = nominal.velocity.head<2>();
-    const Vector2d along = velocity / velocity.norm();  // NaN at a standstill
+    const Vector2d along = velocity / velocity.norm();  // NaN at zero velocity
     solution.deflection.row(i) = deflection;
     solution.tangential_error[i] = along.dot(deflection);
     solution.normal_error[i] = cross(along, deflection);
@@ -386,7 +391,8 @@ void set_platform_motion(const ManipulatorGeometry& geometry, ElastodynamicsSolu
 
 namespace {
 
-/// End forces of the elements, with the tension of inextensible members, which is a constraint's.
+/// Returns the end forces of the elements, including the tension of inextensible members, which is
+/// a constraint force.
 Eigen::Matrix<double, 6, Eigen::Dynamic> end_forces(const MovingSystem& moving,
                                                     const MovingSystem::Forces& forces,
                                                     const VectorXd& multipliers) {

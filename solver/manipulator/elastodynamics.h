@@ -13,70 +13,77 @@
 
 /// Elastic vibration of the manipulator about its nominal rigid motion along a path (paper Eq.
 /// 12-19, with the rigid platform of Eq. 20-27):
-///   M(t) q.. + (C(t) + G(t)) q. + (K(t) + S(t)) q = T^T F + f(t),   C = w1 M + w2 K,
-/// where the joints follow the path exactly, F is the load on the platform, f the inertia of the
-/// nominal motion, and G and S the gyroscopic, centrifugal and Euler terms of the moving links
-/// (moving_system.h), an effect of their own.
+///
+///   M(t) q.. + (C(t) + G(t)) q. + (K(t) + S(t)) q = T^T F + f(t),   C = w1 M + w2 K.
+///
+/// The joints follow the path exactly. F is the load on the platform, and f the inertia load of the
+/// nominal motion. G and S are the gyroscopic, centrifugal and Euler terms of the moving links
+/// (moving_system.h), which form a separate effect.
 namespace trammel::solver {
 
+/// Options of an elastodynamic analysis.
 struct ElastodynamicsOptions {
   ManipulatorDesign design;
   Path path;
-  Vector3d wrench = Vector3d::Zero();   ///< on the platform at P, world axes (Fx, Fy [N], M [N m])
-  LoadHistory load_history;             ///< on the wrench, not on weight and inertia
-  Vector2d gravity = Vector2d::Zero();  ///< in the plane [m/s^2]
+  Vector3d wrench = Vector3d::Zero();  ///< on the platform at P, world axes (Fx, Fy [N], M [N m])
+  LoadHistory load_history;  ///< factor on the wrench only; weight and inertia do not change
+  Vector2d gravity = Vector2d::Zero();                        ///< in the plane [m/s^2]
   RayleighDamping damping{.mass = 0.02, .stiffness = 0.003};  ///< as printed, Eq. 19
 
   bool nominal_inertia = true;  ///< f, Eq. 14-17
-  bool elastic_inertia = true;  ///< M q.., and with it damping; off: quasi-static, K q = F + f
-  bool gyroscopic = false;      ///< G and S; a part of elastic inertia, without which it is refused
+  bool elastic_inertia = true;  ///< M q.. and damping; off: quasi-static, K q = F + f
+  bool gyroscopic = false;      ///< G and S; requires elastic inertia
 
-  /// start, end, step, scheme, error control, samples; `quasi_static_start` or at rest.
+  /// Start, end, step, scheme, error control and samples. The motion starts quasi-statically
+  /// (`quasi_static_start`) or at rest.
   TransientOptions time;
-  /// The exact response instead of a scheme: all modes superposed. Only where the platform stands
-  /// still, so that the matrices are constant.
+  /// true: exact response by superposition of all modes instead of a time scheme. It requires a
+  /// platform at rest, so that the matrices are constant.
   bool modal_superposition = false;
 };
 
-/// Numbers without dimension that say when an effect matters; the largest over the samples. NaN
-/// where there is no such number: no elastic mode was found, or the stiffness is singular.
+/// Dimensionless numbers that indicate the importance of effects, as the largest over the samples.
+/// NaN if a number is undefined, because there is no elastic mode or the stiffness is singular.
 struct ElastodynamicsEffects {
-  double first_frequency = kNaN;  ///< at the start [Hz]
-  double damping_ratio = kNaN;    ///< of that mode
+  double first_frequency = kNaN;  ///< lowest elastic frequency at the start [Hz]
+  double damping_ratio = kNaN;    ///< damping ratio of that mode
   double nominal_inertia = 0;     ///< |f| / |T^T F| in the norm of K^-1; infinite without a load
   double elastic_inertia = 0;     ///< path frequency over the first frequency, squared
-  double gyroscopic = 0;          ///< twice the fastest turning of a part over the first frequency
+  /// Twice the largest angular velocity of a part over the first angular frequency.
+  double gyroscopic = 0;
 };
 
-/// One entry a sample, as many as `time`.
+/// Solution of an elastodynamic analysis. Each vector has one entry per sample, in the order of
+/// `time`.
 struct ElastodynamicsSolution {
-  Outcome outcome;  ///< a pose out of reach or singular; or as in `summary`
+  Outcome outcome;  ///< a pose is out of reach or singular, or the outcome of `summary`
   Evidence evidence;
   TransientSummary summary;
   std::vector<double> time;              ///< [s]
-  std::vector<TrajectoryPoint> nominal;  ///< of P
-  /// Everything that `solve_statics` gives, in motion: displacements from the nominal position,
-  /// reactions and section forces in equilibrium with inertia and damping. A member's stress is
-  /// the largest at the ends of its elements. `q` are the free coordinates.
+  std::vector<TrajectoryPoint> nominal;  ///< nominal motion of P
+  /// Results of `solve_statics` in motion. Displacements are relative to the nominal position.
+  /// Reactions and section forces are in equilibrium with inertia and damping. The stress of a
+  /// member is the largest at the ends of its elements. `q` are the free coordinates.
   std::vector<StaticSolution> state;
   Eigen::MatrixX2d deflection;  ///< of P, world axes [m]
-  /// The same without elastic inertia and damping, K q = F + f; NaN for a mechanism.
+  /// Deflection of P without elastic inertia and damping, K q = F + f [m]; NaN for a mechanism.
   Eigen::MatrixX2d quasi_static_deflection;
-  /// Deflection of P along the nominal velocity and to the left of it [m]; NaN at a standstill.
+  /// Deflections of P along the nominal velocity and to the left of it [m]; NaN at zero velocity.
   Eigen::VectorXd tangential_error, normal_error;
   Eigen::VectorXd platform_rotation;  ///< mean elastic rotation of C1 C2 C3 about P [rad]
-  Eigen::MatrixX3d torque;            ///< of the actuators on the proximal links: reactions [N m]
-  Eigen::MatrixX3d rigid_torque;      ///< the same of rigid links with free passive joints [N m]
-  /// No work where inextensible links move without gyroscopic terms: NaN.
+  Eigen::MatrixX3d torque;  ///< torques of the actuators on the proximal links: reactions [N m]
+  Eigen::MatrixX3d rigid_torque;  ///< torques with rigid links and free passive joints [N m]
+  /// Energies. The work is NaN if inextensible links move without gyroscopic terms.
   std::vector<MotionEnergy> energy;
   ElastodynamicsEffects effects;
 };
 
-/// @throws ModelError  as `build_manipulator`, `at` and `solve_transient`; for modal superposition
-///                     of a platform that moves; for gyroscopic terms without elastic inertia.
+/// Computes the elastic motion.
+/// @throws ModelError  as `build_manipulator`, `at` and `solve_transient`; also for modal
+///   superposition of a moving platform, and for gyroscopic terms without elastic inertia.
 [[nodiscard]] ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options);
 
-/// Fills deflection, path errors, platform rotation and actuator torques from states and nominal
+/// Computes deflection, path errors, platform rotation and actuator torques from states and nominal
 /// motion.
 void set_platform_motion(const ManipulatorGeometry& geometry, ElastodynamicsSolution& solution);
 

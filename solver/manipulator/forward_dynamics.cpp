@@ -22,16 +22,17 @@ namespace {
 namespace odeint = boost::numeric::odeint;
 using State = Eigen::Matrix<double, 7, 1>;  // pose, velocity, work of torques and wrench
 
-/// Local error over the tolerance, as ForwardOptions measures it; odeint accepts a step up to 1.
+/// Local error relative to the tolerance, in the measures of ForwardOptions. Odeint accepts a step
+/// up to 1.
 struct ErrorNorm {
   double tolerance;
   double duration;  ///< of the motion [s]
-  double radius;    ///< of the platform, by which rotations count [m]
+  double radius;    ///< of the platform, which scales rotations [m]
 
   template <class Algebra>
   double error(Algebra&, const State& y, const State&, const State& error, double) const {
     if (!error.allFinite()) return std::numeric_limits<double>::infinity();
-    // Largest position (first = 0) or velocity (3).
+    // Largest position (first = 0) or velocity (first = 3).
     const auto size = [this](const State& x, Index first) {
       return x.segment<3>(first).cwiseProduct(Vector3d(1, 1, radius)).cwiseAbs().maxCoeff();
     };
@@ -58,14 +59,14 @@ class MotionIntegrator {
         duration_(end - start.time),
         stepper_(ErrorNorm{options.tolerance, duration_, platform_radius(manipulator.geometry)}),
         t_(start.time),
-        h_(1e-3 * duration_) {  // error control finds its own step from here
+        h_(1e-3 * duration_) {  // initial step; the error control adjusts it
     y_ << start.pose.vector(), start.velocity, 0;
     result.outcome = evaluate(t_, y_, rate_);
     side_ = side();
     if (result.outcome.solved()) add_evidence();
   }
 
-  /// Of the present state.
+  /// Adds the residuals of the current state.
   void add_evidence() {
     const InverseDynamics now = inverse_dynamics(manipulator_, point(), wrench_);
     const RigidTerms terms = rigid_terms(manipulator_, pose(), y_.segment<3>(3));
@@ -88,7 +89,7 @@ class MotionIntegrator {
     largest_imbalance_ = nan_max(largest_imbalance_, std::abs(change - y_(6)));
   }
 
-  /// With what the whole motion shows.
+  /// Adds the residuals of the complete motion and returns the result.
   [[nodiscard]] ForwardDynamics finish() {
     const double size = energy_size_ + turnover_;
     result.evidence.add(Residual::energy, size > 0 ? largest_imbalance_ / size : 0);
@@ -98,7 +99,7 @@ class MotionIntegrator {
     return std::move(result);
   }
 
-  /// Goes on to the time `end`; the last step is shortened to meet it.
+  /// Integrates to the time `end`. The last step is shortened to end there.
   void advance(double end) {
     while (result.outcome.solved() && t_ < end) {
       if (result.steps + result.rejected >= max_steps_) {
@@ -130,7 +131,7 @@ class MotionIntegrator {
     const bool last = t_ + 1.01 * h_ >= end;
     const double tried = last ? end - t_ : h_;
     double h = tried;
-    Outcome stages;  // after a singular stage the others are not evaluated
+    Outcome stages;  // stages after a singular one are not evaluated
     const auto system = [&](const State& y, State& rate, double t) {
       if (stages.solved()) {
         stages = evaluate(t, y, rate);
@@ -142,26 +143,28 @@ class MotionIntegrator {
       ++result.steps;
       if (side() * side_ < 0) stop(Status::singular, kSingularity);
       if (last) t_ = end;
-      h_ = tried < h_ ? std::max(h_, h) : h;  // a step shortened to meet a time says little
+      h_ = tried < h_ ? std::max(h_, h) : h;  // a shortened step does not reduce the next one
       return;
     }
     ++result.rejected;
     h_ = h;
     if (h > 16 * kEps * std::max(duration_, std::abs(t_))) return;
     if (stages.solved()) {
-      stop(Status::not_converged, "the step has become smaller than the rounding of time");
+      stop(Status::not_converged,
+           "the step has become smaller than the round-off error of the time");
     } else {
       stop(Status::singular, stages.reason);
     }
   }
 
-  /// Of a parallel singularity, by the sign: there the equations in the actuators' angles have no
-  /// solution, but a step may jump over it, and whether one does is up to rounding.
+  /// Returns the determinant whose sign identifies the side of a parallel singularity. The
+  /// equations in the actuator angles have no solution there. A step may jump over the singularity,
+  /// depending on round-off.
   [[nodiscard]] double side() const { return parallel_determinant(manipulator_.geometry, pose()); }
 
   static constexpr const char* kSingularity =
       "a parallel (type 2) singularity is passed, where the actuators' angles do not determine the "
-      "motion; the rigid motion itself could go on";
+      "motion; the rigid motion itself could continue";
 
   void stop(Status status, const std::string& reason) {
     std::ostringstream why;

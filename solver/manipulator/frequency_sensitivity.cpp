@@ -23,7 +23,7 @@ MaterialOf<Dual> lifted(const Material& m) {
   return {.E = Dual(m.E), .rho = Dual(m.rho), .nu = Dual(m.nu)};
 }
 
-/// The numbers that sections are made of.
+/// Converts the numbers from which sections are computed.
 LinkDesignOf<Dual> lifted(const LinkDesign& link) {
   return {.thickness = Dual(link.thickness),
           .width = Dual(link.width),
@@ -37,19 +37,20 @@ void seed(Dual* x) {
   if (x != nullptr) *x = with_derivative(value(*x), 1);
 }
 
-/// A link with its derivative, as far as the elements need it.
+/// Link with its derivative, as required by the elements.
 struct SeededLink {
   SectionOf<Dual> section;
   Eigen::Vector2<Dual> direction;
   Dual length;
 };
 
-/// A design whose numbers carry their derivatives with respect to one parameter, up to the sections
-/// and links of the elements, the pose held: d/dp = 1 on the numbers that the parameter names.
+/// Design whose numbers carry derivatives with respect to one parameter at a fixed pose. The
+/// derivatives cover the sections and links of the elements. d/dp is 1 for the numbers to which the
+/// parameter refers.
 struct SeededDesign {
-  std::array<SeededLink, 6> links;  ///< in the order of the built model's members
+  std::array<SeededLink, 6> links;  ///< in the order of the members of the built model
   PlatformMassOf<Dual> platform_mass;
-  Dual plate_rigidity;  ///< E t, to which the triangles' stiffness is in proportion
+  Dual plate_rigidity;  ///< E t, to which the stiffness of the triangles is proportional
 };
 
 SeededLink make_link(const LinkDesignOf<Dual>& link, const Dual& nominal,
@@ -81,7 +82,7 @@ SeededDesign seed_design(const ManipulatorDesign& design, const Posture& posture
     const Dual b = with_derivative(g.distal[i], length && parameter.distal[i] ? 1 : 0);
     const Eigen::Vector2<Dual> A = g.base[i].cast<Dual>();
     const Eigen::Vector2<Dual> C = posture.C[i].cast<Dual>();
-    // Of a straight limb the angles change infinitely fast, but only with its own lengths.
+    // The angles of a straight limb change infinitely fast with its lengths only.
     const Eigen::Vector2<Dual> B =
         derivative(a) == 0 && derivative(b) == 0
             ? Eigen::Vector2<Dual>(posture.B[i].cast<Dual>())
@@ -92,7 +93,7 @@ SeededDesign seed_design(const ManipulatorDesign& design, const Posture& posture
   return seeded;
 }
 
-/// Rows of the coordinates, zero where there is none.
+/// Returns the rows of the coordinates. Missing coordinates (-1) have zeros.
 template <std::size_t n>
 Eigen::Matrix<double, static_cast<int>(n), Eigen::Dynamic> gather_modes(
     const std::array<Index, n>& coordinates, const MatrixXd& U) {
@@ -101,7 +102,8 @@ Eigen::Matrix<double, static_cast<int>(n), Eigen::Dynamic> gather_modes(
   return local;
 }
 
-/// U^T (dK/dp - w^2 dM/dp) U on the unconstrained coordinates, for a set of modes U of one w.
+/// Computes U^T (dK/dp - w^2 dM/dp) U on the unconstrained coordinates, for a set of modes U of one
+/// w.
 class SetDerivative {
  public:
   SetDerivative(const System& system, const MatrixXd& U, double omega_squared)
@@ -117,7 +119,7 @@ class SetDerivative {
     }
   }
 
-  /// @returns mode x mode, symmetric; not finite where a limb is straight or folded
+  /// Returns the matrix, mode x mode, symmetric. It is not finite if a limb is straight or folded.
   [[nodiscard]] MatrixXd of(const SeededDesign& design) const {
     MatrixXd sum = MatrixXd::Zero(U_.cols(), U_.cols());
     for (const FrameElement& e : system_.mesh.frame)
@@ -142,7 +144,8 @@ class SetDerivative {
     sum += rates_of(strain) - omega_squared_ * rates_of(inertia);
   }
 
-  /// With C u = 0 and C depending on p, the eliminated coordinates move: - mu^T dC/dp u, twice.
+  /// Adds the motion of eliminated coordinates: C u = 0 depends on p, which contributes - mu^T
+  /// dC/dp u twice.
   void add_constraints(const SeededDesign& design, MatrixXd& sum) const {
     for (std::size_t r = 0; r < system_.constraints.rows.size(); ++r) {
       const ConstraintRow& row = system_.constraints.rows[r];
@@ -172,7 +175,7 @@ class SetDerivative {
           gather_modes(system_.coordinates.node[static_cast<std::size_t>(lump.node)], U_);
       sum -= omega_squared_ * (u.transpose() * dm * u);
     }
-    // From the strains, which stay small beside the rigid motion of a stiff plate.
+    // Use the strains, which remain small next to the rigid motion of a stiff plate.
     for_each_plate_deformation(system_, [&](const auto& coordinates, const auto& B, const auto& c) {
       const Eigen::MatrixXd strain = B * gather_modes(coordinates, U_);
       sum += stiffness * (strain.transpose() * c.asDiagonal() * strain);
@@ -190,11 +193,11 @@ class SetDerivative {
   MatrixXd multipliers_;  // constraint row x mode
 };
 
-/// Frequencies nearer than this to each other, relatively, are one set. Shapes of modes farther
-/// apart are good to the modes' round-off over it.
+/// Relative distance below which frequencies belong to one set. Shapes of modes with a larger
+/// distance are accurate to the round-off error of the modes over this distance.
 constexpr double kSameFrequency = 1e-7;
 
-/// Modes enough that the last set wanted is whole.
+/// Computes enough modes to complete the last requested set.
 ModalSolution whole_sets(const System& system, Index count) {
   constexpr Index kSpareModes = 3;
   const Index all = system.K.rows();
@@ -207,7 +210,8 @@ ModalSolution whole_sets(const System& system, Index count) {
   }
 }
 
-/// Distance of a set from the nearest frequency outside it, over its own unless that is zero.
+/// Returns the distance of a set from the nearest frequency outside it, relative to its frequency
+/// unless that is zero.
 double relative_gap(const VectorXd& frequency, const FrequencySet& set) {
   const double f = frequency[set.first];
   const Index end = set.first + set.count;
@@ -217,8 +221,14 @@ double relative_gap(const VectorXd& frequency, const FrequencySet& set) {
   return f > 0 ? gap / f : gap;
 }
 
-/// Derivatives of one set of equal frequencies by the parameters with a seeded design.
-/// @param shown  of the set, the first
+/// Computes the derivatives of one set of equal frequencies for the parameters with a seeded
+/// design.
+/// @param system  assembled model.
+/// @param modes  modes of the system.
+/// @param set  set of equal frequencies.
+/// @param shown  number of derivatives to store, the first of the set.
+/// @param designs  seeded design of each parameter, or empty.
+/// @param result  receives the derivatives.
 Outcome differentiate_set(const System& system, const ModalSolution& modes, const FrequencySet& set,
                           Index shown, const std::vector<std::optional<SeededDesign>>& designs,
                           FrequencySensitivity& result) {

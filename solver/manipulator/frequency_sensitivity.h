@@ -9,7 +9,8 @@
 
 namespace trammel::solver {
 
-/// A number of the design or its pose, or several that change together by the same amount.
+/// Parameter of the design or the pose. It may refer to several numbers that change by the same
+/// amount.
 struct DesignParameter {
   enum class Kind {
     length,
@@ -18,30 +19,30 @@ struct DesignParameter {
     E,
     density,
     poisson_ratio,             ///< of links and platform
-    base_side,                 ///< A1-A2; the base grows about A1
-    platform_side,             ///< C1-C2; the platform grows about P
-    platform_mass,             ///< as if printed; a printed inertia stays
-    platform_inertia,          ///< about P, as if printed; of a rigid platform
+    base_side,                 ///< A1-A2; the base is scaled about A1
+    platform_side,             ///< C1-C2; the platform is scaled about P
+    platform_mass,             ///< changed like a printed mass; a printed inertia is unchanged
+    platform_inertia,          ///< about P, changed like a printed inertia; rigid platform only
     active_stiffness,          ///< of the springs at A
-    elbow_stiffness,           ///< at B
-    platform_joint_stiffness,  ///< at C
+    elbow_stiffness,           ///< of the springs at B
+    platform_joint_stiffness,  ///< of the springs at C
     orientation                ///< phi of the pose
   };
   Kind kind = Kind::length;
   std::array<bool, 3> proximal{true, true, true};
   std::array<bool, 3> distal{true, true, true};
-  bool platform = false;  ///< its thickness, E, density or Poisson's ratio too
+  bool platform = false;  ///< true: also thickness, E, density or Poisson's ratio of the platform
 };
 
-/// Returns true for parameters of which sections and links have exact derivatives: lengths,
-/// thickness, width, E and density.
+/// Returns true for parameters with exact derivatives of sections and links: lengths, thickness,
+/// width, E and density.
 [[nodiscard]] inline bool is_seeded(DesignParameter::Kind kind) {
   return kind <= DesignParameter::Kind::density;
 }
 
 namespace detail {
 
-/// The number of a part that the parameter names, or null.
+/// Returns the number of a part to which the parameter refers, or null.
 template <class Part>
 [[nodiscard]] auto number(Part& part, DesignParameter::Kind kind) -> decltype(&part.thickness) {
   switch (kind) {
@@ -58,6 +59,7 @@ template <class Part>
   }
 }
 
+/// Returns the number of a link to which the parameter refers, or null.
 template <class T>
 [[nodiscard]] T* link_number(LinkDesignOf<T>& link, DesignParameter::Kind kind) {
   return kind == DesignParameter::Kind::width ? &link.width : number(link, kind);
@@ -65,41 +67,49 @@ template <class T>
 
 }  // namespace detail
 
-// How the natural frequencies of the manipulator change with its design (paper Eq. 30-35):
-//   d f / dp = (1 / 8 pi^2 f) x^T (dK/dp - (2 pi f)^2 dM/dp) x,   x^T M x = 1,
-// with the pose held, so that the joint angles move with the link lengths. dK/dp and dM/dp are
-// exact: dual numbers (numbers.h) through the functions that the builder and the elements are made
-// of; for other parameters than those of sections and links (`is_seeded`) they are NaN. Whether a
-// link's mass is held as a total or follows from its density is the design's choice.
+// Derivatives of the natural frequencies of the manipulator with respect to its design (paper Eq.
+// 30-35): //
+//   d f / dp = (1 / 8 pi^2 f) x^T (dK/dp - (2 pi f)^2 dM/dp) x,   x^T M x = 1.
+//
+// The pose is fixed, so that the joint angles change with the link lengths. dK/dp and dM/dp are
+// exact: dual numbers (numbers.h) pass through the functions of the builder and the elements. They
+// are NaN for parameters other than those of sections and links (`is_seeded`). The design
+// determines whether the mass of a link is a fixed total or follows from its density.
 
-/// Modes whose frequencies are equal but for round-off. Their shapes are an arbitrary basis of
-/// their subspace; what has a meaning are the derivatives of the set.
+/// Set of modes whose frequencies are equal up to round-off. Their shapes are an arbitrary basis of
+/// a subspace. Only the derivatives of the full set are meaningful.
 struct FrequencySet {
   Index first = 0;
   Index count = 1;
 };
 
-/// @param frequency  ascending [Hz]
+/// Groups equal frequencies.
+/// @param frequency  ascending [Hz].
 [[nodiscard]] std::vector<FrequencySet> equal_frequencies(const Eigen::VectorXd& frequency);
 
+/// Frequencies and their derivatives.
 struct FrequencySensitivity {
-  /// singular: a limb is straight or folded and the derivative infinite; not_converged: as the
+  /// singular: a limb is straight or folded, and the derivative is infinite; not_converged: as the
   /// modes.
   Outcome outcome;
-  Evidence evidence;          ///< of the modes
+  Evidence evidence;          ///< residuals of the modes
   Eigen::VectorXd frequency;  ///< ascending [Hz]
-  /// mode x parameter [Hz / unit of the parameter]. Within a set of repeated frequencies: the
-  /// directional derivatives, eigenvalues of X^T (dK/dp - w^2 dM/dp) X over the set, ascending, as
-  /// the frequencies order themselves when p grows. 0 for rigid motions.
+  /// Derivatives, mode x parameter [Hz / unit of the parameter]. For a set of repeated frequencies
+  /// they are directional derivatives: the eigenvalues of X^T (dK/dp - w^2 dM/dp) X over the set,
+  /// ascending. This is the order of the frequencies if p increases. Rigid modes have 0.
   Eigen::MatrixXd derivative;
   std::vector<FrequencySet> sets;
-  /// Distance of each mode's frequency from the nearest one outside its set, over its own: the
-  /// derivative loses about as many digits as this is small.
+  /// Distance of each frequency from the nearest one outside its set, relative to the frequency
+  /// [-]. A small gap g costs about -log10(g) digits of the derivative.
   Eigen::VectorXd gap;
   Counters counters;
 };
 
-/// @param count  modes; of a set that goes on beyond, the lowest derivatives are returned
+/// Computes the lowest frequencies and their derivatives.
+/// @param design  manipulator.
+/// @param pose  pose of the platform.
+/// @param parameters  parameters of the design.
+/// @param count  number of modes; if a set continues beyond, its lowest derivatives are returned.
 /// @throws ModelError  as `build_manipulator`.
 [[nodiscard]] FrequencySensitivity frequency_sensitivity(
     const ManipulatorDesign& design, const Pose& pose,

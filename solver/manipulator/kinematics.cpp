@@ -27,14 +27,15 @@ double wrapped(double angle) {
   return a <= -std::numbers::pi ? std::numbers::pi : a;
 }
 
-/// The triangle A_i B_i C_i from its sides: a = |A B|, b = |B C|, r = |A C|.
+/// Solution of the triangle A_i B_i C_i from its sides a = |A B|, b = |B C|, r = |A C|.
 template <Real T>
 struct LimbAngles {
   T angle_at_A;
-  T elbow_sine;  ///< not signed
+  T elbow_sine;  ///< unsigned
 };
 
-/// A side rounded just beyond the reach makes a factor slightly negative: a straight limb.
+/// Returns x, or 0 if x is negative. A side that is rounded beyond the reach makes a factor
+/// slightly negative; the limb is then straight.
 template <Real T>
 T not_negative(const T& x) {
   return value(x) > 0 ? x : T(0);
@@ -54,13 +55,13 @@ LimbAngles<T> solve_limb(const T& a, const T& b, double r) {
   return {2.0 * angle, sqrt(T(sum * stretch)) * sqrt(T(fold_out * fold_in)) / (2.0 * a * b)};
 }
 
-/// theta_a, not wrapped.
+/// Returns theta_a [rad], not wrapped.
 template <Real T>
 T active_angle(const Vector2d& p_AC, const LimbAngles<T>& limb, int working_mode) {
   return std::atan2(p_AC.y(), p_AC.x()) + static_cast<double>(working_mode) * limb.angle_at_A;
 }
 
-/// Why the limb cannot reach, or empty.
+/// Returns the reason why the limb cannot reach, or an empty text.
 std::string out_of_reach(std::size_t i, double a, double b, double r) {
   const double roundoff = 4 * kEps * (a + b + r), beyond = r - (a + b),
                within = std::abs(a - b) - r;
@@ -68,16 +69,16 @@ std::string out_of_reach(std::size_t i, double a, double b, double r) {
   std::ostringstream why;
   why << "limb " << i + 1 << " (A" << i + 1 << "-B" << i + 1 << "-C" << i + 1 << ")";
   if (beyond <= roundoff && within <= roundoff) {
-    why << " has C on A: with links of equal length its direction is free";
+    why << " has C on A: with links of equal length its direction is undetermined";
   } else {
     why << " cannot reach: C is " << r << " m from A, " << std::max(beyond, within)
-        << (beyond > roundoff ? " m farther than its links are long together"
-                              : " m nearer than the difference of its links allows");
+        << (beyond > roundoff ? " m beyond the sum of its link lengths"
+                              : " m within the difference of its link lengths");
   }
   return why.str();
 }
 
-/// J_x with unit rows and its rotation scaled: dimensionless.
+/// Returns the dimensionless J_x, with unit rows and scaled rotation.
 Matrix3d scaled(const Jacobians& j) {
   Matrix3d s = j.parallel;
   s.col(2) /= j.platform_radius;
@@ -172,7 +173,7 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
   ForwardKinematics result{.outcome = {}, .pose = start};
   double last = std::numeric_limits<double>::infinity();
   for (; result.iterations < kMaxIterations; ++result.iterations) {
-    Matrix3d J;         // as `scaled`, rows divided by the distal lengths
+    Matrix3d J;         // as in `scaled`, with rows divided by the distal lengths
     Vector3d residual;  // (|d|^2 - b^2) / 2b = |d| - b to first order [m]
     result.closure_error = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -195,13 +196,13 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
     }
     const Vector3d step = -correction.x;
     const double norm = step.norm();
-    // Quadratic convergence ends where the steps stop shrinking at the level of round-off.
+    // Quadratic convergence ends when the steps no longer decrease at the level of round-off.
     if (norm <= 4 * kEps * size || (norm <= 1e-12 * size && norm >= last / 2)) return result;
     last = norm;
     result.pose = pose_of(result.pose.vector() + step.cwiseProduct(Vector3d(1, 1, 1 / size)));
   }
   std::ostringstream why;
-  why << "no assembly of the manipulator found near the start: the loops stay open by "
+  why << "no assembly of the manipulator was found near the start: the loop closure error is "
       << result.closure_error << " m";
   result.outcome = {Status::not_converged, why.str()};
   return result;

@@ -12,7 +12,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The member's elements, all alike, on (u v θ) of its n + 1 nodes.
+/// Chain of the equal elements of a member, with (u v θ) at its n + 1 nodes.
 struct ElementChain {
   Index elements;
   FrameDeformation B;
@@ -24,7 +24,7 @@ struct ElementChain {
     for (Index e = 0; e < elements; ++e) F.middleRows<6>(3 * e) += m * U.middleRows<6>(3 * e);
     return F;
   }
-  /// U^T K U from the deformations, which keep the digits of long waves.
+  /// Returns U^T K U from the deformations, which are accurate for long waves.
   [[nodiscard]] MatrixXd strain_products(const MatrixXd& U) const {
     MatrixXd D(3 * elements, U.cols());
     for (Index e = 0; e < elements; ++e) {
@@ -34,7 +34,7 @@ struct ElementChain {
   }
 };
 
-/// On all nodes, zero but at the given coordinates.
+/// Returns motions of all nodes that are zero except at the given coordinates.
 MatrixXd motions_of(const std::vector<Index>& coordinates, const MatrixXd& values, Index size) {
   MatrixXd U = MatrixXd::Zero(size, values.cols());
   for (std::size_t i = 0; i < coordinates.size(); ++i)
@@ -42,8 +42,9 @@ MatrixXd motions_of(const std::vector<Index>& coordinates, const MatrixXd& value
   return U;
 }
 
-/// Modes of the coordinates with the rest held, strain energy 1, on all nodes, longest period
-/// first. Bending and stretching are not coupled: each by itself, so that zeros stay zeros.
+/// Returns the modes of the coordinates on all nodes, with all others held. They have unit strain
+/// energy, and the longest period comes first. Bending and stretching are uncoupled and solved
+/// separately, so that zeros remain exact.
 MatrixXd modes_of(const ElementChain& chain, const std::vector<Index>& coordinates) {
   const Index size = 3 * (chain.elements + 1);
   const auto count = static_cast<Index>(coordinates.size());
@@ -77,7 +78,7 @@ LinkSuperelement condense(const Member& member, double length) {
                      frame_rigidity(section, member.theory, part),
                      frame_mass(section, member.theory, member.mass, part)};
   if (!member.axially_flexible) chain.c[0] = 0;
-  // The static motion of a prismatic member is the interpolation of one element, exactly.
+  // The static motion of a prismatic member equals the interpolation of one element.
   MatrixXd follows(3 * (n + 1), 6);
   const double phi = shear_ratio(section, member.theory, length);
   for (Index k = 0; k <= n; ++k) {

@@ -12,7 +12,7 @@ namespace trammel::solver {
 
 namespace {
 
-/// Node numbers of the built model: A1 A2 A3 B1 B2 B3 C1 C2 C3 P, then the plate's own.
+/// Node numbers of the built model: A1 A2 A3 B1 B2 B3 C1 C2 C3 P, then those of the plate.
 constexpr Index kA = 0;
 constexpr Index kB = 3;
 constexpr Index kC = 6;
@@ -32,13 +32,13 @@ double platform_area(const std::array<Vector2d, 3>& c) {
   return std::abs(cross(c[1] - c[0], c[2] - c[0])) / 2;
 }
 
-/// Round-off of the corners alone gives collinear vertices this area.
+/// Returns false for collinear vertices, whose area consists of round-off.
 bool has_area(const std::array<Vector2d, 3>& c) {
   const double size = std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
   return platform_area(c) > 1e-12 * size * size;
 }
 
-/// The end of a link at a joint: sprung, welded where the kind is `rigid`, else hinged.
+/// Sets the end of a link at a joint: sprung, welded if the kind is `rigid`, or hinged otherwise.
 template <class Kind>
 void set_joint(const Joint<Kind>& joint, Kind rigid, const std::string& name, MemberEnd& end) {
   if (joint.kind == Kind::sprung) {
@@ -124,12 +124,12 @@ void add_rigid_platform(const ManipulatorDesign& design, const Eigen::Matrix2d& 
   model.constraints.push_back(std::move(eq25));
 }
 
-/// u_pin = sum w_i u_i, in x and in y.
+/// Adds the constraints u_pin = sum w_i u_i in x and in y.
 void add_pin(const TriangleMesh& mesh, std::size_t vertex, double radius, Index pin, Index first,
              Model& model) {
   const auto weights = pin_weights(mesh, mesh.nodes[vertex], radius);
-  // A link's stiffness at C couples every node under its pin with every other: n^2 entries. P holds
-  // nothing but loads.
+  // The stiffness of a link at C couples all nodes within its pin, which gives n^2 entries. P
+  // carries only loads.
   constexpr std::size_t kMaxNodes = 500;
   require(pin == kP || weights.size() <= kMaxNodes,
           "the pin at C" + std::to_string(pin - kC + 1) + " covers " +
@@ -168,8 +168,9 @@ void add_triangles(const ManipulatorDesign& design, const Pose& pose, const Eige
   const TriangleMesh mesh = platform_mesh(design.geometry.platform, Vector2d::Zero(),
                                           platform.refinements, platform.six_nodes);
   const bool pinned = platform.pin_radius > 0;
-  // Without pins the mesh's first nodes C1, C2, C3, P are the model's own, which stand in that
-  // order from kC on: the mesh then starts at kC, else after P.
+  // Without pins, the first nodes C1, C2, C3, P of the mesh are those of the model. The model
+  // contains them in this order from kC, so that the mesh starts at kC. With pins it starts after
+  // P.
   const Index first = pinned ? kP + 1 : kC;
   const std::size_t shared = pinned ? 0 : 4;
   for (std::size_t n = shared; n < mesh.nodes.size(); ++n)
@@ -245,7 +246,7 @@ PlatformMassOf<T> platform_mass(const PlatformDesignOf<T>& platform,
     result.inertia = *platform.inertia - result.mass * result.center.squaredNorm();
     require(value(result.inertia) >= 0 && std::isfinite(value(result.inertia)),
             "the platform's inertia about P must be at least its mass times the square of the "
-            "distance from P to its centre of mass");
+            "distance from P to its center of mass");
   } else {
     const double sides_squared =
         (c[1] - c[0]).squaredNorm() + (c[2] - c[1]).squaredNorm() + (c[0] - c[2]).squaredNorm();

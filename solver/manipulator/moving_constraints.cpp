@@ -10,12 +10,12 @@ using Eigen::MatrixXd;
 
 namespace {
 
-/// Entries of T beyond this have cost four digits.
+/// Limit of the entries of T. Larger entries lose four digits.
 constexpr double kLargestT = 1e4;
-/// An entry of T below this share of its row's largest is round-off of zero.
+/// Fraction of the largest entry of a row of T below which an entry is round-off.
 constexpr double kVanishing = 1e-11;
 
-/// The part whose motion changes the row; null: none.
+/// Returns the part whose motion changes the row, or null.
 const PartMotion* part_of(const System& start, const ConstraintRow& row,
                           const NominalMotion& motion) {
   if (row.source == ConstraintRow::Source::inextensible)
@@ -25,7 +25,7 @@ const PartMotion* part_of(const System& start, const ConstraintRow& row,
   return nullptr;
 }
 
-/// The coefficient of a term in a row, or its derivative in time.
+/// Returns the coefficient of a term in a row, or its time derivative.
 double coefficient(const System& start, const ConstraintRow& row, std::size_t term,
                    const NominalMotion& motion, int order) {
   if (row.source == ConstraintRow::Source::inextensible) {
@@ -62,7 +62,7 @@ MovingConstraints::MovingConstraints(const System& start, const NominalMotion& m
   extend_pattern(start, motion);
 }
 
-/// Rows that T is solved from.
+/// Selects the rows from which T is computed.
 void MovingConstraints::find_dependent_rows() {
   dependent_row_of_.assign(to_size(constraints_.T.rows()), -1);
   for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
@@ -85,9 +85,9 @@ void MovingConstraints::find_dependent_rows() {
   select_dependent_ = columns(dependent_row_of_, std::ssize(dependent_rows_));
 }
 
-/// T with every entry that some pose needs: those that do not vanish at three turns of the parts in
-/// general position. Of the pattern alone, each node of an inextensible member would follow all
-/// before it; in numbers what they add cancels.
+/// Extends T by all entries that any pose needs. These are the entries that do not vanish at three
+/// rotations of the parts in general position. The pattern of C alone would let each node of an
+/// inextensible member follow all preceding nodes, whose contributions cancel numerically.
 void MovingConstraints::extend_pattern(const System& start, const NominalMotion& motion) {
   auto& T = constraints_.T;
   Eigen::ArrayXX<bool> needed(static_cast<Index>(dependent_rows_.size()), T.cols());
@@ -117,7 +117,7 @@ void MovingConstraints::extend_pattern(const System& start, const NominalMotion&
   T_ddot_ = T_dot_;
 }
 
-/// C^(order) times a matrix with a row for each coordinate: dependent row x column.
+/// Returns C^(order) times a matrix with one row per coordinate: dependent row x column.
 MatrixXd MovingConstraints::product(const System& start, const NominalMotion& motion, int order,
                                     const RowMajorMatrix& matrix) const {
   MatrixXd sum = MatrixXd::Zero(std::ssize(dependent_rows_), matrix.cols());
@@ -132,7 +132,8 @@ MatrixXd MovingConstraints::product(const System& start, const NominalMotion& mo
   return sum;
 }
 
-/// X of C_p X = - C_f, the eliminated coordinates of the free ones: row x q.
+/// Returns X of C_p X = - C_f, which expresses the eliminated coordinates by the free ones: row x
+/// q.
 MatrixXd MovingConstraints::dependent_coordinates(const System& start,
                                                   const NominalMotion& motion) {
   pivots_.compute(product(start, motion, 0, select_dependent_));
@@ -159,7 +160,7 @@ Outcome MovingConstraints::move(const System& start, const NominalMotion& from,
   const MatrixXd X = dependent_coordinates(start, to);
   if (!(X.allFinite() && X.cwiseAbs().maxCoeff() < kLargestT)) {
     return {Status::singular,
-            "the coordinates that the constraints eliminated at the start do not suit this pose"};
+            "the coordinates eliminated at the start are unsuitable for this pose"};
   }
   for (const std::size_t r : dependent_rows_) {
     ConstraintRow& row = constraints_.rows[r];

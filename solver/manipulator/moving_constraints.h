@@ -9,27 +9,32 @@
 
 namespace trammel::solver {
 
-/// u = T q as the parts turn: C T = 0 with the pivots of the start, and its derivatives in time,
-///   C_p X = - C_f,   C_p X. = - C. T,   C_p X.. = - C.. T - 2 C. T.,
-/// X the eliminated coordinates (columns p of C) of the free ones (f).
+/// Constraints u = T q of moving parts: C T = 0 with the pivots of the start, and its time
+/// derivatives:
+///
+///   C_p X = - C_f,   C_p X. = - C. T,   C_p X.. = - C.. T - 2 C. T.
+///
+/// X expresses the eliminated coordinates (columns p of C) by the free ones (columns f).
 class MovingConstraints {
  public:
-  /// @param start  the system where it was built;  @param motion  of no part
-  /// @param derivatives  T. and T.. too
+  /// Finds the pattern of T.
+  /// @param start  system at the pose at which it was built.
+  /// @param motion  motion with no moving part.
+  /// @param derivatives  true: also compute the time derivatives of T.
   MovingConstraints(const System& start, const NominalMotion& motion, bool derivatives);
 
-  /// singular: the coordinates that the constraints eliminate do not suit this pose; nothing
-  /// changes.
+  /// Computes T at a new motion. The outcome is singular if the coordinates that the constraints
+  /// eliminate are unsuitable for this pose. Then nothing changes.
   [[nodiscard]] Outcome move(const System& start, const NominalMotion& from,
                              const NominalMotion& to);
 
-  /// Of the present pose; T has every entry that some pose needs.
+  /// Returns the constraints at the current pose. T has all entries that any pose needs.
   [[nodiscard]] const Constraints& constraints() const { return constraints_; }
   [[nodiscard]] const RowMajorMatrix& T() const { return constraints_.T; }
-  /// On the pattern of T; empty where T is the same at every pose.
+  /// Returns T. on the pattern of T; empty if T is the same at every pose.
   [[nodiscard]] const RowMajorMatrix& T_dot() const { return T_dot_; }
   [[nodiscard]] const RowMajorMatrix& T_ddot() const { return T_ddot_; }
-  [[nodiscard]] bool variable() const { return variable_; }  ///< T changes with the pose
+  [[nodiscard]] bool variable() const { return variable_; }  ///< true if T changes with the pose
 
  private:
   void find_dependent_rows();
@@ -43,9 +48,10 @@ class MovingConstraints {
   Constraints constraints_;
   bool derivatives_, variable_ = false;
   RowMajorMatrix T_dot_, T_ddot_;
-  std::vector<std::size_t> dependent_rows_;  // rows of C beside supports ...
-  std::vector<Index> dependent_row_of_;      // ... of each coordinate that they eliminate, or -1
-  RowMajorMatrix select_free_, select_dependent_;  // u x q and u x row: ones where they are u
+  std::vector<std::size_t> dependent_rows_;  // rows of C except supports
+  std::vector<Index> dependent_row_of_;      // for each coordinate that they eliminate, or -1
+  // u x q and u x row, with ones at the selected coordinates.
+  RowMajorMatrix select_free_, select_dependent_;
   Eigen::PartialPivLU<Eigen::MatrixXd> pivots_;
 };
 

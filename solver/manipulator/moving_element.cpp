@@ -59,14 +59,14 @@ double largest_angular_velocity(const NominalMotion& motion) {
 
 namespace {
 
-/// d/dangle of a rotation, times its inverse.
+/// Returns the derivative of a rotation with respect to the angle, times the inverse rotation.
 const Eigen::Matrix3d& generator() {
   static const Eigen::Matrix3d J = (Eigen::Matrix3d() << 0, -1, 0, 1, 0, 0, 0, 0, 0).finished();
   return J;
 }
 
-/// Adds int rho N^T X and int rho N^T (J X - X J6), with X = J N - N J6 the derivative of
-/// W = R N R6^T; weights are rho times (1, 1, radius of gyration squared).
+/// Adds int rho N^T X and int rho N^T (J X - X J6), where X = J N - N J6 is the derivative of W = R
+/// N R6^T. The weights are rho times (1, 1, radius of gyration squared).
 void add_derivatives(const Eigen::Matrix<double, 3, 6>& N, const Vector3d& weights,
                      MovingElement& element) {
   Matrix6d J6 = Matrix6d::Zero();
@@ -104,7 +104,8 @@ void add_triangles(const System& system, std::vector<MovingElement>& elements) {
     MovingElement element;
     element.layout = MovingElement::Layout::triangle;
     element.part = plate_part(system.model, triangle.plate);
-    if (triangle.quadratic()) throw ModelError("triangles of six nodes do not move yet");
+    if (triangle.quadratic())
+      throw ModelError("six-node triangles are not supported in a moving system");
     const TrianglePoints points = triangle_nodes<3>(system.model, triangle);
     element.coordinates = system.coordinates.of_triangle<6>(triangle);
     const Plate& plate = system.model.plates[to_size(triangle.plate)];

@@ -186,8 +186,8 @@ void MovingPencil::measure_strain(const VectorBlock<rows>& X,
   measures.rounding *= 2 * kEps;
 }
 
-/// Row by row; none is judged by coordinates that are rounding of the others (dense_eigen.h),
-/// modes inside by the energy of the whole.
+/// Computes the residual row by row. No row is judged by coordinates that are only round-off of
+/// others (dense_eigen.h). Interior modes are compared with the total energy.
 template <int rows>
 void MovingPencil::measure_residual(const VectorBlock<rows>& X, const VectorBlock<rows>& MX,
                                     Workspace<rows>& space, ModeMeasures<rows>& measures) const {
@@ -210,7 +210,7 @@ void MovingPencil::measure_residual(const VectorBlock<rows>& X, const VectorBloc
     }
     measures.backward_error = measures.backward_error.max(sum.abs() / terms);
   }
-  const Numbers size = measures.strain.sqrt();  // modes inside have stiffness 1
+  const Numbers size = measures.strain.sqrt();  // interior modes have stiffness 1
   for (Index j = 0; j < inside(); ++j) {
     const Numbers force = w2 * MX.inside.col(j).array();
     measures.backward_error =

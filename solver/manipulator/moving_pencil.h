@@ -8,23 +8,23 @@
 
 namespace trammel::solver {
 
-/// L D L^T, without exchanges, of a small symmetric matrix scaled to a unit diagonal; stored dense,
-/// zeros skipped. Later calls of the same size do not allocate memory.
+/// LDL^T factorization without exchanges of a small symmetric matrix scaled to a unit diagonal. The
+/// storage is dense, and zeros are skipped. Later calls with the same size do not allocate memory.
 class DenseLdlt {
  public:
-  /// Returns false if a pivot is zero or not finite; there is no factorization then.
-  /// @param A  its lower triangle is read
+  /// Factors A. Returns false if a pivot is zero or not finite; then there is no factorization.
+  /// @param A  its lower triangle is read.
   [[nodiscard]] bool compute(const Eigen::MatrixXd& A);
 
-  /// Of the scaled matrix: below 1, and for a positive definite one no less than its smallest
-  /// eigenvalue.
+  /// Returns the smallest pivot of the scaled matrix. It is at most 1. For a positive definite
+  /// matrix it is at least the smallest eigenvalue.
   [[nodiscard]] double smallest_pivot() const { return pivots_.minCoeff(); }
-  /// Sylvester: the number of negative eigenvalues.
+  /// Returns the number of negative eigenvalues (Sylvester).
   [[nodiscard]] Index negative_pivots() const { return (pivots_.array() < 0).count(); }
-  /// Largest |L|: beyond about 1e8 the signs of the pivots mean nothing.
+  /// Returns the largest |L|. The signs of the pivots are unreliable if it exceeds about 1e8.
   [[nodiscard]] double element_growth() const { return growth_; }
 
-  /// Right-hand sides side by side, one a row, so that a step is the same for all of them.
+  /// Solves for several right-hand sides, one per row. Each operation then applies to all of them.
   template <class Block>
   void solve_in_place(Block& X) const {
     const Index n = L_.rows();
@@ -49,68 +49,77 @@ class DenseLdlt {
   double growth_ = 0;
 };
 
-/// Vectors in the coordinates of a MovingPencil, side by side: row x coordinate. A step of
-/// arithmetic is the same for all rows, and their number is known when it is compiled.
+/// Several vectors in the coordinates of a MovingPencil: row x coordinate. Each operation applies
+/// to all rows. Their number is known at compile time.
 template <int rows>
 struct VectorBlock {
-  Eigen::Matrix<double, rows, Eigen::Dynamic> ends;    ///< free coordinates of the joints
-  Eigen::Matrix<double, rows, Eigen::Dynamic> inside;  ///< modes inside the links, link by link
+  Eigen::Matrix<double, rows, Eigen::Dynamic> ends;  ///< free coordinates of the joints
+  /// Modes of the link interiors, link by link.
+  Eigen::Matrix<double, rows, Eigen::Dynamic> inside;
 };
 
-/// Temporary blocks, kept so that no step allocates memory.
+/// Temporary blocks, kept to avoid memory allocation in each step.
 template <int rows>
 struct Workspace {
   Eigen::Matrix<double, rows, Eigen::Dynamic> U, sizes;
 };
 
-/// Energies and equation residuals of approximate modes, one number a row.
+/// Energies and residuals of approximate modes, one number per row.
 template <int rows>
 struct ModeMeasures {
   using Numbers = Eigen::Array<double, rows, 1>;
-  Numbers strain;    ///< x^T K x from the deformations
-  Numbers rounding;  ///< 2 eps sum |d|^T c |B||u|, the effect of rounding x on it
-  Numbers inertia;   ///< x^T M x
-  /// Largest ratio of a row of (K - strain / inertia M) x and the magnitudes of its terms.
+  Numbers strain;    ///< x^T K x from the deformations [J]
+  Numbers rounding;  ///< 2 eps sum |d|^T c |B| |u|, the effect of rounding x on the strain
+  Numbers inertia;   ///< x^T M x [J s^2]
+  /// Largest ratio of a row of (K - strain / inertia M) x to the magnitudes of its terms.
   Numbers backward_error;
 };
 
-/// K and M of one manipulator as functions of its pose, with condensed links: matrices of the
-/// joints' coordinates, a dozen or two, and the modes inside the links, which have stiffness 1 and
-/// follow by inertia alone.
+/// K and M of a manipulator with condensed links as functions of its pose. The coordinates are
+/// those of the joints (one or two dozen) and the modes of the link interiors. These modes have
+/// stiffness 1, and only inertia couples them.
 class MovingPencil {
  public:
-  /// @param model  at the pose, with the number of elements a link that are condensed; without
-  ///               inactive effects
+  /// Builds the matrices.
+  /// @param model  model at the pose, without inactive effects; its number of elements per link
+  ///   defines the condensation.
+  /// @param geometry  dimensions.
+  /// @param pose  pose of the model.
   MovingPencil(const Model& model, const ManipulatorGeometry& geometry, const Pose& pose);
 
-  /// singular: the coordinates that the constraints eliminate do not suit this pose.
+  /// Moves to a pose. The outcome is singular if the coordinates that the constraints eliminate are
+  /// unsuitable for this pose.
   [[nodiscard]] Outcome move_to(const Posture& posture, const Pose& pose);
 
   [[nodiscard]] Index ends() const { return K_.rows(); }
   [[nodiscard]] Index inside() const { return mu_.size(); }
-  /// Free coordinates of the model as it is, those inside that carry no mass too.
+  /// Returns the number of free coordinates without condensation, including massless interior ones.
   [[nodiscard]] Index free_coordinates() const { return free_coordinates_; }
   [[nodiscard]] const Counters& counters() const { return system_.start().counters; }
-  [[nodiscard]] double coupling() const { return coupling_; }  ///< of the links, the largest
+  [[nodiscard]] double coupling() const { return coupling_; }  ///< largest coupling of the links
 
-  /// Stiffness of the joints' coordinates at the present pose.
+  /// Returns the stiffness of the joint coordinates at the current pose.
   [[nodiscard]] const Eigen::MatrixXd& K() const { return K_; }
-  /// Eigenvalues of the full model below `shift`, by the inertia of K - shift M: of its inside, and
-  /// of its Schur complement on the joints' coordinates (Wittrick & Williams 1971); -1 where the
-  /// pivots have lost their digits.
+  /// Returns the number of eigenvalues of the full model below `shift`, by the inertia of K - shift
+  /// M. It is the sum of the counts of the interior and of its Schur complement on the joint
+  /// coordinates (Wittrick & Williams 1971). The result is -1 if the pivots are dominated by
+  /// round-off.
   [[nodiscard]] Index eigenvalues_below(double shift);
 
-  /// Y = X M.
+  /// Computes Y = X M.
   template <int rows>
   void mass_times(const VectorBlock<rows>& X, VectorBlock<rows>& Y) const;
-  /// @param MX  X M
+  /// Computes energies and residuals of approximate modes.
+  /// @param X  approximate modes.
+  /// @param MX  X M.
+  /// @param space  temporary blocks.
   template <int rows>
   [[nodiscard]] ModeMeasures<rows> measure(const VectorBlock<rows>& X, const VectorBlock<rows>& MX,
                                            Workspace<rows>& space) const;
 
  private:
   struct Link {
-    Index first = 0, last = 0;  ///< of its modes in VectorBlock::inside
+    Index first = 0, last = 0;  ///< range of its modes in VectorBlock::inside
     std::vector<Index> ends;    ///< free coordinates that move its ends
   };
 
@@ -129,10 +138,10 @@ class MovingPencil {
   std::vector<Link> links_;
   Index free_coordinates_ = 0;
   double coupling_ = 0;
-  Eigen::VectorXd length_;  // factor by which coordinates are comparable: 1, or the model's size
-  Eigen::VectorXd mu_;      // mass of the modes inside
+  Eigen::VectorXd length_;  // scale of each coordinate: 1, or the model size for rotations
+  Eigen::VectorXd mu_;      // mass of the interior modes
   Eigen::MatrixXd K_, M_, shifted_;
-  Eigen::MatrixXd P_;  // mass between free coordinates (rows) and modes inside
+  Eigen::MatrixXd P_;  // mass between free coordinates (rows) and interior modes
   DenseLdlt count_;
 };
 

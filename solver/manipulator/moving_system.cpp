@@ -29,7 +29,7 @@ System assemble_at_start(Model model, const MovingSystemOptions& options) {
   return assemble(model, options.inertia ? all : all.without(Effect::inertia));
 }
 
-/// Condenses each member; equal ones once.
+/// Condenses each member. Equal members are condensed once.
 std::vector<LinkSuperelement> condense_members(const Model& model, const Mesh& mesh) {
   std::vector<LinkSuperelement> links;
   const auto numbers = [&](std::size_t i) {
@@ -46,8 +46,8 @@ std::vector<LinkSuperelement> condense_members(const Model& model, const Mesh& m
   return links;
 }
 
-/// Calls visit(local, a, b, row, column) for the products T(a) A(local) T(b) of an element's matrix
-/// A that make up T^T A T, local = i + 6 j.
+/// Calls visit(local, a, b, row, column) for the products T(a) A(local) T(b) that form T^T A T. A
+/// is an element matrix, and local = i + 6 j.
 template <class Visit>
 void for_each_contribution(const MovingElement& element, const RowMajorMatrix& T, Visit&& visit) {
   for (int i = 0; i < 6; ++i) {
@@ -63,14 +63,14 @@ void for_each_contribution(const MovingElement& element, const RowMajorMatrix& T
   }
 }
 
-/// Values of an element's coordinates, in its own axes.
+/// Returns the values of the coordinates of an element in element axes.
 Vector6d gather_own(const MovingElement& element, const Vector2d& direction, const VectorXd& u) {
   Eigen::Matrix<double, 1, 6> v = detail::gather(element.coordinates, u).transpose();
   element.to_own(v, direction);
   return v.transpose();
 }
 
-/// Adds an element's forces, in its own axes, to those of its coordinates.
+/// Adds the forces of an element in element axes to those of its coordinates.
 void scatter_own(const MovingElement& element, const Vector2d& direction, const Vector6d& force,
                  VectorXd& u) {
   Eigen::Matrix<double, 1, 6> f = force.transpose();
@@ -105,13 +105,13 @@ void MovingSystem::find_spans() {
     const Member& member = model.members[to_size(e.member)];
     done = e.member == before ? done + 1 : 1;
     before = e.member;
-    if (done == member.elements) continue;  // its second node is the member's
+    if (done == member.elements) continue;  // the second node is that of the member
     span_[to_size(e.nodes[1])] = {member.nodes,
                                   static_cast<double>(done) / static_cast<double>(member.elements)};
   }
 }
 
-/// Every entry that some pose needs.
+/// Finds all entries that any pose needs.
 void MovingSystem::find_pattern() {
   const RowMajorMatrix& T = constraints_.T();
   std::vector<Eigen::Triplet<double>> places;
@@ -144,8 +144,8 @@ Vector2d MovingSystem::at_mesh_node(Index mesh_node, const Eigen::MatrixX2d& val
   return (1 - s) * values.row(nodes[0]).transpose() + s * values.row(nodes[1]).transpose();
 }
 
-/// Load of nominal inertia in the element's axes: the acceleration is an affine field, which the
-/// interpolation holds exactly; a mass off its node has a centripetal part.
+/// Returns the load of nominal inertia in element axes. The acceleration is an affine field, which
+/// the interpolation represents exactly. A mass offset from its node adds a centripetal part.
 Vector6d MovingSystem::nominal_inertia(const MovingElement& element, const PartMotion& part,
                                        const Vector2d& direction) const {
   Eigen::Matrix<double, 1, 6> a = Eigen::Matrix<double, 1, 6>::Zero();
@@ -164,7 +164,7 @@ Vector6d MovingSystem::nominal_inertia(const MovingElement& element, const PartM
   return f;
 }
 
-/// In the element's axes.
+/// Returns the weight in element axes.
 Vector6d MovingSystem::weight(const MovingElement& element, const Vector2d& direction) const {
   Eigen::Matrix<double, 1, 6> g = Eigen::Matrix<double, 1, 6>::Zero();
   if (element.layout == MovingElement::Layout::scalar || motion_.gravity.isZero(0))
@@ -277,7 +277,7 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
     scatter_own(element, direction, mass_drag + strain_drag, forces.working.drag);
     scatter_own(element, direction, f, forces.total);
     scatter_own(element, direction, -inertia, forces.external);
-    if (element.layout == MovingElement::Layout::frame)  // the frame elements come first
+    if (element.layout == MovingElement::Layout::frame)  // frame elements come first
       forces.element.col(static_cast<Index>(e)) = f;
   }
   return forces;
@@ -285,7 +285,7 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
 
 namespace {
 
-/// Below this ratio of pivot to diagonal the stiffness counts as singular.
+/// Ratio of pivot to diagonal below which the stiffness counts as singular.
 constexpr double kSingularPivotRatio = 1e-13;
 
 Model loaded_model(const ElastodynamicsOptions& options, double time) {

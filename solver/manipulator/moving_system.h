@@ -16,68 +16,79 @@
 
 namespace trammel::solver {
 
+/// Options of a moving system.
 struct MovingSystemOptions {
-  bool inertia = true;      ///< false: no M, and no inertia where the model was built
-  bool gyroscopic = false;  ///< matrices of the rates of the parts, too
-  bool condensed = false;   ///< members are condensed (link_superelement.h); no loads
+  bool inertia = true;      ///< false: no M, and no inertia in the assembly at the start
+  bool gyroscopic = false;  ///< true: also matrices of the rates of the parts
+  bool condensed = false;   ///< true: condensed members (link_superelement.h), without loads
 };
 
-/// A model whose parts move: K, M and loads of inertia as functions of the pose, on one pattern.
-/// Element matrices are evaluated once, in the axes of their parts; a pose rotates them and adds
-/// them up at places found once.
+/// Model whose parts move: K, M and inertia loads as functions of the pose, on one pattern. Element
+/// matrices are computed once in the axes of their parts. For each pose they are rotated and added
+/// at precomputed positions.
 ///
-/// The elastic displacements u(t) = T(t) q(t) are components in world axes and are measured from
-/// the moving nominal position. With W the interpolation of an element in world axes, which turns
-/// with its part (W = R N T_s), the virtual work of inertia is
+/// The elastic displacements u(t) = T(t) q(t) are components in world axes, relative to the moving
+/// nominal position. W = R N T_s is the interpolation of an element in world axes, which turns with
+/// its part. The virtual work of inertia is
+///
 ///   int rho W^T (r.. + W u.. + 2 W. u. + W.. u) dV,
-/// r.. the nominal acceleration. The paper keeps the first two terms: loads of inertia, Eq. 14-17,
-/// and the mass. The other two come from the time derivative of T_s and R; they and the same terms
-/// of T(t) are the `gyroscopic` effect, 2 W^T W. a damping matrix and W^T W.. a stiffness. With
-/// them damping acts on all of u. = T q. + T. q; without, on T q. alone.
+///
+/// where r.. is the nominal acceleration. The paper keeps the first two terms: inertia loads, Eq.
+/// 14-17, and the mass. The last two terms follow from the time derivatives of T_s and R. Together
+/// with the same terms of T(t) they form the `gyroscopic` effect. 2 W^T W. is a damping matrix, and
+/// W^T W.. a stiffness matrix. With this effect, damping acts on u. = T q. + T. q. Without it,
+/// damping acts on T q. only.
 class MovingSystem {
  public:
+  /// Assembles the model at its pose.
   /// @throws ModelError  as `assemble`.
   explicit MovingSystem(const Model& model, const MovingSystemOptions& options = {});
 
-  /// singular: the coordinates that the constraints eliminate do not suit this pose.
+  /// Moves the parts. The outcome is singular if the coordinates that the constraints eliminate are
+  /// unsuitable for this pose.
   [[nodiscard]] Outcome move_to(const NominalMotion& motion);
 
-  // Free coordinates q, at the present pose; the matrices share one pattern.
+  // Matrices of the free coordinates q at the current pose. They share one pattern.
   [[nodiscard]] const SparseMatrix& K() const { return K_; }
   [[nodiscard]] const SparseMatrix& M() const { return M_; }
   [[nodiscard]] const SparseMatrix& gyroscopic_matrix() const { return C_gyroscopic_; }
   [[nodiscard]] const SparseMatrix& centrifugal_and_euler_matrix() const {
     return K_centrifugal_euler_;
   }
-  /// T^T k T. and T^T m T. of the elements: damping forces of T. q; gyroscopic effect.
+  /// Returns T^T k T., for damping forces of T. q; gyroscopic effect only.
   [[nodiscard]] const SparseMatrix& K_T_dot() const { return K_T_dot_; }
+  /// Returns T^T m T., for damping forces of T. q; gyroscopic effect only.
   [[nodiscard]] const SparseMatrix& M_T_dot() const { return M_T_dot_; }
-  /// - int rho W^T r.. dV, as a load [N, N m].
+  /// Returns the load - int rho W^T r.. dV [N, N m].
   [[nodiscard]] const Eigen::VectorXd& inertia_load() const { return inertia_load_; }
-  /// Loads of the model, which keep their world axes, and weight.
+  /// Returns the loads of the model, which keep their world axes, plus weight [N, N m].
   [[nodiscard]] const Eigen::VectorXd& load() const { return load_; }
 
   [[nodiscard]] const NominalMotion& motion() const { return motion_; }
-  /// Nominal position of a node of the mesh [m].
+  /// Returns the nominal position of a mesh node [m].
   [[nodiscard]] Vector2d position(Index mesh_node) const {
     return at_mesh_node(mesh_node, motion_.node[0]);
   }
-  /// The model where it was built; its mesh, coordinates and numbering hold at every pose.
+  /// Returns the system at the start. Its mesh, coordinates and numbering are valid at every pose.
   [[nodiscard]] const System& start() const { return start_; }
   [[nodiscard]] const Constraints& constraints() const { return constraints_.constraints(); }
   [[nodiscard]] const std::vector<MovingElement>& elements() const { return elements_; }
-  /// Condensed members, in the order of the model; empty unless condensed.
+  /// Returns the condensed members in the order of the model; empty without condensation.
   [[nodiscard]] const std::vector<LinkSuperelement>& links() const { return links_; }
 
-  /// Forces of an elastic motion at the present pose, on all coordinates u.
+  /// Forces of an elastic motion at the current pose, on all coordinates u.
   struct Forces {
     Eigen::MatrixXd element;   ///< 6 x frame element: forces of its nodes on it, element axes
-    Eigen::VectorXd total;     ///< required constraint forces: elements' forces less the loads
-    Eigen::VectorXd external;  ///< loads and weight, less inertia and the damping by mass
+    Eigen::VectorXd total;     ///< required constraint forces: forces of the elements minus loads
+    Eigen::VectorXd external;  ///< loads and weight, minus inertia and mass-proportional damping
     WorkingMotion working;     ///< energies, and the forces that do work
   };
-  /// @param q, v, a  free coordinates and their rates
-  /// @param with_inertia  of the nominal motion
+  /// Computes the forces of an elastic motion.
+  /// @param q  free coordinates.
+  /// @param v  velocities of q.
+  /// @param a  accelerations of q.
+  /// @param damping  factors of mass and stiffness.
+  /// @param with_inertia  true: include inertia of the nominal motion.
   [[nodiscard]] Forces forces(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                               const Eigen::VectorXd& a, const RayleighDamping& damping,
                               bool with_inertia) const;
@@ -87,11 +98,12 @@ class MovingSystem {
   }
 
  private:
-  /// value(destination) += T(a) * element(local) * T(b), local = i + 6 j.
+  /// Term of an entry: value(destination) += T(a) * element(local) * T(b), with local = i + 6 j.
   struct Contribution {
     int local, a, b, destination;
   };
-  /// Linear between the ends of a member, as every affine field is.
+  /// Mesh node by linear interpolation between the ends of a member, which is exact for affine
+  /// fields.
   struct Span {
     std::array<Index, 2> nodes{};
     double fraction = 0;
@@ -114,30 +126,31 @@ class MovingSystem {
   std::vector<LinkSuperelement> links_;
   std::vector<MovingElement> elements_;
   std::vector<Contribution> contributions_;
-  std::vector<std::size_t> first_contribution_;  // of each element, and their number
-  std::vector<Span> span_;                       // of each node of the mesh
+  // Index of the first of each element, then their number.
+  std::vector<std::size_t> first_contribution_;
+  std::vector<Span> span_;  // of each mesh node
   SparseMatrix K_, M_, C_gyroscopic_, K_centrifugal_euler_, K_T_dot_, M_T_dot_;
   Eigen::VectorXd inertia_u_, load_u_, inertia_load_, load_;
 };
 
-/// The manipulator on its way along the path: the rigid motion at a time, and the elastic system
-/// about it.
+/// Manipulator on its path: the rigid motion at a time and the elastic system about it.
 class PathFollower {
  public:
-  /// @param built_at  the time at whose pose the model is built and its coordinates are numbered
-  /// [s]
-  /// @pre `options` outlive the follower
+  /// Builds the model and numbers its coordinates.
+  /// @param options  design, path and loads.
+  /// @param built_at  time at whose pose the model is built [s].
+  /// @pre `options` outlive this object.
   PathFollower(const ElastodynamicsOptions& options, double built_at);
 
-  /// A time is evaluated once, and only one for a platform that stands still under a load that
-  /// stays.
-  /// @returns false: `outcome` names the time and the reason.
+  /// Updates to a time. Repeated calls for the same time do nothing. A platform at rest under a
+  /// constant load is evaluated once.
+  /// @returns false on failure; then `outcome` states the time and the reason.
   bool update_to(double time);
-  /// The same at any time under any gravity [m/s^2], each time anew.
+  /// Updates to a time with any gravity [m/s^2], without reuse of earlier evaluations.
   [[nodiscard]] Outcome move_to(double time, const Vector2d& gravity);
 
   [[nodiscard]] const MovingSystem& system() const { return moving_; }
-  /// Forces and energies of an elastic motion at the present pose.
+  /// Returns forces and energies of an elastic motion at the current pose.
   [[nodiscard]] MovingSystem::Forces forces(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                                             const Eigen::VectorXd& a) const {
     return moving_.forces(q, v, a, options_.damping, options_.nominal_inertia);
@@ -147,23 +160,24 @@ class PathFollower {
   [[nodiscard]] bool stands_still() const { return stands_still_; }
   [[nodiscard]] bool damped() const;
 
-  // At the present pose, in free coordinates.
+  // Quantities at the current pose, in free coordinates.
 
-  /// F and, where it is on, f [N, N m].
+  /// Returns F plus, if active, f [N, N m].
   [[nodiscard]] Eigen::VectorXd load() const;
-  /// M, C + G and K + S, with what damping takes of T. q; C stays as it is where nothing goes with
-  /// velocities.
+  /// Computes M, C + G and K + S, including damping of T. q. C is unchanged if there are neither
+  /// damping nor gyroscopic terms.
   void matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K);
-  /// K q = f; false where K is singular.
+  /// Solves K q = f. Returns false if K is singular.
   [[nodiscard]] bool solve_statically(const Eigen::VectorXd& f, Eigen::VectorXd& q);
-  /// (f^T K^-1 f)^(1/2), twice the energy that the load f alone would store [J^(1/2)]; NaN where K
-  /// is singular.
+  /// Returns (f^T K^-1 f)^(1/2) [J^(1/2)], the square root of twice the strain energy under the
+  /// load f alone. NaN if K is singular.
   [[nodiscard]] double energy_norm(const Eigen::VectorXd& f);
-  /// Torques of rigid links under the same loads and, where it is on, the same inertia [N m].
+  /// Returns the torques of rigid links under the same loads and, if active, the same inertia [N
+  /// m].
   [[nodiscard]] Vector3d rigid_torque() const;
 
-  /// Elements, what was solved with K, and the effects: what the parts have, once; what only the
-  /// motion has, each time.
+  /// Returns the counts of elements, solutions with K, and effects. Effects of parts count once.
+  /// Effects of the motion count at each evaluation.
   [[nodiscard]] Counters counters() const;
 
  private:

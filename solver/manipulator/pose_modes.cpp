@@ -18,18 +18,19 @@
 namespace trammel::solver {
 namespace {
 
-constexpr Index kBlock = 64;               // poses that begin with each other's modes
-constexpr Index kGuard = 3;                // vectors beyond the modes wanted
-constexpr Index kLargest = 48;             // coordinates of the joints; beyond, sparse matrices win
-constexpr double kSmallestPivot = 1e-9;    // of the scaled stiffness: nine digits lost
+constexpr Index kBlock = 64;             // poses that share start vectors
+constexpr Index kGuard = 3;              // vectors beyond the requested modes
+constexpr Index kLargest = 48;           // joint coordinates above which sparse matrices are faster
+constexpr double kSmallestPivot = 1e-9;  // of the scaled stiffness: a loss of nine digits
 constexpr double kLargestCoupling = 1e-7;  // an eigenvalue changes by its square
-constexpr double kTolerance = 1e-11;       // change of an eigenvalue in one inverse iteration
-constexpr double kResidual = 1e-11;  // backward error of a mode; it counts up to ten times that
-constexpr double kClearGap = 1e-3;   // between neighbours that are certainly not copies
+constexpr double kTolerance = 1e-11;  // relative change of an eigenvalue in one inverse iteration
+// Backward error of a mode; up to ten times this value is accepted.
+constexpr double kResidual = 1e-11;
+constexpr double kClearGap = 1e-3;  // relative gap between distinct neighbors
 
-/// What all threads read and write, each its own poses.
+/// Data shared by all threads. Each thread writes results of different poses.
 struct Task {
-  const ManipulatorDesign& design;  ///< without effects that are off
+  const ManipulatorDesign& design;  ///< without inactive effects
   const std::vector<Pose>& poses;
   const PoseModesOptions& options;
   PoseModes& result;
@@ -53,7 +54,7 @@ void store(const Task& task, std::size_t at, const ModalSolution& modes, Counter
   counters += modes.counters;
 }
 
-/// The poses of a block one after the other, `rows` vectors at a time.
+/// Solves the poses of a block in sequence, with `rows` vectors at a time.
 template <int rows>
 class BlockSolver {
  public:
@@ -85,7 +86,7 @@ class BlockSolver {
   using Numbers = Eigen::Array<double, rows, 1>;
   using Square = Eigen::Matrix<double, rows, rows>;
 
-  /// Whether the pose is one for the condensed matrices, and what they give is certified.
+  /// Solves a pose with the condensed matrices. Returns true if the result is certified.
   bool solve(std::size_t at, const Posture& posture) {
     if (pencil_.ends() > kLargest || pencil_.ends() + pencil_.inside() < rows) return false;
     if (task_.options.count + kGuard > rows || pencil_.coupling() > kLargestCoupling) return false;
@@ -93,7 +94,8 @@ class BlockSolver {
     ++counters.factorizations;
     if (!(stiffness_.compute(pencil_.K()) && stiffness_.smallest_pivot() > kSmallestPivot))
       return false;
-    for (int trial = warm_ ? 0 : 1; trial < 2; ++trial) {  // the second from nothing
+    // The second trial uses new start vectors.
+    for (int trial = warm_ ? 0 : 1; trial < 2; ++trial) {
       if (trial > 0) begin();
       if (iterate(trial == 0) && certify(at)) return warm_ = true;
     }
@@ -103,12 +105,13 @@ class BlockSolver {
   void begin() {
     const Index n = pencil_.ends();
     X_.ends = start_vectors(rows, n);
-    // Strain energies of the joints' unit motions are m^2 or 1 times a stiffness; inside it is 1.
+    // Strain energies of unit motions of the joints are m^2 or 1 times a stiffness. Interior modes
+    // have stiffness 1.
     X_.ends *= pencil_.K().diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
     X_.inside = start_vectors(rows, pencil_.inside(), 1);
   }
 
-  /// X <- K^-1 M X, and M X of it.
+  /// Computes X <- K^-1 M X and the new M X.
   void inverse_iteration() {
     Y_ = MX_;
     stiffness_.solve_in_place(Y_.ends);
@@ -116,7 +119,7 @@ class BlockSolver {
     pencil_.mass_times(Y_, MY_);
   }
 
-  /// Until the eigenvalues stand still; false where they do not.
+  /// Iterates until the eigenvalues converge. Returns false on failure.
   bool iterate(bool warm) {
     constexpr int kSteps = 60;
     pencil_.mass_times(X_, MX_);
@@ -155,8 +158,8 @@ class BlockSolver {
     for (Index i = 0; i < X.inside.cols(); ++i) X.inside.col(i) = Z * X.inside.col(i);
   }
 
-  /// The lowest eigenvalues in the space of Y = K^-1 M X, and what the last step has changed: with
-  /// Y z a mode, X z was the one before it.
+  /// Computes the lowest eigenvalues in the space of Y = K^-1 M X, and the change by the last step.
+  /// If Y z is a mode, X z was its predecessor.
   bool rayleigh_ritz() {
     const Square stiffness = products(Y_, MX_), inertia = products(Y_, MY_);
     const Square before = products(X_, MX_);
@@ -183,7 +186,7 @@ class BlockSolver {
     return true;
   }
 
-  /// Where found eigenvalues end and a clear gap begins; 0: nowhere in the block.
+  /// Returns the number of eigenvalues below a clear gap, or 0 if the block contains none.
   [[nodiscard]] Index cut() const {
     for (Index k = task_.options.count; k < rows; ++k) {
       if (!(change_[k - 1] < 1e-2 * kClearGap)) return 0;
@@ -204,7 +207,7 @@ class BlockSolver {
     }
     if (below != found) return false;
     const Numbers w2 = measures_.strain / measures_.inertia;
-    // The iteration has used assembled matrices, the quotient has not.
+    // Only the iteration used assembled matrices, not the quotient.
     if (!((w2 / value_ - 1).abs().head(count).maxCoeff() < 1e-6)) return false;
     Evidence evidence;
     evidence.add(Residual::mode_count, 0);
@@ -227,11 +230,11 @@ class BlockSolver {
   Workspace<rows> space_;
   Numbers value_, change_;
   ModeMeasures<rows> measures_;
-  bool warm_ = false;  // X holds the modes of the pose before
-  int plain_ = 1;      // inverse iterations before the first Rayleigh-Ritz step
+  bool warm_ = false;  // X contains the modes of the preceding pose
+  int plain_ = 1;      // number of inverse iterations before the first Rayleigh-Ritz step
 };
 
-/// Blocks of poses on threads; what each block finds depends on nothing but its poses.
+/// Solves blocks of poses on threads. The result of each block depends on its poses only.
 template <class Solver>
 void solve_blocks(const Task& task, std::vector<Solver> solvers) {
   std::atomic<std::size_t> next = 0;
@@ -243,7 +246,8 @@ void solve_blocks(const Task& task, std::vector<Solver> solvers) {
   std::vector<std::future<void>> threads;
   for (Solver& solver : solvers)
     threads.push_back(std::async(std::launch::async, work, std::ref(solver)));
-  for (const std::future<void>& thread : threads) thread.wait();  // before an error is thrown
+  // Wait for all before an error is thrown.
+  for (const std::future<void>& thread : threads) thread.wait();
   for (std::future<void>& thread : threads) thread.get();
   for (const Solver& solver : solvers) {
     task.result.counters += solver.counters;
@@ -251,7 +255,7 @@ void solve_blocks(const Task& task, std::vector<Solver> solvers) {
   }
 }
 
-/// The first pose within reach.
+/// Returns the first pose within reach.
 std::optional<Pose> first_reached(const ManipulatorGeometry& geometry,
                                   const std::vector<Pose>& poses) {
   for (const Pose& pose : poses) {

@@ -25,7 +25,7 @@ Vec2<T> turned(const Vector2d& v, const T& angle) {
   return along * v.x() + perp(along) * v.y();
 }
 
-/// Unit vectors a, e along proximal and distal links, and c = C_i - P.
+/// Unit vectors a, e along the proximal and distal links, and c = C_i - P.
 template <Real T>
 struct Limb {
   Vec2<T> a, e, c;
@@ -51,7 +51,7 @@ Vector3d body_inertia(const RigidManipulator& m, Index body) {
   return of((body < 3 ? m.proximal : m.distal)[to_size(body % 3)]);
 }
 
-/// A body's centre of mass and the matrix of its motion.
+/// Center of mass of a body and the matrix of its motion.
 template <Real T>
 struct BodyPlace {
   Vec2<T> position;
@@ -128,8 +128,8 @@ Eigen::Matrix<Dual, 9, 9> mass_matrix(const RigidManipulator& m, const Vector9<D
   return M;
 }
 
-/// Solves K G = D for the platform's motion, rows of K being (e^T, cross(c, e)); its rotation is
-/// scaled to be comparable with its translation.
+/// Solves K G = D for the motion of the platform. The rows of K are (e^T, cross(c, e)). The
+/// rotation is scaled to be comparable with translations.
 template <Real T>
 Eigen::Matrix<T, 9, 3> motion_map(const RigidManipulator& m, const Vector9<T>& q) {
   const double size = platform_radius(m.geometry);

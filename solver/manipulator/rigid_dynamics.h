@@ -7,15 +7,23 @@
 #include "solver/model/evidence.h"
 #include "solver/model/numbers.h"
 
-/// Rigid dynamics of the 3-RRR in nine coordinates (paper Eq. 1-5):
-///   M(q) q.. + C(q, q.) q. + N(q) = forces,  q = [theta_a (3), theta_p (3), x, y, phi],
-/// with absolute link angles, q. = W theta_a. by the closed loops, and the reduced
+/// Rigid dynamics of the 3-RRR manipulator in nine coordinates (paper Eq. 1-5), with absolute link
+/// angles:
+///
+///   M(q) q.. + C(q, q.) q. + N(q) = forces,  q = [theta_a (3), theta_p (3), x, y, phi].
+///
+/// The closed loops give q. = W theta_a. and the reduced equation
+///
 ///   Mh theta_a.. + Ch theta_a. + Nh = tau + (dx/dtheta_a)^T wrench,
+///
 ///   Mh = W^T M W,  Ch = W^T M W. + W^T C W,  Nh = W^T N.
+///
 /// The loop P + c = A + l1 a + l2 e of a limb gives, along e and along perp(e),
+///
 ///   e . C. = l1 s theta_a.,   perp(e) . C. = l1 (a . e) theta_a. + l2 theta_p.,  s = cross(a, e).
-/// Functions of T exist for double and Dual; over Dual they carry rates, from which W. and the
-/// accelerations follow.
+///
+/// Functions of T are defined for double and Dual. With Dual they carry rates, from which W. and
+/// the accelerations follow.
 namespace trammel::solver {
 
 template <class T>
@@ -24,12 +32,14 @@ using Vector9d = Vector9<double>;
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
 using Matrix93d = Eigen::Matrix<double, 9, 3>;
 
+/// Rigid link.
 struct RigidLink {
   double mass = 0;     ///< [kg]
-  double center = 0;   ///< of mass, from the link's first joint along it [m]
-  double inertia = 0;  ///< about the centre of mass [kg m^2]
+  double center = 0;   ///< center of mass, from the first joint along the link [m]
+  double inertia = 0;  ///< about the center of mass [kg m^2]
 };
 
+/// Rigid bodies of the manipulator.
 struct RigidManipulator {
   ManipulatorGeometry geometry;
   std::array<RigidLink, 3> proximal, distal;
@@ -37,108 +47,119 @@ struct RigidManipulator {
   Vector2d gravity = Vector2d::Zero();  ///< [m/s^2]
 };
 
-/// The bodies of a design. A link's inertia about its centre is the printed one, or m L^2 / 12.
-/// (The flexible model spreads the mass over the length, which has that inertia by itself, and
-/// carries a printed one on top, half at each end.)
+/// Returns the rigid bodies of a design. The inertia of a link about its center is the printed
+/// value, or m L^2 / 12. (The flexible model distributes the mass over the length, which results in
+/// this inertia. A printed inertia is added to it, half at each end.)
 /// @throws ModelError  as `link_section` and `platform_mass`.
 [[nodiscard]] RigidManipulator rigid_manipulator(const ManipulatorDesign& design);
 
-/// Values with their rates as derivatives.
+/// Returns values with their rates as derivatives.
 template <int n>
 [[nodiscard]] Eigen::Matrix<Dual, n, 1> with_rates(const Eigen::Matrix<double, n, 1>& values,
                                                    const Eigen::Matrix<double, n, 1>& rates) {
   return values.binaryExpr(rates, [](double x, double rate) { return with_derivative(x, rate); });
 }
+/// Returns the rates.
 template <int n, int m>
 [[nodiscard]] Eigen::Matrix<double, n, m> rates_of(const Eigen::Matrix<Dual, n, m>& values) {
   return values.unaryExpr([](const Dual& x) { return derivative(x); });
 }
 
+/// Returns the values without their rates.
 template <int n, int m>
 [[nodiscard]] Eigen::Matrix<double, n, m> values_of(const Eigen::Matrix<Dual, n, m>& values) {
   return values.unaryExpr([](const Dual& x) { return x.value(); });
 }
 
-/// M with its rate [kg, kg m, kg m^2], symmetric.
+/// Returns M with its rate [kg, kg m, kg m^2], symmetric.
 [[nodiscard]] Eigen::Matrix<Dual, 9, 9> mass_matrix(const RigidManipulator& m,
                                                     const Vector9<Dual>& q);
 
-/// W = [I; d theta_p / d theta_a; d(x, y, phi) / d theta_a].
-/// @pre no parallel singularity
+/// Returns W = [I; d theta_p / d theta_a; d(x, y, phi) / d theta_a].
+/// @pre The pose is no parallel singularity.
 template <Real T>
 [[nodiscard]] Eigen::Matrix<T, 9, 3> motion_map(const RigidManipulator& m, const Vector9<T>& q);
 
-/// q. = W theta_a. from the motion of the platform, (xdot, ydot [m/s], phidot [rad/s]).
+/// Returns q. = W theta_a. from the motion of the platform (xdot, ydot [m/s], phidot [rad/s]).
 template <Real T>
 [[nodiscard]] Vector9<T> velocities(const RigidManipulator& m, const Vector9<T>& q,
                                     const Eigen::Matrix<T, 3, 1>& platform);
 
-/// A body in one state, (xdot, ydot, omega) = J q. at its centre of mass.
+/// Terms of a body in one state, with (xdot, ydot, omega) = J q. at its center of mass.
 struct BodyTerms {
-  Vector3d inertia;   ///< mass, mass, and inertia about the centre [kg, kg, kg m^2]
-  Vector2d position;  ///< of the centre [m]
+  Vector3d inertia;   ///< mass, mass, and inertia about the center of mass [kg, kg, kg m^2]
+  Vector2d position;  ///< of the center of mass [m]
   Eigen::Matrix<double, 3, 9> J, J_dot;
 };
 
-/// All terms of Eq. 1-5 in one state; NaN unless solved.
+/// Terms of Eq. 1-5 in one state; NaN unless solved.
 struct RigidTerms {
-  /// singular: out of reach, at a parallel singularity (no W) or at a serial one (the velocity of
-  /// the platform requires an infinite one of an actuator)
+  /// singular: out of reach, at a parallel singularity (no W), or at a serial singularity. At a
+  /// serial singularity, the velocity of the platform requires an infinite velocity of an actuator.
   Outcome outcome;
   Vector9d q = Vector9d::Constant(kNaN), q_dot = q;
   Matrix9d M = Matrix9d::Constant(kNaN);
   Matrix9d C = M;  ///< sum of J^T diag(inertia) J., so that M. - 2 C is skew-symmetric
   Vector9d N = q;  ///< gravity, dV/dq [N, N m]
   Matrix93d W = Matrix93d::Constant(kNaN), W_dot = W;
-  /// Mh symmetric positive definite; Mh. - 2 Ch skew-symmetric
+  /// Mh is symmetric positive definite, and Mh. - 2 Ch is skew-symmetric.
   Matrix3d Mh = Matrix3d::Constant(kNaN), Ch = Mh;
   Vector3d Nh = Vector3d::Constant(kNaN);
   std::array<BodyTerms, 7> bodies;  ///< proximal 1-3, distal 1-3, platform
 };
 
-/// @param velocity  of the platform (xdot, ydot [m/s], phidot [rad/s])
+/// Computes the terms in one state.
+/// @param manipulator  rigid bodies.
+/// @param pose  pose of the platform.
+/// @param velocity  velocity of the platform (xdot, ydot [m/s], phidot [rad/s]).
 /// @throws ModelError  as `inverse_kinematics`.
 [[nodiscard]] RigidTerms rigid_terms(const RigidManipulator& manipulator, const Pose& pose,
                                      const Vector3d& velocity);
 
-/// How well the two properties of Eq. 4, 5 hold in one state.
+/// Residuals of the two properties of Eq. 4, 5 in one state.
 struct PropertyResiduals {
   double symmetry = 0;  ///< |Mh - Mh^T| / |Mh| [-]
-  /// |S + S^T| / (|Mh.| + 2 |Ch|) of S = Mh. - 2 Ch, with Mh. independent of C; 0 at a standstill
-  /// [-]
+  /// |S + S^T| / (|Mh.| + 2 |Ch|) of S = Mh. - 2 Ch [-], with Mh. computed independently of C. It
+  /// is 0 at rest.
   double skewness = 0;
-  double min_eigenvalue = 0;  ///< of Mh [kg m^2]
+  double min_eigenvalue = 0;  ///< smallest eigenvalue of Mh [kg m^2]
 };
 
+/// Computes the residuals of the two properties.
 /// @pre terms.outcome.solved()
 [[nodiscard]] PropertyResiduals property_residuals(const RigidManipulator& manipulator,
                                                    const RigidTerms& terms);
 
 // Motion of all bodies, torques and powers of the rigid manipulator on its path.
 
-/// Plane motion of one body; position, velocity and acceleration of its centre of mass.
+/// Plane motion of one body: position, velocity and acceleration of its center of mass.
 struct BodyMotion {
   Vector2d position = Vector2d::Constant(kNaN), velocity = position, acceleration = position;
   double angle = kNaN, angular_velocity = kNaN, angular_acceleration = kNaN;
 };
 
-/// NaN unless solved.
+/// Torques, energies and motion of all bodies; NaN unless solved.
 struct InverseDynamics {
   Outcome outcome;  ///< as RigidTerms
   Vector9d q = Vector9d::Constant(kNaN), q_dot = q, q_ddot = q;
   std::array<BodyMotion, 7> bodies;            ///< proximal 1-3, distal 1-3, platform
   Vector3d torque = Vector3d::Constant(kNaN);  ///< of the actuators on the proximal links [N m]
   double kinetic_energy = kNaN;                ///< [J]
-  double potential_energy = kNaN;              ///< what gravity has taken up, -sum m g . x [J]
-  /// Rate of the kinetic energy, body by body: sum of m v . a + J omega alpha [W]. Power balance:
-  /// kinetic_power = actuator_power + load_power + gravity_power.
+  double potential_energy = kNaN;              ///< energy in the gravity field, -sum m g . x [J]
+  /// Rate of the kinetic energy, summed over the bodies: sum of m v . a + J omega alpha [W]. The
+  /// power balance is
+  ///
+  ///   kinetic_power = actuator_power + load_power + gravity_power.
   double kinetic_power = kNaN;
   double actuator_power = kNaN;
   double load_power = kNaN;
   double gravity_power = kNaN;
 };
 
-/// @param wrench  load on the platform at P: (Fx, Fy [N], moment [N m]) in world axes
+/// Computes actuator torques and energies for a motion of the platform.
+/// @param manipulator  rigid bodies.
+/// @param motion  motion of the platform.
+/// @param wrench  load on the platform at P: (Fx, Fy [N], moment [N m]) in world axes.
 [[nodiscard]] InverseDynamics inverse_dynamics(const RigidManipulator& manipulator,
                                                const TrajectoryPoint& motion,
                                                const Vector3d& wrench = Vector3d::Zero());

@@ -30,7 +30,7 @@ FirstFrequency first_frequency(const ManipulatorDesign& design, const DesignPara
     }
     if (rigid < count) break;
   }
-  if (first.outcome.solved()) first.outcome = {Status::singular, "every motion is rigid"};
+  if (first.outcome.solved()) first.outcome = {Status::singular, "all modes are rigid"};
   return first;
 }
 
@@ -58,7 +58,7 @@ SensitivityMap map_first_frequency(const ManipulatorDesign& design,
 
 namespace {
 
-/// Positions of P that the limb reaches: between two circles about one centre.
+/// Positions of P within reach of a limb: between two circles about one center.
 struct Annulus {
   Vector2d center;
   double inner = 0, outer = 0;
@@ -97,8 +97,8 @@ void add_arcs(const std::array<Annulus, 3>& all, const Annulus& own, double radi
   if (!arc.empty()) arcs.push_back(std::move(arc));
 }
 
-/// det J_x = 0 between two places where its signs, `a` and `b`, differ; nothing where the way from
-/// one to the other leaves the reach.
+/// Finds det J_x = 0 between two positions at which its values `a` and `b` have different signs.
+/// Returns an empty value if the line between them leaves the reach.
 std::optional<Vector2d> crossing(const ManipulatorGeometry& geometry, double phi,
                                  const Vector2d& from, const Vector2d& to, double a, double b) {
   std::uintmax_t evaluations = 100;
@@ -130,7 +130,7 @@ std::vector<Polyline> workspace_boundary(const ManipulatorGeometry& geometry, do
 
 PoseGrid reachable_grid(const ManipulatorGeometry& geometry, double phi, Index columns) {
   check_geometry(geometry);
-  if (columns < 2) throw ModelError("a grid of poses has at least two columns");
+  if (columns < 2) throw ModelError("a grid of poses must have at least two columns");
   Vector2d low = Vector2d::Constant(-std::numeric_limits<double>::infinity());
   Vector2d high = -low;
   for (const Annulus& limb : reach_annuli(geometry, phi)) {
@@ -156,7 +156,7 @@ std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry
   std::vector<Polyline> segments;
   for (Index j = 0; j + 1 < grid.rows; ++j) {
     for (Index i = 0; i + 1 < grid.columns; ++i) {
-      // around the cell; a saddle, with four crossings, gives two segments
+      // Search around the cell. A saddle has four crossings and results in two segments.
       const std::array<Index, 4> di = {0, 1, 1, 0};
       const std::array<Index, 4> dj = {0, 0, 1, 1};
       Polyline crossings;

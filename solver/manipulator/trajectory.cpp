@@ -30,7 +30,7 @@ TrajectoryPoint evaluate(const Circle& circle, double t) {
           {-w * w * rx, -w * w * ry, 0}};
 }
 
-/// from + s (to - from), with ds = ds/dt and dds = d2s/dt2.
+/// Returns from + s (to - from), with ds = ds/dt and dds = d2s/dt2.
 TrajectoryPoint between(const Pose& from, const Pose& to, double s, double ds, double dds) {
   const Vector3d line = to.vector() - from.vector();
   require_path(line.allFinite(), "the ends of the path are not finite");
@@ -55,7 +55,7 @@ TrajectoryPoint evaluate(const RestToRest& path, double t) {
 TrajectoryPoint evaluate(const Spline& spline, double time) {
   const auto& times = spline.times;
   require_path(times.size() >= 2, "a table of poses needs at least three points");
-  // A multiple of a step may lie past the end by a rounding: 63 steps of 0.1 s make more than 6.3.
+  // A multiple of a step may exceed the end by round-off: 63 steps of 0.1 s are more than 6.3 s.
   const double rounding = 4 * std::numeric_limits<double>::epsilon() *
                           std::max(std::abs(times.front()), std::abs(times.back()));
   require_path(time >= times.front() - rounding && time <= times.back() + rounding,
@@ -82,7 +82,7 @@ bool is_still(const Spline& spline) {
   return (spline.pose.rowwise() - spline.pose.row(0)).isZero(0);
 }
 
-/// A line, or from rest to rest.
+/// Handles a line, or a motion from rest to rest.
 template <class Way>
 bool is_still(const Way& line) {
   return line.from.vector() == line.to.vector();
@@ -90,7 +90,8 @@ bool is_still(const Way& line) {
 
 }  // namespace
 
-// Unknown: the accelerations a_k. The velocity is continuous at t_k (h_k = t_{k+1} - t_k):
+// The unknowns are the accelerations a_k. The velocity is continuous at t_k, with h_k = t_{k+1} -
+// t_k: //
 //   h_{k-1} a_{k-1} + 2 (h_{k-1} + h_k) a_k + h_k a_{k+1} = 6 (slope_k - slope_{k-1}).
 Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& poses,
                    SplineEnds ends) {
@@ -141,7 +142,7 @@ Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& po
   Eigen::SparseMatrix<double> A(n, n);
   A.setFromTriplets(entries.begin(), entries.end());
   SparseLu<double> lu;
-  require_path(lu.factorize(A), "no spline goes through the table of poses");
+  require_path(lu.factorize(A), "no spline interpolates the table of poses");
   for (Index c = 0; c < 3; ++c) spline.acceleration.col(c) = lu.solve(rhs.col(c));
   return spline;
 }

@@ -8,23 +8,24 @@
 #include <string_view>
 #include <vector>
 
-/// What a scene may call for. An effect that is off is taken out of the model before anything is
-/// built from it: no degree of freedom, no matrix and no evaluation is left of it.
+/// Physical effects that a scene may include. An inactive effect is removed from the model before
+/// assembly. It causes no degrees of freedom, no matrices and no evaluations.
 namespace trammel::solver {
 
+/// Physical effect of a scene.
 enum class Effect : std::uint8_t {
   axial_flexibility,     ///< members that bend also stretch; off: inextensible, by constraints
-  shear,                 ///< shear of the sections; off: Euler-Bernoulli or Rayleigh
-  rotary_inertia,        ///< of the sections; off: Euler-Bernoulli or shear beam
-  platform_flexibility,  ///< a manipulator's platform of triangles; off: a rigid body
-  joint_compliance,      ///< springs between member ends and nodes; off: welded
+  shear,                 ///< shear of the sections; off: Euler-Bernoulli or Rayleigh beam
+  rotary_inertia,        ///< rotary inertia of the sections; off: Euler-Bernoulli or shear beam
+  platform_flexibility,  ///< platform of triangles in a manipulator; off: rigid body
+  joint_compliance,      ///< springs between member ends and nodes; off: welded ends
   link_mass,             ///< mass and inertia of the members
-  gravity,               ///< weights
-  inertia,               ///< mass at all; off: no mass matrix, motion is a row of equilibria
-  damping,               ///< forces that go with velocities and take energy
-  gyroscopic,            ///< Coriolis and other forces of frames that turn, but for the centrifugal
-  geometric_stiffening,  ///< forces turn with what they act in: second-order theory
-  large_displacement,    ///< equilibrium in the place where it is: the geometrically exact tier
+  gravity,               ///< weight of all masses
+  inertia,     ///< all masses; off: no mass matrix, and motion is a sequence of equilibria
+  damping,     ///< dissipative forces that depend on velocities
+  gyroscopic,  ///< Coriolis and other forces in rotating frames, except the centrifugal force
+  geometric_stiffening,  ///< forces turn with the part on which they act: second-order theory
+  large_displacement,  ///< equilibrium in the deformed configuration: the geometrically exact tier
 };
 inline constexpr std::size_t kEffectCount = 12;
 
@@ -52,21 +53,22 @@ class Effects {
   std::uint32_t bits_ = 0;
 };
 
-/// "axial-flexibility", ...; as case files name them.
+/// Returns the name of an effect in case files, such as "axial-flexibility".
 [[nodiscard]] std::string_view name_of(Effect effect);
+/// Returns the effect with this name, or an empty value.
 [[nodiscard]] std::optional<Effect> effect_named(std::string_view name);
 
-/// Evaluations that effects have caused: element matrices, loads of elements, springs.
+/// Number of evaluations that each effect causes: element matrices, element loads, springs.
 using EffectCounts = std::array<std::int64_t, kEffectCount>;
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// What was evaluated; the same on every machine, and zero for what a scene does not call for.
+/// Numbers of evaluations. They are the same on every machine. Inactive effects have zero.
 struct Counters {
   std::int64_t element_evaluations = 0;  ///< element matrices
   std::int64_t factorizations = 0;
-  std::int64_t solves = 0;  ///< right-hand sides, refinement included
-  std::int64_t steps = 0;   ///< of time or load, rejected ones included
+  std::int64_t solves = 0;  ///< right-hand sides, including iterative refinement
+  std::int64_t steps = 0;   ///< time steps or load steps, including rejected ones
   EffectCounts effects{};   ///< by effect
 
   void count(Effect effect, std::int64_t evaluations) {

@@ -10,25 +10,27 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A row has at most some thousand terms (a rigid body with all that is joined to it), each rounded
-/// to eps: 1e3 eps = 2e-13; where Newton's method ends on a critical point, whose tangent is
-/// singular, a hundred times that. A wrong factor of one part in a million leaves 1e-6.
+/// A row has at most about 1000 terms (a rigid body with all parts that are joined to it). Each is
+/// rounded to eps, which leaves 1e3 eps = 2e-13. Newton's method at a critical point, where the
+/// tangent is singular, leaves a hundred times that. A factor that is wrong by one part in a
+/// million leaves 1e-6.
 constexpr double kRowLimit = 1e-10;
 
-/// A nonlinear step ends by the size of its last correction; where four-bars pass their singular
-/// positions that leaves 1e-5 of the terms, elsewhere in the catalogue 3e-11 at most. Inertia left
-/// out, a stale load and a velocity of the wrong sign leave more (motion_residuals_test.cpp).
+/// Newton's method ends when the last correction of a step is small. This leaves 1e-5 of the terms
+/// where four-bar linkages pass singular positions. It leaves at most 3e-11 elsewhere in the
+/// catalogue. Missing inertia, an outdated load or a velocity of the wrong sign leaves more
+/// (motion_residuals_test.cpp).
 constexpr double kStepLimit = 1e-4;
 
 constexpr std::array<ResidualRule, kResiduals.size()> kRules = {{
-    {"equilibrium", kRowLimit, "rounding of a row's terms"},
-    {"recovered_forces", kRowLimit, "rounding of a row's terms"},
-    {"eigenvalue_equation", kRowLimit, "rounding of a row's terms"},
+    {"equilibrium", kRowLimit, "round-off of the terms of a row"},
+    {"recovered_forces", kRowLimit, "round-off of the terms of a row"},
+    {"eigenvalue_equation", kRowLimit, "round-off of the terms of a row"},
     {"mode_count", 0, "a count is exact"},
-    {"equation_of_motion", kStepLimit, "what the last correction of a step leaves"},
-    {"constraints", 1e-9, "a billionth of the size of the model"},
-    {"energy", 1e-6, "the sum of rounding over the steps"},
-    {"load", kInfinity, "ill-conditioned models are neither refused nor excused: see the warning"},
+    {"equation_of_motion", kStepLimit, "size of the last correction of a step"},
+    {"constraints", 1e-9, "1e-9 of the model size"},
+    {"energy", 1e-6, "accumulated round-off over the steps"},
+    {"load", kInfinity, "no limit: ill-conditioned models produce a warning"},
 }};
 
 std::string in_words(const char* name) {
@@ -62,11 +64,11 @@ bool Evidence::empty() const {
 Outcome outcome_by_evidence(const Outcome& claimed, const Evidence& evidence,
                             const std::vector<Residual>& needed) {
   if (!claimed.solved()) return claimed;
-  if (evidence.empty()) return {Status::not_converged, "no residual speaks for the solution"};
+  if (evidence.empty()) return {Status::not_converged, "no residual supports the solution"};
   for (const Residual kind : needed) {
     if (!evidence.has(kind))
       return {Status::not_converged,
-              "nothing was taken of the residual '" + in_words(rule_of(kind).name) + "'"};
+              "the required residual '" + in_words(rule_of(kind).name) + "' was not computed"};
   }
   for (const Residual kind : kResiduals) {
     const ResidualRule& rule = rule_of(kind);

@@ -7,28 +7,29 @@
 
 namespace trammel::solver {
 
-/// How a computation ended. A numerical outcome is a value, never an exception.
+/// Result of a computation. A numerical outcome is a value, never an exception.
 enum class Status { solved, singular, not_converged };
 
+/// Status of a computation with its reason.
 struct Outcome {
   Status status = Status::solved;
-  std::string reason;  ///< in words; empty when solved
+  std::string reason;  ///< explanation; empty if solved
   [[nodiscard]] bool solved() const { return status == Status::solved; }
 };
 
-// What speaks for a solution: residuals that finding it did not use.
+// Independent residuals that support a solution. Solving did not use them.
 
-/// Each is relative to the magnitudes of the terms that it is the sum of: rounding alone leaves a
-/// few eps, nonsense 1.
+/// Kind of a residual. Each residual is relative to the magnitudes of the terms in its sum.
+/// Round-off alone leaves a few eps; a meaningless solution leaves about 1.
 enum class Residual {
-  equilibrium,          ///< K u = f row by row, with the matrices formed afresh
-  recovered_forces,     ///< equilibrium of the forces that are reported: members, supports, loads
-  eigenvalue_equation,  ///< K x = w^2 M x row by row, of every mode
-  mode_count,           ///< modes missed, too many (Sylvester's law of inertia) or found twice
-  equation_of_motion,   ///< row by row, the largest over the steps
-  constraints,          ///< joints, drives and the closing of loops, over the size of the model
-  energy,               ///< work of all forces less the change of energy, over the whole run
-  load,  ///< |K u - f|, at least its round-off error, over |f|: small if the condition number is
+  equilibrium,          ///< K u = f row by row, with matrices assembled again
+  recovered_forces,     ///< equilibrium of the reported forces: members, supports, loads
+  eigenvalue_equation,  ///< K x = w^2 M x row by row, for every mode
+  mode_count,  ///< modes that are missing, superfluous (Sylvester's law of inertia) or duplicate
+  equation_of_motion,  ///< row by row; the largest over all steps
+  constraints,         ///< joints, drives and loop closures, relative to the model size
+  energy,              ///< work of all forces minus the change of energy, over the full run
+  load,  ///< |K u - f| / |f|, at least its round-off error; small if the condition number is small
 };
 inline constexpr std::array kResiduals = {Residual::equilibrium,
                                           Residual::recovered_forces,
@@ -39,25 +40,30 @@ inline constexpr std::array kResiduals = {Residual::equilibrium,
                                           Residual::energy,
                                           Residual::load};
 
+/// Name and limit of a kind of residual.
 struct ResidualRule {
-  const char* name;  ///< in results, and in words
-  double limit;      ///< above it a solution does not count as solved
+  const char* name;  ///< name in results and messages
+  double limit;      ///< a solution with a larger residual does not count as solved
+  /// Error term that the limit bounds.
   const char* why;
 };
+/// Returns the name and the limit of a kind of residual.
 [[nodiscard]] const ResidualRule& rule_of(Residual kind);
 
-/// Residual::load above it is said, not refused: the condition number has eaten the digits of the
-/// forces; below it the loads are met to what is ever measured of them.
+/// Value of Residual::load above which a warning is issued. The solution is not rejected. Above
+/// this value, ill-conditioning dominates the digits of the forces. Below it, the loads are
+/// satisfied to better than any measurement of them.
 inline constexpr double kLoadWarning = 1e-6;
 
-/// The largest residual of each kind that was taken.
+/// Largest residual of each kind that was computed.
 class Evidence {
  public:
-  /// What is not a number counts as infinite.
+  /// Records a residual. NaN and negative values count as infinite.
   void add(Residual kind, double value);
+  /// Records the largest residuals of other evidence.
   void add(const Evidence& other);
   [[nodiscard]] bool has(Residual kind) const { return taken_[index(kind)]; }
-  /// @pre has(kind)
+  /// Returns the largest residual of a kind.
   [[nodiscard]] double largest(Residual kind) const { return largest_[index(kind)]; }
   [[nodiscard]] bool empty() const;
 
@@ -68,8 +74,9 @@ class Evidence {
   std::array<double, kResiduals.size()> largest_{};
 };
 
-/// The one way to "solved": a claim stands where residuals were taken, those `needed` among them,
-/// and all are within their limits; otherwise it has not converged.
+/// Returns the outcome that the evidence supports. A claim of success is accepted under three
+/// conditions: residuals were computed, they include all kinds in `needed`, and all are within
+/// their limits. Otherwise the outcome is `not_converged`. Failures are returned unchanged.
 [[nodiscard]] Outcome outcome_by_evidence(const Outcome& claimed, const Evidence& evidence,
                                           const std::vector<Residual>& needed = {});
 

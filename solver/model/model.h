@@ -13,14 +13,14 @@
 
 #include "solver/model/numbers.h"
 
-/// The planar model: what a case file describes and what `assemble` turns into matrices.
-/// Everything is in SI units and world axes; indices point into the vectors of the same Model.
+/// Planar model. A case file describes it, and `assemble` turns it into matrices. All quantities
+/// are in SI units and world axes. Indices refer to the vectors of the same Model.
 namespace trammel::solver {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Isotropic linear elastic material. Over Dual (numbers.h) it carries a derivative.
+/// Isotropic linear elastic material. With T = Dual (numbers.h) it carries a derivative.
 template <class T>
 struct MaterialOf {
   T E = T(0);    ///< Young's modulus [Pa]
@@ -29,57 +29,64 @@ struct MaterialOf {
 };
 using Material = MaterialOf<double>;
 
-/// What the cross-section of a frame member contributes per unit length.
+/// Properties of the cross-section of a frame member.
 template <class T>
 struct SectionOf {
-  T EA = T(0);        ///< axial stiffness [N]
-  T EI = T(0);        ///< in-plane bending stiffness [N m^2]
-  T kappa_GA = T(0);  ///< shear stiffness with its correction factor [N]; where the theory has it
+  T EA = T(0);  ///< axial stiffness [N]
+  T EI = T(0);  ///< in-plane bending stiffness [N m^2]
+  /// Shear stiffness with its correction factor [N], if the theory includes shear.
+  T kappa_GA = T(0);
   T mass_per_length = T(0);     ///< rho A [kg/m]
-  T inertia_per_length = T(0);  ///< rho I [kg m]; rotary inertia, where the theory has it
+  T inertia_per_length = T(0);  ///< rho I [kg m], if the theory includes rotary inertia
   T area = T(0);                ///< A [m^2], for stresses
   T section_modulus = T(0);     ///< I / c [m^3], for bending stresses
 };
 using Section = SectionOf<double>;
 
-/// What a member has beyond bending: shear, the rotary inertia of its sections, or both. The names
-/// are those of S. M. Han, H. Benaroya, T. Wei, Journal of Sound and Vibration 225 (1999).
+/// Beam theory: bending, optionally with shear deformation, rotary inertia, or both. Names follow
+/// S. M. Han, H. Benaroya, T. Wei, Journal of Sound and Vibration 225 (1999).
 enum class BeamTheory { euler_bernoulli, rayleigh, shear, timoshenko };
 
+/// Returns true for a shear beam or a Timoshenko beam.
 [[nodiscard]] constexpr bool has_shear_deformation(BeamTheory theory) {
   return theory == BeamTheory::shear || theory == BeamTheory::timoshenko;
 }
+/// Returns true for a Rayleigh beam or a Timoshenko beam.
 [[nodiscard]] constexpr bool has_rotary_inertia(BeamTheory theory) {
   return theory == BeamTheory::rayleigh || theory == BeamTheory::timoshenko;
 }
+/// Returns the theory with the given effects in addition to bending.
 [[nodiscard]] constexpr BeamTheory beam_theory(bool shear, bool rotary_inertia) {
   if (shear) return rotary_inertia ? BeamTheory::timoshenko : BeamTheory::shear;
   return rotary_inertia ? BeamTheory::rayleigh : BeamTheory::euler_bernoulli;
 }
+/// Mass matrix of a member: consistent, or lumped at the nodes.
 enum class MassMatrix { consistent, lumped };
 
-/// How a member's end is joined to the rotation of its node.
+/// Connection of a member end to the rotation of its node.
 enum class EndFixity { welded, hinged, sprung };
 
+/// Joint between the end of a member and its node.
 struct MemberEnd {
   EndFixity fixity = EndFixity::welded;
-  double stiffness = 0;  ///< of the rotational spring between end and node [N m/rad]; sprung only
-  double inertia = 0;    ///< rotary inertia that turns with the member's end [kg m^2]
+  double stiffness = 0;  ///< of the rotational spring between end and node [N m/rad]; `sprung` only
+  double inertia = 0;    ///< rotary inertia that turns with the member end [kg m^2]
 };
 
-/// What lies between the sections at a member's ends.
+/// Variation of the section between the ends of a member.
 enum class Taper {
-  linear_area_and_inertia,  ///< every property linear
-  linear_depth_and_width,   ///< A of second, I of fourth degree; E, kappa G and rho linear
-  exponential               ///< every property by equal factors over equal lengths
+  linear_area_and_inertia,  ///< every property is linear
+  linear_depth_and_width,   ///< A is quadratic, I is of degree 4; E, kappa G and rho are linear
+  exponential               ///< every property changes by equal factors over equal lengths
 };
 
-/// A straight frame member, cut into equal elements by `assemble`.
+/// Straight frame member, divided into equal elements by `assemble`.
 struct Member {
   std::string name;
   std::array<Index, 2> nodes{};
   Section section;      ///< at the first node
-  Section end_section;  ///< at the second node; each element takes what `taper` has at its middle
+  Section end_section;  ///< at the second node; each element has the section at its midpoint,
+                        ///< according to `taper`
   Taper taper = Taper::linear_area_and_inertia;
   BeamTheory theory = BeamTheory::euler_bernoulli;
   MassMatrix mass = MassMatrix::consistent;
@@ -89,39 +96,40 @@ struct Member {
   Vector2d load = Vector2d::Zero();  ///< uniform load per unit length, world axes [N/m]
 };
 
-/// A membrane in plane stress; its triangles name it.
+/// Membrane in plane stress. Triangles refer to it by index.
 struct Plate {
   std::string name;
   Material material;
   double thickness = 0;  ///< [m]
 };
 
-/// Constant-strain triangle (three nodes) or, with mid-side nodes 01, 12, 20, six-node triangle.
+/// Three-node constant-strain triangle, or six-node triangle with mid-side nodes 01, 12, 20.
 struct Triangle {
   Index plate = 0;
   std::array<Index, 6> nodes{-1, -1, -1, -1, -1, -1};
   [[nodiscard]] bool quadratic() const { return nodes[3] >= 0; }
 };
 
+/// Node of the model.
 struct Node {
   std::string name;
   Vector2d position = Vector2d::Zero();  ///< [m]
 };
 
-/// The nodes move as one body with the reference node, whose rotation is the body's rotation.
-/// Every member end welded to an attached node turns with the body (paper Eq. 20-24).
+/// Rigid body of several nodes. The rotation of the reference node is the rotation of the body.
+/// Every member end that is welded to an attached node turns with the body (paper Eq. 20-24).
 struct RigidBody {
   std::string name;
   Index reference = 0;
   std::vector<Index> attached;
 };
 
-/// Mass and inertia carried by a node, its centre offset from the node (world axes).
+/// Mass and inertia carried by a node. The center of mass may be offset from the node (world axes).
 struct PointMass {
   Index node = 0;
   double mass = 0;                     ///< [kg]
-  double inertia = 0;                  ///< about the centre of mass [kg m^2]
-  Vector2d offset = Vector2d::Zero();  ///< [m]; needs the node's rotation when not zero
+  double inertia = 0;                  ///< about the center of mass [kg m^2]
+  Vector2d offset = Vector2d::Zero();  ///< [m]; requires the rotation of the node if not zero
 };
 
 /// Spring between two nodes, or between a node and the ground (second node -1).
@@ -131,14 +139,14 @@ struct Spring {
   Vector3d stiffness = Vector3d::Zero();  ///< along world x, y [N/m] and in rotation [N m/rad]
 };
 
-/// Which motions of a node the ground takes away.
+/// Motions of a node that are fixed to the ground.
 struct Support {
   std::string name;
   Index node = 0;
   std::array<bool, 3> fixed{};  ///< x, y, rotation
 };
 
-/// One coordinate of the unconstrained model: a node's motion, or the rotation of a member's end.
+/// Coordinate of the unconstrained model: a motion of a node, or the rotation of a member end.
 struct Coordinate {
   enum class Kind { x, y, rotation, end_rotation };
   Kind kind = Kind::x;
@@ -147,9 +155,11 @@ struct Coordinate {
   int end = 0;        ///< end_rotation
 };
 
-/// sum of coefficient * coordinate = 0; Eq. 25 and pins of finite radius are such sums.
+/// Linear constraint, sum of coefficient * coordinate = 0. Paper Eq. 25 and pins of finite radius
+/// have this form.
 struct LinearConstraint {
-  /// Of a slider, whose first-order equation the sum is: the node turns its line.
+  /// Data of a slider, if the sum is its linearized constraint. The rotation of the node turns the
+  /// line on which the slider moves.
   struct Rail {
     Index node = 0, slider = 0;
     Vector2d direction = Vector2d::UnitX();
@@ -159,21 +169,24 @@ struct LinearConstraint {
   std::optional<Rail> rail = {};
 };
 
+/// Force and moment on a node, in world axes.
 struct NodalLoad {
   Index node = 0;
   Vector3d force = Vector3d::Zero();  ///< Fx, Fy [N], moment [N m]
 };
 
-/// Uniform force per area on one side of a triangle (its thickness times its length): a traction
-/// in world axes, and one along the normal to the right of the way from the first to the second
-/// node, which points outward where the triangle runs counterclockwise.
+/// Uniform force per area on one side of a triangle. The loaded area is thickness times length. The
+/// load is the sum of a traction in world axes and a normal traction. The normal points to the
+/// right of the direction from the first to the second node. It points outward if the triangle runs
+/// counterclockwise.
 struct EdgeLoad {
   Index plate = 0;
-  std::array<Index, 3> nodes{-1, -1, -1};  ///< its ends, and its middle where it has one
+  std::array<Index, 3> nodes{-1, -1, -1};  ///< the two end nodes, and the middle node or -1
   Vector2d traction = Vector2d::Zero();    ///< [Pa]
   double normal = 0;                       ///< [Pa], tension positive
 };
 
+/// Planar model.
 struct Model {
   std::vector<Node> nodes;
   std::vector<Member> members;
@@ -188,50 +201,57 @@ struct Model {
   std::vector<EdgeLoad> edge_loads;
   Vector2d gravity = Vector2d::Zero();  ///< [m/s^2]
 
-  /// Index of the node of that name, or -1.
+  /// Returns the index of the node with this name, or -1.
   [[nodiscard]] Index find_node(std::string_view name) const;
 };
 
-/// A model or an option that has no mechanical meaning, such as a beam welded to a node without
+/// Error: a model or an option has no mechanical meaning, such as a beam welded to a node without
 /// rotation. The reader of a case file adds the file and the JSON pointer.
 class ModelError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// @throws ModelError  with the message, where the condition does not hold.
+/// Throws if a condition is violated.
+/// @throws ModelError  with the message, if the condition is false.
 inline void require(bool condition, const std::string& message) {
   if (!condition) throw ModelError(message);
 }
 
-// What a sentence calls a part of the model: its name, or its number where it has none.
+// Labels of parts of a model in messages: the name, or the number of a part without a name.
 
+/// Returns "node" and the name or number of a node.
 [[nodiscard]] std::string node_label(const Model& model, Index node);
+/// Returns "member" and the name or number of a member.
 [[nodiscard]] std::string member_label(const Model& model, Index member);
+/// Returns the kind and the name of a part, or its number if the name is empty.
 [[nodiscard]] std::string part_label(const char* kind, const std::string& name, std::size_t index);
 
 // Vectors in the plane.
 
-/// The component out of the plane of a x b: positive where b lies to the left of a.
+/// Returns the out-of-plane component of a x b. It is positive if b lies to the left of a.
 [[nodiscard]] inline double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// The vector turned by 90 degrees to the left.
+/// Returns the vector turned by 90 degrees to the left.
 [[nodiscard]] inline Vector2d perpendicular(const Vector2d& v) {
   return {-v.y(), v.x()};
 }
 
-/// The vector turned counterclockwise.   @param angle  [rad]
+/// Returns the vector turned counterclockwise.
+/// @param v  vector.
+/// @param angle  [rad].
 [[nodiscard]] inline Vector2d rotated(const Vector2d& v, double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
 
-/// Diagonal of the box around points [m], by which rotations are compared with translations; 1
-/// where the points are one, or none.
-/// @param position  of an entry of the range
+/// Returns the diagonal of the bounding box of points [m], or 1 if the range is empty or all points
+/// coincide. This length scales rotations for comparison with translations.
+/// @param range  entries with positions.
+/// @param position  function that returns the position of an entry.
 template <class Range, class Position = std::identity>
 [[nodiscard]] double box_diagonal(const Range& range, Position position = {}) {
   if (std::empty(range)) return 1;
@@ -244,7 +264,7 @@ template <class Range, class Position = std::identity>
   return low == high ? 1 : (high - low).norm();
 }
 
-/// The same of a model's nodes.
+/// Returns the diagonal of the bounding box of the nodes of a model [m], or 1.
 [[nodiscard]] inline double box_diagonal(const Model& model) {
   return box_diagonal(model.nodes, [](const Node& node) { return node.position; });
 }

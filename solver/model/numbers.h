@@ -6,7 +6,7 @@
 #include <limits>
 #include <unsupported/Eigen/AutoDiff>
 
-/// Numbers that every room uses.
+/// Number types and constants shared by all folders.
 namespace trammel::solver {
 
 using Index = Eigen::Index;
@@ -14,35 +14,39 @@ using Index = Eigen::Index;
 inline constexpr double kEps = std::numeric_limits<double>::epsilon();
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
+/// Converts an index >= 0 to an unsigned size.
 [[nodiscard]] inline std::size_t to_size(Index index) {
   return static_cast<std::size_t>(index);
 }
 
-/// The larger of two numbers, NaN where either is one: std::max, which keeps its first argument
-/// where they do not compare, would lose it.
+/// Returns the larger of two numbers, or NaN if one of them is NaN. std::max would lose a NaN,
+/// because it keeps its first argument if the comparison is false.
 [[nodiscard]] inline double nan_max(double a, double b) {
   return std::isnan(a) || b <= a ? a : b;
 }
 
-// Derivatives without differences: the functions that make elements out of a design are templates
-// over `Real`, and d/dp of everything comes out of the very same lines.
+// Exact derivatives without finite differences. The functions that build elements from a design
+// are templates over `Real`. The same code therefore computes their derivatives.
 
-/// A value and its derivative with respect to one parameter.
+/// Value and its derivative with respect to one parameter.
 using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
 
 template <class T>
 concept Real = std::same_as<T, double> || std::same_as<T, Dual>;
 
+/// Returns the value without its derivative.
 [[nodiscard]] inline double value(double x) {
   return x;
 }
+/// Returns the value without its derivative.
 [[nodiscard]] inline double value(const Dual& x) {
   return x.value();
 }
+/// Returns the derivative.
 [[nodiscard]] inline double derivative(const Dual& x) {
   return x.derivatives()[0];
 }
-/// A number with d/dp = `derivative`: the parameter itself has 1.
+/// Returns a number with the given derivative. The parameter itself has the derivative 1.
 [[nodiscard]] inline Dual with_derivative(double value, double derivative) {
   return {value, Eigen::Matrix<double, 1, 1>(derivative)};
 }

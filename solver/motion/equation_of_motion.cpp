@@ -11,7 +11,7 @@ namespace trammel::solver {
 
 namespace {
 
-/// Largest column sum of magnitudes.
+/// Returns the largest column sum of magnitudes.
 double matrix_norm(const SparseMatrix& A) {
   double norm = 0;
   for (Index column = 0; column < A.outerSize(); ++column) {
@@ -26,10 +26,10 @@ void check(const EquationOfMotion& e) {
   const Index n = e.M.rows();
   const auto fits = [n](const SparseMatrix& A) { return A.rows() == n && A.cols() == n; };
   if (!fits(e.M) || !fits(e.K) || !(e.C.size() == 0 || fits(e.C))) {
-    throw ModelError("M, C and K of an equation of motion are square and of one size");
+    throw ModelError("M, C and K of an equation of motion must be square and of equal size");
   }
   if (e.update && !(same_pattern(e.M, e.K) && (e.C.size() == 0 || same_pattern(e.M, e.C)))) {
-    throw ModelError("matrices that change with time share one pattern");
+    throw ModelError("matrices that change with time must share one pattern");
   }
 }
 
@@ -116,14 +116,14 @@ void PiecewiseLinearLoad::at(double t, VectorXd& f) const {
 
 void PiecewiseLinearLoad::check() const {
   if (factor.cols() != std::ssize(time) || factor.rows() != pattern.cols() || time.empty())
-    throw ModelError("a piecewise linear load has a factor for each of its loads and times");
-  if (!std::is_sorted(time.begin(), time.end())) throw ModelError("the times of a load ascend");
+    throw ModelError("a piecewise linear load needs a factor for each of its loads and times");
+  if (!std::is_sorted(time.begin(), time.end())) throw ModelError("load times must ascend");
 }
 
 void PiecewiseLinearLoad::apply_to(EquationOfMotion& equation) const {
   check();
   if (pattern.rows() != equation.M.rows()) {
-    throw ModelError("the load has the size of the equation of motion");
+    throw ModelError("the load must have the size of the equation of motion");
   }
   equation.breakpoints.insert(equation.breakpoints.end(), time.begin(), time.end());
   equation.load = [self = *this](double t, VectorXd& f) { self.at(t, f); };

@@ -7,37 +7,41 @@
 #include "solver/model/effects.h"
 #include "solver/model/numbers.h"
 
-/// The equation of motion (paper Eq. 13, 18),  M(t) q'' + C(t) q' + K(t) q = f(t).
+/// Equation of motion (paper Eq. 13, 18), M(t) q'' + C(t) q' + K(t) q = f(t).
 namespace trammel::solver {
 
-/// What energies are told of where q is measured from axes that move: u = T(t) q and its forces.
+/// State from which energies are computed if q is measured relative to moving axes: u = T(t) q and
+/// its forces.
 struct WorkingMotion {
-  Eigen::VectorXd u, load, drag;   ///< drag: what damping takes [SI]
+  Eigen::VectorXd u, load, drag;   ///< load and damping forces [SI]
   double kinetic = 0, strain = 0;  ///< [J]
 };
 
-/// The equation as the integrator sees it. The matrices are square, stored whole, in compressed
-/// form; K and C may have a skew part that is small beside M / h^2 (gyroscopic terms).
+/// Equation of motion for the integrator. The matrices are square, store both triangles, and are
+/// compressed. K and C may have a skew-symmetric part that is small compared with M / h^2
+/// (gyroscopic terms).
 struct EquationOfMotion {
   SparseMatrix M, C, K;  ///< at the start [SI]; an empty C means no damping
-  /// Writes f(t) [SI]; empty: no load. At a time of jump it gives the value after the jump.
+  /// Writes f(t) [SI]; empty: no load. At a jump it gives the value after the jump.
   std::function<void(double time, Eigen::VectorXd& f)> load;
-  /// Writes the values of M, C and K at `time`; empty: constant. The three then share one pattern,
-  /// which stays.
+  /// Writes the values of M, C and K at `time`; empty: constant matrices. With `update` the three
+  /// matrices share one pattern, which does not change.
   std::function<void(double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K)> update;
-  /// Of a state at a time, at one of jump after it; empty: q itself and the terms of the equation.
+  /// Returns the working motion of a state at a time; after the jump at a time of a jump. Empty: u
+  /// is q itself, with the forces of the equation.
   std::function<WorkingMotion(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v)>
       working_motion;
-  /// Times at which the load or its slope jumps [s]; a step ends at each.
+  /// Times at which the load or its slope jumps [s]. A step ends at each of them.
   std::vector<double> breakpoints;
 };
 
-/// M, C and K at the time last asked for, on one pattern; without damping C is zero.
+/// M, C and K at the time of the last update, with one pattern. C is zero without damping.
 class EquationMatrices {
  public:
-  /// @throws ModelError  where the matrices are not square, of one size and, if they change with
-  ///                     time, of one pattern.
-  /// @pre the equation outlives this
+  /// Copies the matrices.
+  /// @throws ModelError  if the matrices are not square and of equal size, or change with time and
+  ///   differ in their patterns.
+  /// @pre The equation outlives this object.
   explicit EquationMatrices(const EquationOfMotion& equation);
 
   void update(double time);
@@ -48,7 +52,7 @@ class EquationMatrices {
   [[nodiscard]] const SparseMatrix& M() const { return M_; }
   [[nodiscard]] const SparseMatrix& C() const { return C_; }
   [[nodiscard]] const SparseMatrix& K() const { return K_; }
-  /// Largest column sums of magnitudes.
+  /// Returns the largest column sum of magnitudes.
   [[nodiscard]] double norm_M() const { return norm_M_; }
   [[nodiscard]] double norm_C() const { return norm_C_; }
   [[nodiscard]] double norm_K() const { return norm_K_; }
@@ -59,49 +63,54 @@ class EquationMatrices {
   double norm_M_ = 0, norm_C_ = 0, norm_K_ = 0;
 };
 
-// Loads whose factors are linear between given times, constant outside them, and jump if a time
-// is given twice. At a jump a factor has the value after it.
+// Loads whose factors are linear between given times and constant outside them. A factor jumps if a
+// time is given twice. Its value at a jump is the value after the jump.
 
-/// Between two of the times, or outside them: x = (1 - share) x[left] + share x[right].
+/// Interval between two of the times, or outside them: x = (1 - share) x[left] + share x[right].
 struct TimeInterval {
   Index left = 0, right = 0;
   double share = 0;
   double length = 1;  ///< [s]
 };
-/// @param times  ascending
+/// Finds the interval that contains a time.
+/// @param times  ascending [s].
+/// @param t  time [s].
 [[nodiscard]] TimeInterval find_interval(const std::vector<double>& times, double t);
 
-/// Factor on loads. 1 throughout by default.
+/// Factor on loads as a function of time. The default is 1.
 struct LoadHistory {
   std::vector<double> time{0.0};    ///< [s]
   std::vector<double> factor{1.0};  ///< one for each time [-]
 
   [[nodiscard]] bool constant() const { return time.size() == 1; }
-  /// Where its slope changes or it jumps [s].
+  /// Returns the times of jumps of the factor or its slope [s].
   [[nodiscard]] std::vector<double> bends() const;
+  /// Returns the factor at a time [-].
   [[nodiscard]] double at(double t) const;
-  /// The time whose loads act on the state in which a step of integration ends at `t`: at a jump,
-  /// just before it.
+  /// Returns the time whose loads act on the state at the end `t` of a step [s]. It is just before
+  /// `t` if the factor jumps there.
   [[nodiscard]] double end_of_step(double t) const;
 };
 
-/// f(t) = pattern * factor(t).
+/// Load f(t) = pattern * factor(t).
 struct PiecewiseLinearLoad {
   Eigen::MatrixXd pattern;   ///< coordinate x load [SI]
   std::vector<double> time;  ///< ascending [s]
   Eigen::MatrixXd factor;    ///< load x time [-]
 
+  /// Writes the load at a time.
   void at(double t, Eigen::VectorXd& f) const;
-  /// Makes it the load of the equation, with its times as breakpoints.
+  /// Makes this the load of the equation, with its times as breakpoints.
   void apply_to(EquationOfMotion& equation) const;
-  /// @throws ModelError  for sizes that differ or times that descend.
+  /// Checks the sizes and times.
+  /// @throws ModelError  if the sizes differ or the times descend.
   void check() const;
 };
 
-/// From `start` on, the load does not change.
+/// Returns a load that is constant after `start`, and zero before.
 [[nodiscard]] PiecewiseLinearLoad step_load(const Eigen::VectorXd& pattern, double start = 0);
 
-/// The product of a history and one load, and another load that always acts.
+/// Returns the sum of one load that varies with a history and another load that is constant.
 [[nodiscard]] PiecewiseLinearLoad load_by_history(const LoadHistory& history,
                                                   const Eigen::VectorXd& varied,
                                                   const Eigen::VectorXd& constant);

@@ -24,13 +24,13 @@ using Complex = std::complex<double>;
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-/// (1 + i w stiffness) K + (i w mass - w^2) M; real without Rayleigh damping.
+/// Solves with (1 + i w stiffness) K + (i w mass - w^2) M, which is real without Rayleigh damping.
 VectorXcd solve_direct(const System& system, const RayleighDamping& damping, double omega,
                        const VectorXd& f) {
   if (damping.mass == 0 && damping.stiffness == 0) {
     Factorization factorization;
     factorization.compute(system.K - omega * omega * system.M);
-    if (!factorization.exists()) {  // on an undamped frequency of its own, to the last bit
+    if (!factorization.exists()) {  // exactly at an undamped frequency of the remaining model
       factorization.compute(system.K - omega * omega * (1 + 1e-9) * system.M);
     }
     if (!factorization.exists()) return {};
@@ -107,7 +107,8 @@ VectorXcd HarmonicSolver::at(double frequency) const {
   ++counters_.factorizations;
   counters_.solves += 2;
   if (q.size() == 0) return q;
-  if (participation_.size() > 0) {  // the rest moves no damped mode but by rounding at resonance
+  // The direct response contains damped modes only by round-off near resonance.
+  if (participation_.size() > 0) {
     const VectorXcd image = system_.M * q;
     q -= modes_.shape * (modes_.shape.transpose() * image);
   }
@@ -164,7 +165,8 @@ HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequen
   const Eigen::Matrix<double, Eigen::Dynamic, 6> size = amplitude(in_phase, quadrature);
   const ForceRoundoff roundoff =
       force_roundoff(size.transpose(), box_diagonal(system_.mesh.positions));
-  // A force whose resistance the section does not state counts if it is more than round-off.
+  // Returns the complex stress amplitude of a force. If the section does not define the resistance,
+  // a force above round-off gives NaN.
   const auto stress_amplitude = [](const Complex& force, double resistance, double negligible) {
     const double stress = stress_of_force(force, resistance, negligible);
     return stress > 0 ? force / resistance : Complex(stress);
@@ -173,7 +175,8 @@ HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequen
   result.resultant_start.resize(members, 3);
   result.resultant_end.resize(members, 3);
   result.member_stress.setZero(members);
-  for (Index i = size.rows(); i-- > 0;) {  // the first element of a member comes last
+  // Backward, so that the first element of a member comes last.
+  for (Index i = size.rows(); i-- > 0;) {
     const FrameElement& e = system_.mesh.frame[static_cast<std::size_t>(i)];
     const bool last = i + 1 == size.rows() ||
                       system_.mesh.frame[static_cast<std::size_t>(i + 1)].member != e.member;
@@ -216,7 +219,8 @@ HarmonicPeak harmonic_peak(const HarmonicSolver& response, double low, double hi
       best = i;
     }
   }
-  // As near as lies lower on both sides: between two places there may be more than one peak.
+  // Use the nearest bracket with lower values on both sides, because there may be several peaks
+  // between two scan points.
   const double first = places[best > 0 ? best - 1 : 0],
                last = places[std::min(best + 1, places.size() - 1)];
   const auto below = [&](double by) { return std::max(first, peak.frequency - by); };
@@ -226,9 +230,9 @@ HarmonicPeak harmonic_peak(const HarmonicSolver& response, double low, double hi
   };
   double width = 1e-6 * std::max(peak.frequency, 1e-3 * high);
   while (!is_lower(below(width)) || !is_lower(above(width))) width *= 4;
-  constexpr int kBits = 26;  // half of a double's: a maximum is flat
+  constexpr int kBits = 26;  // half the bits of a double, because a maximum is flat
   std::uintmax_t evaluations = 100;
-  // Over the share of the interval, because the tolerance has an absolute part.
+  // Use the fraction of the interval as variable, because the tolerance has an absolute part.
   const double start = below(width), interval = above(width) - start;
   const auto [share, negative] = boost::math::tools::brent_find_minima(
       [&](double s) { return -size(start + s * interval); }, 0.0, 1.0, kBits, evaluations);

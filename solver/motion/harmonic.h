@@ -11,9 +11,11 @@
 
 namespace trammel::solver {
 
+/// Damping of a harmonic response.
 struct HarmonicDamping {
-  RayleighDamping rayleigh;         ///< acts on everything
-  std::vector<double> modal_ratio;  ///< and these on the first modes, one by one [-]
+  RayleighDamping rayleigh;  ///< acts on all coordinates
+  /// Additional damping ratios of the first modes, one by one [-].
+  std::vector<double> modal_ratio;
 };
 
 /// Amplitudes over a cycle.
@@ -21,47 +23,54 @@ struct HarmonicAmplitudes {
   Eigen::MatrixX3d displacement;     ///< model node x (ux, uy [m], rotation [rad])
   Eigen::MatrixX3d resultant_start;  ///< member x (N [N], V [N], M [N m])
   Eigen::MatrixX3d resultant_end;
-  Eigen::VectorXd member_stress;  ///< largest |N / A +- M / W| at the ends of its elements [Pa]
+  Eigen::VectorXd member_stress;  ///< largest |N / A +- M / W| at the ends of the elements [Pa]
 };
 
-/// Steady response q(t) = Re(q e^{i w t}) to the model's loads, but weight, varying as cos(w t):
+/// Steady response q(t) = Re(q e^{i w t}) to the loads of the model, except weight, that vary as
+/// cos(w t):
+///
 ///   (K + i w C - w^2 M) q = f.
-/// Modes with a damping ratio and motions of the whole that deform nothing are superposed; what
-/// they leave of the load is solved for directly, so that no mode is cut off.
+///
+/// Modes with a damping ratio and rigid modes are superposed. The remaining load is solved for
+/// directly, so that no mode is truncated.
 class HarmonicSolver {
  public:
-  /// @throws ModelError  for a negative or infinite ratio, or fewer modes than ratios.
+  /// Computes the required modes.
+  /// @throws ModelError  if a ratio is negative or infinite, or there are fewer modes than ratios.
   HarmonicSolver(const System& system, const HarmonicDamping& damping);
 
-  /// singular: a mechanism; not_converged: the modes are not all found
+  /// Returns the outcome. singular: a mechanism; not_converged: some modes were not found.
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
-  /// Of the damped modes [Hz].
+  /// Returns the frequencies of the damped modes [Hz].
   [[nodiscard]] Eigen::VectorXd frequencies() const {
     return modes_.frequency.head(damping_.ratio.size());
   }
 
-  /// @param frequency  [Hz]
-  /// @return  empty where the undamped rest resonates exactly, and at 0 Hz where nothing holds the
-  ///          model
+  /// Computes the complex response of the free coordinates.
+  /// @param frequency  [Hz].
+  /// @return  empty at an exact resonance of an undamped mode, and at 0 Hz for a model with rigid
+  ///   modes.
   [[nodiscard]] Eigen::VectorXcd at(double frequency) const;
 
-  /// Backward error of (K + i w C - w^2 M) q = f with the matrices formed afresh, C with the modes'
-  /// damping.
+  /// Returns the backward error of (K + i w C - w^2 M) q = f. The matrices are computed again, and
+  /// C includes modal damping.
   [[nodiscard]] double backward_error(const Eigen::VectorXcd& q, double frequency) const;
 
-  /// Section forces are those of the strains: 1 / (1 + i w stiffness) of what balances inertia,
-  /// damping in proportion to mass and loads. Inextensible members bear what extensible ones bear
-  /// in the limit.
-  /// @param q  the response at `frequency` [Hz]
+  /// Returns amplitudes over a cycle. Section forces follow from the strains. They balance inertia,
+  /// mass-proportional damping and loads, times 1 / (1 + i w stiffness). Inextensible members have
+  /// the forces that extensible members have in the limit.
+  /// @param q  response at `frequency`.
+  /// @param frequency  [Hz].
   [[nodiscard]] HarmonicAmplitudes amplitudes(const Eigen::VectorXcd& q, double frequency) const;
 
   [[nodiscard]] const Counters& counters() const { return counters_; }
 
  private:
-  /// What has the inertia forces (i w C - w^2 M) q, but for damping in proportion to stiffness.
+  /// Returns the acceleration whose inertia forces are (i w C - w^2 M) q, without
+  /// stiffness-proportional damping.
   [[nodiscard]] Eigen::VectorXcd acceleration(const Eigen::VectorXcd& q, double omega) const;
 
-  /// Those with a ratio, and the motions of a model that is not held.
+  /// Computes the modes with a damping ratio, and the rigid modes of an unsupported model.
   void superpose(Index damped);
 
   const System& system_;
@@ -71,20 +80,24 @@ class HarmonicSolver {
   Eigen::VectorXd participation_;      // Phi^T f
   Eigen::VectorXd unsuperposed_load_;  // f - M Phi Phi^T f
   Outcome outcome_;
-  bool held_ = true;  // nothing moves without deforming
+  bool held_ = true;  // false: the model has zero-energy modes
   mutable Counters counters_;
 };
 
+/// Peak of a harmonic response.
 struct HarmonicPeak {
   double frequency = 0;  ///< [Hz]
-  double amplitude = 0;  ///< in the unit of what is looked at
+  double amplitude = 0;  ///< in the unit of the quantity
 };
 
-/// The largest amplitude between two frequencies: scanned at even steps and at the resonances, then
-/// closed in on by Brent's method to about 1e-8 of the frequency.
-/// @param resonances  natural frequencies, all that lie between; where some are not known their
-///                    peaks may be missed [Hz]
-/// @param amplitude  of a response at a frequency [Hz]
+/// Finds the largest amplitude between two frequencies. The interval is scanned at equal steps and
+/// at the resonances. Brent's method then determines the peak to about 1e-8 of the frequency.
+/// @param response  solver of the response.
+/// @param low  lowest frequency [Hz].
+/// @param high  highest frequency [Hz].
+/// @param resonances  all natural frequencies in the interval [Hz]; peaks at unlisted ones may be
+///   missed.
+/// @param amplitude  amplitude of a response at a frequency [Hz].
 [[nodiscard]] HarmonicPeak harmonic_peak(
     const HarmonicSolver& response, double low, double high, const std::vector<double>& resonances,
     const std::function<double(const Eigen::VectorXcd&, double)>& amplitude);

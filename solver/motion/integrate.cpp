@@ -15,11 +15,11 @@ struct Stop {
   bool sample = false, breakpoint = false;
 };
 
-/// Sample times, breakpoints after the start and the end, in ascending order.
+/// Returns the sample times, breakpoints after the start, and the end, in ascending order.
 std::vector<Stop> stops_of(const TransientOptions& options, const std::vector<double>& samples,
                            const std::vector<double>& breakpoints) {
-  // Round-off error of a time that is a multiple of a step: breakpoints that are farther apart are
-  // integrated one by one, however short a pulse is.
+  // Round-off error of a time that is a multiple of a step. Breakpoints with a larger distance are
+  // integrated separately, even for a short pulse.
   const double apart = 8 * kEps * std::max(std::abs(options.start), std::abs(options.end));
   std::vector<Stop> stops;
   for (const double time : samples) stops.push_back({time, true, false});
@@ -46,15 +46,15 @@ std::vector<Stop> stops_of(const TransientOptions& options, const std::vector<do
   return stops;
 }
 
-/// Number of equal steps up to a stop that are not above the requested one.
+/// Returns the least number of equal steps until a stop that do not exceed the requested step.
 double equal_steps(double span, double step, int multiple = 1) {
   return multiple * std::max(1.0, std::ceil(span / (multiple * step) * (1 - 1e-9)));
 }
 
-/// Steps of largest / 2^level from stop to stop.
+/// Steps of largest / 2^level between stops.
 class HalvedSteps {
  public:
-  static constexpr double kErrorLimit = 1;  ///< of accepted steps, over the allowed error
+  static constexpr double kErrorLimit = 1;  ///< of accepted steps, relative to the allowed error
   explicit HalvedSteps(const TransientOptions& options) : options_(options) {}
   void begin(double time, double stop) {
     begin_ = time;
@@ -78,10 +78,10 @@ class HalvedSteps {
     done_ /= 2;
     count_ /= 2;
   }
-  /// @returns null, or the reason for giving up
+  /// Halves the step. @returns null, or the reason of a failure
   [[nodiscard]] const char* reject(const Step& /*step*/, const StepReport& report) {
-    if (report.status != Status::solved) return "the step fails";
-    if (++level_ > options_.adaptive->finest_level) return "the step is the smallest";
+    if (report.status != Status::solved) return "the step failed";
+    if (++level_ > options_.adaptive->finest_level) return "the step size is at its minimum";
     size_ /= 2;
     done_ *= 2;
     count_ *= 2;
@@ -91,11 +91,11 @@ class HalvedSteps {
  private:
   const TransientOptions& options_;
   double begin_ = 0, end_ = 0, largest_ = 0, size_ = 0;
-  std::int64_t done_ = 0, count_ = 0;  ///< steps of the present level
+  std::int64_t done_ = 0, count_ = 0;  ///< steps of the current level
   int level_ = 0;
 };
 
-/// Steps as the error asks for; smaller and larger ones if a step does not converge.
+/// Steps according to the error. Smaller and larger steps are tried if a step does not converge.
 class FreeSteps {
  public:
   static constexpr double kErrorLimit = 1.5;
@@ -108,7 +108,7 @@ class FreeSteps {
     failures_ = 0;
     failed_size_ = 0;
   }
-  /// Equal steps up to a sample: no tiny last one.
+  /// Returns equal steps until a sample time, which avoids a tiny last step.
   [[nodiscard]] Step next(double time) const {
     const double remaining = stop_ - time;
     const double allowed = failures_ > 0 ? size_ : std::min(size_, longest_);
@@ -125,7 +125,7 @@ class FreeSteps {
       size_ = std::min(options_.step, 2 * size_);
       return;
     }
-    // A step that a stop cut short does not shrink the next one.
+    // A step that was shortened by a stop does not reduce the next step.
     const double wanted = step.size * 0.85 / std::cbrt(std::max(error, 1e-6));
     size_ = std::clamp(wanted, 0.3 * step.size, std::max(1.8 * step.size, size_));
   }
@@ -143,8 +143,8 @@ class FreeSteps {
   }
 
  private:
-  /// After a step that does not converge: a smaller one, and every second time a larger one, since
-  /// a singular position may lie within the step and beyond it the equations are regular again.
+  /// Returns a new size after a step that does not converge. Smaller and larger sizes alternate. A
+  /// singular position may lie within the step, beyond which the equations are regular again.
   double retry(double size) {
     if (failed_size_ == 0) failed_size_ = size;
     const double smaller = failed_size_ * std::pow(0.5, (failures_ + 1) / 2);
@@ -182,8 +182,8 @@ class TimeIntegration {
   }
 
  private:
-  /// With fixed steps, at most ten times as many as asked for (and 1000): steps that keep failing
-  /// are made ever smaller, and the run must end.
+  /// Sets the limit of the number of steps. With fixed steps it is 1000 plus ten times the
+  /// requested number. Failing steps are made ever smaller, and the limit ends such runs.
   void set_step_limit(Index stops) {
     max_steps_ = options_.max_steps;
     if (options_.adaptive) return;
@@ -192,7 +192,7 @@ class TimeIntegration {
     const double limit = 1000 + 10 * steps;
     if (limit >= static_cast<double>(max_steps_)) return;
     max_steps_ = static_cast<std::int64_t>(limit);
-    limit_reason_ = "steps keep failing, ten times as many as asked for are spent";
+    limit_reason_ = "too many steps failed: the limit is ten times the requested number";
   }
 
   bool advance(double stop) {
@@ -252,7 +252,7 @@ class TimeIntegration {
   const TransientOptions& options_;
   TransientSummary summary_;
   Step step_;
-  StepReport report_;  ///< the last one
+  StepReport report_;  ///< report of the last attempt
   double time_, next_look_;
   std::int64_t max_steps_ = 0;
   const char* limit_reason_ = "too many steps";

@@ -15,14 +15,16 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Value and slope of the factors in the interval that begins at a time.
+/// Value and slope of the factors at the start of an interval.
 struct Factor {
   VectorXd value, slope;
 };
 
 /// Visits the intervals between the samples and the times of the load.
-/// @param sample  (index of the sample, factors from there)
-/// @param advance  (length of the interval, its factors)
+/// @param load  loads and factors.
+/// @param times  sample times, ascending [s].
+/// @param sample  called with (index of the sample, factors after it).
+/// @param advance  called with (length of the interval [s], its factors).
 template <class Sample, class Advance>
 void walk(const PiecewiseLinearLoad& load, const std::vector<double>& times, const Sample& sample,
           const Advance& advance) {
@@ -50,7 +52,7 @@ ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
   const Eigen::MatrixXd stiffness = K;
   const double trace = mass.trace();
   if (!(trace > 0)) throw ModelError("a model without mass has no modes");
-  // M x = mu (K + s M) x with a shift far below the bulk of the spectrum: mu = 1 / (w^2 + s).
+  // Solve M x = mu (K + s M) x with a shift far below most of the spectrum: mu = 1 / (w^2 + s).
   const double shift = 1e-4 * stiffness.trace() / trace;
   const double positive = shift > 0 ? shift : 1;
   const Eigen::MatrixXd shifted = stiffness + positive * mass;
@@ -76,7 +78,7 @@ ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
     basis.shape.col(i) = x / std::sqrt(modal_mass);
     basis.omega[i] = x.dot(stiffness * x) / modal_mass;
   }
-  // What round-off of the stiffest mode can make of zero is zero.
+  // Values within the round-off error of the stiffest mode are treated as zero.
   const double zero = count == 0 ? 0 : 1e-15 * basis.omega.cwiseAbs().maxCoeff();
   for (double& w2 : basis.omega) w2 = w2 > zero ? std::sqrt(w2) : 0;
   return basis;
@@ -139,7 +141,7 @@ FollowedFactors followed_factors(const PiecewiseLinearLoad& load, double relaxat
     found.value.col(column) = settled + away;
     found.rate.col(column) = factor.slope;
     if (relaxation == 0) return;
-    // By their equation, in which round-off of what is at rest is none.
+    // Use the differential equation, because it is free of round-off for coordinates at rest.
     found.rate.col(column) = (factor.value - found.value.col(column)) / relaxation;
     found.acceleration.col(column) = (factor.slope - found.rate.col(column)) / relaxation;
   };
@@ -161,7 +163,7 @@ void add_massless_coordinates(const ModalBasis& basis, const SparseMatrix& M, co
   const Eigen::MatrixXd rest =
       load.pattern - M * (basis.shape * (basis.shape.transpose() * load.pattern));
   if (rest.norm() > 1e-9 * load.pattern.norm()) {
-    // With M x = 0 any multiple of M may be added to K, which free motions make singular.
+    // Any multiple of M may be added to K because M x = 0. K is singular if there are rigid modes.
     const double shift = K.diagonal().sum() / M.diagonal().sum();
     Factorization factorization;
     factorization.compute(SparseMatrix(K + shift * M));
@@ -189,11 +191,12 @@ void add_massless_coordinates(const ModalBasis& basis, const SparseMatrix& M, co
 
 namespace {
 
-/// w t < 1 and c t < 1: Taylor, since the closed forms subtract nearly equal numbers.
+/// Evaluates the Taylor series for w t < 1 and c t < 1, where the closed forms suffer from
+/// cancellation.
 ImpulseResponse by_series(double omega, double decay, double t) {
   const double c = decay * t;
   const double w2 = omega * t * omega * t;
-  // h = t sum b_k, b_0 the coefficient of t^1
+  // h = t sum b_k with b_0 = 1
   double before = 0;
   double b = 1;
   ImpulseResponse r{.dh = 0, .h = 0, .h1 = 0, .h2 = 0};
@@ -212,7 +215,7 @@ ImpulseResponse by_series(double omega, double decay, double t) {
   return r;
 }
 
-/// int_0^t exp(-rate s) ds and its integral.
+/// Integrals int_0^t exp(-rate s) ds and its integral.
 struct Decay {
   double once, twice;
 };
@@ -233,7 +236,7 @@ Decay integrate_decay(double rate, double t) {
   return {once, (t - once) / rate};
 }
 
-/// Roots far apart: the two decays apart from each other.
+/// Evaluates the two decays separately, for roots that are far apart.
 ImpulseResponse by_decays(double omega, double decay, double root, double t) {
   const double fast = decay + root;
   const double slow = omega * omega / fast;

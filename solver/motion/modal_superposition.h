@@ -10,62 +10,87 @@
 #include "solver/model/evidence.h"
 #include "solver/motion/equation_of_motion.h"
 
-/// The exact response of a model with constant matrices to a load that is linear between given
-/// times: the reference for the integrators in time, and the cheap way where few modes matter.
+/// Exact response of a model with constant matrices to a load that is linear between given times.
+/// It is the reference for time integration, and an efficient method if few modes are relevant.
 namespace trammel::solver {
 
-/// Modes to superpose, with x^T M x = 1 (paper Eq. 33).
+/// Modes for superposition, with x^T M x = 1 (paper Eq. 33).
 struct ModalBasis {
-  Outcome outcome;        ///< not_converged: no modes at all
-  Eigen::VectorXd omega;  ///< ascending [rad/s]; 0 for rigid motions
+  Outcome outcome;        ///< not_converged: there are no modes
+  Eigen::VectorXd omega;  ///< ascending [rad/s]; 0 for rigid modes
   Eigen::MatrixXd shape;  ///< coordinate x mode
 };
 
-/// Every mode of finite frequency, by dense algebra of order n^3: small models only. Coordinates
-/// without mass follow statically and have no mode. M is not factored.
-/// @throws ModelError  where M and K do not have the same size.
+/// Computes all modes of finite frequency by dense algebra of order n^3, for small models only.
+/// Massless coordinates follow statically and have no mode. M is not factored.
+/// @throws ModelError  if the model has no mass.
 [[nodiscard]] ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K);
 
-/// Response at ascending times: coordinate x time.
+/// Response at ascending times, coordinate x time.
 struct ModalResponse {
   Eigen::MatrixXd q, v, a;  ///< [SI], [SI/s], [SI/s^2]; at a jump, a is the value after it
 };
 
-/// @param decay  ratio * omega of each mode [1/s] (`decay_rates`); above omega it is overdamped
-/// @param q0, v0  state at times.front(), projected on the modes; empty: zero
-/// @throws ModelError  where sizes differ or times do not ascend.
+/// Superposes modal responses.
+/// @param basis  modes.
+/// @param decay  ratio * omega of each mode [1/s] (`decay_rates`); overdamped above omega.
+/// @param M  mass matrix.
+/// @param load  load of the coordinates.
+/// @param times  ascending [s].
+/// @param q0  displacements at times.front(), projected on the modes; empty: zero.
+/// @param v0  velocities at times.front(), projected on the modes; empty: zero.
+/// @returns the response at the times.
 [[nodiscard]] ModalResponse superpose(const ModalBasis& basis, const Eigen::VectorXd& decay,
                                       const SparseMatrix& M, const PiecewiseLinearLoad& load,
                                       const std::vector<double>& times, const Eigen::VectorXd& q0,
                                       const Eigen::VectorXd& v0);
 
-/// y of relaxation y' + y = factor, for each load: what follows it late, or at once.
+/// Solution y of relaxation y' + y = factor for each load. y follows the factor with a delay, or at
+/// once without relaxation.
 struct FollowedFactors {
   Eigen::MatrixXd value, rate, acceleration;  ///< load x time [-], [1/s], [1/s^2]
 };
 
-/// @param relaxation  0: at once; at a jump, the value after it [s]
-/// @param start  at times.front(), where it follows late
+/// Solves relaxation y' + y = factor for each load.
+/// @param load  loads and factors.
+/// @param relaxation  relaxation time [s]; 0: y follows at once, with the value after a jump.
+/// @param start  y at times.front(), used with relaxation > 0.
+/// @param times  ascending [s].
 [[nodiscard]] FollowedFactors followed_factors(const PiecewiseLinearLoad& load, double relaxation,
                                                const Eigen::VectorXd& start,
                                                const std::vector<double>& times);
 
-/// Adds what coordinates without mass do beside all modes, x with M x = 0 and
-/// K (x + relaxation x') = what of the load moves no mode: without relaxation they follow it at
-/// once.
-/// @param relaxation  damping in proportion to stiffness [s]
+/// Adds the response of massless coordinates that no mode contains, x with M x = 0:
+///
+///   K (x + relaxation x') = part of the load that excites no mode.
+///
+/// Without relaxation they follow this load at once.
+/// @param basis  all modes.
+/// @param M  mass matrix.
+/// @param K  stiffness matrix.
+/// @param relaxation  factor of stiffness-proportional damping [s].
+/// @param load  load of the coordinates.
+/// @param times  ascending [s].
+/// @param q0  displacements at times.front(); empty: zero.
+/// @param response  modal response to which the part is added.
+/// @param counters  incremented by the factorizations and solves.
 void add_massless_coordinates(const ModalBasis& basis, const SparseMatrix& M, const SparseMatrix& K,
                               double relaxation, const PiecewiseLinearLoad& load,
                               const std::vector<double>& times, const Eigen::VectorXd& q0,
                               ModalResponse& response, Counters& counters);
 
-/// Impulse response of y'' + 2 c y' + w^2 y = p and its integrals over a time t:
+/// Impulse response h of y'' + 2 c y' + w^2 y = p and its integrals over a time t:
+///
 ///   h'' + 2 c h' + w^2 h = 0, h(0) = 0, h'(0) = 1,  h1 = int h,  h2 = int h1.
+///
 /// A load p0 + p1 t moves the oscillator exactly by
+///
 ///   y(t)  = y0 (1 - w^2 h1) + v0 h  + p0 h1 + p1 h2,
+///
 ///   y'(t) = -y0 w^2 h       + v0 h' + p0 h  + p1 h1.
-/// Any c >= 0 and w >= 0: rigid motion, under-, critical and overdamping, each by a formula that
-/// keeps its digits.
+///
+/// All c >= 0 and w >= 0 are supported: rigid motion, underdamping, critical damping and
+/// overdamping. Each case has a formula without cancellation.
 struct ImpulseResponse {
   double dh = 1;  ///< h' [-]
   double h = 0;   ///< [s]
@@ -73,23 +98,29 @@ struct ImpulseResponse {
   double h2 = 0;  ///< [s^3]
 };
 
-/// @param omega  w >= 0 [rad/s];  @param decay  c = ratio * w >= 0 [1/s];  @param t  >= 0 [s]
+/// Computes the impulse response of an oscillator.
+/// @param omega  w >= 0 [rad/s].
+/// @param decay  c = ratio * w >= 0 [1/s].
+/// @param t  time >= 0 [s].
 [[nodiscard]] ImpulseResponse impulse_response(double omega, double decay, double t);
 
+/// State of an oscillator.
 struct OscillatorState {
   double y = 0;  ///< [SI]
   double v = 0;  ///< y' [SI/s]
 };
 
-/// The state a time t later, under the load p0 at its beginning and p1 per second after.
+/// Returns the state after the time of `response`, under the load p0 at the start that grows by p1
+/// per second.
 [[nodiscard]] OscillatorState advance(const ImpulseResponse& response, double omega,
                                       const OscillatorState& start, double p0, double p1);
 
-/// M a = f on the free coordinates where M may be singular: a small share of K is added, and what
-/// it moves masses by is taken back. What has no mass then strains least.
+/// Solves M a = f on the free coordinates if M may be singular. A small multiple of K is added to
+/// M. Refinement removes its effect on coordinates with mass. Massless coordinates then have the
+/// least strain energy.
 class RegularizedMass {
  public:
-  /// @pre `system` outlives this
+  /// @pre `system` outlives this object.
   explicit RegularizedMass(const System& system);
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& f) const;
 
@@ -98,15 +129,19 @@ class RegularizedMass {
   Factorization regular_;
 };
 
-/// What balances the strains of a motion that is damped in proportion to stiffness. K (q + t q')
-/// makes them follow loads and inertia late: x + t x' = all of these, and K q = x of the loads -
-/// M x of the accelerations.
+/// Forces that balance the strains of a motion with stiffness-proportional damping. The damping in
+/// K (q + t q') delays the strains relative to loads and inertia. With x + t x' = loads and
+/// accelerations, the balance is
+///
+///   K q = x of the loads - M x of the accelerations.
 class LateStrain {
  public:
-  /// @pre `system` outlives this
+  /// @pre `system` outlives this object.
   explicit LateStrain(const System& system);
-  /// Puts loads and accelerations into `elastic` that balance K q.
-  /// @param factors  of loads and of weight, each followed late (followed_factors)
+  /// Writes the loads and accelerations that balance K q into `elastic`.
+  /// @param q  free coordinates.
+  /// @param factors  delayed factors of loads and of weight (`followed_factors`).
+  /// @param elastic  receives load factors and accelerations.
   void put(const Eigen::VectorXd& q, const Eigen::Vector2d& factors, ElasticState& elastic) const;
 
  private:

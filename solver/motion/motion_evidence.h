@@ -10,38 +10,47 @@
 
 namespace trammel::solver {
 
-/// Motions below have no digits: what numerical damping leaves of a vibration ends in them.
+/// Magnitude below which motions are treated as zero, because underflow removes their digits.
+/// Numerical damping leads to such motions.
 inline constexpr double kUnderflow = std::numeric_limits<double>::min() / kEps;
 
-/// Residuals of a motion, taken step by step with matrices and loads of its own.
+/// Residuals of a motion, computed step by step with separate matrices and loads.
 ///
-/// The energy that a step is held to follows from equilibrium at both of its ends and from the
-/// scheme's relations between them (time_scheme.h). With x- the mean of x at the ends and dx its
-/// change, T and V the kinetic and the strain energy,
+/// The expected change of energy in a step follows from equilibrium at both ends of the step and
+/// from the relations of the scheme (time_scheme.h). x- is the mean of x at both ends and dx its
+/// change. T and V are the kinetic and the strain energy:
+///
 ///   dT + dV = dq.f- - dq.(C v)- + h (a- + (gamma - 1/2) da).(M v)-
-///             - (h v- + h^2 (beta - gamma/2) da).(M A)-,
-/// where the last two terms vanish for average acceleration and are otherwise what the scheme adds
-/// or takes away. Matrices that change exchange (q_0.K_1 q_1 - q_1.K_0 q_0)/2, and M, v the same.
+///
+///             - (h v- + h^2 (beta - gamma/2) da).(M A)-.
+///
+/// The last two terms vanish for average acceleration. Otherwise they are the energy that the
+/// scheme adds or removes. Matrices that change with time exchange the energy (q_0.K_1 q_1 -
+/// q_1.K_0 q_0)/2, and likewise for M and v.
 /// Source: Krenk, Energy conservation in Newmark based time integration algorithms, Comput. Methods
 /// Appl. Mech. Engrg. 195 (2006), for alpha_m = alpha_f = 0, where a = A.
 class MotionEvidence {
  public:
-  /// @pre the equation outlives this
+  /// @pre The equation outlives this object.
   explicit MotionEvidence(const EquationOfMotion& equation, const TimeScheme& scheme = {});
 
-  /// |M A + C v + K q - f| over its terms, row by row, the largest. A coordinate counts with at
-  /// least a thousandth of the largest one, made alike by the diagonal of M + step^2 K: where
-  /// nothing moves but rounding, a row has no digits.
+  /// Adds the largest |M A + C v + K q - f| relative to its terms, row by row. Each coordinate
+  /// counts with at least `kLeastShare` of the largest, after scaling by the diagonal of M + step^2
+  /// K. A row in which only round-off moves could otherwise not be judged.
   void add_equilibrium(double time, double load_time, const Eigen::VectorXd& q,
                        const Eigen::VectorXd& v, const Eigen::VectorXd& A, double step);
-  /// The scheme's relations between two states.
+  /// Adds the residuals of the relations of the scheme between two states.
   void add_relations(const TransientState& from, const TransientState& to, double h);
-  /// @param from  its energies, too
+  /// Adds the energy balance of a step.
+  /// @param from  state at the start, with its energies.
+  /// @param to  state at the end.
+  /// @param h  step [s].
   void add_energy(const TransientState& from, const TransientState& to, double h);
-  /// What is out of equilibrium where a segment starts does work in its first step: coordinates
-  /// without mass have no acceleration that would balance it.
+  /// Starts a segment with unbalanced forces. They do work in the first step, because massless
+  /// coordinates have no acceleration to balance them.
   void begin_segment(const Eigen::VectorXd& unbalanced) { unbalanced_ = unbalanced; }
 
+  /// Returns all residuals.
   [[nodiscard]] Evidence result() const;
 
  private:

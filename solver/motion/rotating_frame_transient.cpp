@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Motion of every point of the model that turns as a whole by 1 rad about the centre.
+/// Returns the displacements of all points for a rotation of the model by 1 rad about the center.
 VectorXd unit_rotation(const System& system, const Vector2d& centre) {
   VectorXd rotation = VectorXd::Zero(system.T.rows());
   for (std::size_t i = 0; i < system.coordinates.node.size(); ++i) {
@@ -25,7 +25,7 @@ VectorXd unit_rotation(const System& system, const Vector2d& centre) {
   return rotation;
 }
 
-/// K_1, from the statics under the centrifugal forces of 1 rad/s.
+/// Computes K_1 by statics under the centrifugal forces at 1 rad/s.
 Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseMatrix& K_1) {
   if (Outcome determined = require_determined_stiffening(system); !determined.solved())
     return determined;
@@ -35,7 +35,7 @@ Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseM
   factorization.compute(system.K);
   Counters counters;
   if (Outcome held = require_held(system, factorization, counters); !held.solved()) {
-    held.reason = "the centrifugal forces that stiffen are held by nothing: " + held.reason;
+    held.reason = "nothing holds the centrifugal forces that cause the stiffening: " + held.reason;
     return held;
   }
   const VectorXd u = system.T * factorization.solve(on_q);
@@ -61,7 +61,7 @@ Outcome add_rotating_frame_terms(const System& system, const PrescribedRotation&
   const SparseMatrix added = K_1 - centrifugal_softening(system);
   SparseMatrix C = equation.C;
   if (C.size() == 0) C.resize(system.K.rows(), system.K.cols());
-  // One pattern for all: a sum keeps every place of its terms, zeros too.
+  // Create a common pattern. A sum keeps all positions of its terms, including zeros.
   SparseMatrix zero = system.M + system.K + C + G + added;
   zero.coeffs().setZero();
   const auto values = [&zero](const SparseMatrix& A) {

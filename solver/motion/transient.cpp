@@ -19,8 +19,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// A step counts as solved when what is left of the equation is below this share of its terms, or
-/// is round-off of its largest products.
+/// Limit of the residual of a solved step relative to its terms. A residual at the round-off level
+/// of the largest products is also accepted.
 constexpr double kResidual = 1e-10;
 constexpr int kMaxRefinements = 40;
 
@@ -32,16 +32,16 @@ void check(const EquationOfMotion& e, const TransientOptions& o) {
   const Index n = e.M.rows();
   const auto missing_or_sized = [n](const VectorXd& x) { return x.size() == 0 || x.size() == n; };
   if (!missing_or_sized(o.q0) || !missing_or_sized(o.v0)) {
-    throw ModelError("the initial state has the size of the equation of motion");
+    throw ModelError("the initial state must have the size of the equation of motion");
   }
   if (!(std::isfinite(o.start) && std::isfinite(o.end) && o.end > o.start)) {
-    throw ModelError("a motion ends after it starts");
+    throw ModelError("a motion must end after its start");
   }
   if (!(std::isfinite(o.step) && o.step > 0)) throw ModelError("the time step must be positive");
   if (!std::is_sorted(o.sample_times.begin(), o.sample_times.end()) ||
       (!o.sample_times.empty() &&
        !(o.sample_times.front() >= o.start && o.sample_times.back() <= o.end))) {
-    throw ModelError("sample times ascend within the time of the motion");
+    throw ModelError("sample times must ascend within the time of the motion");
   }
   if (o.adaptive && !(o.adaptive->relative >= 0 && o.adaptive->absolute >= 0 &&
                       o.adaptive->relative + o.adaptive->absolute > 0 &&
@@ -50,7 +50,8 @@ void check(const EquationOfMotion& e, const TransientOptions& o) {
   }
 }
 
-/// Cubic in s = 0 ... 1 over a step of length h, with values x and slopes d at its ends.
+/// Evaluates the cubic polynomial in s = 0 ... 1 over a step of length h, with values x and slopes
+/// d at its ends.
 void hermite(double s, double h, const VectorXd& x0, const VectorXd& d0, const VectorXd& x1,
              const VectorXd& d1, VectorXd& x) {
   const double r = 1 - s;
@@ -58,10 +59,13 @@ void hermite(double s, double h, const VectorXd& x0, const VectorXd& d0, const V
       (h * s * s * r) * d1;
 }
 
-/// Hands the samples that a step covers to the observer.
+/// Passes the samples within a step to the observer.
 class SampleOutput {
  public:
-  /// @param times  ascending; empty: the ends of all steps.   @pre both outlive this
+  /// Stores references to both arguments.
+  /// @param times  ascending [s]; empty: the ends of all steps.
+  /// @param observe  receives the samples.
+  /// @pre Both arguments outlive this object.
   SampleOutput(const std::vector<double>& times, const MotionObserver& observe)
       : times_(times), observe_(observe) {}
 
@@ -71,11 +75,11 @@ class SampleOutput {
       emit(state.time, state.q, state.v, state.a, state.shown);
     } while (next_ < times_.size() && times_[next_] == state.time);
   }
-  /// True if a step that ends then covers a sample.
+  /// Returns true if a step with this end contains a sample.
   [[nodiscard]] bool covers(double end) const {
     return times_.empty() || (next_ < times_.size() && times_[next_] <= end);
   }
-  /// Between the ends of the step of length h.
+  /// Outputs the samples within a step of length h.
   void step(const TransientState& begin, const TransientState& end, double h);
 
  private:
@@ -92,7 +96,7 @@ class SampleOutput {
 };
 
 void SampleOutput::step(const TransientState& begin, const TransientState& end, double h) {
-  // Step ends are sums of steps: rounding apart, such a sample is one.
+  // Step ends are sums of steps. A sample within round-off of a step end is not inside the step.
   constexpr double kEndOfStep = 1e-6;
   if (times_.empty()) {
     emit(end.time, end.q, end.v, end.a, end.shown);
@@ -117,8 +121,8 @@ void SampleOutput::step(const TransientState& begin, const TransientState& end, 
   if (inside) observe_({-1, end.time, end.q, end.v, end.a, end.shown});
 }
 
-/// Steps of M q'' + C q' + K q = f. Its tangent is constant or known at each time; factorizations
-/// of constant matrices are kept for each size of step.
+/// Stepper of M q'' + C q' + K q = f. Its tangent is constant or known at each time. Factorizations
+/// of constant matrices are kept for each step size.
 class LinearStepper final : public Stepper {
  public:
   LinearStepper(const EquationOfMotion& equation, const TransientOptions& options,
@@ -174,7 +178,7 @@ class LinearStepper final : public Stepper {
   double judge_residual(StepReport& report, double& allowed) const;
   [[nodiscard]] double error_ratio(double h);
   void update_energies(double load_time);
-  /// The left limit at a jump; see EquationOfMotion::load.
+  /// Returns the left limit at a jump; see EquationOfMotion::load.
   [[nodiscard]] double load_time(const Step& step) const {
     return step.last ? std::nextafter(step.end, now_->time) : step.end;
   }
@@ -183,17 +187,17 @@ class LinearStepper final : public Stepper {
   const TransientOptions& options_;
   TimeScheme scheme_;
   EquationMatrices matrices_;
-  SparseMatrix S_;  // of a step
+  SparseMatrix S_;  // M + gamma' h C + beta' h^2 K of a step
   std::array<TransientState, 2> states_;
   TransientState *now_ = &states_[0], *next_ = &states_[1];
-  VectorXd residual_, correction_;  // work
+  VectorXd residual_, correction_;  // work vectors
   std::unique_ptr<SparseLdlt> mass_factor_;
-  SparseLdlt* start_factor_ = nullptr;  // of M, or of the first step where M is singular
+  SparseLdlt* start_factor_ = nullptr;  // of M, or of the first step if M is singular
   bool mass_is_singular_ = false;
   MasslessCoordinates massless_;
-  bool massless_balance_ = false;  // they follow the others, as the states that are shown have it
+  bool massless_balance_ = false;  // massless coordinates follow the others in the output states
   std::array<TransientState, 2> shown_{TransientState(0), TransientState(0)};
-  std::vector<std::pair<double, std::unique_ptr<SparseLdlt>>> factors_;  // steps, one per level
+  std::vector<std::pair<double, std::unique_ptr<SparseLdlt>>> factors_;  // one step size per level
   double largest_ = 0, largest_residual_ = 0;
   MotionEvidence evidence_;
   SampleOutput output_;
@@ -217,9 +221,9 @@ Outcome LinearStepper::start() {
   return {};
 }
 
-/// Finds accelerations in equilibrium after a breakpoint. Coordinates without mass have none of
-/// their own: with constant matrices they follow the others, else the acceleration is the one
-/// that the first step would find.
+/// Computes accelerations in equilibrium after a breakpoint. Massless coordinates have no
+/// accelerations. With constant matrices they follow the other coordinates. Otherwise the
+/// acceleration is that of the first step.
 Outcome LinearStepper::begin(const Step& first, double stop) {
   const double h = first.size;
   matrices_.update(now_->time);
@@ -263,8 +267,8 @@ Outcome LinearStepper::begin(const Step& first, double stop) {
   return {};
 }
 
-/// A jump of the load moves coordinates without mass at once, and what it does beyond straining
-/// is lost.
+/// Moves massless coordinates after a jump of the load. They move at once, and work that is not
+/// stored as strain energy is dissipated.
 void LinearStepper::settle_massless(double h) {
   correction_ = now_->q;
   matrices_.load(now_->time + h / 2, next_->f);
@@ -278,10 +282,10 @@ void LinearStepper::settle_massless(double h) {
   now_->energy.strain = strain;
 }
 
-/// What the load of the segment can move: the size of the motion, before there is any, to which
-/// the error is compared. x = M^-1 f moves as an oscillator with its own Rayleigh quotient, a
-/// free body as far as the time lasts: to the place where the load would hold it, or as far as
-/// the speed carries that a shorter segment leaves it.
+/// Estimates the size of the motion from the load of a segment. The error control needs a size
+/// before there is any motion. x = M^-1 f is assumed to move as an oscillator with its Rayleigh
+/// quotient. The frequency has a lower limit from the total time, which covers free bodies. The
+/// estimate is the static displacement, or the distance at the speed gained in a shorter segment.
 void LinearStepper::estimate_size_from_load(double begin, double end) {
   constexpr int kPoints = 8;
   const double time = options_.end - options_.start;
@@ -301,7 +305,7 @@ void LinearStepper::estimate_size_from_load(double begin, double end) {
   }
 }
 
-/// M + gamma' h C + beta' h^2 K, factored; null if it is singular.
+/// Returns the factors of M + gamma' h C + beta' h^2 K, or null if it is singular.
 SparseLdlt* LinearStepper::step_factor(const Step& step) {
   const auto index = matrices_.constant() ? static_cast<std::size_t>(step.level) : 0;
   if (factors_.size() <= index) factors_.resize(index + 1);
@@ -316,8 +320,8 @@ SparseLdlt* LinearStepper::step_factor(const Step& step) {
   return factor->factorize(S_) ? factor.get() : nullptr;
 }
 
-/// Predictors with a1 = 0, then corrections until the equation of motion holds at the end of the
-/// step. Symmetric matrices need one.
+/// Predicts with a1 = 0 and corrects until the equation of motion holds at the end of the step.
+/// Symmetric matrices need a single correction.
 StepReport LinearStepper::attempt(const Step& step) {
   const double h = step.size;
   if (now_->A_step != h) change_step(h / now_->A_step, now_->a, now_->A);
@@ -354,7 +358,7 @@ StepReport LinearStepper::attempt(const Step& step) {
   return report;
 }
 
-/// residual_ = f - M a - C v - K q of next_.
+/// Computes residual_ = f - M a - C v - K q of next_.
 void LinearStepper::form_residual() {
   next_->Ma.noalias() = matrices_.M() * next_->a;
   if (matrices_.norm_C() > 0) {
@@ -366,8 +370,8 @@ void LinearStepper::form_residual() {
   residual_ = next_->f - next_->Ma - next_->Cv - next_->Kq;
 }
 
-/// Share of residual_ in the sum of its terms, and what is allowed.
-/// @returns its largest entry
+/// Computes residual_ relative to the sum of its terms, and the allowed residual.
+/// @returns the largest entry of residual_.
 double LinearStepper::judge_residual(StepReport& report, double& allowed) const {
   const double left = infinity_norm(residual_);
   const double terms = infinity_norm(next_->Ma) + infinity_norm(next_->Cv) +
@@ -381,7 +385,7 @@ double LinearStepper::judge_residual(StepReport& report, double& allowed) const 
   return left;
 }
 
-/// Estimated local error, in the norm of kinetic energy, over its allowance.
+/// Returns the estimated local error in the norm of kinetic energy, relative to its allowance.
 double LinearStepper::error_ratio(double h) {
   correction_ = next_->A - now_->A;
   residual_.noalias() = matrices_.M() * correction_;

@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// K q = f; the skew part of K, if any, by refinement.
+/// Solves K q = f. Refinement accounts for a skew-symmetric part of K.
 void solve_refined(const SparseMatrix& K, SparseLdlt& factor, const VectorXd& f, VectorXd& q,
                    Counters& counters) {
   VectorXd correction;
@@ -31,7 +31,8 @@ void solve_refined(const SparseMatrix& K, SparseLdlt& factor, const VectorXd& f,
 }  // namespace
 
 double smooth_span(const std::vector<double>& breakpoints, const TransientOptions& options) {
-  constexpr double kBefore = 0.999;  // at a jump the load has the value after it
+  // Below 1, because the load at a jump has the value after the jump.
+  constexpr double kBefore = 0.999;
   double span = std::min(options.step, options.end - options.start);
   for (const double time : breakpoints)
     if (time > options.start) span = std::min(span, kBefore * (time - options.start));
@@ -88,15 +89,16 @@ Outcome check_stability(const EquationMatrices& matrices, const TransientOptions
   if (phase <= limit) return {};
   std::ostringstream message;
   message << "the step h = " << options.step
-          << " s is unstable: the fastest motion has w h = " << phase << ", the scheme bears "
-          << limit << "; take h below " << options.step * limit / phase << " s";
+          << " s is unstable: the fastest motion has w h = " << phase
+          << ", the limit of the scheme is " << limit << "; use h below "
+          << options.step * limit / phase << " s";
   return {Status::not_converged, message.str()};
 }
 
 namespace {
 
-/// The least ratio of two diagonals where both are positive, so that what is added is small
-/// compared with every mass, also if a step lasts many periods.
+/// Returns the least ratio of two diagonals among positive entries. The added matrix is therefore
+/// small compared with every mass, even if a step covers many periods.
 double least_ratio(const SparseMatrix& M, const SparseMatrix& added) {
   double least = std::numeric_limits<double>::infinity();
   const VectorXd mass = M.diagonal(), other = added.diagonal();
@@ -128,7 +130,8 @@ bool MasslessCoordinates::factor(const EquationMatrices& matrices, double h, Cou
 }
 
 void MasslessCoordinates::balance(const VectorXd& residual, VectorXd& x) {
-  // (M + share B) s = residual moves masses as well, (M + share B) w = M s by as much alone.
+  // (M + share B) s = residual also moves masses. (M + share B) w = M s moves masses by the same
+  // amount only.
   factor_.solve(residual, s_);
   const VectorXd image = matrices_->M() * s_;
   factor_.solve(image, w_);

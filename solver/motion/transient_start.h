@@ -8,45 +8,55 @@
 
 namespace trammel::solver {
 
-/// Below this ratio of pivot to diagonal a mass or stiffness matrix counts as singular.
+/// Ratio of pivot to diagonal below which a mass or stiffness matrix counts as singular.
 inline constexpr double kSingularMass = 1e-13;
 
-/// At most a step, within which the load has no jump or kink [s].
+/// Returns a time span after the start without jump or kink of the load [s]. It is at most a step.
 [[nodiscard]] double smooth_span(const std::vector<double>& breakpoints,
                                  const TransientOptions& options);
 
-/// K q = f now and at four times after it, within a step and before a jump or kink of the load: the
-/// velocity by the one-sided difference of order 4.
-/// Then K q = f - C v: otherwise the drag of that velocity would set in at once, and shake what
-/// is stiff.
-/// @param q, v  at options.start
-/// @returns singular where K is.
+/// Computes a quasi-static start. K q = f is solved at the start and at four times after it, within
+/// a step and before a jump or kink of the load. The velocity follows from the one-sided difference
+/// of order 4. Then K q = f - C v is solved again. Otherwise the damping forces of this velocity
+/// would start suddenly and excite stiff parts.
+/// @param matrices  M, C and K.
+/// @param options  start, end and step.
+/// @param q  displacements at options.start.
+/// @param v  velocities at options.start.
+/// @param counters  incremented by the factorizations and solves.
+/// @returns singular if K is singular.
 [[nodiscard]] Outcome start_quasi_statically(EquationMatrices& matrices,
                                              const TransientOptions& options, Eigen::VectorXd& q,
                                              Eigen::VectorXd& v, Counters& counters);
 
-/// Refuses a step at which the fastest motion grows. The power iteration comes from below, so
-/// that it refuses no stable step.
+/// Returns a failure if the fastest motion grows with the step. The power iteration estimates the
+/// highest frequency from below. It therefore accepts all stable steps.
 [[nodiscard]] Outcome check_stability(const EquationMatrices& matrices,
                                       const TransientOptions& options, Counters& counters);
 
-/// Coordinates without mass, directions z with M z = 0, of constant matrices: no step says how fast
-/// they move. Undamped they are at once where the forces on them balance, z^T (f - C v - K q) = 0,
-/// and move as that and its derivatives in time do; damped, their velocity balances the forces.
+/// Massless coordinates of constant matrices: directions z with M z = 0. The time scheme does not
+/// determine their velocities. Undamped coordinates satisfy z^T (f - C v - K q) = 0 at any time,
+/// and their motion follows from its time derivatives. For damped coordinates, the velocity
+/// balances the forces.
 class MasslessCoordinates {
  public:
-  /// @param h  the step: masses move by 1e-16 of what they do in it.   @pre the matrices outlive
-  /// this
-  /// @returns false where such a coordinate has neither stiffness nor damping.
+  /// Factors M with a small multiple of C or K.
+  /// @param matrices  M, C and K, which must outlive this object.
+  /// @param h  step [s]; masses move by 1e-16 of their motion in the step.
+  /// @param counters  incremented by the factorizations and solves.
+  /// @returns false if a massless coordinate has neither stiffness nor damping.
   [[nodiscard]] bool factor(const EquationMatrices& matrices, double h, Counters& counters);
-  /// Puts them where they belong at the start of a segment, and finds all accelerations.
-  /// @param rate  df/dt [SI/s]
+  /// Moves massless coordinates to equilibrium at the start of a segment, and computes all
+  /// accelerations.
+  /// @param state  state, changed in place.
+  /// @param rate  df/dt [SI/s].
   void settle(TransientState& state, const Eigen::VectorXd& rate);
-  /// Their velocities and accelerations in a state whose positions are known.
+  /// Computes their velocities and accelerations in a state with known positions.
   void follow(TransientState& state, const Eigen::VectorXd& rate);
 
  private:
-  /// x + z, so that z^T (residual - B z) = 0 with B = C where they are damped, K where not.
+  /// Adds z to x such that z^T (residual - B z) = 0. B is C for damped coordinates, and K
+  /// otherwise.
   void balance(const Eigen::VectorXd& residual, Eigen::VectorXd& x);
   void accelerate(TransientState& state, const Eigen::VectorXd& rate);
 

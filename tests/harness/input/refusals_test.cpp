@@ -201,7 +201,7 @@ const Refusal kEffects[] = {
     {"motion", R"({"effects": ["axial-flexibility", "large-displacement"],
         "analysis": {"elastodynamics": {"load_history": {"time_s": [0, 1, 1],
         "factor": [0, 0, 1]}}}})",
-     "it takes a load history without jumps"}};
+     "it requires a load history without jumps"}};
 
 const Refusal kModels[] = {
     {"beam", R"({"model": {"members": {"AB": {"section": "bra"}}}})",
