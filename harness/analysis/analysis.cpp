@@ -17,7 +17,7 @@ using solver::Residual;
 
 int solver_rounding = FE_TONEAREST;
 
-/// While it lives, numbers are rounded as the solver is told to.
+/// Sets the rounding mode of the solver during the lifetime of the object.
 class RoundingScope {
  public:
   RoundingScope() : before_(std::fegetround()) { std::fesetround(solver_rounding); }
@@ -47,8 +47,7 @@ StepResult analyse_scene(const AnalysisKind& kind, const JsonView& analysis,
   return analyse_steps(case_model, draw, at_step);
 }
 
-/// What was recorded counts where a solution was found, its residuals speak for it and every number
-/// is finite.
+/// Requires a solution, sufficiently small residuals and finite numbers for the status "solved".
 AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& record) {
   AnalysisResult result{std::move(found), {}, {}};
   if (!kind.evidence.empty())
@@ -68,7 +67,7 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   return result;
 }
 
-/// Records numbers and changes by which effects were selected, so that checks can judge them.
+/// Records the numbers and changes by which effects were selected, so that checks can use them.
 void record_evidence(const EffectChoice& choice, Recorder& record) {
   if (!choice.automatic) return;
   for (const solver::Effect effect : solver::Effects::all().list()) {

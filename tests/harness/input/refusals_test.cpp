@@ -189,7 +189,7 @@ const Refusal kEffects[] = {
      "/effects/0: expected an effect that the scene admits (got 'shear': the members do not shear "
      "('beam'))"},
     {"beam", R"({"effects": ["large-displacement"]})",
-     "expected 'geometric-stiffening' beside 'large-displacement'"},
+     "expected 'geometric-stiffening' with 'large-displacement'"},
     {"beam", R"({"effects": ["sheer"]})", "did you mean"},
     {"beam", R"({"effects": [], "analysis": {"statics": null, "properties": {}}})",
      "expected an analysis that knows effects"},
@@ -197,7 +197,7 @@ const Refusal kEffects[] = {
         "analysis": {"statics": {"second_order": true}}})",
      "expected 'effects' alone to say it"},
     {"motion", R"({"effects": ["axial-flexibility", "inertia", "large-displacement"]})",
-     "expected 'gyroscopic' beside 'large-displacement'"},
+     "expected 'gyroscopic' with 'large-displacement'"},
     {"motion", R"({"effects": ["axial-flexibility", "large-displacement"],
         "analysis": {"elastodynamics": {"load_history": {"time_s": [0, 1, 1],
         "factor": [0, 0, 1]}}}})",
