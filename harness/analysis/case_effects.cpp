@@ -164,7 +164,8 @@ EffectChoice choose_effects(const Document& document, const CaseModel& case_mode
   const auto requested = JsonView(document).find("effects");
   if (!knows_effects(document)) {
     if (requested)
-      throw requested->error("expected an analysis that knows effects: " + analyses_with_effects());
+      throw requested->error("expected an analysis that supports effects: " +
+                             analyses_with_effects());
     return {};
   }
   const EffectRules& rules = *effects_of(document);
