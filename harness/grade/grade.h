@@ -29,8 +29,8 @@ struct Adapter {
 /// Reads the RESULT.json of an adapter into status, reason, quantities and solver. Missing
 /// quantities are not an error.
 /// @param asked  "export" of the exported case: names, units and lengths of the quantities.
-/// @throws InputError  if the file is missing, larger than 64 MiB, not JSON or violates its schema,
-///     or if a quantity is unknown or has another unit or length than requested.
+/// @throws InputError  if the file is missing, larger than 64 MiB, not JSON or violates its schema.
+///     Also throws for an unknown quantity, unit or length.
 void read_adapter_answer(const std::filesystem::path& file, const Json& asked, Run& run);
 
 }  // namespace trammel::harness
