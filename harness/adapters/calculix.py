@@ -66,9 +66,8 @@ class Deck:
         self.lines += [f"*ELEMENT,TYPE={kind},ELSET={name}", card(self.elements, *nodes)]
 
     def follower(self, motions):
-        """Returns a node whose first degrees of freedom follow the motions.
-
-        ccx 2.20 fails for masses and springs on nodes that other nodes depend on."""
+        """Returns a node whose first degrees of freedom follow the motions. ccx 2.20 fails for masses and springs on nodes
+        that other nodes depend on."""
         node = self.node(*self.nodes[motions[0][0] - 1])
         for dof, motion in enumerate(motions, 1):
             self.equation([(node, dof, 1.0), (*motion, -1.0)])
@@ -89,10 +88,8 @@ class Deck:
             self.lines += [f"*SPRING,ELSET={name}", card(*[1] * len(ends)), card(float(value))]
 
     def equation(self, terms):
-        """Adds the equation: sum of factor * motion = 0.
-
-        Dependent motions are replaced first. The equation is then solved for one of the remaining free motions. It is redundant
-        if no free motion remains."""
+        """Adds the equation: sum of factor * motion = 0. Dependent motions are replaced first. The equation is then solved for
+        one of the remaining free motions. It is redundant if no free motion remains."""
         left = {}
         for node, dof, factor in terms:
             for motion, f in self.independent((node, dof)).items():
@@ -285,10 +282,8 @@ class Frame:
             self.deck.fix(node, dof)
 
     def plate(self, name, plate):
-        """Adds the triangles of a plate.
-
-        ccx integrates the mass of three-node triangles at their centroid, so that they have no inertia about it. Three quarters
-        of this mass plus a twelfth of it in each corner equal the consistent mass."""
+        """Adds the triangles of a plate. ccx integrates the mass of three-node triangles at their centroid, so that they have no
+        inertia about it. Three quarters of this mass plus a twelfth of it in each corner equal the consistent mass."""
         if "triangles" not in plate:
             raise Cannot("plates without a mesh")
         m, set_name = self.model["materials"][plate["material"]], f"P{self.deck.elements}"
@@ -561,9 +556,8 @@ def buckling(case, options):
 
 
 def transient(case, options):
-    """Computes motion in time by modal superposition, which is exact for a piecewise linear load.
-
-    A mass on a spring is integrated by the trapezoidal rule."""
+    """Computes motion in time by modal superposition, which is exact for a piecewise linear load. A mass on a spring is
+    integrated by the trapezoidal rule."""
     refuse(options, ["rotating_frame", "error_control"])
     if options.get("initial_state", "at-rest") != "at-rest" or options.get("damping", {}).keys() - {"rayleigh"}:
         raise Cannot("that initial state or damping")

@@ -38,9 +38,7 @@ def shear_ratio(m, L):
 
 
 def stiffness(m, L):
-    """Returns the stiffness in element axes for (u1 v1 r1 u2 v2 r2).
-
-    It is the sum over elongation, symmetric and antisymmetric bending."""
+    """Returns K of (u1 v1 r1 u2 v2 r2) in element axes: elongation, symmetric and antisymmetric bending."""
     k = (m.E * m.A * (STIFF if m.inextensible else 1) / L, m.E * m.I / L,
          3 * m.E * m.I / (L * (1 + shear_ratio(m, L))))
     B = ((-1, 0, 0, 1, 0, 0), (0, 0, -1, 0, 0, 1), (0, 2 / L, 1, 0, -2 / L, 1))
@@ -245,9 +243,7 @@ def statics(case):
 
 
 def modes(case):
-    """Computes frequencies by bisection with Sturm counts.
-
-    The number of negative pivots of K - shift M is the number of eigenvalues below the shift."""
+    """Computes frequencies by bisection: K - shift M has as many negative pivots as eigenvalues below the shift."""
     frame = Frame(case, cut=True)
     K, M, free = frame.matrices()
     counts = {0.0: 0}

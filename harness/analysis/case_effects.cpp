@@ -82,8 +82,7 @@ Effects read_names(const JsonView& names, const EffectScope& scope, const Effect
       const bool carried = scope.dependents[static_cast<std::size_t>(carrier)].has(effect);
       if (carried && !chosen.has(carrier)) {
         throw names.error("expected '" + std::string(solver::name_of(carrier)) + "' with '" +
-                          std::string(solver::name_of(effect)) +
-                          "', which has no effect without it");
+                          std::string(solver::name_of(effect)) + "', which requires it");
       }
     }
   }
@@ -164,8 +163,7 @@ EffectChoice choose_effects(const Document& document, const CaseModel& case_mode
   const auto requested = JsonView(document).find("effects");
   if (!knows_effects(document)) {
     if (requested)
-      throw requested->error("expected an analysis that supports effects: " +
-                             analyses_with_effects());
+      throw requested->error("expected an analysis with effects: " + analyses_with_effects());
     return {};
   }
   const EffectRules& rules = *effects_of(document);

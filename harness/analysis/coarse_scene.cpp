@@ -85,11 +85,9 @@ std::optional<Quantities> CoarseScene::compute(Effects effects, std::size_t step
     counters += result.counters;
     if (result.outcome.solved()) return record.take_quantities();
     outcome = outcome_at_path_point(scene_, step, result.outcome);
-  } catch (const solver::ModelError& error) {  // The remaining model may be invalid without the
-                                               // effect.
-    if (runs_.size() == 1)
-      throw;  // If this is the first run, the full model itself is
-              // invalid.
+  } catch (const solver::ModelError& error) {
+    // The model may be invalid without the effect. In the first run, the full model is invalid.
+    if (runs_.size() == 1) throw;
     outcome = {solver::Status::singular, error.what()};
   } catch (const InputError& error) {  // for example, fewer modes than damping ratios
     if (runs_.size() == 1) throw;

@@ -60,8 +60,7 @@ Json stated_analysis(const Document& document, solver::Effects chosen) {
   const bool kept = !place.has("rotating") || chosen.has(Effect::geometric_stiffening);
   if (chosen.has(Effect::large_displacement) || !kept) {
     throw JsonView(document)["effects"].error(
-        "expected effects that keys of the analysis can express: large displacement, and a "
-        "rotating "
+        "expected effects that its keys can express: large displacement, and a rotating "
         "frame without geometric stiffening, are not exported");
   }
   if (!chosen.has(Effect::damping))

@@ -37,7 +37,7 @@ StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_mode
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!buckling.outcome.solved()) return result;
   if (system.K.rows() == 0) {
-    result.outcome = {solver::Status::singular, "nothing buckles, because everything is held"};
+    result.outcome = {solver::Status::singular, "nothing buckles: everything is held"};
     return result;
   }
   for (solver::Index i = 0; i < buckling.load_factor.size(); ++i) {

@@ -124,9 +124,10 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
   warn_of_redundancy(redundant_constraints(system, recorded_points.back().state), result.warnings);
   const auto vibrations = analysis.get("vibration_modes", solver::Index{0});
   if (!large_motion.follower_loads.empty() && vibrations == 0)
-    result.warnings.push_back({"the number of loads that follow their nodes",
-                               static_cast<double>(large_motion.follower_loads.size()), "",
-                               "statics cannot detect flutter; 'vibration_modes' can"});
+    result.warnings.push_back(
+        {"the number of loads that follow their nodes",
+         static_cast<double>(large_motion.follower_loads.size()), "",
+         "statics does not detect instability by flutter; 'vibration_modes' does"});
   for (const PathPoint& point : recorded_points) {
     record_point(system, point, record, result.warnings);
     if (vibrations > 0)

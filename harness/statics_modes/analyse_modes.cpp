@@ -203,9 +203,8 @@ StepResult analyse_modes_at(const JsonView& analysis, const CaseModel& case_mode
   if (!modes.outcome.solved()) return result;
   if (modes.frequency.size() == 0) {
     result.outcome = {solver::Status::singular,
-                      system.K.rows() == 0
-                          ? "nothing vibrates, because everything is held"
-                          : "nothing vibrates, because nothing that moves has mass"};
+                      system.K.rows() == 0 ? "nothing vibrates: everything is held"
+                                           : "nothing vibrates: no part that can move has a mass"};
     return result;
   }
   record_modes(modes.frequency, modes.roundoff, case_model.path.has_value(), record);

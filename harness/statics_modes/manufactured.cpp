@@ -55,8 +55,7 @@ ManufacturedSolution solve(solver::System system, double omega) {
         omega == 0 ? stiffness : dynamic, factorization, system.f, solution.counters);
     solution.q = refined.x;
     if (!refined.converged()) {
-      solution.outcome = {solver::Status::singular,
-                          "the matrix is so ill-conditioned that no digits are left"};
+      solution.outcome = {solver::Status::singular, "round-off leaves no correct digits"};
     }
     judge(system, omega, solution);
   } else {

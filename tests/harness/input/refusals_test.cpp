@@ -192,7 +192,7 @@ const Refusal kEffects[] = {
      "expected 'geometric-stiffening' with 'large-displacement'"},
     {"beam", R"({"effects": ["sheer"]})", "did you mean"},
     {"beam", R"({"effects": [], "analysis": {"statics": null, "properties": {}}})",
-     "expected an analysis that supports effects"},
+     "expected an analysis with effects"},
     {"beam", R"({"effects": ["axial-flexibility", "geometric-stiffening"],
         "analysis": {"statics": {"second_order": true}}})",
      "expected 'effects' alone to say it"},
