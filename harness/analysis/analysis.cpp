@@ -95,7 +95,7 @@ void warn_of_crossed_singularity(const CaseModel& case_model, std::vector<Warnin
     if (before * now < 0) {
       add_warning(warnings,
                   {"the time before which the path crosses a parallel singularity", point.time,
-                   " s", "rigid links need infinite torques there, and hinged ones give way"});
+                   " s", "rigid links need infinite torques there; hinged links lose stiffness"});
       return;
     }
     if (now != 0) before = now;
@@ -144,7 +144,7 @@ AnalysisResult analyse(const Document& document, const References& references,
     if (choice.is_beyond_tier()) {
       result.warnings.push_back(
           {"the change by large displacement", *choice.automatic->beyond_tier, "",
-           "more than the tolerance; fixed steps and driven actuators would have it"});
+           "more than the tolerance; fixed steps and driven actuators would permit it"});
     }
     return result;
   });

@@ -30,7 +30,7 @@ struct ModelScales {
 /// "stress" are relative to the largest value of the kind. "frequency" is relative to each
 /// frequency. The two components of a vector are compared as one vector. The change is infinite if
 /// modes are lost. Quantities of other kinds are not compared, nor are quantities that only one
-/// side has, such as rotations of a flexible platform.
+/// side has, such as rotations of a rigid platform.
 using Changes = std::map<std::string, LargestDifference>;
 [[nodiscard]] Changes changes_between(const Quantities& full, const Quantities& other,
                                       const ModelScales& model);

@@ -56,10 +56,10 @@ const EffectWords& words_of(Effect effect) {
       {"damping ratio of the first mode",
        {kAtRest, "modes are those of the undamped model", kNoDamping, kNoDamping}},
       /* gyroscopic */
-      {"", {kAtRest, kNotTurningInPlane, kNotTurningInPlane, "what 'rotating_frame' says is kept"}},
+      {"", {kAtRest, kNotTurningInPlane, kNotTurningInPlane, "'rotating_frame' is always kept"}},
       /* geometric stiffening */
       {"loads over the buckling load of a hinged member",
-       {kLarge, "there are no loads", "it comes with large displacement", kLarge}},
+       {kLarge, "there are no loads", "large displacement includes it", kLarge}},
       /* large displacement */
       {"", {kLarge, "modes are small motions", "", kLarge}},
   }};

@@ -184,7 +184,7 @@ void record_deflection(const GeometricallyExactSystem& system, const State& stat
   record.add("deflection_m", "P", std::hypot(now.x() - pose.x, now.y() - pose.y));
 }
 
-/// Integrates from rest in the model's pose, or with the initial velocities of the tracked rigid
+/// Integrates from the model's initial state, or with the initial velocities of the tracked rigid
 /// twin.
 solver::large_motion::IntegrationSummary integrate_motion(
     const GeometricallyExactSystem& system, const CaseModel& case_model, bool tracking,

@@ -40,13 +40,13 @@ std::string alternatives(std::size_t setting, const std::vector<std::size_t>& ti
 /// @param best  the most accurate point
 std::string describe_finest(const CostPoint& first, const std::optional<CostPoint>& fine,
                             const CostPoint& best, const std::vector<std::string>& titles) {
-  if (fine && fine->setting == first.setting) return ", and it is good to 1e-6 at no further cost.";
+  if (fine && fine->setting == first.setting) return ", and it reaches 1e-6 at no further cost.";
   if (fine) {
     return fmt::format("; 1e-6 takes '{}' and {} times as long.", titles[fine->setting],
                        times(fine->time / first.time));
   }
   if (best.setting == first.setting) {
-    return fmt::format("; nothing more accurate is to be had than its {}.", error_text(best.error));
+    return fmt::format("; no setting is more accurate than its {}.", error_text(best.error));
   }
   return fmt::format("; no setting reaches 1e-6, the best is '{}', off by {}, {} times as long.",
                      titles[best.setting], error_text(best.error), times(best.time / first.time));
