@@ -15,10 +15,9 @@ namespace {
 // matrices and states. An entry of a factor counts during the factorization. A number is recorded,
 // written as JSON and drawn.
 constexpr double kCoordinate = 2500, kEntry = 24, kNumber = 44;
-/// A number of a map, which is rounded and drawn, and a number of samples, which are read from
-/// JSON.
+/// Bytes per number of a map, which is rounded and drawn, and per number of samples from JSON.
 constexpr double kMapNumber = 90, kSampleNumber = 500;
-/// A number of a frequency response, which is only recorded.
+/// Bytes per number of a frequency response, which is only recorded.
 constexpr double kResponseNumber = 22;
 
 /// Returns the bytes of a coordinate relative to those of statics, which checks and draws most.
