@@ -1,18 +1,24 @@
 #!/usr/bin/env python3
-"""CalculiX (ccx 2.20) as an adapter: a case becomes a deck, ccx runs in the working folder, its .dat becomes the result.
+"""Adapter for CalculiX (ccx 2.20). It writes a case as a deck, runs ccx in the working folder and reads the .dat file.
 
-What a member becomes:
-- in statics of Euler-Bernoulli beams without springs one user element U1, exact at its nodes. It is right for nothing else: ccx has
-  it in statics alone, with shear it deflects less than without, and springs on its rotations have another stiffness.
-- else a strip of eight-node plane-stress elements along the member: CPS8R, and CPS8 in buckling, where CPS8R gives twice the load.
-  The strip is orthotropic: E along it, no contraction, and the shear modulus that the case's beam theory asks for. Where the theory
-  has no rotary inertia, its mass lies in a core of its depth.
-Plates become CPS3 and CPS6 whose material contracts in their plane alone, with the mass that their interpolation asks for. Joints
-and rigid bodies are equations. Motion in time is a sum of modes.
-Section forces and reactions follow from displacements by the slope-deflection equations: in statics with all digits, from the restart
-file; elsewhere with the seven that ccx prints.
-What is left: a strip is an elastic body. Where it is loaded along its axis, (N / EA) (1 + E / G) of the critical load is missing; what is
-rigid in shear costs digits the more, the more slender the strip is (1e-5 at a length of 130 times the depth).
+Members of Euler-Bernoulli beams without springs become, in statics, one user element U1, which is exact at its nodes. U1 is
+unsuitable for other purposes:
+- ccx supports it in statics only.
+- With shear it deflects less than without.
+- Springs on its rotations have the wrong stiffness.
+
+Other members become a strip of eight-node plane-stress elements. These are CPS8R, except in buckling, where CPS8R results in
+twice the load and CPS8 is used. The strip is orthotropic. It has E along the member, no contraction, and the shear modulus of
+the case's beam theory. If the theory has no rotary inertia, the mass is in a thin core of the strip.
+
+Plates become CPS3 and CPS6 elements whose material contracts only in their plane. Their mass is that of the interpolation.
+Joints and rigid bodies are equations. Motion in time is a superposition of modes.
+
+Section forces and reactions follow from displacements by the slope-deflection equations. In statics, displacements have all
+digits, from the restart file. Otherwise they have the seven digits that ccx prints.
+
+Two differences remain, because a strip is an elastic body. Under axial load, it lacks (N / EA) (1 + E / G) of the critical load.
+A strip that is rigid in shear loses digits, more so if it is slender (1e-5 at a length of 130 times the depth).
 """
 import math
 import os
@@ -22,14 +28,14 @@ import subprocess
 from trammel_adapter import Cannot, main
 
 
-SHEAR_RIGID = (8, 300, 1e5)  # least, most under axial loads, and most of the shear modulus over E where the theory has no shear
-THIN, SLENDER = 3, 0.009  # how many times thinner the strip of an inextensible member is, unless it is as slender as this
-CORE, NO_ROTARY = 0.02, ("euler-bernoulli", "shear")  # in modes these have their mass in a core of that share of the depth,
-CORE_STIFFNESS = 1e-6  # and of that share of the stiffness
-STIFF = 1e5  # how many times the axial stiffness of an inextensible member is, where it is U1
+SHEAR_RIGID = (8, 300, 1e5)  # limits of G / E without shear in the theory: least, most under axial loads, most
+THIN, SLENDER = 3, 0.009  # factor of thinness of an inextensible strip, and slenderness below which it is not thinned
+CORE, NO_ROTARY = 0.02, ("euler-bernoulli", "shear")  # in modes, theories whose mass is in a core of that share of the depth
+CORE_STIFFNESS = 1e-6  # stiffness of the core relative to the strip
+STIFF = 1e5  # factor of the axial stiffness of an inextensible U1
 ALONG = {"CPS8R": 2, "CPS8": 4}  # elements of a strip for each element of the case
-DIGITS = 7  # that ccx prints
-MODES = 20  # of motions in time
+DIGITS = 7  # significant digits that ccx prints
+MODES = 20  # number of modes for motion in time
 MOTION = {"displacements": ("displacement_x_m", "displacement_y_m", "rotation_rad"),
           "velocities": ("velocity_x_m_per_s", "velocity_y_m_per_s", "angular_velocity_rad_per_s")}
 JOINTS = ("welded", "hinged")
@@ -37,12 +43,12 @@ DOF = {"x": 0, "y": 1, "rotation": 2}
 
 
 def card(*cells):
-    """A data line; ccx reads at most twenty characters of a number."""
+    """Returns a data line. ccx reads at most twenty characters of a number."""
     return ",".join(f"{cell:.12e}" if isinstance(cell, float) else str(cell) for cell in cells)
 
 
 class Singular(Exception):
-    """ccx finds its matrix singular: a mechanism."""
+    """Raised if ccx reports a singular matrix, as for a mechanism."""
 
 
 class Deck:
@@ -60,8 +66,8 @@ class Deck:
         self.lines += [f"*ELEMENT,TYPE={kind},ELSET={name}", card(self.elements, *nodes)]
 
     def follower(self, motions):
-        """A node whose first degrees of freedom follow the motions: ccx 2.20 fails where masses and springs are on nodes that
-        others follow."""
+        """Returns a node whose first degrees of freedom follow the motions. ccx 2.20 fails for masses and springs on nodes
+        that other nodes depend on."""
         node = self.node(*self.nodes[motions[0][0] - 1])
         for dof, motion in enumerate(motions, 1):
             self.equation([(node, dof, 1.0), (*motion, -1.0)])
@@ -75,15 +81,15 @@ class Deck:
             self.lines += [f"*MASS,ELSET={name}", card(float(value))]
 
     def spring(self, ends, value):
-        """Between the first motions (node, dof) and the second, or between the first and the ground."""
+        """Adds a spring between two motions (node, dof), or between one motion and the ground."""
         if value:
             name = f"S{self.elements}"
             self.element(f"SPRING{len(ends)}", [self.follower([end]) for end in ends], name)
             self.lines += [f"*SPRING,ELSET={name}", card(*[1] * len(ends)), card(float(value))]
 
     def equation(self, terms):
-        """sum of factor * motion = 0, solved for the first motion that is left when those that depend already are replaced;
-        with none left it says nothing new."""
+        """Adds the equation: sum of factor * motion = 0. Dependent motions are replaced first. The equation is then solved for
+        one of the remaining free motions. It is redundant if no free motion remains."""
         left = {}
         for node, dof, factor in terms:
             for motion, f in self.independent((node, dof)).items():
@@ -94,7 +100,7 @@ class Deck:
             self.equations[first] = [(m, -f / left[first]) for m, f in left.items() if m != first and f]
 
     def independent(self, motion):
-        """What a motion is of motions that depend on no others; ccx follows no long chains of equations itself."""
+        """Returns a motion as a combination of independent motions, because ccx does not resolve long chains of equations."""
         if motion not in self.equations:
             return {motion: 1.0}
         result = {}
@@ -130,7 +136,7 @@ class Deck:
 
 
 def table(lines, title):
-    """Blocks of rows of numbers below lines with this title, each {first number: the others}."""
+    """Returns the blocks of rows of numbers below lines with this title, each as {first number: other numbers}."""
     blocks = []
     for i, line in enumerate(lines):
         if title in line:
@@ -147,13 +153,13 @@ def table(lines, title):
 
 
 def unrounded(name, u, nodes):
-    """u with all digits where the restart file has a record of displacements that agrees with what is printed."""
+    """Returns u with all digits if a displacement record of the restart file agrees with the printed values."""
     with open(name, "rb") as file:
         data = file.read()
     at, found = 0, {}
     while at < len(data):
         (length,) = struct.unpack_from("<i", data, at)
-        for size in (4, 7):  # numbers of a node: one more than its degrees of freedom
+        for size in (4, 7):  # numbers per node: one more than its degrees of freedom
             if not found and length % (8 * size) == 0 and length >= 8 * size * max(nodes):
                 v = {n: struct.unpack_from(f"<{size - 1}d", data, at + 12 + 8 * size * (n - 1)) for n in nodes}
                 if all(abs(a - b) <= 1e-6 * abs(a) for n in nodes for a, b in zip(u[n], v[n])):
@@ -163,7 +169,7 @@ def unrounded(name, u, nodes):
 
 
 def frd_stress(name):
-    """node -> sxx, syy, szz, sxy, ... of the last block of stresses of a .frd file."""
+    """Returns node -> sxx, syy, szz, sxy, ... from the last block of stresses of a .frd file."""
     stress, inside = {}, False
     with open(name, encoding="ascii") as file:
         for line in file:
@@ -175,7 +181,7 @@ def frd_stress(name):
 
 
 def placed(member, model):
-    """The member with its length L, direction (dx, dy) and load per length with its weight."""
+    """Adds length L, direction (dx, dy) and load per length, including the weight, to a member."""
     (x0, y0), (x1, y1) = (model["nodes"][n] for n in member.nodes)
     member.L = math.hypot(x1 - x0, y1 - y0)
     member.dx, member.dy = (x1 - x0) / member.L, (y1 - y0) / member.L
@@ -186,7 +192,7 @@ def placed(member, model):
 
 
 def nodal_loads(model):
-    """node -> [Fx, Fy, M] of forces, moments and the weight of point masses."""
+    """Returns node -> [Fx, Fy, M] of forces, moments and the weight of point masses."""
     loads = {}
     for load in model.get("loads", {}).values():
         if "node" not in load:
@@ -204,8 +210,12 @@ def nodal_loads(model):
 
 
 def material(name, E, G, rho, nu=0.0, share=1.0, across=1.0):
-    """Contracts in the plane alone: out of it, ccx gives neighbouring elements one contraction, which hinders it. share: of the
-    stiffness in the plane; across: how much stiffer it is through the depth, for a core that would press on the strip's middle."""
+    """Returns a material that contracts only in its plane.
+
+    Out of the plane, ccx enforces equal contraction of adjacent elements, which stiffens them.
+    share: factor of the stiffness in the plane.
+    across: additional factor through the depth, for a core that would otherwise press on the strip's middle.
+    """
     return [f"*MATERIAL,NAME={name}", "*ELASTIC,TYPE=ENGINEERING CONSTANTS", card(E * share, E * share * across, E, nu, 0, 0, G * share, G), card(G),
             "*DENSITY", card(max(float(rho), 1e-9))]
 
@@ -221,10 +231,11 @@ def refuse(model, keys):
 
 
 class Frame:
-    """Nodes, joints, masses, supports and loads of a model; motions[name] holds what carries its x, y and rotation.
+    """Nodes, joints, masses, supports and loads of a model. motions[name] holds the motions x, y and rotation of a node.
 
-    strips: the element that members become, or None for U1. loaded: axial forces matter, so that members stretch even where
-    the case says that they do not; a constraint would carry the force and leave no stress."""
+    strips: element type of the members, or None for U1.
+    loaded: axial forces matter. Then inextensible members stretch, because a constraint would carry the force without stress.
+    """
 
     def __init__(self, case, strips, loaded=False, large=False, core=False):
         model = case.model
@@ -271,10 +282,10 @@ class Frame:
             self.deck.fix(node, dof)
 
     def plate(self, name, plate):
-        """ccx integrates the mass of three-node triangles at their middle, and they have no inertia about it. Three quarters of that
-        and a twelfth of the mass in each corner are their consistent mass."""
+        """Adds the triangles of a plate. ccx integrates the mass of three-node triangles at their centroid, so that they have no
+        inertia about it. Three quarters of this mass plus a twelfth of it in each corner equal the consistent mass."""
         if "triangles" not in plate:
-            raise Cannot("plates that are not yet meshed")
+            raise Cannot("plates without a mesh")
         m, set_name = self.model["materials"][plate["material"]], f"P{self.deck.elements}"
         E, nu, rho = float(m["E_Pa"]), float(m["nu"]), float(m["rho_kg_m3"])
         share = 1.0
@@ -289,7 +300,7 @@ class Frame:
         self.deck.end += [f"*SOLID SECTION,ELSET={set_name},MATERIAL={set_name}", card(float(plate["thickness_m"]))]
 
     def point(self, x, y, welded=True):
-        """Motions of a point; its rotation is that of a node beside it where no U1 is welded to it, which has one in ccx."""
+        """Returns the motions of a point. If no U1 is welded to it, a second node carries its rotation."""
         node = self.deck.node(x, y)
         if not self.strips:
             self.deck.fix(node, 3, 5 if welded else 3)
@@ -300,12 +311,12 @@ class Frame:
         return [(node, 1), (node, 2), (turn, 1)]
 
     def tie(self, slave, master, arm):
-        """The slave's motions are those of a body that moves with the master's, an arm (x, y) away from it."""
+        """Ties the slave's motions to a rigid body that moves with the master. The arm (x, y) points from master to slave."""
         for motion, own, lever in zip(slave, master, (-arm[1], arm[0], 0.0)):
             self.deck.equation([(*motion, 1.0), (*own, -1.0), (*master[2], -lever)])
 
     def end(self, m, i):
-        """Motions of a member's end: its node's, or its own with a hinge or spring between."""
+        """Returns the motions of a member's end: those of its node, or separate ones at a hinge or spring."""
         motion = self.motions[m.nodes[i]]
         if m.ends[i] == "welded":
             return motion
@@ -330,19 +341,19 @@ class Frame:
         if not m.I:
             raise Cannot("modes and buckling with members that do not bend")
         h = math.sqrt(12 * m.I / m.A)
-        thinner = 1.0  # the same E I and mass without rotary inertia; E A does not matter where the member keeps its length
+        thinner = 1.0  # keeps E I and mass without rotary inertia; E A is irrelevant for constant length
         if m.inextensible and self.large:
             thinner = max(1.0, 300 * h / m.L)
         elif m.inextensible and m.beam in NO_ROTARY and self.strips == "CPS8R" and h > SLENDER * m.L:
             thinner = THIN
         h, E = h / thinner, m.E * thinner**2
-        pieces = [o for o in self.members if o.name.split(".")[0] == m.name.split(".")[0]]  # of a taper
+        pieces = [o for o in self.members if o.name.split(".")[0] == m.name.split(".")[0]]  # pieces of a tapered member
         slender = h / sum(piece.L for piece in pieces)
         wanted = max(4 if len(pieces) < 8 else 1, m.elements * (1 if self.large else ALONG[self.strips]))
-        n = 2 * max(1, min(wanted, round(4 * m.L / h)))  # shorter ones cost digits
+        n = 2 * max(1, min(wanted, round(4 * m.L / h)))  # shorter elements lose digits
         rigidity = min(max(SHEAR_RIGID[0], 2.6e8 * slender**4 if self.loaded else 1.9e7 * slender**3), SHEAR_RIGID[1 + (not self.loaded)])
         if m.inextensible and thinner == 1 and not self.loaded:
-            rigidity = 1  # equations for its length leave fewer digits
+            rigidity = 1  # equations of constant length lose digits
         x0, y0 = self.model["nodes"][m.nodes[0]]
         rows = []
         for i in range(n + 1):
@@ -364,7 +375,7 @@ class Frame:
             self.keep_length(m, [middle(row) for row in rows[2:-2:2]])
         G = m.G * m.kappa if m.sheared else E * rigidity
         heaviest = max((p["mass_kg"] for p in self.model.get("point_masses", {}).values()), default=0)
-        mass = max(m.rho, 1e-6 * heaviest / (m.A * m.L) if self.core else 0)  # without mass its modes are too fast for ccx
+        mass = max(m.rho, 1e-6 * heaviest / (m.A * m.L) if self.core else 0)  # a massless member has modes that are too fast for ccx
         deck.end += [f"*ORIENTATION,NAME={name}", card(m.dx, m.dy, 0, -m.dy, m.dx, 0)]
         for part, share, rho in ((name, 1, 0 if cored else mass), (name + "C", CORE_STIFFNESS, mass / CORE))[:1 + cored]:
             deck.end += material(part, E, G, rho, share=share, across=100 if cored and slender > 0.05 else 1)
@@ -375,7 +386,7 @@ class Frame:
             self.deck.element(self.strips, [a[0], c[0], c[2], a[2], b[0], c[1], b[1], a[1]], name)
 
     def core_row(self, row):
-        """Nodes of the core, which follow those of the strip: a strip in layers would shear more, as its sections could warp."""
+        """Returns nodes of the core, which depend on those of the strip. Independent layers could warp and would shear more."""
         ends, nodes = [self.deck.nodes[n - 1] for n in (row[0], row[-1])], []
         for t in (-CORE, CORE):
             shares = [t * (t - 1) / 2, 1 - t * t, t * (t + 1) / 2] if len(row) == 3 else [(1 - t) / 2, (1 + t) / 2]
@@ -385,21 +396,21 @@ class Frame:
         return [nodes[0], *row[1:-1], nodes[1]]
 
     def turning_end(self, m, i):
-        """In large displacement equations carry no rotation: an end is held by its middle, and may not be welded to others."""
+        """Checks an end that rotates. In large displacement it is held at its middle only, because equations carry no rotation."""
         node = m.nodes[i]
         others = [o for o in self.members if o is not m and node in o.nodes]
         if m.ends[i] != "hinged" and (others or nodal_loads(self.model).get(node, [0, 0, 0])[2]):
-            raise Cannot("welded joints and moments that turn in large displacement")
+            raise Cannot("rotating welded joints and moments in large displacement")
 
     def keep_length(self, m, middle):
-        """Axial displacement is the same all along the member."""
+        """Requires equal axial displacement along the member."""
         start, end = self.ends[m.name]
         for motion in [[(node, 1), (node, 2)] for node in middle] + [end]:
             order = sorted([(0, m.dx), (1, m.dy)], key=lambda a: -abs(a[1]))
             self.deck.equation([(*motion[i], f) for i, f in order] + [(*start[i], -f) for i, f in order])
 
     def loads(self):
-        """*CLOAD lines: forces, weights, and what distributed loads come to at the nodes."""
+        """Returns *CLOAD lines: forces, weights, and nodal forces of distributed loads."""
         forces = [(self.motions[n][i], v) for n, f in nodal_loads(self.model).items() for i, v in enumerate(f)]
         for m in self.members:
             for i in (0, 1):
@@ -408,7 +419,7 @@ class Frame:
                     for end, sign in zip(self.ends[m.name], (1, -1)):
                         forces += [(end[i], m.load[i] * m.L / 2), (end[2], sign * turn)]
                     continue
-                for k, row in enumerate(m.rows):  # Simpson's rule; on the middle, or on both sides of it
+                for k, row in enumerate(m.rows):  # Simpson's rule; on the middle node, or on the two nodes next to it
                     share = (1 if k in (0, len(m.rows) - 1) else 4 if k % 2 else 2) / (3 * (len(m.rows) - 1))
                     nodes = row[len(row) // 2 - 1:len(row) // 2 + 1] if len(row) % 2 == 0 else [middle(row)]
                     forces += [((node, i + 1), m.load[i] * m.L * share / len(nodes)) for node in nodes]
@@ -444,7 +455,7 @@ def statics(case, options):
 
 
 def section_forces(frame, value):
-    """Forces, moments and stresses at members' ends, and reactions; value(motion) is what ccx displaced."""
+    """Returns forces, moments and stresses at members' ends, and reactions. value(motion) is a displacement of ccx."""
     model, q = frame.model, {}
     supports = model.get("supports", {})
     reaction = {n: [-f for f in nodal_loads(model).get(n, [0, 0, 0])] for n in supports}
@@ -493,14 +504,14 @@ def large_statics(case, options):
 
 
 def turn_of(nodes, u, a, b):
-    """Angle by which the line from node a to node b has turned, within half a revolution."""
+    """Returns the rotation of the line from node a to node b, within half a revolution."""
     x, y = nodes[b - 1][0] - nodes[a - 1][0], nodes[b - 1][1] - nodes[a - 1][1]
     dx, dy = x + u[b][0] - u[a][0], y + u[b][1] - u[a][1]
     return math.atan2(x * dy - y * dx, x * dx + y * dy)
 
 
 def end_forces(m, ends):
-    """Forces of the nodes on a member's two ends, in its axes, by the slope-deflection equations from what ccx displaced."""
+    """Returns the forces on a member's two ends in its axes, by the slope-deflection equations from displacements of ccx."""
     L = m.L
     (u1, v1, t1), (u2, v2, t2) = [(m.dx * u + m.dy * v, m.dx * v - m.dy * u, t) for u, v, t in ends]
     phi = 12 * m.E * m.I / (m.kappa * m.G * m.A * L**2) if m.sheared else 0.0
@@ -524,7 +535,7 @@ def modes(case, options):
     squares = [row[0] for row in table(out, "E I G E N V A L U E   O U T P U T")[0].values()]
     f = [math.sqrt(max(s, 0)) / (2 * math.pi) for s in squares]
     if "members" not in case.model and frame.corners:
-        case.element_order = 2  # six-node triangles have 4, or what corners leave of it
+        case.element_order = 2  # six-node triangles have order 4, unless corners reduce it
     rigid = sum(value < 3e-3 * max(f[:options["count"]]) for value in f)
     return {"frequency_Hz": ("Hz", [0.0 if i < rigid else value for i, value in enumerate(f[:options["count"]])]),
             "rigid_body_modes": ("1", rigid)}
@@ -545,7 +556,8 @@ def buckling(case, options):
 
 
 def transient(case, options):
-    """By modes, whose motion ccx takes exactly between the corners of the load; a mass on a spring by the trapezoidal rule."""
+    """Computes motion in time by modal superposition, which is exact for a piecewise linear load. A mass on a spring is
+    integrated by the trapezoidal rule."""
     refuse(options, ["rotating_frame", "error_control"])
     if options.get("initial_state", "at-rest") != "at-rest" or options.get("damping", {}).keys() - {"rayleigh"}:
         raise Cannot("that initial state or damping")
@@ -563,11 +575,11 @@ def transient(case, options):
     wanted = {name: where for name, where in wanted.items() if any(name in asked for asked in case.asked)}
     nodes = sorted({str(motion[0]) for _, motion in wanted.values()})
     if not nodes:
-        raise Cannot("what is asked for of that motion")
+        raise Cannot("the requested quantities of that motion")
     rayleigh = options.get("damping", {}).get("rayleigh", {})
     damped = ["*MODAL DAMPING,RAYLEIGH", card(1, MODES, *(float(rayleigh.get(key, 0)) for key in ("mass_per_s", "stiffness_s")))]
     if rayleigh and not modal or any(any(m.load) for m in frame.members):
-        raise Cannot("a damped mass on a spring; loads along members in motion, of which ccx 2.20 takes a part")
+        raise Cannot("a damped mass on a spring, or moving members with distributed loads, of which ccx 2.20 applies only a part")
     step = ["*MODAL DYNAMIC"] if modal else ["*DYNAMIC,DIRECT,ALPHA=0."]
     out = frame.deck.run([
         *(["*STEP", "*FREQUENCY,STORAGE=YES", str(MODES), "*END STEP"] if modal else []), f"*STEP,INC={samples * inner + 9}", *step,
@@ -585,7 +597,7 @@ def transient(case, options):
 
 
 def peak(times, values):
-    """The largest magnitude, with its sign, by a parabola through the largest sample and its neighbours; and when."""
+    """Returns the peak value with its sign, and its time, by a parabola through the largest sample and its neighbors."""
     i = max(range(len(values)), key=lambda k: abs(values[k]))
     if i in (0, len(values) - 1):
         return values[i], times[i]
@@ -606,7 +618,7 @@ def solve(case):
     try:
         found = ANALYSES[case.kind](case, case.options)
     except Singular:
-        return {"status": "singular", "reason": "ccx finds its matrix singular"}
+        return {"status": "singular", "reason": "ccx reports a singular matrix"}
     return {name: found[name] for name in case.asked if name in found}
 
 

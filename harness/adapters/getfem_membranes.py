@@ -1,8 +1,9 @@
 #!/usr/bin/python3
-"""GetFEM 5.4 (the package python3-getfem) as an adapter: plates of triangles in plane stress, statics and modes, and point masses.
+"""Adapter for GetFEM 5.4 (the package python3-getfem): statics and modes of plates in plane stress with point masses.
 
-Three-node triangles become FEM_PK(2,1), six-node ones FEM_PK(2,2) on a quadratic geometry, curved sides included. Stiffness, mass
-and stresses are GetFEM's assemblies; the linear algebra is scipy's. Stresses at a node are means over its triangles by area.
+Three-node triangles become FEM_PK(2,1). Six-node triangles become FEM_PK(2,2) on a quadratic geometry, including curved sides.
+GetFEM assembles stiffness, mass and stresses, and scipy solves the equations. The stress at a node is the mean over its
+triangles, weighted by area.
 """
 import getfem
 import numpy
@@ -13,8 +14,8 @@ import scipy.sparse.linalg
 from trammel_adapter import Cannot, main
 
 PARTS = ("materials", "nodes", "plates", "supports", "loads", "point_masses")
-DENSE = 1500  # unknowns up to which all modes are computed at once
-ORDER = {3: [0, 1, 2], 6: [0, 3, 1, 5, 4, 2]}  # GetFEM's nodes of a triangle in the case's
+DENSE = 1500  # number of unknowns up to which all modes are computed by a dense solver
+ORDER = {3: [0, 1, 2], 6: [0, 3, 1, 5, 4, 2]}  # order of a triangle's nodes in GetFEM, as indices of the case's nodes
 
 
 def sparse(matrix):
@@ -23,7 +24,7 @@ def sparse(matrix):
 
 
 class Membrane:
-    """K and M over the dofs x, y of each node of the case, and what gives stresses."""
+    """K and M over the dofs x, y of each node of the case, and the data for stresses."""
 
     def __init__(self, case):
         self.model = case.model
@@ -38,7 +39,7 @@ class Membrane:
             self.M += scipy.sparse.csc_matrix(([mass["mass_kg"]] * 2, (at, at)), (size, size))
         taken = {(n, t) for n, directions in self.model.get("supports", {}).items() for t in directions}
         if any(n not in self.index or t == "rotation" for n, t in taken):
-            raise Cannot("supports but of x and y of nodes")
+            raise Cannot("supports other than x and y of nodes")
         held = {2 * self.index[n] + "xy".index(t) for n, t in taken}
         used = {2 * self.index[n] + k for p in self.model["plates"].values() for t in p["triangles"] for n in t for k in (0, 1)}
         self.free = numpy.array(sorted(used - held))
@@ -47,7 +48,7 @@ class Membrane:
         triangles = plate.get("triangles") or []
         sizes = {len(t) for t in triangles}
         if len(sizes) != 1:
-            raise Cannot("plates but of triangles of one kind")
+            raise Cannot("plates other than of triangles of one kind")
         n = sizes.pop()
         degree = 1 if n == 3 else 2
         material = self.model["materials"][plate["material"]]
@@ -62,12 +63,12 @@ class Membrane:
         scalar = getfem.MeshFem(mesh, 1)
         scalar.set_fem(getfem.Fem("FEM_PK(2,0)"))
         one = numpy.ones(scalar.nbdof())
-        place = numpy.zeros(field.nbdof(), dtype=int)  # of each dof of GetFEM in the case
+        place = numpy.zeros(field.nbdof(), dtype=int)  # index in the case of each dof of GetFEM
         for convex, order in enumerate(names):
             dofs = field.basic_dof_from_cvid(convex)[0]
             for i, name in enumerate(order):
                 place[dofs[2 * i:2 * i + 2]] = 2 * self.index[name] + numpy.arange(2)
-        mu, plane = E / (2 * (1 + nu)), E * nu / (1 - nu**2)  # Lame's second, and the first for plane stress
+        mu, plane = E / (2 * (1 + nu)), E * nu / (1 - nu**2)  # second Lame parameter, and the first one for plane stress
         parts = [getfem.asm_linear_elasticity(rule, field, scalar, plane * t * one, mu * t * one),
                  getfem.asm_mass_matrix(rule, field, field)]
         spread = scipy.sparse.csc_matrix((numpy.ones(len(place)), (place, numpy.arange(len(place)))),
@@ -80,14 +81,14 @@ class Membrane:
         f = numpy.zeros(2 * len(self.index))
         for load in self.model.get("loads", {}).values():
             if "node" not in load or load.get("moment_N_m"):
-                raise Cannot("loads but forces on nodes")
+                raise Cannot("loads other than forces on nodes")
             f[2 * self.index[load["node"]]:][:2] += load.get("force_N", [0, 0])
         u = numpy.zeros(len(f))
         u[self.free] = scipy.sparse.linalg.spsolve(self.K[self.free][:, self.free].tocsc(), f[self.free])
         return u, f
 
     def stresses(self, u):
-        """Node -> (xx, yy, xy) at the triangles' own nodes, and their mean by area."""
+        """Returns node -> (xx, yy, xy): stresses at the triangles' nodes, averaged by area."""
         total, weight = {}, {}
         for mesh, field, rule, names, place, (plane, mu) in self.plates:
             degree = 1 if len(names[0]) == 3 else 2

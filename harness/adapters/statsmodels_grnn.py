@@ -1,6 +1,9 @@
 #!/usr/bin/python3
-"""statsmodels 0.13 (the package python3-statsmodels) as an adapter: a general regression neural network on samples of its own is
-KernelReg, local constant, with a Gaussian kernel of bandwidth sigma in each input."""
+"""Adapter for statsmodels 0.13 (the package python3-statsmodels).
+
+It computes general regression neural networks on given samples. Such a network is KernelReg, local constant, with a Gaussian
+kernel of bandwidth sigma in each input.
+"""
 import math
 
 import numpy

@@ -1,19 +1,19 @@
-# find_package(trammel) after 'cmake --install': the program, its data, and tests of another code.
+# Configuration for find_package(trammel) after 'cmake --install': program, data, and tests of another code.
 #
-#   trammel_PROGRAM   the program
+#   trammel_PROGRAM   path of the program
 #   trammel_ADAPTERS  folder of trammel_adapter.py, which adapters in Python import
 #
 #   trammel_add_tests(SOLVER command... [CASES name...] [LABELS label...] [PREFIX prefix] [TIMEOUT s])
 #
-# One ctest test a case: those named, and those of the catalogue that carry one of the labels. Each
-# lets the command compute the case ('command CASE.json RESULT.json') and judges what it answers.
+# Adds one ctest test per case: the named cases, and those of the catalogue with one of the labels. Each test
+# runs the command ('command CASE.json RESULT.json') and grades its answer.
 get_filename_component(trammel_PREFIX ${CMAKE_CURRENT_LIST_DIR}/../../.. ABSOLUTE)
 set(trammel_PROGRAM ${trammel_PREFIX}/bin/trammel)
 set(trammel_DATA ${trammel_PREFIX}/share/trammel)
 set(trammel_ADAPTERS ${trammel_DATA}/adapters)
 if(NOT EXISTS ${trammel_PROGRAM})
   set(trammel_FOUND FALSE)
-  set(trammel_NOT_FOUND_MESSAGE "there is no ${trammel_PROGRAM}")
+  set(trammel_NOT_FOUND_MESSAGE "${trammel_PROGRAM} does not exist")
   return()
 endif()
 

@@ -9,7 +9,7 @@
 
     main(solve, name="my code", version="1.0")
 
-README.md beside this file has the whole protocol.
+README.md in the same folder describes the complete protocol.
 """
 import json
 import math
@@ -23,7 +23,7 @@ KEYS_OF_MEMBERS = {"nodes", "section", "beam", "elements", "ends", "axial", "mas
 
 
 class Cannot(Exception):
-    """This code cannot do that: no failure. The text says why."""
+    """The code does not support the case, which is no failure. The text is the reason."""
 
 
 @dataclass
@@ -37,18 +37,18 @@ class Member:
     A: float                # area [m^2]
     I: float                # second moment [m^4]
     kappa: float            # shear coefficient
-    half_depth: float       # of the outermost fibre [m]; None where it is not said
+    half_depth: float       # of the outermost fiber [m]; None if not given
     beam: str               # "euler-bernoulli", "rayleigh", "shear" or "timoshenko"
-    elements: int           # how many elements the case asks for
+    elements: int           # number of elements that the case requests
     ends: tuple
     inextensible: bool
-    lumped: bool            # mass
-    load: tuple             # uniform, per length, world axes [N/m]
+    lumped: bool            # lumped mass matrix
+    load: tuple             # uniform load per length, world axes [N/m]
 
 
 class Case(dict):
-    """A resolved case: the JSON object, with short ways to what adapters ask for."""
-    element_order = None    # that of what this case asks for, where solve() says it
+    """A resolved case: the JSON object, with shortcuts for adapters."""
+    element_order = None    # order of the requested quantities, if solve() sets it
 
     @property
     def model(self):
@@ -65,12 +65,12 @@ class Case(dict):
 
     @property
     def asked(self):
-        """Units of the quantities that are judged, by name."""
+        """Units of the requested quantities, by name."""
         return {one["name"]: one["unit"] for one in self["export"]["quantities"]}
 
     def require(self, kinds, parts, options=()):
-        """Refuses analyses, parts of the model and options (that are not false) beyond these.
-        Which eigensolver trammel takes is its own matter."""
+        """Raises Cannot for any other kind of analysis, part of the model or option.
+        Options that are false and the choice of eigensolver are ignored."""
         if self.kind not in kinds:
             raise Cannot("no analysis '%s'" % self.kind)
         for key in self.model:
@@ -81,7 +81,7 @@ class Case(dict):
                 raise Cannot("no option '%s'" % key)
 
     def members(self):
-        """All frame members, with the numbers of their sections."""
+        """Returns all frame members with the properties of their sections."""
         found = []
         for name, member in self.model.get("members", {}).items():
             for key in member.keys() - KEYS_OF_MEMBERS:
@@ -115,8 +115,10 @@ def _result(quantities, solver, seconds):
 
 
 def main(solve, name, version="", element_order=None, digits=None):
-    """Runs `adapter CASE.json RESULT.json`: solve(Case) returns {name: (unit, number or numbers)},
-    raises Cannot, or returns a whole result with a "status" of its own."""
+    """Runs `adapter CASE.json RESULT.json`.
+
+    solve(Case) returns {name: (unit, number or numbers)} or raises Cannot. It may also return a
+    complete result with a "status"."""
     with open(sys.argv[-2]) as file:
         case = Case(json.load(file))
     start, status = time.perf_counter(), 0

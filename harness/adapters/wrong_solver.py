@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""A frame solver in plain Python, right by default and wrong in ten ways, one at a time.
+"""Frame solver in plain Python, with ten optional faults, of which one can be active.
 
     trammel grade harness/adapters/wrong_solver.py -L frame
     trammel grade "harness/adapters/wrong_solver.py --fault moment-sign" -L frame
 
 Statics and modes of frames: members with bending, shear and rotary inertia, hinged or sprung ends,
-springs, point masses. README.md beside this file says which cases catch which fault.
+springs, point masses. README.md in the same folder lists the cases that detect each fault.
 """
 import math
 import sys
@@ -17,17 +17,17 @@ FAULTS = {
     "shear-doubled": "the shear coefficient is counted twice",
     "moment-sign": "bending moments have the wrong sign",
     "mass-coupling-halved": "the consistent mass matrix has half of its off-diagonal entries",
-    "degrees": "rotations are in degrees and called radians",
-    "millimetres": "displacements are in millimetres and called metres",
+    "degrees": "rotations are in degrees but labeled as radians",
+    "millimetres": "displacements are in millimeters but labeled as meters",
     "no-hinges": "hinges at the ends of members are ignored",
     "load-on-other-end": "a load on a node acts on the node before it in the file",
-    "no-fixed-end-moments": "uniform loads come without their nodal moments",
-    "angular-frequency": "angular frequencies are called Hz",
+    "no-fixed-end-moments": "uniform loads lack their nodal moments",
+    "angular-frequency": "angular frequencies are labeled as Hz",
 }
 FAULT = sys.argv[sys.argv.index("--fault") + 1] if "--fault" in sys.argv else None
 if FAULT is not None and FAULT not in FAULTS:
     sys.exit("expected a fault of: " + ", ".join(FAULTS))
-STIFF = 1e12  # times as stiff along its axis: inextensible
+STIFF = 1e12  # factor of the axial stiffness of an inextensible member
 GAUSS = [(0.069431844202973712, 0.173927422568726929), (0.330009478207571868, 0.326072577431273071),
          (0.669990521792428132, 0.326072577431273071), (0.930568155797026288, 0.173927422568726929)]
 
@@ -38,7 +38,7 @@ def shear_ratio(m, L):
 
 
 def stiffness(m, L):
-    """In element axes, of (u1 v1 r1 u2 v2 r2): elongation, symmetric and antisymmetric bending."""
+    """Returns K of (u1 v1 r1 u2 v2 r2) in element axes: elongation, symmetric and antisymmetric bending."""
     k = (m.E * m.A * (STIFF if m.inextensible else 1) / L, m.E * m.I / L,
          3 * m.E * m.I / (L * (1 + shear_ratio(m, L))))
     B = ((-1, 0, 0, 1, 0, 0), (0, 0, -1, 0, 0, 1), (0, 2 / L, 1, 0, -2 / L, 1))
@@ -70,7 +70,7 @@ def mass(m, L):
 
 
 def turned(K, c, s):
-    """T^T K T from element to world axes."""
+    """Returns T^T K T, which transforms K from element to world axes."""
     T = [[c, s, 0, 0, 0, 0], [-s, c, 0, 0, 0, 0], [0, 0, 1, 0, 0, 0],
          [0, 0, 0, c, s, 0], [0, 0, 0, -s, c, 0], [0, 0, 0, 0, 0, 1]]
     KT = [[sum(K[i][k] * T[k][j] for k in range(6)) for j in range(6)] for i in range(6)]
@@ -78,7 +78,7 @@ def turned(K, c, s):
 
 
 class Frame:
-    """Elements with the numbers of their dofs; nodes of the file come last, which keeps the band."""
+    """Elements with their dof numbers. Nodes of the file come last, to keep the bandwidth small."""
 
     def __init__(self, case, cut):
         self.case, self.names, self.elements, self.springs = case, {}, [], []
@@ -121,7 +121,7 @@ class Frame:
         return own
 
     def assemble(self, element_matrix):
-        """Sparse, a dictionary a row."""
+        """Returns a sparse matrix with one dictionary per row."""
         rows = [{} for _ in range(self.count)]
         for m, L, c, s, dofs in self.elements:
             K = turned(element_matrix(m, L), c, s)
@@ -142,14 +142,14 @@ class Frame:
             for dof, value in zip(self.names[point["node"]], [point["mass_kg"]] * 2
                                   + [point.get("inertia_kg_m2", 0.0)]):
                 M[dof][dof] = M[dof].get(dof, 0.0) + value
-        # A node that all members are hinged to has no rotation.
+        # A node with hinged members only has no rotational stiffness, so its rotation is removed.
         free = [i for i in range(self.count)
                 if i not in self.fixed and any(K[i].values())]
         return K, M, free
 
 
 def pivots(K, free, M=None, shift=0.0):
-    """L D L^T of K - shift M in skyline form. Returns the rows of L and D."""
+    """Factorizes K - shift M = L D L^T in skyline form. Returns the rows of L, D, and the start of each row."""
     place = {dof: i for i, dof in enumerate(free)}
     L, D, first = [], [], []
     for i, dof in enumerate(free):
@@ -176,7 +176,7 @@ def pivots(K, free, M=None, shift=0.0):
 
 
 def solve_linear(K, free, load):
-    """With the residual taken in exact sums, which brings back digits that the elimination loses."""
+    """Solves K u = load by iterative refinement with exactly summed residuals, which recovers lost digits."""
     L, D, first = pivots(K, free)
     u = {dof: 0.0 for dof in free}
     for _ in range(4):
@@ -193,7 +193,7 @@ def solve_linear(K, free, load):
 
 
 def uniform_load(m, L, c, s):
-    """Nodal forces in world axes."""
+    """Returns the nodal forces of a uniform load in world axes."""
     (qx, qy), couple = m.load, (c * m.load[1] - s * m.load[0]) * L * L / 12
     if FAULT == "no-fixed-end-moments":
         couple = 0.0
@@ -201,7 +201,7 @@ def uniform_load(m, L, c, s):
 
 
 def statics(case):
-    frame = Frame(case, cut=False)  # such members are exact
+    frame = Frame(case, cut=False)  # uncut members are exact in statics
     K, _, free = frame.matrices()
     load = [0.0] * frame.count
     order = list(frame.names)
@@ -243,7 +243,7 @@ def statics(case):
 
 
 def modes(case):
-    """By bisection: L D L^T of K - shift M has as many negative pivots as eigenvalues lie below."""
+    """Computes frequencies by bisection: K - shift M has as many negative pivots as eigenvalues below the shift."""
     frame = Frame(case, cut=True)
     K, M, free = frame.matrices()
     counts = {0.0: 0}

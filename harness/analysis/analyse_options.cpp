@@ -14,7 +14,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Outcomes of all combinations, by the names of their quantities.
+/// Counts of the outcomes of all combinations, by the names of their quantities.
 using OptionCounts = std::map<std::string, double>;
 
 OptionCounts no_outcomes() {
@@ -22,8 +22,8 @@ OptionCounts no_outcomes() {
           {"refused", 0},   {"not_finite", 0}, {"unexplained", 0}};
 }
 
-/// Largest difference of results that must agree, over their round-off; absent without such
-/// results.
+/// Largest difference between results that must agree, relative to their round-off. Absent if there
+/// are no such results.
 constexpr const char* kDifference = "result_difference_over_roundoff";
 
 void disagree(double by, OptionCounts& counts) {
@@ -31,14 +31,14 @@ void disagree(double by, OptionCounts& counts) {
   largest = std::max(largest, by);
 }
 
-/// The options of one kind of analysis.
+/// Options that are tested for one kind of analysis.
 struct Options {
-  std::vector<Json> combinations;           ///< patches of it
-  bool must_agree = false;                  ///< none of them may change a number
-  std::vector<std::string> required_terms;  ///< in a reason why it does not converge
+  std::vector<Json> combinations;           ///< patches of the analysis
+  bool must_agree = false;                  ///< no combination may change a number
+  std::vector<std::string> required_terms;  ///< in the reason of a solution that does not converge
 };
 
-/// One value of each option that varies, in every combination, over what is set for all.
+/// Combines the values of all options under "vary"; each combination starts from "set".
 std::vector<Json> combinations_of(const JsonView& place) {
   std::vector<Json> found = {place.has("set") ? place["set"].json() : Json::object()};
   if (!place.has("vary")) return found;
@@ -65,7 +65,8 @@ Options options_of(const JsonView& place, const std::string& kind) {
   return options;
 }
 
-/// Largest difference over the round-off that both promise; what promises nothing is left out.
+/// Returns the largest difference relative to the round-off bounds of both results. Quantities
+/// without a round-off bound are skipped.
 double max_relative_difference(const Quantities& a, const Quantities& b) {
   double largest = 0;
   for (const auto& [name, added] : a) {
@@ -113,15 +114,16 @@ void count(const AnalysisResult& result, const std::vector<std::string>& require
   }
 }
 
-/// What a computation is of: variants that differ in what a combination sets anyway are the same.
+/// Identifies a computation. Variants that differ only in what a combination overwrites have the
+/// same key.
 std::string computation_key(const Document& document) {
   Json whole = document.value();
   for (const char* text : {"title", "description"}) whole.erase(text);
   return whole.dump();
 }
 
-/// Every combination of options on one computation.
-/// @param seen  computations of the case, each done once
+/// Runs every combination of options on one computation.
+/// @param seen  keys of the case's computations; each computation runs once
 void run_combinations(const Document& document, const JsonView& place, const References& references,
                       std::set<std::string>& seen, OptionCounts& counts) {
   const std::string kind = analysis_kind(document);
@@ -141,17 +143,18 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
       if (!first) {
         first = std::move(result);
       } else if (result.outcome.status != first->outcome.status) {
-        disagree(std::numeric_limits<double>::max(), counts);  // finite, so that it is recorded
+        // finite, because infinite numbers are not recorded
+        disagree(std::numeric_limits<double>::max(), counts);
       } else {
         disagree(max_relative_difference(first->quantities, result.quantities), counts);
       }
     } catch (const InputError&) {
-      ++counts["refused"];  // in words, as any bad input
+      ++counts["refused"];  // with an error message, like any invalid input
     }
   }
 }
 
-/// The computations of a variant: one, or some levels of its study.
+/// Returns the computations of a variant: the variant itself, or the selected levels of its study.
 std::vector<Document> computations_of(const Document& document, const JsonView& choice) {
   if (analysis_kind(document) != "study") return {document};
   std::vector<Document> found;

@@ -12,7 +12,7 @@
 namespace trammel::harness {
 namespace {
 
-/// The case with the inner analysis in place of the study.
+/// Returns the case with the inner analysis in place of the study.
 Document with_inner_analysis(Document document) {
   const Json inner = document.value().at("analysis").at("study").at("analysis");
   const Origin written = document.origin("/analysis/study/analysis");
@@ -25,12 +25,13 @@ double status_code(solver::Status status) {
   return status == solver::Status::solved ? 0 : status == solver::Status::singular ? 1 : 2;
 }
 
-/// A number and its round-off error as far as it is known (else negative).
+/// Number with its relative round-off error, which is negative if unknown.
 struct KeptQuantity {
   double value = kNaN, roundoff = -1;
 };
 
-/// The one number of a quantity that is kept. @throws InputError  where there is none.
+/// Returns the number that is kept of a quantity.
+/// @throws InputError  if the quantity does not exist or 'index' or 'statistic' is missing.
 KeptQuantity number_of(const Quantities& quantities, const std::string& name,
                        const JsonView& keep) {
   const auto found = quantities.find(name);
@@ -68,7 +69,8 @@ std::vector<double> reference_values(const std::vector<KeptQuantity>& kept, cons
   return reference.values;
 }
 
-/// Errors, what share of the round-off that the solver promised they are, and where they are least.
+/// Records the relative errors, their ratios to the predicted round-off and the parameter of the
+/// least error.
 void record_errors(const std::string& name, const std::vector<KeptQuantity>& kept,
                    const std::vector<double>& parameter, const JsonView& keep,
                    const References& references, Recorder& record) {
@@ -94,7 +96,7 @@ void record_errors(const std::string& name, const std::vector<KeptQuantity>& kep
   if (keep.has("reference") && !std::isnan(best)) record.add("min_error_at", name, best);
 }
 
-/// A level for each point of the model's trajectory; its parameter is the time.
+/// Returns a level for each point of the model's trajectory. Its parameter is the time.
 std::vector<Level> trajectory_levels(const Document& document, const JsonView& study) {
   const CaseModel case_model = read_case_model(document);
   if (!case_model.path) throw study["trajectory"].error("expected a model with a trajectory");

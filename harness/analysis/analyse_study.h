@@ -5,22 +5,23 @@
 
 namespace trammel::harness {
 
-/// Another analysis at each value of a parameter: every quantity kept has one number a value.
+/// Runs another analysis at each value of a parameter. Every kept quantity has one number per
+/// value.
 AnalyseCase analyse_study;
 
-/// Every combination of some options tried on the variants and levels of other cases: their
-/// outcomes, numbers that are not finite, incomplete reasons, and differences of those that must
+/// Runs every combination of some options on the variants and levels of other cases. Records
+/// outcomes, non-finite numbers, incomplete reasons, and differences between results that must
 /// agree.
 AnalyseCase analyse_options;
 
-/// Records relative_difference and difference_percent of references from each other, by name.
+/// Records relative_difference and difference_percent between pairs of references, by name.
 AnalyseCase analyse_comparison;
 
-/// Stored probabilities of readings of a model: log_evidence, class_count, class_entropy_bits ...
-/// of each printed row, a number for each discrepancy.
+/// Records stored probabilities of readings of a model (log_evidence, class_count,
+/// class_entropy_bits, ...). Each quantity has one number per discrepancy, for each printed row.
 AnalyseCase analyse_model_probabilities;
 
-/// The levels of a study, each with the inner analysis in the study's place.
+/// Returns the levels of a study, each with the inner analysis in place of the study.
 [[nodiscard]] std::vector<Level> study_levels(const Document& document);
 
 }  // namespace trammel::harness

@@ -17,7 +17,7 @@ using solver::Residual;
 
 int solver_rounding = FE_TONEAREST;
 
-/// While it lives, numbers are rounded as the solver is told to.
+/// Sets the rounding mode of the solver during the lifetime of the object.
 class RoundingScope {
  public:
   RoundingScope() : before_(std::fegetround()) { std::fesetround(solver_rounding); }
@@ -47,8 +47,7 @@ StepResult analyse_scene(const AnalysisKind& kind, const JsonView& analysis,
   return analyse_steps(case_model, draw, at_step);
 }
 
-/// What was recorded counts where a solution was found, its residuals speak for it and every number
-/// is finite.
+/// Requires a solution, sufficiently small residuals and finite numbers for the status "solved".
 AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& record) {
   AnalysisResult result{std::move(found), {}, {}};
   if (!kind.evidence.empty())
@@ -68,7 +67,7 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   return result;
 }
 
-/// Records numbers and changes by which effects were selected, so that checks can judge them.
+/// Records the numbers and changes by which effects were selected, so that checks can use them.
 void record_evidence(const EffectChoice& choice, Recorder& record) {
   if (!choice.automatic) return;
   for (const solver::Effect effect : solver::Effects::all().list()) {
@@ -96,7 +95,7 @@ void warn_of_crossed_singularity(const CaseModel& case_model, std::vector<Warnin
     if (before * now < 0) {
       add_warning(warnings,
                   {"the time before which the path crosses a parallel singularity", point.time,
-                   " s", "rigid links need infinite torques there, and hinged ones give way"});
+                   " s", "rigid links need infinite torques there; hinged links lose stiffness"});
       return;
     }
     if (now != 0) before = now;
@@ -145,7 +144,7 @@ AnalysisResult analyse(const Document& document, const References& references,
     if (choice.is_beyond_tier()) {
       result.warnings.push_back(
           {"the change by large displacement", *choice.automatic->beyond_tier, "",
-           "more than the tolerance; fixed steps and driven actuators would have it"});
+           "more than the tolerance; fixed steps and driven actuators would permit it"});
     }
     return result;
   });

@@ -20,7 +20,7 @@ JsonView analysis_place(const Document& document) {
   return JsonView(document)["analysis"][analysis_kind(document)];
 }
 
-/// What the analysis says of it, if anything.
+/// Returns the value that the analysis has for the key of an effect, if any.
 std::optional<JsonView> find_key(const Document& document, const EffectKey& effect_key) {
   std::optional<JsonView> place = analysis_place(document);
   for (const char* key : effect_key.place) {
@@ -29,7 +29,7 @@ std::optional<JsonView> find_key(const Document& document, const EffectKey& effe
   return place;
 }
 
-/// Without "effects": the parts' own words, and the analysis's.
+/// Returns the effects of a case without "effects": those that the parts and the analysis define.
 Effects stated_effects(const Document& document, const EffectScope& scope) {
   Effects stated = scope.applicable;
   if (!scope.required.has(Effect::large_displacement))
@@ -47,7 +47,8 @@ const char* describe_missing(Effect effect, const EffectScope& scope, const Effe
   return known ? scope.no_large_displacement : rules.describe_missing(effect);
 }
 
-/// @param reason  of effects that are neither absent nor required
+/// Builds one row per effect.
+/// @param reason  reason of the effects that are neither missing nor required
 std::vector<results::EffectRow> effect_rows(const EffectScope& scope, Effects chosen,
                                             const EffectRules& rules, const std::string& reason) {
   std::vector<results::EffectRow> rows;
@@ -64,7 +65,7 @@ std::vector<results::EffectRow> effect_rows(const EffectScope& scope, Effects ch
   return rows;
 }
 
-/// Names, which the schema has checked.
+/// Reads names of effects, which the schema has checked.
 Effects read_names(const JsonView& names, const EffectScope& scope, const EffectRules& rules) {
   Effects chosen = scope.required;
   for (const auto& [number, place] : names.entries()) {
@@ -80,14 +81,14 @@ Effects read_names(const JsonView& names, const EffectScope& scope, const Effect
     for (const Effect carrier : scope.applicable.list()) {
       const bool carried = scope.dependents[static_cast<std::size_t>(carrier)].has(effect);
       if (carried && !chosen.has(carrier)) {
-        throw names.error("expected '" + std::string(solver::name_of(carrier)) + "' beside '" +
-                          std::string(solver::name_of(effect)) + "', which is nothing without it");
+        throw names.error("expected '" + std::string(solver::name_of(carrier)) + "' with '" +
+                          std::string(solver::name_of(effect)) + "', which requires it");
       }
     }
   }
   if (!(scope.completed(chosen) == chosen)) {
     throw names.error(
-        "expected 'gyroscopic' beside 'large-displacement' and 'inertia', which contain it");
+        "expected 'gyroscopic' with 'large-displacement' and 'inertia', which contain it");
   }
   return chosen;
 }
@@ -151,7 +152,7 @@ EffectScope effect_scope(const Document& document, const CaseModel& case_model) 
   EffectScope scope = effects_of(document)->scope(analysis_place(document), model);
   if (!model.triangles.empty()) {
     scope.applicable = scope.applicable.with(Effect::platform_flexibility);
-    // Plates that are no platform are what there is.
+    // Plates that do not belong to a platform always remain flexible.
     if (!case_model.manipulator || !case_model.structure.triangles.empty())
       scope.required = scope.required.with(Effect::platform_flexibility);
   }
@@ -162,7 +163,7 @@ EffectChoice choose_effects(const Document& document, const CaseModel& case_mode
   const auto requested = JsonView(document).find("effects");
   if (!knows_effects(document)) {
     if (requested)
-      throw requested->error("expected an analysis that knows effects: " + analyses_with_effects());
+      throw requested->error("expected an analysis with effects: " + analyses_with_effects());
     return {};
   }
   const EffectRules& rules = *effects_of(document);
@@ -196,7 +197,7 @@ Document with_effects(const Document& document, Effects effects) {
   for (const EffectKey& effect_key : effects_of(document)->keys(analysis_place(document))) {
     std::string pointer = "/analysis/" + analysis_kind(document);
     const bool below =
-        effect_key.place.size() > 1;  // what holds the word must not come from nothing
+        effect_key.place.size() > 1;  // a nested key must not create its parent object
     if (below && !find_key(document, effect_key)) continue;
     for (const char* key : effect_key.place) pointer += std::string("/") + key;
     patch[JsonPointer(pointer)] = nullptr;

@@ -19,24 +19,25 @@ struct EffectChoice {
   std::vector<results::EffectRow> rows;  ///< of every effect; empty if the analysis has no effects
   std::optional<EffectSelection> automatic;  ///< of "auto"
 
-  /// @returns whether large displacement, which the analysis cannot compute, exceeds the tolerance
+  /// @returns true if large displacement, which the analysis cannot compute, exceeds the tolerance
   [[nodiscard]] bool is_beyond_tier() const {
     return automatic && automatic->beyond_tier.value_or(0) > *tolerance;
   }
 };
 
-/// Whether the case's analysis knows effects.
+/// Returns true if the case's analysis supports the selection of effects.
 [[nodiscard]] bool knows_effects(const Document& document);
 
-/// What the analysis of the whole scene can do with.
+/// Returns the effects that apply to the complete scene, and those that its analysis requires.
 [[nodiscard]] EffectScope effect_scope(const Document& document, const CaseModel& case_model);
 
-/// Reads "effects": names, or {"auto": {"tolerance": ...}}; without it, what the words of the parts
-/// and of the analysis say. `case_model` is the whole scene, with all effects.
-/// @throws InputError  for an effect that the scene does not admit.
+/// Reads "effects": names, or {"auto": {"tolerance": ...}}. Without this key, the effects follow
+/// from the keys of the parts and of the analysis.
+/// @param case_model  the complete scene, with all effects
+/// @throws InputError  for an effect that is not applicable to the scene.
 [[nodiscard]] EffectChoice choose_effects(const Document& document, const CaseModel& case_model);
 
-/// The case with these effects asked for by name.
+/// Returns the case with "effects" set to the names of these effects.
 [[nodiscard]] Document with_effects(const Document& document, solver::Effects effects);
 
 }  // namespace trammel::harness

@@ -11,7 +11,7 @@ namespace {
 
 using solver::Effects;
 
-/// Elements of every member and link.
+/// Returns pointers to the element counts of all members and links.
 std::vector<solver::Index*> element_counts(CaseModel& scene) {
   std::vector<solver::Index*> counts;
   for (solver::Member& member : scene.structure.members) counts.push_back(&member.elements);
@@ -85,10 +85,11 @@ std::optional<Quantities> CoarseScene::compute(Effects effects, std::size_t step
     counters += result.counters;
     if (result.outcome.solved()) return record.take_quantities();
     outcome = outcome_at_path_point(scene_, step, result.outcome);
-  } catch (const solver::ModelError& error) {  // what is left has no meaning without the effect
-    if (runs_.size() == 1) throw;              // or the model itself has none
+  } catch (const solver::ModelError& error) {
+    // The model may be invalid without the effect. In the first run, the full model is invalid.
+    if (runs_.size() == 1) throw;
     outcome = {solver::Status::singular, error.what()};
-  } catch (const InputError& error) {  // as fewer modes than damping ratios
+  } catch (const InputError& error) {  // for example, fewer modes than damping ratios
     if (runs_.size() == 1) throw;
     outcome = {solver::Status::singular, error.what()};
   }

@@ -9,22 +9,21 @@
 #include "harness/analysis/effect_changes.h"
 #include "harness/analysis/registry.h"
 
-/// Coarse models of a scene, and the work of computations by their counters.
+/// Coarse models of a scene, and the work of computations computed from their counters.
 namespace trammel::harness {
 
-/// The scene with at most so many elements a member and a platform of three triangles.
+/// Returns the scene with at most `elements` elements per member and three triangles in a platform.
 [[nodiscard]] CaseModel coarsened(CaseModel scene, solver::Index elements);
 
-/// Unknowns of a model before constraints.
+/// Returns the number of unknowns of a model before constraints.
 [[nodiscard]] double unknowns_of(const solver::Model& model);
 
-/// Work of a computation by its counters, in solves of one unknown: a factorization of a planar
-/// frame takes as long as 8 solves, an element matrix as long as 24 unknowns of a solve. Both
-/// weights are medians of times over the random scenes of the tests.
+/// Returns the work of a computation, in solves for one unknown. A factorization of a planar frame
+/// takes as long as 8 solves. An element matrix takes as long as a solve for 24 unknowns. Both
+/// weights are medians of measured times over the random scenes of the tests.
 [[nodiscard]] double work_of(const solver::Counters& counters, double unknowns);
 
-/// The scene on a coarse mesh: its results with sets of effects at steps of its path, each computed
-/// once.
+/// Scene on a coarse mesh. Caches its results for sets of effects at steps of its path.
 class CoarseScene {
  public:
   CoarseScene(const AnalysisKind& kind, const JsonView& analysis, const CaseModel& scene,
@@ -35,16 +34,16 @@ class CoarseScene {
         model_(first_model(scene_)),
         size_(scales_of(model_)) {}
 
-  /// Largest relative change between two sets of effects; infinite without a solution.
+  /// Returns the largest relative change between two sets of effects; infinite without a solution.
   [[nodiscard]] double change(solver::Effects all, solver::Effects effects,
                               const std::set<std::size_t>& steps);
-  /// Results at the steps one after the other; nothing if one of them has no solution.
+  /// Returns the results at the steps, in order; empty if one of the steps has no solution.
   [[nodiscard]] std::optional<Quantities> along(solver::Effects effects,
                                                 const std::set<std::size_t>& steps);
 
   [[nodiscard]] const ModelScales& size() const { return size_; }
   [[nodiscard]] const solver::Model& model() const { return model_; }
-  solver::Outcome outcome;  ///< the last that is not solved
+  solver::Outcome outcome;  ///< last unsuccessful outcome
   solver::Counters counters;
 
  private:

@@ -10,7 +10,7 @@
 namespace trammel::harness {
 namespace {
 
-/// The other component of the vector that a quantity is the x component of; null if it is none.
+/// Returns the y component that belongs to an x component; null for any other quantity.
 const Quantity* second_component(const Quantities& all, const std::string& name) {
   const std::size_t place = name.find("_x_");
   if (place == std::string::npos) return nullptr;
@@ -18,7 +18,8 @@ const Quantity* second_component(const Quantities& all, const std::string& name)
   return found == all.end() ? nullptr : &found->second;
 }
 
-/// Magnitudes of a quantity's values, of a vector if it is an x component.
+/// Returns the magnitudes of a quantity's values. For an x component, these are the magnitudes of
+/// the vector.
 std::vector<double> magnitudes(const Quantities& all, const std::string& name) {
   std::vector<double> size = all.at(name).values;
   const Quantity* second = second_component(all, name);
@@ -58,8 +59,8 @@ std::string change_kind(const std::string& quantity) {
 }
 
 std::map<std::string, double> change_scales(const Quantities& full, const ModelScales& model) {
-  // Round-off of thousands of steps is about 1e-11 of the partner's scale; no tolerance is small
-  // enough to notice it against this share.
+  // Floor that hides round-off: thousands of steps leave about 1e-11 of the scale. Every permitted
+  // tolerance is much larger than 1e-7.
   constexpr double kRoundoff = 1e-7;
   std::map<std::string, double> scale;
   for (const auto& [name, quantity] : full) {
@@ -85,7 +86,7 @@ std::map<std::string, double> change_scales(const Quantities& full, const ModelS
   const double speed = known("velocity", 0), spin = known("angular velocity", 0);
   floor("velocity", spin * length);
   floor("angular velocity", speed / length);
-  // A position's origin is arbitrary.
+  // The origin of positions is arbitrary, so their scale is the length of the model.
   if (scale.count("position") > 0) scale["position"] = length;
   return scale;
 }
@@ -139,7 +140,8 @@ Changes changes_between(const Quantities& full, const Quantities& other, const M
     if (kind.empty()) continue;
     const auto found = other.find(name);
     LargestDifference& largest = changes[kind];
-    if (found == other.end()) {  // a part may have no such thing without the effect; a mode is lost
+    if (found == other.end()) {  // Without the effect, a part may lack the quantity, or a mode may
+                                 // be lost.
       if (kind == "frequency") largest.value = std::numeric_limits<double>::infinity();
       continue;
     }

@@ -9,33 +9,34 @@
 
 namespace trammel::harness {
 
-/// Distance between the nodes of a member [m].
+/// Returns the distance between the end nodes of a member [m].
 [[nodiscard]] double member_length(const solver::Model& model, const solver::Member& member);
 
-/// Scales of a model's kinds of quantities, from which the round-off error of each follows where
-/// its own observed values are all round-off. Zero if nothing is known.
+/// Scales of the quantities of a model. They bound the round-off error of a kind whose observed
+/// values are all round-off. Zero if unknown.
 struct ModelScales {
-  double length = 0;        ///< diameter about the mean of the nodes, in any axes [m]
+  double length = 0;        ///< diameter of the nodes about their mean, independent of the axes [m]
   double force = 0;         ///< sum of the magnitudes of all loads, moments over the length [N]
-  double displacement = 0;  ///< that force stretches the stiffest member over the length by [m]
+  double displacement = 0;  ///< elongation of the stiffest member under that force, over the length
+                            ///< [m]
 };
 [[nodiscard]] ModelScales scales_of(const solver::Model& model);
 
-/// Scales that changes of each kind are relative to: its largest value, and never less than the
-/// round-off error that forces and displacements of the model leave in it.
+/// Returns the scale of the changes of each kind: its largest value, but at least the round-off
+/// error that forces and displacements of the model cause in it.
 [[nodiscard]] std::map<std::string, double> change_scales(const Quantities& full,
                                                           const ModelScales& model);
-/// Largest change of each kind of quantity: "displacement", "rotation", "force", "moment",
-/// "stress", each relative to the largest of its kind, and "frequency", each relative to itself.
-/// The two components of a vector are compared as one. Infinite where modes are lost. Quantities
-/// that one side does not have, as rotations of a rigid platform, and those of other kinds are not
-/// compared.
+/// Largest change of each kind of quantity. "displacement", "rotation", "force", "moment" and
+/// "stress" are relative to the largest value of the kind. "frequency" is relative to each
+/// frequency. The two components of a vector are compared as one vector. The change is infinite if
+/// modes are lost. Quantities of other kinds are not compared, nor are quantities that only one
+/// side has, such as rotations of a rigid platform.
 using Changes = std::map<std::string, LargestDifference>;
 [[nodiscard]] Changes changes_between(const Quantities& full, const Quantities& other,
                                       const ModelScales& model);
 [[nodiscard]] LargestDifference max_change(const Changes& changes);
 
-/// What a quantity is compared among; empty: it is not compared.
+/// Returns the kind that a quantity is compared within; empty if it is not compared.
 [[nodiscard]] std::string change_kind(const std::string& quantity);
 
 }  // namespace trammel::harness

@@ -12,7 +12,7 @@ using solver::Effect;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// First angular frequency of the stiffest member as a cantilever [rad/s].
+/// Returns the highest first angular frequency of the members as cantilevers [rad/s].
 double highest_first_frequency(const solver::Model& model) {
   double highest = 0;
   for (const solver::Member& member : model.members) {
@@ -25,7 +25,7 @@ double highest_first_frequency(const solver::Model& model) {
   return highest;
 }
 
-/// Half waves of a member that vibrates with an angular frequency.
+/// Returns the largest number of half waves in a member that vibrates with an angular frequency.
 double half_waves_at(const solver::Model& model, double omega) {
   double most = 1;
   for (const solver::Member& member : model.members) {
@@ -50,8 +50,8 @@ ResponseScale response_scale(const std::string& analysis_name, const JsonView& a
     scale.half_waves +=
         static_cast<double>((analysis.get<solver::Index>("count", 1) - 1) / members);
   } else if (analysis_name == "harmonic") {
-    // Next to a resonance a change counts as many times as damping lets the response grow, though a
-    // grid of frequencies seldom meets the peak. The limits cover the random scenes of the tests.
+    // Next to a resonance, a change is amplified as much as damping allows. A grid of frequencies
+    // rarely contains the peak itself. The limits cover the random scenes of the tests.
     constexpr double kLeast = 30, kMost = 300;
     const double omega = 2 * std::numbers::pi * analysis.number("to_Hz");
     const auto damping = analysis.find("damping");
@@ -69,9 +69,10 @@ ResponseScale response_scale(const std::string& analysis_name, const JsonView& a
 }
 
 EffectNumbers effect_numbers(const solver::Model& model, const ResponseScale& scale) {
-  /// Changes over these numbers, of nearly all random scenes of the tests.
+  /// Ratios of changes to these numbers, which cover nearly all random scenes of the tests.
   constexpr double kOfPlatform = 17, kOfJoint = 3;
-  /// A cantilever buckles at a quarter of pi^2 E I / L^2, and frequencies change by half as much.
+  /// A cantilever buckles at a quarter of pi^2 E I / L^2. The relative change of a frequency is
+  /// half that of the stiffness.
   constexpr double kOfStiffening = 2;
   double shear = 0, rotary = 0, axial = 0, joint = 0, bending = 0, membrane = kInfinite;
   double softest = kInfinite;
@@ -104,7 +105,8 @@ EffectNumbers effect_numbers(const solver::Model& model, const ResponseScale& sc
   // Loads near the buckling load of a cantilever amplify every change.
   const double of_buckling = scale.loads_stiffen ? 4 * load : 0;
   const double factor = of_buckling < 0.95 ? scale.phase / (1 - of_buckling) : kInfinite;
-  set(Effect::axial_flexibility, axial, kInfinite);  // a frame may carry its loads by stretch alone
+  set(Effect::axial_flexibility, axial, kInfinite);  // a frame may carry its loads by axial forces
+                                                     // only
   set(Effect::shear, shear, shear * factor);
   set(Effect::rotary_inertia, rotary, rotary * factor);
   set(Effect::joint_compliance, joint, kOfJoint * joint * factor);

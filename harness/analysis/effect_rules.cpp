@@ -56,10 +56,10 @@ const EffectWords& words_of(Effect effect) {
       {"damping ratio of the first mode",
        {kAtRest, "modes are those of the undamped model", kNoDamping, kNoDamping}},
       /* gyroscopic */
-      {"", {kAtRest, kNotTurningInPlane, kNotTurningInPlane, "what 'rotating_frame' says is kept"}},
+      {"", {kAtRest, kNotTurningInPlane, kNotTurningInPlane, "'rotating_frame' is always kept"}},
       /* geometric stiffening */
       {"loads over the buckling load of a hinged member",
-       {kLarge, "there are no loads", "it comes with large displacement", kLarge}},
+       {kLarge, "there are no loads", "large displacement includes it", kLarge}},
       /* large displacement */
       {"", {kLarge, "modes are small motions", "", kLarge}},
   }};
@@ -88,7 +88,7 @@ bool is_loaded(const solver::Model& model) {
   return on_members || !model.loads.empty() || !model.edge_loads.empty();
 }
 
-/// Effects of analyses of vibration.
+/// Effects of a vibration analysis.
 EffectScope inertia_scope(const solver::Model& model) {
   EffectScope scope;
   scope.applicable = solver::applicable_effects(model).with(Effect::inertia);
@@ -106,12 +106,13 @@ EffectScope modes_at_rest_scope(const solver::Model& model) {
   return scope;
 }
 
-/// Whatever the frame holds as it turns stays.
+/// Effects in a rotating frame. Gravity, if present, is required because the rotating frame always
+/// includes it.
 EffectScope rotating_scope(const JsonView& rotating, const solver::Model& model) {
   EffectScope scope = inertia_scope(model);
   scope.applicable = scope.applicable.with(Effect::geometric_stiffening);
   if (scope.applicable.has(Effect::gravity)) scope.required = scope.required.with(Effect::gravity);
-  // Coriolis forces point out of the plane where the axis lies in it.
+  // If the axis lies in the plane, Coriolis forces are normal to the plane.
   if (rotating.get<std::string>("axis", "normal") == "normal") {
     scope.applicable = scope.applicable.with(Effect::gyroscopic);
   }
@@ -127,7 +128,8 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   if (damping.mass != 0 || damping.stiffness != 0) {
     scope.applicable = scope.applicable.with(Effect::damping);
   }
-  // Inextensible links turn, and constraints that turn with them cost more than stretch does.
+  // Inextensible links rotate, and constraints that rotate with them cost more than axial
+  // flexibility.
   if (scope.applicable.has(Effect::axial_flexibility)) {
     scope.required = Effects().with(Effect::axial_flexibility);
   }
@@ -140,7 +142,8 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   return scope;
 }
 
-/// Where members alone have mass, nothing vibrates without theirs.
+/// Returns true if something other than members has mass. Otherwise the mass of members is required
+/// for vibration.
 bool has_mass_beside_members(const solver::Model& model) {
   return std::ranges::any_of(model.masses,
                              [](const solver::PointMass& one) { return one.mass > 0; }) ||
@@ -156,7 +159,8 @@ EffectScope vibration_scope(const JsonView& analysis, const solver::Model& model
   return scope;
 }
 
-/// Points beside a resonance say nothing of its peak, which damping alone bounds.
+/// Effects of a harmonic analysis. Damping is required: it alone bounds a resonance peak, and
+/// points near the resonance do not show the peak's height.
 EffectScope harmonic_scope(const JsonView& analysis, const solver::Model& model) {
   EffectScope scope = vibration_scope(analysis, model);
   if (scope.applicable.has(Effect::damping)) scope.required = scope.required.with(Effect::damping);

@@ -7,52 +7,55 @@
 #include "harness/scene/case_model.h"
 #include "solver/model/effects.h"
 
-/// What the analyses that know effects can do with, how they decide, and what they say of it.
+/// Rules for the selection of effects: applicable and required effects of each analysis, and
+/// descriptions.
 namespace trammel::harness {
 
-/// A word of the analysis itself that says whether there is an effect.
+/// Key of an analysis that switches an effect.
 struct EffectKey {
   solver::Effect effect;
-  std::vector<const char*> place;  ///< below the analysis
-  bool otherwise;                  ///< where nothing is said
+  std::vector<const char*> place;  ///< path of the key below the analysis
+  bool otherwise;                  ///< value if the key is absent
 };
 
-/// What an analysis can do with, and what it cannot do without.
+/// Effects that apply to an analysis, and those that it requires.
 struct EffectScope {
   solver::Effects applicable, required;
-  /// By effect: those that are nothing without it, as the mass of links in statics without gravity.
+  /// For each effect, the effects that are meaningless without it: the mass of links in statics
+  /// requires gravity.
   std::array<solver::Effects, solver::kEffectCount> dependents{};
-  /// Why large displacement is not applicable, where the analysis has it at all.
+  /// Reason why large displacement is not applicable; null if the analysis never has it.
   const char* no_large_displacement = nullptr;
 
-  /// With gyroscopic forces, where large displacement with inertia contains them.
+  /// Adds gyroscopic forces to a set with large displacement and inertia, which contain them.
   [[nodiscard]] solver::Effects completed(solver::Effects set) const;
-  /// The set less the effect and all that depends on it.
+  /// Returns the set without the effect and without its dependents.
   [[nodiscard]] solver::Effects without(solver::Effects set, solver::Effect effect) const;
 };
 
-/// `analysis` is the place below "analysis" that holds the analysis's own words.
+/// Functions of an analysis. Their parameter `analysis` is the object below "analysis" that holds
+/// its keys.
 struct EffectRules {
   std::vector<EffectKey> (*keys)(const JsonView& analysis);
   EffectScope (*scope)(const JsonView& analysis, const solver::Model& model);
-  std::size_t column;  ///< in the table of words
+  std::size_t column;  ///< in the table of reasons
 
   /// Reason for the absence of an effect in a scene.
   [[nodiscard]] const char* describe_missing(solver::Effect effect) const;
 };
 
-/// Definition of an effect's dimensionless number; empty if it has none.
+/// Returns the definition of an effect's dimensionless number; empty if it has none.
 [[nodiscard]] const char* describe_number(solver::Effect effect);
-/// Reason for always keeping the effect.
+/// Returns the reason for always keeping the effect.
 [[nodiscard]] const char* describe_required(solver::Effect effect);
 
 extern const EffectRules kStaticsEffects, kModesEffects, kElastodynamicsEffects, kHarmonicEffects,
     kTransientEffects, kLargeMotionEffects;
 
-/// The scene's model where its path starts; of what only large motion has, the bare one.
+/// Returns the scene's model at the start of its path. Line springs and follower loads are omitted.
 [[nodiscard]] solver::Model first_model(const CaseModel& case_model);
 
-/// The effects that an effect carries: without it they are nothing.
+/// Returns the effects that depend on an effect and are meaningless without it.
 [[nodiscard]] solver::Effects& dependents_of(EffectScope& scope, solver::Effect effect);
 
 }  // namespace trammel::harness

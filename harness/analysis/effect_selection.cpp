@@ -25,8 +25,8 @@ using solver::Effects;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Share of the rest of the tolerance up to which a change that a coarse model measures counts as
-/// within it; and one near the buckling load, where a coarse mesh measures less exactly.
+/// Safety factors for changes that a coarse model measures: shares of the remaining tolerance that
+/// they may reach. The second applies near the buckling load, where a coarse mesh is less accurate.
 constexpr double kForCoarseModel = 0.95, kForSecondOrder = 0.8;
 
 class Selector {
@@ -59,7 +59,7 @@ class Selector {
  private:
   [[nodiscard]] double rest() const { return tolerance_ - selection_.change; }
 
-  /// The set without an effect and without what depends on it.
+  /// Returns the chosen set without an effect and without its dependents.
   [[nodiscard]] Effects without(Effect effect) const {
     return scope_.without(selection_.chosen, effect);
   }
@@ -68,7 +68,8 @@ class Selector {
     return selection_.chosen.has(effect) && !scope_.required.has(effect);
   }
 
-  /// Leaves an effect out if `change` from `full` is within that share of the tolerance's rest.
+  /// Removes an effect if `change` from `full` is within the given share of the remaining
+  /// tolerance.
   bool try_without(Effect effect, Effects full, double change, double share, bool is_measured) {
     EffectEvidence& evidence = selection_.of(effect);
     evidence.is_measured = is_measured;
@@ -79,12 +80,12 @@ class Selector {
     return true;
   }
 
-  /// A meshed platform first, then the smallest first, as long as their sum is within the share of
-  /// the tolerance that is left to them.
+  /// Removes a meshed platform first, then effects in ascending order of their change. Stops when
+  /// the sum exceeds their share of the tolerance.
   void apply_numbers(const ResponseScale& scale) {
     const EffectNumbers numbers = effect_numbers(model_, scale);
     const auto change_of = [&](Effect effect) {
-      // A load that sets in at once excites every mode, those of stiff parts too.
+      // A suddenly applied load excites every mode, including those of stiff parts.
       const bool strikes = from_rest_ && effect != Effect::shear;
       return strikes ? kInfinite : numbers[static_cast<std::size_t>(effect)].change;
     };
@@ -120,10 +121,10 @@ class Selector {
     selection_.work += work_of(counters, unknowns_of(model));
   }
 
-  /// Linear theory against large displacement with one element a member, which is exact for linear
-  /// theory of prismatic members; then second-order theory with four, which buckle correctly. Of a
-  /// path the steps are its extremes in linear theory, and any other at which the choice turns out
-  /// to be off by more.
+  /// Compares linear theory with large displacement on one element per member, which is exact in
+  /// linear theory for prismatic members. Then compares second-order theory on four elements per
+  /// member, which reproduce buckling. On a path, the comparison uses the extremes of linear
+  /// theory. Other steps are added if the change there exceeds the tolerance.
   void select_in_statics() {
     CoarseScene single(kind_, analysis_, scene_, 1), finer(kind_, analysis_, scene_, 4);
     const Effects all = selection_.chosen, linear = without(Effect::geometric_stiffening);
@@ -142,8 +143,8 @@ class Selector {
         if (is_enough) selection_.change += change;
         return is_enough;
       };
-      // Second-order theory neglects shortening by rotation, of the order of the rotation, and
-      // saves load steps where axial forces come near a buckling load.
+      // Second-order theory neglects shortening by rotation, which is of the order of the rotation.
+      // It saves load steps if axial forces approach a buckling load.
       constexpr double kManySteps = 0.1;
       const Deflection size = deflection(*overview);
       if (!try_theory(single, Effect::geometric_stiffening, linear, kForCoarseModel) &&
@@ -154,7 +155,7 @@ class Selector {
     add_cost(finer.counters, finer.model());
   }
 
-  /// Largest change at the steps, to which those are added at which it turns out to be too large.
+  /// Returns the largest change at the steps. Adds the steps at which the change proves too large.
   double change_along(CoarseScene& coarse, Effects all, Effects effects,
                       const std::set<std::size_t>& every, std::set<std::size_t>& steps) const {
     for (;;) {
@@ -169,7 +170,7 @@ class Selector {
   }
 
   struct Deflection {
-    double rotation = 0;     ///< largest, of nodes and of chords [rad]
+    double rotation = 0;     ///< largest rotation of nodes and of chords [rad]
     double compression = 0;  ///< largest axial force over the buckling load of a cantilever
   };
 
@@ -196,7 +197,7 @@ class Selector {
     return size;
   }
 
-  /// Steps at which displacements and forces are largest.
+  /// Returns the steps at which displacements and forces are largest.
   static std::set<std::size_t> extremes(const Quantities& quantities) {
     std::map<std::string, std::pair<double, std::size_t>> largest;
     for (const auto& [name, quantity] : quantities) {
@@ -211,12 +212,14 @@ class Selector {
     return steps;
   }
 
-  /// Gyroscopic terms, which make the eigenvalue problem quadratic, then stiffening by rotation.
+  /// Selects gyroscopic terms, which make the eigenvalue problem quadratic, and then stiffening by
+  /// rotation.
   void select_in_rotation() {
     const auto members = std::max<solver::Index>(std::ssize(model_.members), 1);
     CoarseScene coarse(kind_, analysis_, scene_,
                        2 + analysis_.get<solver::Index>("count", 0) / members);
-    constexpr double kPays = 0.25;  // two runs of the coarse model against what one effect saves
+    constexpr double kPays = 0.25;  // largest ratio of sizes at which two coarse runs cost less
+                                    // than one effect saves
     if (unknowns_of(coarse.model()) > kPays * unknowns_of(model_)) return;
     for (const Effect effect : {Effect::gyroscopic, Effect::geometric_stiffening}) {
       if (!can_leave_out(effect)) continue;
@@ -227,7 +230,8 @@ class Selector {
     add_cost(coarse.counters, coarse.model());
   }
 
-  /// First frequency and damping at the start of the motion, on a mesh of one element a link.
+  /// Computes the first frequency and damping at the start of the motion, on a mesh of one element
+  /// per link.
   ResponseScale scale_of_motion() {
     if (const auto history = analysis_.find("load_history")) {
       throw history->error(
@@ -239,7 +243,8 @@ class Selector {
     coarse_model_ = build_model(coarse, 0);
     options_ = read_elastodynamics(analysis_, coarse);
     const solver::ModalSolution modes =
-        solver::solve_modes(solver::assemble(coarse_model_), {.count = 4});  // three may be rigid
+        // three may be rigid-body modes
+        solver::solve_modes(solver::assemble(coarse_model_), {.count = 4});
     add_cost(modes.counters, coarse_model_);
     selection_.outcome = modes.outcome;
     if (!modes.outcome.solved()) return {};
@@ -260,12 +265,13 @@ class Selector {
     return {.phase = phase, .platform = phase};
   }
 
-  /// @returns whether a vibration lasts, which a change of its frequency puts out of phase
+  /// @returns true if a vibration persists; a change of its frequency then shifts its phase
   [[nodiscard]] bool vibrates() const {
     return from_rest_ || frequency_ratio_ * frequency_ratio_ > 0.1;
   }
 
-  /// Angular frequency of the path: its largest acceleration over its largest velocity [rad/s].
+  /// Returns the angular frequency of the path [rad/s]: its largest acceleration over its largest
+  /// velocity.
   [[nodiscard]] double path_rate() const {
     constexpr int kSamples = 64;
     double velocity = 0, acceleration = 0;
@@ -279,10 +285,10 @@ class Selector {
     return velocity > 0 ? acceleration / velocity : 0;
   }
 
-  /// Inertia by the frequency of the path, large displacement by equilibria of the coarse model at
-  /// the extremes of the motion.
+  /// Selects inertia by the frequency of the path, and large displacement by equilibria of the
+  /// coarse model at the extremes of the motion.
   void select_in_motion() {
-    /// Change beyond which the numbers of linear theory have no meaning.
+    /// Change above which the numbers of linear theory are meaningless.
     constexpr double kLost = 0.5;
     CoarseScene coarse(kind_, analysis_, scene_, 1);
     select_inertia(coarse);
@@ -296,7 +302,7 @@ class Selector {
         selection_.chosen = scope_.applicable;
       }
     }
-    // With large displacement these terms cost nothing.
+    // With large displacement, these terms have no additional cost.
     if (!selection_.chosen.has(Effect::large_displacement) &&
         selection_.chosen.has(Effect::inertia)) {
       measure_without(coarse, Effect::gyroscopic);
@@ -305,7 +311,8 @@ class Selector {
     add_cost(coarse.counters, coarse.model());
   }
 
-  /// By the frequency of the path, and if that leaves it open by the motion of the coarse model.
+  /// Selects inertia by the frequency of the path. If this is inconclusive, measures the motion of
+  /// the coarse model.
   void select_inertia(CoarseScene& coarse) {
     constexpr double kSurelyWithin = 0.25, kSurelyBeyond = 10;
     const double r = frequency_ratio_, bound = r * r + 2 * damping_ * r;
@@ -319,7 +326,7 @@ class Selector {
     }
   }
 
-  /// Leaves an effect out of a motion if linear theory on the coarse mesh allows it.
+  /// Removes an effect from a motion if linear theory on the coarse mesh permits it.
   void measure_without(CoarseScene& coarse, Effect effect) {
     if (!can_leave_out(effect)) return;
     const auto linear = [&](Effects set) {
@@ -330,12 +337,13 @@ class Selector {
       selection_.change += change;
   }
 
-  /// Change by large displacement. From a quasi-static start: of the motion without vibration,
-  /// under loads, weight and nominal inertia, where linear theory has its extremes. From a sudden
-  /// start: of the first part of the motion, from which it grows with time while the vibration
-  /// lasts.
+  /// Returns the change by large displacement.
+  /// From a quasi-static start, it is measured on the motion without vibration at the extremes of
+  /// linear theory. This motion includes loads, weight and nominal inertia.
+  /// From a sudden start, it is measured on the first part of the motion. It grows with time while
+  /// the vibration persists.
   std::optional<double> change_of_theory() {
-    /// A vibration that starts on the quasi-static response swings twice as far as the change.
+    /// The amplitude of a vibration about the quasi-static response is twice the change.
     constexpr double kSwing = 2, kShortened = 0.125;
     solver::ElastodynamicsOptions options = options_;
     const bool moves = selection_.chosen.has(Effect::inertia);
@@ -371,7 +379,7 @@ class Selector {
       for (const solver::StaticSolution& state : solution.state)
         StateRecorder(coarse_model_, "elastodynamics").record({state}, record);
       return record.take_quantities();
-    } catch (const solver::ModelError&) {  // the theory does not have what the options ask for
+    } catch (const solver::ModelError&) {  // the theory does not support what the options request
       return std::nullopt;
     }
   }

@@ -81,7 +81,7 @@ const std::vector<AnalysisKind>& analysis_kinds() {
        .of_scene = analyse_grnn,
        .needs_manipulator = true,
        .of_case = analyse_grnn_samples,
-       .without_model = "none: samples of its own",
+       .without_model = "none: samples are given",
        .warns_of_crossing = true},
       {.name = "manufactured",
        .of_case = analyse_manufactured,

@@ -11,15 +11,16 @@
 namespace trammel::harness {
 namespace {
 
-// Bytes, measured with margin (size_estimate_test): a coordinate in model, matrices and states; an
-// entry of a factor while it is made; a number that is recorded, written as JSON and drawn.
+// Bytes per item, measured with a margin (size_estimate_test). A coordinate counts in model,
+// matrices and states. An entry of a factor counts during the factorization. A number is recorded,
+// written as JSON and drawn.
 constexpr double kCoordinate = 2500, kEntry = 24, kNumber = 44;
-/// A number of a map, which is rounded and drawn; of samples, which are read from JSON.
+/// Bytes per number of a map, which is rounded and drawn, and per number of samples from JSON.
 constexpr double kMapNumber = 90, kSampleNumber = 500;
-/// A number of a frequency response, which is recorded alone.
+/// Bytes per number of a frequency response, which is only recorded.
 constexpr double kResponseNumber = 22;
 
-/// Bytes of a coordinate over those of statics, which checks and draws most.
+/// Returns the bytes of a coordinate relative to those of statics, which checks and draws most.
 double share_of(const std::string& kind, const JsonView& analysis, bool in_plane) {
   if (kind == "manufactured") return 0.5;
   if (kind != "harmonic" || in_plane) return 1;
@@ -37,7 +38,7 @@ class Estimator {
     if (kind == "grnn") numbers_ = 50;
     if (root_.has("model")) count_model(root_["model"]);
     if (kind == "study") {
-      if (analysis.get("trajectory", false)) {  // a document each
+      if (analysis.get("trajectory", false)) {  // one document per point
         add(path_, points_ * 20 * static_cast<double>(document_.value().dump().size()));
       }
     } else {
@@ -175,8 +176,8 @@ class Estimator {
   const Document& document_;
   JsonView root_;
   SizeEstimate size_;
-  std::map<std::string, double> bytes_;  ///< by the key that calls for them
-  double points_ = 1, numbers_ = 100;    ///< of the path; recorded at each
+  std::map<std::string, double> bytes_;  ///< by the key that causes them
+  double points_ = 1, numbers_ = 100;    ///< of the path; recorded at each point
   double share_in_plane_ = 1, share_of_members_ = 1;
   std::string path_ = "/model";
 };

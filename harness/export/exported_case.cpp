@@ -27,13 +27,14 @@ JsonView analysis_place(const Document& document) {
   return JsonView(document)["analysis"][analysis_kind(document)];
 }
 
-/// Those of the manipulator along its path, which stays as it is: the plain words stand beside it.
+/// Returns true if the analysis is one of the manipulator along its path. The manipulator is
+/// exported unchanged, with its mechanism as an addition.
 bool is_of_mechanism(const std::string& kind) {
   return kind == "kinematics" || kind == "inverse-dynamics" || kind == "forward-dynamics" ||
          kind == "elastodynamics";
 }
 
-/// A network on samples of its own has no model, and nothing to resolve.
+/// Returns true for a network on given samples, which has no model to resolve.
 bool is_of_samples(const Document& document) {
   return analysis_kind(document) == "grnn" && analysis_place(document).has("samples");
 }
@@ -51,7 +52,7 @@ void require_exportable(const Document& document) {
     throw place["track"].error("expected drives with laws: a tracked path is not exported");
 }
 
-/// What "effects" says in the words of the analysis itself.
+/// Expresses the chosen effects by keys of the analysis.
 Json stated_analysis(const Document& document, solver::Effects chosen) {
   Json analysis = document.value().at("analysis");
   if (!document.value().contains("effects")) return analysis;
@@ -59,7 +60,7 @@ Json stated_analysis(const Document& document, solver::Effects chosen) {
   const bool kept = !place.has("rotating") || chosen.has(Effect::geometric_stiffening);
   if (chosen.has(Effect::large_displacement) || !kept) {
     throw JsonView(document)["effects"].error(
-        "expected effects that the analysis has words for: large displacement, and a rotating "
+        "expected effects that its keys can express: large displacement, and a rotating "
         "frame without geometric stiffening, are not exported");
   }
   if (!chosen.has(Effect::damping))
@@ -88,7 +89,8 @@ WrittenNames written_names(const Document& document) {
   return names;
 }
 
-/// Parts that have quantities in the case, and not under their name in the exported one.
+/// Returns the parts that have quantities in the case but do not keep their name in the exported
+/// case.
 std::set<std::string> lost_parts(const Document& document, const solver::Model& model) {
   std::set<std::string> lost;
   if (!JsonView(document).has("model")) return lost;
@@ -99,7 +101,7 @@ std::set<std::string> lost_parts(const Document& document, const solver::Model& 
   return lost;
 }
 
-/// How many numbers a quantity has, where that is plain.
+/// Returns the number of values of a quantity, or null if it is not known in advance.
 Json length_of(const Document& document, const std::string& name) {
   const JsonView place = analysis_place(document);
   if (analysis_kind(document) == "statics") return 1;
@@ -107,7 +109,7 @@ Json length_of(const Document& document, const std::string& name) {
   return is_list && !place.has("rotating") ? place["count"].json() : Json(nullptr);
 }
 
-/// What the checks judge in this variant, and what those of other variants compare with it.
+/// Returns the checks of this variant, and those checks of other variants that compare with it.
 std::vector<Check> checks_that_look_at(const Document& document, const std::string& variant,
                                        const Case& given) {
   const std::vector<std::string> variants = given.variants();
@@ -164,8 +166,8 @@ Json row(const Eigen::Vector3d& v) {
   return {v.x(), v.y(), v.z()};
 }
 
-/// The rigid manipulator in plain words: bodies (mass, inertia, centre and angle at the first point
-/// of the path), joints (which bodies, where then) and the path of P as a table over time.
+/// Describes the rigid manipulator at the first point of the path, and the path of P as a table
+/// over time. Bodies have mass, inertia, center and angle. Joints have two bodies and a position.
 Json mechanism_json(const CaseModel& case_model) {
   const solver::RigidManipulator rigid = solver::rigid_manipulator(*case_model.manipulator);
   const solver::TrajectoryPoint& first = case_model.motion.front();
@@ -192,7 +194,8 @@ Json mechanism_json(const CaseModel& case_model) {
   return {{"bodies", bodies}, {"joints", joints}, {"path", path}};
 }
 
-/// With the model of what vibrates at the first point of the path, where something does.
+/// Returns the mechanism. For elastodynamics, it includes the elastic model at the first point of
+/// the path.
 Json mechanism_of(const Document& document) {
   const CaseModel case_model = read_case_model(document);
   if (!case_model.manipulator) throw analysis_place(document).error("expected a manipulator");
@@ -205,7 +208,7 @@ Json mechanism_of(const Document& document) {
   return mechanism;
 }
 
-/// All nodes with a name are recorded by default, and now all have one.
+/// Lists the named nodes, which are recorded by default, because all exported nodes have names.
 void name_recorded_nodes(const solver::Model& model, Json& analysis) {
   if (!analysis.contains("large-motion") || analysis["large-motion"].contains("nodes")) return;
   Json& names = analysis["large-motion"]["nodes"] = Json::array();

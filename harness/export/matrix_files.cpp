@@ -36,7 +36,7 @@ std::string matrix_market(const SparseMatrix& matrix, bool symmetric, const char
          entries;
 }
 
-/// A line for each of u: its number from 1, the motion, and the node or the member's end.
+/// Returns a line for each entry of u: its number from 1, the motion, and the node or member end.
 std::string coordinate_table(const solver::System& system) {
   std::vector<std::string> lines(solver::to_size(system.coordinates.size));
   const auto set = [&](Index number, const char* motion, const std::string& of) {

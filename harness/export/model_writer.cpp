@@ -18,13 +18,14 @@ namespace {
 using solver::Index;
 using solver::Model;
 
-/// A quotient and its neighbours: among them are all x with x * divisor == product.
+/// Returns a quotient and its two adjacent doubles. They include every x with x * divisor ==
+/// product.
 std::array<double, 3> quotients(double product, double divisor) {
   const double x = product / divisor, beyond = std::numeric_limits<double>::infinity();
   return {x, std::nextafter(x, 0), std::nextafter(x, beyond)};
 }
 
-/// x with gives(x), or the first.
+/// Returns the first candidate that satisfies the predicate, or else the first candidate.
 template <class Gives>
 double first_that(const std::array<double, 3>& candidates, const Gives& gives) {
   for (const double x : candidates)
@@ -32,7 +33,8 @@ double first_that(const std::array<double, 3>& candidates, const Gives& gives) {
   return candidates.front();
 }
 
-/// One that both stiffness and rotary inertia are products of, or else the stiffness.
+/// Returns a second moment of area that reproduces both the stiffness and the rotary inertia
+/// exactly. If none exists, it reproduces the stiffness.
 double second_moment(const solver::Section& section, const solver::Material& material) {
   const auto candidates = quotients(section.EI, material.E);
   const auto stiff = [&](double I) { return material.E * I == section.EI; };
@@ -53,20 +55,20 @@ bool nearly(double a, double b) {
   return std::abs(a - b) <= 4 * solver::kEps * std::abs(b);
 }
 
-/// Materials and sections of a built model as a case file has them: each once, by name.
+/// Materials and sections of a built model as entries of a case file, each stored once by name.
 class SectionTable {
  public:
-  /// @param known  materials of the case with their names, which are kept where a section is made
-  ///               of one to round-off
+  /// @param known  named materials of the case, which are reused for sections that they match to
+  ///     round-off
   explicit SectionTable(std::vector<std::pair<std::string, solver::Material>> known)
       : materials_(std::move(known)), used_(materials_.size(), false) {}
 
-  /// The name that the section has from now on. Area, second moment, shear coefficient and half
-  /// depth are those that give its stiffnesses again to the last bit, where there are such.
+  /// Returns the name of the section and adds the section if it is new. Area, second moment, shear
+  /// coefficient and half depth reproduce its stiffnesses to the last bit if possible.
   [[nodiscard]] std::string name_of(const solver::Section& section);
   [[nodiscard]] std::string name_of(const solver::Material& material);
 
-  /// Those that have a part.
+  /// Returns the materials that a part uses.
   [[nodiscard]] std::vector<std::pair<std::string, solver::Material>> materials() const;
   [[nodiscard]] const Json& sections() const { return sections_; }
 
@@ -134,7 +136,7 @@ std::vector<std::pair<std::string, solver::Material>> SectionTable::materials() 
 
 /// Writes the fields of a part as the JSON object that `FieldReader` reads.
 struct FieldWriter {
-  const std::vector<std::string>& node;  ///< names by index
+  const std::vector<std::string>& node;  ///< names, by index
   SectionTable& table;
   Json json = Json::object();
 
@@ -159,7 +161,7 @@ struct FieldWriter {
   [[nodiscard]] static bool is_empty(const Eigen::Vector2d& pair) { return pair.isZero(0); }
   [[nodiscard]] static bool is_empty(NodeNames<Index> node) { return node.indices < 0; }
 
-  /// An enumeration by its word; JSON's own conversion of numbers and of vectors.
+  /// Writes an enumeration as its word, and other types by JSON's own conversion.
   template <class T>
   [[nodiscard]] static Json json_of(const T& value) {
     if constexpr (std::is_enum_v<T>) {
@@ -194,12 +196,12 @@ struct FieldWriter {
   }
 };
 
-/// Parts of one kind, by name. (Json would look through all of them at each.)
+/// Parts of one kind, by name. Uses a set of names, because a lookup in Json is linear.
 class Parts {
  public:
   explicit Parts(const char* kind) : kind_(kind) {}
 
-  /// Under the name, or the kind with the next number where there is none.
+  /// Adds a part under its name, or under the kind with the next number if the name is empty.
   void add(std::string name, Json part) {
     if (name.empty()) name = kind_ + ("-" + std::to_string(json_.size() + 1));
     solver::require(names_.insert(name).second,
@@ -216,7 +218,8 @@ class Parts {
   std::set<std::string> names_;
 };
 
-/// Tapered members become chains of members of one element, which keep what the element has.
+/// Replaces tapered members by chains of single-element members with the properties of each
+/// element.
 void cut_tapers(Model& model) {
   const std::vector<solver::Member> members = std::exchange(model.members, {});
   for (const solver::Member& member : members) {
@@ -283,7 +286,7 @@ class ModelWriter {
     return std::move(writer.json);
   }
 
-  /// @param names  of the first parts, which have none themselves
+  /// @param names  names of the first parts, whose type has no names
   template <class T>
   void add(const char* kind, const std::vector<T>& parts,
            const std::vector<std::string>& names = {}) {
@@ -314,7 +317,7 @@ class ModelWriter {
     plates.put_into(parts_);
   }
 
-  /// Of each node what all its supports hold together.
+  /// Merges all supports of each node into one.
   void add_supports() {
     std::map<Index, std::array<bool, 3>> held;
     for (const solver::Support& support : model_.supports)
@@ -329,7 +332,7 @@ class ModelWriter {
     supports.put_into(parts_);
   }
 
-  /// u_a = u_b in x, and then in y.
+  /// Combines pairs of constraints into pins: u_a = u_b in x, and then in y.
   [[nodiscard]] std::vector<Pin> pins() const {
     using Kind = solver::Coordinate::Kind;
     const auto ties = [](const solver::LinearConstraint& tie, Kind kind) {
@@ -344,7 +347,7 @@ class ModelWriter {
                           ties(all[i + 1], Kind::y) &&
                           all[i].terms[0].first.node == all[i + 1].terms[0].first.node &&
                           all[i].terms[1].first.node == all[i + 1].terms[1].first.node;
-      solver::require(is_pin, "a case file has no words for its constraint '" + all[i].name + "'");
+      solver::require(is_pin, "a case file cannot express its constraint '" + all[i].name + "'");
       pins.push_back({all[i].name, {all[i].terms[0].first.node, all[i].terms[1].first.node}});
     }
     return pins;
@@ -369,7 +372,7 @@ class ModelWriter {
   const Model& model_;
   const WrittenNames& names_;
   SectionTable table_;
-  std::vector<std::string> node_;  ///< names, each its own
+  std::vector<std::string> node_;  ///< unique names
   Json parts_ = Json::object();
 };
 

@@ -7,27 +7,26 @@
 
 #include "harness/results/run_results.h"
 
-/// Files that VTK and ParaView read.
+/// Writes files for VTK and ParaView.
 namespace trammel::harness {
 
-/// Types are VTK's numbers: 3 line, 5 triangle, 7 polygon, 22 triangle with the middles of its
-/// sides.
+/// Cell of a grid. Types are VTK's numbers: 3 line, 5 triangle, 7 polygon, 22 six-node triangle.
 struct VtkCell {
   std::vector<std::size_t> nodes;
   int type = 0;
   std::ptrdiff_t part = 0;
 };
 
-/// An unstructured grid in the plane as VTU.
-/// @param displacement  one a node [m]; or none
+/// Returns an unstructured grid in the plane as the text of a VTU file.
+/// @param displacement  displacement of each node [m]; may be empty
 [[nodiscard]] std::string vtu(const std::vector<results::Point>& nodes,
                               const std::vector<VtkCell>& cells, const std::string& part,
                               const std::vector<results::Point>& displacement = {});
 
-/// What is drawn of a run: CASE-VARIANT-shapes.pvd, -poses.pvd and -motion.pvd, which name a VTU
-/// file for each shape, pose and moment of a motion, these by their time [s]; what is displaced
-/// has point vectors "displacement" [m]. Nothing where nothing is drawn.
-/// @throws InputError  where the folder cannot be written.
+/// Writes the drawings of a run as CASE-VARIANT-shapes.pvd, -poses.pvd and -motion.pvd. They list
+/// one VTU file per mode shape, pose and moment of a motion. Moments are listed by their time [s].
+/// Displaced grids have point vectors "displacement" [m]. Writes nothing if the run has no drawing.
+/// @throws InputError  if the folder cannot be written.
 void write_vtk(const results::Run& run, const std::filesystem::path& folder);
 
 }  // namespace trammel::harness

@@ -24,10 +24,10 @@ namespace fs = std::filesystem;
 using results::Status;
 using Ending = ProcessOutcome::Termination;
 
-constexpr int kCannot = 4;  // the exit status of an adapter whose code has no such thing
+constexpr int kCannot = 4;  // exit status of an adapter whose code does not support the case
 constexpr std::size_t kMaxKeptBytes = std::size_t{16} << 20;  // of the folder of a call
 
-/// The last line that says something.
+/// Returns the last line that is not blank, as a suffix of a message.
 std::string last_line(const std::string& output) {
   std::string line, last;
   for (std::istringstream lines(output); std::getline(lines, line);)
@@ -40,7 +40,8 @@ void end_as(Run& run, results::Status status, const std::string& reason) {
   run.reason = reason;
 }
 
-/// What the ending of the program says, where it is not the answer that does.
+/// Sets the status of a run whose program ended without an answer. Returns false if the answer must
+/// be read.
 bool ended_without_answer(const ProcessOutcome& outcome, const ProgramLimits& limits, Run& run) {
   switch (outcome.termination) {
     case Ending::timed_out:
@@ -68,13 +69,15 @@ bool ended_without_answer(const ProcessOutcome& outcome, const ProgramLimits& li
   return true;
 }
 
-/// "/model/trajectory: ..." of "FILE: /model/trajectory: ...".
+/// Removes the file from a message: "FILE: /model/trajectory: ..." becomes "/model/trajectory:
+/// ...".
 std::string without_file(const std::string& message) {
   const std::size_t at = message.find(": /");
   return at == std::string::npos ? message : message.substr(at + 2);
 }
 
-/// One call in its folder, of which the files stay unless they are many.
+/// Runs the adapter once in a separate folder. The files are kept unless they exceed
+/// `kMaxKeptBytes`.
 void call(const Adapter& adapter, const fs::path& folder, const Json& json, Run& run) {
   std::error_code error;
   fs::remove_all(folder, error);
@@ -104,7 +107,8 @@ void call(const Adapter& adapter, const fs::path& folder, const Json& json, Run&
   if (fs::is_directory(folder, error)) write_file(folder / "output.txt", outcome.text);
 }
 
-/// The sweeps whose orders are judged, level by level; a level without solution stays empty.
+/// Computes the sweeps whose orders are checked, level by level. A level without a solution stays
+/// empty.
 std::vector<results::Sweep> swept(const Adapter& adapter, const fs::path& folder, const Case& owner,
                                   const std::string& variant, const Document& document,
                                   const std::vector<Check>& checks, Run& run) {
@@ -180,7 +184,7 @@ OtherSolver solver_of(const Adapter& adapter) {
     if (run.is_solved() && with_sweeps && run.solver.element_order)
       run.sweeps = swept(adapter, folder, owner, variant, document, checks, run);
   };
-  // Wall time is what limits an adapter; this ends one whose watcher has failed.
+  // The wall time limits an adapter. This CPU limit ends it if the wall-clock watcher has failed.
   solver.time_limit_s = static_cast<unsigned>(std::min(64 * adapter.limits.wall_s + 1, 1e7));
   return solver;
 }
@@ -189,7 +193,8 @@ namespace {
 
 constexpr std::uintmax_t kMaxAnswerBytes = std::uintmax_t{64} << 20;
 
-/// The quantity of that name as asked for; null where another of trammel's is given on top.
+/// Returns the requested quantity with that name. Another quantity of trammel is accepted as an
+/// addition.
 Json asked_quantity(const Json& asked, const std::string& name, const InputError& unknown) {
   const Json& all = asked.at("quantities");
   const auto found =

@@ -15,8 +15,8 @@
 namespace trammel::harness {
 namespace {
 
-/// Deflection of P from the nominal path, and along and across it where the path has a direction
-/// all the time.
+/// Records the deflection of P from the nominal path. If the path always has a direction, also
+/// records the components along and across it.
 void record_deflection(const solver::ElastodynamicsSolution& solution, Recorder& record) {
   const bool moves = solution.tangential_error.allFinite();
   for (solver::Index i = 0; i < solution.deflection.rows(); ++i) {
@@ -37,9 +37,10 @@ void record_torques(const solver::ElastodynamicsSolution& solution, Recorder& re
   }
 }
 
-/// Energies, and how far their sum moves from where it started, over the largest of them; of a
-/// quasi-static motion, of modes under a load that changes, or of inextensible links without the
-/// rates of their constraints nobody keeps account of the work that loads and actuators do.
+/// Records the energies and the drift of their sum, relative to the largest energy. The drift is
+/// not recorded for quasi-static motion, or if the work of loads and actuators is not computed.
+/// This work is unknown for modes under a varying load, and for inextensible links without the
+/// rates of their constraints.
 void record_energy(const solver::ElastodynamicsSolution& solution, bool quasi_static,
                    Recorder& record) {
   quasi_static |= !solution.energy.empty() && std::isnan(solution.energy.front().work);
@@ -58,8 +59,8 @@ void record_energy(const solver::ElastodynamicsSolution& solution, bool quasi_st
   }
 }
 
-/// Records the distance of P between two solutions at each sample, over the largest deflection of
-/// the first.
+/// Records the distance of P between two solutions at each sample, relative to the largest
+/// deflection of the first solution.
 void record_distance(const char* name, const Eigen::MatrixX2d& a, const Eigen::MatrixX2d& b,
                      Recorder& record) {
   const double size = a.rowwise().norm().maxCoeff();
@@ -74,8 +75,8 @@ solver::ElastodynamicsSolution solve(const solver::ElastodynamicsOptions& option
                             : solver::solve_elastodynamics(options);
 }
 
-/// What half the step changes, and where the platform stands still the error itself, by modal
-/// superposition.
+/// Records the change of the solution by half the step. If the platform is at rest, also records
+/// the true integration error, by modal superposition.
 void record_step_errors(solver::ElastodynamicsOptions options, bool large_displacement,
                         const solver::ElastodynamicsSolution& solution, Recorder& record) {
   if (!options.elastic_inertia || options.modal_superposition) return;
@@ -90,7 +91,8 @@ void record_step_errors(solver::ElastodynamicsOptions options, bool large_displa
                   record);
 }
 
-/// What the damping means: modes from some frequency on do not vibrate at all.
+/// Records the frequency above which Rayleigh damping is supercritical, and the number of modes
+/// below it.
 void record_damping(const solver::RayleighDamping& damping, const solver::System& start,
                     Recorder& record) {
   const double above = solver::overdamped_above(damping) / (2 * std::numbers::pi);
@@ -100,17 +102,18 @@ void record_damping(const solver::RayleighDamping& damping, const solver::System
   record.add_or_gap("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
 }
 
-/// What says beforehand whether an effect matters, and what the integration took.
+/// Records the quantities that predict the importance of effects, and the statistics of the
+/// integration.
 void record_summary(const solver::ElastodynamicsSolution& solution, Recorder& record) {
   const solver::ElastodynamicsEffects& effects = solution.effects;
   const solver::TransientSummary& summary = solution.summary;
-  if (summary.accepted > 0) {  // neither quasi-static nor of superposed modes
+  if (summary.accepted > 0) {  // neither quasi-static nor a superposition of modes
     record.add("steps", summary.accepted);
     record.add("rejected_steps", summary.rejected);
     record.add("smallest_step_s", summary.smallest_step);
     record.add("largest_step_s", summary.largest_step);
   }
-  if (std::isnan(effects.first_frequency)) return;  // quasi-static, or of large displacement
+  if (std::isnan(effects.first_frequency)) return;  // quasi-static, or with large displacement
   if (summary.accepted > 0) record.add("step_residual", summary.largest_residual);
   record.add("first_frequency_Hz", effects.first_frequency);
   record.add("damping_ratio", effects.damping_ratio);
@@ -121,7 +124,7 @@ void record_summary(const solver::ElastodynamicsSolution& solution, Recorder& re
   record.add("transformation_rate_number", effects.gyroscopic);
 }
 
-/// Moments of the motion: the nominal pose, and what links and platform deflect from there.
+/// Draws moments of the motion: the nominal pose and the deflections of links and platform from it.
 void draw_motion(const CaseModel& case_model, const solver::ElastodynamicsSolution& solution,
                  Drawing& drawing) {
   std::vector<Eigen::VectorXd> q;
@@ -149,11 +152,11 @@ solver::ElastodynamicsOptions read_motion_options(const JsonView& analysis) {
 
 solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
                                                   const CaseModel& case_model) {
-  // The same things have no place here as in the dynamics of rigid links.
+  // The restrictions of rigid-link dynamics apply here, too.
   static_cast<void>(read_rigid_manipulator(analysis, case_model));
   if (!case_model.path) throw analysis.error("expected a trajectory: a pose alone has no time");
   if (!loads_at_P_only(case_model)) {
-    throw analysis.error("expected loads at P only: those elsewhere would turn with the platform");
+    throw analysis.error("expected loads at P only: loads elsewhere would turn with the platform");
   }
   solver::ElastodynamicsOptions options = read_motion_options(analysis);
   const solver::Effects effects = case_model.effects;
@@ -175,7 +178,7 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
   }
   if (options.modal_superposition && !solver::stands_still(options.path)) {
     throw analysis["modal_superposition"].error(
-        "expected a platform that stands still: modes are superposed where M and K are constant");
+        "expected a platform at rest: modes are superposed where M and K are constant");
   }
   for (const solver::TrajectoryPoint& point : case_model.motion) {
     options.time.sample_times.push_back(point.time);
@@ -212,7 +215,7 @@ StepResult analyse_elastodynamics(const JsonView& analysis, const CaseModel& cas
   record_deflection(solution, record);
   record_torques(solution, record);
   record_energy(solution, !options.elastic_inertia, record);
-  // A mechanism has no quasi-static position.
+  // A mechanism with free joints has no quasi-static position.
   const Eigen::MatrixX2d& slow = solution.quasi_static_deflection;
   if (options.elastic_inertia && slow.allFinite())
     record_distance("dynamic_to_quasi_static_difference", slow, solution.deflection, record);

@@ -13,8 +13,9 @@ double turned(double from, double to) {
   return std::remainder(to - from, 2 * std::numbers::pi);
 }
 
-/// Constant torques and a constant load have potentials: kinetic and potential energy less the
-/// work done since the start stay what they were, relative to the most that was ever kinetic.
+/// Records the energy drift, relative to the largest kinetic energy. Constant torques and a
+/// constant load have potentials. Therefore kinetic plus potential energy minus the work done since
+/// the start is conserved.
 void record_energy(const solver::RigidManipulator& m, const solver::ForwardDynamics& found,
                    const Eigen::Vector3d& torque, const Eigen::Vector3d& wrench, Recorder& record) {
   std::vector<double> energies;
@@ -52,7 +53,8 @@ StepResult analyse_forward_dynamics(const JsonView& analysis, const CaseModel& c
   for (std::size_t i = 0; given && i < 3; ++i) {
     constant(static_cast<solver::Index>(i)) = analysis["torque_N_m"][i].get<double>();
   }
-  // A step of the integrator may look a little past the path's end, where a spline has none.
+  // The integrator may evaluate times slightly past the end of the path, where a spline is
+  // undefined.
   const double last = case_model.motion.back().time;
   const auto torque = [&](double time) -> Eigen::Vector3d {
     if (given) return constant;
@@ -78,7 +80,7 @@ StepResult analyse_forward_dynamics(const JsonView& analysis, const CaseModel& c
     record.add("motion_velocity_x_m_per_s", moved.velocity.x());
     record.add("motion_velocity_y_m_per_s", moved.velocity.y());
     record.add("motion_velocity_phi_rad_per_s", moved.velocity.z());
-    if (given) continue;  // the torques were not computed for the path
+    if (given) continue;  // the torques do not belong to the path
     const solver::TrajectoryPoint& nominal = case_model.motion[step];
     record.add("position_error_m",
                std::hypot(moved.pose.x - nominal.pose.x, moved.pose.y - nominal.pose.y));

@@ -31,7 +31,7 @@ namespace {
 
 struct GrnnOutput {
   std::string quantity;  ///< angle, velocity; empty for samples without a meaning
-  std::string unit;      ///< as quantities' names carry it: "_rad"; empty where there is none
+  std::string unit;      ///< suffix of the quantity's name, such as "_rad"; empty if it has no unit
   std::string item;      ///< A1, ... or the number of the column
 };
 
@@ -41,21 +41,22 @@ struct GrnnSamples {
   std::vector<GrnnOutput> columns;  ///< of the outputs
 };
 
-/// The paper's samples (Section 4.3): inputs are the torques of the inverse dynamics at each point
-/// of the scene's path, outputs the angles and velocities of the active joints. Angles are
-/// continued over the jump at pi.
+/// Samples of the paper (Section 4.3). Inputs are the torques of the inverse dynamics at each point
+/// of the scene's path. Outputs are the angles and velocities of the active joints. Angles are
+/// continuous across pi.
 struct PathSamples {
   solver::Outcome outcome;  ///< of the first point without a solution
   GrnnSamples samples;
 };
 
-/// @throws InputError  where rows are not equally long.
+/// Reads a matrix row by row.
+/// @throws InputError  if rows differ in length.
 Eigen::MatrixXd read_rows(const JsonView& rows) {
   const std::size_t columns = rows[0].size();
   Eigen::MatrixXd matrix(static_cast<solver::Index>(rows.size()),
                          static_cast<solver::Index>(columns));
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Json& row = rows.json()[i];  // there may be 100,000
+    const Json& row = rows.json()[i];  // avoids a JsonView per row, of up to 100,000 rows
     if (row.size() != columns) {
       throw rows[i].error("expected " + std::to_string(columns) + " numbers as in the first row");
     }
@@ -66,8 +67,8 @@ Eigen::MatrixXd read_rows(const JsonView& rows) {
   return matrix;
 }
 
-/// Samples as a case gives them, "inputs" and "outputs".
-/// @throws InputError  where rows are not equally long, or not equally many.
+/// Reads the "inputs" and "outputs" of a case's samples.
+/// @throws InputError  if rows differ in length, or inputs and outputs differ in number.
 GrnnSamples read_samples(const JsonView& samples) {
   GrnnSamples read{read_rows(samples["inputs"]), read_rows(samples["outputs"]), {}};
   if (read.inputs.rows() != read.outputs.rows()) {
@@ -110,9 +111,10 @@ PathSamples samples_of_path(const solver::RigidManipulator& manipulator,
   return result;
 }
 
-/// The same torques on flexible links, geometrically exact: angles and velocities become theirs.
+/// Replaces the angles and velocities by those of geometrically exact flexible links under the same
+/// torques.
 /// @param place  "flexible_links" of the case
-/// @throws InputError  as `add_tracking`, and where points of the path are not evenly spaced.
+/// @throws InputError  as `add_tracking`, and if points of the path are not evenly spaced.
 void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamples& path) {
   solver::Model model = build_bare_model(case_model, 0);
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
@@ -142,7 +144,7 @@ void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamp
       }).outcome;
 }
 
-/// The smoothing: as given, or the one with the least error of cross-validation.
+/// Sets the smoothing: the given value, or the one with the least error of cross-validation.
 void choose_sigma(const JsonView& analysis, solver::Grnn& network, Recorder& record) {
   if (analysis.has("sigma") == analysis.has("spread") && analysis.has("sigma")) {
     throw analysis.error("expected either 'sigma' or 'spread' (got both)");
@@ -186,7 +188,7 @@ Parts parts_of(const std::vector<bool>& trains) {
   return parts;
 }
 
-/// Scales of the outputs over all samples: what errors of unlike outputs are divided by.
+/// Scales of the outputs over all samples, by which errors of different outputs become comparable.
 struct OutputScales {
   Eigen::RowVectorXd deviation, range;
   explicit OutputScales(const Eigen::MatrixXd& outputs)
@@ -200,7 +202,8 @@ struct OutputScales {
   }
 };
 
-/// Root mean square over rows and outputs, each output divided by its standard deviation.
+/// Returns the root mean square over rows and outputs. Each output is divided by its standard
+/// deviation.
 double rms(const Eigen::MatrixXd& error, const OutputScales& scales) {
   const Eigen::MatrixXd relative = error * scales.deviation.cwiseInverse().asDiagonal();
   return std::sqrt(relative.squaredNorm() / static_cast<double>(relative.size()));
@@ -226,8 +229,10 @@ void record_part(const std::string& part, const std::vector<solver::Index>& whic
   record.add(part + "_largest_error_of_range", of_range.cwiseAbs().maxCoeff());
 }
 
-/// Against the two predictors that know nothing of smoothing: the mean of the training samples, and
-/// the nearest of them. Skill is 1 - (rms error / theirs)^2: 1 is perfect, 0 no better.
+/// Records the skill against two trivial predictors: the mean of the training samples, and the
+/// nearest sample.
+///   skill = 1 - (rms error / rms error of the trivial predictor)^2
+/// A perfect prediction has skill 1. One that is no better than the trivial predictor has skill 0.
 void record_skill(const solver::Grnn& network, const GrnnSamples& samples,
                   const std::vector<solver::Index>& which, double error, const OutputScales& scales,
                   Recorder& record) {
@@ -245,14 +250,15 @@ void record_skill(const solver::Grnn& network, const GrnnSamples& samples,
   against("nearest", 1e-300);
 }
 
-/// A prediction at every point of the path, at once and one by one, beside what it stands in for:
-/// from the torques at a point to the motion at the next, and from the motion to the torques.
+/// Measures predictions at every point of the path, in a batch and one by one. Compares them with
+/// the computations that they replace. These are the motion at the next point from the torques, and
+/// the torques from the motion.
 std::vector<EvaluationTime> time_against_solving(const solver::Grnn& network,
                                                  const solver::RigidManipulator& manipulator,
                                                  const CaseModel& case_model,
                                                  const GrnnSamples& samples) {
   const std::size_t count = case_model.motion.size();
-  double sink = 0;  // what is computed is used, so that it cannot be left out
+  double sink = 0;  // uses each result, so that the compiler cannot remove its computation
   std::vector<EvaluationTime> timings;
   timings.push_back(time_evaluation("prediction_in_a_batch", count, [&] {
     sink += solver::predict(network, samples.inputs).sum();
@@ -300,8 +306,8 @@ void record_predictions(const GrnnSamples& samples, const Eigen::MatrixXd& predi
   for (const bool trains_here : trains) record.add("in_training_set", trains_here ? 1 : 0);
 }
 
-/// Where the platform would be with the predicted angles of the active joints, by forward
-/// kinematics from its true pose; NaN where it cannot be assembled.
+/// Records the platform's position for predicted angles of the active joints, by forward kinematics
+/// from its true pose. The position is NaN if the platform cannot be assembled.
 void record_positions(const solver::ManipulatorGeometry& geometry, const CaseModel& case_model,
                       const Eigen::MatrixXd& predicted, Recorder& record) {
   for (std::size_t k = 0; k < case_model.motion.size(); ++k) {
@@ -315,8 +321,8 @@ void record_positions(const solver::ManipulatorGeometry& geometry, const CaseMod
   }
 }
 
-/// The outputs over time by a modified Akima spline through the training points, along its tangents
-/// beyond them: what the samples allow without torques.
+/// Predicts the outputs over time without torques, by a modified Akima spline through the training
+/// points. Beyond these points, the prediction follows the end tangents.
 Eigen::MatrixXd spline_over_time(const CaseModel& case_model, const Eigen::MatrixXd& outputs,
                                  const std::vector<solver::Index>& training) {
   std::vector<double> times;

@@ -61,7 +61,7 @@ class HarmonicScene {
   }
 
   /// Records the peak of every output.
-  /// @returns the frequency of the first
+  /// @returns the frequency of the first peak
   double record_peaks(Recorder& record, std::vector<Warning>& warnings) const {
     if (outputs.empty()) return low;
     std::optional<std::vector<double>> resonances = frequencies_in_range();
@@ -76,9 +76,10 @@ class HarmonicScene {
     return peaks.front();
   }
 
-  /// Natural frequencies within the range [Hz]; nothing where they are not found.
+  /// Returns the natural frequencies within the range [Hz]; empty if the eigensolver fails.
   [[nodiscard]] std::optional<std::vector<double>> frequencies_in_range() const {
-    // Where the end of the range is one of them to the last digits, a little beyond it.
+    // If the end of the range is a natural frequency to round-off, the count needs a slightly
+    // larger range.
     for (const double beyond : {1e-9, 1e-6}) {
       const auto count = solver::sturm_count(system, high * (1 + beyond));
       if (!count) continue;
@@ -93,7 +94,7 @@ class HarmonicScene {
     return std::nullopt;
   }
 
-  /// The shape in phase with the load and a quarter of a turn behind it, at a frequency.
+  /// Draws the shape in phase with the load, and the shape a quarter period later, at a frequency.
   void draw_at(double frequency, Drawing& drawing) const {
     const Eigen::VectorXcd q = response->at(frequency);
     if (q.size() == 0) return;
@@ -110,7 +111,7 @@ class HarmonicScene {
   solver::Outcome outcome;
 
  private:
-  /// Records a gap at a resonance that nothing bounds.
+  /// Records the peak of an output, or a gap at an unbounded resonance.
   /// @param resonances  natural frequencies within the range [Hz]
   /// @returns the frequency of the peak
   double record_peak(const std::vector<double>& resonances, const Output& output,
@@ -130,7 +131,7 @@ class HarmonicScene {
     return found.frequency;
   }
 
-  /// Returns true if the amplitude grows as 1 / distance on the way to a frequency.
+  /// Returns true if the amplitude grows as 1 / distance near a frequency.
   [[nodiscard]] bool is_pole(double frequency, const Output& output) const {
     const double unit = frequency > 0 ? frequency : high;
     const auto size_at = [&](double distance) {
@@ -155,7 +156,7 @@ class HarmonicScene {
   }
 
   bool damped_;
-  bool bounded_ = false;  ///< every resonance, by Rayleigh damping
+  bool bounded_ = false;  ///< Rayleigh damping bounds every resonance
 };
 
 }  // namespace

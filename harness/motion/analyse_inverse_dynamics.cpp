@@ -31,7 +31,8 @@ void record_bodies(const solver::InverseDynamics& found, Recorder& record) {
   }
 }
 
-/// @returns the residual of the power balance, relative to all powers
+/// Records the energies and powers.
+/// @returns the residual of the power balance, relative to the sum of all powers
 double record_energy(const solver::InverseDynamics& found, Recorder& record) {
   record.add("kinetic_energy_J", found.kinetic_energy);
   record.add("kinetic_power_W", found.kinetic_power);
@@ -47,9 +48,9 @@ double record_energy(const solver::InverseDynamics& found, Recorder& record) {
   return residual;
 }
 
-/// Work of the actuators over exactly one turn, by the trapezoid rule, which for a periodic
-/// integrand converges faster than any power of the step: inertia, gravity and a constant load
-/// leave none. Beside it what goes to and fro, the integral of |power|.
+/// Records the work of the actuators over exactly one revolution, and the integral of |power|.
+/// Inertia, gravity and a constant load contribute no net work. For a periodic integrand, the
+/// trapezoidal rule converges faster than any power of the step.
 void record_turn(const solver::RigidManipulator& manipulator, const CaseModel& case_model,
                  const solver::Circle& circle, int points, Recorder& record) {
   const double period = 2 * std::numbers::pi / std::abs(circle.angular_speed);
@@ -58,7 +59,7 @@ void record_turn(const solver::RigidManipulator& manipulator, const CaseModel& c
     const solver::TrajectoryPoint point = solver::at(circle, period * k / points);
     const solver::InverseDynamics found =
         solver::inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose));
-    if (!found.outcome.solved()) return;  // the path's own points tell why
+    if (!found.outcome.solved()) return;  // the points of the path report the reason
     work += found.actuator_power * period / points;
     turnover += std::abs(found.actuator_power) * period / points;
   }

@@ -19,21 +19,21 @@ namespace {
 using solver::large_motion::GeometricallyExactSystem;
 using solver::large_motion::State;
 
-/// Rotation of a node, less that of another (-1: of the ground).
+/// Rotation of a node relative to another node, or to the ground (from = -1).
 struct Angle {
   std::string name;
   solver::Index node = 0, from = -1;
   double start = 0;
 };
 
-/// What is kept at each output time.
+/// Outputs that are recorded at each output time.
 struct OutputSelection {
   std::vector<solver::Index> nodes;
   solver::Index seen_from = -1;
   std::vector<Angle> angles;
 };
 
-/// A node that turns: others are seen from it, or its angle is kept.
+/// Returns a node that must have a rotation, because it is an observer or its angle is recorded.
 solver::Index find_turning_node(const JsonView& name, const GeometricallyExactSystem& system) {
   const solver::Index node = find_node(name, system.model());
   if (system.layout().node[solver::to_size(node)][2] < 0)
@@ -88,13 +88,13 @@ solver::TransientOptions read_large_motion_options(const JsonView& analysis) {
   return options;
 }
 
-/// Displacements R^T (arm + moved) - arm as a node that moves and turns observes them; NaN for the
-/// node itself.
+/// Returns displacements R^T (arm + moved) - arm relative to a moving and rotating node `eye`. The
+/// row of that node is NaN.
 Eigen::MatrixX3d observed_from(solver::Index eye, const solver::Model& model,
                                const Eigen::MatrixX3d& motion) {
   Eigen::MatrixX3d relative = motion.rowwise() - motion.row(eye);
   const double turn = motion(eye, 2), c = std::cos(turn), s = std::sin(turn);
-  // R^T - 1 by the half angle.
+  // cos(turn) - 1 by the half angle, without cancellation.
   const double less = -2 * std::sin(turn / 2) * std::sin(turn / 2);
   for (solver::Index node = 0; node < relative.rows(); ++node) {
     const Eigen::Vector2d arm =
@@ -107,7 +107,7 @@ Eigen::MatrixX3d observed_from(solver::Index eye, const solver::Model& model,
   return relative;
 }
 
-/// Reactions in the directions that supports hold, NaN in the others.
+/// Returns the reactions in the directions that supports hold, and NaN in the others.
 Eigen::MatrixX3d support_reactions(const GeometricallyExactSystem& system, const State& state) {
   Eigen::MatrixX3d reaction = reactions(system, state);
   for (std::size_t i = 0; i < system.model().supports.size(); ++i)
@@ -117,7 +117,7 @@ Eigen::MatrixX3d support_reactions(const GeometricallyExactSystem& system, const
   return reaction;
 }
 
-/// Records each state that the integrator shows.
+/// Records each state that the integrator passes to it.
 class MotionRecorder {
  public:
   MotionRecorder(const GeometricallyExactSystem& system, OutputSelection selection,
@@ -168,7 +168,7 @@ void require_path_to_the_end(const JsonView& analysis, const solver::Path& path)
   }
 }
 
-/// How far P is from where the rigid twin would have it.
+/// Records the distance of P from its position on the rigid twin.
 void record_deflection(const GeometricallyExactSystem& system, const State& state,
                        const solver::Path& path, Recorder& record) {
   const solver::Index p = system.model().find_node("P");
@@ -183,7 +183,8 @@ void record_deflection(const GeometricallyExactSystem& system, const State& stat
   record.add("deflection_m", "P", std::hypot(now.x() - pose.x, now.y() - pose.y));
 }
 
-/// From where the model stands, or with the velocities of the rigid twin that it follows.
+/// Integrates from the model's initial state, or with the initial velocities of the tracked rigid
+/// twin.
 solver::large_motion::IntegrationSummary integrate_motion(
     const GeometricallyExactSystem& system, const CaseModel& case_model, bool tracking,
     const solver::TransientOptions& options, bool extrapolated,
@@ -227,7 +228,7 @@ StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_
       if (analysis.has(key)) throw analysis[key].error("expected it without 'track'");
     }
     if (analysis.get<std::string>("integrator", "generalized-alpha") != "generalized-alpha") {
-      throw analysis["integrator"].error("expected generalized-alpha beside 'track'");
+      throw analysis["integrator"].error("expected generalized-alpha with 'track'");
     }
   }
   release_driven_actuators(analysis, case_model, large_motion, model);

@@ -30,22 +30,22 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// The motion of a model at its sample times.
+/// Motion of a model at its sample times.
 struct MotionHistory {
   solver::Outcome outcome;
   solver::Evidence evidence;
   solver::Counters counters;
   std::vector<double> time;         ///< [s]
-  std::vector<double> load_factor;  ///< of the loads, not weight, at those times
-  /// Factors of loads and weight that strains follow late if damping is proportional to stiffness:
-  /// 2 x time; else empty.
+  std::vector<double> load_factor;  ///< of the loads without weight, at those times
+  /// Filtered factors of loads and weight, 2 x time, for the delayed strains under
+  /// stiffness-proportional damping. Otherwise empty.
   Eigen::MatrixXd followed_factor;
   Eigen::MatrixXd q, v, a;         ///< free coordinate x time
-  solver::ViscousDamping damping;  ///< that it has
-  std::int64_t steps = 0;          ///< of the integrator; 0 for superposed modes
+  solver::ViscousDamping damping;  ///< damping that the motion has
+  std::int64_t steps = 0;          ///< of the integrator; 0 for modal superposition
 };
 
-/// The loads by their history, and the weight, which always acts.
+/// Returns the loads scaled by their history, and the weight, which is constant.
 solver::PiecewiseLinearLoad load_in_time(const solver::System& system,
                                          const solver::LoadHistory& history) {
   const VectorXd weight = system.T.transpose() * system.weight;
@@ -75,8 +75,9 @@ struct InitialState {
   Eigen::VectorXd q0, v0;
 };
 
-/// The motion of the free coordinates whose difference from a velocity of every node, 0 where
-/// supports hold it, has the least kinetic energy; what has no mass strains least.
+/// Returns the velocity of the free coordinates that is closest to a uniform velocity of all nodes,
+/// in the norm of kinetic energy. Supported nodes have velocity 0. Coordinates without mass
+/// minimize the strain rate energy instead.
 Eigen::VectorXd uniform_motion(const solver::System& system, const Eigen::Vector2d& velocity) {
   Eigen::VectorXd wanted = Eigen::VectorXd::Zero(system.coordinates.size);
   for (const auto& node : system.coordinates.node) {
@@ -117,7 +118,7 @@ std::vector<double> sample_times(const JsonView& transient) {
   return times;
 }
 
-/// The axes that the motion is seen from.
+/// Reads the rotating axes in which the motion is described.
 solver::PrescribedRotation read_axes(const JsonView& transient) {
   for (const char* key : {"load_history", "initial_state"}) {
     if (transient.has(key)) throw transient[key].error("expected it without 'rotating_frame'");
@@ -205,7 +206,7 @@ class Motion {
     return damped_ ? read_damping(transient_, modes) : solver::HarmonicDamping();
   }
 
-  /// False where the damped modes are not found.
+  /// Returns false if the damped modes are not found.
   bool damp(solver::EquationOfMotion& equation) {
     solver::HarmonicDamping damping = stated_damping();
     if (damping.modal_ratio.empty()) {
@@ -221,7 +222,7 @@ class Motion {
     return true;
   }
 
-  /// @param omega, shape  of the damped modes, at least
+  /// @param omega, shape  modes, at least those that are damped
   void damp(const solver::HarmonicDamping& damping, const Eigen::VectorXd& omega,
             const Eigen::MatrixXd& shape, solver::EquationOfMotion& equation) {
     equation.C = solver::damping_matrix(damping.rayleigh, system_.M, system_.K);
@@ -264,7 +265,7 @@ class Motion {
     add_evidence(equation);
   }
 
-  /// Adds the evidence of the superposed modes at the samples.
+  /// Adds the evidence of modal superposition at the samples.
   void add_evidence(solver::EquationOfMotion& equation) {
     load_.apply_to(equation);
     solver::MotionEvidence evidence(equation);
@@ -285,8 +286,9 @@ class Motion {
   MotionHistory history_;
 };
 
-/// Part of the initial velocity that a reduced basis cannot represent, relative to the initial
-/// velocity of the full model, in the norm of kinetic energy [-]; 0 without an initial velocity.
+/// Returns the part of the initial velocity that a reduced basis cannot represent [-]. The part is
+/// relative to the initial velocity of the full model, in the norm of kinetic energy. It is 0
+/// without an initial velocity.
 double unrepresented_velocity(const JsonView& transient, const solver::System& full,
                               const solver::System& reduced) {
   const auto initial = transient.find("initial_state");
@@ -300,8 +302,8 @@ double unrepresented_velocity(const JsonView& transient, const solver::System& f
   return whole > 0 ? std::sqrt(std::max(0.0, 1 - kinetic_energy(reduced) / whole)) : 0;
 }
 
-/// As the key "transient" of the analysis says, damped where the effects have it.
-/// @throws InputError  for a history or damping without meaning.
+/// Computes the motion for the key "transient", with damping if the effects include it.
+/// @throws InputError  if the history or the damping is invalid.
 MotionHistory compute_motion(const JsonView& transient, const solver::System& system,
                              solver::Effects effects) {
   const bool damped = effects.has(solver::Effect::damping) && transient.has("damping");
@@ -312,7 +314,7 @@ MotionHistory compute_motion(const JsonView& transient, const solver::System& sy
   }
 }
 
-/// Displacements, velocities and, where an output asks for them, section forces of a sample.
+/// Returns displacements and velocities of a sample, and section forces if an output requires them.
 ModelState state_of(const solver::System& system, const MotionHistory& motion,
                     const std::optional<solver::LateStrain>& late, solver::Index sample,
                     bool with_forces) {
@@ -324,7 +326,7 @@ ModelState state_of(const solver::System& system, const MotionHistory& motion,
     elastic.acceleration =
         system.T * (motion.a.col(sample) + damping_acceleration(motion.damping, system.M, v));
     elastic.load_factor = motion.load_factor[solver::to_size(sample)];
-    elastic.constraint_forces = constraint_forces(system, elastic);  // damping acts on them, too
+    elastic.constraint_forces = constraint_forces(system, elastic);  // damping also acts on them
     elastic.u = system.T * motion.q.col(sample);
     if (late) late->put(motion.q.col(sample), motion.followed_factor.col(sample), elastic);
     postprocess(system, elastic, state);
@@ -345,7 +347,7 @@ void record_peaks(const MotionHistory& motion, const std::vector<Output>& output
   }
 }
 
-/// A hundredth of the initial velocity is noticed in no plot of the motion.
+/// An error of 1 % of the initial velocity is invisible in a plot of the motion.
 void warn_of_basis(double missing, std::vector<Warning>& warnings) {
   constexpr double kNoticed = 0.01;
   if (!(missing > kNoticed)) return;
@@ -381,8 +383,8 @@ StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_mod
   const bool with_forces = needs_forces(outputs);
   if (with_forces && analysis.has("rotating_frame")) {
     throw analysis["outputs"].error(
-        "expected motions alone beside 'rotating_frame': what the frame does to the inside of "
-        "members is not recovered");
+        "expected only motions with 'rotating_frame': the effects of the frame on the inside of "
+        "members are not recovered");
   }
   const MotionHistory motion = compute_motion(analysis, system, case_model.effects);
   StepResult result{motion.outcome, motion.counters, motion.evidence};

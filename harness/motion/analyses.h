@@ -4,43 +4,46 @@
 #include "harness/statics_modes/step_result.h"
 #include "solver/manipulator/elastodynamics.h"
 
-/// Analyses of motion: kinematics, response in time and frequency, dynamics of the manipulator,
+/// Analyzes motion: kinematics, response in time and frequency, dynamics of the manipulator,
 /// networks.
 namespace trammel::harness {
 
-/// Inverse kinematics, distances from singularities, torques that hold the loads.
+/// Computes inverse kinematics, distances from singularities and the torques that balance the
+/// loads.
 AnalyseStep analyse_kinematics;
 
-/// Response in time: outputs at sample times, their peaks, energies.
+/// Computes the response in time: outputs at sample times, their peaks, energies.
 AnalyseStep analyse_transient;
 
-/// Amplitudes of the steady response over a range of frequencies, and their peaks.
+/// Computes amplitudes of the steady response over a range of frequencies, and their peaks.
 AnalyseStep analyse_harmonic;
-/// Motion in large displacement: geometrically exact.
+/// Computes geometrically exact motion in large displacement.
 AnalysePath analyse_large_motion;
 
-/// Torques, angles, powers and energies of the rigid manipulator along its path.
+/// Computes torques, angles, powers and energies of the rigid manipulator along its path.
 AnalysePath analyse_inverse_dynamics;
 
-/// From torques back to the motion: those of the inverse dynamics of the path, or constant ones.
+/// Integrates the motion of the rigid manipulator under constant torques or those of the path's
+/// inverse dynamics.
 AnalysePath analyse_forward_dynamics;
 
-/// Elastic vibration about the nominal motion along the path: deflection and error of P, joint
-/// rotations, section forces, stresses, reactions, torques compared with those of rigid links,
-/// energies.
+/// Computes the elastic vibration about the nominal motion along the path. Records deflection and
+/// error of P, joint rotations, section forces, stresses, reactions, torques compared with those of
+/// rigid links, and energies.
 AnalysePath analyse_elastodynamics;
 
-/// A general regression neural network on the samples of the inverse dynamics along the path:
-/// smoothing, predictions, errors, skill, times.
+/// Evaluates a general regression neural network on samples of the inverse dynamics along the path.
+/// Records smoothing, predictions, errors, skill and times.
 AnalysePath analyse_grnn;
-/// The same on samples of the case: predictions at its queries.
+/// Evaluates the network on samples of the case, and records predictions at its queries.
 AnalyseCase analyse_grnn_samples;
 
-/// The options that the analysis itself states, whatever the scene and its effects.
+/// Reads the options that the analysis states, independent of the scene and its effects.
 [[nodiscard]] solver::ElastodynamicsOptions read_motion_options(const JsonView& analysis);
 
-/// The motion that a case of elastodynamics describes, with the scene's effects.
-/// @throws InputError  where something stands beside the manipulator or the trajectory has no time.
+/// Reads the motion of an elastodynamics case, with the scene's effects.
+/// @throws InputError  if the scene has parts besides the manipulator or the trajectory has no
+///     time.
 [[nodiscard]] solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
                                                                 const CaseModel& case_model);
 

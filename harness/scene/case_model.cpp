@@ -20,7 +20,7 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-/// Whether the text has the label of a part, and not as the start of a longer one.
+/// Returns true if the text contains the label of a part as a complete word.
 bool mentions(const std::string& text, const std::string& label) {
   for (auto at = text.find(label); at != std::string::npos; at = text.find(label, at + 1)) {
     const std::size_t end = at + label.size();
@@ -29,10 +29,10 @@ bool mentions(const std::string& text, const std::string& label) {
   return false;
 }
 
-/// Names of the parts in quantities. Two parts with one name would overwrite each other.
+/// Names of the parts in quantities. Two parts with the same name would overwrite each other.
 class PartNames {
  public:
-  /// @throws InputError  if another part has the name; the message has the pointers of both.
+  /// @throws InputError  if another part has the name; the message contains the pointers of both
   void claim(const std::string& name, const JsonView& place) {
     const auto [other, is_new] = pointers_.emplace(name, place.pointer());
     if (is_new) return;
@@ -45,7 +45,7 @@ class PartNames {
   std::map<std::string, std::string> pointers_;
 };
 
-/// @param bare  the manipulator alone
+/// @param bare  the manipulator without other parts
 void check_part_names(const JsonView& model, const solver::Model& bare) {
   PartNames names;
   names.claim("total", model);  // the sum over all parts
@@ -86,7 +86,7 @@ CaseModel read_case_model(const Document& document) {
     case_model.motion = std::move(motion.points);
   } else {
     for (const char* key : {"pose", "trajectory"}) {
-      if (model.has(key)) throw model[key].error("expected a manipulator beside it");
+      if (model.has(key)) throw model[key].error("expected it with a manipulator");
     }
     if (!model.has("nodes") || model["nodes"].size() == 0) {
       throw model.error("expected a manipulator or nodes");

@@ -11,9 +11,9 @@ namespace {
 constexpr std::size_t kMaxNodesWithMidpoints = 1500;
 constexpr std::size_t kPointsPerMember = 12;
 constexpr std::size_t kMaxMovedNodes = 6000;  ///< of all moments together
-constexpr double kShownShare = 0.8;           ///< of the way that the coordinates go
+constexpr double kShownShare = 0.8;           ///< of the range of the coordinates
 
-/// Pieces that an element is drawn in.
+/// Returns the number of pieces in which an element is drawn.
 std::size_t pieces(const solver::System& system, const solver::FrameElement& element) {
   const auto elements =
       solver::to_size(system.model.members[solver::to_size(element.member)].elements);
@@ -21,7 +21,7 @@ std::size_t pieces(const solver::System& system, const solver::FrameElement& ele
   return std::max<std::size_t>(1, (kPointsPerMember + elements - 1) / elements);
 }
 
-/// Nodes of the mesh in the order in which they are drawn, and back (-1: not drawn).
+/// Drawn nodes of the mesh in drawing order, and their inverse map (-1: not drawn).
 struct DrawnNodes {
   std::vector<std::size_t> mesh;
   std::vector<solver::Index> number;
@@ -80,7 +80,7 @@ void draw_triangles(const solver::Model& model, const DrawnNodes& drawn, Drawing
   }
 }
 
-/// A rigid body is a bar to its one node, or a fan of triangles about its reference.
+/// Draws a rigid body as a bar to its only node, or as a fan of triangles about its reference.
 void draw_rigid_bodies(const solver::Model& model, const DrawnNodes& drawn, Drawing& drawing) {
   for (const solver::RigidBody& body : model.rigid_bodies) {
     const int reference = drawn.index_of(body.reference);
@@ -93,7 +93,7 @@ void draw_rigid_bodies(const solver::Model& model, const DrawnNodes& drawn, Draw
   }
 }
 
-/// One joint a node; the one that says most wins.
+/// Draws one joint per node. If a node has several kinds, the most specific one is drawn.
 void draw_joints(const solver::Model& model, bool is_manipulator, const DrawnNodes& drawn,
                  Drawing& drawing) {
   std::vector<std::string> kind(model.nodes.size());
@@ -248,7 +248,8 @@ Drawing draw_manipulator(const solver::ManipulatorGeometry& geometry,
 
 namespace {
 
-/// The model's nodes, then the members' inner points, first to second node.
+/// Returns the model's nodes, followed by the inner points of each member from its first to its
+/// second node.
 std::vector<results::Point> places(const solver::large_motion::GeometricallyExactSystem& system,
                                    const Eigen::VectorXd& q) {
   const solver::Model& model = system.model();

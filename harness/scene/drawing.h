@@ -18,48 +18,51 @@ using results::Drawing;
   return {position.x(), position.y()};
 }
 
-/// What a picture can show.
+/// Largest number of nodes that a picture can show.
 inline constexpr std::size_t kMaxDrawnNodes = 4000;
 
-/// Adds triangles, rigid bodies and joints of a drawing that begins with all nodes of the model.
+/// Adds triangles, rigid bodies and joints to a drawing that begins with all nodes of the model.
 void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawing);
 
-/// The mesh of a model, members smoothed by points inside their elements. A fine mesh is drawn
-/// without the middles of its six-node triangles; nothing where there still are more nodes than a
-/// picture can show.
+/// Draws the mesh of a model, with points inside elements that smooth the members. A fine mesh is
+/// drawn without the mid-side nodes of its six-node triangles. Returns nothing if more nodes remain
+/// than a picture can show.
 [[nodiscard]] std::optional<Drawing> draw_model(const solver::System& system, bool is_manipulator);
 
-/// Displacements of the drawing's nodes under the free coordinates q: inside elements by the cubic
-/// shape functions of the Euler-Bernoulli beam.
+/// Returns the displacements of the drawing's nodes for free coordinates q. Inside elements, it
+/// uses the cubic shape functions of the Euler-Bernoulli beam.
 [[nodiscard]] results::Shape draw_shape(const solver::System& system, const Eigen::VectorXd& q,
                                         const std::string& label);
 
-/// The samples of a motion that a picture can show: 48 at most, fewer of a fine mesh. Where so few
-/// would miss vibrations, they are of the beginning alone.
+/// Returns the samples of a motion that a picture shows: at most 48, and fewer for a fine mesh. If
+/// these would miss vibrations, they cover only the beginning of the motion.
 /// @param q      coordinates of each sample
-/// @param nodes  of the drawing
+/// @param nodes  number of nodes of the drawing
 [[nodiscard]] std::vector<std::size_t> drawn_samples(const std::vector<Eigen::VectorXd>& q,
                                                      std::size_t nodes);
 
-/// How many moments of a motion a picture with so many nodes can show.
+/// Returns the number of moments of a motion that a picture with that number of nodes can show.
 [[nodiscard]] std::size_t max_drawn_moments(std::size_t nodes);
 
-/// "0.25 s"
+/// Returns the label of a moment: "0.25 s".
 [[nodiscard]] std::string moment_label(double time);
 
-/// Displacement at s in [0, 1] along an element, from the unconstrained coordinates u = T q [m].
+/// Returns the displacement at s in [0, 1] along an element, from the unconstrained coordinates u =
+/// T q [m].
 [[nodiscard]] Eigen::Vector2d displacement_along(const solver::FrameElement& element,
                                                  const Eigen::VectorXd& u, double s);
 
-/// A rigid manipulator at the first point and, where there are more, at moments of its path.
+/// Draws a rigid manipulator at the first point of its path, and at further moments if there are
+/// any.
 [[nodiscard]] Drawing draw_manipulator(const solver::ManipulatorGeometry& geometry,
                                        const std::vector<solver::TrajectoryPoint>& motion);
 
-/// The model in its own pose; nothing where there are more nodes than a picture can show.
+/// Draws the model in its initial pose. Returns nothing if it has more nodes than a picture can
+/// show.
 [[nodiscard]] std::optional<Drawing> draw_large_model(
     const solver::large_motion::GeometricallyExactSystem& system, bool is_manipulator);
 
-/// Positions of the drawing's nodes at coordinates q.
+/// Returns the positions of the drawing's nodes at coordinates q.
 [[nodiscard]] results::Pose draw_large_pose(
     const solver::large_motion::GeometricallyExactSystem& system, const Eigen::VectorXd& q,
     const std::string& label);

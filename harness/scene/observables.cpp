@@ -18,7 +18,8 @@ using solver::Model;
 using Of = Observable::Of;
 using State = ModelState;
 
-/// Entry of a matrix with a row for each node or member; NaN if the state does not have the matrix.
+/// Returns an entry of a matrix with a row for each node or member; NaN if the state does not have
+/// the matrix.
 template <auto matrix, Index component>
 double entry(const Model&, const State& state, const ModelPart& part) {
   const Index row = part.items.front();
@@ -35,15 +36,15 @@ double end_rotation(const Model&, const State& state, const ModelPart& part) {
   return state.end_rotation(part.items.front(), part.end);
 }
 
-/// N, V or M.
+/// Returns N, V or M at the end of a member.
 template <Index component>
 double resultant(const Model&, const State& state, const ModelPart& part) {
   return (part.end == 0 ? state.resultant_start : state.resultant_end)(part.items.front(),
                                                                        component);
 }
 
-/// M / W, with the sign of M: at the fiber on the right of the way from the first to the second
-/// node. A section without a depth has none.
+/// Returns the bending stress M / W with the sign of M. It is the stress at the fiber to the right,
+/// seen from the first to the second node. Returns NaN for a section without a depth.
 double bending_stress(const Model& model, const State& state, const ModelPart& part) {
   const solver::Member& member = model.members[solver::to_size(part.items.front())];
   const double modulus = (part.end == 0 ? member.section : member.end_section).section_modulus;
@@ -51,7 +52,7 @@ double bending_stress(const Model& model, const State& state, const ModelPart& p
   return resultant<2>(model, state, part) / modulus;
 }
 
-/// Sum over the supports of one name, which are the nodes of an edge if they are several.
+/// Returns the sum over the supports of one name. An edge has several supports, one per node.
 template <Index component>
 double reaction(const Model&, const State& state, const ModelPart& part) {
   double sum = state.reaction(part.items.front(), component);
@@ -111,7 +112,7 @@ constexpr auto kObservables = std::to_array<Observable>({
     {"von_mises_stress_Pa", Of::plate, von_mises_stress, true, true},
 });
 
-/// Parts with a name; others are within a plate or a chain of members.
+/// Returns the parts with a name. Parts without a name belong to a plate or a chain of members.
 std::vector<ModelPart> parts_of(const Model& model, Of of) {
   std::vector<ModelPart> parts;
   const auto add_all = [&](const auto& all, Index end, const char* suffix) {
@@ -149,7 +150,7 @@ ModelPart find_part(const JsonView& place, const Model& model, Of of, const std:
                     " after the colon (got '" + printable(name) + "')" + did_you_mean(name, all));
 }
 
-/// The rows of the table that an analysis has.
+/// Returns the rows of the table that an analysis has.
 std::vector<const Observable*> observables_of(const std::string& analysis) {
   std::vector<const Observable*> rows;
   for (const Observable& one : kObservables)

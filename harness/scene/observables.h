@@ -8,23 +8,23 @@
 #include "harness/input/json_view.h"
 #include "solver/linear/statics.h"
 
-/// Quantities of the parts of a model as functions of its state, in one table: analyses record
-/// their states by it, and the key "outputs" selects rows of it. results/quantities.txt documents
-/// each row and lists the analyses that have it.
+/// Table of the quantities of a model's parts as functions of its state. An analysis records its
+/// states by this table, and the key "outputs" selects rows of it. results/quantities.txt documents
+/// each row and the kinds of analysis that have it.
 namespace trammel::harness {
 
-/// State of a model at one moment, or amplitudes of its vibration. An analysis fills the members
+/// State of a model at one moment, or amplitudes of its vibration. An analysis sets the members
 /// that its quantities need.
 struct ModelState : solver::StaticSolution {
   Eigen::MatrixX3d velocity = {}, acceleration = {};  ///< model node x (x, y, rotation)
-  Eigen::MatrixX3d relative = {};  ///< displacement, as a node that moves and turns observes it
+  Eigen::MatrixX3d relative = {};  ///< displacement relative to a node that moves and rotates
 };
 
-/// A named node, member, end of a member, plate or set of supports.
+/// Named node, member, end of a member, plate or set of supports.
 struct ModelPart {
   std::string name;
   std::vector<solver::Index> items;  ///< nodes, members, supports, or triangles of the plate
-  solver::Index end = 0;             ///< of the member
+  solver::Index end = 0;             ///< end of the member, 0 or 1
 };
 
 struct Observable {
@@ -33,20 +33,21 @@ struct Observable {
   Of of;
   /// Returns NaN if the part has no such quantity.
   double (*value)(const solver::Model&, const ModelState&, const ModelPart&);
-  bool is_force = false;     ///< computed from forces: with their round-off error
-  bool is_optional = false;  ///< parts for which it is NaN are left out
+  bool is_force = false;     ///< computed from forces, whose round-off error applies
+  bool is_optional = false;  ///< parts with the value NaN are omitted
 };
 
-/// Records the observables of an analysis for all parts of a model, which must outlive it.
+/// Records the observables of an analysis for all parts of a model, which must outlive the
+/// recorder.
 class StateRecorder {
  public:
-  /// @param nodes    the only ones; null: all
-  /// @param without  rows that are left out
+  /// @param nodes    nodes to record; null: all
+  /// @param without  names of rows that are omitted
   StateRecorder(const solver::Model& model, const std::string& analysis,
                 const std::vector<std::string>& without = {},
                 const std::vector<solver::Index>* nodes = nullptr);
 
-  /// @param displacement_roundoff, force_roundoff  relative; negative: not known
+  /// @param displacement_roundoff, force_roundoff  relative; negative: unknown
   void record(const ModelState& state, Recorder& record, double displacement_roundoff = -1,
               double force_roundoff = -1) const;
 
@@ -59,7 +60,7 @@ class StateRecorder {
   std::vector<Row> rows_;
 };
 
-/// A quantity that the key "outputs" of a transient or harmonic analysis selects.
+/// Quantity that the key "outputs" of a transient or harmonic analysis selects.
 struct Output {
   std::string name;  ///< displacement_y_m:M, bending_moment_N_m:AB.start, stress_Pa:AB ...
   const Observable* observable = nullptr;
@@ -69,9 +70,10 @@ struct Output {
   }
 };
 
-/// Returns true if the state needs section forces.
+/// Returns true if the outputs need section forces.
 [[nodiscard]] bool needs_forces(const std::vector<Output>& outputs);
 
+/// Reads the outputs.
 /// @throws InputError  for an unknown quantity or a part that the model does not have.
 [[nodiscard]] std::vector<Output> read_outputs(const JsonView& outputs, const solver::Model& model);
 

@@ -20,8 +20,8 @@ solver::RigidManipulator read_rigid_manipulator(const JsonView& analysis,
     const auto parts = model.find(kind);
     if (!parts || parts->size() == 0) continue;
     throw parts->error(
-        "expected nothing beside the manipulator: rigid dynamics has no place for "
-        "it");
+        "expected a manipulator without other parts: rigid dynamics does not support "
+        "them");
   }
   if (const auto loads = model.find("loads")) {
     const auto names = loads->entries();

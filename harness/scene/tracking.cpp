@@ -24,7 +24,8 @@ void require_joints(const JsonView& place, const solver::ManipulatorDesign& desi
   }
 }
 
-/// With the load that the torques of the actuators balance; beyond the ends of the path, as there.
+/// Returns the rigid motion with the load that the actuator torques balance. Outside the path, it
+/// returns the nearest end point.
 solver::large_motion::RigidMotion loaded_motion(const solver::RigidManipulator& rigid,
                                                 const CaseModel& case_model,
                                                 const std::function<double(double)>& load_history) {
@@ -37,7 +38,7 @@ solver::large_motion::RigidMotion loaded_motion(const solver::RigidManipulator& 
   });
 }
 
-/// Velocities at the start, those of the rigid twin.
+/// Returns the initial velocities of the rigid twin.
 solver::large_motion::PrescribedVelocities tracking_start(
     const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system) {
   const solver::TrajectoryPoint start = solver::at(*case_model.path, 0);
@@ -97,7 +98,7 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
                               const solver::large_motion::LargeMotionModel& large_motion,
                               solver::Model& model) {
   for (const solver::large_motion::Drive& drive : large_motion.drives) {
-    // The builder's first three supports and nodes are those of the actuators, in their order.
+    // The builder's first three supports and nodes belong to the actuators, in the same order.
     if (!case_model.manipulator || drive.direction != 2 || drive.node > 2) continue;
     const auto limb = solver::to_size(drive.node);
     if (case_model.manipulator->active[limb].kind == solver::ActiveKind::free) {

@@ -4,7 +4,8 @@
 
 namespace trammel::harness {
 
-/// What `work` returns. @throws InputError  by `model_error`, where the solver refuses the model.
+/// Returns the result of `work`.
+/// @throws InputError  by `model_error`, if the solver refuses the model.
 template <class Work>
 auto with_model_errors(const Document& document, const Work& work) {
   try {

@@ -12,7 +12,7 @@ solver::BucklingOptions read_buckling_options(const JsonView& analysis) {
   return {analysis.get<solver::Index>("count", 3), read_eigen_method(analysis)};
 }
 
-/// The forces on nodes at a load factor: critical_force_N:NAME.
+/// Records the forces on nodes at a load factor: critical_force_N:NAME.
 void record_forces(const JsonView& analysis, const std::string& mode, double factor,
                    double roundoff, Recorder& record) {
   const JsonView model = JsonView(analysis.document())["model"];
@@ -37,7 +37,7 @@ StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_mode
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!buckling.outcome.solved()) return result;
   if (system.K.rows() == 0) {
-    result.outcome = {solver::Status::singular, "nothing buckles, for everything is held"};
+    result.outcome = {solver::Status::singular, "nothing buckles: everything is held"};
     return result;
   }
   for (solver::Index i = 0; i < buckling.load_factor.size(); ++i) {

@@ -44,7 +44,7 @@ void record_point(const GeometricallyExactSystem& system, const PathPoint& point
   }
 }
 
-/// Frequencies about a point of the path; of several points with the mode.
+/// Records frequencies about a point of the path. For several points, the names include the mode.
 void record_vibration(const GeometricallyExactSystem& system, const PathPoint& point,
                       solver::Index count, bool several, StepResult& result, Recorder& record) {
   const auto found = solver::large_motion::small_vibration(system, point.state, count);
@@ -62,7 +62,7 @@ void record_events(const std::vector<PathEvent>& events, Recorder& record) {
   }
 }
 
-/// How the last solution was found, iteration by iteration.
+/// Records the Newton iterations of the last solution.
 void record_newton(const solver::large_motion::NewtonResult& newton, Recorder& record) {
   for (std::size_t i = 0; i < newton.correction.size(); ++i) {
     record.add("newton_iteration", i + 1);
@@ -94,7 +94,7 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
   }
   solver::large_motion::StaticPathOptions options = read_large_statics_options(analysis);
   if (options.keep_points && (case_model.path || factors.size() > 1)) {
-    throw analysis["whole_path"].error("expected one pose and one load factor beside it");
+    throw analysis["whole_path"].error("expected it with one pose and one load factor");
   }
   // Small vibration reports a free part as a mode of 0 Hz; otherwise its position is undetermined.
   options.keep_free_parts = analysis.get("vibration_modes", solver::Index{0}) > 0;
@@ -127,7 +127,7 @@ StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case
     result.warnings.push_back(
         {"the number of loads that follow their nodes",
          static_cast<double>(large_motion.follower_loads.size()), "",
-         "statics cannot tell whether the state is stable (flutter); 'vibration_modes' can"});
+         "statics does not detect instability by flutter; 'vibration_modes' does"});
   for (const PathPoint& point : recorded_points) {
     record_point(system, point, record, result.warnings);
     if (vibrations > 0)

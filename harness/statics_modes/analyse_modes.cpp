@@ -24,23 +24,23 @@ solver::ModesOptions read_modes_options(const JsonView& analysis) {
   return {analysis["count"].get<solver::Index>(), read_eigen_method(analysis)};
 }
 
-/// What cannot stand beside the modes of a state that loads or rotation make.
+/// Rejects a key that is incompatible with modes about a loaded or rotating state.
 void refuse(const JsonView& analysis, const char* key, const char* beside, const char* reason) {
   if (!analysis.has(key) || analysis[key].json() == false) return;
   throw analysis[key].error(std::string("expected it without '") + beside + "': " + reason);
 }
 
-/// The system in the coordinates that the analysis asks for.
+/// Returns the system in the coordinates that the analysis requests.
 solver::System condensed(const JsonView& analysis, const CaseModel& case_model,
                          solver::System system) {
   if (!analysis.has("reduction")) return system;
-  refuse(analysis, "count_below_Hz", "reduction", "it counts the modes of the whole model");
+  refuse(analysis, "count_below_Hz", "reduction", "it counts the modes of the full model");
   if (case_model.effects.has(solver::Effect::geometric_stiffening)) {
     throw analysis["reduction"].error("expected it without geometric stiffening ('prestressed')");
   }
   if (analysis["reduction"].has("modes"))
-    throw analysis["reduction"].error("expected 'fixed_interface_modes': modes are looked for");
-  // Loads do not act in modes.
+    throw analysis["reduction"].error("expected 'fixed_interface_modes', which modes require");
+  // Loads do not affect these modes.
   return solver::reduce_members(
       system, analysis["reduction"].get<solver::Index>("fixed_interface_modes", 0));
 }
@@ -55,7 +55,7 @@ solver::ModalSolution modes_of(const JsonView& analysis, const CaseModel& case_m
   return solver::solve_prestressed_modes(system, options);
 }
 
-/// @param item  the mode, along a path
+/// @param path  records one quantity per mode
 void record_modes(const Eigen::VectorXd& frequency, const Eigen::VectorXd& roundoff, bool path,
                   Recorder& record) {
   for (solver::Index i = 0; i < frequency.size(); ++i) {
@@ -79,7 +79,7 @@ std::optional<Drawing> draw_modes(const CaseModel& case_model, const solver::Sys
   return drawing;
 }
 
-/// Translations of all nodes of the mesh, each column of length 1.
+/// Returns the translations of all nodes of the mesh. Each column has length 1.
 Eigen::MatrixXd unit_translations(const solver::System& system, const Eigen::MatrixXd& shape) {
   const Eigen::MatrixXd u = system.T * shape;
   const auto& nodes = system.coordinates.node;
@@ -92,9 +92,9 @@ Eigen::MatrixXd unit_translations(const solver::System& system, const Eigen::Mat
   return translations.colwise().normalized();
 }
 
-/// Follows the modes of the first point by their shapes: from point to point each goes on as the
-/// one that resembles it most, by the modal assurance criterion (R. J. Allemang, D. L. Brown, IMAC
-/// 1982); the most alike are taken first, each mode once.
+/// Tracks the modes of the first point along the path by their shapes. A mode continues as the mode
+/// of the next point that resembles it most, by the modal assurance criterion (R. J. Allemang, D.
+/// L. Brown, IMAC 1982). The most similar pairs are matched first, and each mode is matched once.
 class ShapeTracker {
  public:
   void record(const solver::System& system, const solver::ModalSolution& modes, Recorder& record) {
@@ -119,10 +119,10 @@ class ShapeTracker {
   }
 
  private:
-  Eigen::MatrixXd last_;  ///< translation x mode of the first point, as it now looks
+  Eigen::MatrixXd last_;  ///< translation x mode of the first point, with its current shape
 };
 
-/// A moment of the motion at which its largest part is at its largest.
+/// Returns the real shape at the instant when the largest component reaches its amplitude.
 Eigen::VectorXd snapshot(const Eigen::VectorXcd& shape) {
   solver::Index largest = 0;
   shape.cwiseAbs().maxCoeff(&largest);
@@ -130,7 +130,7 @@ Eigen::VectorXd snapshot(const Eigen::VectorXcd& shape) {
   return (turn * shape).real();
 }
 
-/// All that the case states, without the effects and the speed.
+/// Reads the options of the case, except for the effects and the speed.
 solver::RotatingOptions read_rotating_options(const JsonView& modes) {
   const JsonView rotating = modes["rotating"];
   solver::RotatingOptions options;
@@ -143,9 +143,9 @@ solver::RotatingOptions read_rotating_options(const JsonView& modes) {
   return options;
 }
 
-/// Modes in a steadily rotating frame, key "rotating" of the modes: at one speed, or one number a
-/// speed. Not solved: the first speed without a steady state.
-/// @param effects  of which Coriolis forces and stiffening by tension are decided here
+/// Computes modes in a steadily rotating frame (key "rotating") at one speed, or one number per
+/// speed. The outcome is that of the first speed without a steady state.
+/// @param effects  effects that decide about Coriolis forces and stiffening by tension
 StepResult analyse_rotating(const JsonView& modes, const solver::System& system,
                             solver::Effects effects, bool draw, Recorder& record) {
   const Json& stated = modes["rotating"]["angular_speed_rad_s"].json();
@@ -161,7 +161,7 @@ StepResult analyse_rotating(const JsonView& modes, const solver::System& system,
   for (const double speed : speeds) {
     options.frame.speed = speed;
     const solver::RotatingModes found = solver::solve_rotating_modes(system, options);
-    solver::Counters step_counters = found.counters;  // which begin with the system's
+    solver::Counters step_counters = found.counters;  // these include the counters of the system
     step_counters.element_evaluations = 0;
     for (std::size_t i = 0; i < solver::kEffectCount; ++i)
       step_counters.effects[i] -= system.counters.effects[i];
@@ -203,8 +203,8 @@ StepResult analyse_modes_at(const JsonView& analysis, const CaseModel& case_mode
   if (!modes.outcome.solved()) return result;
   if (modes.frequency.size() == 0) {
     result.outcome = {solver::Status::singular,
-                      system.K.rows() == 0 ? "nothing vibrates, for everything is held"
-                                           : "nothing vibrates, for nothing that moves has mass"};
+                      system.K.rows() == 0 ? "nothing vibrates: everything is held"
+                                           : "nothing vibrates: no part that can move has a mass"};
     return result;
   }
   record_modes(modes.frequency, modes.roundoff, case_model.path.has_value(), record);
@@ -221,8 +221,8 @@ StepResult analyse_modes_at(const JsonView& analysis, const CaseModel& case_mode
   return result;
 }
 
-/// Whether the links are condensed in less time than they save, and the joints' matrices, which are
-/// dense, are small.
+/// Returns true if condensing the links saves more time than it costs. The dense matrices of the
+/// joints must also be small.
 bool is_condensable(const solver::ManipulatorDesign& design) {
   constexpr solver::Index kMostElements = 100;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -234,8 +234,8 @@ bool is_condensable(const solver::ManipulatorDesign& design) {
           !design.platform.six_nodes);
 }
 
-/// Whether the modes follow the pose: a manipulator on a path, alone, at rest and without loads
-/// that stiffen it.
+/// Returns true if the modes follow the pose. This requires a manipulator on a path, without other
+/// parts, at rest and without loads that stiffen it.
 bool follows_pose(const JsonView& analysis, const CaseModel& case_model) {
   const solver::Model& others = case_model.structure;
   const auto& joints = case_model.joint_elements;

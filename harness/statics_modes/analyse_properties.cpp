@@ -10,7 +10,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Mass, its centre, and its moment of inertia about that centre.
+/// Mass, center of mass, and moment of inertia about it.
 struct Body {
   double mass = 0;
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
@@ -27,8 +27,8 @@ Body join(const Body& a, const Body& b) {
   return both;
 }
 
-/// The uniform elements that the member is cut into; the rotary inertia of the cross-section where
-/// the theory has it.
+/// Returns the body of a member's uniform elements. Includes the rotary inertia of the
+/// cross-section if the theory has it.
 Body body_of(const solver::Model& model, const solver::Member& member) {
   const Eigen::Vector2d start = model.nodes[solver::to_size(member.nodes[0])].position;
   const Eigen::Vector2d end = model.nodes[solver::to_size(member.nodes[1])].position;
@@ -47,7 +47,7 @@ Body body_of(const solver::Model& model, const solver::Member& member) {
   return whole;
 }
 
-/// Sides may be curved.
+/// Integrates over a six-node triangle, whose sides may be curved.
 Body body_of_six_nodes(const solver::Model& model, const solver::Triangle& triangle) {
   const solver::Plate& plate = model.plates[solver::to_size(triangle.plate)];
   Body whole;

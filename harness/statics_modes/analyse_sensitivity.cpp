@@ -26,7 +26,7 @@ std::vector<Named> read_parameters(const JsonView& analysis, const CaseModel& ca
   return read;
 }
 
-/// Derivatives by differences: extrapolated, or one quotient if the method has a step.
+/// Computes derivatives by differences: extrapolated, or one quotient if the method has a step.
 FrequencyDifferences differences_of(const std::optional<JsonView>& method,
                                     const CaseModel& case_model,
                                     const solver::DesignParameter& parameter, solver::Index count) {
@@ -39,8 +39,8 @@ FrequencyDifferences differences_of(const std::optional<JsonView>& method,
                              name == "central-difference");
 }
 
-/// Exact derivatives, and differences for the parameters that do not have them; or differences
-/// alone.
+/// Computes exact derivatives, with differences for parameters that have no exact derivative.
+/// Otherwise computes differences only.
 solver::FrequencySensitivity derive(const JsonView& analysis, const CaseModel& case_model,
                                     const std::vector<solver::DesignParameter>& parameters,
                                     bool exactly) {
@@ -71,8 +71,8 @@ solver::FrequencySensitivity derive(const JsonView& analysis, const CaseModel& c
   return all;
 }
 
-/// Error of the derivative against extrapolated differences, as a share of frequency over
-/// parameter, which is what a derivative of a frequency is like.
+/// Records the error of the derivative against extrapolated differences. The error is relative to
+/// frequency over parameter, the scale of the derivative.
 void record_differences(const CaseModel& case_model, const Named& named,
                         const solver::FrequencySensitivity& found, solver::Index column,
                         Recorder& record, StepResult& result) {
@@ -85,7 +85,7 @@ void record_differences(const CaseModel& case_model, const Named& named,
   }
   const double value = parameter_value(*case_model.manipulator, named.parameter);
   for (solver::Index i = 0; i < count; ++i) {
-    if (found.frequency[i] == 0) continue;  // rigid motions
+    if (found.frequency[i] == 0) continue;  // rigid-body motions
     const double error = std::abs(found.derivative(i, column) - differences.derivative[i]);
     record.add("finite_difference_error", named.name, error * value / found.frequency[i]);
   }
@@ -97,7 +97,7 @@ StepResult analyse_sensitivity(const JsonView& analysis, const CaseModel& case_m
                                Recorder& record) {
   if (case_model.path) throw analysis.error("expected a model with a pose, not a trajectory");
   static_cast<void>(
-      read_rigid_manipulator(analysis, case_model));  // nothing beside the manipulator
+      read_rigid_manipulator(analysis, case_model));  // rejects parts other than the manipulator
   const std::vector<Named> named = read_parameters(analysis, case_model);
   std::vector<solver::DesignParameter> parameters;
   parameters.reserve(named.size());
@@ -123,7 +123,7 @@ StepResult analyse_sensitivity(const JsonView& analysis, const CaseModel& case_m
     for (solver::Index i = 0; i < found.frequency.size(); ++i) {
       const double derivative = found.derivative(i, column);
       record.add(sensitivity_name(named[p].parameter.kind), named[p].name, derivative);
-      if (found.frequency[i] == 0) continue;  // rigid motions
+      if (found.frequency[i] == 0) continue;  // rigid-body motions
       record.add("relative_sensitivity", named[p].name, derivative * value / found.frequency[i]);
     }
     if (analysis.get("differences", false)) {

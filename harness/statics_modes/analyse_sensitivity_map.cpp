@@ -15,12 +15,12 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// What one orientation comes to, by each reading of "the sensitivity".
+/// Results for one orientation, for each interpretation of "the sensitivity".
 struct Reading {
   double center_frequency = kNaN,
-         center = kNaN;                       ///< at the position that counts as the centre
+         center = kNaN;                       ///< at the position that counts as the center
   double mean_frequency = kNaN, mean = kNaN;  ///< over all positions of the map
-  double largest = kNaN;                      ///< in magnitude, clear of the boundary
+  double largest = kNaN;                      ///< in magnitude, away from the boundary
 };
 
 void record_curves(const std::string& name, const std::string& item,
@@ -35,14 +35,15 @@ void record_curves(const std::string& name, const std::string& item,
   }
 }
 
-/// Seven digits: as much as a map shows, in half the space.
+/// Rounds to seven digits, which suffices for a map and halves its size.
 double for_map(double value) {
   if (value == 0) return value;
   const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 6);
   return std::round(value / unit) * unit;
 }
 
-/// @param positions  record each of them, too
+/// Reads the map of one orientation.
+/// @param positions  also record each position
 Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
                  const std::string& item, double margin, bool positions, Recorder& record) {
   Reading reading{.mean_frequency = 0, .mean = 0, .largest = 0};
@@ -50,7 +51,7 @@ Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
   for (solver::Index j = 0; j < map.grid.rows; ++j) {
     for (solver::Index i = 0; i < map.grid.columns; ++i) {
       const double rate = map.derivative(j, i);
-      if (!std::isfinite(rate)) continue;  // out of reach, or on its boundary
+      if (!std::isfinite(rate)) continue;  // out of reach, or on the boundary of the reach
       if (positions) {
         const solver::Pose pose = map.grid.pose(j, i);
         record.add("position_x_m", item, for_map(pose.x));
@@ -70,7 +71,7 @@ Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
   return reading;
 }
 
-/// Rises from the first orientation to each of the others, in magnitude.
+/// Records the increase in magnitude from the first orientation to each of the others.
 void record_rises(const std::vector<Reading>& readings, Recorder& record) {
   const auto rise = [&](const char* name, const char* item, double Reading::*number) {
     const double first = std::abs(readings.front().*number);
@@ -91,7 +92,7 @@ StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& ca
                                    Recorder& record) {
   if (case_model.path) throw analysis.error("expected a model with a pose, not a trajectory");
   static_cast<void>(
-      read_rigid_manipulator(analysis, case_model));  // nothing beside the manipulator
+      read_rigid_manipulator(analysis, case_model));  // rejects parts other than the manipulator
   const solver::ManipulatorDesign& design = *case_model.manipulator;
   solver::DesignParameter parameter;
   if (const auto given = analysis.find("parameter")) {
@@ -121,7 +122,7 @@ StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& ca
     result.outcome = at_center.outcome;
     result.evidence.add(at_center.evidence);
     if (!result.outcome.solved()) {
-      result.outcome.reason.insert(0, "at the centre, " + item + ": ");
+      result.outcome.reason.insert(0, "at the center, " + item + ": ");
       return result;
     }
     reading.center_frequency = at_center.frequency;

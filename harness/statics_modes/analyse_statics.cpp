@@ -11,7 +11,7 @@
 namespace trammel::harness {
 namespace {
 
-/// With large displacement: in the geometrically exact tier.
+/// Solves statics with large displacement, as geometrically exact statics.
 StepResult analyse_exactly(const CaseModel& case_model, std::size_t step, bool draw,
                            Recorder& record) {
   const solver::Model model = build_bare_model(case_model, step);
@@ -47,7 +47,7 @@ StepResult analyse_statics(const JsonView&, const CaseModel& case_model, std::si
   const solver::Model& model = system.model;
   std::vector<std::string> without;
   if (case_model.path) without = {"bending_stress_Pa"};
-  // The pins of a platform are points that no mesh resolves.
+  // The pins of a platform are singular points, which no mesh resolves.
   if (case_model.manipulator) solution.node_stress.resize(0, 3);
   StateRecorder(model, "statics", without).record(solution, record, roundoff, of_forces);
   warn_of_rotation(largest_rotation(system, system.T * solution.q), result.warnings);
@@ -55,7 +55,7 @@ StepResult analyse_statics(const JsonView&, const CaseModel& case_model, std::si
   warn_of_redundancy(system, result.warnings);
   warn_of_taper(model, result.warnings);
   warn_of_amplification(solution, result.warnings);
-  // Loads times displacements: twice the strain energy.
+  // The work of the loads is twice the strain energy.
   record.add("compliance_J", "", system.f.dot(solution.q), roundoff);
   record.add("equilibrium_residual_N", solution.equilibrium_residual);
   record.add("moment_residual_N_m", solution.moment_residual);

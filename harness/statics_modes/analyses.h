@@ -2,33 +2,36 @@
 
 #include "harness/statics_modes/step_result.h"
 
-/// Analyses of statics, buckling, modes, design derivatives and manufactured solutions.
+/// Functions for statics, buckling, modes, design derivatives and manufactured solutions.
 namespace trammel::harness {
 
-/// Masses, their centers and moments of inertia, of each part and of the model.
+/// Computes masses, their centers and moments of inertia, of each part and of the model.
 AnalyseStep analyse_properties;
 
-/// Displacements, end rotations, reactions, section forces, stresses, residuals.
+/// Computes displacements, end rotations, reactions, section forces, stresses and residuals.
 AnalyseStep analyse_statics;
 
-/// Statics in large motion, at each load factor or along the full path: geometrically exact.
+/// Computes geometrically exact statics, at each load factor or along the full path.
 AnalyseStep analyse_large_statics;
 
-/// Multiples of all loads together at which the model buckles, and the forces at these multiples.
+/// Computes the multiples of all loads together at which the model buckles, and the forces at these
+/// multiples.
 AnalyseStep analyse_buckling;
 
-/// Natural frequencies, at rest, under the model's loads or in a rotating frame. Along a path there
-/// is one quantity per mode, frequency_Hz:1 ... The modes of a manipulator without other parts
-/// follow its pose (solver/manipulator/pose_modes.h); any other modes are computed at each point.
+/// Computes natural frequencies, at rest, under the model's loads or in a rotating frame. Along a
+/// path there is one quantity per mode, frequency_Hz:1 ... The modes of a manipulator without other
+/// parts follow its pose (solver/manipulator/pose_modes.h). Any other modes are computed at each
+/// point.
 AnalysePath analyse_modes;
 
-/// Derivatives of the natural frequencies with respect to parameters of the manipulator's design.
+/// Computes derivatives of the natural frequencies with respect to parameters of the manipulator's
+/// design.
 AnalysePath analyse_sensitivity;
 
-/// The first frequency and one derivative over the workspace, at each orientation.
+/// Computes the first frequency and one derivative over the workspace, at each orientation.
 AnalysePath analyse_sensitivity_map;
 
-/// Relative error norms of a manufactured solution on one mesh; needs no scene.
+/// Computes relative error norms of a manufactured solution on one mesh. Needs no scene.
 AnalyseCase analyse_manufactured;
 
 }  // namespace trammel::harness

@@ -58,9 +58,9 @@ void grow(std::array<Vector2d, 3>& triangle, const Vector2d& about, double chang
 
 constexpr int kRows = 7;
 constexpr double kRatio = 1.6;
-/// Modes beyond those asked for, so that a set of equal frequencies is whole.
+/// Additional modes, so that a set of equal frequencies is complete.
 constexpr Index kExtraModes = 3;
-/// Share of the way to the nearest other frequency that a step may take.
+/// Largest step, as a share of the distance to the nearest other frequency.
 constexpr double kShareOfGap = 0.1;
 
 class Differences {
@@ -91,7 +91,7 @@ class Differences {
   }
 
  private:
-  /// The frequencies of the design itself.
+  /// Computes the frequencies of the design itself.
   VectorXd begin() {
     VectorXd all = frequencies(0);
     result_.frequency = all.head(std::min(count_, all.size()));
@@ -122,7 +122,7 @@ class Differences {
     const VectorXd above = frequencies(step);
     const VectorXd below = frequencies(-step);
     const Index needed = sets_.empty() ? 0 : sets_.back().first + sets_.back().count;
-    if (std::min(above.size(), below.size()) < needed) {  // their modes did not converge
+    if (std::min(above.size(), below.size()) < needed) {  // the modes did not converge
       return VectorXd::Constant(count_, std::numeric_limits<double>::quiet_NaN());
     }
     VectorXd rate = VectorXd::Zero(count_);
@@ -135,7 +135,8 @@ class Differences {
     return rate;
   }
 
-  /// No longer than asked; ten such steps stay within reach, and no set comes near its neighbour.
+  /// Returns a step that is at most the requested one. Ten such steps stay within reach, and each
+  /// set of frequencies stays away from its neighbor.
   double first_step(const VectorXd& all, double step) {
     while (!within_reach(10 * step) || !within_reach(-10 * step)) step /= 2;
     const double fastest = central(1e-3 * step).cwiseAbs().maxCoeff();

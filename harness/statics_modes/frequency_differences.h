@@ -6,9 +6,9 @@
 #include "solver/model/effects.h"
 #include "solver/model/evidence.h"
 
-/// Sensitivities of the natural frequencies by differences, as a study over a parameter of the
-/// design: a second route, which shares no derivative with `solver::frequency_sensitivity`. Values
-/// of these parameters, and changed designs.
+/// Computes sensitivities of the natural frequencies by finite differences over a design parameter.
+/// This second method shares no derivative with `solver::frequency_sensitivity`. Also reads and
+/// changes the values of design parameters.
 namespace trammel::harness {
 
 struct DesignInPose {
@@ -16,38 +16,39 @@ struct DesignInPose {
   solver::Pose pose;
 };
 
-/// The design with the parameter increased by `change` [unit of the parameter: m, Pa, kg/m^3, -,
-/// kg, kg m^2, N m/rad, rad].
+/// Returns the design with the parameter increased by `change` [unit of the parameter: m, Pa,
+/// kg/m^3, -, kg, kg m^2, N m/rad, rad].
 [[nodiscard]] DesignInPose perturbed(const solver::ManipulatorDesign& design,
                                      const solver::Pose& pose,
                                      const solver::DesignParameter& parameter, double change);
 
-/// The parameter's value [its unit]: the largest of the numbers that it names; 0 where the design
-/// has none. Of the orientation 1 rad, for no angle counts as none.
+/// Returns the parameter's value [its unit]: the largest of its numbers, or 0 if the design has
+/// none. For the orientation it returns 1 rad, because an angle has no natural zero.
 [[nodiscard]] double parameter_value(const solver::ManipulatorDesign& design,
                                      const solver::DesignParameter& parameter);
 
 struct FrequencyDifferences {
-  solver::Outcome outcome;     ///< as the modes of the design and of the changed ones
+  solver::Outcome outcome;     ///< of the modes of the design and of the changed designs
   solver::Evidence evidence;   ///< of the modes of all designs
   Eigen::VectorXd frequency;   ///< ascending [Hz]
-  Eigen::VectorXd derivative;  ///< [Hz / unit]; repeated ones as in FrequencySensitivity
+  Eigen::VectorXd derivative;  ///< [Hz / unit]; repeated frequencies as in FrequencySensitivity
   solver::Counters counters;
 };
 
-/// Central differences at steps that shrink by 1.6, extrapolated to zero; of the table, the entry
-/// that agrees best with its neighbours (Ridders 1982; here in 7 rows). A step leaves neighbouring
-/// frequencies apart and the limbs within reach. The branches of a repeated frequency are smooth:
-/// the lowest for p + h goes on from the highest for p - h.
-/// @param relative_step  the first step over the value of the parameter, where that leaves room
+/// Computes central differences at steps that shrink by 1.6, extrapolated to zero. From the table,
+/// it selects the entry that agrees best with its neighbors (Ridders 1982; here 7 rows). Steps keep
+/// adjacent frequencies apart and the limbs within reach.
+/// The branches of a repeated frequency are smooth. Therefore the lowest branch for p + h continues
+/// the highest branch for p - h.
+/// @param relative_step  first step over the value of the parameter, unless that is too large
 /// @throws ModelError  as `build_manipulator`.
 [[nodiscard]] FrequencyDifferences differentiate_frequencies(
     const solver::ManipulatorDesign& design, const solver::Pose& pose,
     const solver::DesignParameter& parameter, solver::Index count, double relative_step = 5e-3);
 
-/// One difference quotient, as it is: central over 2 h or forward over h.
+/// Computes one difference quotient without extrapolation: central over 2 h or forward over h.
 /// @param relative_step  h over the value of the parameter, > 0
-/// @throws ModelError  as `build_manipulator`, so also where the step leads out of reach.
+/// @throws ModelError  as `build_manipulator`, also if the step leads out of reach.
 [[nodiscard]] FrequencyDifferences difference_quotient(const solver::ManipulatorDesign& design,
                                                        const solver::Pose& pose,
                                                        const solver::DesignParameter& parameter,

@@ -26,7 +26,7 @@ inline constexpr std::array kWords<mms::ShearStrain> = {"none", "from-bending", 
 
 namespace {
 
-/// Residuals of (K - omega^2 M) q = f with the matrices formed afresh.
+/// Records residuals of (K - omega^2 M) q = f, with newly assembled matrices.
 void judge(const solver::System& system, double omega, ManufacturedSolution& solution) {
   const Eigen::VectorXd u = system.T * solution.q;
   solver::RowBalance<double> rows(system);
@@ -38,7 +38,7 @@ void judge(const solver::System& system, double omega, ManufacturedSolution& sol
   solution.outcome = solver::outcome_by_evidence(solution.outcome, solution.evidence);
 }
 
-/// (K - omega^2 M) q = f
+/// Solves (K - omega^2 M) q = f.
 ManufacturedSolution solve(solver::System system, double omega) {
   ManufacturedSolution solution;
   solution.counters = system.counters;
@@ -55,7 +55,7 @@ ManufacturedSolution solve(solver::System system, double omega) {
         omega == 0 ? stiffness : dynamic, factorization, system.f, solution.counters);
     solution.q = refined.x;
     if (!refined.converged()) {
-      solution.outcome = {solver::Status::singular, "the condition number has eaten all digits"};
+      solution.outcome = {solver::Status::singular, "round-off leaves no correct digits"};
     }
     judge(system, omega, solution);
   } else {
@@ -162,7 +162,7 @@ BeamTestResult run_beam_test(const BeamTest& test) {
 
 namespace {
 
-/// Every error is relative, so that the size of the field does not matter.
+/// Amplitude of the field. Its value is arbitrary, because every error is relative.
 constexpr double kAmplitudePerLength = 1e-3;
 
 MembraneTest read_membrane(const JsonView& place) {
@@ -193,15 +193,14 @@ BeamTest read_beam(const JsonView& place) {
           place.get("distortion", 0.0)};
 }
 
-/// An error in some norm, of the solution or of what `derivative` derivatives make of it.
+/// Error in some norm, of the solution or of its derivatives of order `derivative`.
 struct ErrorNorm {
   const char* name;
   double error;
   int derivative;
 };
 
-/// Records norms that are errors already: what rounding leaves of them grows with each derivative,
-/// by the number of cells.
+/// Records the error norms. Their round-off grows by the number of cells with each derivative.
 StepResult record_norms(const ManufacturedSolution& solution, solver::Index cells, bool draw,
                         std::initializer_list<ErrorNorm> norms, Recorder& record) {
   StepResult result{solution.outcome, solution.counters, solution.evidence};

@@ -5,19 +5,19 @@
 #include "solver/linear/system.h"
 #include "solver/model/evidence.h"
 
-/// Manufactured solutions on a mesh: loads from the closed form, solve, errors against the closed
-/// form.
+/// Method of manufactured solutions on a mesh: derives loads from the closed form, solves, and
+/// computes errors against the closed form.
 namespace trammel::harness {
 
 struct MembraneTest {
   references::manufactured::MembraneProblem problem;
   double thickness = 0;     ///< [m]
-  solver::Index cells = 1;  ///< along either side
+  solver::Index cells = 1;  ///< along each side
   bool six_nodes = false;
-  double distortion = 0;  ///< of the mesh, in cells
+  double distortion = 0;  ///< of the mesh, relative to the size of a cell
 };
 
-/// The discrete model and its solution; q is empty where there is none.
+/// Discrete model and its solution. The vector q is empty without a solution.
 struct ManufacturedSolution {
   solver::Outcome outcome;
   solver::System system;
@@ -31,14 +31,15 @@ struct MembraneTestResult {
   solver::MembraneErrors errors;
 };
 
-/// @throws ModelError  where the mesh has no meaning
+/// Solves a membrane test.
+/// @throws ModelError  if the mesh is invalid.
 [[nodiscard]] MembraneTestResult run_membrane_test(const MembraneTest& test);
 
 struct BeamTest {
-  /// Along the direction (4, 3) / 5, so that no coordinate is left out.
+  /// Exact solution along the direction (4, 3) / 5, which excites all coordinates.
   references::manufactured::BeamProblem problem;
   solver::Index cells = 1;
-  double distortion = 0;  ///< of the mesh, in cells
+  double distortion = 0;  ///< of the mesh, relative to the size of a cell
 };
 
 struct BeamTestResult {
@@ -46,7 +47,8 @@ struct BeamTestResult {
   solver::BeamErrors errors;
 };
 
-/// @throws ModelError  where the mesh has no meaning
+/// Solves a beam test.
+/// @throws ModelError  if the mesh is invalid.
 [[nodiscard]] BeamTestResult run_beam_test(const BeamTest& test);
 
 }  // namespace trammel::harness

@@ -12,7 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// That turns the corners about their centre nearest to how they move.
+/// Returns the rotation about the triangle's center that fits the motion of its corners best.
 double rotation_of(const solver::System& system, const solver::Triangle& triangle,
                    const Eigen::VectorXd& u) {
   Vector2d center = Vector2d::Zero(), shift = Vector2d::Zero();
@@ -51,7 +51,7 @@ double largest_rotation(const solver::System& system, const Eigen::VectorXd& u) 
 }
 
 double largest_rotation(const solver::StaticSolution& solution) {
-  double largest = 0;  // NaN, where a node has no rotation, is never the larger
+  double largest = 0;  // a comparison with NaN (a node without rotation) keeps the value
   for (const double angle : solution.displacement.col(2).eval())
     largest = std::max(largest, std::abs(angle));
   for (const double angle : solution.end_rotation.reshaped().eval())
@@ -137,8 +137,8 @@ void warn_of_redundancy(const solver::System& system, std::vector<Warning>& warn
 void warn_of_redundancy(Eigen::Index redundant, std::vector<Warning>& warnings) {
   if (redundant == 0) return;
   add_warning(warnings, {"the number of redundant constraints", static_cast<double>(redundant), "",
-                         "equilibrium does not determine the forces among them: those that are "
-                         "given are one admissible set"});
+                         "equilibrium does not determine the forces among them: the reported "
+                         "forces are one admissible set"});
 }
 
 void warn_of_roundoff(double of_frequency, std::vector<Warning>& warnings) {

@@ -4,55 +4,61 @@
 #include "solver/linear/statics.h"
 #include "solver/linear/system.h"
 
-/// How far the theories hold, and warnings of solutions that went farther.
+/// Validity ranges of the theories, and warnings of solutions outside these ranges.
 namespace trammel::harness {
 
-/// Linear theory takes cos(theta) as 1 and sin(theta) as theta: up to here [rad] it neglects
-/// theta^2 / 2 = 0.5 %.
+/// Limit of linear theory [rad], which approximates cos(theta) by 1 and sin(theta) by theta. At the
+/// limit it neglects theta^2 / 2 = 0.5 %.
 inline constexpr double kMaxLinearRotation = 0.1;
 
-/// N = EA times the extension takes the section as it was: up to here the measures of strain
-/// (engineering, logarithmic, Green's) differ by 5 %, and so do the stresses on the section.
+/// Limit of the linear law, N = EA times the extension, which ignores changes of the cross-section.
+/// At the limit, the measures of strain (engineering, logarithmic, Green) differ by 5 %, as do the
+/// stresses on the section.
 inline constexpr double kMaxStrain = 0.1;
 
-/// Largest rotation of a node, a member's end or a chord, or a triangle [rad].
+/// Returns the largest rotation of a node, a member's end, a chord or a triangle [rad].
 /// @param u  unconstrained coordinates
 [[nodiscard]] double largest_rotation(const solver::System& system, const Eigen::VectorXd& u);
 
-/// The same of what is stated at nodes and members' ends alone.
+/// Returns the largest rotation of nodes and members' ends only [rad].
 [[nodiscard]] double largest_rotation(const solver::StaticSolution& solution);
 
+/// Warns if the rotation is outside the range of linear theory.
 /// @param rotation  [rad]
 void warn_of_rotation(double rotation, std::vector<Warning>& warnings);
 
-/// Of |N| / EA at the ends of the members.
+/// Warns of |N| / EA at the ends of the members.
 void warn_of_strain(const solver::Model& model, const solver::StaticSolution& solution,
                     std::vector<Warning>& warnings);
 
-/// Near a buckling load whatever is wrong with the stiffness counts as much more as displacements
-/// grow; up to here that is one digit.
+/// Limit of the amplification of displacements near a buckling load. Errors of the stiffness are
+/// amplified by the same factor, so that one digit is lost at the limit.
 inline constexpr double kMaxAmplification = 10;
 void warn_of_amplification(const solver::StaticSolution& solution, std::vector<Warning>& warnings);
 
-/// An element bends as a cubic: up to here it is at most half of a half wave, pi / beta, of bending
-/// vibration with beta^4 = w^2 m / EI.
+/// Limit of the wave number of an element, which bends as a cubic. With beta^4 = w^2 m / EI, a half
+/// wave of the bending vibration is pi / beta long. At the limit an element is half of a half wave.
 inline constexpr double kMaxWaveNumber = 1.5708;
-/// @param frequency  highest of the modes that are reported [Hz]
+/// Warns if the elements are too long for the highest mode.
+/// @param frequency  highest of the reported modes [Hz]
 void warn_of_wave_length(const solver::System& system, double frequency,
                          std::vector<Warning>& warnings);
 
-/// An element of a tapered member has the section at its middle: up to this ratio of the stiffness
-/// at its ends the error is about 1 %.
+/// Limit of the ratio of stiffness at the ends of an element of a tapered member. The element has
+/// the section at its middle. At the limit the error is about 1 %.
 inline constexpr double kMaxTaperRatio = 1.5;
 void warn_of_taper(const solver::Model& model, std::vector<Warning>& warnings);
 
-/// @param of_frequency  relative round-off error; beyond a thousandth it is noticed
+/// Warns if round-off exceeds a thousandth of a frequency.
+/// @param of_frequency  relative round-off error
 void warn_of_roundoff(double of_frequency, std::vector<Warning>& warnings);
 
-/// Of supports, rigid bodies and inextensible members that hold what others hold already: how they
-/// share the loads is not determined, and what is reported is one way of many.
+/// Warns of redundant constraints among supports, rigid bodies and inextensible members.
+/// Equilibrium does not determine how they share the loads. The reported forces are one of many
+/// solutions.
 void warn_of_redundancy(const solver::System& system, std::vector<Warning>& warnings);
-/// @param redundant  number of such constraints
+/// Warns if there are redundant constraints.
+/// @param redundant  number of redundant constraints
 void warn_of_redundancy(Eigen::Index redundant, std::vector<Warning>& warnings);
 
 }  // namespace trammel::harness

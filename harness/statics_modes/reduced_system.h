@@ -10,14 +10,15 @@ namespace trammel::harness {
 
 enum class Weight : std::uint8_t { acts, left_out };
 
-/// A system in the coordinates that an analysis asks for.
+/// System in the coordinates that an analysis requests.
 struct ReducedSystem {
-  solver::Outcome outcome;  ///< of the modes it is reduced to
+  solver::Outcome outcome;  ///< of the modes that the system is reduced to
   solver::System system;
 };
 
-/// As the key "reduction" of the analysis says; without it the system as it is.
-/// @param weight  whether the analysis lets it act, beside the loads
+/// Reduces the system as the key "reduction" of the analysis requests. Returns it unchanged without
+/// this key.
+/// @param weight  whether the weight acts in addition to the loads
 /// @throws InputError  for a reduction that the system does not allow.
 [[nodiscard]] ReducedSystem reduced_system(const JsonView& analysis, solver::System system,
                                            Weight weight = Weight::acts);

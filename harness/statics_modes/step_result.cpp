@@ -21,7 +21,7 @@ void record_frequencies(const Eigen::VectorXd& frequency, const Eigen::VectorXd&
 
 namespace {
 
-/// The first drawing stays, and holds those of later points of the path as moments.
+/// Keeps the first drawing. Drawings of later points of the path are added to it as moments.
 void add_moment(const CaseModel& case_model, std::size_t step, Drawing found,
                 std::optional<Drawing>& all) {
   if (!all) all = std::move(found);

@@ -18,19 +18,19 @@
 
 namespace trammel::harness {
 
-/// What an analysis leaves behind beside the quantities that it records: at one step of the path,
-/// along the whole of it, or of a case.
+/// Result of an analysis, apart from the recorded quantities: at one step of the path, along the
+/// full path, or of a case.
 struct StepResult {
   solver::Outcome outcome;
   solver::Counters counters;
-  solver::Evidence evidence = {};  ///< residuals that decide whether it counts as solved
-  std::optional<Drawing> drawing = std::nullopt;  ///< on the first step, when asked for
+  solver::Evidence evidence = {};  ///< residuals that decide if the result counts as solved
+  std::optional<Drawing> drawing = std::nullopt;  ///< on the first step, if requested
   std::vector<Warning> warnings = {};
   std::vector<EvaluationTime> timings = {};
   std::optional<results::ModelProbabilities> model_probabilities = std::nullopt;
 };
 
-/// Signatures of an analysis: at one step of the scene's path, along all of it, and of a case
+/// Signatures of an analysis: at one step of the scene's path, along the full path, and of a case
 /// without a scene.
 using AnalyseStep = StepResult(const JsonView& analysis, const CaseModel& case_model,
                                std::size_t step, bool draw, Recorder& record);
@@ -39,23 +39,24 @@ using AnalysePath = StepResult(const JsonView& analysis, const CaseModel& case_m
 using AnalyseCase = StepResult(const Document& document, const References& references, bool draw,
                                Recorder& record);
 
-/// Step by step along the path; ends where a step has no solution.
+/// Runs the steps along the path in order. Stops at the first step without a solution.
 [[nodiscard]] StepResult analyse_steps(
     const CaseModel& case_model, bool draw,
     const std::function<StepResult(std::size_t step, bool draw)>& analyse_step);
 
 inline constexpr solver::Index kMaxDrawnShapes = 12;
 
-/// "mode 3, 12.5 Hz"
-/// @param number  what the mode belongs to, as its unit says
+/// Returns the label of a mode: "mode 3, 12.5 Hz".
+/// @param number  value of the mode in that unit
 [[nodiscard]] std::string mode_label(solver::Index mode, double number, const char* unit);
 
-/// Records frequencies and growth rates of modes about a state; of several states with the mode.
-/// @param roundoff  relative, of each frequency; empty where it is not known
+/// Records frequencies and growth rates of modes about a state. For several states, the names
+/// include the mode.
+/// @param roundoff  relative round-off error of each frequency; empty if unknown
 void record_frequencies(const Eigen::VectorXd& frequency, const Eigen::VectorXd& growth_rate,
                         bool several, Recorder& record, const Eigen::VectorXd& roundoff = {});
 
-/// The outcome of a step, its reason naming the point of the path.
+/// Returns the outcome of a step. Its reason contains the point of the path.
 [[nodiscard]] solver::Outcome outcome_at_path_point(const CaseModel& case_model, std::size_t step,
                                                     solver::Outcome outcome);
 

@@ -9,20 +9,20 @@
 
 namespace trammel::harness {
 
-/// What to know of a result that is solved: a quantity has left the range in which it means what it
-/// says.
+/// Warning that belongs to a solved result: a quantity is outside its validity range.
 struct Warning {
   std::string quantity;  ///< "the largest rotation"
   double value = 0;
   std::string unit;     ///< "" or " rad"
-  std::string meaning;  ///< what holds up to where, and why
+  std::string meaning;  ///< validity range and its reason
 
   [[nodiscard]] std::string text() const {
     return quantity + " is " + rounded(value, 3) + unit + ": " + meaning;
   }
 };
 
-/// Of two of one quantity, as at two points of a path, the larger stays.
+/// Adds a warning. Of two warnings about the same quantity, for example at two points of a path,
+/// the larger value is kept.
 inline void add_warning(std::vector<Warning>& all, const Warning& one) {
   const auto is_same = [&](const Warning& other) {
     return other.quantity == one.quantity && other.meaning == one.meaning;

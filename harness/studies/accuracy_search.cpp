@@ -31,7 +31,7 @@ Json fixed_outputs(const Document& document) {
   return patch_at(document.value(), place + "/output_step_s", analysis["step_s"]);
 }
 
-/// "8 elements, step 0.001 s"
+/// Returns the description of a setting: "8 elements, step 0.001 s".
 std::string setting_of(const Document& document) {
   std::string text;
   const Json& json = document.value();
@@ -143,7 +143,7 @@ class Search {
     }
   }
 
-  /// @returns whether it has a solution
+  /// @returns true if the document has a solution
   bool solve(const Document& document) {
     document.validate("case");
     const double before = watch_.cpu_s();
@@ -156,7 +156,8 @@ class Search {
     return true;
   }
 
-  /// A mesh that has as many modes as are asked for, and a step with which the scheme converges.
+  /// Finds the coarsest setting with a solution: its mesh has enough modes, and its time scheme
+  /// converges.
   void solve_coarsest() {
     for (int i = 0; i < kMaxRefinements; ++i) {
       try {
@@ -214,7 +215,7 @@ class Search {
                                                                       : ErrorSource::step;
   }
 
-  /// @returns whether it has become more accurate, or may
+  /// @returns true if the result has become more accurate, or may have
   bool refine(ErrorSource source) {
     const auto finer = companion_of(current_, source, Refine::finer);
     const double before = error_by(source);
@@ -223,7 +224,7 @@ class Search {
       return false;
     }
     const AnalysisResult coarse = found_.result;
-    if (!solve(finer->document)) {  // as with explicit steps on a finer mesh
+    if (!solve(finer->document)) {  // for example, explicit steps on a finer mesh
       if (source == ErrorSource::mesh && has(ErrorSource::step)) return refine(ErrorSource::step);
       found_.errors.reason = "with " + finer->words + " there is no solution: " + reason_;
       return false;

@@ -16,7 +16,7 @@ namespace {
 using results::CostSetting;
 using results::ErrorNorms;
 
-/// What the error of an entry is divided by.
+/// Returns the divisor of the error of an entry.
 double divisor(double reference_solution, double largest, const Scale& scale) {
   if (scale.kind == Scale::Kind::number) return scale.number;
   const bool by_entry = scale.kind == Scale::Kind::entry && reference_solution != 0;
@@ -42,7 +42,7 @@ std::vector<double> relative_errors(const std::vector<double>& found,
   return errors;
 }
 
-/// What belongs to one output.
+/// Returns the observations of one output.
 Observations values_of(const Observations& all, const std::vector<ObservedQuantity>& observed,
                        std::size_t output) {
   Observations values;
@@ -51,7 +51,7 @@ Observations values_of(const Observations& all, const std::vector<ObservedQuanti
   return values;
 }
 
-/// The errors of a setting by output.
+/// Returns the errors of a setting for each output.
 std::vector<std::optional<ErrorNorms>> output_errors(const CostStudy& study, const Setting& setting,
                                                      const Observations& found,
                                                      const Observations& reference_solution) {
@@ -89,7 +89,7 @@ Observations compute_reference_solution(const CostStudy& study, const References
   return sandboxed.values;
 }
 
-/// Everything but the time.
+/// Returns the measured setting without its times.
 CostSetting classify_run(const SandboxedRun& sandboxed, const Setting& setting,
                          const Observations& reference_solution, const CostStudy& study) {
   CostSetting measured;
@@ -126,7 +126,7 @@ bool is_computed(const CostSetting& setting) {
   return setting.measured() || setting.status == "reference";
 }
 
-/// @param output  none: the largest error of all outputs
+/// @param output  empty: the largest error of all outputs
 std::optional<double> error_of(const CostSetting& setting, const std::string& norm,
                                std::optional<std::size_t> output) {
   const auto get = [&](const std::optional<ErrorNorms>& error) {
@@ -174,7 +174,7 @@ std::vector<results::CheapestSetting> cheapest_settings(const std::vector<CostPo
   return all;
 }
 
-/// The study in words, without settings yet.
+/// Returns the description of a study, without settings.
 results::CostStudy describe(const CostStudy& study) {
   results::CostStudy out;
   out.id = study.id;

@@ -8,23 +8,24 @@
 #include "harness/studies/cost_study.h"
 #include "harness/studies/pareto_front.h"
 
-/// What accuracy costs: every setting of a study measured for error and for time.
+/// Measures the cost of accuracy: the error and the time of every setting of a study.
 namespace trammel::harness {
 
-/// Norms of the relative errors over all observed entries; all three are kept.
-/// @param reference_solution  as many values as `found`; empty lists where the values are errors
-/// themselves
-/// @throws std::runtime_error  where they differ in length, or there is nothing to divide by.
+/// Returns the norms of the relative errors over all observed entries.
+/// @param reference_solution  as many values as `found`; empty lists if the values are errors
+///     themselves.
+/// @throws std::runtime_error  if the lengths differ, or the scale is zero.
 [[nodiscard]] results::ErrorNorms error_norms(const Observations& found,
                                               const Observations& reference_solution,
                                               const Scale& scale);
 
-/// An error above this is no approximation any more: the computation counts as diverged.
+/// Relative error above which a computation counts as diverged.
 inline constexpr double kDivergedError = 10;
 
-/// The settings that were measured, by one output's error in the study's norm, or where none is
-/// named by the largest of all outputs' errors; without those that do not give it or diverge in it.
-/// @param first, step  the repeats that count, as in `relative_time`
+/// Returns the measured settings as points of error and time. The error is that of one output in
+/// the study's norm, or the largest of all outputs if `output` is empty. Settings that lack an
+/// error or diverge are omitted.
+/// @param first, step  repeats that count, as in `relative_time`
 [[nodiscard]] std::vector<CostPoint> cost_points(const results::CostStudy& study,
                                                  std::optional<std::size_t> output = 0,
                                                  std::size_t first = 0, std::size_t step = 1);
@@ -34,15 +35,16 @@ struct CostOptions {
   std::function<void(std::size_t done, std::size_t all)> progress;
 };
 
-/// @throws InputError  where the truth or the baseline cannot be computed: nothing can be said
-/// then.
+/// Measures a study.
+/// @throws InputError  if the reference solution or the baseline cannot be computed.
 [[nodiscard]] results::CostStudy measure(const CostStudy& study, const CostOptions& options,
                                          const References& references);
 
-/// What follows from errors and times: the times relative to the baseline, the front, the words.
+/// Derives times relative to the baseline, the Pareto front and the conclusion from errors and
+/// times.
 void derive_results(results::CostStudy& measured);
 
-/// What results.json says of accuracy and computing time.
+/// Returns the results about accuracy and computing time for results.json.
 [[nodiscard]] results::CostStudies cost_results(std::vector<results::CostStudy> studies,
                                                 SweepExtent extent, const TimingOptions& timing);
 

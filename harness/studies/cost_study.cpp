@@ -37,7 +37,7 @@ std::vector<double> exact_values(const JsonView& place, const std::string& quant
   return values;
 }
 
-/// Where the quantity's output stands among those of the study.
+/// Returns the index of the quantity's output in the study.
 std::size_t output_number(const JsonView& study, const JsonView& place) {
   if (!place.has("output")) return 0;
   std::size_t number = 0;
@@ -67,7 +67,7 @@ std::vector<ObservedQuantity> read_observed(const JsonView& study, const JsonVie
   return observed;
 }
 
-/// Cases that studies and curves name, relative to the study's file.
+/// Opens the case of a study or curve. Paths are relative to the study's file.
 Document open_case(const JsonView& study, const JsonView& part) {
   const JsonView name = part.has("case") ? part["case"] : study["case"];
   const Origin written = study.document().origin(name.pointer());
@@ -78,7 +78,7 @@ Document open_case(const JsonView& study, const JsonView& part) {
   } catch (const InputError& error) {
     throw name.error(error.what());
   }
-  // A curve of another case starts from that case as it stands.
+  // A curve with another case starts from its base variant, not from that of the study.
   const bool own = part.has("case");
   const std::string otherwise =
       own ? kBaseVariant : study.get<std::string>("variant", kBaseVariant);
@@ -90,7 +90,8 @@ void apply_patch(Document& document, const JsonView& patch) {
   document.apply_patch(written.file, written.pointer, patch.json());
 }
 
-/// The case of a curve (or of the truth) with the study's patch and its own.
+/// Returns the case of a curve or of the reference solution, with the patches of the study and the
+/// curve.
 Document start_of(const JsonView& study, const JsonView& part) {
   Document document = open_case(study, part);
   if (study.has("patch") && !part.has("case")) apply_patch(document, study["patch"]);
@@ -98,7 +99,8 @@ Document start_of(const JsonView& study, const JsonView& part) {
   return document;
 }
 
-/// "{} elements a link" of 4, and of 1: "1 element a link".
+/// Fills in a value: "{} elements a link" with 4 becomes "4 elements a link", and with 1 becomes "1
+/// element a link".
 std::string named(const std::string& each, double value) {
   const std::size_t at = each.find("{}");
   if (at == std::string::npos) return each + " " + shortest(value);
@@ -137,7 +139,7 @@ std::vector<Setting> read_curve(const JsonView& study, const std::string& name,
   std::vector<Setting> settings;
   if (!curve.has("values")) {
     if (curve.has("pointers") || curve.has("patches"))
-      throw curve.error("expected 'values' beside the pointers or patches");
+      throw curve.error("expected 'values' with the pointers or patches");
     const bool left_out = extent == SweepExtent::quick && curve.has("quick_values");
     if (left_out) return {};
     setting.document = start;
@@ -167,7 +169,7 @@ std::size_t find_baseline(const JsonView& place, const std::vector<Setting>& set
   return static_cast<std::size_t>(found - settings.begin());
 }
 
-/// A scale and its description.
+/// Reads a scale and returns it with its description.
 std::pair<Scale, std::string> read_scale(const JsonView& output) {
   const auto place = output.find("scale");
   if (place && place->json().is_object()) {
@@ -180,7 +182,7 @@ std::pair<Scale, std::string> read_scale(const JsonView& output) {
   return {{}, "relative to each true value"};
 }
 
-/// Values that one number is the scale of have one unit.
+/// Requires that all quantities with a common scale have the same unit.
 void check_scale(const Scale& scale, std::size_t output, const JsonView& study) {
   if (scale.kind == Scale::Kind::entry) return;
   std::string unit;
@@ -188,7 +190,7 @@ void check_scale(const Scale& scale, std::size_t output, const JsonView& study) 
     if (output_number(study, place) != output) continue;
     if (unit.empty()) unit = unit_of(name);
     if (unit_of(name) != unit)
-      throw place.error("expected quantities of one unit, as 'scale' has it");
+      throw place.error("expected quantities of one unit, because of 'scale'");
   }
 }
 

@@ -11,51 +11,55 @@
 #include "harness/input/reference_library.h"
 #include "harness/results/cost_results.h"
 
-/// Studies of what accuracy costs in time: settings of one computation, to be measured against one
-/// truth.
+/// Studies of the computing time that accuracy requires. Settings of one computation are measured
+/// against one reference solution.
 namespace trammel::harness {
 
-/// A quantity that an error is measured of.
+/// Quantity whose error is measured.
 struct ObservedQuantity {
   std::string quantity;
   std::string addend;              ///< another quantity, added entry by entry; empty: none
-  std::string statistic;           ///< one number from the entries; empty: the entries themselves
+  std::string statistic;           ///< reduces the entries to one number; empty: the entries
+                                   ///< themselves
   std::vector<std::size_t> index;  ///< empty: all
-  bool is_error = false;           ///< the values are relative errors themselves
-  std::vector<double> exact;       ///< from a reference; empty: from the study's truth
-  std::size_t output = 0;          ///< of the study's outputs
+  bool is_error = false;           ///< the values are relative errors
+  std::vector<double> exact;       ///< from a reference; empty: from the study's reference solution
+  std::size_t output = 0;          ///< index among the study's outputs
 
-  /// Whether it needs the study's truth.
+  /// Returns true if the quantity needs the study's reference solution.
   [[nodiscard]] bool needs_reference_solution() const { return !is_error && exact.empty(); }
 };
 
-/// The values of what is observed, one list a quantity.
+/// Values of the observed quantities, one list per quantity.
 using Observations = std::vector<std::vector<double>>;
 
-/// @throws std::runtime_error  naming a quantity that is not there or has other than as many
-///                             entries as its index or exact values ask for.
+/// Extracts the observed quantities.
+/// @throws std::runtime_error  with the name of a quantity that is missing. Also throws for a
+///     number of entries other than the index or the exact values require.
 [[nodiscard]] Observations observe(const Quantities& quantities,
                                    const std::vector<ObservedQuantity>& observed);
 
-/// One way of computing: a case or variant with all patches laid over it.
+/// One way of computing: a case or variant with all patches applied.
 struct Setting {
-  std::string curve, curve_title;  ///< what it is joined to
-  std::string title;               ///< with its value: "consistent mass, 4 elements a link"
+  std::string curve, curve_title;  ///< curve of the setting in the figure
+  std::string title;               ///< title with the value: "consistent mass, 4 elements a link"
   std::optional<double> value;     ///< along the curve
   Document document;
   std::vector<ObservedQuantity> observed;
 };
 
-/// What an error is divided by.
+/// Divisor of an error.
 struct Scale {
-  /// The entry itself, the largest of its quantity, the largest of all, a number.
+  /// Magnitude of the entry, largest magnitude of the quantity, largest of all quantities, or a
+  /// fixed number.
   enum class Kind { entry, quantity, largest, number } kind = Kind::entry;
   double number = 0;
 };
 
-/// What errors are measured of together, with one scale: where P is, the torques of the drives.
+/// Quantities whose errors share one scale, for example the position of P or the torques of the
+/// drives.
 struct StudyOutput {
-  std::string title;  ///< empty where it is the only one
+  std::string title;  ///< empty if there is only one output
   Scale scale;
   std::string scale_description;
 };
@@ -64,46 +68,50 @@ struct CostStudy {
   std::string id, family, title, description;
   std::vector<Setting> settings;  ///< curve by curve, coarse to fine
   std::optional<Setting>
-      reference_solution;             ///< where the observed quantities have no exact values
-  std::string reference_description;  ///< what errors are measured against
-  std::size_t baseline = 0;           ///< among the settings
-  /// The first is that of figure, front and conclusion; every setting gives it, the others where it
-  /// can.
+      reference_solution;             ///< used if the observed quantities have no exact values
+  std::string reference_description;  ///< description of the solution that errors are measured
+                                      ///< against
+  std::size_t baseline = 0;           ///< index among the settings
+  /// Outputs. The first one defines figure, front and conclusion, and every setting has it. The
+  /// others are optional.
   std::vector<StudyOutput> outputs{1};
   std::string norm = "max";  ///< of results::ErrorNorms
   int time_limit_s = 60;
 };
 
-/// Which values of the curves.
+/// Extent of the values of the curves.
 enum class SweepExtent { full, quick };
 
-/// @throws InputError  where the file breaks its schema, a case or value is not there, or a patched
-///                     setting breaks the schema of cases.
+/// Loads a study.
+/// @throws InputError  if the file or a patched setting violates its schema, or a case or value
+///     does not exist.
 [[nodiscard]] CostStudy load_cost_study(const std::filesystem::path& file, SweepExtent extent,
                                         const References& references);
 
-/// A study of that case or variant, named after it, without settings yet.
+/// Returns a study of the case or variant, named after it, without settings.
 [[nodiscard]] CostStudy empty_study(const Case& given, const std::string& variant);
 
-/// Whether a file holds a study, not a case.
+/// Returns true if a file contains a study, not a case.
 [[nodiscard]] bool is_cost_study(const std::filesystem::path& file);
 
-/// The studies of the catalogue, by name.
+/// Returns the files of the catalogue's studies, by name.
 [[nodiscard]] std::vector<std::filesystem::path> cost_study_files();
 
 using results::SandboxedRun;
 
-/// Computes a setting once, in a process of its own that is ended when it has used up its processor
-/// time: an endless loop or a crash costs no more than that.
+/// Computes a setting once, in a separate process. The process is ended when it exceeds its
+/// processor time, so that endless loops and crashes are contained.
 /// @param waiting  called about once a second until then
 [[nodiscard]] SandboxedRun run_sandboxed(const Setting& setting, int time_limit_s,
                                          const References& references,
                                          const std::function<void()>& waiting = {});
 
-/// The refinements of a case as a study: a curve for each of the sweeps named (all when none is),
-/// measured of what they name or else the checks do, against references of kind exact or computed,
-/// or else against the finest level of the first one. The coarsest level of all is the baseline.
-/// @throws InputError  where the case has no such sweep, or nothing can be measured.
+/// Returns the refinements of a case as a study, with a curve for each named sweep, or all sweeps
+/// if none is named.
+/// The observed quantities are those of the sweeps, or else those of the checks. Their errors are
+/// measured against references of kind exact or computed, or else against the finest level of the
+/// first sweep. The baseline is the coarsest level of all.
+/// @throws InputError  if the case has no such sweep, or nothing can be measured.
 [[nodiscard]] CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
                                              const std::vector<std::string>& sweeps,
                                              const References& references);

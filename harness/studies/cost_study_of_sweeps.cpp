@@ -8,7 +8,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Exact values of a quantity: as many as its entries.
+/// Returns the exact values of a quantity, one per entry.
 std::vector<double> exact_values(const TrackedQuantity& tracked) {
   if (tracked.reference == nullptr || !is_exact(*tracked.reference)) return {};
   const references::Reference& reference = *tracked.reference;
@@ -21,7 +21,8 @@ std::vector<double> exact_values(const TrackedQuantity& tracked) {
   return values;
 }
 
-/// What the checks compare along the refinement: counts and what is only bounded left out.
+/// Returns the checks that compare a quantity along the refinement. Counts and checks with bounds
+/// only are omitted.
 std::vector<Check> comparisons(const Document& document, const std::string& variant,
                                const std::vector<std::string>& variants) {
   std::vector<Check> checks;
@@ -42,7 +43,8 @@ std::vector<ObservedQuantity> observed_quantities(const std::vector<TrackedQuant
   return observed;
 }
 
-/// Only what has exact values, where anything has: an error is measured one way.
+/// Keeps only quantities with exact values if there are any, because a study measures all errors in
+/// one way.
 bool keep_exact(std::vector<ObservedQuantity>& observed) {
   const auto lacks = [](const ObservedQuantity& entry) { return entry.needs_reference_solution(); };
   if (std::ranges::all_of(observed, lacks)) return false;
@@ -86,7 +88,7 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
                                const References& references) {
   const Document document = patched(given, variant);
   const JsonView root(document);
-  if (!root.has("sweeps")) throw root.error("expected 'sweeps', which say what to refine");
+  if (!root.has("sweeps")) throw root.error("expected 'sweeps', which define the refinement");
   const std::vector<std::string> wanted = sweeps_wanted(root["sweeps"], sweeps);
   CostStudy study = empty_study(given, variant);
   const JsonView first = root["sweeps"][wanted.front()];
@@ -96,7 +98,7 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
           : named_by_checks(document, comparisons(document, variant, given.variants()),
                             references));
   if (observed.empty()) {
-    throw first.error("expected 'quantities', or checks, which say what to measure");
+    throw first.error("expected 'quantities' or checks to measure");
   }
   const bool exact = keep_exact(observed);
   study.reference_description = "the exact values of " + quantities_of(observed);

@@ -16,11 +16,12 @@ namespace {
 using results::ErrorEstimate;
 using results::ErrorEstimates;
 
-constexpr double kSafetyFactor = 3;       // of two levels, whose order is not observed
-constexpr double kLargeDifference = 0.1;  // of levels that are not in the asymptotic range
-constexpr std::size_t kMaxEntries = 12;   // more are a curve, with one error for all
+constexpr double kSafetyFactor = 3;       // for two levels, whose order is not observed
+constexpr double kLargeDifference = 0.1;  // of levels outside the asymptotic range
+constexpr std::size_t kMaxEntries = 12;   // a quantity with more entries is a curve, with one error
+                                          // for all
 
-/// Analyses that compute nothing from a mesh or in steps.
+/// Returns true if the analysis depends on neither a mesh nor steps.
 bool is_closed_form(const std::string& kind) {
   static const std::vector<std::string> kinds = {
       "properties", "kinematics", "inverse-dynamics",    "manufactured",
@@ -28,7 +29,8 @@ bool is_closed_form(const std::string& kind) {
   return contains(kinds, kind);
 }
 
-/// Equilibria of springs, bars and rigid bodies.
+/// Returns true for equilibria of springs, bars and rigid bodies, which have no discretization
+/// error.
 bool is_exact(const Document& document) {
   const std::string kind = discretized_analysis(document);
   const bool is_statics = kind == "statics" || kind == "large-statics" || kind == "buckling";
@@ -37,7 +39,7 @@ bool is_exact(const Document& document) {
          !document.value()["model"].contains("manipulator");
 }
 
-/// Whether a value stands anywhere in the model under the key.
+/// Returns true if the key has the value anywhere in the model.
 bool has_value(const Json& json, const std::string& key, const Json& value) {
   if (!json.is_object()) return false;
   for (const auto& [name, entry] : json.items())
@@ -45,13 +47,13 @@ bool has_value(const Json& json, const std::string& key, const Json& value) {
   return false;
 }
 
-/// Order of the mesh; none if nodal values are exact.
+/// Returns the order of the mesh; empty if nodal values are exact.
 std::optional<double> mesh_order(const Document& document) {
   const Json& model = document.value()["model"];
   const std::string kind = discretized_analysis(document);
   const auto any = [&](const char* key, const char* value) { return has_value(model, key, value); };
-  // Peaks over frequency and equilibria in large rotation converge more slowly than modes; the
-  // axial force of a distributed load is constant along each element.
+  // Peaks over frequency and equilibria in large rotation converge more slowly than modes. The
+  // axial force of a distributed load is constant in each element.
   bool is_second = kind == "harmonic" || kind == "large-statics" || model.contains("plates") ||
                    any("kind", "triangles");
   if (kind != "statics")
@@ -68,7 +70,7 @@ std::optional<double> mesh_order(const Document& document) {
   return 4;
 }
 
-/// Order of the step, or power of the tolerance.
+/// Returns the order of the step, or the power of the tolerance.
 double step_order(const Document& document) {
   const Json& analysis = document.value().at(JsonPointer(analysis_pointer(document)));
   if (discretized_analysis(document) == "forward-dynamics") return 8.0 / 9;  // adaptive Runge-Kutta
@@ -81,8 +83,8 @@ double step_order(const Document& document) {
   return 2;
 }
 
-/// For each entry of a series the entry of the other one at the same time or frequency; none where
-/// there is none.
+/// Returns the index of the entry of the other series at the same time or frequency, for each
+/// entry. The index is empty if there is no such entry.
 std::vector<std::optional<std::size_t>> aligned(const Quantities& own, const Quantities& other,
                                                 std::size_t size, std::size_t other_size) {
   std::vector<std::optional<std::size_t>> places(size);
@@ -102,7 +104,7 @@ std::vector<std::optional<std::size_t>> aligned(const Quantities& own, const Qua
   return places;
 }
 
-/// Displacements of modes at the nodes of `drawing` that stand in the places of `nodes`.
+/// Returns the displacements of modes at the nodes of the drawing whose indices are `nodes`.
 SampledModes sampled(const AnalysisResult& result, const std::vector<std::size_t>& nodes) {
   SampledModes modes;
   modes.frequency = result.quantities.at("frequency_Hz").values;
@@ -118,7 +120,8 @@ SampledModes sampled(const AnalysisResult& result, const std::vector<std::size_t
   return modes;
 }
 
-/// The mode of the other result that looks like each one; none where none or several do.
+/// Returns the matching mode of the other result for each mode; empty for no match or several
+/// matches.
 std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
                                                       const AnalysisResult& other) {
   const auto& a = own.drawing->nodes;
@@ -138,7 +141,7 @@ std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
     in_other.push_back(found->second);
   }
   std::vector<std::optional<std::size_t>> places(own.quantities.at("frequency_Hz").values.size());
-  // Modes beyond those with a shape are matched by their numbers.
+  // Modes without a drawn shape are matched by their numbers.
   for (std::size_t i = own.drawing->shapes.size(); i < places.size(); ++i) places[i] = i;
   for (const ModeMatch& match : match_modes(sampled(own, in_own), sampled(other, in_other)))
     for (std::size_t k = 0; k < match.a.size() && k < match.b.size(); ++k)
@@ -152,7 +155,8 @@ bool has_shapes(const AnalysisResult& result) {
          result.quantities.contains("frequency_Hz");
 }
 
-/// Whether a quantity has a limit on fine meshes: not coordinates, counts and measures of quality.
+/// Returns true if a quantity converges on fine meshes. Coordinates, counts and measures of quality
+/// do not.
 bool is_estimated(const std::string& name) {
   const std::string head = name.substr(0, name.find(':'));
   static const std::vector<std::string> others = {
@@ -164,7 +168,7 @@ bool is_estimated(const std::string& name) {
   return !is_diagnostic(name) && !is_count(head) && std::ranges::none_of(others, is_other);
 }
 
-/// What errors of quantities are relative to at least.
+/// Lower bounds of the scales that errors of quantities are relative to.
 class ErrorScales {
  public:
   ErrorScales(const Document& document, const AnalysisResult& own)
@@ -173,16 +177,18 @@ class ErrorScales {
     scales_ = change_scales(own_, scales_of(first_model(read_case_model(document))));
   }
 
-  /// A series over time or a path, or too many numbers to be stated one by one.
+  /// Returns true for a series over time or a path, and for quantities with too many entries to
+  /// report each error.
   [[nodiscard]] bool is_curve(const std::string& name) const {
     const std::size_t size = own_.at(name).values.size();
     const auto time = own_.find("time_s");
     const bool is_series = time != own_.end() && time->second.values.size() == size && size > 1;
     return change_kind(name) != "frequency" && (size > kMaxEntries || is_series);
   }
-  /// The largest of its kind over the structure; of a curve at least its largest value.
-  /// Frequencies, load factors and other numbers count one by one, those of rigid motions against
-  /// the highest.
+  /// Returns the scale of a quantity's error: the largest value of its kind over the structure. For
+  /// a curve, the scale is at least its largest value. Frequencies, load factors and other numbers
+  /// are relative to themselves. Those of rigid motions are relative to a small share of the
+  /// highest.
   [[nodiscard]] double of(const std::string& name) const {
     const std::string kind = change_kind(name);
     const double largest = max_abs(own_.at(name).values);
@@ -191,7 +197,8 @@ class ErrorScales {
       return is_curve(name) ? largest : 1e-6 * largest;
     return std::max(largest, found->second);
   }
-  /// Of numbers whose round-off error is not known, relative: what iterations and steps leave.
+  /// Returns the relative round-off of quantities for which it is unknown, as left by iterations
+  /// and steps.
   [[nodiscard]] double roundoff() const {
     return kind_ == "statics" || kind_ == "modes" || kind_ == "buckling" ? 1e-12 : 1e-9;
   }
@@ -229,7 +236,7 @@ std::optional<Companion> companion_of(const Document& document, ErrorSource sour
 std::optional<double> order_of(const Document& document, ErrorSource source,
                                const std::string& quantity) {
   if (source == ErrorSource::mesh) return mesh_order(document);
-  // A peak among samples is as good as the samples lie close.
+  // The accuracy of a peak among samples depends on the distance between samples.
   const double order = step_order(document);
   return quantity.starts_with("peak_") ? std::min(order, 2.0) : order;
 }
@@ -332,7 +339,7 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& o
             analyse(companion->document, references, {.drawing = has_shapes(own)});
         counters += other.counters;
         if (other.outcome.solved()) bands[source] = error_bands(own, other, source, *companion);
-      } catch (const InputError&) {  // fewer modes than the case asks for
+      } catch (const InputError&) {  // fewer modes than the case requests
       }
       if (bands.contains(source)) {
         found.companions += (found.companions.empty() ? "" : "; ") + companion->words;
@@ -348,7 +355,7 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& o
   }
   if (bands.empty() && found.reason.empty() && !is_exact(document))
     found.reason = "the analysis has neither mesh nor steps";
-  if (bands.empty() && found.reason.empty()) {  // compared with itself
+  if (bands.empty() && found.reason.empty()) {  // the computation is its own companion
     found.companions = "none: springs, bars and rigid bodies have no mesh";
     bands[ErrorSource::mesh] = error_bands(own, own, ErrorSource::mesh, {document, false, 2, ""});
   }

@@ -7,20 +7,21 @@
 #include "harness/analysis/effect_changes.h"
 #include "harness/input/document.h"
 
-/// Measures effects: the scene with all of them, with the selected ones, and without each.
+/// Measures effects: compares the scene with all effects, with the selected ones, and without each
+/// effect.
 namespace trammel::harness {
 
-/// The scene with a set of effects.
+/// Run of the scene with a set of effects.
 struct EffectRun {
   solver::Effects effects, left_out;
   solver::Outcome outcome;
   Quantities quantities;
   solver::Counters counters;
   double work = 0;   ///< see `work_of`
-  Changes changes;   ///< from the scene with all effects
-  double cpu_s = 0;  ///< median of the repeats; without them of one run
+  Changes changes;   ///< relative to the scene with all effects
+  double cpu_s = 0;  ///< median of the repeats; of one run without repeats
 
-  /// Largest change; infinite without a solution.
+  /// Returns the largest change; infinite without a solution.
   [[nodiscard]] double change() const { return max_change(changes).value; }
 };
 
@@ -29,17 +30,18 @@ struct EffectStudy {
   EffectChoice choice;
   double tolerance = 0;
   EffectRun full, chosen;
-  /// Change of the results of the chosen set from half the elements to all, which is more than the
-  /// error of the mesh; empty if no member has two elements.
+  /// Change of the results of the chosen set from half the elements to all elements. It exceeds the
+  /// error of the mesh. Empty if no member has two elements.
   std::optional<double> mesh_change;
   double deciding_cpu_s = 0;
-  std::vector<EffectRun> without_one;     ///< the full set without each effect: own contributions
-  std::vector<EffectRun> without_chosen;  ///< the chosen set without each effect that may go
+  std::vector<EffectRun> without_one;     ///< the full set without each effect: separate
+                                          ///< contributions
+  std::vector<EffectRun> without_chosen;  ///< the chosen set without each removable effect
 
   [[nodiscard]] bool within_tolerance() const { return chosen.change() <= tolerance; }
-  /// @returns whether no expensive effect of the chosen set can be removed
+  /// @returns true if no expensive effect of the chosen set can be removed
   [[nodiscard]] bool is_minimal() const;
-  /// Work of deciding and of the chosen set over that of the full set.
+  /// Returns the work of the selection and of the chosen set, relative to that of the full set.
   [[nodiscard]] double work_ratio() const {
     return (choice.automatic->work + chosen.work) / full.work;
   }
@@ -47,10 +49,11 @@ struct EffectStudy {
 
 struct EffectStudyOptions {
   double tolerance = 0.01;
-  int repeats = 7;  ///< of each set in turns after one for warming up; 0: not timed
+  int repeats = 7;  ///< of each set in turns, after one warm-up; 0: not timed
 };
 
-/// @param document  a case whose analysis has effects. Its own tolerance has precedence.
+/// Studies the effects of a case.
+/// @param document  a case whose analysis has effects; its tolerance overrides that of the options
 /// @throws InputError  if the analysis has no effects or the model is invalid.
 [[nodiscard]] EffectStudy study_effects(const Document& document,
                                         const EffectStudyOptions& options);

@@ -17,12 +17,12 @@ namespace {
 using Places =
     std::map<std::string, std::vector<Eigen::Vector2d>>;  ///< place -> displacement of each mode
 
-/// Modes beyond those asked for, so that a set at the end is whole.
+/// Additional modes, so that a set at the end is complete.
 constexpr solver::Index kExtraModes = 4;
 constexpr int kStations = 8;
-/// Relative distance within which frequencies are one set.
+/// Relative distance below which frequencies form one set.
 constexpr double kRepeatedTolerance = 1e-6;
-/// Below this, two sets do not look alike.
+/// Overlap below which two sets do not match.
 constexpr double kMinOverlap = 0.5;
 
 void sample_nodes(const solver::System& system, const Eigen::VectorXd& u, Places& places) {
@@ -80,7 +80,7 @@ std::vector<std::vector<std::size_t>> sets_of(const std::vector<double>& frequen
   return sets;
 }
 
-/// Orthonormal basis of the set's shapes.
+/// Returns an orthonormal basis of the set's shapes.
 Eigen::MatrixXd basis(const SampledModes& modes, const std::vector<std::size_t>& set) {
   Eigen::MatrixXd shapes(modes.shape.rows(), static_cast<solver::Index>(set.size()));
   for (std::size_t k = 0; k < set.size(); ++k) {
@@ -134,12 +134,13 @@ std::vector<ModeMatch> match_modes(const SampledModes& a, const SampledModes& b)
       pairs.emplace_back(overlap, i, j);
     }
   }
-  // The most alike first; equal ones in the order of their frequencies.
+  // The most similar pairs come first. Pairs with equal overlap keep the order of their
+  // frequencies.
   std::ranges::stable_sort(
       pairs, [](const auto& x, const auto& y) { return std::get<0>(x) > std::get<0>(y); });
   std::vector<ModeMatch> matches;
-  // A set has room for as many modes as it has: two that symmetry no longer holds together look
-  // like the set that they were.
+  // A set matches as many modes as it contains. Two modes that are split because the other model
+  // lacks the symmetry both match their common set.
   std::vector<std::size_t> room_a, room_b;
   for (const auto& set : sets_a) {
     matches.push_back({set, {}, 0});

@@ -5,28 +5,29 @@
 
 #include "harness/input/document.h"
 
-/// Matching the modes of two models by their shapes, never by their numbers.
+/// Matches the modes of two models by their shapes, not by their numbers.
 namespace trammel::harness {
 
-/// Modes seen at the places that two models have in common.
+/// Modes sampled at the places that two models have in common.
 struct SampledModes {
   std::vector<double> frequency;  ///< ascending [Hz]
   Eigen::MatrixXd shape;          ///< displacement at common places x mode
 };
 
-/// The modes of both cases, seen at nodes of the same names and at stations along members of the
-/// same names, where the cubic shape functions of the beam interpolate.
-/// @throws InputError  where one of them is no case of modes, or is singular.
+/// Samples the modes of both cases at nodes with the same names and at stations along members with
+/// the same names. Between nodes, the cubic shape functions of the beam interpolate.
+/// @throws InputError  if a case has no modes or is singular.
 [[nodiscard]] std::pair<SampledModes, SampledModes> sample_modes(const Document& a,
                                                                  const Document& b);
 
-/// A set of modes of one model and the set of the other that looks most like it. Frequencies within
-/// a millionth of each other are one set, whose single shapes mean nothing.
+/// Set of modes of one model and the most similar set of the other model. Frequencies within a
+/// relative distance of 1e-6 form one set, because their single shapes are arbitrary.
 struct ModeMatch {
-  /// b is empty where nothing looks alike; a set of b may stand beside several single modes of a.
+  /// Modes of each model. The list b is empty if no set is similar. Several single modes of a may
+  /// share one set of b.
   std::vector<std::size_t> a, b;
-  /// Mean squared cosine of the angles between the two subspaces: the modal assurance criterion
-  /// where both sets are single modes (R. J. Allemang, D. L. Brown, IMAC 1982).
+  /// Mean squared cosine of the angles between the two subspaces. For single modes it is the modal
+  /// assurance criterion (R. J. Allemang, D. L. Brown, IMAC 1982).
   double overlap = 0;
 };
 

@@ -12,7 +12,7 @@
 namespace trammel::harness {
 namespace {
 
-/// "1.7", "43", "7900".
+/// Returns a factor as text: "1.7", "43", "7900".
 std::string times(double factor) {
   if (factor < 100) return rounded(factor, 2);
   const double unit = std::pow(10, std::floor(std::log10(factor)) - 1);
@@ -25,7 +25,7 @@ std::set<std::size_t> settings_of(const std::vector<CostPoint>& points) {
   return settings;
 }
 
-/// "'fine' or 'finer' or one of 3 more".
+/// Returns the tied settings as text: "'fine' or 'finer' or one of 3 more".
 std::string alternatives(std::size_t setting, const std::vector<std::size_t>& tied,
                          const std::vector<std::string>& titles) {
   std::string text = fmt::format("'{}'", titles[setting]);
@@ -35,17 +35,18 @@ std::string alternatives(std::size_t setting, const std::vector<std::size_t>& ti
   return text;
 }
 
-/// What more accuracy than that of `first` takes.
-/// @param fine  the cheapest that is good to 1e-6;  @param best  the most accurate
+/// Describes the cost of more accuracy than that of `first`.
+/// @param fine  the cheapest point with an error of at most 1e-6
+/// @param best  the most accurate point
 std::string describe_finest(const CostPoint& first, const std::optional<CostPoint>& fine,
                             const CostPoint& best, const std::vector<std::string>& titles) {
-  if (fine && fine->setting == first.setting) return ", and it is good to 1e-6 at no further cost.";
+  if (fine && fine->setting == first.setting) return ", and it reaches 1e-6 at no further cost.";
   if (fine) {
     return fmt::format("; 1e-6 takes '{}' and {} times as long.", titles[fine->setting],
                        times(fine->time / first.time));
   }
   if (best.setting == first.setting) {
-    return fmt::format("; nothing more accurate is to be had than its {}.", error_text(best.error));
+    return fmt::format("; no setting is more accurate than its {}.", error_text(best.error));
   }
   return fmt::format("; no setting reaches 1e-6, the best is '{}', off by {}, {} times as long.",
                      titles[best.setting], error_text(best.error), times(best.time / first.time));
@@ -108,7 +109,7 @@ results::Repeatability compare_pareto_fronts(const std::vector<CostPoint>& a,
   agreement.on_both_fronts = in_a.size() + in_b.size() - either.size();
   std::vector<double> differences;
   const auto look = [&](double error) {
-    // Settings whose errors differ in the last digits are not told apart.
+    // Settings whose errors differ only slightly count as equal.
     const double within = (1 + kParetoTolerance) * error;
     const auto at_a = cheapest(front_a, within), at_b = cheapest(front_b, within);
     if (at_a && at_b) differences.push_back(std::abs(std::log(at_a->time / at_b->time)));
@@ -145,7 +146,7 @@ std::string describe_pareto_front(const std::vector<CostPoint>& points,
   const std::vector<std::size_t> tied = tied_settings(points, 0.01);
   std::string text =
       fmt::format("Within 1 %, {} is cheapest{}", alternatives(first->setting, tied, titles),
-                  tied.empty() ? "" : " (times that cannot be told apart)");
+                  tied.empty() ? "" : " (times that are indistinguishable)");
   const bool as_quick = std::abs(std::log(first->time)) <= std::log1p(kParetoTolerance);
   if (as_quick && first->setting != baseline)
     text += fmt::format(", as quick as '{}'", titles[baseline]);

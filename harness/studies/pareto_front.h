@@ -8,49 +8,50 @@
 
 #include "harness/results/cost_results.h"
 
-/// The efficient front: what each accuracy costs at least.
+/// Pareto front of accuracy and computing time.
 namespace trammel::harness {
 
 struct CostPoint {
   std::size_t setting = 0;
   double error = 0;                ///< relative
-  double time = 0;                 ///< over the baseline's, median
-  double low = time, high = time;  ///< that time's interval
+  double time = 0;                 ///< relative to the baseline, median
+  double low = time, high = time;  ///< interval of that time
 };
 
-/// What an error of zero counts as: a double cannot tell less.
+/// Replacement for an error of zero: the resolution of a double.
 inline constexpr double kMinError = std::numeric_limits<double>::epsilon();
 
-/// Times and errors nearer than this count as equal: a median of seven is not known better, and an
-/// accuracy that differs by less is of no use. Of equal settings the more accurate counts, of
-/// equally accurate ones the first of the study.
+/// Relative difference below which times and errors count as equal. The median of seven repeats has
+/// no better resolution, and a smaller gain of accuracy is useless. Of equal settings the more
+/// accurate one counts. Of equally accurate settings the first one of the study counts.
 inline constexpr double kParetoTolerance = 0.05;
 
-/// Whether one of the points is of that setting.
+/// Returns true if a point belongs to the setting.
 [[nodiscard]] bool has_setting(const std::vector<CostPoint>& points, std::size_t setting);
 
-/// The cheapest point with at most that error.
+/// Returns the cheapest point with at most that error.
 [[nodiscard]] std::optional<CostPoint> cheapest(const std::vector<CostPoint>& points, double error);
 
-/// Settings with at most that error that the measurement cannot tell from the cheapest: their
-/// intervals of time meet, or nearly.
+/// Returns the settings with at most that error whose times are indistinguishable from the
+/// cheapest. Their intervals of time overlap, or nearly do.
 [[nodiscard]] std::vector<std::size_t> tied_settings(const std::vector<CostPoint>& points,
                                                      double error);
 
-/// What is cheapest for the error of any point, or for one a little above; cheapest first.
+/// Returns the points that are cheapest for the error of some point, or for a slightly larger
+/// error; cheapest first.
 [[nodiscard]] std::vector<CostPoint> find_pareto_front(const std::vector<CostPoint>& points);
 
-/// The errors that the table of cheapest settings asks for.
+/// Returns the errors in the table of cheapest settings.
 [[nodiscard]] const std::vector<double>& target_errors();
 
 /// Compares two measurements of the same settings.
 [[nodiscard]] results::Repeatability compare_pareto_fronts(const std::vector<CostPoint>& a,
                                                            const std::vector<CostPoint>& b);
 
-/// "1 %", "1e-6".
+/// Returns an error as text: "1 %", "1e-6".
 [[nodiscard]] std::string error_text(double error);
 
-/// What the front says, in a sentence or two.
+/// Describes the front in one or two sentences.
 /// @param titles    of the settings
 /// @param baseline  the setting that times are relative to
 [[nodiscard]] std::string describe_pareto_front(const std::vector<CostPoint>& points,

@@ -8,7 +8,7 @@
 namespace trammel::harness {
 namespace {
 
-/// From coarse to fine; a size of zero or less has no meaning.
+/// Requires levels from coarse to fine. Element sizes must be positive.
 void check_levels(const JsonView& place, const std::vector<Level>& levels) {
   const std::string measures = place.get<std::string>("refinement_by", "elements");
   double before = std::numeric_limits<double>::infinity();

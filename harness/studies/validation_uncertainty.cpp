@@ -15,11 +15,12 @@ using results::Comparison;
 using results::Number;
 using results::UncertainInput;
 
-/// From a band of about 95 % to a standard uncertainty: the error lies on one side of the computed
-/// value, near the edge of the band. Source: ASME V&V 20-2009, section 2 (k = 1.1 to 1.15).
+/// Ratio of a band of about 95 % to a standard uncertainty. The error lies on one side of the
+/// computed value, near the edge of the band. Source: ASME V&V 20-2009, section 2 (k = 1.1 to
+/// 1.15).
 constexpr double kGciToStandard = 1.15;
 
-/// One value of the run that is compared with one of a reference.
+/// Value of the run that is compared with a value of a reference.
 struct Place {
   const Check* check = nullptr;
   std::size_t index = 0, reference_index = 0;
@@ -53,7 +54,7 @@ double value_at(const Quantities& quantities, const Place& place) {
   return found->second.values[place.index];
 }
 
-/// The document with each number at the pointers moved.
+/// Returns the document with each number at the pointers changed by `move`.
 Document moved(const Document& document, const std::vector<std::string>& pointers,
                const std::function<double(double)>& move) {
   Document copy = document;
@@ -143,7 +144,7 @@ class ValidationStudy {
     return entry;
   }
 
-  /// The values of all places with some inputs moved; empty where there is no solution.
+  /// Returns the values of all places with some inputs moved; empty without a solution.
   [[nodiscard]] std::optional<std::vector<double>> values_of(const Document& document) const {
     try {
       const AnalysisResult result = analyse(document, references_, {false});
@@ -155,11 +156,11 @@ class ValidationStudy {
       }
       return values;
     } catch (const InputError&) {
-      return std::nullopt;  // out of reach, or no longer a mechanism that can be built
+      return std::nullopt;  // out of reach, or no longer a valid mechanism
     }
   }
 
-  /// The discretization error of each place as a standard uncertainty.
+  /// Sets the discretization error of each place as a standard uncertainty.
   void take_errors(const results::ErrorEstimates& errors) {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const auto found = std::ranges::find(errors.quantities, places_[i].check->quantity,
@@ -172,14 +173,14 @@ class ValidationStudy {
     }
   }
 
-  /// The inputs that vary, with the response of the model to their offsets.
+  /// Inputs that vary, with the response of the model to their offsets.
   struct Variation {
     std::vector<const UncertainInput*> inputs;
     std::vector<double> half_widths;
     Response response;
   };
 
-  /// @param literal  the nominal inputs, too
+  /// @param literal  also varies the inputs that have a nominal value
   [[nodiscard]] Variation vary(bool literal) const {
     Variation found;
     for (const UncertainInput& input : study_.inputs) {
@@ -239,7 +240,7 @@ class ValidationStudy {
     draw(true, "samples_all_inputs", study_.samples_all_inputs, study_.failed_all_inputs);
   }
 
-  /// Each check's entries are one row of the reference.
+  /// Evaluates each check. The entries of a check are one row of the reference.
   void evaluate_check() {
     for (auto first = study_.comparisons.begin(); first != study_.comparisons.end();) {
       const auto end = std::find_if(first, study_.comparisons.end(), [&](const Comparison& entry) {

@@ -116,9 +116,9 @@ BOOST_AUTO_TEST_CASE(a_build_folder_that_cannot_be_is_told_in_a_line) {
   const Checkout checkout;
   const std::string said = checkout.run("TRAMMEL_BUILD=/dev/null/x source/trammel list");
   BOOST_TEST(checkout.status() == 3);
-  BOOST_TEST(said == "trammel: expected a folder that can be written: /dev/null/x\n");
+  BOOST_TEST(said == "trammel: expected a writable folder: /dev/null/x\n");
   BOOST_TEST(checkout.run("TRAMMEL_BUILD=source/trammel source/trammel list") ==
-             "trammel: expected a folder that can be written: source/trammel\n");
+             "trammel: expected a writable folder: source/trammel\n");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

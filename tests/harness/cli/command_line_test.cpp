@@ -143,7 +143,7 @@ const Refusal kRefusals[] = {
     {"cost mods",
      "expected a family or study of cases/cost, a case or a file (got 'mods'); did "
      "you mean 'modes'?"},
-    {"cost unjudged.json", "unjudged.json: /: expected 'sweeps', which say what to refine"},
+    {"cost unjudged.json", "unjudged.json: /: expected 'sweeps', which define the refinement"},
     {"cost unjudged.json --sweep none", "unjudged.json: /: expected 'sweeps'"},
     {"cost modes --sweep elements", "--sweep and --variant: expected a case beside them"},
     {"cost modes --repeats 6", "--repeats requires at least 7 measurements (got 6)"},

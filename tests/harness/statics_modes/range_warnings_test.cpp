@@ -92,11 +92,11 @@ BOOST_AUTO_TEST_CASE(what_cannot_vibrate_or_buckle_is_singular_and_says_why) {
   };
   const Json all = {"x", "y", "rotation"};
   BOOST_TEST(reason({{"A", all}, {"B", all}}, 7800, "modes") ==
-             "nothing vibrates, for everything is held");
+             "nothing vibrates: everything is held");
   BOOST_TEST(reason({{"A", all}, {"B", all}}, 7800, "buckling") ==
-             "nothing buckles, for everything is held");
+             "nothing buckles: everything is held");
   BOOST_TEST(reason({{"A", all}}, 0, "modes") ==
-             "nothing vibrates, for nothing that moves has mass");
+             "nothing vibrates: no part that can move has a mass");
 }
 
 // A rigid beam on three supports: two bear it.
