@@ -133,7 +133,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
 
   std::string name_;
   Json root_;
-  Json* member_ = nullptr;  ///< value of the key read last
+  Json* member_ = nullptr;   ///< value of the key read last
   std::vector<Json*> open_;  ///< open objects and arrays, from the root inward
   std::vector<std::unordered_set<std::string>> keys_;  ///< keys of each object; empty if it has few
 };
@@ -143,7 +143,8 @@ class StrictReader : public nlohmann::json_sax<Json> {
 Json parse_json(const std::string& text, const std::string& name) {
   StrictReader reader(name);
   Json::sax_parse(text, &reader);
-  if (const std::size_t at = text.find('\0'); at != std::string::npos)  // the parser would stop there
+  if (const std::size_t at = text.find('\0');
+      at != std::string::npos)  // the parser would stop there
     throw InputError(name + ": expected the end of the JSON (got '\\u0000' at byte " +
                      std::to_string(at + 1) + ")");
   return reader.take();

@@ -28,7 +28,8 @@ struct ProcessOutcome {
 
 struct ProcessOptions {
   unsigned at_once = 1;
-  std::size_t memory_bytes = 0;  ///< address space of each process; 0: no limit, as always under sanitizers
+  std::size_t memory_bytes =
+      0;  ///< address space of each process; 0: no limit, as always under sanitizers
   std::function<void()> waiting = {};  ///< called about once a second while processes run
 };
 
@@ -56,7 +57,7 @@ void end_without_memory(int status, const char* line);
 /// Limits of a program that is not part of trammel.
 struct ProgramLimits {
   double wall_s = 120;
-  std::size_t memory_bytes = 0;  ///< address space of each process; 0: no limit
+  std::size_t memory_bytes = 0;                   ///< address space of each process; 0: no limit
   std::size_t disk_bytes = std::size_t{1} << 30;  ///< of each file, and of the folder in total
 };
 

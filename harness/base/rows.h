@@ -11,7 +11,7 @@ namespace trammel::harness {
 /// A column of rows: its key in JSON and CSV, and its heading in a table for a terminal.
 struct Column {
   std::string key, head;
-  int digits;  ///< significant digits in the table; 0: print only the length of a list
+  int digits;    ///< significant digits in the table; 0: print only the length of a list
   double scale;  ///< factor of numbers in the table: 100 for percent
   bool is_right_aligned = false;
 

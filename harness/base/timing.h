@@ -9,7 +9,7 @@
 namespace trammel::harness {
 
 struct TimingOptions {
-  int repeats = 7;  ///< minimum number for meaningful quartiles
+  int repeats = 7;         ///< minimum number for meaningful quartiles
   std::uint64_t seed = 1;  ///< of the random order
   /// A measurement repeats the computation until it lasts at least this long [s]; the mean counts.
   double shortest_s = 2e-3;
@@ -47,8 +47,8 @@ struct RelativeTime {
 
 /// Measured time of one evaluation. It is never judged.
 struct EvaluationTime {
-  std::string name;  ///< words joined by '_'
-  double wall_s = 0;  ///< time of one evaluation [s]
+  std::string name;             ///< words joined by '_'
+  double wall_s = 0;            ///< time of one evaluation [s]
   std::size_t evaluations = 0;  ///< number of evaluations in the average
 };
 

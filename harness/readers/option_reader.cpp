@@ -111,7 +111,7 @@ solver::HarmonicDamping read_damping(const JsonView& analysis, std::optional<sol
   if (!ratio.json().is_array()) {
     read.modal_ratio.assign(count_of(*modal, modes), ratio.get<double>());
   } else if (modal->has("modes")) {
-    throw(*modal)["modes"].error("expected it beside one ratio only (got a ratio for each mode)");
+    throw(*modal)["modes"].error("'modes' requires a single ratio (got a ratio for each mode)");
   } else {
     read.modal_ratio = ratio.get<std::vector<double>>();
   }
@@ -130,7 +130,8 @@ solver::DesignParameter read_design_parameter(const JsonView& parameter) {
   solver::DesignParameter read{.kind = parameter["property"].get<Kind>()};
   if (read.kind > Kind::poisson_ratio) {
     for (const char* key : {"links", "platform"})
-      if (parameter.has(key)) throw parameter[key].error("expected it beside a property of links");
+      if (parameter.has(key))
+        throw parameter[key].error("'" + std::string(key) + "' requires a property of links");
     return read;
   }
   read.platform = parameter.get("platform", false);
@@ -197,7 +198,7 @@ solver::large_motion::TimeFunction spin_up(double speed, double duration) {
   return [speed, duration](double t) {
     const double w = 2 * std::numbers::pi / duration;
     if (t >= duration) return std::array<double, 3>{speed * (t - duration / 2), speed, 0};
-    // 1 - cos by its half angle: early on it is all there is.
+    // The half-angle form of 1 - cos avoids cancellation for small t.
     const double half = std::sin(w * t / 2);
     const double turned = t * t / 2 - 2 * half * half / (w * w);
     return std::array<double, 3>{speed / duration * turned,
