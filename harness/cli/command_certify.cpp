@@ -76,7 +76,7 @@ void print_certificate(const Json& certificate) {
   }
 }
 
-/// Results of another input differ by it, not by how they were computed.
+/// Requires the same input, because results of different inputs differ for that reason alone.
 void require_same_cases(const std::vector<Case>& cases, const std::filesystem::path& file,
                         const results::Results& stored) {
   for (const Case& one : cases) {

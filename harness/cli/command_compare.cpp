@@ -31,7 +31,7 @@ using results::ComparedSide;
 using results::Number;
 using results::SideComparison;
 
-/// Case and variant of a name; a colon in a file's own name is no variant.
+/// Splits a name into case and variant. A colon in the name of a file does not separate a variant.
 std::pair<std::string, std::string> parted(const std::string& name) {
   const auto colon = name.rfind(':');
   const bool split =
@@ -39,7 +39,7 @@ std::pair<std::string, std::string> parted(const std::string& name) {
   return {split ? name.substr(0, colon) : name, split ? name.substr(colon + 1) : ""};
 }
 
-/// Computes one variant, without its refinements.
+/// Computes one variant without its refinements.
 Side side_of(const Case& given, const std::string& variant) {
   const References references;
   RunOptions options;
@@ -82,7 +82,7 @@ std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
   return sides;
 }
 
-/// Results, each read once, or cases.
+/// Returns the sides: results files, each read once, or cases.
 std::vector<Side> sides_of(const std::vector<std::string>& names) {
   std::vector<Side> sides;
   std::vector<std::string> others;
@@ -96,14 +96,14 @@ std::vector<Side> sides_of(const std::vector<std::string>& names) {
   }
   if (sides.empty()) return sides_of_cases(names);
   if (!others.empty()) {
-    (void)load_named_case(parted(others.front()).first);  // reports what is wrong with it
+    (void)load_named_case(parted(others.front()).first);  // reports its error
     throw InputError("expected variants alone or results alone (got both)");
   }
   if (sides.size() < 2) throw InputError("expected two results (got one)");
   return sides;
 }
 
-/// Time next to accuracy.
+/// Prints computing time next to accuracy.
 void print_sides(const SideComparison& comparison) {
   std::vector<Column> columns = {{"label", "side"},
                                  {"runs"},
@@ -134,7 +134,7 @@ void print_modes(const ComparedRun& run, const SideComparison& comparison) {
                "subspaces are compared)\n";
 }
 
-/// Columns, then two for each side: the value, and its difference from the first in percent.
+/// Adds two columns for each side: the value, and its difference from the first side in percent.
 std::vector<Column> with_sides(std::vector<Column> columns, const SideComparison& comparison) {
   for (const ComparedSide& side : comparison.sides) {
     columns.emplace_back(side.label.c_str(), "", 10);
@@ -193,7 +193,7 @@ std::string csv(const SideComparison& comparison) {
   return rows.csv();
 }
 
-/// The points of a study by the titles of its settings.
+/// Returns the points of a study by the titles of its settings.
 std::vector<CostPoint> named_points(const results::CostStudy& study,
                                     std::vector<std::string>& titles) {
   std::vector<CostPoint> points = cost_points(study);
@@ -206,7 +206,7 @@ std::vector<CostPoint> named_points(const results::CostStudy& study,
   return points;
 }
 
-/// Agreement of two measurements of the same studies.
+/// Prints the agreement of two measurements of the same studies.
 void print_costs(const std::optional<results::CostStudies>& a,
                  const std::optional<results::CostStudies>& b) {
   if (!a || !b) return;

@@ -27,7 +27,7 @@ double ratio(double part, double full) {
   return full > 0 ? part / full : 0;
 }
 
-/// A set of effects: its change from the full model, time, and counted work.
+/// Columns of a set of effects: its change from the full model, time, and counted work.
 const std::vector<Column> kRunColumns = {"left_out",
                                          {"status", ""},
                                          {"change", "change [%]", 3, 100},
@@ -97,8 +97,8 @@ Json study_json(const std::string& id, const std::string& analysis, const Effect
   return json;
 }
 
-/// @returns whether the selection holds: within the tolerance, and large displacement, if the
-/// analysis cannot compute it, too
+/// @returns whether the change is within the tolerance, also for large displacement if the analysis
+///   cannot represent it
 bool holds(const EffectStudy& study) {
   return study.within_tolerance() && !study.choice.is_beyond_tier();
 }
@@ -150,7 +150,7 @@ struct EffectCase {
   Document document;
 };
 
-/// Cases whose analysis has effects.
+/// Returns the cases whose analysis has effects.
 std::vector<EffectCase> effect_cases(const std::vector<std::string>& labels,
                                      const std::string& variant) {
   std::vector<EffectCase> cases;
@@ -189,7 +189,7 @@ int print_one(const EffectCase& scene, const CommandOptions& options) {
   return holds(study) ? 0 : 1;
 }
 
-/// The scene of a case, which the store may hold; none if the full model has no solution.
+/// Returns the scene of a case, possibly from the store; none if the full model has no solution.
 EffectScenes scenes_of(const EffectCase& given, const std::filesystem::path& store, bool resume) {
   const auto measure = [&] {
     const EffectStudy study = study_effects(given.document, {.repeats = 3});

@@ -24,8 +24,8 @@
 namespace trammel::harness {
 namespace {
 
-/// As long as it lives, control characters other than line breaks and tabs reach the stream as '?',
-/// so that no text of a case commands the terminal.
+/// Stream that replaces control characters, except line breaks and tabs, by '?' during its
+/// lifetime. Text of a case therefore cannot control the terminal.
 class PrintableStream : std::streambuf {
  public:
   explicit PrintableStream(std::ostream& stream) : stream_(stream), target_(stream.rdbuf(this)) {}
@@ -45,7 +45,7 @@ class PrintableStream : std::streambuf {
   std::streambuf* target_;
 };
 
-/// A section of help.txt; a command's has what it does in the first line.
+/// Returns a section of help.txt. The first line of a command's section is its summary.
 std::string help_text(const std::string& section) {
   const std::string& all = embedded_text("help.txt");
   const std::string head = "[" + section + "]\n";
@@ -60,7 +60,7 @@ using Options = CommandOptions;
 
 /// An option of one or several commands.
 struct Option {
-  std::string flags;  ///< without a dash: an argument by its place
+  std::string flags;  ///< flags; without a dash: a positional argument
   std::variant<bool Options::*, int Options::*, unsigned Options::*, std::size_t Options::*,
                double Options::*, std::string Options::*, std::vector<std::string> Options::*>
       member;
@@ -72,7 +72,7 @@ struct Option {
   }
 };
 
-/// A number from `least` to `most`; CLI::Range prints limits such as 1e-10 as 0.
+/// Accepts a number from `least` to `most`. CLI::Range would print limits such as 1e-10 as 0.
 CLI::Validator within(double least, double most) {
   const std::string limits = shortest(least) + " to " + shortest(most);
   const auto complaint = [=](std::string& word) -> std::string {
@@ -169,7 +169,7 @@ const std::vector<Option>& all_options() {
   return options;
 }
 
-/// Pairs of options that no call may have both.
+/// Pairs of options that exclude each other.
 constexpr std::pair<const char*, const char*> kExclusive[] = {{"--shard", "--store"},
                                                               {"--errors", "--no-errors"},
                                                               {"--ctest", "--json"},
@@ -182,7 +182,7 @@ struct CommandEntry {
   const char* out = "trammel-results";
 };
 
-/// In the order of the help.
+/// Commands in the order of the help.
 constexpr CommandEntry kCommands[] = {
     {"list", list_command, "--label --json"},
     {"describe", describe_command, "case! --json"},
@@ -216,11 +216,11 @@ constexpr CommandEntry kCommands[] = {
     {"history", history_command, "file! --json"},
 };
 
-/// All words of the command line, and what to do with them.
+/// Parser and dispatcher of the command line.
 class CommandLine {
  public:
   /// @param first  the first argument. If it names a command, only that command is defined;
-  ///               otherwise all of them are, for the help and for suggestions.
+  ///   otherwise all commands are defined, for the help and for suggestions.
   CommandLine(const Renderers& renderers, const std::string& first) : renderers_(renderers) {
     app_.name("trammel");
     app_.footer("\n" + help_text("trammel"));
@@ -231,7 +231,7 @@ class CommandLine {
   }
 
   int run(const std::vector<std::string>& arguments) {
-    // CLI11 takes them from the back, and keeps what is left.
+    // CLI11 takes the arguments from the back and keeps the unused ones.
     std::vector<std::string> stack(arguments.rbegin(), arguments.rend());
     try {
       app_.parse(stack);
@@ -275,7 +275,7 @@ class CommandLine {
     command_ = [this, &command] { return command.run(options_, renderers_); };
   }
 
-  /// @param name  of `all_options`; '!': required
+  /// @param name  name in `all_options`; '!': required
   void add_option(std::string name, CLI::App* sub) {
     const bool is_required = name.ends_with('!');
     if (is_required) name.pop_back();
@@ -314,7 +314,7 @@ void require_drawing(const Renderers& renderers) {
 int run_command_line(const std::vector<std::string>& arguments, const Renderers& renderers) {
   const PrintableStream out(std::cout), err(std::cerr);
   end_on_signals("trammel: interrupted; the same command begins anew\n");
-  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit of files fails instead
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit of the file size fails instead
   try {
     const int status =
         CommandLine(renderers, arguments.empty() ? "" : arguments.front()).run(arguments);
@@ -329,7 +329,7 @@ int run_command_line(const std::vector<std::string>& arguments, const Renderers&
     return 128 + interrupted.signal;
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::system_error& error) {  // a full disk, a folder where a file should be
+  } catch (const std::system_error& error) {  // a full disk, or a folder instead of a file
     std::cerr << "expected files and processes that the system grants: " << one_line(error.what())
               << '\n';
     return 2;

@@ -28,13 +28,13 @@
 namespace trammel::harness {
 namespace {
 
-/// Cases to run, and the runs of those that could not even be read.
+/// Cases to run, and the runs of cases that could not be read.
 struct Selection {
   std::vector<Case> cases;
   std::vector<Run> broken;
 };
 
-/// Bad files among several must not take the good ones' results with them.
+/// Unreadable files do not prevent the results of the others.
 Selection load(const std::vector<std::filesystem::path>& files, const Catalogue& catalogue) {
   Selection selection;
   for (const auto& file : files) {
@@ -94,7 +94,7 @@ std::vector<Run> compute(const Selection& selection, const References& reference
   return runs;
 }
 
-/// Numbers for a dashboard, as ctest extracts them from the output of a test.
+/// Prints numbers in the format that CTest extracts from the output of a test.
 void print_measurements(const results::Results& results) {
   std::size_t checks = 0, failures = 0;
   double share = 0, cpu_s = 0;
@@ -123,15 +123,14 @@ void print_run_errors(const std::vector<Run>& runs) {
   std::vector<std::string> told;
   for (const Run& run : runs) {
     if (run.fault == results::Fault::none) continue;
-    // Variants of one case often have one and the same fault.
+    // Variants of one case often have the same error.
     if (contains(told, run.reason)) continue;
     told.push_back(run.reason);
     std::cerr << run.reason << '\n';
   }
 }
 
-/// The cases that are named, and those with the labels; the whole catalogue where there are
-/// neither.
+/// Selects the named cases and those with the labels, or the full catalogue if there are neither.
 Selection select(const CommandOptions& options) {
   const Catalogue catalogue;
   if (options.words.empty() && options.labels.empty())
@@ -151,17 +150,17 @@ Selection select(const CommandOptions& options) {
   return selection;
 }
 
-/// Does work that leaves what it finds in the store, each in a process of its own.
-/// @returns whether all of it came to its end
+/// Runs work in separate processes. The work leaves its results in the store.
+/// @returns whether all of it was completed
 bool do_in_processes(const std::vector<std::function<void()>>& work, unsigned jobs,
                      const std::string& items) {
-  constexpr unsigned kLimit = 3600;  // [s]; each computation in it has a limit of its own
+  constexpr unsigned kLimit = 3600;  // [s]; each computation in it has a separate limit
   std::vector<ProcessTask> tasks;
   for (const auto& one : work) {
     const auto done = [&one] {
       try {
         one();
-      } catch (const InputError&) {  // told by who reads the store
+      } catch (const InputError&) {  // reported by the reader of the store
         return std::string("not done");
       }
       return std::string();
@@ -191,7 +190,8 @@ bool is_results_file(const std::string& name) {
   }
 }
 
-/// Computes nothing: one file becomes a report as it is, several a page of codes side by side.
+/// Renders existing results without computing: a single file as a report, several files as a page
+/// that compares codes.
 int report_results(const CommandOptions& options, const Renderers& renderers) {
   const std::vector<std::filesystem::path> files(options.words.begin(), options.words.end());
   if (files.size() > 1)
@@ -214,7 +214,7 @@ int report_results(const CommandOptions& options, const Renderers& renderers) {
   return 0;
 }
 
-/// The selection in words that mean the same in another folder.
+/// Returns the selection in a form that does not depend on the working folder.
 Json selection_of(const CommandOptions& options) {
   Json cases = Json::array();
   for (const std::string& name : options.words)
@@ -223,7 +223,7 @@ Json selection_of(const CommandOptions& options) {
   return {{"cases", cases}, {"labels", options.labels}, {"variant", options.variant}};
 }
 
-/// Computes a part of what is selected and judges nothing.
+/// Computes a part of the selection without judging it.
 int compute_shard(const CommandOptions& options) {
   Shard shard = shard_from(options.shard);
   if (!options.costs.empty()) shard.costs = earlier_costs(options.costs);
@@ -250,7 +250,8 @@ int add_studies(results::Results& results, const std::vector<Case>& cases,
   const bool resume = !options.fresh;
   std::vector<std::function<void()>> studies = quick_cost_work(references, store, resume);
   for (auto& work : effect_scene_work(store, resume)) studies.push_back(std::move(work));
-  // Finished work is in the store. The rest is done, or reported as impossible, here.
+  // Completed work is read from the store. Remaining work is computed here, or reported as
+  // impossible.
   const bool measured = do_in_processes(studies, options.jobs, "studies of cost and effects");
   std::vector<std::string> error_messages;
   results.cost = quick_cost(references, store, resume || measured, error_messages);
