@@ -108,7 +108,7 @@ struct Child {
 };
 
 /// Forks a child that ends with this process.
-/// @param run  called in the child with the write end of the pipe; it does not return
+/// @param run  called in the child with the write end of the pipe; it does not return.
 /// @returns the child, without a process if the system has no room; errno contains the reason
 Child start_child(const std::function<void(int out)>& run) {
   Child child;
@@ -196,17 +196,18 @@ ProcessOutcome outcome_of(Child& child) {
     outcome.text = std::move(child.text);
     if (status == 0) return outcome;
     if (status == kOutOfMemory)
-      return without_answer(Termination::out_of_memory, "more memory than there is");
+      return without_answer(Termination::out_of_memory, "more memory than is available");
     return without_answer(Termination::crashed,
                           fmt::format("the computation ended with status {}", status));
   }
   if (status == SIGXCPU || status == SIGALRM ||
       (status == SIGKILL && outcome.cpu_s >= child.cpu_limit_s))
-    return without_answer(Termination::timed_out,
-                          fmt::format("not done after {} s of processor time", child.cpu_limit_s));
+    return without_answer(
+        Termination::timed_out,
+        fmt::format("not finished after {} s of processor time", child.cpu_limit_s));
   if (status == SIGKILL)
     return without_answer(Termination::out_of_memory,
-                          "killed from outside, as where memory runs short");
+                          "killed by another process, possibly because memory was exhausted");
   return without_answer(Termination::crashed, fmt::format("the computation crashed (signal {}, {})",
                                                           status, strsignal(status)));
 }

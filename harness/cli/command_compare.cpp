@@ -64,7 +64,7 @@ std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
         sides.push_back(side_of(given, variant));
       } catch (const InputError& error) {
         if (variants.size() == 1) throw;
-        std::cerr << one_line(error.what()) << "; left out\n";
+        std::cerr << one_line(error.what()) << "; skipped\n";
         continue;
       }
       const std::string own = analysis_kind(*sides.back().document),
@@ -97,7 +97,7 @@ std::vector<Side> sides_of(const std::vector<std::string>& names) {
   if (sides.empty()) return sides_of_cases(names);
   if (!others.empty()) {
     (void)load_named_case(parted(others.front()).first);  // reports its error
-    throw InputError("expected variants alone or results alone (got both)");
+    throw InputError("expected either variants or results (got both)");
   }
   if (sides.size() < 2) throw InputError("expected two results (got one)");
   return sides;
@@ -115,7 +115,7 @@ void print_sides(const SideComparison& comparison) {
     columns.insert(columns.end(), {{"median_error", "error [%]", 3, 100},
                                    {"largest_error", "largest [%]", 3, 100}});
   Rows(columns, to_json(comparison)["sides"]).print(std::cout);
-  if (errors) std::cout << "error: median against references\n";
+  if (errors) std::cout << "error: relative to references, median over all of them\n";
 }
 
 void print_modes(const ComparedRun& run, const SideComparison& comparison) {
@@ -225,7 +225,7 @@ void print_costs(const std::optional<results::CostStudies>& a,
   if (table.empty()) return;
   std::cout << "accuracy and computing time: settings on the Pareto fronts, the cheapest setting "
                "for each\n"
-               "target error, and the difference of the time that an accuracy takes\n";
+               "target error, and the difference of the time needed for an accuracy\n";
   table.print(std::cout, "  ");
 }
 

@@ -73,7 +73,7 @@ std::vector<CostStudy> read_studies(const CommandOptions& options, SweepExtent e
     studies.push_back(cost_study_of_sweeps(load_case(file), variant, options.sweeps, references));
   }
   if (!any_case && (!options.sweeps.empty() || !options.variant.empty())) {
-    throw InputError("--sweep and --variant: expected a case beside them");
+    throw InputError("--sweep and --variant: a case is required");
   }
   if (!options.words.empty()) return studies;
   for (const fs::path& file : cost_study_files()) add(file);

@@ -119,12 +119,12 @@ void print_study(const EffectStudy& study) {
   }
   if (study.choice.automatic->beyond_tier)
     std::cout << "Beyond    " << percent(*study.choice.automatic->beyond_tier)
-              << " by large displacement, which this motion cannot have\n";
+              << " by large displacement, which this analysis cannot represent\n";
   std::cout << "Minimal   " << (study.is_minimal() ? "yes" : "no")
             << ", among the expensive effects\nWork      " << rounded(study.work_ratio(), 3)
             << " of the full model's, "
             << rounded(study.choice.automatic->work / study.full.work, 2)
-            << " of it for deciding\n";
+            << " of it for the selection\n";
 }
 
 [[noreturn]] void refuse_unsolved(const std::string& id, const EffectStudy& study) {
@@ -228,7 +228,7 @@ int effects_command(const CommandOptions& options, const Renderers& renderers) {
     std::cout << pretty(json, 3);
   } else {
     Rows(kSceneColumns, json).print(std::cout);
-    std::cout << "work: deciding and chosen set, relative to the full model; mesh: from half the "
+    std::cout << "work: selection and chosen set, relative to the full model; mesh: from half the "
                  "elements to all\n";
   }
   return all_hold ? 0 : 1;

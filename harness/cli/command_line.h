@@ -30,7 +30,7 @@ struct Renderers {
 
 /// Message of an interrupted command that has a store.
 inline constexpr const char* kInterrupted =
-    "trammel: interrupted; with --resume the same command does what is missing\n";
+    "trammel: interrupted; with --resume the same command computes the rest\n";
 
 /// Checks that reports can be drawn, before any work is done.
 /// @throws InputError  if a report cannot be drawn.

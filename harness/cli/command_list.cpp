@@ -77,7 +77,7 @@ std::string describe_check(const Check& check) {
   if (!check.against_quantity.empty()) text += " against " + check.against_quantity;
   if (!check.against_variant.empty()) text += " of variant " + check.against_variant;
   if (check.order && check.order->two_term_within)
-    return text + fmt::format(", a law of two orders along sweep {} within {} of the errors",
+    return text + fmt::format(", two-term law along sweep {} within {} of the errors",
                               check.order->sweep, *check.order->two_term_within);
   if (check.order)
     return text + fmt::format(", order along sweep {} within {} of theory", check.order->sweep,
@@ -130,8 +130,8 @@ void describe_inputs(const Case& given, const References& references) {
   std::cout << "\nInput uncertainties\n";
   Rows table({"input", "half width", "", "why"});
   for (const results::UncertainInput& input : stated_inputs(base, references))
-    table.add({input.name, *input.half_width, input.nominal ? "in the literal reading alone" : "",
-               input.why});
+    table.add({input.name, *input.half_width,
+               input.nominal ? "only if nominal lengths are taken literally" : "", input.why});
   table.print(std::cout, "  ");
 }
 
@@ -261,7 +261,7 @@ int describe_command(const CommandOptions& options, const Renderers& /*renderers
             << given.file.string() << '\n';
   if (given.variants().size() > 1) {
     std::cout << "\nVariants\n";
-    Rows table({"name", "what it changes"});
+    Rows table({"name", "title"});
     for (const std::string& variant : given.variants())
       if (variant != kBaseVariant) table.add({variant, given.variant_title(variant)});
     table.print(std::cout, "  ");
@@ -286,10 +286,9 @@ int quantities_command(const CommandOptions& options, const Renderers& /*rendere
   }
   rows.print(std::cout);
   if (all)
-    std::cout
-        << "A colon is followed by what the quantity is of: a node, a member and its end, ...\n"
-           "Quantities along a trajectory come with times and poses; a study gives the\n"
-           "quantities of its analysis. './trammel quantities CASE' names those of a case.\n";
+    std::cout << "The text after a colon names a part: a node, a member and its end, ...\n"
+                 "Quantities along a trajectory include times and poses. A study has the\n"
+                 "quantities of its analysis. './trammel quantities CASE' lists those of a case.\n";
   return 0;
 }
 

@@ -324,7 +324,7 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
   const std::size_t stored = std::ranges::count_if(options.words, is_results_file);
   if (stored > 0) {
     if (stored < options.words.size() || !options.labels.empty())
-      throw InputError("expected cases, or results files alone; each file has to be there");
+      throw InputError("expected either cases or existing results files");
     return report_results(options, renderers);
   }
   require_drawing(renderers);
@@ -332,7 +332,7 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
   resuming.resume = !options.fresh;
   const Selection selection = select(resuming);
   const OutputLock lock(options.out);
-  end_on_signals("trammel: interrupted; the same command does what is missing\n");
+  end_on_signals("trammel: interrupted; the same command computes the rest\n");
   const References references;
   std::vector<Run> computed = compute(selection, references, resuming);
   require_complete(computed);

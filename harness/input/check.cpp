@@ -110,8 +110,8 @@ void require_discrepancy(const JsonView& place, const Check& check) {
       std::ranges::all_of(check.windows, [](const Window& window) { return window.contains(0); });
   if (everywhere) {
     throw place.error(
-        "expected a window without 0: a known discrepancy that allows none can never "
-        "stop being true");
+        "expected a window without 0: a known discrepancy whose window contains 0 "
+        "cannot be detected as resolved");
   }
 }
 
@@ -151,8 +151,8 @@ void read_expectation(const JsonView& place, Check& check) {
   const std::string measure = key.substr(0, key.find('_'));
   const bool is_value = measure == key;
   if (is_value != place.has("within")) {
-    throw place.error(is_value ? "expected 'within' beside '" + key + "'"
-                               : "expected '" + measure + "' beside 'within' (got '" + key + "')");
+    throw place.error(is_value ? "'" + key + "' requires 'within'"
+                               : "'within' requires '" + measure + "' (got '" + key + "')");
   }
   check.measure = static_cast<Measure>(std::ranges::find(kMeasures, measure) - kMeasures.begin());
   check.windows =
@@ -169,7 +169,7 @@ void require_target(const JsonView& place, const Check& check) {
     throw place.error("expected either 'reference' or 'against_variant', 'against_quantity'");
   }
   if (check.against_quantity == check.quantity && check.against_variant.empty())
-    throw place["against_quantity"].error("expected another quantity: every number is what it is");
+    throw place["against_quantity"].error("expected a quantity other than the checked one");
   if (!check.reference_index.empty() && check.reference.empty()) {
     throw place["reference_index"].error("'reference_index' requires 'reference'");
   }
@@ -182,7 +182,7 @@ void require_target(const JsonView& place, const Check& check) {
   if (!needs && targets > 0) {
     throw place.error("expected nothing to compare with: " +
                       std::string(of_errors ? "the quantity is an error already"
-                                            : "a bound looks at the value alone"));
+                                            : "a bound applies to the value alone"));
   }
   if (check.order && !of_errors && check.reference.empty()) {
     throw place.error("expected 'reference' with the exact values for 'order'");
@@ -203,7 +203,7 @@ void read_criterion(const JsonView& place, const Document& document, Check& chec
     if (place.has("expect")) read_expectation(place["expect"], check);
     return;
   }
-  if (place.has("expect")) throw place["expect"].error("expected it in a validation only");
+  if (place.has("expect")) throw place["expect"].error("expected only in a validation");
   const std::string key = exactly_one(place, {"tolerance", "bound", "order"});
   if (key == "tolerance") read_tolerance(place[key], check);
   if (key == "bound") read_bound(place[key], check);

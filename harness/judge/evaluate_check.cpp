@@ -238,7 +238,7 @@ CheckResult judge_control(const Check& check, const std::vector<CheckResult>& en
                      (!asked.index || control.index == asked.index);
   const std::string found = "'" + verdict + "' (" + control.message + ")";
   control.message = holds
-                        ? "judged " + found + ", as it must be"
+                        ? "judged " + found + ", as required"
                         : fmt::format("expected '{}'{} with '{}' (got {})", asked.verdict,
                                       asked.index ? fmt::format(" of entry {}", *asked.index) : "",
                                       asked.message, found);
@@ -251,7 +251,7 @@ CheckResult judge_control(const Check& check, const std::vector<CheckResult>& en
 
 std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& context) {
   if (check.negative_control && context.other_solver != nullptr) {
-    CheckResult control = failed_check_result(check, "a control of the judging itself");
+    CheckResult control = failed_check_result(check, "a test of the judgement itself");
     control.verdict = Verdict::not_given;
     return {control};
   }

@@ -62,7 +62,7 @@ class OrderCheckEvaluator {
     if (found_.broken) {
       check_result.message = "a refined level has no finite value";
     } else if (!found_.exact) {
-      check_result.message = "there is no exact value to measure errors by";
+      check_result.message = "there is no exact value for the errors";
     } else if (meshes_ < criterion_.meshes) {
       check_result.message =
           fmt::format("only {} meshes qualify, {} are needed", meshes_, criterion_.meshes);
@@ -235,8 +235,8 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
   const std::size_t wanted = std::max<std::size_t>(1, check.index.size());
   if (position < wanted) {
     all.push_back(failed_check_result(
-        check, fmt::format("the sweep '{}' follows {} entries of {}, {} are judged",
-                           criterion.sweep, position, check.quantity, wanted)));
+        check, fmt::format("the sweep '{}' tracks {} entries of {}, {} are judged", criterion.sweep,
+                           position, check.quantity, wanted)));
   }
   std::ranges::stable_sort(
       all, [](const CheckResult& a, const CheckResult& b) { return a.name < b.name; });

@@ -164,7 +164,7 @@ void print_validation(const results::Run& run) {
               {"u_input", "", 3},
               {"u_input_sampled", "sampled", 3},
               {"u_reference", "u_D", 2},
-              {"dominant_input", "most from"},
+              {"dominant_input", "dominant input"},
               {"dominant_share", "share [%]", 3, 100}});
   for (const results::Comparison& c : run.uncertainty->comparisons)
     table.add({c.reference, c.index, number_or_null(c.simulation), number_or_null(c.expected),

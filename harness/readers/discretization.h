@@ -18,11 +18,11 @@ namespace trammel::harness {
 /// linear statics, where nodal values are exact, and in large statics; else 4.
 [[nodiscard]] solver::Index default_elements(const Document& document);
 /// Returns the number of elements of a member, in this order of precedence:
-/// - the number stated by the member, or by "model"
-/// - 1 for a bar, which does not bend
-/// - 8 for a tapered member
-/// - one element for each 7.5 degrees of an arc, and at least 4
-/// - the default of links
+/// - the number stated by the member, or by "model".
+/// - 1 for a bar, which does not bend.
+/// - 8 for a tapered member.
+/// - one element for each 7.5 degrees of an arc, and at least 4.
+/// - the default of links.
 [[nodiscard]] solver::Index elements_of(const Document& document, const std::string& member);
 
 enum class Refine { coarser, finer };

@@ -85,7 +85,7 @@ solver::Member read_member(const std::string& name, const JsonView& place,
   const Eigen::Vector2d span = nodes[solver::to_size(member.nodes[1])].position -
                                nodes[solver::to_size(member.nodes[0])].position;
   if (!(span.norm() > 0)) {
-    throw place["nodes"].error("expected two nodes apart from each other (got the same place)");
+    throw place["nodes"].error("expected two nodes at different positions (got the same position)");
   }
   member.end_section = member.section;
   if (place.has("taper") && !place.has("end_section")) {
@@ -134,7 +134,7 @@ void add_pin(const JsonView& place, const Pin& pin, solver::Model& model) {
                            .norm();
   constexpr double kRoundoff = 1e-12;  // of computed coordinates, relative to the model's size
   if (apart > kRoundoff * solver::box_diagonal(model)) {
-    throw place["nodes"].error("expected two nodes in one place (got " + shortest(apart) +
+    throw place["nodes"].error("expected two nodes at the same position (got " + shortest(apart) +
                                " m between them)");
   }
   solver::add_pin(model, pin.name, pin.nodes);

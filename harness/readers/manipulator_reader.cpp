@@ -107,7 +107,7 @@ PlatformMotion read_trajectory(const JsonView& trajectory) {
     return {path,
             solver::sample(path, place["points"].get<solver::Index>(), place.number("step_s"))};
   } catch (const solver::ModelError& error) {
-    throw place.error(std::string("expected a path that has a meaning: ") + error.what());
+    throw place.error(std::string("expected a valid path: ") + error.what());
   }
 }
 
@@ -119,7 +119,7 @@ solver::ManipulatorDesign read_manipulator(const JsonView& manipulator) {
   try {
     solver::check_geometry(design.geometry);
   } catch (const solver::ModelError& error) {
-    throw manipulator.error(std::string("expected a geometry that has a meaning: ") + error.what());
+    throw manipulator.error(std::string("expected a valid geometry: ") + error.what());
   }
   const JsonView links = manipulator["links"];
   solver::LinkDesign link;

@@ -54,8 +54,8 @@ struct MemberChain {
 
 /// Adds a chain of `member.elements` members in place of `member`, with unnamed intermediate nodes
 /// and their supports.
-/// @param start, end  positions of the member's nodes [m]
-/// @param first_node  index in the model of the next node of `structure.nodes`
+/// @param start, end  positions of the member's nodes [m].
+/// @param first_node  index in the model of the next node of `structure.nodes`.
 /// @throws ModelError  if the two ends have different distances from the center of an arc.
 void add_chain(const solver::Member& member, const MemberChain& chain, const Eigen::Vector2d& start,
                const Eigen::Vector2d& end, solver::Index first_node, solver::Model& structure);

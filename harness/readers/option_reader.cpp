@@ -55,7 +55,7 @@ solver::TimeScheme read_time_scheme(const JsonView& scheme) {
   try {
     return scheme_of(name, numbers);
   } catch (const solver::ModelError& error) {
-    throw numbers.error(std::string("expected a scheme that has a meaning: ") + error.what());
+    throw numbers.error(std::string("expected a valid time scheme: ") + error.what());
   }
 }
 
@@ -81,7 +81,7 @@ solver::LoadHistory read_load_history(const JsonView& analysis) {
                                     std::to_string(factor.size()) + ")");
   }
   for (std::size_t i = 1; i < time.size(); ++i) {
-    if (time[i] < time[i - 1]) throw(*history)["time_s"][i].error("expected times that ascend");
+    if (time[i] < time[i - 1]) throw(*history)["time_s"][i].error("expected ascending times");
   }
   return {time, factor};
 }
@@ -264,7 +264,8 @@ void read_history(const JsonView& analysis, const solver::Model& built,
     const solver::LoadHistory history = read_load_history(analysis);
     for (std::size_t i = 1; i < history.time.size(); ++i) {
       if (history.time[i] > history.time[i - 1]) continue;
-      throw(*stated)["time_s"][i].error("expected no jump: the integrators see none within a step");
+      throw(*stated)["time_s"][i].error(
+          "expected a continuous function: the integrators do not detect a jump within a step");
     }
     large_motion.load_history = [history](double t) { return history.at(t); };
     large_motion.load_breakpoints = history.bends();

@@ -38,7 +38,7 @@ void require_step_count(const JsonView& step, double duration);
 [[nodiscard]] solver::TransientOptions read_time_options(const JsonView& analysis);
 
 /// Reads the key "damping" of an analysis; no damping if it is absent.
-/// @param modes  number of modes meant by "all", if it is known
+/// @param modes  number of modes meant by "all", if it is known.
 /// @throws InputError  for "all" with an unknown number of modes, for more ratios than modes, or
 ///   for meaningless numbers.
 [[nodiscard]] solver::HarmonicDamping read_damping(

@@ -41,7 +41,8 @@ solver::Triangle read_triangle(const JsonView& place, const SymbolTable& symbols
   triangle.plate = plate;
   for (std::size_t i = 0; i < place.size(); ++i) triangle.nodes[i] = symbols.find_node(place[i]);
   const double area = twice_area(structure, triangle);
-  if (area == 0) throw place.error("expected a triangle with an area (got three points in line)");
+  if (area == 0)
+    throw place.error("expected a triangle with a nonzero area (got collinear points)");
   if (area < 0) {  // clockwise: swap two corners, and the sides with them
     std::swap(triangle.nodes[1], triangle.nodes[2]);
     std::swap(triangle.nodes[3], triangle.nodes[5]);
@@ -82,7 +83,7 @@ class Outline {
           throw entry.second.error("expected another node than the one before it");
         }
         if (!curve_.emplace(ends, curve).second) {
-          throw entry.second.error("expected a piece that no edge has had before");
+          throw entry.second.error("expected a piece that belongs to no other edge");
         }
       }
     }
@@ -287,8 +288,8 @@ void check_meshed_nodes(const JsonView& model, std::size_t first, const solver::
       if (held[k]) nearest = std::min(nearest, (structure.nodes[k].position - here).norm());
     }
     throw model["nodes"][structure.nodes[i].name].error(
-        "expected a place where the mesh has a node (got " + describe_point(here) +
-        ", the nearest is " + shortest(nearest) + " m away)");
+        "expected the position of a mesh node (got " + describe_point(here) + ", the nearest is " +
+        shortest(nearest) + " m away)");
   }
 }
 

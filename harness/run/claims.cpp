@@ -70,7 +70,7 @@ Rule read_rule(const JsonView& interpretation) {
   }
   if (rule.confirms && rule.contradicts && rule.confirms->low < rule.contradicts->high &&
       rule.contradicts->low < rule.confirms->high) {
-    throw interpretation.error("expected windows of which no value is in both");
+    throw interpretation.error("expected disjoint windows");
   }
   return rule;
 }
@@ -228,7 +228,7 @@ results::Claim evaluate_claim(const std::string& id, const JsonView& claim,
                        {}};
   std::ranges::replace(found.expected, '-', ' ');
   if (claim.has("interpretations") == claim.has("undecidable")) {
-    throw claim.error("expected either 'interpretations' or why it is 'undecidable'");
+    throw claim.error("expected either 'interpretations' or 'undecidable'");
   }
   if (claim.has("undecidable")) {
     found.undecidable = claim.text("undecidable");

@@ -6,8 +6,8 @@
 #include "harness/results/results.h"
 #include "harness/run/run.h"
 
-/// A publication: its claims, with a verdict for each by the rules of cases/paper/claims/, and its
-/// items (equations, tables, figures), with the cases that reproduce them.
+/// Claims and items (equations, tables, figures) of a publication. Each claim has a verdict by the
+/// rules of cases/paper/claims/. Each item has the cases that reproduce it.
 namespace trammel::harness {
 
 /// Returns 0 if every verdict is the recorded one, else 1.

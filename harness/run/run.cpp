@@ -62,7 +62,7 @@ void run_guarded(Run& run, const Work& work) {
   } catch (const std::bad_alloc&) {
     throw;  // the process reports how it ended
   } catch (const std::exception& error) {
-    mark_failed(run, std::string("a fault of trammel itself: ") + error.what(), Fault::internal);
+    mark_failed(run, std::string("internal error: ") + error.what(), Fault::internal);
   }
 }
 
@@ -197,10 +197,10 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
       break;
     case Termination::disk_full:  // a limit of other programs only
     case Termination::crashed:
-      mark_failed(task.run,
-                  "a fault of trammel itself: " + task.run.case_id + ":" + task.run.variant + ": " +
-                      outcome.text,
-                  Fault::internal);
+      mark_failed(
+          task.run,
+          "internal error: " + task.run.case_id + ":" + task.run.variant + ": " + outcome.text,
+          Fault::internal);
   }
 }
 
