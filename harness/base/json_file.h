@@ -12,7 +12,8 @@ namespace trammel::harness {
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);
 
 /// Reads one JSON document strictly: UTF-8, no duplicate keys, no number beyond a double.
-/// @throws InputError  if the text is not JSON (with line and column), or contains a duplicate key or a
+/// @throws InputError  if the text is not JSON (with line and column), or contains a duplicate key
+/// or a
 ///   number that is too large (with the JSON pointer).
 [[nodiscard]] Json read_json(const std::filesystem::path& file);
 
