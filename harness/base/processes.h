@@ -28,8 +28,8 @@ struct ProcessOutcome {
 
 struct ProcessOptions {
   unsigned at_once = 1;
-  std::size_t memory_bytes =
-      0;  ///< address space of each process; 0: no limit, as always under sanitizers
+  /// Address space of each process; 0: no limit, as always under sanitizers.
+  std::size_t memory_bytes = 0;
   std::function<void()> waiting = {};  ///< called about once a second while processes run
 };
 

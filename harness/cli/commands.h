@@ -45,8 +45,8 @@ struct CommandOptions {
   bool quick = false;
   int repeats = 7;
   std::size_t seed = 1;
-  bool all_errors = false,
-       no_errors = false;    ///< estimate discretization errors of all cases, or of none
+  /// Estimate discretization errors of all cases, or of none.
+  bool all_errors = false, no_errors = false;
   double warn_above = 0.01;  ///< relative error
   double accuracy = 0;       ///< relative error for the search of mesh and step; 0: no search
   std::vector<std::string> quantities;  ///< quantities considered by the search

@@ -71,9 +71,9 @@ struct Check {
   std::string why;
   std::optional<OrderCriterion> order;
   std::optional<NegativeControl> negative_control;
-  std::vector<std::string>
-      validation_verdicts;  ///< after ASME V&V 20, per entry; empty: not recorded
-  std::string pointer;      ///< its place in the case
+  /// After ASME V&V 20, per entry; empty: not recorded.
+  std::vector<std::string> validation_verdicts;
+  std::string pointer;  ///< its place in the case
 
   [[nodiscard]] bool has_target() const {
     return !reference.empty() || !against_variant.empty() || !against_quantity.empty();

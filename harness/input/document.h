@@ -13,8 +13,8 @@ namespace trammel::harness {
 /// File and pointer at which a value was written.
 struct Origin {
   std::string file, pointer;
-  bool is_value =
-      false;  ///< `pointer` leads to the value of a sweep that replaces the value at this place
+  /// `pointer` leads to the value of a sweep that replaces the value at this place.
+  bool is_value = false;
 };
 
 /// Composes two merge patches that apply one after the other. Unlike a document, a patch keeps its

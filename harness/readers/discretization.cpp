@@ -8,8 +8,8 @@
 namespace trammel::harness {
 namespace {
 
-constexpr double kDegreesOfElement =
-    7.5;  // per element of an arc: chords change frequencies by 0.1 %
+// Per element of an arc: chords change frequencies by 0.1 %.
+constexpr double kDegreesOfElement = 7.5;
 constexpr double kToleranceRatio = 10;
 constexpr solver::Index kMaxSamples = 50000;  // half of the limit of a case
 

@@ -37,8 +37,8 @@ template <class T>
 struct Edge {
   struct Piece {
     solver::Index plate = -1;  ///< the only plate at this side; -1: the side is in the interior
-    std::vector<solver::Index>
-        nodes;  ///< including midside nodes; the plate is to the left of the path
+    /// Including midside nodes; the plate is to the left of the path.
+    std::vector<solver::Index> nodes;
     bool six_nodes = false;
   };
   std::vector<Piece> pieces;

@@ -45,8 +45,8 @@ struct PlatformMotion {
 /// Properties that turn a member of a case into a chain of straight one-element members, AB.1,
 /// AB.2, ...
 struct MemberChain {
-  std::optional<Eigen::Vector2d>
-      arc_center;  ///< the members are chords of a counterclockwise circle about this point [m]
+  /// The members are chords of a counterclockwise circle about this point [m].
+  std::optional<Eigen::Vector2d> arc_center;
   std::array<bool, 3> held{};  ///< x, y and rotation of every intermediate node
 
   [[nodiscard]] bool needed() const { return arc_center || held[0] || held[1] || held[2]; }

@@ -211,8 +211,8 @@ Edge find_edge(const JsonView& place, const std::vector<solver::Index>& corners,
       throw place["nodes"][i + 1].error("expected the other end of a block's side");
     }
     edge.pieces.push_back(found->front());
-    if (found->size() > 1)
-      edge.pieces.back().plate = -1;  // in the interior, where the normal is ambiguous
+    // In the interior, where the normal is ambiguous.
+    if (found->size() > 1) edge.pieces.back().plate = -1;
   }
   return edge;
 }

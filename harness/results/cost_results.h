@@ -59,8 +59,8 @@ struct CostSetting {
 
 struct CheapestSetting {
   double error = 0;
-  std::optional<std::size_t>
-      setting;                    ///< number of the setting; empty: no setting reaches the error
+  /// Number of the setting; empty: no setting reaches the error.
+  std::optional<std::size_t> setting;
   std::vector<std::size_t> tied;  ///< settings whose time does not differ significantly
 };
 

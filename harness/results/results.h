@@ -31,8 +31,8 @@ struct PlotRequest {
   std::string id, title, x, caption;
   std::vector<std::string> y, variants;
   std::vector<std::string> log = {};  ///< axes with a logarithmic scale of magnitudes
-  std::string value =
-      {};  ///< quantity shown as colors over x and the only y (a map); empty: curves
+  /// Quantity shown as colors over x and the only y (a map); empty: curves.
+  std::string value = {};
   std::vector<Line> lines = {};  ///< drawn on a map
   [[nodiscard]] bool is_log(const std::string& axis) const;
 };
@@ -108,8 +108,8 @@ struct Claim {
 /// An equation, table, figure or statement of the publication, with its counterparts.
 struct PaperItem {
   struct Counterpart {
-    std::string case_id, variant, quantity,
-        figure;           ///< empty: all variants, all quantities, no figure
+    /// Empty: all variants, all quantities, no figure.
+    std::string case_id, variant, quantity, figure;
     std::string verdict;  ///< in words
   };
   std::string id, section, what;  ///< "equation-14"
@@ -131,8 +131,8 @@ struct CoverageRow {
   std::string group, feature;  ///< "key", "pair" or "quantity"
   std::vector<std::string> evidence = {};
   std::string reason = {};  ///< reason for the lack of independent evidence
-  int series = 0,
-      judged = 0;  ///< for a quantity: number of series in the runs, and number of judged ones
+  /// For a quantity: number of series in the runs, and number of judged ones.
+  int series = 0, judged = 0;
 
   /// Returns true if there is evidence other than bounds and the solver's agreement with itself.
   [[nodiscard]] bool is_verified() const;
@@ -145,12 +145,12 @@ struct EffectScene {
   double change = 0;     ///< from all effects to the chosen ones, maximum over all kinds [-]
   bool minimal = false;  ///< no chosen effect can be omitted
   double whole_s = 0, chosen_s = 0, deciding_s = 0;  ///< processor time [s]
-  double work_ratio =
-      0;  ///< counted work of the selection and of the chosen effects, relative to all effects
+  /// Counted work of the selection and of the chosen effects, relative to all effects.
+  double work_ratio = 0;
   double deciding_work_ratio = 0;  ///< counted work of the selection alone
   Number mesh_change;              ///< from half the elements to all elements [-]
-  Number
-      beyond_tier;  ///< change due to large displacement, if the analysis cannot represent it [-]
+  /// Change due to large displacement, if the analysis cannot represent it [-].
+  Number beyond_tier;
 };
 
 /// A solver other than trammel, as identified by its adapter.

@@ -207,8 +207,8 @@ struct ErrorEstimate {
   std::string quantity;
   Numbers relative;  ///< relative to each value or to `scale`, whichever is larger; a curve has a
                      ///< single entry
-  Number
-      scale;  ///< largest value of its kind over the structure [unit]; missing: each value itself
+  /// Largest value of its kind over the structure [unit]; missing: each value itself.
+  Number scale;
   Number order;  ///< lowest order of the active parts; missing: the values are exact in theory
   bool asymptotic = true;  ///< false: too coarse for that order, so a lower one is used
   std::string setting;     ///< JSON pointer of the setting with the largest effect on the error
@@ -231,8 +231,8 @@ struct ErrorEstimates {
   std::string companions;  ///< "half the elements; twice the step"
   std::string reason;      ///< reason for a missing estimate; empty: there is an estimate
   Counters counters;       ///< of the companions
-  std::vector<AccuracyStep>
-      search;  ///< search for --accuracy, coarse to fine; the last entry is the run
+  /// Search for --accuracy, coarse to fine; the last entry is the run.
+  std::vector<AccuracyStep> search;
 };
 
 /// Readings that predict the same printed row.

@@ -14,8 +14,8 @@ struct ComparedValue {
   Numbers values;    ///< empty if a side has none
   Numbers percent;   ///< relative to the first side; empty if that value is zero up to round-off
   double noise = 0;  ///< differences up to this value are round-off
-  double share =
-      0;  ///< largest difference from the first side, relative to the largest value of the series
+  /// Largest difference from the first side, relative to the largest value of the series.
+  double share = 0;
   bool changed = false;  ///< the difference exceeds the noise
 };
 

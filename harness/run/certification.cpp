@@ -53,8 +53,8 @@ void compare(const Entries& first, const Configuration& other, Certification& re
   ConfigurationRow total{other.name, 0, 0, kAllDigits, kAllDigits, {}};
   const Entries entries = entries_of(other.results);
   std::vector<double> digits;
-  bool is_known = false,
-       ends_equally = false;  // state of the run that the following checks belong to
+  // State of the run that the following checks belong to.
+  bool is_known = false, ends_equally = false;
   for (const DiffRow& row : diff(first, entries)) {
     bool flipped = false;
     if (row.is_run()) {

@@ -18,8 +18,8 @@ struct Configuration {
 struct ConfigurationRow {
   std::string name;
   std::size_t checks = 0, missing = 0;  ///< judged in both configurations; judged in only one
-  double fewest_digits = 16,
-         median_digits = 16;  ///< digits of a judged number that agree with the first configuration
+  /// Digits of a judged number that agree with the first configuration.
+  double fewest_digits = 16, median_digits = 16;
   std::string least_certain;  ///< number with the fewest equal digits
 };
 

@@ -58,8 +58,8 @@ void OutputLock::acquire() {
       close(descriptor_);
       std::string holder;
       std::getline(std::ifstream(file_), holder);
-      if (is_gone(holder) &&
-          ++waits < 100) {  // the process was killed; its children release the lock when they end
+      // The process was killed; its children release the lock when they end.
+      if (is_gone(holder) && ++waits < 100) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         continue;
       }

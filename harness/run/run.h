@@ -48,8 +48,8 @@ struct RunOptions {
   bool any_machine = false;          ///< also reuses times of another machine
   std::size_t memory_bytes = 0;      ///< memory limit of one computation; 0: none
   OtherSolver solver = {};
-  bool studies =
-      true;  ///< compute refinements and validation uncertainty; disabled only without a store
+  /// Compute refinements and validation uncertainty; disabled only without a store.
+  bool studies = true;
   ErrorWish errors = ErrorWish::own_cases;
   double warn_above = 0.01;                  ///< relative error
   double accuracy = 0;                       ///< requested accuracy; 0: discretization of the case

@@ -9,8 +9,8 @@
 /// convergence and uncertainty remain in the run store.
 namespace trammel::harness {
 
-inline constexpr std::size_t kLineDepth =
-    4;  ///< nesting depth of single lines in results: a check is one line
+/// Nesting depth of single lines in results: a check is one line.
+inline constexpr std::size_t kLineDepth = 4;
 
 /// Writes results.json into the folder, completely or not at all. Judged studies are written next
 /// to the computations of the store.
