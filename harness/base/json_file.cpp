@@ -143,8 +143,8 @@ class StrictReader : public nlohmann::json_sax<Json> {
 Json parse_json(const std::string& text, const std::string& name) {
   StrictReader reader(name);
   Json::sax_parse(text, &reader);
-  if (const std::size_t at = text.find('\0');
-      at != std::string::npos)  // the parser would stop there
+  // The parser would stop at a null character.
+  if (const std::size_t at = text.find('\0'); at != std::string::npos)
     throw InputError(name + ": expected the end of the JSON (got '\\u0000' at byte " +
                      std::to_string(at + 1) + ")");
   return reader.take();

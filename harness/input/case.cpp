@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the keys that a case inherits from another one: the computation, but not its judgement.
+/// Returns the keys that a case inherits from another one: the computation, but not its judgment.
 Json inherited(const Json& base) {
   Json inherited_keys = Json::object();
   for (const char* key : {"model", "analysis", "effects", "variants", "sweeps", "uncertainty"}) {

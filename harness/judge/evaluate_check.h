@@ -15,7 +15,7 @@ namespace trammel::harness {
 
 using results::Verdict;
 
-/// Judgement of one entry of a check, or of a check without entries.
+/// Judgment of one entry of a check, or of a check without entries.
 using CheckResult = results::Check;
 
 /// Data needed to judge a run's checks.
@@ -30,7 +30,7 @@ struct CheckContext {
   const results::SolverIdentity* other_solver = nullptr;
 };
 
-/// Creates a judgement with the check's name, role and reasons. Its verdict is an error until it is
+/// Creates a judgment with the check's name, role and reasons. Its verdict is an error until it is
 /// set.
 [[nodiscard]] CheckResult start_check_result(const Check& check);
 [[nodiscard]] CheckResult failed_check_result(const Check& check, const std::string& message);
@@ -45,12 +45,12 @@ struct CheckContext {
 /// Returns a severity for sorting: errors first, then by the used fraction of the window.
 [[nodiscard]] double severity(const CheckResult& entry);
 
-/// Returns one judgement per entry. For a long array, only the worst entry is returned, with a
+/// Returns one judgment per entry. For a long array, only the worst entry is returned, with a
 /// note.
 [[nodiscard]] std::vector<CheckResult> evaluate_check(const Check& check,
                                                       const CheckContext& context);
 
-/// Returns the judgements of an "order" check on the refinements of the context: the observed order
+/// Returns the judgments of an "order" check on the refinements of the context: the observed order
 /// and, if requested, the leading term of the error and the extrapolated value.
 [[nodiscard]] std::vector<CheckResult> evaluate_order_check(const Check& check,
                                                             const CheckContext& context);

@@ -57,7 +57,7 @@ class OrderCheckEvaluator {
     return fine && found_.error[k].has_value() && !found_.at_roundoff_floor[k];
   }
 
-  /// Reports the reason if the levels are insufficient for a judgement.
+  /// Reports the reason if the levels are insufficient for a judgment.
   bool lacks_asymptotic_range(CheckResult& check_result) const {
     if (found_.broken) {
       check_result.message = "a refined level has no finite value";
@@ -90,7 +90,7 @@ class OrderCheckEvaluator {
     return check_result;
   }
 
-  /// Returns the number of a qualifying level with the largest distance from `target`.
+  /// Returns the value of the qualifying level with the largest distance from `target`.
   template <class Value>
   double worst(double target, const Value& value, CheckResult& check_result) const {
     double farthest = kNaN;

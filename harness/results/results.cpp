@@ -147,14 +147,14 @@ std::vector<Json*> references_in(Json& json) {
 const std::array<SharedTexts, 4> kSharedTexts = {{
     {"names",
      {"name", "quantity", "reference", "against_variant", "against_quantity"},
-     "a name for each place that a check holds",
+     "a name for each index in a check",
      checks_in},
-    {"reasons", {"why", "title", "message"}, "a text for each place that a check holds", checks_in},
+    {"reasons", {"why", "title", "message"}, "a text for each index in a check", checks_in},
     {"citations",
      {"citation", "doi", "place"},
-     "a text for each place that a reference holds",
+     "a text for each index in a reference",
      references_in},
-    {"notes", {"notes"}, "a note for each place that a reference holds", references_in},
+    {"notes", {"notes"}, "a note for each index in a reference", references_in},
 }};
 
 void share_texts(Json& json, const SharedTexts& shared) {

@@ -115,7 +115,7 @@ struct PaperItem {
   std::string id, section, what;  ///< "equation-14"
   std::vector<Counterpart> shown_by = {};
   std::vector<std::string> claims = {};
-  std::string reason = {};  ///< reason for a missing counterpart, or for the absence of a judgement
+  std::string reason = {};  ///< reason for a missing counterpart, or for the absence of a judgment
   std::string note = {};
 };
 

@@ -276,7 +276,7 @@ struct SolverIdentity {
   std::optional<int> digits;  ///< significant digits in its output
 };
 
-/// Results of one computation and their judgement. The store and the process of the computation use
+/// Results of one computation and their judgment. The store and the process of the computation use
 /// the same fields.
 struct Run {
   std::string case_id, variant, reason;

@@ -35,7 +35,7 @@ namespace trammel::harness {
 [[nodiscard]] std::vector<results::PaperItem> load_paper_items(const Document& claim_set,
                                                                const Catalogue& catalogue);
 
-/// Sets the judgement of each counterpart from its checks.
+/// Sets the judgment of each counterpart from its checks.
 void judge_paper_items(const results::Results& results, std::vector<results::PaperItem>& items);
 
 }  // namespace trammel::harness

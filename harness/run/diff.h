@@ -8,7 +8,7 @@
 #include "harness/results/results.h"
 #include "harness/results/side_comparison.h"
 
-/// Comparison of the judgements in two results. `compare`, `certify` and `history` select from its
+/// Comparison of the judgments in two results. `compare`, `certify` and `history` select from its
 /// rows.
 namespace trammel::harness {
 
