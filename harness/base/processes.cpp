@@ -202,9 +202,8 @@ ProcessOutcome outcome_of(Child& child) {
   }
   if (status == SIGXCPU || status == SIGALRM ||
       (status == SIGKILL && outcome.cpu_s >= child.cpu_limit_s))
-    return without_answer(
-        Termination::timed_out,
-        fmt::format("not finished after {} s of processor time", child.cpu_limit_s));
+    return without_answer(Termination::timed_out,
+                          fmt::format("stopped after {} s of processor time", child.cpu_limit_s));
   if (status == SIGKILL)
     return without_answer(Termination::out_of_memory,
                           "killed by another process, possibly because memory was exhausted");

@@ -57,7 +57,7 @@ void print_certificate(const Json& certificate) {
     std::cout << title;
     Rows(columns, certificate[key]).print(std::cout, "  ");
   };
-  print_rows("Digits of judged numbers, out of 16, that agree with rounding to the nearest\n",
+  print_rows("Digits (of 16) of judged numbers that agree with rounding to the nearest\n",
              "configurations",
              {{"configuration"},
               {"checks"},
@@ -71,9 +71,8 @@ void print_certificate(const Json& certificate) {
   if (certificate["flips"].empty()) {
     std::cout << "\nNo verdict differs, and none is missing.\n";
   } else {
-    print_rows(
-        "\nVerdicts and runs that differ or are missing\n", "flips",
-        {{"check", "check or run"}, {"from", "verdict"}, {"to", "new verdict"}, {"configuration"}});
+    print_rows("\nVerdicts and runs that differ or are missing\n", "flips",
+               {{"check", "check or run"}, {"from", "verdict"}, {"to", "now"}, {"configuration"}});
   }
 }
 

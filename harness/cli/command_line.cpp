@@ -97,18 +97,16 @@ const std::vector<Option>& all_options() {
        "Families or studies of the catalogue, cases, or files of either; default: every study"},
       {"results", &Options::word, "results.json file whose series or verdicts are added"},
       {"shards", &Options::words, "Folders written by 'trammel run --shard'"},
-      {"adapter", &Options::adapter,
-       "Program; with arguments, quote program and arguments together"},
+      {"adapter", &Options::adapter, "Program; quote it together with its arguments"},
       {"result", &Options::out, "Result file to be written"},
       {"file", &Options::word, "SQLite file of the history"},
-      {"-L,--label", &Options::labels,
-       "Select the cases of the catalogue with one of these labels"},
+      {"-L,--label", &Options::labels, "Select cases of the catalogue with one of these labels"},
       {"--variant", &Options::variant, "Run only this variant; 'base' is the unpatched case"},
       {"-j,--jobs", &Options::jobs,
        "Number of parallel computations; the results do not depend on it", within(1, 1024)},
       {"-o,--out", &Options::out, "Output folder; for 'export', output file"},
       {"--resume", &Options::resume,
-       "Reuse the results of earlier calls in the store, and compute only missing ones"},
+       "Reuse results of earlier calls from the store, and compute only missing ones"},
       {"--fresh", &Options::fresh,
        "Compute everything again; by default, results of the same program and input are reused "
        "from the store"},
@@ -130,8 +128,7 @@ const std::vector<Option>& all_options() {
        "Print JSON; commands that run cases or studies print results.json"},
       {"--csv", &Options::csv, "Print CSV with a row for each number"},
       {"--ctest", &Options::measurements,
-       "Also print number of checks, largest used fraction of a tolerance and time as CTest "
-       "measurements"},
+       "Also print CTest measurements: checks, largest fraction of a tolerance, time"},
       {"--vtk", &Options::vtk,
        "Also write shapes, poses and motions to OUT/vtk for ParaView, as PVD and VTU files"},
       {"--single-file", &Options::single_file,
@@ -147,8 +144,7 @@ const std::vector<Option>& all_options() {
       {"--quick", &Options::quick, "Measure only a few settings of each study, as in the report"},
       {"--repeats", &Options::repeats, "Number of measurements of each setting", within(0, 10000)},
       {"--tolerance", &Options::tolerance,
-       "Relative change of the results that removed effects may cause; a tolerance stated in the "
-       "case has precedence",
+       "Relative change that removed effects may cause, unless the case states a tolerance",
        within(1e-12, 1.0)},
       {"--seed", &Options::seed, "Seed of the random order of measurements"},
       {"--errors", &Options::all_errors,
@@ -170,8 +166,7 @@ const std::vector<Option>& all_options() {
       {"--max-disk", &Options::max_disk_bytes,
        "Disk space limit of one call of the adapter, such as 1GB", CLI::AsSizeValue(false)},
       {"--shards", &Options::shard_count, "Number of jobs in the array", within(1, 100000)},
-      {"--time", &Options::job_time,
-       "Time limit of a job in the format of sbatch, such as 2:00:00"}};
+      {"--time", &Options::job_time, "Time limit of a job in sbatch format, such as 2:00:00"}};
   return options;
 }
 

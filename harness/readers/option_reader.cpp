@@ -130,8 +130,7 @@ solver::DesignParameter read_design_parameter(const JsonView& parameter) {
   solver::DesignParameter read{.kind = parameter["property"].get<Kind>()};
   if (read.kind > Kind::poisson_ratio) {
     for (const char* key : {"links", "platform"})
-      if (parameter.has(key))
-        throw parameter[key].error("'" + std::string(key) + "' requires a property of links");
+      if (parameter.has(key)) throw parameter[key].error("expected only with a property of links");
     return read;
   }
   read.platform = parameter.get("platform", false);
@@ -264,8 +263,7 @@ void read_history(const JsonView& analysis, const solver::Model& built,
     const solver::LoadHistory history = read_load_history(analysis);
     for (std::size_t i = 1; i < history.time.size(); ++i) {
       if (history.time[i] > history.time[i - 1]) continue;
-      throw(*stated)["time_s"][i].error(
-          "expected a continuous function: the integrators do not detect a jump within a step");
+      throw(*stated)["time_s"][i].error("expected a continuous function (no jump within a step)");
     }
     large_motion.load_history = [history](double t) { return history.at(t); };
     large_motion.load_breakpoints = history.bends();

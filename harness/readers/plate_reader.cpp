@@ -41,8 +41,7 @@ solver::Triangle read_triangle(const JsonView& place, const SymbolTable& symbols
   triangle.plate = plate;
   for (std::size_t i = 0; i < place.size(); ++i) triangle.nodes[i] = symbols.find_node(place[i]);
   const double area = twice_area(structure, triangle);
-  if (area == 0)
-    throw place.error("expected a triangle with a nonzero area (got collinear points)");
+  if (area == 0) throw place.error("expected a triangle with an area (got collinear points)");
   if (area < 0) {  // clockwise: swap two corners, and the sides with them
     std::swap(triangle.nodes[1], triangle.nodes[2]);
     std::swap(triangle.nodes[3], triangle.nodes[5]);

@@ -216,7 +216,7 @@ const Refusal kModels[] = {
      "/model/sections/bar: expected exactly one of 'rectangle', 'circle'"},
     {"beam", R"({"model": {"nodes": {"C": [4, 0]}, "plates": {"p": {"material": "steel",
         "thickness_m": 1, "triangles": [["A", "B", "C"]]}}}})",
-     "/model/plates/p/triangles/0: expected a triangle with a nonzero area"},
+     "/model/plates/p/triangles/0: expected a triangle with an area"},
     {"beam", R"({"model": {"pose": {"x_m": 0, "y_m": 0, "phi_rad": 0}}})",
      "/model/pose: expected a manipulator beside it"},
     {"beam", R"({"model": {"loads": {"tip": {"force_N": null}}}})", "the load is empty"},
