@@ -13,8 +13,7 @@ namespace trammel::harness {
 
 /// Reads one JSON document strictly: UTF-8, no duplicate keys, no number beyond a double.
 /// @throws InputError  if the text is not JSON (with line and column), or contains a duplicate key
-/// or a
-///   number that is too large (with the JSON pointer).
+///   or a number that is too large (with the JSON pointer).
 [[nodiscard]] Json read_json(const std::filesystem::path& file);
 
 /// Reads a JSON document from a text in memory; messages show `name` as the file.
