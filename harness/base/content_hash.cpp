@@ -11,12 +11,12 @@
 namespace trammel::harness {
 namespace {
 
-/// Takes the build id among the notes of the first object, which is the program itself.
+/// Reads the build id from the notes of the first object, which is the program itself.
 int take_build_id(dl_phdr_info* object, std::size_t, void* build_id) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const ElfW(Phdr)& part = object->dlpi_phdr[i];
     if (part.p_type != PT_NOTE) continue;
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): how the loader tells where it put the program
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader reports addresses as integers
     const char* at = reinterpret_cast<const char*>(object->dlpi_addr + part.p_vaddr);
     const char* const end = at + part.p_memsz;
     const auto padded = [&](std::size_t size) {

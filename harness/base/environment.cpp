@@ -14,7 +14,7 @@
 namespace trammel::harness {
 namespace {
 
-/// The value behind the first line of a file that starts with `key`.
+/// Returns the value of the first line of a file that starts with `key`.
 std::string line_of(const char* file, const std::string& key) {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {

@@ -5,7 +5,7 @@
 
 namespace trammel::harness {
 
-/// Bad input or bad usage: what() is one line that says where, and what was expected. Exit 2.
+/// Bad input or bad usage. what() is one line with the place and the expectation. Exit status 2.
 class InputError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -14,7 +14,7 @@ class InputError : public std::runtime_error {
       : std::runtime_error(file + ": " + (pointer.empty() ? "/" : pointer) + ": " + message) {}
 };
 
-/// SIGINT or SIGTERM came. Exit 128 + the signal.
+/// SIGINT or SIGTERM was received. The exit status is 128 + the signal.
 struct Interrupted : std::runtime_error {
   explicit Interrupted(int number) : std::runtime_error("interrupted"), signal(number) {}
   int signal;

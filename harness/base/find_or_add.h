@@ -14,7 +14,7 @@ bool contains(const Range& range, const Value& value) {
   return std::ranges::find(range, value) != std::ranges::end(range);
 }
 
-/// The first item of which `is` holds; where there is none `fresh` becomes the last.
+/// Returns the first item that satisfies `is`. If there is none, appends `fresh` and returns it.
 template <typename Item, typename Is>
 Item& find_or_add(std::vector<Item>& items, Is is, Item fresh) {
   const auto found = std::ranges::find_if(items, std::move(is));

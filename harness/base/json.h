@@ -6,11 +6,11 @@
 
 namespace trammel::harness {
 
-/// Keeps the order of the file: cases, checks and variants are shown as they were written.
+/// JSON that keeps the order of the file: cases, checks and variants are shown in that order.
 using Json = nlohmann::ordered_json;
 using JsonPointer = Json::json_pointer;
 
-/// null where the number is missing or not finite, which JSON cannot hold.
+/// Returns null if the number is missing or not finite, because JSON cannot represent it.
 [[nodiscard]] inline Json number_or_null(Number value) {
   return value ? Json(*value) : Json(nullptr);
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxDepth = 100;
 
-/// Builds what it reads, and throws at the first thing that is wrong.
+/// Builds the document while reading, and throws at the first error.
 class StrictReader : public nlohmann::json_sax<Json> {
  public:
   explicit StrictReader(std::string name) : name_(std::move(name)) {}
@@ -47,7 +47,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
       throw InputError(name_, (pointer() / name).to_string(),
                        "expected every key once (got '" + printable(name) + "' twice)");
     }
-    // Not through operator[], which looks through all keys once more.
+    // operator[] would search all keys again.
     auto& container = static_cast<Json::object_t::Container&>(members);
     make_room(container);
     member_ = &container.emplace_back(name, nullptr).second;
@@ -60,7 +60,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
     const std::string what = error.what();
     const std::string head = "parse error at ";
     const std::size_t place = what.find(head);
-    if (place == std::string::npos) {  // out_of_range, of a number
+    if (place == std::string::npos) {  // out of range: a number
       throw InputError(name_, here(), "expected a number that a double can hold" + got);
     }
     const std::size_t start = place + head.size();  // "line 1, column 5: ..."
@@ -73,8 +73,8 @@ class StrictReader : public nlohmann::json_sax<Json> {
   Json take() { return std::move(root_); }
 
  private:
-  /// Whether the innermost open object has the key: of a large one by a set, which an object of
-  /// 100,000 members needs.
+  /// Returns true if the innermost open object has the key. Large objects use a set, which makes
+  /// objects with 100,000 members feasible.
   bool is_known(const Json::object_t& members, const std::string& name) {
     constexpr std::size_t few = 32;
     if (members.size() < few) return members.find(name) != members.end();
@@ -83,8 +83,8 @@ class StrictReader : public nlohmann::json_sax<Json> {
       for (const auto& member : members) keys.insert(member.first);
     return !keys.insert(name).second;
   }
-  /// For one member more. A vector of members that grows by itself copies them with all that is in
-  /// them: their keys are constant, which cannot be moved.
+  /// Makes room for one more member. A vector that grows automatically would copy all members,
+  /// because their constant keys cannot be moved.
   static void make_room(Json::object_t::Container& members) {
     if (members.size() < members.capacity()) return;
     Json::object_t::Container more;
@@ -92,7 +92,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
     for (auto& [name, value] : members) more.emplace_back(name, std::move(value));
     members.swap(more);
   }
-  /// Of the innermost open object or array.
+  /// Returns the pointer of the innermost open object or array.
   [[nodiscard]] JsonPointer pointer() const {
     JsonPointer path;
     for (std::size_t i = 1; i < open_.size(); ++i) path = path / last_step(*open_[i - 1]);
@@ -101,7 +101,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
   [[nodiscard]] static std::string last_step(const Json& open) {
     return open.is_object() ? std::prev(open.end()).key() : std::to_string(open.size() - 1);
   }
-  /// Of the value that comes next.
+  /// Returns the pointer of the next value.
   [[nodiscard]] std::string here() const {
     if (open_.empty()) return "";
     const Json& last = *open_.back();
@@ -133,9 +133,9 @@ class StrictReader : public nlohmann::json_sax<Json> {
 
   std::string name_;
   Json root_;
-  Json* member_ = nullptr;                             ///< the value of the key read last
-  std::vector<Json*> open_;                            ///< objects and arrays from the root inwards
-  std::vector<std::unordered_set<std::string>> keys_;  ///< of each; empty where it has few
+  Json* member_ = nullptr;   ///< value of the key read last
+  std::vector<Json*> open_;  ///< open objects and arrays, from the root inward
+  std::vector<std::unordered_set<std::string>> keys_;  ///< keys of each object; empty if it has few
 };
 
 }  // namespace
@@ -143,7 +143,8 @@ class StrictReader : public nlohmann::json_sax<Json> {
 Json parse_json(const std::string& text, const std::string& name) {
   StrictReader reader(name);
   Json::sax_parse(text, &reader);
-  if (const std::size_t at = text.find('\0'); at != std::string::npos)  // the parser stops there
+  // The parser would stop at a null character.
+  if (const std::size_t at = text.find('\0'); at != std::string::npos)
     throw InputError(name + ": expected the end of the JSON (got '\\u0000' at byte " +
                      std::to_string(at + 1) + ")");
   return reader.take();
@@ -158,7 +159,7 @@ Json parse_cbor(const std::string& bytes) {
 std::string read_text(const std::filesystem::path& file) {
   constexpr std::uintmax_t most = std::uintmax_t{1} << 28;
   std::error_code error;
-  const bool regular = std::filesystem::is_regular_file(file, error);  // a pipe may never open
+  const bool regular = std::filesystem::is_regular_file(file, error);  // opening a pipe may block
   std::ifstream in;
   if (regular) in.open(file, std::ios::binary);
   if (!in.is_open()) throw InputError(file.string() + ": expected a readable file");
@@ -182,7 +183,8 @@ Json read_json(const std::filesystem::path& file) {
 namespace {
 
 void put(const Json& json, std::size_t depth, std::size_t deepest, std::string& text) {
-  // Text of a limited depth, as of results, has many lines: their indentation would be 2 % of it.
+  // Texts of limited depth, such as results, have many lines; indentation would take 2 % of the
+  // size.
   const std::size_t most = deepest < kMaxDepth ? 1 : kMaxDepth;
   const auto line = [&](std::size_t spaces) {
     text.append(1, '\n').append(std::min(spaces, most), ' ');
@@ -215,7 +217,7 @@ void put(const Json& json, std::size_t depth, std::size_t deepest, std::string& 
   text += json.is_object() ? '}' : ']';
 }
 
-/// A device or a pipe, or what the system shows as a file, as an open one at /dev/stdout.
+/// Returns true for a device, a pipe, or a file that is an open stream such as /dev/stdout.
 bool is_written_in_place(std::filesystem::path file) {
   std::error_code ignored;
   const std::filesystem::file_status there = std::filesystem::status(file, ignored);

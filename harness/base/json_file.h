@@ -7,29 +7,28 @@
 
 namespace trammel::harness {
 
-/// All of a file.
-/// @throws InputError  where it cannot be read, is no regular file or has more than 256 MiB.
+/// Returns the content of a file.
+/// @throws InputError  if it cannot be read, is not a regular file or exceeds 256 MiB.
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);
 
-/// Reads one JSON document, strictly: UTF-8, no duplicate keys, no number beyond a double.
-/// @throws InputError  with line and column where the text is not JSON, with the JSON pointer of a
-///                     key that stands twice or a number that is too large.
+/// Reads one JSON document strictly: UTF-8, no duplicate keys, no number beyond a double.
+/// @throws InputError  if the text is not JSON (with line and column), or contains a duplicate key
+///   or a number that is too large (with the JSON pointer).
 [[nodiscard]] Json read_json(const std::filesystem::path& file);
 
-/// The same for a text in memory; `name` stands in for the file in messages.
+/// Reads a JSON document from a text in memory; messages show `name` as the file.
 [[nodiscard]] Json parse_json(const std::string& text, const std::string& name);
 
-/// The same for CBOR (RFC 8949), faster than by `Json::from_cbor`, which copies growing objects.
+/// Reads CBOR (RFC 8949). It is faster than `Json::from_cbor`, which copies growing objects.
 [[nodiscard]] Json parse_cbor(const std::string& bytes);
 
-/// JSON for people and for diffs: objects over several lines, arrays of plain values on one.
-/// @param deepest  what is nested deeper stands in one line, and objects that are one level above
-/// it
+/// Formats JSON for people and for diffs: objects over several lines, flat arrays on one line.
+/// @param deepest  deeper values are on one line, and so are objects one level above them
 [[nodiscard]] std::string pretty(const Json& json, std::size_t deepest = 1000);
 
-/// Writes all of it or nothing: into a temporary file beside it, then renamed. What is no file, as
-/// a pipe or a device, is written to.
-/// @throws InputError  where the folder or file cannot be written.
+/// Writes the complete file or nothing: into a temporary file in the same folder, which is then
+/// renamed. Pipes and devices are written directly.
+/// @throws InputError  if the folder or file cannot be written.
 void write_file(const std::filesystem::path& file, const std::string& text);
 
 }  // namespace trammel::harness

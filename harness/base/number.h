@@ -8,8 +8,8 @@
 
 namespace trammel::harness {
 
-/// A double that may be missing, of the size of a double: only finite values count as present.
-/// Files hold null for a missing number.
+/// A double that may be missing, with the size of a double. Only finite values count as present.
+/// Files contain null for a missing number.
 class Number {
  public:
   Number() = default;
@@ -30,7 +30,7 @@ class Number {
   void reset() { value_ = kMissing; }
 
   friend bool operator==(Number a, Number b) { return (a <=> b) == 0; }
-  /// Missing numbers are equal, and less than all others.
+  /// Missing numbers are equal, and less than all present ones.
   friend std::partial_ordering operator<=>(Number a, Number b) {
     if (a.has_value() && b.has_value()) return *a <=> *b;
     return a.has_value() <=> b.has_value();

@@ -33,8 +33,8 @@ namespace {
 namespace fs = std::filesystem;
 using Termination = ProcessOutcome::Termination;
 
-constexpr int kOutOfMemory = 12;  // the exit status of a process that could not allocate
-/// Wall time beyond which a process that uses none of its processor time counts as hung.
+constexpr int kOutOfMemory = 12;  // exit status of a process that could not allocate memory
+/// Factor of the processor time limit: a process that needs more wall time counts as hung.
 constexpr unsigned kHangTimeoutFactor = 20;
 
 #ifndef __has_feature
@@ -50,7 +50,8 @@ constexpr bool kLimitsMemory = true;
 int status_without_memory = 0;
 const char* line_without_memory = "";
 std::terminate_handler otherwise = nullptr;
-/// What terminates where nothing may be thrown (a directory iterator) holds no exception.
+/// An allocation failure inside a noexcept function, such as a directory iterator, terminates
+/// without a current exception. This flag records it.
 std::atomic<bool> found_no_memory{false};
 
 [[noreturn]] void end_by_exception() {
@@ -60,20 +61,20 @@ std::atomic<bool> found_no_memory{false};
   } catch (const std::bad_alloc&) {
     std::fputs(line_without_memory, stderr);
     _exit(status_without_memory);
-  } catch (...) {  // told by what terminates
+  } catch (...) {  // reported by the terminate handler
   }
   otherwise();
   std::abort();
 }
 
-std::size_t allowed_bytes = 0;  ///< to this process by the one that forked it; 0: nothing is said
+std::size_t allowed_bytes = 0;  ///< memory limit set by the parent process; 0: none
 
 void limit(__rlimit_resource resource, std::size_t most) {
   const rlimit both{most, most};
   setrlimit(resource, &both);
 }
 
-/// Becomes a program that inherits only its folder and its output from this process.
+/// Replaces this process by a program that inherits only its folder and its output.
 [[noreturn]] void become(const std::vector<char*>& words, const std::string& folder,
                          const ProgramLimits& limits, int out) noexcept {
   setsid();
@@ -89,7 +90,7 @@ void limit(__rlimit_resource resource, std::size_t most) {
   close_range(STDERR_FILENO + 1, ~0U, 0);
   setenv("TMPDIR", folder.c_str(), 1);
   const bool there = chdir(folder.c_str()) == 0;
-  // Last, since this process may itself hold more, as under a sanitizer.
+  // This limit is set last, because this process may itself use more, as under a sanitizer.
   if (limits.memory_bytes > 0) limit(RLIMIT_AS, limits.memory_bytes);
   if (there) execv(words.front(), words.data());
   dprintf(STDERR_FILENO, "not started: %s\n", std::strerror(errno));
@@ -98,17 +99,17 @@ void limit(__rlimit_resource resource, std::size_t most) {
 
 struct Child {
   pid_t process = -1;
-  int output = -1;  ///< read end of its pipe
+  int output = -1;  ///< read end of the pipe
   std::size_t task = 0;
   unsigned cpu_limit_s = 0;
-  std::size_t kept_bytes = std::string::npos;  ///< of the end of its output
+  std::size_t kept_bytes = std::string::npos;  ///< length of the tail of the output that is kept
   std::string text = {};
   Stopwatch watch = {};
 };
 
 /// Forks a child that ends with this process.
-/// @param run  is called in the child with the write end of its pipe, and does not return
-/// @returns a child without a process if the system has no room; errno contains the reason
+/// @param run  called in the child with the write end of the pipe; it does not return.
+/// @returns the child, without a process if the system has no room; errno contains the reason
 Child start_child(const std::function<void(int out)>& run) {
   Child child;
   std::array<int, 2> ends{};
@@ -131,9 +132,10 @@ Child start_child(const std::function<void(int out)>& run) {
   return child;
 }
 
-/// Reads available output. @returns whether more may come
+/// Reads available output.
+/// @returns whether more output may follow
 bool drain(Child& child) {
-  std::array<char, 65536> buffer;  // without zeros, which would cost more than most answers
+  std::array<char, 65536> buffer;  // not initialized: zeros would cost more than most answers
   const ssize_t n = read(child.output, buffer.data(), buffer.size());
   if (n > 0) child.text.append(buffer.data(), static_cast<std::size_t>(n));
   if (child.text.size() > child.kept_bytes)
@@ -145,7 +147,7 @@ double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-/// Awaits the end of a child.
+/// Waits for the end of a child.
 ProcessOutcome reap(const Child& child) {
   int status = 0;
   rusage used{};
@@ -159,7 +161,7 @@ ProcessOutcome reap(const Child& child) {
           seconds_of(used.ru_utime) + seconds_of(used.ru_stime)};
 }
 
-/// Computes in the child. Signals that ask the program to stop are the parent's.
+/// Runs the task in the child. Signals that stop the program are handled by the parent.
 [[noreturn]] void compute(const ProcessTask& task, std::size_t memory_bytes, int out) noexcept {
   end_without_memory(kOutOfMemory, "");
   const rlimit cpu{task.cpu_limit_s, task.cpu_limit_s + 1};
@@ -181,7 +183,7 @@ ProcessOutcome reap(const Child& child) {
   _exit(0);
 }
 
-/// Awaits the end of a function's process, which has closed its pipe.
+/// Waits for the end of a process that runs a function and has closed its pipe.
 ProcessOutcome outcome_of(Child& child) {
   ProcessOutcome outcome = reap(child);
   const int status = outcome.status;
@@ -194,22 +196,22 @@ ProcessOutcome outcome_of(Child& child) {
     outcome.text = std::move(child.text);
     if (status == 0) return outcome;
     if (status == kOutOfMemory)
-      return without_answer(Termination::out_of_memory, "more memory than there is");
+      return without_answer(Termination::out_of_memory, "more memory than is available");
     return without_answer(Termination::crashed,
                           fmt::format("the computation ended with status {}", status));
   }
   if (status == SIGXCPU || status == SIGALRM ||
       (status == SIGKILL && outcome.cpu_s >= child.cpu_limit_s))
     return without_answer(Termination::timed_out,
-                          fmt::format("not done after {} s of processor time", child.cpu_limit_s));
+                          fmt::format("stopped after {} s of processor time", child.cpu_limit_s));
   if (status == SIGKILL)
     return without_answer(Termination::out_of_memory,
-                          "killed from outside, as where memory runs short");
+                          "killed by another process, possibly because memory was exhausted");
   return without_answer(Termination::crashed, fmt::format("the computation crashed (signal {}, {})",
                                                           status, strsignal(status)));
 }
 
-/// Waits until a program ends or must be ended.
+/// Waits until a program ends or exceeds a limit.
 Termination await(Child& child, const fs::path& folder, const ProgramLimits& limits) {
   constexpr int tick_ms = 100;
   const auto handle = static_cast<int>(syscall(SYS_pidfd_open, child.process, 0));
@@ -236,15 +238,15 @@ Termination await(Child& child, const fs::path& folder, const ProgramLimits& lim
 pid_t parent_of(const fs::path& process) {
   std::string text;
   std::getline(std::ifstream(process / "stat"), text);
-  const auto name_end = text.rfind(')');  // a name may hold anything
+  const auto name_end = text.rfind(')');  // a name may contain any character
   int parent = 0;
   if (name_end != std::string::npos)
     (void)std::sscanf(text.c_str() + name_end + 1, " %*c %d", &parent);
   return parent;
 }
 
-/// The processes under way. As long as it lives, SIGINT and SIGTERM are read here instead of ending
-/// the program.
+/// Running processes. During its lifetime, SIGINT and SIGTERM are read here instead of ending the
+/// program.
 class ProcessPool {
  public:
   ProcessPool() {
@@ -270,9 +272,9 @@ class ProcessPool {
 
   [[nodiscard]] std::size_t size() const { return children_.size(); }
 
-  /// @returns whether the system has room for another process; errno says why not
+  /// @returns whether the system has room for another process; if not, errno contains the reason
   bool start(std::size_t number, const ProcessTask& task, std::size_t memory_bytes) {
-    Child child = start_child([&](int out) {  // which needs what descriptors there are
+    Child child = start_child([&](int out) {  // frees descriptors for the child
       for (const Child& other : children_) close(other.output);
       close(signals_);
       compute(task, memory_bytes, out);
@@ -284,7 +286,8 @@ class ProcessPool {
     return true;
   }
 
-  /// Takes in what there is of answers. @returns the signal where one came, else 0
+  /// Reads available answers.
+  /// @returns the signal if one was received, else 0
   int wait(const std::function<void(std::size_t, const ProcessOutcome&)>& ended,
            const std::function<void()>& waiting) {
     std::vector<pollfd> ready = {{signals_, POLLIN, 0}};
@@ -310,7 +313,7 @@ class ProcessPool {
   int signals_ = -1;
 };
 
-/// Said by a signal's handler, which may only write and end.
+/// Line printed by the signal handler, which may only write and exit.
 std::array<char, 200> last_line{};
 
 extern "C" void say_and_end(int signal) {
@@ -396,7 +399,7 @@ void end_descendants() {
 }
 
 std::size_t folder_bytes(const fs::path& folder, std::size_t enough) {
-  constexpr std::size_t entry_bytes = 4096;  // a million empty files are too much, too
+  constexpr std::size_t entry_bytes = 4096;  // limits the number of empty files as well
   std::size_t sum = 0;
   std::error_code error;
   for (fs::recursive_directory_iterator

@@ -6,45 +6,46 @@
 #include <string>
 #include <vector>
 
-/// Functions and programs in separate processes: a crash, an endless loop or too much memory costs
-/// one of them.
+/// Functions and programs in separate processes. A crash, an endless loop or excessive memory use
+/// affects only one of them.
 namespace trammel::harness {
 
 struct ProcessTask {
-  std::function<std::string()> work;  ///< its answer
+  std::function<std::string()> work;  ///< returns the answer
   unsigned cpu_limit_s = 0;           ///< processor time; at least 1
 };
 
-/// How a process ended.
+/// Result of a process.
 struct ProcessOutcome {
   enum class Termination { answered, timed_out, out_of_memory, disk_full, crashed, not_started };
   Termination termination = Termination::not_started;
-  /// Answer of a function, or the reason why there is none. For a program the end of standard
-  /// output and error, at most 64 KiB.
+  /// Answer of a function, or the reason for its absence. For a program, the last 64 KiB of
+  /// standard output and error.
   std::string text;
-  int status = 0;  ///< exit status, number of the signal, or errno if it was not started
+  int status = 0;  ///< exit status, signal number, or errno if the process was not started
   double wall_s = 0, cpu_s = 0;
 };
 
 struct ProcessOptions {
   unsigned at_once = 1;
-  std::size_t memory_bytes = 0;  ///< address space of each; 0: no limit, as always under sanitizers
-  std::function<void()> waiting = {};  ///< called about once a second while none ends
+  /// Address space of each process; 0: no limit, as always under sanitizers.
+  std::size_t memory_bytes = 0;
+  std::function<void()> waiting = {};  ///< called about once a second while processes run
 };
 
-/// Where memory runs out and nobody catches it (JSON allocates in a destructor, which lets nothing
-/// out), this process ends with that status and line on standard error.
+/// Sets the exit status and the line on standard error for an allocation failure that nobody
+/// catches. JSON allocates in a destructor, which cannot throw.
 void end_without_memory(int status, const char* line);
 
-/// What this process may take: what `run_in_processes` allows it, else half of the least of the
-/// machine's memory, that of its group (cgroup) and its address space.
+/// Returns the memory limit of this process: the one set by `run_in_processes`, else half of the
+/// smallest of machine memory, cgroup limit and address space.
 [[nodiscard]] std::size_t memory_limit_bytes();
 
-/// Does each task in a process that is forked from this one, which must have no second thread.
-/// Where the system has no room for another process, those under way are awaited first.
-/// @param ended  called here as each one ends, in any order
-/// @returns SIGINT or SIGTERM where one came: those under way are dropped, the rest is not started;
-///          else 0
+/// Runs each task in a process forked from this one, which must have a single thread. If the system
+/// has no room for another process, running processes are awaited first.
+/// @param ended  called in this process when a task ends, in any order
+/// @returns SIGINT or SIGTERM if it was received, else 0. After a signal, running tasks are killed
+///   and the others are not started.
 [[nodiscard]] int run_in_processes(
     const std::vector<ProcessTask>& tasks, const ProcessOptions& options,
     const std::function<void(std::size_t task, const ProcessOutcome& outcome)>& ended);
@@ -56,29 +57,29 @@ void end_without_memory(int status, const char* line);
 /// Limits of a program that is not part of trammel.
 struct ProgramLimits {
   double wall_s = 120;
-  std::size_t memory_bytes = 0;  ///< address space of each of its processes; 0: no limit
-  std::size_t disk_bytes = std::size_t{1} << 30;  ///< of each file, and of its folder as a whole
+  std::size_t memory_bytes = 0;                   ///< address space of each process; 0: no limit
+  std::size_t disk_bytes = std::size_t{1} << 30;  ///< of each file, and of the folder in total
 };
 
-/// Runs a program in the folder, which is also its TMPDIR, in a separate session and without
-/// standard input; then kills it with all that it has started. It is `answered` with any exit
-/// status. This process must have no other children.
+/// Runs a program in a folder, which is also its TMPDIR, in a separate session without standard
+/// input. Then kills it with all its descendants. The outcome is `answered` for any exit status.
+/// This process must have no other children.
 /// @param words  the program's path, then its arguments
 [[nodiscard]] ProcessOutcome run_limited(const std::vector<std::string>& words,
                                          const std::filesystem::path& folder,
                                          const ProgramLimits& limits);
 
-/// Makes this process the parent of what its descendants leave behind, from now on.
+/// Makes this process the parent of orphaned descendants, from now on.
 void adopt_descendants();
-/// Kills every child of this process, and what becomes its child by that.
+/// Kills every child of this process, including descendants that become its children.
 void end_descendants();
 
-/// Size of all files below a folder; counting stops above `enough`.
+/// Returns the size of all files below a folder. Counting stops above `enough`.
 [[nodiscard]] std::size_t folder_bytes(const std::filesystem::path& folder, std::size_t enough);
 
-/// From now on SIGINT and SIGTERM, where `run_in_processes` does not read them, end the program
-/// with this line on standard error and exit status 128 + signal. Where they were ignored they
-/// still are.
+/// From now on, SIGINT and SIGTERM end the program with exit status 128 + signal, after printing
+/// this line on standard error. Exceptions: `run_in_processes` handles these signals itself, and
+/// signals that were ignored before remain ignored.
 void end_on_signals(const std::string& line);
 
 }  // namespace trammel::harness

@@ -31,7 +31,7 @@ void Progress::show(std::size_t done, std::size_t all) {
     bar = "\rtrammel:";
   }
   bar_shown_ = terminal_;
-  const std::string of_all = all > 0 ? " of " + std::to_string(all) : "";  // 0: not known
+  const std::string of_all = all > 0 ? " of " + std::to_string(all) : "";  // 0: unknown
   std::fprintf(stderr, "%s %zu%s %s, %.0f s%s", bar.c_str(), done, of_all.c_str(), items_.c_str(),
                spent.count(), terminal_ ? "\033[K" : "\n");
   std::fflush(stderr);

@@ -6,16 +6,16 @@
 
 namespace trammel::harness {
 
-/// How far a computation is, on standard error: a bar that is rewritten on a terminal, elsewhere
-/// (in a log) a line; of a single item, and in a log, at most every five seconds.
+/// Progress on standard error: a bar on a terminal, lines in a log. Single items and logs are
+/// updated at most every five seconds.
 class Progress {
  public:
-  /// @param items  what is counted, in the plural: "runs"
+  /// @param items  name of the counted items, in the plural: "runs"
   explicit Progress(std::string items);
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
-  /// @param all  0 where nobody knows how many there will be
+  /// @param all  total number of items; 0 if it is unknown
   void show(std::size_t done, std::size_t all);
 
  private:

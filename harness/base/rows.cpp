@@ -12,7 +12,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Characters, not bytes, of UTF-8.
+/// Returns the number of UTF-8 characters.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::ranges::count_if(
       text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
@@ -36,8 +36,8 @@ bool is_number(const std::string& text) {
   return !text.empty() && *end == '\0';
 }
 
-/// A text in quotes (RFC 4180), unless it is a number. A text that a spreadsheet would compute gets
-/// an apostrophe in front.
+/// Quotes a text (RFC 4180), unless it is a number. An apostrophe precedes text that a spreadsheet
+/// would evaluate.
 std::string csv_text(const Json& cell) {
   if (cell.is_null()) return "";
   if (cell.is_number_float()) return shortest(cell.get<double>());

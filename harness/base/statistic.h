@@ -7,15 +7,15 @@
 
 namespace trammel::harness {
 
-/// One number from many. NaN comes through.
+/// Returns a statistic of numbers. NaN propagates.
 /// @param name  "max", "min", "max_abs", ... as in the schema
 [[nodiscard]] double statistic_of(const std::string& name, const std::vector<double>& values);
 
-/// The upper of the two middle values if their number is even.
+/// Returns the median; for an even count, the upper of the two middle values.
 /// @param values  at least one
 [[nodiscard]] double upper_median(std::vector<double> values);
 
-/// Largest absolute value; 0 where there is none.
+/// Returns the largest absolute value; 0 for an empty list.
 [[nodiscard]] double max_abs(const std::vector<double>& values);
 
 struct LargestDifference {
@@ -23,8 +23,8 @@ struct LargestDifference {
   std::size_t index = 0;
 };
 
-/// Largest |a - b| of all entries, each over its own scale. Equal entries differ by 0 whatever the
-/// scale; infinite where the lengths differ, a number is none, or a scale is 0.
+/// Returns the largest |a - b| / scale over all entries. Equal entries differ by 0 for any scale.
+/// The result is infinite if the lengths differ, a value is NaN, or a scale is 0.
 [[nodiscard]] LargestDifference largest_difference(const std::vector<double>& a,
                                                    const std::vector<double>& b,
                                                    const std::function<double(std::size_t)>& scale);

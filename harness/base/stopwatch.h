@@ -4,7 +4,7 @@
 
 namespace trammel::harness {
 
-/// Wall time, and processor time of the calling thread, since it was made [s].
+/// Measures wall time and the calling thread's processor time since construction [s].
 class Stopwatch {
  public:
   Stopwatch();

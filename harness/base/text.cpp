@@ -13,7 +13,8 @@ namespace trammel::harness {
 
 namespace {
 
-/// Insertions, deletions, substitutions and swaps of neighbors between two words.
+/// Returns the number of insertions, deletions, substitutions and swaps of neighbors between two
+/// words.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
@@ -34,11 +35,11 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
   if (word.size() > 200) return {};
-  // Words that people write for a key that looks different.
+  // Common words for a key with a different spelling.
   if ((word == "entries" || word == "entry") && contains(candidates, std::string("index")))
     return "index";
   std::string best;
-  // A guess that changes more than about a third of the word is no help.
+  // A suggestion that changes more than about a third of the word is not helpful.
   std::size_t least = std::max<std::size_t>(2, word.size() * 2 / 5) + 1;
   for (const std::string& candidate : candidates) {
     std::size_t distance = edit_distance(word, candidate);
@@ -112,7 +113,7 @@ std::string one_line(const std::string& text) {
   std::size_t word = 0;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    const bool continues = (byte & 0xC0U) == 0x80U;  // a character of several bytes
+    const bool continues = (byte & 0xC0U) == 0x80U;  // part of a multi-byte character
     word = c == ' ' || c == '/' ? 0 : word + 1;
     if (word == kMaxWord) out += "...";
     if (word >= kMaxWord && !(continues && word == kMaxWord)) continue;

@@ -22,7 +22,7 @@ Elapsed measure(const std::function<void()>& work, int runs) {
   return {watch.cpu_s() / runs, watch.wall_s() / runs};
 }
 
-/// How many computations make a measurement; this warms up, too.
+/// Returns the number of computations in a measurement. Also warms up.
 int runs_for(const std::function<void()>& work, double shortest_s) {
   work();
   const double once = std::max(measure(work, 1).cpu_s, 1e-7);
@@ -38,7 +38,7 @@ RelativeTime relative_time(const std::vector<double>& times, const std::vector<d
   std::ranges::sort(ratios);
   const std::size_t n = ratios.size();
   const boost::math::binomial repeats_below(static_cast<double>(n), 0.5);
-  std::size_t outside = 0;  // ratios on either side that the interval leaves out
+  std::size_t outside = 0;  // number of ratios outside the interval on either side
   while (2 * cdf(repeats_below, static_cast<double>(outside + 1)) <= 0.02) ++outside;
   return {quantile(ratios, 0.5), ratios[outside], ratios[n - 1 - outside]};
 }
@@ -52,7 +52,7 @@ double quantile(std::vector<double> values, double share) {
 }
 
 std::vector<std::size_t> shuffled(std::size_t n, std::uint64_t& state) {
-  // Fisher and Yates; std::shuffle differs between libraries.
+  // Fisher-Yates shuffle; std::shuffle differs between libraries.
   std::mt19937_64 engine(state);
   std::vector<std::size_t> order(n);
   for (std::size_t i = 0; i < n; ++i) order[i] = i;

@@ -33,7 +33,7 @@ namespace {
 constexpr std::pair<const char*, int> kRounding[] = {{"to the nearest", FE_TONEAREST},
                                                      {"upwards", FE_UPWARD},
                                                      {"downwards", FE_DOWNWARD},
-                                                     {"towards zero", FE_TOWARDZERO}};
+                                                     {"toward zero", FE_TOWARDZERO}};
 
 std::vector<Configuration> computed(const std::vector<Case>& cases, const CommandOptions& given) {
   const References references;
@@ -57,14 +57,14 @@ void print_certificate(const Json& certificate) {
     std::cout << title;
     Rows(columns, certificate[key]).print(std::cout, "  ");
   };
-  print_rows("Digits of judged numbers that agree with those rounded to the nearest, of 16\n",
+  print_rows("Digits (of 16) of judged numbers that agree with rounding to the nearest\n",
              "configurations",
              {{"configuration"},
               {"checks"},
               {"missing"},
               {"median_digits", "digits (median)", 3},
               {"fewest_digits", "fewest", 3},
-              {"fewest_of", "of"}});
+              {"fewest_of", "least certain"}});
   if (!certificate["tight_tolerances"].empty())
     print_rows("\nTolerances less than ten times the noise\n", "tight_tolerances",
                {{"check"}, {"tolerance", "", 2}, {"noise", "", 2}, {"configuration"}});
@@ -72,11 +72,11 @@ void print_certificate(const Json& certificate) {
     std::cout << "\nNo verdict differs, and none is missing.\n";
   } else {
     print_rows("\nVerdicts and runs that differ or are missing\n", "flips",
-               {{"check", "check or run"}, {"from", "verdict"}, {"to", "is"}, {"configuration"}});
+               {{"check", "check or run"}, {"from", "verdict"}, {"to", "now"}, {"configuration"}});
   }
 }
 
-/// Results of another input differ by it, not by how they were computed.
+/// Requires the same input, because results of different inputs differ for that reason alone.
 void require_same_cases(const std::vector<Case>& cases, const std::filesystem::path& file,
                         const results::Results& stored) {
   for (const Case& one : cases) {
@@ -102,7 +102,7 @@ int certify_command(const CommandOptions& options, const Renderers& /*renderers*
   const Certification certificate = certify(configurations);
   const bool any = std::ranges::any_of(certificate.rows,
                                        [](const ConfigurationRow& row) { return row.checks > 0; });
-  if (!any) throw InputError("expected cases with checks, for there is nothing to certify");
+  if (!any) throw InputError("expected cases with checks");
   const Json json = results::to_json(certificate);
   if (options.json) {
     std::cout << pretty(json, 2);

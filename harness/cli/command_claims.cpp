@@ -14,7 +14,7 @@
 namespace trammel::harness {
 namespace {
 
-/// ": 0.99998 (circle-load)" or ": 0.0051 ... 0.0079 m (circle-load)".
+/// Returns ": 0.99998 (circle-load)" or ": 0.0051 ... 0.0079 m (circle-load)".
 std::string measured(const results::ClaimInterpretation& interpretation) {
   if (interpretation.entries.empty()) return "";
   const auto [low, high] =

@@ -31,7 +31,7 @@ using results::ComparedSide;
 using results::Number;
 using results::SideComparison;
 
-/// Computes one variant, without its refinements.
+/// Computes one variant without its refinements.
 Side side_of(const Case& given, const std::string& variant) {
   const References references;
   RunOptions options;
@@ -56,7 +56,7 @@ std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
         sides.push_back(side_of(given, variant));
       } catch (const InputError& error) {
         if (variants.size() == 1) throw;
-        std::cerr << one_line(error.what()) << "; left out\n";
+        std::cerr << one_line(error.what()) << "; skipped\n";
         continue;
       }
       const std::string own = analysis_kind(*sides.back().document),
@@ -74,7 +74,7 @@ std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
   return sides;
 }
 
-/// Results, each read once, or cases.
+/// Returns the sides: results files, each read once, or cases.
 std::vector<Side> sides_of(const std::vector<std::string>& names) {
   std::vector<Side> sides;
   std::vector<std::string> others;
@@ -88,14 +88,14 @@ std::vector<Side> sides_of(const std::vector<std::string>& names) {
   }
   if (sides.empty()) return sides_of_cases(names);
   if (!others.empty()) {
-    (void)load_named_case(parted(others.front()).first);  // reports what is wrong with it
-    throw InputError("expected variants alone or results alone (got both)");
+    (void)load_named_case(parted(others.front()).first);  // reports its error
+    throw InputError("expected either variants or results (got both)");
   }
   if (sides.size() < 2) throw InputError("expected two results (got one)");
   return sides;
 }
 
-/// Time next to accuracy.
+/// Prints computing time next to accuracy.
 void print_sides(const SideComparison& comparison) {
   std::vector<Column> columns = {{"label", "side"},
                                  {"runs"},
@@ -107,7 +107,7 @@ void print_sides(const SideComparison& comparison) {
     columns.insert(columns.end(), {{"median_error", "error [%]", 3, 100},
                                    {"largest_error", "largest [%]", 3, 100}});
   Rows(columns, to_json(comparison)["sides"]).print(std::cout);
-  if (errors) std::cout << "error: median against references\n";
+  if (errors) std::cout << "error: relative to references, median over all of them\n";
 }
 
 void print_modes(const ComparedRun& run, const SideComparison& comparison) {
@@ -126,7 +126,7 @@ void print_modes(const ComparedRun& run, const SideComparison& comparison) {
                "subspaces are compared)\n";
 }
 
-/// Columns, then two for each side: the value, and its difference from the first in percent.
+/// Adds two columns for each side: the value, and its difference from the first side in percent.
 std::vector<Column> with_sides(std::vector<Column> columns, const SideComparison& comparison) {
   for (const ComparedSide& side : comparison.sides) {
     columns.emplace_back(side.label.c_str(), "", 10);
@@ -185,7 +185,7 @@ std::string csv(const SideComparison& comparison) {
   return rows.csv();
 }
 
-/// The points of a study by the titles of its settings.
+/// Returns the points of a study by the titles of its settings.
 std::vector<CostPoint> named_points(const results::CostStudy& study,
                                     std::vector<std::string>& titles) {
   std::vector<CostPoint> points = cost_points(study);
@@ -198,7 +198,7 @@ std::vector<CostPoint> named_points(const results::CostStudy& study,
   return points;
 }
 
-/// Agreement of two measurements of the same studies.
+/// Prints the agreement of two measurements of the same studies.
 void print_costs(const std::optional<results::CostStudies>& a,
                  const std::optional<results::CostStudies>& b) {
   if (!a || !b) return;
@@ -217,7 +217,7 @@ void print_costs(const std::optional<results::CostStudies>& a,
   if (table.empty()) return;
   std::cout << "accuracy and computing time: settings on the Pareto fronts, the cheapest setting "
                "for each\n"
-               "target error, and the difference of the time that an accuracy takes\n";
+               "target error, and the difference of the time needed for an accuracy\n";
   table.print(std::cout, "  ");
 }
 

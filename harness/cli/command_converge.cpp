@@ -72,7 +72,7 @@ void print(const Convergence& found) {
 int converge_command(const CommandOptions& options, const Renderers& /*renderers*/) {
   const Case given = load_named_case(options.word);
   if (!given.document.value().contains("sweeps")) {
-    throw given.document.error("", "expected 'sweeps', which say what to refine");
+    throw given.document.error("", "expected 'sweeps', which define the refinement");
   }
   if (!options.variant.empty()) (void)patched(given, options.variant);
   const References references;
@@ -95,8 +95,8 @@ int converge_command(const CommandOptions& options, const Renderers& /*renderers
     return status;
   }
   print_numerical_uncertainty(results);
-  std::cout << "error: relative, of the exact value or else of the extrapolated one; GCI: grid\n"
-               "convergence index with Roache's safety factor, 1.25 where the order is near "
+  std::cout << "error: relative to the exact value, else to the extrapolated one; GCI: grid\n"
+               "convergence index with Roache's safety factor, 1.25 if the order is near "
                "theory, else 3\n";
   return status;
 }

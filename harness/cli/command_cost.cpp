@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Studies of the catalogue that a word means: of that family, or of that name.
+/// Returns the studies of the catalogue with that name or of that family.
 std::vector<fs::path> studies_named(const std::string& word, std::vector<std::string>& known) {
   std::vector<fs::path> found;
   for (const fs::path& file : cost_study_files()) {
@@ -73,7 +73,7 @@ std::vector<CostStudy> read_studies(const CommandOptions& options, SweepExtent e
     studies.push_back(cost_study_of_sweeps(load_case(file), variant, options.sweeps, references));
   }
   if (!any_case && (!options.sweeps.empty() || !options.variant.empty())) {
-    throw InputError("--sweep and --variant: expected a case beside them");
+    throw InputError("--sweep and --variant: a case is required");
   }
   if (!options.words.empty()) return studies;
   for (const fs::path& file : cost_study_files()) add(file);
@@ -174,7 +174,7 @@ fs::path store_folder(const std::string& out, const std::string& store) {
 }
 
 int cost_command(const CommandOptions& options, const Renderers& renderers) {
-  constexpr int kLeastRepeats = 7;  // odd and even ones are compared
+  constexpr int kLeastRepeats = 7;  // odd and even repeats are compared
   if (options.repeats < kLeastRepeats)
     throw InputError("trammel: --repeats requires at least 7 measurements (got " +
                      std::to_string(options.repeats) + ")");

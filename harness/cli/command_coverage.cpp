@@ -30,8 +30,8 @@ void print_group(const std::vector<CoverageRow>& rows, const std::string& group,
   }
   if (!table.empty()) table.print(std::cout);
   std::cout << group << ": " << verified << " of " << all << " with independent evidence, "
-            << stated << " without, for a recorded reason (" << open << " of them open), "
-            << all - verified - stated << " without\n\n";
+            << stated << " without, with a recorded reason (" << open << " of them open), "
+            << all - verified - stated << " without a reason\n\n";
 }
 
 }  // namespace

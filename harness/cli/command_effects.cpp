@@ -26,7 +26,7 @@ double ratio(double part, double full) {
   return full > 0 ? part / full : 0;
 }
 
-/// A set of effects: its change from the full model, time, and counted work.
+/// Columns of a set of effects: its change from the full model, time, and counted work.
 const std::vector<Column> kRunColumns = {"left_out",
                                          {"status", ""},
                                          {"change", "change [%]", 3, 100},
@@ -96,8 +96,8 @@ Json study_json(const std::string& id, const std::string& analysis, const Effect
   return json;
 }
 
-/// @returns whether the selection holds: within the tolerance, and large displacement, if the
-/// analysis cannot compute it, too
+/// @returns whether the change is within the tolerance, also for large displacement if the analysis
+///   cannot represent it
 bool holds(const EffectStudy& study) {
   return study.within_tolerance() && !study.choice.is_beyond_tier();
 }
@@ -118,12 +118,12 @@ void print_study(const EffectStudy& study) {
   }
   if (study.choice.automatic->beyond_tier)
     std::cout << "Beyond    " << percent(*study.choice.automatic->beyond_tier)
-              << " by large displacement, which this motion cannot have\n";
+              << " by large displacement, which this analysis cannot represent\n";
   std::cout << "Minimal   " << (study.is_minimal() ? "yes" : "no")
             << ", among the expensive effects\nWork      " << rounded(study.work_ratio(), 3)
             << " of the full model's, "
             << rounded(study.choice.automatic->work / study.full.work, 2)
-            << " of it for deciding\n";
+            << " of it for the selection\n";
 }
 
 [[noreturn]] void refuse_unsolved(const std::string& id, const EffectStudy& study) {
@@ -149,7 +149,7 @@ struct EffectCase {
   Document document;
 };
 
-/// Cases whose analysis has effects.
+/// Returns the cases whose analysis has effects.
 std::vector<EffectCase> effect_cases(const std::vector<std::string>& labels,
                                      const std::string& variant) {
   std::vector<EffectCase> cases;
@@ -188,7 +188,7 @@ int print_one(const EffectCase& scene, const CommandOptions& options) {
   return holds(study) ? 0 : 1;
 }
 
-/// The scene of a case, which the store may hold; none if the full model has no solution.
+/// Returns the scene of a case, possibly from the store; none if the full model has no solution.
 EffectScenes scenes_of(const EffectCase& given, const std::filesystem::path& store, bool resume) {
   const auto measure = [&] {
     const EffectStudy study = study_effects(given.document, {.repeats = 3});
@@ -227,7 +227,7 @@ int effects_command(const CommandOptions& options, const Renderers& renderers) {
     std::cout << pretty(json, 3);
   } else {
     Rows(kSceneColumns, json).print(std::cout);
-    std::cout << "work: deciding and chosen set, relative to the full model; mesh: from half the "
+    std::cout << "work: selection and chosen set, relative to the full model; mesh: from half the "
                  "elements to all\n";
   }
   return all_hold ? 0 : 1;

@@ -24,7 +24,7 @@ namespace {
 
 using results::Grade;
 
-/// What adapters leave behind ends with the command, however it ends.
+/// Ends processes left behind by adapters when the command ends, for any reason.
 class Descendants {
  public:
   Descendants() { adopt_descendants(); }
@@ -33,7 +33,7 @@ class Descendants {
   Descendants& operator=(const Descendants&) = delete;
 };
 
-/// Watches over the judging itself and says nothing of a code.
+/// Returns true for cases that test the judging itself and are not informative about a code.
 bool is_control(const Case& one) {
   const std::vector<std::string> labels = one.labels();
   return contains(labels, "control");
@@ -48,7 +48,7 @@ std::string reason_of(const results::Run& run, Grade grade) {
   return "";
 }
 
-/// A row for each run with the check that decides, then the number of runs with each grade.
+/// Prints a row for each run with the decisive check, then the number of runs with each grade.
 void print_grades(const std::vector<results::Run>& runs) {
   std::vector<Column> columns = {"grade", "case", ">given", {"time_s", "time [s]", 2}};
   std::ranges::move(check_columns(), std::back_inserter(columns));
@@ -108,7 +108,7 @@ int grade_command(const CommandOptions& options, const Renderers& renderers) {
   results::Results found =
       results_of(run_cases(cases, references, run_options), cases, references, run_options.store);
   found.solver = solver_name(found.runs, options.adapter, adapter.words.front());
-  found.uncertainty_coverage.reset();  // it is a matter of trammel's own refinements
+  found.uncertainty_coverage.reset();  // it applies only to trammel's own refinements
   const auto file = write_results(found, options.out);
   renderers.junit(found, std::filesystem::path(options.out) / "junit.xml");
   const auto page = renderers.codes({file}, options.out);

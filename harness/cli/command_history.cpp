@@ -12,13 +12,13 @@ namespace {
 void print_changes(const Json& changes, const std::string& title) {
   if (changes.empty()) return;
   std::cout << title << '\n';
-  Rows({{"name", "what"},
+  Rows({{"name", "entry"},
         {"verdict_before", "verdict"},
         {"verdict", "now"},
         {"before", "", 10},
         {"after", "", 10},
         {"commit", "since commit"},
-        {"date", "of"}},
+        {"date"}},
        changes)
       .print(std::cout, "  ");
 }
@@ -40,7 +40,7 @@ void print_history(const Json& history) {
       .print(std::cout);
   const std::string since = "call " + history["since"].dump();
   if (history["since"] == 0) {
-    std::cout << "No green call before the newest to compare with.\n";
+    std::cout << "There is no green call before the newest one.\n";
   } else if (history["changes"].empty() && history["work"].empty()) {
     std::cout << "Nothing has changed since " << since << ", the last green one.\n";
   }

@@ -26,8 +26,8 @@
 namespace trammel::harness {
 namespace {
 
-/// As long as it lives, control characters other than line breaks and tabs reach the stream as '?',
-/// so that no text of a case commands the terminal.
+/// Stream that replaces control characters, except line breaks and tabs, by '?' during its
+/// lifetime. Text of a case therefore cannot control the terminal.
 class PrintableStream : std::streambuf {
  public:
   explicit PrintableStream(std::ostream& stream) : stream_(stream), target_(stream.rdbuf(this)) {}
@@ -63,7 +63,7 @@ using Options = CommandOptions;
 
 /// An option of one or several commands.
 struct Option {
-  std::string flags;  ///< without a dash: an argument by its place
+  std::string flags;  ///< flags; without a dash: a positional argument
   std::variant<bool Options::*, int Options::*, unsigned Options::*, std::size_t Options::*,
                double Options::*, std::string Options::*, std::vector<std::string> Options::*>
       member;
@@ -75,7 +75,7 @@ struct Option {
   }
 };
 
-/// A number from `least` to `most`; CLI::Range prints limits such as 1e-10 as 0.
+/// Accepts a number from `least` to `most`. CLI::Range would print limits such as 1e-10 as 0.
 CLI::Validator within(double least, double most) {
   const std::string limits = shortest(least) + " to " + shortest(most);
   const auto complaint = [=](std::string& word) -> std::string {
@@ -90,89 +90,93 @@ const std::vector<Option>& all_options() {
   static const std::vector<Option> options = {
       {"case", &Options::word, "Name or file of a case"},
       {"cases", &Options::words,
-       "Names or files of cases; except for 'run', the catalogue by default"},
+       "Names or files of cases; default: the catalogue, except for 'run'"},
       {"inputs", &Options::words,
-       "Names or files of cases, the catalogue by default; or results files"},
-      {"names", &Options::words, "Names of references; all by default"},
+       "Names or files of cases, or results files; default: the catalogue"},
+      {"names", &Options::words, "Names of references; default: all"},
       {"sides", &Options::words,
-       "case, case:variant; or results.json or a folder that contains one"},
+       "case, case:variant, results.json, or a folder that contains results.json"},
       {"what", &Options::words,
-       "Families or studies of the catalogue, cases, or files of either; every study by default"},
-      {"results", &Options::word, "A results.json whose series or verdicts are shown, too"},
-      {"shards", &Options::words, "Folders that 'trammel run --shard' has written"},
-      {"adapter", &Options::adapter, "Program, or program with arguments in one word"},
-      {"result", &Options::out, "File of the result"},
-      {"file", &Options::word, "The SQLite file"},
-      {"pattern", &Options::word, "Text in the name or title of a case, in any case of letters"},
+       "Families or studies of the catalogue, cases, or files of either; default: every study"},
+      {"results", &Options::word, "results.json file whose series or verdicts are added"},
+      {"shards", &Options::words, "Folders written by 'trammel run --shard'"},
+      {"adapter", &Options::adapter, "Program; quote it together with its arguments"},
+      {"result", &Options::out, "Result file to be written"},
+      {"file", &Options::word, "SQLite file of the history"},
+      {"pattern", &Options::word, "Text in the name or title of a case, upper or lower case"},
       {"-L,--label", &Options::labels,
-       "Cases of the catalogue with this label, or with all of them"},
-      {"--label-any", &Options::any_labels, "Cases of the catalogue with one of these labels"},
-      {"--variant", &Options::variant, "Only this variant; 'base' is the case unpatched"},
-      {"-j,--jobs", &Options::jobs, "Computations at a time; the numbers do not depend on it",
-       within(1, 1024)},
-      {"-o,--out", &Options::out, "Folder for what the command writes; of 'export' a file"},
+       "Select cases of the catalogue with this label; repeated: with all labels"},
+      {"--label-any", &Options::any_labels,
+       "Select cases of the catalogue with one of these labels"},
+      {"--variant", &Options::variant, "Run only this variant; 'base' is the unpatched case"},
+      {"-j,--jobs", &Options::jobs,
+       "Number of parallel computations; the results do not depend on it", within(1, 1024)},
+      {"-o,--out", &Options::out, "Output folder; for 'export', output file"},
       {"--resume", &Options::resume,
-       "Take what an earlier call left in the store, and compute only what is missing"},
+       "Reuse results of earlier calls from the store, and compute only missing ones"},
       {"--fresh", &Options::fresh,
-       "Compute everything anew; by default only what the store does not have of this program "
-       "and input"},
+       "Compute everything again; by default, results of the same program and input are reused "
+       "from the store"},
       {"--store", &Options::store,
-       "Folder where each run or study is kept as it ends; OUT/store by default"},
+       "Folder in which completed runs and studies are stored; default: OUT/store"},
       {"--max-memory", &Options::memory_bytes,
-       "What one run may take, as 500MB or 2GB; by default half of the memory",
+       "Memory limit of one run, such as 500MB or 2GB; default: half of the memory",
        CLI::AsSizeValue(false)},
       {"--history", &Options::history,
-       "SQLite file that verdicts, values, counted work and the times of what was computed are "
-       "added to, for 'trammel history' and the report"},
+       "Add verdicts, values, counted work and computing times to this SQLite file, for "
+       "'trammel history' and the report"},
       {"--shard", &Options::shard,
-       "K/N: only the K-th of N parts, for 'trammel merge'; without cases and labels of the full "
+       "K/N: run only the K-th of N parts, for 'trammel merge'; default selection: the full "
        "catalogue"},
-      {"--json", &Options::json, "As JSON; of a command that runs cases or studies results.json"},
-      {"--csv", &Options::csv, "As CSV: a row for each number"},
+      {"--json", &Options::json,
+       "Print JSON; commands that run cases or studies print results.json"},
+      {"--csv", &Options::csv, "Print CSV with a row for each number"},
       {"--vtk", &Options::vtk,
-       "Also OUT/vtk: shapes, poses and motions for ParaView, each set as PVD of VTU files"},
+       "Also write shapes, poses and motions to OUT/vtk for ParaView, as PVD and VTU files"},
       {"--single-file", &Options::single_file,
-       "Also report.html: all in one file of at most 6 MB, to be mailed"},
-      {"--html", &Options::html, "Also a page with curves over each other, one file"},
+       "Also write the report as a single file, report.html, of at most 6 MB"},
+      {"--html", &Options::html, "Also write a page with overlaid curves to this file"},
       {"--gate", &Options::gate, "Exit status 1 if something differs beyond round-off"},
-      {"--sweep", &Options::sweeps, "Sweeps of the cases; all of them by default"},
-      {"--level", &Options::level, "Level of the sweep, from 0; the case itself by default",
+      {"--sweep", &Options::sweeps, "Use only this sweep of the cases; default: all sweeps"},
+      {"--level", &Options::level, "Level of the sweep, counted from 0; default: the case itself",
        within(0, 1000000)},
       {"--matrices", &Options::matrices,
-       "Folder for K, M, C, T and f (Matrix Market) and the mesh (VTU); the case only together "
-       "with --out"},
-      {"--quick", &Options::quick, "Few values of each study, as the report shows them"},
-      {"--repeats", &Options::repeats, "Measurements of each setting", within(0, 10000)},
+       "Write K, M, C, T and f (Matrix Market) and the mesh (VTU) to this folder; the case is "
+       "written only with --out"},
+      {"--quick", &Options::quick, "Measure only a few settings of each study, as in the report"},
+      {"--repeats", &Options::repeats, "Number of measurements of each setting", within(0, 10000)},
       {"--tolerance", &Options::tolerance,
-       "Relative change that removed effects may cause; a case's own tolerance has precedence",
+       "Relative change that removed effects may cause, unless the case states a tolerance",
        within(1e-12, 1.0)},
-      {"--seed", &Options::seed, "Seed of the order of measurements"},
+      {"--seed", &Options::seed, "Seed of the random order of measurements"},
       {"--errors", &Options::all_errors,
-       "Estimate discretization errors also of cases of the catalogue"},
+       "Estimate discretization errors also for cases of the catalogue"},
       {"--no-errors", &Options::no_errors, "Estimate no discretization errors"},
-      {"--warn-above", &Options::warn_above, "Relative error above which a warning is given",
-       within(0.0, 1e6)},
+      {"--warn-above", &Options::warn_above,
+       "Relative discretization error above which a warning is printed", within(0.0, 1e6)},
       {"--accuracy", &Options::accuracy,
-       "Choose mesh and step so that the estimated relative error is below this",
+       "Choose mesh and step so that the estimated relative error is below this value",
        within(1e-10, 1.0)},
       {"--quantity", &Options::quantities,
-       "Quantities of --accuracy, as displacement_y_m:B or displacement_y_m"},
+       "Quantity to which --accuracy applies, such as displacement_y_m:B or displacement_y_m"},
       {"--time-limit", &Options::time_limit_s, "Time limit of the search by --accuracy [s]",
        within(1.0, 1e6)},
-      {"--results", &Options::builds, "results.json of the same cases by other builds"},
-      {"--gaps", &Options::gaps, "Only rows without independent evidence"},
-      {"--max-time", &Options::max_time_s, "Wall time of one call of the adapter [s]",
+      {"--results", &Options::builds, "results.json of the same cases computed by another build"},
+      {"--gaps", &Options::gaps, "Print only rows without independent evidence"},
+      {"--max-time", &Options::max_time_s, "Wall time limit of one call of the adapter [s]",
        within(0.01, 1e6)},
-      {"--max-disk", &Options::max_disk_bytes, "What one call of the adapter may write, as 1GB",
-       CLI::AsSizeValue(false)},
-      {"--shards", &Options::shard_count, "Jobs of the array", within(1, 100000)},
-      {"--time", &Options::job_time, "Limit of a job, as sbatch reads it, such as 2:00:00"}};
+      {"--max-disk", &Options::max_disk_bytes,
+       "Disk space limit of one call of the adapter, such as 1GB", CLI::AsSizeValue(false)},
+      {"--shards", &Options::shard_count, "Number of jobs in the array", within(1, 100000)},
+      {"--time", &Options::job_time, "Time limit of a job in sbatch format, such as 2:00:00"}};
   return options;
 }
 
-/// Pairs of options that no call may have both.
-constexpr std::pair<const char*, const char*> kExclusive[] = {
-    {"--shard", "--store"}, {"--errors", "--no-errors"}, {"--csv", "--json"}};
+/// Pairs of options that exclude each other.
+constexpr std::pair<const char*, const char*> kExclusive[] = {{"--shard", "--store"},
+                                                              {"--errors", "--no-errors"},
+                                                              {"--ctest", "--json"},
+                                                              {"--csv", "--json"}};
 
 struct CommandEntry {
   const char* name;
@@ -181,7 +185,7 @@ struct CommandEntry {
   const char* out = "trammel-results";
 };
 
-/// In the order of the help.
+/// Commands in the order of the help.
 constexpr CommandEntry kCommands[] = {
     {"list", list_command, "pattern --label --label-any --json"},
     {"describe", describe_command, "case! --json"},
@@ -218,21 +222,11 @@ constexpr CommandEntry kCommands[] = {
     {"history", history_command, "file! --json"},
 };
 
-/// Version, commit and libraries, each in a line.
-std::string version_text() {
-  const Json all = environment();
-  std::string text =
-      fmt::format("trammel {}\ncommit {}", TRAMMEL_VERSION, all["commit"].get<std::string>());
-  for (const auto& [name, version] : all["libraries"].items())
-    text += "\n" + name + " " + version.get<std::string>();
-  return text;
-}
-
-/// All words of the command line, and what to do with them.
+/// Parser and dispatcher of the command line.
 class CommandLine {
  public:
   /// @param first  the first argument. If it names a command, only that command is defined;
-  ///               otherwise all of them are, for the help and for suggestions.
+  ///   otherwise all commands are defined, for the help and for suggestions.
   CommandLine(const Renderers& renderers, const std::string& first) : renderers_(renderers) {
     app_.name("trammel");
     app_.footer("\n" + help_text("trammel"));
@@ -243,10 +237,7 @@ class CommandLine {
   }
 
   int run(const std::vector<std::string>& arguments) {
-    const std::string first = arguments.empty() ? "" : arguments.front();
-    if (!is_command(first) && !first.starts_with('-'))
-      throw InputError("trammel: " + expected_command(first));
-    // CLI11 takes them from the back, and keeps what is left.
+    // CLI11 takes the arguments from the back and keeps the unused ones.
     std::vector<std::string> stack(arguments.rbegin(), arguments.rend());
     try {
       app_.parse(stack);
@@ -291,7 +282,7 @@ class CommandLine {
     command_ = [this, &command] { return command.run(options_, renderers_); };
   }
 
-  /// @param name  of `all_options`; '!': required
+  /// @param name  name in `all_options`; '!': required
   void add_option(std::string name, CLI::App* sub) {
     const bool is_required = name.ends_with('!');
     if (is_required) name.pop_back();
@@ -329,8 +320,8 @@ void require_drawing(const Renderers& renderers) {
 
 int run_command_line(const std::vector<std::string>& arguments, const Renderers& renderers) {
   const PrintableStream out(std::cout), err(std::cerr);
-  end_on_signals("trammel: interrupted; the same command begins anew\n");
-  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit of files fails instead
+  end_on_signals("trammel: interrupted; the same command starts from the beginning\n");
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit of the file size fails instead
   try {
     std::vector<std::string> words = arguments;
     if (!words.empty() && words.front() == "help") {
@@ -352,12 +343,12 @@ int run_command_line(const std::vector<std::string>& arguments, const Renderers&
     return 128 + interrupted.signal;
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const std::system_error& error) {  // a full disk, a folder where a file should be
+  } catch (const std::system_error& error) {  // a full disk, or a folder instead of a file
     std::cerr << "expected files and processes that the system grants: " << one_line(error.what())
               << '\n';
     return 2;
   } catch (const std::exception& error) {
-    std::cerr << "trammel: a fault of its own: " << one_line(error.what()) << '\n';
+    std::cerr << "trammel: internal error: " << one_line(error.what()) << '\n';
     return 3;
   }
 }

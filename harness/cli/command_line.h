@@ -12,33 +12,35 @@ struct SideComparison;
 
 namespace trammel::harness {
 
-/// What the harness cannot know: how results become a page and a JUnit file.
+/// Functions that the harness cannot implement itself: rendering results as a page or a JUnit file.
 struct Renderers {
   std::function<std::filesystem::path(const results::Results& results,
                                       const std::filesystem::path& folder, bool single_file)>
       report;
   std::function<void(const results::Results& results, const std::filesystem::path& junit)> junit;
-  std::function<bool()> can_draw;  ///< whether there is what a report is drawn with
-  /// The results of several codes side by side.
+  std::function<bool()> can_draw;  ///< returns true if the tools for drawing a report are available
+  /// Writes a page that compares the results of several codes.
   std::function<std::filesystem::path(const std::vector<std::filesystem::path>& results,
                                       const std::filesystem::path& folder)>
       codes;
-  /// Sides beside each other, with their curves, in one file.
+  /// Writes a comparison with its curves into one file.
   std::function<void(const results::SideComparison& comparison, const std::filesystem::path& file)>
       comparison;
 };
 
-/// What a command says that a signal ends and that has a store.
+/// Message of an interrupted command that has a store.
 inline constexpr const char* kInterrupted =
-    "trammel: interrupted; with --resume the same command does what is missing\n";
+    "trammel: interrupted; with --resume the same command computes the rest\n";
 
-/// @throws InputError  where a report could not be drawn: before any work is done.
+/// Checks that reports can be drawn, before any work is done.
+/// @throws InputError  if a report cannot be drawn.
 void require_drawing(const Renderers& renderers);
 
-/// Runs the program. @returns 0: every gate holds, 1: a check failed, 2: bad usage or input, 3: our
-/// own fault.
-/// @throws std::bad_alloc  where memory runs out.
-/// @param arguments  the command line without the program's name
+/// Runs the program.
+/// @param arguments  the command line without the program's name.
+/// @returns 0 if every gate holds, 1 if a check failed, 2 for bad usage or input, 3 for an internal
+///   error.
+/// @throws std::bad_alloc  if memory is exhausted.
 [[nodiscard]] int run_command_line(const std::vector<std::string>& arguments,
                                    const Renderers& renderers);
 

@@ -85,7 +85,7 @@ std::string describe_check(const Check& check) {
              : text;
 }
 
-/// Title, source and remarks of a reference.
+/// Prints title, source and remarks of a reference.
 void print_reference(const CitedReference& cited) {
   const auto& [reference, source] = cited;
   std::cout << "  " << reference.id << "  (" << to_string(reference.kind) << ", "
@@ -126,8 +126,8 @@ void describe_inputs(const Case& given, const References& references) {
   std::cout << "\nInput uncertainties\n";
   Rows table({"input", "half width", "", "why"});
   for (const results::UncertainInput& input : stated_inputs(base, references))
-    table.add({input.name, *input.half_width, input.nominal ? "in the literal reading alone" : "",
-               input.why});
+    table.add({input.name, *input.half_width,
+               input.nominal ? "only if nominal lengths are taken literally" : "", input.why});
   table.print(std::cout, "  ");
 }
 
@@ -146,7 +146,7 @@ void describe_sweeps(const Case& given) {
   }
 }
 
-/// A row for each value.
+/// Returns a row for each value.
 Rows value_rows(const std::vector<CitedReference>& all) {
   Rows rows({"id", "title", "kind", "unit", "index", "value", "uncertainty", "printed", "source",
              "place", "notes"});
@@ -190,7 +190,7 @@ void print_values(const CitedReference& cited) {
   table.print(std::cout, "  ");
 }
 
-/// The quantities of all analyses.
+/// Returns the quantities of every analysis.
 Rows analysis_rows() {
   Rows rows({"analysis", "quantity", "unit", "meaning"});
   for (const AnalysisKind& kind : analysis_kinds())
@@ -200,7 +200,7 @@ Rows analysis_rows() {
   return rows;
 }
 
-/// Of a quantity of the case, which in a study may be one of the analysis that is studied.
+/// Returns the meaning of a quantity of the case. In a study it may belong to the studied analysis.
 std::string meaning_of(const std::string& name, const Document& document) {
   const std::string analysis = analysis_kind(document);
   const auto* found = results::find_quantity_definition(name, analysis);
@@ -212,7 +212,7 @@ std::string meaning_of(const std::string& name, const Document& document) {
   return found == nullptr ? "" : found->meaning;
 }
 
-/// The quantities of a case, which is computed.
+/// Computes a case and returns its quantities.
 Rows quantity_rows(const Case& given) {
   const Document document = patched(given, kBaseVariant);
   Rows rows({"quantity", "entries", "unit", "meaning"});
@@ -260,7 +260,7 @@ int describe_command(const CommandOptions& options, const Renderers& /*renderers
             << given.file.string() << '\n';
   if (given.variants().size() > 1) {
     std::cout << "\nVariants\n";
-    Rows table({"name", "what it changes"});
+    Rows table({"name", "title"});
     for (const std::string& variant : given.variants())
       if (variant != kBaseVariant) table.add({variant, given.variant_title(variant)});
     table.print(std::cout, "  ");

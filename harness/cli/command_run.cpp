@@ -37,7 +37,7 @@ struct Selection {
   std::vector<Run> broken;
 };
 
-/// Bad files among several must not take the good ones' results with them.
+/// Unreadable files do not prevent the results of the others.
 Selection load(const std::vector<std::filesystem::path>& files, const Catalogue& catalogue) {
   Selection selection;
   for (const auto& file : files) {
@@ -103,15 +103,14 @@ void print_run_errors(const std::vector<Run>& runs) {
   std::vector<std::string> told;
   for (const Run& run : runs) {
     if (run.fault == results::Fault::none) continue;
-    // Variants of one case often have one and the same fault.
+    // Variants of one case often have the same error.
     if (contains(told, run.reason)) continue;
     told.push_back(run.reason);
     std::cerr << run.reason << '\n';
   }
 }
 
-/// The cases that are named, and those with the labels; the whole catalogue where there are
-/// neither.
+/// Selects the named cases and those with the labels, or the full catalogue if there are neither.
 Selection select(const CommandOptions& options) {
   const Catalogue catalogue;
   if (is_catalogue(options)) return load(catalogue.runnable_files(), catalogue);
@@ -137,17 +136,17 @@ Selection select(const CommandOptions& options) {
   return selection;
 }
 
-/// Does work that leaves what it finds in the store, each in a process of its own.
-/// @returns whether all of it came to its end
+/// Runs work in separate processes. The work leaves its results in the store.
+/// @returns whether all of it was completed
 bool do_in_processes(const std::vector<std::function<void()>>& work, unsigned jobs,
                      const std::string& items) {
-  constexpr unsigned kLimit = 3600;  // [s]; each computation in it has a limit of its own
+  constexpr unsigned kLimit = 3600;  // [s]; each computation in it has a separate limit
   std::vector<ProcessTask> tasks;
   for (const auto& one : work) {
     const auto done = [&one] {
       try {
         one();
-      } catch (const InputError&) {  // told by who reads the store
+      } catch (const InputError&) {  // reported by the reader of the store
         return std::string("not done");
       }
       return std::string();
@@ -177,7 +176,8 @@ bool is_results_file(const std::string& name) {
   }
 }
 
-/// Computes nothing: one file becomes a report as it is, several a page of codes side by side.
+/// Renders existing results without computing: a single file as a report, several files as a page
+/// that compares codes.
 int report_results(const CommandOptions& options, const Renderers& renderers) {
   const std::vector<std::filesystem::path> files(options.words.begin(), options.words.end());
   if (files.size() > 1)
@@ -200,7 +200,7 @@ int report_results(const CommandOptions& options, const Renderers& renderers) {
   return 0;
 }
 
-/// The selection in words that mean the same in another folder.
+/// Returns the selection in a form that does not depend on the working folder.
 Json selection_of(const CommandOptions& options) {
   Json cases = Json::array();
   for (const std::string& word : options.words) {
@@ -215,7 +215,7 @@ Json selection_of(const CommandOptions& options) {
           {"variant", options.variant}};
 }
 
-/// Computes a part of what is selected and judges nothing.
+/// Computes a part of the selection without judging it.
 int compute_shard(const CommandOptions& options) {
   const Shard shard = shard_from(options.shard);
   const Selection selection = select(options);
@@ -241,7 +241,8 @@ int add_studies(results::Results& results, const std::vector<Case>& cases,
   const bool resume = !options.fresh;
   std::vector<std::function<void()>> studies = quick_cost_work(references, store, resume);
   for (auto& work : effect_scene_work(store, resume)) studies.push_back(std::move(work));
-  // Finished work is in the store. The rest is done, or reported as impossible, here.
+  // Completed work is read from the store. Remaining work is computed here, or reported as
+  // impossible.
   const bool measured = do_in_processes(studies, options.jobs, "studies of cost and effects");
   std::vector<std::string> error_messages;
   results.cost = quick_cost(references, store, resume || measured, error_messages);
@@ -321,7 +322,7 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
   const std::size_t stored = std::ranges::count_if(options.words, is_results_file);
   if (stored > 0) {
     if (stored < options.words.size() || !options.labels.empty() || !options.any_labels.empty())
-      throw InputError("expected cases, or results files alone; each file has to be there");
+      throw InputError("expected either cases or existing results files");
     return report_results(options, renderers);
   }
   require_drawing(renderers);
@@ -329,7 +330,7 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
   resuming.resume = !options.fresh;
   const Selection selection = select(resuming);
   const OutputLock lock(options.out);
-  end_on_signals("trammel: interrupted; the same command does what is missing\n");
+  end_on_signals("trammel: interrupted; the same command computes the rest\n");
   const References references;
   std::vector<Run> computed = compute(selection, references, resuming);
   require_complete(computed);

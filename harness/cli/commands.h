@@ -14,54 +14,56 @@
 #include "harness/results/cost_results.h"
 #include "harness/results/results.h"
 
-/// The commands of the program: each reads its options, prints and returns the exit status.
+/// Commands of the program. Each reads its options, prints its results and returns the exit status.
 namespace trammel::harness {
 
-/// The words of a command line. A command ignores what it has no option for.
+/// Options of a command line. A command ignores those that it does not declare.
 struct CommandOptions {
-  std::vector<std::string> words;  ///< arguments without a dash: cases, files, folders, names
-  std::string word;                ///< the same of a command that has one
-  std::vector<std::string> labels, any_labels;  ///< all of them, one of them
+  std::vector<std::string> words;       ///< positional arguments: cases, files, folders, names
+  std::string word;                     ///< single positional argument of commands that have one
+  std::vector<std::string> labels;      ///< all of them
+  std::vector<std::string> any_labels;  ///< at least one of them
   std::string variant;
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
-  std::string out;    ///< folder; of `export` and `solve` a file; empty: standard output
-  std::string store;  ///< folder; empty: in `out`
+  std::string out;    ///< folder; a file for `export` and `solve`; empty: standard output
+  std::string store;  ///< folder; empty: a subfolder of `out`
   bool resume = false, fresh = false;
-  bool any_machine = false;                         ///< resumes also with times of another machine
-  std::size_t memory_bytes = memory_limit_bytes();  ///< of one run; 0: no limit
+  bool any_machine = false;  ///< with --resume: also reuses times of another machine
+  std::size_t memory_bytes = memory_limit_bytes();  ///< memory limit of one run; 0: none
   bool json = false, csv = false;
 
-  std::string shard;    ///< of `run`: "K/N"
-  std::string history;  ///< SQLite file that the call is added to; empty: none
+  std::string shard;    ///< for `run`: "K/N"
+  std::string history;  ///< SQLite file to which the call is added; empty: none
   bool single_file = false;
   bool vtk = false;
 
-  std::string html;  ///< of `compare`: file of the page; empty: none
+  std::string html;  ///< for `compare`: file of the page; empty: none
   bool gate = false;
 
-  std::vector<std::string> sweeps;  ///< of the cases of `cost` and `export`; empty: all
+  std::vector<std::string> sweeps;  ///< for the cases of `cost` and `export`; empty: all
   bool quick = false;
   int repeats = 7;
   std::size_t seed = 1;
-  bool all_errors = false, no_errors = false;  ///< estimates of discretization errors
-  double warn_above = 0.01;                    ///< relative error
-  double accuracy = 0;  ///< mesh and step are searched for this relative error; 0: they are not
-  std::vector<std::string> quantities;  ///< that the search considers
-  double time_limit_s = 120;            ///< of the search
+  /// Estimate discretization errors of all cases, or of none.
+  bool all_errors = false, no_errors = false;
+  double warn_above = 0.01;  ///< relative error
+  double accuracy = 0;       ///< relative error for the search of mesh and step; 0: no search
+  std::vector<std::string> quantities;  ///< quantities considered by the search
+  double time_limit_s = 120;            ///< time limit of the search
 
-  double tolerance = 0.01;  ///< of `effects`, relative
+  double tolerance = 0.01;  ///< for `effects`, relative
 
-  std::vector<std::string> builds;  ///< of `certify`: results.json of the same cases
-  bool gaps = false;                ///< of `coverage`: only rows without independent evidence
+  std::vector<std::string> builds;  ///< for `certify`: results.json of the same cases
+  bool gaps = false;                ///< for `coverage`: only rows without independent evidence
 
-  int level = -1;  ///< of the sweep that `export` writes; -1: the case itself
+  int level = -1;  ///< level of the sweep written by `export`; -1: the case itself
   std::string matrices;
 
-  std::string adapter;                                ///< of `grade`: the program, with arguments
-  double max_time_s = 120;                            ///< wall time of one call of the adapter
-  std::size_t max_disk_bytes = std::size_t{1} << 30;  ///< of its files
-  std::size_t shard_count = 0;                        ///< of `slurm`
-  std::string job_time;  ///< as sbatch reads it; empty: the partition's default
+  std::string adapter;      ///< for `grade`: the program with its arguments
+  double max_time_s = 120;  ///< wall time limit of one call of the adapter
+  std::size_t max_disk_bytes = std::size_t{1} << 30;  ///< limit of the adapter's files
+  std::size_t shard_count = 0;                        ///< for `slurm`
+  std::string job_time;  ///< in the format of sbatch; empty: default of the partition
 };
 
 using Command = int(const CommandOptions& options, const Renderers& renderers);
@@ -73,46 +75,46 @@ Command cost_command, effects_command;
 Command claims_command, paper_command, coverage_command;
 Command export_command, solve_command, grade_command;
 
-/// The cases that are named, and those with the labels; the full catalogue if there are neither.
+/// Returns the named cases and those with the labels, or the full catalogue if there are neither.
 /// @throws InputError  if one of them cannot be read.
 [[nodiscard]] std::vector<Case> select_cases(const CommandOptions& options);
 
-/// Name or file of a case and its variant, "" without one: "portal-frame:lumped". A colon in the
-/// name of a folder or of a file that exists starts no variant.
+/// Splits "portal-frame:lumped" into a case and its variant, "" without one. A colon in the name of
+/// a folder or of an existing file does not separate a variant.
 [[nodiscard]] std::pair<std::string, std::string> parted(const std::string& name);
 
-/// The results file that a name means: the file itself, or results.json in the folder.
+/// Returns the results file for a name: the file itself, or results.json in the folder.
 [[nodiscard]] std::filesystem::path results_path(const std::string& name);
-/// The JSON of a results file; null of a file that holds no results.
+/// Returns the JSON of a results file, or null if the file contains no results.
 /// @throws InputError  if a file named *.json cannot be read
 [[nodiscard]] Json read_if_results(const std::filesystem::path& file);
 
-/// The folder that computations are kept in.
+/// Returns the folder of stored computations.
 /// @throws InputError  if a link would lead out of `out`.
 [[nodiscard]] std::filesystem::path store_folder(const std::string& out, const std::string& store);
 
-/// Writes results.json, junit.xml if there are runs, and the pages, all of them or nothing.
+/// Writes results.json, junit.xml (if there are runs) and the pages, completely or not at all.
 /// @returns the first page
 [[nodiscard]] std::filesystem::path write_pages(const results::Results& results,
                                                 const std::string& out, bool single_file,
                                                 const Renderers& renderers);
 
-/// Measures the quick sweep of each study of the catalogue into the store.
-/// @throws InputError  from the work: the message that `quick_cost` reports for the study
+/// Returns functions that measure the quick sweep of each study of the catalogue into the store.
+/// @throws InputError  from the functions, with the message that `quick_cost` reports for the study
 [[nodiscard]] std::vector<std::function<void()>> quick_cost_work(const References& references,
                                                                  const std::filesystem::path& store,
                                                                  bool resume);
 
-/// Measures the selection of effects in each scene of the catalogue into the store.
+/// Returns functions that measure the selection of effects in each scene of the catalogue.
 [[nodiscard]] std::vector<std::function<void()>> effect_scene_work(
     const std::filesystem::path& store, bool resume);
 
-/// The same as in results.json.
+/// Returns the scenes of the catalogue as stored in results.json.
 [[nodiscard]] std::vector<results::EffectScene> catalogue_effect_scenes(
     const std::filesystem::path& store, bool resume);
 
-/// The quick sweep of every study of the catalogue, as in results.json.
-/// @param error_messages  gets a line for each study that could not be measured
+/// Returns the quick sweep of every study of the catalogue as stored in results.json.
+/// @param error_messages  receives a line for each study that could not be measured
 [[nodiscard]] results::CostStudies quick_cost(const References& references,
                                               const std::filesystem::path& store, bool resume,
                                               std::vector<std::string>& error_messages);

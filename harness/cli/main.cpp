@@ -8,11 +8,11 @@
 #include "reports/page/report.h"
 
 int main(int argc, char** argv) {
-  // Where a standard stream is closed, no file that is opened later takes its place.
+  // Opens closed standard streams, so that files opened later do not replace them.
   int null = 0;
   while (null >= 0 && null <= STDERR_FILENO) null = open("/dev/null", O_RDONLY);
   close(null);
-  // Large matrices come and go: the pages of one serve the next.
+  // Memory of large matrices is kept for reuse instead of being returned to the system.
   for (const int threshold : {M_MMAP_THRESHOLD, M_TRIM_THRESHOLD}) mallopt(threshold, 1 << 30);
   trammel::harness::end_without_memory(2, "trammel: expected a machine with more free memory\n");
   const std::vector<std::string> arguments(argv + 1, argv + argc);

@@ -35,7 +35,7 @@ class FeatureWalk {
   }
 
  private:
-  /// @param value  null: all that the rule allows
+  /// @param value  null: all values allowed by the rule
   void visit(const SchemaRule& stated, const Json* value, const std::string& context) {
     if (const SchemaRule* reference = keyword(stated, "$ref")) {
       const std::string path = text_of(*reference);
@@ -82,13 +82,13 @@ class FeatureWalk {
   std::set<std::string> seen_;
 };
 
-/// The key below "analysis".
+/// Returns the key below "analysis".
 std::string analysis_name(const Json& document) {
   const Json& analysis = document.at("analysis");
   return analysis.empty() ? "" : analysis.begin().key();
 }
 
-/// The features that name what a model is made of: parts, elements and joints.
+/// Returns the features that name components of a model: parts, elements and joints.
 CaseFeatures parts_of(const CaseFeatures& features) {
   static constexpr std::array<std::string_view, 24> parts = {
       "model.members",        "model.plates",
@@ -124,7 +124,7 @@ std::string kind_of(references::ReferenceKind kind) {
   }
 }
 
-/// What a check is evidence of; empty: of nothing.
+/// Returns the kind of evidence that a check provides; empty: none.
 std::string kind_of(const Check& check, const Document& document, const References& references) {
   const bool only_shown = check.role == Role::validation && check.windows.empty();
   if (check.negative_control || only_shown || check.expectation == Expectation::known_discrepancy)
@@ -143,7 +143,8 @@ std::string kind_of(const Check& check, const Document& document, const Referenc
   return analysis == "manufactured" ? "manufactured" : "self-consistency";
 }
 
-/// "modes: frequency_Hz", of a study the analysis that it repeats; empty: of none.
+/// Returns "modes: frequency_Hz"; for a study, with the analysis that it repeats. Empty: the
+/// quantity belongs to no analysis.
 std::string quantity_row(const std::string& quantity, const std::string& analysis) {
   const auto* definition = results::find_quantity_definition(quantity, analysis);
   return definition == nullptr ? "" : analysis + ": " + definition->name;
@@ -190,7 +191,8 @@ class Coverage {
   std::map<std::pair<std::string, std::string>, Kinds> rows_;
 };
 
-/// Whether a name stated is the feature; "*: time_s" is that quantity of all analyses.
+/// Returns true if a stated name denotes the feature. "*: time_s" denotes this quantity for every
+/// analysis.
 bool means(const std::string& stated, const std::string& feature) {
   if (stated.rfind("*: ", 0) != 0) return stated == feature;
   const std::string end = stated.substr(1);

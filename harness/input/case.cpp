@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What one case takes from another: how things are computed, not what is judged.
+/// Returns the keys that a case inherits from another one: the computation, but not its judgment.
 Json inherited(const Json& base) {
   Json inherited_keys = Json::object();
   for (const char* key : {"model", "analysis", "effects", "variants", "sweeps", "uncertainty"}) {
@@ -34,7 +34,7 @@ Json inherited(const Json& base) {
   return inherited_keys;
 }
 
-/// Lays the file over all that it extends, outermost first.
+/// Applies the file over all cases that it extends, outermost first.
 void apply_with_bases(Document& document, const fs::path& file, const Catalogue& catalogue,
                       std::vector<fs::path> seen) {
   const Json json = read_json(file);
@@ -57,7 +57,7 @@ void apply_with_bases(Document& document, const fs::path& file, const Catalogue&
 void check_names(const Case& given) {
   const JsonView root(given.document);
   const std::string stem = given.file.stem().string();
-  if (given.id() != stem && !root.has("export")) {  // which stands in any file
+  if (given.id() != stem && !root.has("export")) {  // which may be in a file of any name
     throw root["id"].error("expected the file's name, '" + printable(stem) + "' (got '" +
                            printable(given.id()) + "')");
   }
@@ -68,7 +68,7 @@ void check_names(const Case& given) {
   }
 }
 
-/// Indicators of the stress suite are checks of the case.
+/// Requires each indicator of the stress suite to be a check of the case.
 void check_indicators(const Case& given) {
   const JsonView root(given.document);
   if (!root.has("stress_suite")) return;
@@ -86,8 +86,8 @@ InputError no_such_place(const JsonView& pointer, const std::string& guess) {
                        printable(pointer.get<std::string>()) + "')" + guess);
 }
 
-/// What the schema has against a key that a pointer names and the document does not have: nothing
-/// where the key is one that stands for a default, as /model/elements.
+/// Returns the schema violation of adding a key at a pointer. A key that replaces a default, such
+/// as /model/elements, is no violation.
 std::optional<SchemaFault> schema_error_of_new_key(const Json& document, const JsonPointer& pointer,
                                                    const Json& value) {
   const SchemaFault nowhere{pointer.to_string(), ""};
@@ -99,7 +99,7 @@ std::optional<SchemaFault> schema_error_of_new_key(const Json& document, const J
   return schema_error && schema_error->pointer == pointer.to_string() ? schema_error : std::nullopt;
 }
 
-/// @throws InputError where the pointer names neither a value nor a key that may be added
+/// @throws InputError  if the pointer leads neither to a value nor to a key that may be added
 void require_place(const Document& document, const JsonView& pointer, const Json& value) {
   const auto text = pointer.get<std::string>();
   try {
@@ -172,7 +172,7 @@ Document patched(const Case& given, const std::string& variant) {
     document.apply_patch(written.file, written.pointer, patch);
   }
   if (variant != kBaseVariant)
-    document.validate("case");  // load_case has validated the case itself
+    document.validate("case");  // load_case has already validated the case itself
   return document;
 }
 
@@ -188,7 +188,8 @@ void require_pointer(const Document& document, const JsonView& pointer) {
 }
 
 Json patch_at(const Json& document, const std::string& pointer, const Json& value) {
-  // From the inside out; a patch replaces arrays whole, so an item is set in a copy of its array.
+  // Builds the patch from the inside out. A patch replaces complete arrays, so an item is set in a
+  // copy of its array.
   Json nested = value;
   for (JsonPointer place(pointer); !place.empty(); place.pop_back()) {
     const Json& around = document.at(place.parent_pointer());
@@ -249,9 +250,9 @@ void warn_of_degrees(const Json& json, const std::string& at, std::vector<std::s
   }
 }
 
-using Lengths = std::set<std::pair<double, std::string>>;  // [m], with pointers to them
+using Lengths = std::set<std::pair<double, std::string>>;  // lengths [m] with their pointers
 
-/// Warns of the largest length if it is more than a hundred times the next one.
+/// Warns about the largest length if it is more than a hundred times the next one.
 void warn_of_millimeters(const Lengths& lengths, std::vector<std::string>& warnings) {
   if (lengths.size() < 2) return;
   const auto& [largest, place] = *lengths.rbegin();

@@ -16,13 +16,13 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kOtherRooms[] = {"/schema/", "/cost/", "/claims/"};
 
-/// Whether a file below the catalogue's folder lies in a room that holds something else than cases.
+/// Returns true if a file below the catalogue's folder is in a subfolder without cases.
 bool is_no_case(std::string_view path_below) {
   return std::ranges::any_of(kOtherRooms,
                              [&](std::string_view room) { return path_below.starts_with(room); });
 }
 
-/// Nothing a user types as a name may leave the catalogue's folder.
+/// Rejects names that would leave the catalogue's folder.
 bool is_name(const std::string& text) {
   return text.find('/') == std::string::npos && !text.empty() && text.front() != '.';
 }
@@ -46,7 +46,7 @@ Catalogue::Catalogue(const fs::path& folder) : files_(references::json_files(fol
 
 bool Catalogue::has_analysis(const fs::path& file, int depth) const {
   const Json json = read_json(file);
-  if (!json.is_object()) return true;  // broken: for load_case to say
+  if (!json.is_object()) return true;  // malformed: load_case reports it
   if (json.contains("analysis")) return true;
   if (!json.contains("extends") || !json["extends"].is_string() || depth > 20) return false;
   return has_analysis(find_base_case(json["extends"].get<std::string>(), file), depth + 1);

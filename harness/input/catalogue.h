@@ -9,24 +9,24 @@
 
 namespace trammel::harness {
 
-/// The case files of all rooms of a folder, listed once.
+/// The case files below a folder, listed once.
 class Catalogue {
  public:
-  /// The catalogue of the data.
+  /// Lists the catalogue of the installation.
   Catalogue();
-  /// @throws InputError  that names both files, where two rooms have a case of one name.
+  /// @throws InputError  with both files, if two folders contain a case of the same name.
   explicit Catalogue(const std::filesystem::path& folder);
 
-  /// Files that can be run, by name. A file without an analysis of its own or inherited is there to
-  /// be extended.
+  /// Returns the files that can be run, by name. A file without an analysis, direct or inherited,
+  /// exists only to be extended.
   [[nodiscard]] std::vector<std::filesystem::path> runnable_files() const;
 
-  /// The file meant by a name of the catalogue or by a path.
-  /// @throws InputError  with the nearest name, where there is none.
+  /// Returns the file of a catalogue name or path.
+  /// @throws InputError  with the nearest name, if there is none.
   [[nodiscard]] std::filesystem::path find_case(const std::string& name_or_file) const;
 
-  /// The file meant by "extends" in `from`: relative to that file, or a name of the catalogue.
-  /// @throws InputError  where there is none.
+  /// Returns the file of "extends" in `from`: relative to that file, or a name of the catalogue.
+  /// @throws InputError  if there is none.
   [[nodiscard]] std::filesystem::path find_base_case(const std::string& name_or_file,
                                                      const std::filesystem::path& from) const;
 
@@ -43,7 +43,7 @@ class Catalogue {
   std::vector<std::pair<std::string, std::string>> files_;  ///< by id, which is the file's name
 };
 
-/// The case meant by a name of the catalogue or by a path.
+/// Loads the case of a catalogue name or path.
 /// @throws InputError  as Catalogue::find_case and load_case.
 [[nodiscard]] Case load_named_case(const std::string& name_or_file);
 

@@ -21,7 +21,7 @@ void require_variant(const JsonView& place, const std::vector<std::string>& vari
   throw place.error(unknown_name("a variant of the case", name, variants));
 }
 
-/// The one key of those that is there.
+/// Returns the only one of the keys that is present.
 std::string exactly_one(const JsonView& place, const std::vector<std::string>& keys) {
   std::string found;
   int count = 0;
@@ -58,7 +58,7 @@ void read_bound(const JsonView& place, Check& check) {
   check.why = place.text("why");
 }
 
-/// What the sweep says of the quantity alone.
+/// Returns the settings of a sweep that apply to this quantity alone.
 Json followed(const Json& sweep, const std::string& quantity) {
   return sweep.value("quantities", Json::object()).value(quantity, Json::object());
 }
@@ -93,7 +93,7 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
                          wave->number("at_most"), wave->pointer()};
   }
   if (const auto term = place.find("leading_term")) {
-    if (!order.wave_number) throw term->error("expected 'wave_number' beside it");
+    if (!order.wave_number) throw term->error("'leading_term' requires 'wave_number'");
     order.leading_term = {term->number("coefficient"), term->number("within"),
                           term->get<std::string>("share", ""), term->pointer()};
   }
@@ -101,7 +101,7 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
   return order;
 }
 
-/// A discrepancy that is allowed to be zero could never stop being true.
+/// Rejects a known discrepancy that allows zero, because it could never be detected as resolved.
 void require_discrepancy(const JsonView& place, const Check& check) {
   const bool is_difference =
       check.measure == Measure::relative || check.measure == Measure::absolute;
@@ -110,17 +110,17 @@ void require_discrepancy(const JsonView& place, const Check& check) {
       std::ranges::all_of(check.windows, [](const Window& window) { return window.contains(0); });
   if (everywhere) {
     throw place.error(
-        "expected a window without 0: a known discrepancy that allows none can never "
-        "stop being true");
+        "expected a window without 0: a known discrepancy whose window contains 0 "
+        "cannot be detected as resolved");
   }
 }
 
-/// The decimal number that a sum of decimal numbers is: 0.033 for 0.038 - 0.005.
+/// Removes round-off from a sum of decimal numbers: 0.033 for 0.038 - 0.005.
 double decimal(double sum) {
   return std::isfinite(sum) ? std::strtod(rounded(sum, 15).c_str(), nullptr) : sum;
 }
 
-/// Stated values with one half width for all: v - w, v + w.
+/// Returns the windows [v - w, v + w] for stated values v and one half width w.
 std::vector<Window> windows_around(const JsonView& values, double half_width) {
   std::vector<Window> windows;
   const auto add = [&](double value) {
@@ -151,8 +151,8 @@ void read_expectation(const JsonView& place, Check& check) {
   const std::string measure = key.substr(0, key.find('_'));
   const bool is_value = measure == key;
   if (is_value != place.has("within")) {
-    throw place.error(is_value ? "expected 'within' beside '" + key + "'"
-                               : "expected '" + measure + "' beside 'within' (got '" + key + "')");
+    throw place.error(is_value ? "'" + key + "' requires 'within'"
+                               : "'within' requires '" + measure + "' (got '" + key + "')");
   }
   check.measure = static_cast<Measure>(std::ranges::find(kMeasures, measure) - kMeasures.begin());
   check.windows =
@@ -169,9 +169,9 @@ void require_target(const JsonView& place, const Check& check) {
     throw place.error("expected either 'reference' or 'against_variant', 'against_quantity'");
   }
   if (check.against_quantity == check.quantity && check.against_variant.empty())
-    throw place["against_quantity"].error("expected another quantity: every number is what it is");
+    throw place["against_quantity"].error("expected a quantity other than the checked one");
   if (!check.reference_index.empty() && check.reference.empty()) {
-    throw place["reference_index"].error("expected 'reference' beside it");
+    throw place["reference_index"].error("'reference_index' requires 'reference'");
   }
   const bool of_errors = check.order && check.order->of_errors;
   const bool needs = !of_errors && (check.order || check.measure != Measure::value);
@@ -182,14 +182,14 @@ void require_target(const JsonView& place, const Check& check) {
   if (!needs && targets > 0) {
     throw place.error("expected nothing to compare with: " +
                       std::string(of_errors ? "the quantity is an error already"
-                                            : "a bound looks at the value alone"));
+                                            : "a bound applies to the value alone"));
   }
   if (check.order && !of_errors && check.reference.empty()) {
     throw place.error("expected 'reference' with the exact values for 'order'");
   }
 }
 
-/// How the role lets the check be judged.
+/// Reads the criterion of the check, which depends on its role.
 void read_criterion(const JsonView& place, const Document& document, Check& check) {
   if (check.role == Role::validation) {
     for (const char* key : {"tolerance", "bound", "order"}) {
@@ -203,7 +203,7 @@ void read_criterion(const JsonView& place, const Document& document, Check& chec
     if (place.has("expect")) read_expectation(place["expect"], check);
     return;
   }
-  if (place.has("expect")) throw place["expect"].error("expected it in a validation only");
+  if (place.has("expect")) throw place["expect"].error("expected only in a validation");
   const std::string key = exactly_one(place, {"tolerance", "bound", "order"});
   if (key == "tolerance") read_tolerance(place[key], check);
   if (key == "bound") read_bound(place[key], check);
@@ -234,7 +234,7 @@ Check read_check(const std::string& name, const JsonView& place, const Document&
       check.negative_control->index = index->get<std::size_t>();
     check.why = control->text("why");
   }
-  // What is particular to a variant is stated once, for all its checks.
+  // The description of a variant is stated once and applies to all its checks.
   const auto variant_text = JsonView(document).get<std::string>("description", "");
   if (check.expectation == Expectation::known_discrepancy && !variant_text.empty()) {
     check.why = variant_text + " " + check.why;
@@ -246,7 +246,7 @@ bool applies(const JsonView& place, const std::string& variant,
              const std::vector<std::string>& variants) {
   if (place.has("against_variant")) {
     require_variant(place["against_variant"], variants);
-    // A variant is not judged against itself.
+    // A variant is not compared with itself.
     const auto quantity = place.text("quantity");
     if (place.text("against_variant") == variant &&
         place.get("against_quantity", quantity) == quantity) {

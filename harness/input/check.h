@@ -7,30 +7,30 @@
 #include "harness/input/json_view.h"
 #include "harness/results/run_results.h"
 
-/// What a case asks to be judged, as read from "checks".
+/// Checks of a case, as read from "checks".
 namespace trammel::harness {
 
 enum class Role { verification, validation, regression };
 template <>
 inline constexpr std::array kWords<Role> = {"verification", "validation", "regression"};
 
-/// What is measured of a computed value: its difference from the expected one relative to that, the
-/// difference itself, their ratio, or the value.
+/// Compared measure of a computed value: relative difference from the expected value, absolute
+/// difference, ratio, or the value itself.
 enum class Measure { relative, absolute, ratio, value };
 
 using results::Expectation;
 
-/// Where the measure must lie; infinite where a side is open.
+/// Allowed interval of the measure; an open end is infinite.
 struct Window {
   double low = 0, high = 0;
   [[nodiscard]] bool contains(double value) const { return low <= value && value <= high; }
 };
 
-/// Reads [low, high], null where a side is open.
-/// @throws InputError  if both sides are open, or the lower limit is above the upper.
+/// Reads [low, high]; null denotes an open end.
+/// @throws InputError  if both ends are open, or the lower limit is above the upper.
 [[nodiscard]] Window read_window(const JsonView& place);
 
-/// Demands on the observed order of convergence.
+/// Requirements for the observed order of convergence.
 struct OrderCriterion {
   struct WaveNumber {
     std::string reference;
@@ -40,24 +40,24 @@ struct OrderCriterion {
   };
   struct LeadingTerm {
     double coefficient = 0, within = 0;
-    std::string share;  ///< a reference; empty: 1
+    std::string share;  ///< share of the leading term, a reference; empty: 1
     std::string pointer;
   };
   std::string sweep;
-  double within = 0;                      ///< of the order; not used with `two_term_within`
-  std::optional<double> two_term_within;  ///< of the two-term law instead
+  double within = 0;  ///< tolerance of the order; not used with `two_term_within`
+  std::optional<double> two_term_within;  ///< tolerance of the two-term law, instead of `within`
   std::size_t meshes = 3;
-  bool of_errors = false;  ///< the quantity is an error itself, and needs no reference
+  bool of_errors = false;  ///< the quantity is itself an error and needs no reference
   std::optional<WaveNumber> wave_number;
   std::optional<LeadingTerm> leading_term;
   std::optional<double> richardson_within;
 };
 
-/// What a check that is wrong on purpose must come to.
+/// Required outcome of a check that is wrong on purpose.
 struct NegativeControl {
   std::string verdict;               ///< of its worst entry: "fail" or "error"
-  std::string message;               ///< a part of what is said of it
-  std::optional<std::size_t> index;  ///< of the worst entry, where that is tried
+  std::string message;               ///< required part of its message
+  std::optional<std::size_t> index;  ///< of the worst entry, if it is checked
 };
 
 struct Check {
@@ -65,24 +65,25 @@ struct Check {
   std::vector<std::size_t> index, reference_index;  ///< empty: all
   Role role = Role::verification;
   Measure measure = Measure::relative;
-  std::vector<Window> windows;  ///< one for all entries, or one for each
-  bool symmetric = false;       ///< a tolerance: the window is -t, t
+  std::vector<Window> windows;  ///< one for all entries, or one per entry
+  bool symmetric = false;       ///< a tolerance: the window is [-t, t]
   Expectation expectation = Expectation::agrees;
   std::string why;
   std::optional<OrderCriterion> order;
   std::optional<NegativeControl> negative_control;
-  std::vector<std::string> validation_verdicts;  ///< of V&V 20, by entry; empty: not recorded
-  std::string pointer;                           ///< where it stands in the case
+  /// After ASME V&V 20, per entry; empty: not recorded.
+  std::vector<std::string> validation_verdicts;
+  std::string pointer;  ///< its place in the case
 
   [[nodiscard]] bool has_target() const {
     return !reference.empty() || !against_variant.empty() || !against_quantity.empty();
   }
 };
 
-/// The checks that apply to a variant of the case.
+/// Reads the checks that apply to a variant of the case.
 /// @param document  the case with the variant's patch
 /// @param variants  names of all variants of the case
-/// @throws InputError  where a check contradicts itself.
+/// @throws InputError  if a check contradicts itself.
 [[nodiscard]] std::vector<Check> read_checks(const Document& document, const std::string& variant,
                                              const std::vector<std::string>& variants);
 

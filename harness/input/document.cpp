@@ -5,11 +5,11 @@
 namespace trammel::harness {
 namespace {
 
-/// A value without the keys of objects that are null.
+/// Returns a value without the null members of its objects.
 Json without_nulls(const Json& value) {
   if (!value.is_object()) return value;
   Json kept = Json::object();
-  // Not through operator[], whose search makes the work grow with the square of the keys.
+  // operator[] would make the cost quadratic in the number of keys.
   Json::object_t::Container& members = kept.get_ref<Json::object_t&>();
   members.reserve(value.size());
   for (const auto& item : value.items())
@@ -17,7 +17,7 @@ Json without_nulls(const Json& value) {
   return kept;
 }
 
-/// RFC 7386; what the target does not have is taken over in one walk.
+/// Applies a merge patch (RFC 7386). Parts that the target lacks are copied in one pass.
 void merge(Json& target, const Json& patch) {
   if (!patch.is_object() || !target.is_object() || target.empty()) {
     target = without_nulls(patch);
@@ -50,7 +50,7 @@ Document Document::from_json(const std::string& file, const Json& json) {
 }
 
 void Document::apply_patch(const std::string& file, const std::string& origin, const Json& patch) {
-  // Variants are patches themselves, whose nulls mean something later.
+  // Variants are patches themselves; their nulls apply later.
   Json variants = value_.value("variants", Json());
   merge(value_, patch);
   if (const auto stated = patch.find("variants"); stated != patch.end() && stated->is_object()) {

@@ -3,7 +3,7 @@
 namespace trammel::harness {
 namespace {
 
-/// The pointer of a member; taken apart and put together again only where the key needs an escape.
+/// Returns the pointer of a member. The pointer is parsed only if the key needs an escape.
 std::string extended(const std::string& pointer, const std::string& key) {
   if (key.find_first_of("~/") != std::string::npos) return (JsonPointer(pointer) / key).to_string();
   return pointer + "/" + key;

@@ -10,12 +10,12 @@
 
 namespace trammel::harness {
 
-/// The words of a case for an enumeration, in the order of its values.
+/// Names of an enumeration's values in a case, in the order of the values.
 template <class Enum>
 inline constexpr std::array<const char*, 0> kWords{};
 
-/// A place in a document that has passed its schema: reads values, and complains about them by
-/// their file and pointer.
+/// A place in a document that satisfies its schema. It reads values and reports errors with file
+/// and pointer.
 class JsonView {
  public:
   explicit JsonView(const Document& document) : document_(&document), json_(&document.value()) {}
@@ -23,11 +23,11 @@ class JsonView {
   [[nodiscard]] bool has(const std::string& key) const;
   [[nodiscard]] JsonView operator[](const std::string& key) const;
   [[nodiscard]] JsonView operator[](std::size_t index) const;
-  /// The value of that key, if there is one.
+  /// Returns the value of a key if it is present.
   [[nodiscard]] std::optional<JsonView> find(const std::string& key) const;
-  /// Entries of an object, with their names; of an array, named by their numbers.
+  /// Returns the entries of an object with their names, or of an array with their indices as names.
   [[nodiscard]] std::vector<std::pair<std::string, JsonView>> entries() const;
-  /// Those of the value of a key; none where the key is missing.
+  /// Returns the entries of the value of a key; none if the key is missing.
   [[nodiscard]] std::vector<std::pair<std::string, JsonView>> entries(const std::string& key) const;
   [[nodiscard]] std::size_t size() const { return json_->size(); }
 
@@ -49,7 +49,7 @@ class JsonView {
     return (*this)[key].get<std::string>();
   }
 
-  /// One or several; none where the key is missing.
+  /// Returns one or several indices; none if the key is missing.
   [[nodiscard]] std::vector<std::size_t> indices(const std::string& key) const;
 
   [[nodiscard]] const Json& json() const { return *json_; }

@@ -25,7 +25,7 @@ bool is_in_catalogue(const fs::path& folder) {
   return !inside.empty() && *inside.begin() != "..";
 }
 
-/// Returns the file with the user's own references to a case. Cases of the catalogue have none.
+/// Returns the file with the user's references of a case. Cases of the catalogue have none.
 std::string own_file(const fs::path& case_file) {
   const fs::path folder = fs::absolute(case_file).parent_path();
   if (is_in_catalogue(folder) || case_file.filename() == kOwnFile) return {};
@@ -69,7 +69,7 @@ const std::vector<references::JsonMember>& References::members(const std::string
   Family& split = family(file);
   if (!split.members) split.members = references::json_members(split.file.text);
   if (!split.members) {
-    (void)read_json(file);  // reports the line, or the key that is there twice
+    (void)read_json(file);  // reports the line, or the duplicate key
     throw InputError(file, "", "expected an object");
   }
   return *split.members;

@@ -14,37 +14,38 @@
 
 namespace trammel::harness {
 
-/// A reference with what its source key stands for.
+/// A reference together with its source.
 struct CitedReference {
   references::Reference reference;
   references::Source source;
 };
 
-/// References by id, read once: from references.json next to the case file, else from the
+/// References by id, each read once: from references.json next to the case file, else from the
 /// catalogue. A place is the file of a reference and its JSON pointer: "FILE#/ID".
 class References {
  public:
-  /// @param id      a place that holds the id
-  /// @throws InputError  if there is no such reference, if two files have it, or if it is broken.
+  /// @param id  a place that contains the id
+  /// @throws InputError  if the reference is missing, is defined in two files, or is malformed.
   [[nodiscard]] const references::Reference& get(const JsonView& id) const;
 
-  /// Reads the reference at a place. @throws InputError  if it is missing or broken.
+  /// Reads the reference at a place.
+  /// @throws InputError  if it is missing or malformed.
   const references::Reference& add(const std::string& place) const;
 
   /// Returns the places of the catalogue's references by id.
-  /// @throws InputError  if a file is broken or has an id of another file.
+  /// @throws InputError  if a file is malformed or contains an id of another file.
   [[nodiscard]] std::map<std::string, std::string> catalogue() const;
 
-  /// Returns a hash for each place that was looked for, empty for places without a reference.
+  /// Returns a hash for each place requested so far; empty for places without a reference.
   [[nodiscard]] std::map<std::string, std::string> hashes() const;
-  /// Returns the hash of a reference with what its family has in common.
+  /// Returns the hash of a reference, including the data shared by its family.
   [[nodiscard]] std::string hash(const std::string& place) const;
 
-  /// All that were asked for so far, by id.
+  /// Returns all references requested so far, by id.
   [[nodiscard]] std::map<std::string, CitedReference> used() const;
 
  private:
-  /// A family file, read once and split on first use.
+  /// A file with a family of references, read once and split on first use.
   struct Family {
     references::FileText file;
     std::optional<std::vector<references::JsonMember>> members;
@@ -58,17 +59,18 @@ class References {
   [[nodiscard]] const std::vector<std::string>& catalogue_files() const;
   [[nodiscard]] const std::vector<Key>& catalogue_keys() const;
   [[nodiscard]] Family& family(const std::string& file) const;
-  /// @throws InputError  if the file is broken.
+  /// @throws InputError  if the file is malformed.
   [[nodiscard]] const std::vector<references::JsonMember>& members(const std::string& file) const;
   [[nodiscard]] bool exists(const std::string& file) const;
   [[nodiscard]] bool has(const std::string& file, const std::string& id) const;
-  /// Returns the place of the reference of a case. @throws InputError  if there is none.
+  /// Returns the place of a case's reference.
+  /// @throws InputError  if there is none.
   [[nodiscard]] std::string find(const std::string& name, const std::string& case_file,
                                  const JsonView& id) const;
   /// Returns the source of a key: from the bibliography next to the reference's file, else from
   /// that of the catalogue.
   [[nodiscard]] references::Source source(const std::string& key, const std::string& file) const;
-  /// Returns the place of a reference of the catalogue, or "".
+  /// Returns the place of a reference of the catalogue, or "" if there is none.
   [[nodiscard]] std::string find_in_catalogue(const std::string& id) const;
   [[nodiscard]] CitedReference read(const std::string& place) const;
 
@@ -77,7 +79,7 @@ class References {
   mutable std::map<std::string, Family> families_;
   mutable std::map<std::pair<std::string, std::string>, std::string> places_;  // by case and id
   mutable std::map<std::string, CitedReference> read_;                         // by place
-  mutable std::set<std::string> absent_;  // places that were looked for in vain
+  mutable std::set<std::string> absent_;  // places that were searched without success
 };
 
 }  // namespace trammel::harness

@@ -14,7 +14,7 @@ bool equals(const Json& value, const SchemaRule& choice) {
   return value.is_number() && choice.IsNumber() && value.get<double>() == choice.GetDouble();
 }
 
-/// The one pattern of the schemas, ^[A-Za-z0-9][A-Za-z0-9._-]*$, by hand: to compile it as a
+/// Matches the only pattern of the schemas, ^[A-Za-z0-9][A-Za-z0-9._-]*$. Compiling it as a
 /// std::regex takes seven million instructions.
 bool matches_name_pattern(const std::string& text) {
   const auto plain = [](unsigned char c) { return c < 128 && std::isalnum(c) != 0; };
@@ -35,19 +35,19 @@ bool has_all(const Json& object, const SchemaRule& keys) {
                      [&](const SchemaRule& key) { return object.contains(key.GetString()); });
 }
 
-/// Returns whether a number has no fraction, however it is written: 2, 2.0 and 2e0 alike.
+/// Returns true if a number has no fraction, in any notation: 2, 2.0 and 2e0 alike.
 bool is_whole(const Json& value) {
   if (!value.is_number_float()) return value.is_number_integer();
   return std::trunc(value.get<double>()) == value.get<double>();
 }
 
-/// Whether a value has one of the types of a rule.
+/// Returns true if a value has one of the types of a rule.
 bool has_type(const Json& value, const SchemaRule& rule) {
   return keyword(rule, "type") == nullptr || wants(rule, value.type_name()) ||
          (is_whole(value) && wants(rule, "integer"));
 }
 
-/// Whether a value obeys one keyword, but for its type and what is inside it.
+/// Returns true if a value satisfies one keyword, except its type and the rules of nested values.
 bool obeys(const Json& value, std::string_view name, const SchemaRule& limit) {
   if (name == "enum") {
     return std::any_of(limit.Begin(), limit.End(),
@@ -78,8 +78,8 @@ bool obeys(const Json& value, std::string_view name, const SchemaRule& limit) {
          });
 }
 
-/// Walks through a document and its schema side by side, and keeps the deepest value that breaks
-/// its rules: it is the cause, those around it only repeat that something inside is wrong.
+/// Walks through a document and its schema in parallel and keeps the most deeply nested value that
+/// violates its rules. That value is the cause; its containers only repeat the violation.
 class Checker {
  public:
   explicit Checker(const SchemaRule& root) : root_(root) {}
@@ -110,7 +110,7 @@ class Checker {
     return false;
   }
 
-  /// What "$ref" stands for, looked up once.
+  /// Returns the target of "$ref", cached.
   const SchemaRule& meant(const SchemaRule& stated) {
     const SchemaRule*& rule = meant_[&stated];
     if (rule == nullptr) rule = &resolved(root_, stated);
@@ -130,7 +130,7 @@ class Checker {
     return good;
   }
 
-  /// @param known  becomes false where a key has no rule and "additionalProperties" is false
+  /// @param known  set to false if a key has no rule and "additionalProperties" is false
   bool check_members(const SchemaRule& rule, const Json& value, bool& known) {
     if (!value.is_object()) return true;
     const SchemaRule* properties = keyword(rule, "properties");
@@ -157,7 +157,7 @@ class Checker {
     if (deepest_.value == &value) deepest_.rules.push_back(&rule);
   }
 
-  /// Into a member or an item.
+  /// Step into a member or an item.
   struct Step {
     const std::string* key = nullptr;
     std::size_t index = 0;

@@ -22,7 +22,7 @@ const SchemaRule* keyword(const SchemaRule& rule, const char* name) {
 
 const SchemaRule& load_schema(const std::string& name) {
   static std::map<std::string, std::pair<std::string, SchemaDocument>> loaded;
-  auto& [text, document] = loaded[name];  // whose strings point into the text
+  auto& [text, document] = loaded[name];  // its strings point into the text
   if (document.IsNull()) {
     const auto file = data_root() / "cases" / "schema" / (name + ".schema.json");
     // White space is skipped in aligned blocks of 16 bytes, which may begin at the last byte.
@@ -52,7 +52,7 @@ namespace {
 
 using Rules = std::vector<const SchemaRule*>;
 
-/// The rules that stand behind a schema node, its references and alternatives opened.
+/// Collects the rules of a schema node, with references and alternatives resolved.
 void open(const SchemaRule& root, const SchemaRule& stated, Rules& rules) {
   const SchemaRule& rule = resolved(root, stated);
   const SchemaRule* any = keyword(rule, "anyOf");
@@ -136,7 +136,7 @@ std::string describe_value(const Json& value) {
   return printable(value.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-/// Keys that an object may have; empty when it may have any.
+/// Returns the keys that an object may have; empty if it may have any.
 std::vector<std::string> allowed_keys(const Rules& rules) {
   std::vector<std::string> keys;
   for (const SchemaRule* rule : rules) {
@@ -155,7 +155,7 @@ std::string all_quoted(std::vector<std::string> names, const char* last) {
   return join(names, last);
 }
 
-/// What stands there instead: "(got 'a' and 'b')".
+/// Returns the keys that are present: "(got 'a' and 'b')".
 std::string got_keys(const Json& object) {
   std::vector<std::string> keys;
   for (const auto& item : object.items()) keys.push_back(item.key());
@@ -169,7 +169,7 @@ std::string pointer_to(const std::vector<std::string>& path) {
   return pointer.to_string();
 }
 
-/// Keys that an object must have, for itself or beside others that it has.
+/// Returns the keys that an object must have, including those required by its other keys.
 std::vector<std::string> needed_keys(const Json& object, const SchemaRule& rule) {
   std::vector<std::string> keys;
   const auto add = [&](const SchemaRule& names) {

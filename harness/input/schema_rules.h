@@ -1,6 +1,6 @@
 #pragma once
 
-#if defined(__SSE2__)  // reads 16 bytes at a time
+#if defined(__SSE2__)  // RapidJSON then reads 16 bytes at a time
 #define RAPIDJSON_SSE2
 #endif
 #include <rapidjson/document.h>
@@ -13,12 +13,14 @@
 #include "harness/base/json.h"
 #include "harness/input/document.h"
 
-/// Schemas as rapidjson reads them: five times faster than nlohmann's reader, whose time on the
-/// 85 kB of the case schema a user waits for. rapidjson's own validator takes 20 million
-/// instructions to populate the case schema, and names no fault inside an alternative of anyOf.
+/// Schemas read with RapidJSON, which is five times faster than nlohmann's reader. The case schema
+/// has 85 kB, and the user waits while it is read. RapidJSON's own validator is not used: it takes
+/// 20 million instructions to set up the case schema, and reports no violation inside an
+/// alternative of anyOf.
 namespace trammel::harness {
 
-/// Throws std::bad_alloc where rapidjson's own allocator returns null, which its reader then uses.
+/// Allocator that throws std::bad_alloc. RapidJSON's own allocator returns null, which its reader
+/// then dereferences.
 struct SchemaAllocator {
   static constexpr bool kNeedFree = true;
   static void* Malloc(std::size_t size) { return size > 0 ? checked(std::malloc(size)) : nullptr; }
@@ -37,27 +39,27 @@ using SchemaPool = rapidjson::MemoryPoolAllocator<SchemaAllocator>;
 using SchemaRule = rapidjson::GenericValue<rapidjson::UTF8<>, SchemaPool>;
 using SchemaDocument = rapidjson::GenericDocument<rapidjson::UTF8<>, SchemaPool, SchemaAllocator>;
 
-/// The value of that keyword, or null.
+/// Returns the value of a keyword, or null.
 [[nodiscard]] const SchemaRule* keyword(const SchemaRule& rule, const char* name);
 
-/// The schemas of cases/schema, each read once in a process.
-/// @throws InputError  where there is no such schema.
+/// Loads a schema of cases/schema. Each schema is read once per process.
+/// @throws InputError  if there is no such schema.
 [[nodiscard]] const SchemaRule& load_schema(const std::string& name);
 
-/// What "$ref" stands for; any other rule is itself.
+/// Returns the target of "$ref", or the rule itself if it has no "$ref".
 [[nodiscard]] const SchemaRule& resolved(const SchemaRule& root, const SchemaRule& rule);
 
-/// Whether "type" is, or is among others, the one named.
+/// Returns true if "type" is, or includes, the given type.
 [[nodiscard]] bool wants(const SchemaRule& rule, const char* type);
 
-/// A value and the rules, all those of an anyOf, that it breaks.
+/// A value and the rules that it violates; for anyOf, the rules of all alternatives.
 struct BrokenRules {
   const Json* value = nullptr;
-  std::vector<std::string> path;  ///< of keys and indices, from the root
+  std::vector<std::string> path;  ///< keys and indices from the root
   std::vector<const SchemaRule*> rules;
 };
 
-/// Describes in words what the schema expects.
+/// Describes what the schema expects.
 /// @param schema  root of the schema document
 [[nodiscard]] SchemaFault explain(const SchemaRule& schema, const BrokenRules& broken);
 

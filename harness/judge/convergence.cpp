@@ -11,7 +11,7 @@ namespace {
 
 using results::Number;
 
-/// A tenth: of the order, for neighbours to agree and for theory to be met.
+/// Relative tolerance of an order, for agreement between neighbors and with theory.
 constexpr double kOrderTolerance = 0.1;
 
 bool orders_agree(double order, double other) {
@@ -22,13 +22,13 @@ double relative(double value, double reference) {
   return std::abs(value - reference) / std::abs(reference);
 }
 
-/// The order p that three values obey with error proportional to h^p:
+/// Returns the order p of three values with an error proportional to h^p:
 ///   (v0 - v1) / (v1 - v2) = (h0^p - h1^p) / (h1^p - h2^p).
-/// NaN where they do not approach a limit from one side, or p is not in (0, 20).
+/// Returns NaN if the values do not approach a limit from one side, or p is not in (0, 20).
 double order_of_three(const std::vector<double>& v, const std::vector<double>& h, std::size_t k) {
   const double ratio = (v[k - 2] - v[k - 1]) / (v[k - 1] - v[k]);
   if (!std::isfinite(ratio) || ratio <= 0) return kNaN;
-  // Scaled by h1 so that large p do not overflow.
+  // Sizes are scaled by h1 so that large p do not overflow.
   const double coarse = h[k - 2] / h[k - 1];
   const double fine = h[k] / h[k - 1];
   const auto excess = [&](double p) {
@@ -43,12 +43,12 @@ double order_of_three(const std::vector<double>& v, const std::vector<double>& h
   return 0.5 * (low + high);
 }
 
-/// Order between two levels from their errors.
+/// Returns the order between two levels from their errors.
 double order_of_errors(double coarse, double fine, double h_coarse, double h_fine) {
   return std::log(coarse / fine) / std::log(h_coarse / h_fine);
 }
 
-/// Works on the levels that have a value.
+/// Analysis of the levels that have a value.
 class ConvergenceStudy {
  public:
   explicit ConvergenceStudy(Convergence& series) : series_(series) {
@@ -86,14 +86,14 @@ class ConvergenceStudy {
  private:
   [[nodiscard]] std::size_t count() const { return v_.size(); }
 
-  /// Orders from the values alone, and which of them to extrapolate with.
+  /// Computes the observed orders from the values alone.
   void observe() {
     observed_.assign(count(), kNaN);
     for (std::size_t k = 2; k < count(); ++k) observed_[k] = order_of_three(v_, h_, k);
   }
 
-  /// Whether the values of three levels move no less than an order of zero would let them, as those
-  /// of a stress at a reentrant corner do: they tell of no value to converge to.
+  /// Returns true if three values converge no faster than with order zero, such as the stress at a
+  /// reentrant corner. They have no limit.
   [[nodiscard]] bool diverges(std::size_t k) const {
     if (k < 2) return false;
     const double before = std::abs(v_[k - 1] - v_[k - 2]), last = std::abs(v_[k] - v_[k - 1]);
@@ -101,18 +101,18 @@ class ConvergenceStudy {
     return last * std::log(h_[k - 2] / h_[k - 1]) >= before * std::log(h_[k - 1] / h_[k]);
   }
 
-  /// A converged value expected from a level and those before it, and how far to trust it.
+  /// Expected converged value from a level and the previous ones, with its safety factor.
   struct Expected {
     double value = kNaN;
     double factor = 3;
   };
 
-  /// Richardson's, with one order.
+  /// Richardson extrapolation with one order.
   [[nodiscard]] double extrapolated(std::size_t k, double order) const {
     return v_[k] + (v_[k] - v_[k - 1]) / (std::pow(h_[k - 1] / h_[k], order) - 1);
   }
 
-  /// Whether an order is one that theory promises of this level.
+  /// Returns true if theory predicts this order for the level.
   [[nodiscard]] bool is_theoretical_order(double order) const {
     if (!series_.theory_order || std::isnan(order)) return false;
     if (!series_.lower_order) return orders_agree(order, *series_.theory_order);
@@ -127,9 +127,9 @@ class ConvergenceStudy {
     if (!series_.theory_order)
       return {extrapolated(k, std::isnan(seen) ? 1 : std::max(0.5, seen)), 3};
     const double lowest = series_.lower_order.value_or(*series_.theory_order);
-    // Two levels show no order: Roache's factor for that of theory.
+    // Two levels have no observed order; Roache's factor for the theoretical order applies.
     if (k == 1) return {extrapolated(k, lowest), 3};
-    // Values that go to and fro.
+    // The values oscillate.
     if (std::isnan(seen)) return {extrapolated(k, std::min(1.0, lowest)), 3};
     if (is_theoretical_order(seen) && series_.lower_order) {
       const double value =
@@ -138,7 +138,7 @@ class ConvergenceStudy {
       if (std::isfinite(value)) return {value, 1.25};
     }
     if (is_theoretical_order(seen)) return {extrapolated(k, *series_.theory_order), 1.25};
-    // A higher order than theory's is no merit: it does not last.
+    // An order above theory does not persist under refinement, so it is not used.
     return {extrapolated(k, std::clamp(seen, std::min(0.5, lowest), lowest)), 3};
   }
 
@@ -150,7 +150,8 @@ class ConvergenceStudy {
       const auto [value, factor] = expected(k);
       gci_[k] = factor * std::abs((value - v_[k]) / v_[k]) + roundoff_[k];
       factor_[k] = factor;
-      // The extrapolated value of the level where it changes least, round-off counted in.
+      // The extrapolated value is taken from the level with the smallest change, including
+      // round-off.
       const double from = std::isfinite(before) ? before : v_[k];
       const double change = std::abs(value - from) + roundoff_[k] * std::abs(value);
       before = value;
@@ -174,7 +175,8 @@ class ConvergenceStudy {
     }
   }
 
-  /// The two-term law of the errors, where two orders mix; @returns whether they do.
+  /// Fits the two-term law to the errors if two orders mix.
+  /// @returns whether two orders mix
   bool fit_two_orders() {
     if (!series_.theory_order || !series_.lower_order) return false;
     const Number reference = series_.exact ? series_.exact : series_.richardson;
@@ -302,7 +304,7 @@ std::optional<TwoTermLaw> fit_two_terms(const std::vector<double>& h,
 
 double extrapolate_two_terms(const std::array<double, 3>& h, const std::array<double, 3>& v,
                              const TwoTermOrders& law) {
-  // Differences rid of the limit, then of b: v_i - v_2 = a (h_i^p - h_2^p) + b (h_i^q - h_2^q).
+  // Differences eliminate the limit, then b: v_i - v_2 = a (h_i^p - h_2^p) + b (h_i^q - h_2^q).
   const double fine = h[2];
   const auto p = [&](std::size_t i) { return std::pow(h[i] / fine, law.p) - 1; };
   const auto q = [&](std::size_t i) { return std::pow(h[i] / fine, law.q) - 1; };

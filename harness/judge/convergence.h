@@ -18,52 +18,54 @@ using results::Convergence;
 /// B. Celik et al., J. Fluids Eng. 130, 078001, 2008).
 [[nodiscard]] Convergence analyse_convergence(Convergence series);
 
-/// Slope of log error over log size on the chosen levels (least squares); nothing below two levels.
+/// Returns the least-squares slope of log error over log size on the chosen levels; empty for fewer
+/// than two levels.
 [[nodiscard]] std::optional<double> slope(const std::vector<double>& size,
                                           const results::Numbers& error,
                                           const std::vector<bool>& chosen);
 
-/// How well the two-term law must meet the errors of the levels that it is fitted to.
+/// Largest relative misfit of the two-term law on the levels that it is fitted to.
 inline constexpr double kTwoTermTolerance = 0.05;
 
-/// How many times the round-off error an error must be to say anything about the discretisation.
+/// Minimum ratio of an error to its round-off error that is informative about the discretization.
 inline constexpr double kRoundoffMargin = 100;
 
-/// The bands claim about 95 %.
+/// Required hit rate, because the bands claim a coverage of about 95 %.
 inline constexpr double kMinHitRate = 0.95;
-/// Roache's larger factor: what the band would be if no order were ever near theory.
+/// Limit of the median ratio: Roache's larger factor, as if no observed order were close to theory.
 inline constexpr double kMaxMedianRatio = 3;
-/// With fewer levels one miss decides; then nothing is judged.
+/// Minimum number of levels. With fewer levels a single miss would decide, and nothing is judged.
 inline constexpr std::size_t kMinLevels = 100;
 
-/// Compares the bands of numerical uncertainty with exact values: how often they contain the exact
-/// value, and how much wider than needed they are. A band that is huge is always right and useless.
-/// Levels without a band and those whose exact value is 0 do not count. The median ratio is over
-/// levels whose error is above 100 times round-off.
+/// Compares the bands of numerical uncertainty with exact values: the hit rate, and the width
+/// relative to the error. The width matters because an excessively wide band always contains the
+/// exact value. Levels without a band, or with an exact value of 0, are excluded. The median ratio
+/// includes levels with an error above 100 times round-off.
 [[nodiscard]] results::UncertaintyCoverage summarise_numerical_uncertainty(
     const std::vector<results::Run>& runs);
 
-/// Errors that are the sum of two powers, a h^p + b h^q: bending elements of order 4 joined by
-/// linear axial interpolation of order 2, or a Timoshenko element, whose shear takes over on short
-/// elements. Between the two no single order is observed.
+/// Errors that are the sum of two powers, a h^p + b h^q. Examples are bending elements of order 4
+/// joined by linear axial interpolation of order 2, and Timoshenko elements, in which shear
+/// dominates on short elements. Between the two ranges no single order is observed.
 
 struct TwoTermOrders {
   double p = 4, q = 2;  ///< orders, p > q > 0
 };
 
-/// Least squares of the relative residuals over the usable levels. Coarse levels that feel more
-/// than two terms are left out one by one, until the rest is met within `within`; at least one
-/// level more than coefficients stays.
-/// @param error   signed, one a level, coarse to fine
-/// @param usable  false where an error is round-off or missing
-/// @return empty with fewer than three usable levels
+/// Fits the law by least squares of the relative residuals over the usable levels. Coarse levels
+/// with further error terms are removed one by one until the others are met within `within`. At
+/// least one level more than coefficients remains.
+/// @param error   signed, one per level, coarse to fine.
+/// @param usable  false if an error is missing or dominated by round-off.
+/// @return empty for fewer than three usable levels
 [[nodiscard]] std::optional<results::TwoTermLaw> fit_two_terms(const std::vector<double>& h,
                                                                const std::vector<double>& error,
                                                                const std::vector<bool>& usable,
                                                                const TwoTermOrders& law,
                                                                double within);
 
-/// The limit of values v = limit + a h^p + b h^q through three levels; NaN where two have one size.
+/// Returns the limit of values v = limit + a h^p + b h^q through three levels; NaN if two levels
+/// have the same size.
 [[nodiscard]] double extrapolate_two_terms(const std::array<double, 3>& h,
                                            const std::array<double, 3>& v,
                                            const TwoTermOrders& law);

@@ -12,13 +12,13 @@
 namespace trammel::harness {
 namespace {
 
-/// Above so many entries only the worst one is told.
+/// For more entries, only the worst one is reported.
 constexpr std::size_t kMaxEntries = 16;
 
-/// Why a check cannot be judged.
+/// Reason why a check cannot be judged.
 struct NotComparable {
   std::string message;
-  bool is_missing = false;  ///< what is asked for is not there
+  bool is_missing = false;  ///< the requested quantity is missing
 };
 
 std::vector<std::string> names_of(const Quantities& quantities) {
@@ -27,7 +27,7 @@ std::vector<std::string> names_of(const Quantities& quantities) {
   return names;
 }
 
-/// What there is instead, without the parts it belongs to: " (known here: frequency_Hz and ...)".
+/// Lists the available quantities without their parts: " (known here: frequency_Hz and ...)".
 std::string known_kinds(const Quantities& quantities) {
   constexpr std::size_t most = 12;
   std::vector<std::string> kinds;
@@ -67,11 +67,11 @@ std::vector<double> pick(const std::vector<double>& values, const std::vector<st
   return picked;
 }
 
-/// The numbers to compare, entry by entry.
+/// Numbers to compare, entry by entry.
 struct ComparedValues {
   std::vector<double> computed;
   std::vector<double> expected;     ///< empty: no target
-  std::vector<double> uncertainty;  ///< of the expected, absolute; empty where it has none
+  std::vector<double> uncertainty;  ///< of the expected value, absolute; empty if it has none
 };
 
 void require_unit(const std::string& quantity, const std::string& unit, const std::string& whose) {
@@ -137,7 +137,7 @@ std::string outside(const Check& check, double value, const Window& window) {
   return where;
 }
 
-/// The window of a measure with half a unit of the last digit that a solver prints on either side.
+/// Returns the window widened on both sides by half a unit of the last digit printed by a solver.
 Window widened(const Window& window, const Check& check, const CheckResult& entry, int digits) {
   if (*entry.computed == 0) return window;
   const double leading = std::floor(std::log10(std::abs(*entry.computed)));
@@ -147,7 +147,7 @@ Window widened(const Window& window, const Check& check, const CheckResult& entr
   return {window.low - half_unit, window.high + half_unit};
 }
 
-/// Judges one entry into `entry`, whose computed and expected values are set.
+/// Judges one entry, whose computed and expected values are set.
 void evaluate_entry(const Check& check, const Window* window, double uncertainty,
                     CheckResult& entry) {
   const double expected = check.has_target() ? *entry.expected : 0;
@@ -172,7 +172,7 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
     return;
   }
   entry.tolerance = {window->low, window->high, check.symmetric};
-  // Half of a known discrepancy may agree: where the window allows none, it is one.
+  // Single entries of a known discrepancy may agree if the window contains zero.
   if (entry.expectation == Expectation::known_discrepancy && window->contains(0) &&
       (check.measure == Measure::relative || check.measure == Measure::absolute)) {
     entry.expectation = Expectation::agrees;
@@ -228,7 +228,7 @@ std::vector<CheckResult> judge(const Check& check, const CheckContext& context) 
   }
 }
 
-/// Passes where the worst entry came to what the control asks for.
+/// Returns a pass if the worst entry has the outcome required by the negative control.
 CheckResult judge_control(const Check& check, const std::vector<CheckResult>& entries) {
   CheckResult control = worst_of(entries).front();
   const NegativeControl& asked = *check.negative_control;
@@ -238,12 +238,12 @@ CheckResult judge_control(const Check& check, const std::vector<CheckResult>& en
                      (!asked.index || control.index == asked.index);
   const std::string found = "'" + verdict + "' (" + control.message + ")";
   control.message = holds
-                        ? "judged " + found + ", as it must be"
+                        ? "judged " + found + ", as required"
                         : fmt::format("expected '{}'{} with '{}' (got {})", asked.verdict,
                                       asked.index ? fmt::format(" of entry {}", *asked.index) : "",
                                       asked.message, found);
   control.verdict = holds ? Verdict::pass : Verdict::fail;
-  control.expectation = Expectation::agrees;  // it is no discrepancy from anything
+  control.expectation = Expectation::agrees;  // a control has no known discrepancy
   return control;
 }
 
@@ -251,7 +251,7 @@ CheckResult judge_control(const Check& check, const std::vector<CheckResult>& en
 
 std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& context) {
   if (check.negative_control && context.other_solver != nullptr) {
-    CheckResult control = failed_check_result(check, "a control of the judging itself");
+    CheckResult control = failed_check_result(check, "a test of the judgment itself");
     control.verdict = Verdict::not_given;
     return {control};
   }

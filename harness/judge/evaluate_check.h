@@ -10,46 +10,48 @@
 #include "harness/input/reference_library.h"
 #include "harness/judge/convergence.h"
 
-/// What a check comes to, and what it is judged with.
+/// Evaluation of checks.
 namespace trammel::harness {
 
 using results::Verdict;
 
-/// The judgement of one entry of a check, or of a check that has no entries.
+/// Judgment of one entry of a check, or of a check without entries.
 using CheckResult = results::Check;
 
-/// What a run's checks are judged with.
+/// Data needed to judge a run's checks.
 struct CheckContext {
   const Document& document;
   const Quantities& quantities;
   const std::vector<Convergence>& convergence;
   const References& references;
-  /// Quantities of another variant of the case; null where it has none.
+  /// Returns the quantities of another variant of the case; null if there are none.
   std::function<const Quantities*(const std::string& variant)> variant;
-  /// Null: trammel's own. Of another, what is missing is not given instead of an error.
+  /// Null: trammel. For another solver, a missing quantity is "not given" instead of an error.
   const results::SolverIdentity* other_solver = nullptr;
 };
 
-/// A judgement that carries the check's name, role and reasons; an error until it is filled in.
+/// Creates a judgment with the check's name, role and reasons. Its verdict is an error until it is
+/// set.
 [[nodiscard]] CheckResult start_check_result(const Check& check);
 [[nodiscard]] CheckResult failed_check_result(const Check& check, const std::string& message);
 
-/// A place in the document that holds the name of a reference: the check's own, or one inside it.
+/// Returns the reference named at a pointer of the document: the check's own, or a nested one.
 [[nodiscard]] const references::Reference& find_reference(const CheckContext& context,
                                                           const std::string& pointer);
 
-/// A gate that does not hold: everything but a pass, what is only recorded and what is not given.
+/// Returns true unless the verdict is pass, recorded or not given.
 [[nodiscard]] bool fails_gate(Verdict verdict);
 
-/// How far out an entry lies: errors first, then by the share of the window that is used.
+/// Returns a severity for sorting: errors first, then by the used fraction of the window.
 [[nodiscard]] double severity(const CheckResult& entry);
 
-/// One judgement an entry; of a long array the worst alone, which says so.
+/// Returns one judgment per entry. For a long array, only the worst entry is returned, with a
+/// note.
 [[nodiscard]] std::vector<CheckResult> evaluate_check(const Check& check,
                                                       const CheckContext& context);
 
-/// The judgements of an "order" check on the refinements of the context: the observed order, and
-/// where asked for the leading term of the error and the extrapolated value.
+/// Returns the judgments of an "order" check on the refinements of the context: the observed order
+/// and, if requested, the leading term of the error and the extrapolated value.
 [[nodiscard]] std::vector<CheckResult> evaluate_order_check(const Check& check,
                                                             const CheckContext& context);
 

@@ -11,10 +11,10 @@
 namespace trammel::harness {
 namespace {
 
-/// One entry of the quantity, with what theory says of it.
+/// One entry of the quantity, with its theoretical properties.
 struct Entry {
   const Convergence& found;
-  double wave_number = kNaN;  ///< times the length of the swept member
+  double wave_number = kNaN;  ///< multiplied by the length of the swept member
   double share = 1;
 };
 
@@ -36,7 +36,7 @@ class OrderCheckEvaluator {
     meshes_ = static_cast<std::size_t>(std::ranges::count(qualifies_, true));
   }
 
-  /// The constants of trammel's elements say nothing of others.
+  /// Constants of trammel's elements do not apply to other solvers.
   [[nodiscard]] std::vector<CheckResult> run() const {
     if (is_other_solver_) {
       CheckResult check_result = order();
@@ -57,12 +57,12 @@ class OrderCheckEvaluator {
     return fine && found_.error[k].has_value() && !found_.at_roundoff_floor[k];
   }
 
-  /// Whether anything can be said at all.
+  /// Reports the reason if the levels are insufficient for a judgment.
   bool lacks_asymptotic_range(CheckResult& check_result) const {
     if (found_.broken) {
       check_result.message = "a refined level has no finite value";
     } else if (!found_.exact) {
-      check_result.message = "there is no exact value to measure errors by";
+      check_result.message = "there is no exact value for the errors";
     } else if (meshes_ < criterion_.meshes) {
       check_result.message =
           fmt::format("only {} meshes qualify, {} are needed", meshes_, criterion_.meshes);
@@ -90,7 +90,7 @@ class OrderCheckEvaluator {
     return check_result;
   }
 
-  /// The number of a qualifying level that is farthest from `target`.
+  /// Returns the value of the qualifying level with the largest distance from `target`.
   template <class Value>
   double worst(double target, const Value& value, CheckResult& check_result) const {
     double farthest = kNaN;
@@ -127,7 +127,8 @@ class OrderCheckEvaluator {
     return check_result;
   }
 
-  /// The largest relative distance of the law from an error, over the meshes that it is fitted to.
+  /// Computes the largest relative distance of the law from an error, over the meshes used in the
+  /// fit.
   [[nodiscard]] CheckResult two_term() const {
     CheckResult check_result = start("", "two-term", "1");
     check_result.expected = 0;
@@ -234,8 +235,8 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
   const std::size_t wanted = std::max<std::size_t>(1, check.index.size());
   if (position < wanted) {
     all.push_back(failed_check_result(
-        check, fmt::format("the sweep '{}' follows {} entries of {}, {} are judged",
-                           criterion.sweep, position, check.quantity, wanted)));
+        check, fmt::format("the sweep '{}' tracks {} entries of {}, {} are judged", criterion.sweep,
+                           position, check.quantity, wanted)));
   }
   std::ranges::stable_sort(
       all, [](const CheckResult& a, const CheckResult& b) { return a.name < b.name; });

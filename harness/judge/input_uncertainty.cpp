@@ -13,12 +13,12 @@ namespace {
 
 constexpr double kStep = 1.0 / 16;
 
-/// In [0, 1); std::uniform_real_distribution is not the same everywhere.
+/// Returns a number in [0, 1); std::uniform_real_distribution differs between libraries.
 double uniform(std::mt19937_64& generator) {
   return static_cast<double>(generator() >> 11) * 0x1p-53;
 }
 
-/// Points x inputs in [-1, 1]: each column a shuffled visit of `count` equal cells.
+/// Returns points x inputs in [-1, 1]. Each column is a permutation of `count` equal cells.
 std::vector<std::vector<double>> latin_hypercube(std::size_t count, std::size_t inputs,
                                                  std::uint64_t seed) {
   std::mt19937_64 generator(seed);
@@ -99,7 +99,7 @@ using results::ValidationVerdict;
 constexpr double kRepeated = 1e-6;
 
 void compare(const Comparison& c, ValidationVerdict& v) {
-  // Not std::hypot of three, which may lose a NaN.
+  // std::hypot of three numbers may lose a NaN.
   v.u_val =
       std::sqrt(*c.u_num * *c.u_num + *v.u_input * *v.u_input + *c.u_reference * *c.u_reference);
   const double noise = kCoverageFactor * *v.u_val;
@@ -109,7 +109,7 @@ void compare(const Comparison& c, ValidationVerdict& v) {
   v.verdict = std::abs(*c.difference) <= noise ? kWithinUncertainty : kModelError;
 }
 
-/// One past the last entry whose computed value is that of `first`.
+/// Returns the index after the last entry with the same computed value as `first`.
 std::size_t end_of_repeated(std::span<const Comparison> row, std::size_t first) {
   const double value = *row[first].simulation;
   std::size_t end = first + 1;

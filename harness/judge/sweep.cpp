@@ -10,7 +10,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Entries of an array that are followed when nobody says which.
+/// Maximum number of tracked array entries if no selection is given.
 constexpr std::size_t kMaxTrackedEntries = 16;
 
 void add_everything_else(const Sweep& sweep, std::vector<TrackedQuantity>& tracked_quantities) {
@@ -24,7 +24,7 @@ void add_everything_else(const Sweep& sweep, std::vector<TrackedQuantity>& track
   }
 }
 
-/// The value (and its round-off) that a level has for one entry.
+/// Returns the value of a level for one entry, with its round-off error.
 std::pair<double, double> entry_of(const Quantities& quantities,
                                    const TrackedQuantity& tracked_quantity, std::size_t index) {
   const auto found = quantities.find(tracked_quantity.quantity);
@@ -136,7 +136,7 @@ std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& documen
     for (std::size_t position = 0; position < chosen.size(); ++position) {
       Convergence series =
           track_entry(sweep, place, tracked_quantity, chosen[position], position, element_order);
-      // A zero (a rigid motion) has no relative error.
+      // A zero, such as the frequency of a rigid motion, has no relative error.
       if ((series.exact == 0.0 && !series.is_error) || !changes(series)) continue;
       found.push_back(analyse_convergence(std::move(series)));
     }

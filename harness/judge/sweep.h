@@ -9,51 +9,51 @@
 #include "harness/input/reference_library.h"
 #include "harness/judge/convergence.h"
 
-/// Refinement sweeps: the same computation level by level.
+/// Refinement sweeps: a computation repeated on successive levels.
 namespace trammel::harness {
 
 using results::Sweep;
 
-/// Element size h of a swept number, to a common factor.
-/// @param measures  what the number is: "elements" a length, "halvings" or "size"
+/// Returns the element size h of a swept number, up to a common factor.
+/// @param measures  meaning of the number: "elements" per length, "halvings" or "size"
 [[nodiscard]] double element_size(const std::string& measures, double parameter);
 
-/// Which quantities of a sweep are followed.
+/// Selection of the quantities of a sweep that are tracked.
 enum class TrackedQuantities {
-  named,  ///< those that the sweep names, else those that the checks name
-  all     ///< every one that changes with the level
+  named,  ///< quantities named by the sweep, else those named by the checks
+  all     ///< every quantity that changes with the level
 };
 
 /// Removes quantities that are not tracked as `named`.
 void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Check>& checks);
 
-/// @param element_order  of another solver, in place of the orders of the sweep
+/// @param element_order  order of another solver, which replaces the orders of the sweep
 [[nodiscard]] std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& document,
                                                    const std::vector<Check>& checks,
                                                    const References& references,
                                                    TrackedQuantities tracked,
                                                    results::Number element_order = {});
 
-/// Which quantities a refinement follows, and where their exact values stand.
+/// A quantity tracked by a refinement, with the place of its exact values.
 
 struct TrackedQuantity {
   std::string quantity, statistic;
   std::vector<std::size_t> index, reference_index;  ///< empty: all
   const references::Reference* reference = nullptr;
-  bool is_error = false;  ///< the values are errors themselves
+  bool is_error = false;  ///< the values are themselves errors
   std::optional<double> theory = std::nullopt;
 };
 
-/// What the "quantities" of a sweep name.
+/// Returns the quantities named by the "quantities" of a sweep.
 [[nodiscard]] std::vector<TrackedQuantity> named_by_sweep(const JsonView& quantities,
                                                           const References& references);
 
-/// What the checks look at, each once; a check with exact values before one without.
+/// Returns the quantities of the checks, each once. A check with exact values precedes one without.
 [[nodiscard]] std::vector<TrackedQuantity> named_by_checks(const Document& document,
                                                            const std::vector<Check>& checks,
                                                            const References& references);
 
-/// Whether a reference tells the discretisation error: of kind exact or computed.
+/// Returns true if a reference can measure the discretization error: its kind is exact or computed.
 [[nodiscard]] bool is_exact(const references::Reference& reference);
 
 }  // namespace trammel::harness

@@ -420,7 +420,7 @@ StepResult analyse_grnn_samples(const Document& document, const References&, boo
       }
     }
   } catch (const solver::ModelError& error) {
-    throw analysis.error(std::string("expected a network that has a meaning: ") + error.what());
+    throw analysis.error(std::string("expected a valid network: ") + error.what());
   }
   return {};
 }

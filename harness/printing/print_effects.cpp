@@ -19,7 +19,7 @@ void print_effects(const EffectChoice& choice) {
   if (!choice.automatic) {
     std::cout << "\nEffects\n"
               << wrapped("on: " + effect_names(choice.chosen), "  ")
-              << wrapped("left out: " + effect_names(applicable.without(choice.chosen)), "  ")
+              << wrapped("omitted: " + effect_names(applicable.without(choice.chosen)), "  ")
               << wrapped("not in the model: " +
                              effect_names(solver::Effects::all().without(applicable)),
                          "  ");
@@ -29,7 +29,7 @@ void print_effects(const EffectChoice& choice) {
   Rows table({"effect",
               {"state", ""},
               {"number", "", 3},
-              {"definition", "which is"},
+              {"definition"},
               {"own", "own [%]", 3, 100},
               {"cumulative", "cumulative [%]", 3, 100}});
   for (const results::EffectRow& row : choice.rows) {
@@ -42,7 +42,7 @@ void print_effects(const EffectChoice& choice) {
   }
   table.print(std::cout, "  ");
   std::cout << "  own: change of the results without this effect alone; cumulative: also without "
-               "those removed before\n";
+               "those removed earlier\n";
   for (const results::EffectRow& row : choice.rows)
     std::cout << wrapped(row.name + ": " + row.why, "      ");
   std::cout << "  total: at most " << percent(choice.automatic->change)

@@ -19,8 +19,8 @@ namespace {
 using results::Number;
 using results::Numbers;
 
-/// The worst entry of a check: one that fails before others, then by how far it lies outside its
-/// tolerance or bound.
+/// The worst entry of a check: failing entries first, then by the distance from the tolerance or
+/// bound.
 struct CheckSummary {
   const results::Check* worst = nullptr;
   std::size_t entries = 0;
@@ -40,7 +40,8 @@ std::vector<CheckSummary> summarise_checks(const results::Run& run) {
   return summaries;
 }
 
-/// Digits that distinguish the ends of a range from each other and from the judged number.
+/// Returns the number of digits that distinguish the ends of a range from each other and from the
+/// judged number.
 int digits_of(const results::Check& check) {
   constexpr int kLeast = 3, kMost = 12;
   if (!check.tolerance || check.tolerance->symmetric) return kLeast;
@@ -70,7 +71,7 @@ std::string verdict_text(const results::Check& check) {
   return is_recorded ? "known discrepancy" : to_string(check.verdict);
 }
 
-/// Largest estimated error of a quantity [%]; empty without an estimate.
+/// Returns the largest estimated error of a quantity [%]; empty without an estimate.
 std::string error_text(const results::Run& run, const std::string& quantity) {
   if (!run.errors) return "";
   const auto found =
@@ -81,7 +82,7 @@ std::string error_text(const results::Run& run, const std::string& quantity) {
   return fmt::format("+- {:.2g} %{}", 100 * largest, found->asymptotic ? "" : " (coarse)");
 }
 
-/// All values of short quantities, of others the range.
+/// Prints all values of short quantities and the range of others.
 void print_quantities(const results::Run& run) {
   constexpr std::size_t kMostRows = 30, kMostValues = 6;
   Rows table({"quantity", "entries", {"values", "", 8}, {"discretization"}});
@@ -163,7 +164,7 @@ void print_validation(const results::Run& run) {
               {"u_input", "", 3},
               {"u_input_sampled", "sampled", 3},
               {"u_reference", "u_D", 2},
-              {"dominant_input", "most from"},
+              {"dominant_input", "dominant input"},
               {"dominant_share", "share [%]", 3, 100}});
   for (const results::Comparison& c : run.uncertainty->comparisons)
     table.add({c.reference, c.index, number_or_null(c.simulation), number_or_null(c.expected),

@@ -8,9 +8,10 @@
 namespace trammel::harness {
 namespace {
 
-constexpr double kDegreesOfElement = 7.5;  // of an arc: chords change frequencies by 0.1 %
+// Per element of an arc: chords change frequencies by 0.1 %.
+constexpr double kDegreesOfElement = 7.5;
 constexpr double kToleranceRatio = 10;
-constexpr solver::Index kMaxSamples = 50000;  // half of what a case may have
+constexpr solver::Index kMaxSamples = 50000;  // half of the limit of a case
 
 const Json* find(const Json& document, const std::string& pointer) {
   const JsonPointer at(pointer);
@@ -35,14 +36,15 @@ bool is_bar(const Json& model, const Json& member) {
          !member.contains("restrained_motions");
 }
 
-/// Half or twice a count; nothing where it is odd.
+/// Returns twice or half a count; empty if an odd count would be halved.
 std::optional<solver::Index> refined(solver::Index count, Refine refine) {
   if (refine == Refine::finer) return 2 * count;
   if (count % 2 != 0) return std::nullopt;
   return count / 2;
 }
 
-/// Puts half or twice a count at a place of a patch. @returns whether it can be had
+/// Writes twice or half a count to a place of a patch.
+/// @returns whether the count could be refined or coarsened
 bool put(Json& place, solver::Index count, Refine refine) {
   const auto found = refined(count, refine);
   if (found) place = *found;

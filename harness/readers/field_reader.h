@@ -13,8 +13,9 @@
 
 namespace trammel::harness {
 
-/// @param what  for the message: "a node", "a section"
-/// @throws InputError  at `place`, with the nearest name.
+/// Looks up a name.
+/// @param what  text for the message: "a node", "a section"
+/// @throws InputError  at `place`, with the nearest name, if the name is unknown.
 template <class T>
 [[nodiscard]] const T& look_up(const std::map<std::string, T>& named, const std::string& name,
                                const JsonView& place, const std::string& what) {
@@ -25,24 +26,25 @@ template <class T>
   throw place.error(unknown_name("the name of " + what, name, names));
 }
 
-/// The same for a name in the document.
+/// Looks up a name given in the document.
 template <class T>
 [[nodiscard]] const T& look_up(const std::map<std::string, T>& named, const JsonView& name,
                                const std::string& what) {
   return look_up(named, name.get<std::string>(), name, what);
 }
 
-/// Sides of meshed blocks.
+/// Sides of meshed blocks that form an edge.
 struct Edge {
   struct Piece {
-    solver::Index plate = -1;          ///< the one plate there; -1: the side lies inside
-    std::vector<solver::Index> nodes;  ///< middles included; the plate is to the left of the way
+    solver::Index plate = -1;  ///< the only plate at this side; -1: the side is in the interior
+    /// Including midside nodes; the plate is to the left of the path.
+    std::vector<solver::Index> nodes;
     bool six_nodes = false;
   };
   std::vector<Piece> pieces;
 };
 
-/// Parts of a planar model by name.
+/// Named parts of a planar model.
 struct SymbolTable {
   std::map<std::string, solver::Index> node;
   std::map<std::string, solver::Material> material;
@@ -58,11 +60,10 @@ struct SymbolTable {
 template <class T>
 concept ScalarField = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// Reads the members of a place that has passed its schema. Absent keys leave their member as it
-/// is.
+/// Reads the members of a place that satisfies its schema. Members of absent keys remain unchanged.
 class FieldReader {
  public:
-  /// @param symbols  null for parts that name no others
+  /// @param symbols  null for parts that do not refer to others
   explicit FieldReader(JsonView place, const SymbolTable* symbols = nullptr)
       : place_(std::move(place)), symbols_(symbols) {}
 
@@ -85,7 +86,7 @@ class FieldReader {
   static void read(const JsonView& place, Eigen::Ref<Eigen::Vector2d> pair) {
     pair << place[0].get<double>(), place[1].get<double>();
   }
-  /// Accepts a word in place of a number that is computed.
+  /// Accepts a word instead of a number; the number is then computed.
   static void read(const JsonView& place, std::optional<double>& value) {
     value.reset();
     if (place.json().is_number()) value = place.get<double>();
@@ -103,7 +104,7 @@ class FieldReader {
   static void read(const JsonView& place, solver::Joint<Kind>& joint) {
     read_connection(place, joint.kind, joint.stiffness);
   }
-  /// One for all, or one for each.
+  /// Reads one value for all entries, or one value per entry.
   template <class T, std::size_t N>
   static void read(const JsonView& place, std::array<T, N>& values) {
     for (std::size_t i = 0; i < N; ++i) read(place.json().is_array() ? place[i] : place, values[i]);
@@ -132,7 +133,7 @@ class FieldReader {
   const SymbolTable* symbols_;
 };
 
-/// A part by the list of its fields.
+/// Reads a part by the list of its fields.
 template <class T>
 [[nodiscard]] T read_part(const JsonView& place, const SymbolTable* symbols = nullptr) {
   T part{};
@@ -141,7 +142,7 @@ template <class T>
   return part;
 }
 
-/// The parts below a key that may be missing, which `check(place, part)` may refuse.
+/// Reads the parts below an optional key. `check(place, part)` may reject a part.
 template <class T, class Check = void (*)(const JsonView&, const T&)>
 [[nodiscard]] std::vector<T> read_parts(
     const JsonView& model, const char* key, const SymbolTable& symbols,
@@ -163,25 +164,25 @@ template <class T, class Check = void (*)(const JsonView&, const T&)>
   return read_part<solver::Material>(material);
 }
 
-/// Plates: triangle by triangle, or meshed from blocks. A block is a quadrilateral between four
-/// named nodes; where an edge names the way between two of them, it may be an arc of an ellipse,
-/// and it can be loaded and supported. Nodes that stand where the mesh has one become part of it,
-/// so that blocks, plates and frames that touch are joined.
+/// Plates consist of explicit triangles or of meshed blocks. A block is a quadrilateral between
+/// four named nodes. If an edge names the path between two of them, the side may be an elliptic
+/// arc, and it can be loaded and supported. A named node at the position of a mesh node becomes
+/// part of the mesh. Blocks, plates and frames that touch are therefore connected.
 
-/// Adds plates, triangles and the nodes of meshes to `structure`, and the edges to `symbols`.
+/// Adds plates, triangles and mesh nodes to `structure`, and edges to `symbols`.
 /// @param model  the place /model
-/// @throws InputError  where names lead nowhere or geometry is impossible.
+/// @throws InputError  if a name is unknown or the geometry is impossible.
 void read_plates(const JsonView& model, SymbolTable& symbols, solver::Model& structure);
 
-/// Nodes on an edge, each once.
+/// Returns the nodes on an edge, each once.
 [[nodiscard]] std::vector<solver::Index> nodes_of(const Edge& edge);
 
-/// A traction on an edge.
+/// Reads a traction on an edge.
 void read_edge_load(const JsonView& place, const SymbolTable& symbols, solver::Model& structure);
 
-/// @param first  nodes of `structure` before this one are the manipulator's
-/// @throws InputError  at a named node that nothing holds on to, where there is a mesh that was
-/// meant to.
+/// Requires that every named node of a meshed model is connected to an element, body or spring.
+/// @param first  index of the first node that does not belong to the manipulator
+/// @throws InputError  at a node that is not connected.
 void check_meshed_nodes(const JsonView& model, std::size_t first, const solver::Model& structure);
 
 }  // namespace trammel::harness

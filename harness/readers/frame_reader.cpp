@@ -13,7 +13,7 @@
 namespace trammel::harness {
 namespace {
 
-/// A, I and c of one of the three ways to give a cross-section.
+/// A, I and c from one of the three definitions of a cross-section.
 struct Shape {
   double area = 0, second_moment = 0, half_depth = 0;
 };
@@ -27,7 +27,7 @@ Shape read_shape(const JsonView& section) {
         "expected exactly one of 'rectangle', 'circle', and 'area_m2' with 'second_moment_m4'");
   }
   if (!plain && section.has("half_depth_m")) {
-    throw section["half_depth_m"].error("expected it beside 'area_m2' only");
+    throw section["half_depth_m"].error("'half_depth_m' requires 'area_m2'");
   }
   if (section.has("rectangle")) {
     const double t = section["rectangle"].number("thickness_m");
@@ -38,8 +38,8 @@ Shape read_shape(const JsonView& section) {
     const double d = section["circle"].number("diameter_m");
     return {std::numbers::pi * d * d / 4, std::numbers::pi * d * d * d * d / 64, d / 2};
   }
-  // A bar has no bending stress; where the outermost fibre is not known, the stress is not finite
-  // and is left out of the quantities.
+  // A bar has no bending stress. If the outermost fiber is unknown, the stress is not finite and is
+  // omitted from the quantities.
   const double second_moment = section.number("second_moment_m4");
   const double unknown = second_moment > 0 ? std::numeric_limits<double>::infinity() : 0.0;
   return {section.number("area_m2"), second_moment, section.get("half_depth_m", unknown)};
@@ -69,7 +69,7 @@ solver::Taper read_taper(const JsonView& place, const SymbolTable& symbols) {
   if (first != second || first.empty()) {
     throw place["end_section"].error(
         "expected two rectangles or two circles, or 'taper' as 'linear-area-and-inertia' or "
-        "'exponential' beside it: no depth and width are known that could vary");
+        "'exponential': other sections have no depth and width that could vary");
   }
   return taper;
 }
@@ -85,11 +85,11 @@ solver::Member read_member(const std::string& name, const JsonView& place,
   const Eigen::Vector2d span = nodes[solver::to_size(member.nodes[1])].position -
                                nodes[solver::to_size(member.nodes[0])].position;
   if (!(span.norm() > 0)) {
-    throw place["nodes"].error("expected two nodes apart from each other (got the same place)");
+    throw place["nodes"].error("expected two nodes at different positions (got the same position)");
   }
   member.end_section = member.section;
   if (place.has("taper") && !place.has("end_section")) {
-    throw place["taper"].error("expected an 'end_section' beside it");
+    throw place["taper"].error("'taper' requires 'end_section'");
   }
   if (place.has("end_section")) {
     reader.optional("end_section", member.end_section);
@@ -132,9 +132,9 @@ void add_pin(const JsonView& place, const Pin& pin, solver::Model& model) {
   const double apart = (model.nodes[solver::to_size(pin.nodes[0])].position -
                         model.nodes[solver::to_size(pin.nodes[1])].position)
                            .norm();
-  constexpr double kRoundoff = 1e-12;  // of coordinates that were computed, over the model's size
+  constexpr double kRoundoff = 1e-12;  // of computed coordinates, relative to the model's size
   if (apart > kRoundoff * solver::box_diagonal(model)) {
-    throw place["nodes"].error("expected two nodes in one place (got " + shortest(apart) +
+    throw place["nodes"].error("expected two nodes at the same position (got " + shortest(apart) +
                                " m between them)");
   }
   solver::add_pin(model, pin.name, pin.nodes);
@@ -145,7 +145,7 @@ void require_force(const JsonView& load) {
     throw load.error("the load is empty; expected 'force_N' or 'moment_N_m'");
 }
 
-/// Every node on an edge; motions that are already taken away are left out.
+/// Supports every node on an edge, except motions that are already supported.
 void support_edge(const JsonView& place, const solver::Support& all, const Edge& edge,
                   solver::Model& model) {
   if (all.fixed[2]) throw place.error("expected x and y alone: a plate's nodes have no rotation");
@@ -159,7 +159,7 @@ void support_edge(const JsonView& place, const solver::Support& all, const Edge&
   }
 }
 
-/// Those of nodes first: they keep their reactions where an edge is supported as well.
+/// Reads supports of nodes first, so that they keep their reactions on a supported edge.
 void read_supports(const JsonView& model, const SymbolTable& symbols, solver::Model& structure) {
   for (const bool of_edges : {false, true}) {
     for (const auto& [name, place] : model.entries("supports")) {
@@ -186,8 +186,8 @@ void read_load(const JsonView& place, const SymbolTable& symbols, solver::Model&
   for (const char* key : {"force_N", "moment_N_m", "traction_Pa", "normal_Pa"}) {
     const bool of_edge = std::string(key).ends_with("_Pa");
     if (!place.has(key) || of_edge == on_edge) continue;
-    throw place[key].error(std::string("expected it beside '") + (of_edge ? "edge" : "node") +
-                           "' only");
+    throw place[key].error("'" + std::string(key) + "' requires '" + (of_edge ? "edge" : "node") +
+                           "'");
   }
   if (on_edge && !place.has("traction_Pa") && !place.has("normal_Pa"))
     throw place.error("the load is empty; expected 'traction_Pa' or 'normal_Pa'");
@@ -269,7 +269,7 @@ Structure read_structure(const JsonView& model, const std::vector<solver::Node>&
 
 namespace {
 
-/// The place at s in [0, 1] along the chain.
+/// Position at s in [0, 1] along a chain.
 class ChainPath {
  public:
   ChainPath(const MemberChain& chain, const Eigen::Vector2d& start, const Eigen::Vector2d& end)
@@ -278,9 +278,9 @@ class ChainPath {
     const Eigen::Vector2d a = start - *center_;
     const Eigen::Vector2d b = end - *center_;
     if (!(std::abs(a.norm() - b.norm()) <= 1e-9 * a.norm())) {
-      throw solver::ModelError(
-          "expected a centre as far from the first node as from the second (got " +
-          std::to_string(a.norm()) + " m and " + std::to_string(b.norm()) + " m)");
+      throw solver::ModelError("expected a center at equal distances from both nodes (got " +
+                               std::to_string(a.norm()) + " m and " + std::to_string(b.norm()) +
+                               " m)");
     }
     radius_ = a.norm();
     angle_ = std::atan2(a.y(), a.x());

@@ -5,7 +5,8 @@
 namespace trammel::harness {
 namespace {
 
-/// Exactly one of two keys that say the same in two ways.
+/// Requires exactly one of two alternative keys.
+/// @returns whether it is the first
 bool has_first(const JsonView& place, const char* first, const char* second) {
   if (place.has(first) == place.has(second)) {
     throw place.error(std::string("expected either '") + first + "' or '" + second + "' (got " +
@@ -30,7 +31,7 @@ solver::ManipulatorGeometry read_geometry(const JsonView& manipulator) {
   return geometry;
 }
 
-/// Reads the properties that all links share, or those that differ for some.
+/// Reads the properties shared by all links, or those of individual links.
 void read_link(const JsonView& place, solver::LinkDesign& link) {
   const FieldReader reader(place);
   reader.optional("thickness_m", link.thickness);
@@ -87,7 +88,7 @@ solver::Spline read_spline(const JsonView& spline) {
   return solver::make_spline(times, poses, spline.get("ends", solver::SplineEnds::natural));
 }
 
-/// A circle, a line, a motion from rest to rest, or a spline through poses.
+/// Reads a circle, a line, a rest-to-rest motion, or a spline through poses.
 solver::Path read_path(const std::string& kind, const JsonView& place) {
   if (kind == "circle") return read_circle(place);
   if (kind == "spline") return read_spline(place);
@@ -98,7 +99,7 @@ solver::Path read_path(const std::string& kind, const JsonView& place) {
   return solver::RestToRest{from, to, duration};
 }
 
-/// A path, and its points at the times 0, step, 2 step, ...
+/// Reads a path and computes its points at the times 0, step, 2 step, ...
 PlatformMotion read_trajectory(const JsonView& trajectory) {
   const auto [kind, place] = trajectory.entries().front();
   try {
@@ -106,7 +107,7 @@ PlatformMotion read_trajectory(const JsonView& trajectory) {
     return {path,
             solver::sample(path, place["points"].get<solver::Index>(), place.number("step_s"))};
   } catch (const solver::ModelError& error) {
-    throw place.error(std::string("expected a path that has a meaning: ") + error.what());
+    throw place.error(std::string("expected a valid path: ") + error.what());
   }
 }
 
@@ -118,7 +119,7 @@ solver::ManipulatorDesign read_manipulator(const JsonView& manipulator) {
   try {
     solver::check_geometry(design.geometry);
   } catch (const solver::ModelError& error) {
-    throw manipulator.error(std::string("expected a geometry that has a meaning: ") + error.what());
+    throw manipulator.error(std::string("expected a valid geometry: ") + error.what());
   }
   const JsonView links = manipulator["links"];
   solver::LinkDesign link;

@@ -11,14 +11,14 @@
 #include "solver/model/model.h"
 
 /// Keys and members of the parts of a planar model, each listed once. `FieldReader`, the writer of
-/// exported cases and a test that compares them with the schema visit the same list:
+/// exported cases and a test that compares them with the schema use the same list:
 ///
 ///   io.required(key, member);   always written
 ///   io.defaulted(key, member);  optional in the schema, and always written
-///   io.optional(key, member);   written unless it is zero, empty or the first of several words
+///   io.optional(key, member);   omitted if zero, empty or the first enumeration value
 ///
-/// Ranges and documentation of the keys are in cases/schema/case.schema.json alone; units are in
-/// the keys.
+/// Only cases/schema/case.schema.json defines ranges and documentation of the keys. The keys
+/// contain the units.
 namespace trammel::harness {
 
 template <>
@@ -53,7 +53,7 @@ enum class NodeMotion { x, y, rotation };
 template <>
 inline constexpr std::array kWords<NodeMotion> = {"x", "y", "rotation"};
 
-/// Indices that a case states as names of nodes.
+/// Node indices that a case states as names of nodes.
 template <class Indices>
 struct NodeNames {
   Indices& indices;
@@ -111,7 +111,7 @@ void fields(Io& io, solver::Spring& spring) {
   io.defaulted("rotational_stiffness_N_m_per_rad", spring.stiffness.z());
 }
 
-/// Two nodes in one place that move together.
+/// Two nodes at the same position that move together.
 struct Pin {
   std::string name;
   std::array<solver::Index, 2> nodes{};
@@ -136,7 +136,7 @@ void fields(Io& io, solver::large_motion::LineSpring& spring) {
   io.optional("rest_length_m", spring.rest_length);
 }
 
-/// Loads on nodes, which follow them or not.
+/// Loads on nodes, either fixed in direction or following the rotation.
 template <class Io, class Load>
 requires requires(Load load) {
   load.node, load.force;

@@ -55,7 +55,7 @@ solver::TimeScheme read_time_scheme(const JsonView& scheme) {
   try {
     return scheme_of(name, numbers);
   } catch (const solver::ModelError& error) {
-    throw numbers.error(std::string("expected a scheme that has a meaning: ") + error.what());
+    throw numbers.error(std::string("expected a valid time scheme: ") + error.what());
   }
 }
 
@@ -81,7 +81,7 @@ solver::LoadHistory read_load_history(const JsonView& analysis) {
                                     std::to_string(factor.size()) + ")");
   }
   for (std::size_t i = 1; i < time.size(); ++i) {
-    if (time[i] < time[i - 1]) throw(*history)["time_s"][i].error("expected times that ascend");
+    if (time[i] < time[i - 1]) throw(*history)["time_s"][i].error("expected ascending times");
   }
   return {time, factor};
 }
@@ -111,7 +111,7 @@ solver::HarmonicDamping read_damping(const JsonView& analysis, std::optional<sol
   if (!ratio.json().is_array()) {
     read.modal_ratio.assign(count_of(*modal, modes), ratio.get<double>());
   } else if (modal->has("modes")) {
-    throw(*modal)["modes"].error("expected it beside one ratio only (got a ratio for each mode)");
+    throw(*modal)["modes"].error("'modes' requires a single ratio (got a ratio for each mode)");
   } else {
     read.modal_ratio = ratio.get<std::vector<double>>();
   }
@@ -130,7 +130,7 @@ solver::DesignParameter read_design_parameter(const JsonView& parameter) {
   solver::DesignParameter read{.kind = parameter["property"].get<Kind>()};
   if (read.kind > Kind::poisson_ratio) {
     for (const char* key : {"links", "platform"})
-      if (parameter.has(key)) throw parameter[key].error("expected it beside a property of links");
+      if (parameter.has(key)) throw parameter[key].error("expected only with a property of links");
     return read;
   }
   read.platform = parameter.get("platform", false);
@@ -197,7 +197,7 @@ solver::large_motion::TimeFunction spin_up(double speed, double duration) {
   return [speed, duration](double t) {
     const double w = 2 * std::numbers::pi / duration;
     if (t >= duration) return std::array<double, 3>{speed * (t - duration / 2), speed, 0};
-    // 1 - cos by its half angle: early on it is all there is.
+    // The half-angle form of 1 - cos avoids cancellation for small t.
     const double half = std::sin(w * t / 2);
     const double turned = t * t / 2 - 2 * half * half / (w * w);
     return std::array<double, 3>{speed / duration * turned,
@@ -263,7 +263,7 @@ void read_history(const JsonView& analysis, const solver::Model& built,
     const solver::LoadHistory history = read_load_history(analysis);
     for (std::size_t i = 1; i < history.time.size(); ++i) {
       if (history.time[i] > history.time[i - 1]) continue;
-      throw(*stated)["time_s"][i].error("expected no jump: the integrators see none within a step");
+      throw(*stated)["time_s"][i].error("expected a continuous function (no jump within a step)");
     }
     large_motion.load_history = [history](double t) { return history.at(t); };
     large_motion.load_breakpoints = history.bends();

@@ -12,7 +12,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Two corners, in either order.
+/// Two corners, in ascending order.
 using Ends = std::pair<solver::Index, solver::Index>;
 Ends ends_of(solver::Index a, solver::Index b) {
   return std::minmax(a, b);
@@ -41,7 +41,7 @@ solver::Triangle read_triangle(const JsonView& place, const SymbolTable& symbols
   triangle.plate = plate;
   for (std::size_t i = 0; i < place.size(); ++i) triangle.nodes[i] = symbols.find_node(place[i]);
   const double area = twice_area(structure, triangle);
-  if (area == 0) throw place.error("expected a triangle with an area (got three points in line)");
+  if (area == 0) throw place.error("expected a triangle with an area (got collinear points)");
   if (area < 0) {  // clockwise: swap two corners, and the sides with them
     std::swap(triangle.nodes[1], triangle.nodes[2]);
     std::swap(triangle.nodes[3], triangle.nodes[5]);
@@ -49,7 +49,7 @@ solver::Triangle read_triangle(const JsonView& place, const SymbolTable& symbols
   return triangle;
 }
 
-/// The curve of an edge; nothing for a straight one.
+/// Reads the curve of an edge; empty for a straight edge.
 std::optional<solver::Ellipse> read_curve(const JsonView& edge) {
   if (edge.has("ellipse") && edge.has("circle")) {
     throw edge.error("expected at most one of 'ellipse' and 'circle'");
@@ -63,7 +63,7 @@ std::optional<solver::Ellipse> read_curve(const JsonView& edge) {
   return solver::Ellipse{read_point((*ellipse)["center_m"]), read_point((*ellipse)["semi_axes_m"])};
 }
 
-/// The edges as they are written: corners, and a curve for each pair of neighbours.
+/// Edges as stated in the case: corners, and a curve for each pair of adjacent corners.
 class Outline {
  public:
   Outline(const JsonView& model, const SymbolTable& symbols, const solver::Model& structure) {
@@ -82,7 +82,7 @@ class Outline {
           throw entry.second.error("expected another node than the one before it");
         }
         if (!curve_.emplace(ends, curve).second) {
-          throw entry.second.error("expected a piece that no edge has had before");
+          throw entry.second.error("expected a piece that belongs to no other edge");
         }
       }
     }
@@ -102,17 +102,17 @@ class Outline {
     const double radius = (point - curve.centre).cwiseQuotient(curve.semi_axes).norm();
     if (std::abs(radius - 1) < 1e-6) return;
     throw place.error("expected a node on the edge's curve (got " + describe_point(point) + ", " +
-                      shortest(radius) + " times as far from its centre)");
+                      shortest(radius) + " times as far from its center)");
   }
 
   std::map<std::string, std::vector<solver::Index>> corners_;
   std::map<Ends, std::optional<solver::Ellipse>> curve_;
 };
 
-/// The sides of the blocks of all plates, by their corners.
+/// Sides of the blocks of all plates, by their corners.
 class Sides {
  public:
-  /// @param nodes  with the plate to the left of the way
+  /// @param piece  its nodes have the plate to the left of the path
   void add(const JsonView& block, Edge::Piece piece) {
     const Ends ends = ends_of(piece.nodes.front(), piece.nodes.back());
     std::vector<Edge::Piece>& there = sides_[ends];
@@ -194,7 +194,7 @@ void read_plate(const std::string& name, const JsonView& place, const SymbolTabl
   structure.plates.back().name = name;
   if (place.has("blocks")) return mesh_plate(place, symbols, outline, plate, structure, sides);
   for (const char* key : {"element", "divisions"}) {
-    if (place.has(key)) throw place[key].error("expected it beside 'blocks' only");
+    if (place.has(key)) throw place[key].error("'" + std::string(key) + "' requires 'blocks'");
   }
   for (const auto& entry : place["triangles"].entries()) {
     structure.triangles.push_back(read_triangle(entry.second, symbols, structure, plate));
@@ -210,7 +210,8 @@ Edge find_edge(const JsonView& place, const std::vector<solver::Index>& corners,
       throw place["nodes"][i + 1].error("expected the other end of a block's side");
     }
     edge.pieces.push_back(found->front());
-    if (found->size() > 1) edge.pieces.back().plate = -1;  // inside, where normals are two
+    // In the interior, where the normal is ambiguous.
+    if (found->size() > 1) edge.pieces.back().plate = -1;
   }
   return edge;
 }
@@ -286,8 +287,8 @@ void check_meshed_nodes(const JsonView& model, std::size_t first, const solver::
       if (held[k]) nearest = std::min(nearest, (structure.nodes[k].position - here).norm());
     }
     throw model["nodes"][structure.nodes[i].name].error(
-        "expected a place where the mesh has a node (got " + describe_point(here) +
-        ", the nearest is " + shortest(nearest) + " m away)");
+        "expected the position of a mesh node (got " + describe_point(here) + ", the nearest is " +
+        shortest(nearest) + " m away)");
   }
 }
 

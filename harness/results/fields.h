@@ -18,7 +18,8 @@
 
 #include "harness/base/number.h"
 
-/// A struct and its JSON object, both ways, from one list of keys and members:
+/// Conversion between a struct and its JSON object, in both directions, from one list of keys and
+/// members:
 ///
 ///   TRAMMEL_FIELDS(Pose, required("nodes_m", &S::nodes), TRAMMEL_REQUIRED(label));
 namespace trammel::results {
@@ -27,11 +28,11 @@ using Json = nlohmann::ordered_json;
 using harness::Number;
 using harness::Numbers;
 
-/// Form of the output. summary: text without the fields that a store holds. store: all fields, with
+/// Form of the output. summary: text without the fields kept in a store. store: all fields, with
 /// arrays of numbers as bytes.
 enum class Form { text, summary, store };
 
-/// Where a value stands in a document; its JSON pointer is put together only for a message.
+/// Place of a value in a document. Its JSON pointer is built only for a message.
 struct Place {
   const Place* parent = nullptr;
   std::string key;
@@ -41,8 +42,8 @@ struct Place {
   [[noreturn]] void fail(const std::string& expected) const;
 };
 
-/// required: always written, and an error if absent. optional: left out if empty. stored: an
-/// optional field that a summary leaves out. store_only: an optional field that texts leave out.
+/// required: always written, and an error if absent. optional: omitted if empty. stored: an
+/// optional field that summaries omit. store_only: an optional field that texts omit.
 enum class Presence { required, optional, stored, store_only };
 
 template <class Struct, class Member>
@@ -51,7 +52,7 @@ struct Field {
   Member Struct::*member;
   Presence presence;
 };
-/// A value that mostly is what `usual` makes of the fields before it.
+/// A field with a default value that `usual` computes from the preceding fields.
 template <class Struct, class Member>
 struct UsualField {
   const char* key;
@@ -63,7 +64,7 @@ template <class Struct, class Member>
 constexpr Field<Struct, Member> required(const char* key, Member Struct::*member) {
   return {key, member, Presence::required};
 }
-/// The value of an absent field is empty, or the first one of an enumeration.
+/// The value of an absent field is empty, or the first value of an enumeration.
 template <class Struct, class Member>
 constexpr Field<Struct, Member> optional(const char* key, Member Struct::*member) {
   return {key, member, Presence::optional};
@@ -78,7 +79,7 @@ constexpr Field<Struct, Member> store_only(const char* key, Member Struct::*memb
   return {key, member, Presence::store_only};
 }
 
-/// Not written where it is what `value` makes of the fields before it; that where it is absent.
+/// The field is omitted if it equals the default that `value` computes from the preceding fields.
 template <class Struct, class Member>
 constexpr UsualField<Struct, Member> usual(const char* key, Member Struct::*member,
                                            Member (*value)(const Struct& fields_before)) {
@@ -89,15 +90,15 @@ struct None {};
 /// The fields of a struct, in the order of the document.
 template <class Struct>
 inline constexpr None kFields{};
-/// The names of an enumeration: an array of pairs (name, value).
+/// Names of an enumeration's values: an array of pairs (name, value).
 template <class Enum>
 inline constexpr None kNames{};
-/// The member that is the key of a struct where several stand in an object instead of an array.
+/// Member used as the key when several structs are stored in an object instead of an array.
 template <class Struct>
 inline constexpr None kKeyMember{};
 
-/// The fields of a struct, which is S among them. Those whose keys are the names of the members:
-/// TRAMMEL_REQUIRED(name, quantity).
+/// Declares the fields of a struct, which is named S among them. TRAMMEL_REQUIRED(name, quantity)
+/// declares fields whose keys are the names of the members.
 #define TRAMMEL_FIELDS(Struct, ...)            \
   template <>                                  \
   inline constexpr auto kFields<Struct> = [] { \
@@ -141,7 +142,7 @@ using Pair = std::pair<double, double>;
 template <class T>
 inline constexpr bool is_packed =
     std::is_same_v<T, double> || std::is_same_v<T, Number> || std::is_same_v<T, Pair>;
-/// A named value, which is a member of an object.
+/// Types of a named value, which is a member of an object.
 template <class T>
 inline constexpr bool is_named = false;
 template <class T>
@@ -206,7 +207,8 @@ template <class T>
 Json object_to_json(const T& value, Form form) {
   Json json = Json::object();
   auto& members = json.template get_ref<Json::object_t&>();
-  members.reserve(std::tuple_size_v<std::decay_t<decltype(kFields<T>)>>);  // growing copies all
+  // Growing would copy all members.
+  members.reserve(std::tuple_size_v<std::decay_t<decltype(kFields<T>)>>);
   const auto write = [&](const auto& field) {
     if (!is_left_out(field, value, form))
       members.emplace_back(field.key, to_json(value.*field.member, form));
@@ -229,13 +231,13 @@ void object_from_json(const Json& json, const Place& place, T& value) {
 
 constexpr std::size_t kBytes = sizeof(double);
 
-/// Bits of the number before the last one, which in pairs is the same coordinate.
+/// Returns the bits of the number two places earlier; in pairs, it is the same coordinate.
 inline std::uint64_t bits_before(const double* numbers, std::size_t i) {
   return i < 2 ? 0 : std::bit_cast<std::uint64_t>(numbers[i - 2]);
 }
 
-/// Returns differences of the bits of each number from the number before the last one. The lowest
-/// bytes of all differences come first, because similar bytes in a row compress best.
+/// Returns the differences of the bits of each number from the number two places earlier. The
+/// lowest bytes of all differences come first, because runs of similar bytes compress best.
 template <class Entry>
 Json packed(const std::vector<Entry>& values) {
   const auto* const numbers = reinterpret_cast<const double*>(values.data());
@@ -246,7 +248,8 @@ Json packed(const std::vector<Entry>& values) {
     for (std::size_t b = 0; b < kBytes; ++b)
       bytes[b * count + i] = static_cast<std::uint8_t>(step >> (8 * b));
   }
-  // Json::binary() names the type before it has memory, and destroys a null pointer without it.
+  // Json::binary() sets the type before it allocates; if allocation fails, it destroys a null
+  // pointer.
   return Json(Json::binary_t(std::move(bytes)));
 }
 
@@ -272,7 +275,7 @@ Json list_to_json(const std::vector<Entry>& values, Form form) {
   Json json = has_key<Entry> || is_named<Entry> ? Json::object() : Json::array();
   if constexpr (is_named<Entry>) json.template get_ref<Json::object_t&>().reserve(values.size());
   for (const auto& entry : values) {
-    if constexpr (is_named<Entry>) {  // json[name] would compare all names before
+    if constexpr (is_named<Entry>) {  // json[name] would compare all previous names
       json.template get_ref<Json::object_t&>().emplace_back(entry.first,
                                                             to_json(entry.second, form));
     } else if constexpr (has_key<Entry>) {
@@ -326,7 +329,7 @@ void enum_from_json(const Json& json, const Place& place, Enum& value) {
   place.fail(expected);
 }
 
-/// (x, y); a coordinate that is not a number is null.
+/// Reads (x, y); a coordinate that is not finite is null.
 inline void pair_from_json(const Json& json, const Place& place, Pair& value) {
   Numbers numbers;
   if (!json.is_array() || json.size() != 2) place.fail("two numbers");
@@ -336,7 +339,7 @@ inline void pair_from_json(const Json& json, const Place& place, Pair& value) {
 
 }  // namespace detail
 
-/// In texts, null for a number that is not finite.
+/// Converts a value to JSON. In texts, numbers that are not finite become null.
 template <class T>
 Json to_json(const T& value, Form form) {
   if constexpr (detail::has_fields<T>) {
@@ -362,7 +365,7 @@ Json to_json(const T& value, Form form) {
   }
 }
 
-/// @throws std::runtime_error  with the pointer of what is absent or of a wrong type.
+/// @throws std::runtime_error  with the pointer of an absent value or of a wrong type.
 template <class T>
 void from_json(const Json& json, const Place& place, T& value) {
   if constexpr (detail::has_fields<T>) {

@@ -10,8 +10,8 @@ namespace trammel::results {
 
 namespace {
 
-/// Reads quantities.txt: analyses in brackets ([+ ...]: these too), then a line for each quantity
-/// that all of them give; after "+peak_" each also as its peak.
+/// Reads quantities.txt: analyses in brackets ([+ ...] adds analyses), then a line for each
+/// quantity that all of them compute. "+peak_" adds the peak of each quantity.
 std::vector<QuantityDefinition> read_table() {
   std::vector<QuantityDefinition> all;
   std::vector<std::string> analyses;

@@ -3,12 +3,12 @@
 #include <string>
 #include <vector>
 
-/// Every quantity that an analysis can give, with what it means.
+/// Definitions of every quantity that an analysis can compute.
 namespace trammel::results {
 
 struct QuantityDefinition {
-  /// With what it belongs to after the colon, in capitals, as in displacement_x_m:NODE; the last
-  /// words of what stands before are the unit.
+  /// Name, followed by a colon and its kind of part in capitals: displacement_x_m:NODE. The last
+  /// words before the colon are the unit.
   std::string name;
   std::vector<std::string> analyses;
   std::string meaning;
@@ -19,9 +19,10 @@ struct QuantityDefinition {
 
 [[nodiscard]] const std::vector<QuantityDefinition>& quantity_definitions();
 
-/// @param name  as results have it, with what it belongs to or without
-/// @param analysis  as "statics"; empty: any
-/// @returns nullptr where no analysis of that name gives it
+/// Finds a definition.
+/// @param name  name of a result, with or without its part.
+/// @param analysis  such as "statics"; empty: any.
+/// @returns nullptr if no such analysis computes it.
 [[nodiscard]] const QuantityDefinition* find_quantity_definition(const std::string& name,
                                                                  const std::string& analysis);
 

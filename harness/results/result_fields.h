@@ -6,7 +6,7 @@
 #include "harness/results/results.h"
 #include "harness/results/side_comparison.h"
 
-/// The fields of all result structs: the one list by which they are written and read.
+/// Fields of all result structs. The same list is used for writing and reading.
 namespace trammel::results {
 
 template <>
@@ -35,7 +35,7 @@ inline constexpr std::array kNames<Fault> = {std::pair{"none", Fault::none},
                                              std::pair{"input", Fault::input},
                                              std::pair{"internal", Fault::internal}};
 
-/// t: the difference lies within +-t. [low, high]: between them, null where open.
+/// t: the difference is within +-t. [low, high]: it is between these limits; null is an open end.
 template <>
 inline Json to_json(const Tolerance& tolerance, Form) {
   if (tolerance.symmetric) return to_json(tolerance.high);
@@ -116,8 +116,8 @@ TRAMMEL_FIELDS(RowProbabilities, TRAMMEL_REQUIRED(row, reference, unit, discrepa
 TRAMMEL_FIELDS(ExcludedReadings, TRAMMEL_REQUIRED(reason, first, readings));
 TRAMMEL_FIELDS(ModelProbabilities, TRAMMEL_REQUIRED(rows, excluded));
 
-/// In texts an object of arrays of values. In the store name, values and round-off errors in turn,
-/// because an object would compare the names of hundreds of quantities.
+/// In texts, an object of arrays of values. In the store, name, values and round-off errors in
+/// turn, because an object would compare the names of hundreds of quantities.
 template <>
 inline Json to_json(const harness::Quantities& quantities, Form form) {
   Json json = form == Form::store ? Json::array() : Json::object();
@@ -168,7 +168,7 @@ TRAMMEL_FIELDS(Run, required("case", &S::case_id),
                TRAMMEL_STORED(uncertainty, effects, model_probabilities, drawing),
                TRAMMEL_OPTIONAL(stored),
                TRAMMEL_STORE_ONLY(sweeps, references, machine, solver, fault));
-/// A run that has no file in the store keeps everything.
+/// A run without a file in the store contains all fields.
 template <>
 inline Json to_json(const Run& run, Form form) {
   return detail::object_to_json(run,

@@ -13,11 +13,11 @@ namespace trammel::results {
 
 namespace {
 
-/// Every vector of a refinement has one entry a level.
+/// Requires one entry per level in every vector of a refinement.
 void complete(Convergence& study, const Place& place) {
   const std::size_t levels = study.parameter.size();
   for (std::size_t i = 0; i < levels; ++i) {
-    // Levels without a number of their own are numbered.
+    // Levels without a number are numbered.
     if (!study.parameter[i]) study.parameter[i] = static_cast<double>(i + 1);
   }
   const auto fit = [&](auto& column, const char* key) {
@@ -46,7 +46,7 @@ void require_nodes(const std::vector<std::vector<int>>& sets, int nodes, std::si
   }
 }
 
-/// What refers to nodes refers to nodes that there are.
+/// Requires that references to nodes refer to existing nodes.
 void require_consistent(const Drawing& drawing, const Place& place) {
   const std::size_t nodes = drawing.nodes.size();
   const int limit = static_cast<int>(nodes);
@@ -90,7 +90,7 @@ void require_consistent(const CostStudy& study, const Place& place) {
   }
 }
 
-/// Titles that are left out are the names.
+/// Sets missing titles to the names.
 void complete(CaseInfo& info) {
   const auto complete_title = [](auto& entry) {
     if (entry.title.empty()) entry.title = entry.id;
@@ -119,7 +119,8 @@ void Place::fail(const std::string& expected) const {
   throw std::runtime_error((where.empty() ? "/" : where) + ": expected " + expected);
 }
 
-/// Texts that many objects share: each stands once in a list of its own, and they hold its place.
+/// Texts shared by many objects. Each text is stored once in a list, and the objects contain its
+/// index.
 struct SharedTexts {
   const char* list;
   std::vector<const char*> members;
@@ -146,14 +147,14 @@ std::vector<Json*> references_in(Json& json) {
 const std::array<SharedTexts, 4> kSharedTexts = {{
     {"names",
      {"name", "quantity", "reference", "against_variant", "against_quantity"},
-     "a name for each place that a check holds",
+     "a name for each index in a check",
      checks_in},
-    {"reasons", {"why", "title", "message"}, "a text for each place that a check holds", checks_in},
+    {"reasons", {"why", "title", "message"}, "a text for each index in a check", checks_in},
     {"citations",
      {"citation", "doi", "place"},
-     "a text for each place that a reference holds",
+     "a text for each index in a reference",
      references_in},
-    {"notes", {"notes"}, "a note for each place that a reference holds", references_in},
+    {"notes", {"notes"}, "a note for each index in a reference", references_in},
 }};
 
 void share_texts(Json& json, const SharedTexts& shared) {
@@ -170,7 +171,7 @@ void share_texts(Json& json, const SharedTexts& shared) {
   if (!texts.empty()) json[shared.list] = std::move(texts);
 }
 
-/// Puts them back.
+/// Replaces indices by the shared texts.
 void give_texts(Json& json, const SharedTexts& shared) {
   if (!json.is_object() || !json.contains(shared.list)) return;
   const Place root;
@@ -194,10 +195,10 @@ void complete(Results& results) {
   for (std::size_t i = 0; i < results.runs.size(); ++i) {
     Run& run = results.runs[i];
     const Place place{&runs, std::to_string(i)};
-    // The page could not name it otherwise.
+    // Otherwise the page could not name the case.
     if (std::ranges::none_of(results.cases,
                              [&](const CaseInfo& info) { return info.id == run.case_id; }))
-      Place{&place, "case"}.fail("a case that stands under /cases");
+      Place{&place, "case"}.fail("a case listed under /cases");
     if (run.drawing) require_consistent(*run.drawing, Place{&place, "drawing"});
     const Place studies{&place, "convergence"};
     for (std::size_t k = 0; k < run.convergence.size(); ++k)

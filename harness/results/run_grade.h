@@ -5,11 +5,11 @@
 
 #include "harness/results/run_results.h"
 
-/// A run in one word, for codes side by side.
+/// Grade of a run in one word, for the comparison of codes.
 namespace trammel::results {
 
-/// broken: an answer that cannot be judged. not_exported: the protocol does not carry the case.
-/// not_judged: nothing of it has a gate.
+/// broken: an answer that cannot be judged. not_exported: the protocol does not support the case.
+/// not_judged: no check gates.
 enum class Grade {
   agrees,
   off,
@@ -29,14 +29,14 @@ inline constexpr std::array<Grade, 10> kAllGrades = {
 [[nodiscard]] Grade grade_of(const Run& run);
 /// "agrees", "off", "broken", "crashed", "timed out", "cannot", ...
 [[nodiscard]] std::string to_string(Grade grade);
-/// Whether it counts against the code: off, broken, crashed or timed out.
+/// Returns true if the grade counts against the code: off, broken, crashed or timed out.
 [[nodiscard]] bool is_failure(Grade grade);
 
-/// The check that says most: one that fails, else the judged one that uses most of its tolerance;
-/// null where none has a difference.
+/// Returns the most informative check: a failing one, else the judged check that uses most of its
+/// tolerance. Null if no check has a difference.
 [[nodiscard]] const Check* telling_check(const Run& run);
 
-/// Share of the tolerance that a check's difference uses; 0 where it has none.
+/// Returns the fraction of the tolerance used by a check's difference; 0 without a difference.
 [[nodiscard]] double tolerance_share(const Check& check);
 
 }  // namespace trammel::results

@@ -5,58 +5,60 @@
 
 #include "harness/results/results.h"
 
-/// Several sides beside each other, number by number: variants, cases, or results of other days,
-/// machines and codes. Every list of values has one entry a side.
+/// Comparison of several sides, number by number: variants, cases, or results of other dates,
+/// machines and codes. Every list of values has one entry per side.
 namespace trammel::results {
 
-/// What one number, or the frequency of a set of modes, comes to on each side.
+/// Values of one number, or of the frequency of a set of modes, on each side.
 struct ComparedValue {
-  Numbers values;        ///< empty where a side has none
-  Numbers percent;       ///< of the first side; empty where that is zero but for round-off
-  double noise = 0;      ///< a difference up to it is round-off
-  double share = 0;      ///< largest difference from the first side over the largest of its series
-  bool changed = false;  ///< beyond the noise
+  Numbers values;    ///< empty if a side has none
+  Numbers percent;   ///< relative to the first side; empty if that value is zero up to round-off
+  double noise = 0;  ///< differences up to this value are round-off
+  /// Largest difference from the first side, relative to the largest value of the series.
+  double share = 0;
+  bool changed = false;  ///< the difference exceeds the noise
 };
 
-/// An entry of a quantity: each of a few, of many the one that differs most.
+/// An entry of a quantity. Short quantities list all entries, long ones only the entry with the
+/// largest difference.
 struct ComparedNumber : ComparedValue {
   std::string quantity;
-  std::size_t index = 0, entries = 1;  ///< from 0; of so many
+  std::size_t index = 0, entries = 1;  ///< index from 0, and number of entries
 };
 
-/// A set of modes of the first side, and those of the others that look alike.
+/// A set of modes of the first side, and the modes of the other sides with a similar shape.
 struct ComparedModes : ComparedValue {
-  std::vector<std::vector<std::size_t>> modes;  ///< from 1; empty: no mode looks alike
-  Numbers last;                                 ///< frequencies where a set has come apart
-  Numbers alike;                                ///< 1: the same shape
+  std::vector<std::vector<std::size_t>> modes;  ///< from 1; empty: no mode has a similar shape
+  Numbers last;                                 ///< highest frequencies of sets that have split
+  Numbers alike;                                ///< 1: identical shape
 };
 
 struct ComparedRun {
   std::string name;
-  std::vector<ComparedNumber> numbers;  ///< that change most first
+  std::vector<ComparedNumber> numbers;  ///< largest change first
   std::vector<ComparedModes> modes;
-  std::vector<std::string> remarks;  ///< what only some sides have; verdicts that changed
-  double share = 0;                  ///< the largest
+  std::vector<std::string> remarks;  ///< quantities missing on some sides; changed verdicts
+  double share = 0;                  ///< largest of its numbers
   bool changed = false;
   CaseInfo info;          ///< of the first side; not written
-  std::vector<Run> runs;  ///< with their series where they are to be drawn; not written
+  std::vector<Run> runs;  ///< with their series if they are drawn; not written
 };
 
 struct ComparedSide {
   std::string label, commit, date, processor, solver;
   std::size_t runs = 0;
-  /// Of the runs that all sides have.
+  /// Sums over the runs that all sides have.
   double cpu_s = 0;
   std::size_t work = 0;                ///< element evaluations, factorizations, solves and steps
-  Number relative_time;                ///< of the first side's
-  Number median_error, largest_error;  ///< relative, of what references are there for on all sides
+  Number relative_time;                ///< relative to the first side
+  Number median_error, largest_error;  ///< relative to references that all sides have
 };
 
 struct SideComparison {
   std::string conclusion;
   std::vector<ComparedSide> sides;
-  std::size_t same = 0, within_noise = 0, changed = 0;  ///< runs; same: bit for bit
-  std::vector<ComparedRun> runs;  ///< that are not the same, the ones that change most first
+  std::size_t same = 0, within_noise = 0, changed = 0;  ///< numbers of runs; same: bit for bit
+  std::vector<ComparedRun> runs;                        ///< runs that differ, largest change first
 };
 
 }  // namespace trammel::results

@@ -2,7 +2,7 @@
 
 namespace trammel::results {
 
-/// Below the folder of --out: where a report is written before it takes the former one's place.
+/// Folder below --out in which a report is written before it replaces the previous one.
 inline constexpr const char* kUnfinishedFolder = ".trammel-unfinished";
 
 }  // namespace trammel::results

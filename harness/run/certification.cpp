@@ -11,7 +11,7 @@ namespace trammel::harness {
 namespace {
 
 constexpr double kAllDigits = 16;
-constexpr double kClear = 10;  ///< least ratio of a tolerance to the noise
+constexpr double kClear = 10;  ///< minimum ratio of a tolerance to the noise
 
 /// Returns whether the solver has determined the state of the system.
 bool has_answer(const results::Run& run) {
@@ -33,7 +33,7 @@ double agreeing_digits(double a, double b) {
   return std::isfinite(difference) ? std::clamp(-std::log10(difference), 0.0, kAllDigits) : 0;
 }
 
-/// Notes the tolerance of an entry if it is narrow. The worst entry of a check counts.
+/// Records the tolerance of an entry if it is tight. The worst entry of a check counts.
 void add_tight_tolerance(const DiffRow& row, const std::string& configuration,
                          std::vector<TightTolerance>& tight) {
   const results::Check &before = *row.before->check, &after = *row.after->check;
@@ -53,14 +53,15 @@ void compare(const Entries& first, const Configuration& other, Certification& re
   ConfigurationRow total{other.name, 0, 0, kAllDigits, kAllDigits, {}};
   const Entries entries = entries_of(other.results);
   std::vector<double> digits;
-  bool is_known = false, ends_equally = false;  // the run that the following checks are of
+  // State of the run that the following checks belong to.
+  bool is_known = false, ends_equally = false;
   for (const DiffRow& row : diff(first, entries)) {
     bool flipped = false;
     if (row.is_run()) {
       is_known = row.before != nullptr;
       ends_equally = row.in_both() && row.before->verdict == row.after->verdict;
       flipped = is_known && (!ends_equally || !has_answer(*row.after->run));
-    } else if (is_known && !row.in_both()) {  // of a run that ends otherwise only counted
+    } else if (is_known && !row.in_both()) {  // counted only, if the run ends differently
       ++total.missing;
       flipped = ends_equally;
     } else if (is_known) {

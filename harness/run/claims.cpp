@@ -27,18 +27,18 @@ constexpr const char* kClaimsFile = "varalakshmi-2017.json";
 constexpr const char *kConfirms = "confirms", *kContradicts = "contradicts",
                      *kConfirmsInPart = "confirms in part", *kInconclusive = "inconclusive",
                      *kNotMeasured = "not measured";
-// Verdicts of claims; kNotMeasured is one, too.
+// Verdicts of claims; kNotMeasured is another one.
 constexpr const char *kConfirmed = "confirmed", *kConfirmedInPart = "confirmed in part",
                      *kContradicted = "contradicted", *kCannotBeDecided = "cannot be decided";
 
 using Verdicts = std::set<std::string>;
 
-/// An interpretation while it is evaluated.
+/// An interpretation during evaluation.
 struct Interpretation : results::ClaimInterpretation {
-  bool incomplete = false;  ///< a run or a number that it asks for is missing
+  bool incomplete = false;  ///< a required run or number is missing
 };
 
-/// Which values a window holds; one side may take all that the other's window does not.
+/// Values that confirm or contradict. If one window is missing, it is the complement of the other.
 struct Rule {
   std::optional<Window> confirms, contradicts;
   std::string otherwise = kInconclusive;
@@ -69,7 +69,7 @@ Rule read_rule(const JsonView& interpretation) {
   }
   if (rule.confirms && rule.contradicts && rule.confirms->low < rule.contradicts->high &&
       rule.contradicts->low < rule.confirms->high) {
-    throw interpretation.error("expected windows of which no value is in both");
+    throw interpretation.error("expected disjoint windows");
   }
   return rule;
 }
@@ -152,8 +152,8 @@ void add_quantity(const JsonView& interpretation, const Run& run, Interpretation
   }
 }
 
-/// Verdicts of the entries. If they count jointly, those of one check have one verdict: it confirms
-/// if all of them do, and contradicts if one does.
+/// Returns the verdicts of the entries. If entries count jointly, each check has one verdict: it
+/// confirms if all of its entries confirm, and contradicts if one contradicts.
 Verdicts verdicts_of(const Rule& rule, const std::vector<results::ClaimEntry>& entries) {
   std::map<std::string, std::string> by_check;
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -227,7 +227,7 @@ results::Claim evaluate_claim(const std::string& id, const JsonView& claim,
                        {}};
   std::ranges::replace(found.expected, '-', ' ');
   if (claim.has("interpretations") == claim.has("undecidable")) {
-    throw claim.error("expected either 'interpretations' or why it is 'undecidable'");
+    throw claim.error("expected either 'interpretations' or 'undecidable'");
   }
   if (claim.has("undecidable")) {
     found.undecidable = claim.text("undecidable");
@@ -261,7 +261,7 @@ void require_member(const JsonView& place, const Json& object, const std::string
   throw place.error("expected a " + what + " (got '" + printable(name) + "')");
 }
 
-/// Names the case by its identifier and checks what else the counterpart names.
+/// Sets the identifier of the case and validates the other names of the counterpart.
 void complete_counterpart(const JsonView& place, const Catalogue& catalogue,
                           PaperItem::Counterpart& counterpart) {
   const Case shown = load_case(catalogue.find_case(counterpart.case_id), catalogue);
@@ -290,7 +290,7 @@ PaperItem read_item(const std::string& id, const JsonView& place, const Json& cl
   return item;
 }
 
-/// "12 checks pass, 6 do not agree (as recorded)", or "computed, not judged".
+/// Returns "12 checks pass, 6 do not agree (as recorded)", or "computed, not judged".
 std::string verdict_of(const results::Results& results, const PaperItem::Counterpart& counterpart) {
   int passed = 0, discrepancies = 0, other = 0;
   bool computed = false;

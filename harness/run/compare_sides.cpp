@@ -28,23 +28,23 @@ using results::Number;
 using results::Numbers;
 using results::SideComparison;
 using Runs =
-    std::vector<const results::Run*>;  ///< of one name, a side each; null where it has none
+    std::vector<const results::Run*>;  ///< runs of one name, one per side; null if a side has none
 
-/// Values below this share of the largest of their series are zeros but for round-off.
+/// Values below this fraction of the largest value of their series are zero up to round-off.
 constexpr double kRoundoff = 1e-9;
-/// What is stated to be round-off is no more than this, relative.
+/// Upper limit of a stated relative round-off. Larger stated values are not round-off.
 constexpr double kLargestRoundoff = 1e-6;
-constexpr std::size_t kFewEntries = 6;  ///< that are all listed
-constexpr std::size_t kDrawnRuns = 8;   ///< whose series are kept
+constexpr std::size_t kFewEntries = 6;  ///< up to this number, all entries are listed
+constexpr std::size_t kDrawnRuns = 8;   ///< maximum number of runs with stored series
 
-/// What a quantity's values are compared with: all of its unit, but poses with poses, and numbers
-/// without a unit with themselves.
+/// Returns the group of quantities that share a scale: all quantities of a unit. Poses are compared
+/// with poses, and each dimensionless quantity with itself.
 std::string series_of(const std::string& name) {
   const std::string unit = unit_of(name), head = name.substr(0, name.find(':'));
   return unit == "1" || head.rfind("pose_", 0) == 0 ? head : unit;
 }
 
-/// The largest magnitude of each series on any side.
+/// Returns the largest magnitude of each series over all sides.
 std::map<std::string, double> series_scales(const Runs& runs) {
   std::map<std::string, double> scales;
   for (const results::Run* run : runs)
@@ -54,8 +54,8 @@ std::map<std::string, double> series_scales(const Runs& runs) {
   return scales;
 }
 
-/// The relative round-off that a run states of an entry, in refinements or as a quantity of its
-/// own.
+/// Returns the relative round-off that a run states for an entry, in refinements or as a separate
+/// quantity.
 double stated_roundoff(const results::Run& run, const std::string& name, std::size_t i) {
   double stated = 0;
   const auto take = [&](const Numbers& numbers) {
@@ -75,14 +75,14 @@ constexpr auto changed_more = [](const auto& a, const auto& b) {
   return std::pair(a.changed, a.share) > std::pair(b.changed, b.share);
 };
 
-/// Infinite if only one of them has a value.
+/// Returns infinity if only one of the numbers is present.
 double distance(const Number& a, const Number& b) {
   if (a && b) return std::abs(*b - *a);
   return a || b ? std::numeric_limits<double>::infinity() : 0;
 }
 
-/// Fills in changes and percent of values whose `noise` is known.
-/// @param scale  the largest value of the series
+/// Computes changes and percentages of values whose `noise` is set.
+/// @param scale  largest value of the series
 void judge(ComparedValue& value, double scale) {
   const Number first = value.values.front();
   value.percent.assign(value.values.size(), Number());
@@ -114,7 +114,8 @@ ComparedNumber compare_entry(const std::string& name, std::size_t i, const Runs&
   return found;
 }
 
-/// All of a few entries; of many the one that differs most.
+/// Compares all entries of a short quantity; of a long one, only the entry with the largest
+/// difference.
 std::vector<ComparedNumber> compare_entries(const std::string& name, const Runs& runs,
                                             double scale) {
   const std::vector<double>& first = *runs.front()->quantity(name);
@@ -138,7 +139,7 @@ void add_numbers(const Runs& runs, const std::vector<std::string>& labels, Compa
     for (const auto& quantity : run->quantities)
       if (!is_diagnostic(quantity.first)) names.insert(quantity.first);
   const std::map<std::string, double> scales = series_scales(runs);
-  std::map<std::string, std::vector<std::string>> absent;  // by the sides that lack them
+  std::map<std::string, std::vector<std::string>> absent;  // by the sides without the quantity
   for (const std::string& name : names) {
     std::vector<std::string> without, sizes;
     for (std::size_t s = 0; s < runs.size(); ++s) {
@@ -158,7 +159,7 @@ void add_numbers(const Runs& runs, const std::vector<std::string>& labels, Compa
     found.remarks.push_back("not in " + sides + ": " + join(missing, "and"));
 }
 
-/// Modes as they are drawn, where both sides draw the same nodes.
+/// Returns the drawn modes if both sides draw the same nodes.
 std::optional<SampledModes> drawn_modes(const results::Run& run, const results::Run& like) {
   const std::vector<double>* frequency = run.quantity("frequency_Hz");
   if (!run.drawing || !like.drawing || frequency == nullptr) return std::nullopt;
@@ -169,7 +170,7 @@ std::optional<SampledModes> drawn_modes(const results::Run& run, const results::
     const auto hertz = [&](std::size_t k) { return Number((*frequency)[k]).value_or(0); };
     return hertz(i) - hertz(i - 1) <= 1e-6 * hertz(i);
   };
-  // A set of which only some are drawn has no subspace.
+  // A set of repeated modes that is drawn in part does not span its subspace.
   if (count < frequency->size())
     while (count > 0 && repeats(count)) --count;
   SampledModes modes;
@@ -185,7 +186,8 @@ std::optional<SampledModes> drawn_modes(const results::Run& run, const results::
   return modes;
 }
 
-/// Whether modes solved for anew are those of the run: not those of a rotating or loaded one.
+/// Returns true if recomputed modes are those of the run, and not those of a rotating or loaded
+/// model.
 bool are_of(const SampledModes& modes, const results::Run& run) {
   const std::vector<double>& known = *run.quantity("frequency_Hz");
   for (std::size_t i = 0; i < known.size(); ++i)
@@ -213,7 +215,7 @@ std::vector<std::size_t> from_one(std::vector<std::size_t> numbers) {
   return numbers;
 }
 
-/// Modes of all sides matched with those of the first; empty where they cannot be.
+/// Matches the modes of all sides with those of the first; empty if they cannot be matched.
 std::vector<ComparedModes> compare_modes(const Runs& runs,
                                          const std::vector<const Document*>& documents) {
   std::vector<ComparedModes> rows;
@@ -251,8 +253,8 @@ std::vector<ComparedModes> compare_modes(const Runs& runs,
   return rows;
 }
 
-/// Compares frequencies by the shapes of their modes instead of by number, if they have changed or
-/// are those of variants.
+/// Compares frequencies by mode shape instead of by number, if they have changed or belong to
+/// variants.
 void match_by_shape(const Runs& runs, const std::vector<const Document*>& documents,
                     ComparedRun& found) {
   const auto by_number = [](const ComparedNumber& number) {
@@ -270,7 +272,7 @@ void match_by_shape(const Runs& runs, const std::vector<const Document*>& docume
   if (!found.modes.empty()) std::erase_if(found.numbers, by_number);
 }
 
-/// Other endings, and at most three other verdicts of each side.
+/// Adds remarks about different statuses, and about at most three different verdicts per side.
 void add_verdicts(const Runs& runs, const std::vector<std::string>& labels, ComparedRun& found) {
   Entries first;
   add_entries(*runs.front(), found.name, first);
@@ -324,7 +326,7 @@ ComparedRun compare_runs(const std::string& name, const Runs& runs,
   return found;
 }
 
-/// Relative errors of a run against references by check entry.
+/// Returns the relative errors of a run against references, by check entry.
 std::map<std::string, double> errors_of(const std::string& name, const results::Run& run) {
   Entries entries;
   add_entries(run, name, entries);
@@ -339,7 +341,7 @@ std::map<std::string, double> errors_of(const std::string& name, const results::
   return errors;
 }
 
-/// Errors of the sides against the references that all of them have.
+/// Computes the errors of the sides against the references that all of them have.
 void compare_errors(const std::vector<std::map<std::string, double>>& all,
                     std::vector<ComparedSide>& sides) {
   std::vector<std::vector<double>> errors(sides.size());
@@ -360,7 +362,7 @@ ComparedSide side_of(const Side& side) {
   const results::Environment& environment = side.results.environment;
   found.label = side.label;
   found.runs = side.results.runs.size();
-  if (side.document) return found;  // computed here and now
+  if (side.document) return found;  // computed in this call
   found.commit = environment.commit;
   found.date = environment.date;
   found.processor = environment.processor;
@@ -368,7 +370,7 @@ ComparedSide side_of(const Side& side) {
   return found;
 }
 
-/// "frequency of mode 3 by +12 % (81.2 to 91.1 Hz)"
+/// Returns "frequency of mode 3 by +12 % (81.2 to 91.1 Hz)".
 std::string words_of(const ComparedValue& value, const std::string& name, const std::string& unit,
                      const std::vector<ComparedSide>& sides) {
   const Number from = value.values.front();
@@ -385,7 +387,7 @@ std::string words_of(const ComparedValue& value, const std::string& name, const 
                      number(*worst), unit == "1" ? "" : " " + unit);
 }
 
-/// Largest change in a run: of a mode, else of a number, else a remark.
+/// Returns the largest change in a run: of a mode, else of a number, else a remark.
 std::string most_changed(const ComparedRun& run, const std::vector<ComparedSide>& sides) {
   const auto mode = std::ranges::max_element(
       run.modes, {}, [](const ComparedModes& m) { return m.changed ? m.share : -1; });
@@ -399,7 +401,7 @@ std::string most_changed(const ComparedRun& run, const std::vector<ComparedSide>
   return words_of(number, number.quantity + entry, unit_of(number.quantity), sides);
 }
 
-/// What the same names have become.
+/// Summarizes the changes of runs with the same names.
 std::string conclusion_of_runs(const SideComparison& comparison) {
   const std::size_t all = comparison.same + comparison.within_noise + comparison.changed;
   const std::string same =
@@ -412,7 +414,7 @@ std::string conclusion_of_runs(const SideComparison& comparison) {
                      count_of(all, "run"), first.name, most_changed(first, comparison.sides), same);
 }
 
-/// What one variant makes of another.
+/// Summarizes the differences between variants.
 std::string conclusion_of_variants(const SideComparison& comparison) {
   const auto& sides = comparison.sides;
   const std::string other =
@@ -429,7 +431,7 @@ std::string conclusion_of_variants(const SideComparison& comparison) {
                      sides.front().label, count, all, most_changed(run, sides));
 }
 
-/// The runs of all sides by name; those of variants computed now stand beside each other.
+/// Groups the runs of all sides by name. Variants computed in this call form one group.
 std::map<std::string, Runs> runs_by_name(std::vector<Side>& sides) {
   std::map<std::string, Runs> by_name;
   for (std::size_t s = 0; s < sides.size(); ++s)
@@ -442,8 +444,8 @@ std::map<std::string, Runs> runs_by_name(std::vector<Side>& sides) {
   return by_name;
 }
 
-/// With their series from the store; where one of them has lost its own, all go without.
-/// @returns how many have lost theirs
+/// Loads series from the store. If a run has lost its series, all runs are compared without them.
+/// @returns the number of runs without stored series
 std::size_t load_series(std::vector<results::Run>& runs, const std::vector<Side>& sides) {
   std::size_t lost = 0;
   for (std::size_t s = 0; s < runs.size(); ++s)

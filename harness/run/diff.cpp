@@ -18,8 +18,8 @@ std::string entry_name(const results::Check& check) {
   return check.statistic.empty() ? name : name + " " + check.statistic;
 }
 
-/// 1e-9 of the value, or a millionth of its tolerance. Changes of diagnostic quantities, such as
-/// residuals, are always round-off.
+/// Returns 1e-9 of the value, or a millionth of its tolerance. Changes of diagnostic quantities,
+/// such as residuals, are always round-off.
 double noise_of(const results::Check& check) {
   if (is_diagnostic(check.quantity)) return HUGE_VAL;
   double width = 0;

@@ -8,34 +8,34 @@
 #include "harness/results/results.h"
 #include "harness/results/side_comparison.h"
 
-/// The one comparison of what was judged in two results. `compare`, `certify` and `history` select
-/// from its rows.
+/// Comparison of the judgments in two results. `compare`, `certify` and `history` select from its
+/// rows.
 namespace trammel::harness {
 
 /// A run, or an entry of one of its checks.
 struct Entry {
   std::string verdict;    ///< of the check, or the status of the run
-  results::Number value;  ///< that was computed
-  double noise = 0;       ///< a difference up to it is round-off
+  results::Number value;  ///< computed value
+  double noise = 0;       ///< differences up to this value are round-off
   const results::Run* run = nullptr;
   const results::Check* check = nullptr;  ///< null: the run itself
 
-  /// Returns whether the verdict differs, or the value by more than the noise of both.
+  /// Returns true if the verdict differs, or the value by more than the noise of both.
   [[nodiscard]] bool differs(const Entry& other) const;
 };
 
-/// By name: "case:variant", "case:variant check quantity[index] statistic". Checks that report only
-/// the worst of their entries (bounds, comparisons with a variant) have no index.
+/// Entries by name: "case:variant", "case:variant check quantity[index] statistic". Checks that
+/// report only their worst entry (bounds, comparisons with a variant) have no index.
 using Entries = std::map<std::string, Entry>;
 
-/// @param name  of the run
+/// @param name  name of the run
 void add_entries(const results::Run& run, const std::string& name, Entries& entries);
-/// Entries point into the results.
+/// Returns entries that point into the results.
 [[nodiscard]] Entries entries_of(const results::Results& results);
-/// "case:variant"
+/// Returns "case:variant".
 [[nodiscard]] std::string name_of(const results::Run& run);
 
-/// An entry in both results; null if one lacks it.
+/// An entry of two results; null if one of them lacks it.
 struct DiffRow {
   std::string name;
   const Entry *before = nullptr, *after = nullptr;
@@ -44,22 +44,22 @@ struct DiffRow {
   [[nodiscard]] bool is_run() const { return (before ? before : after)->check == nullptr; }
 };
 
-/// All entries of both, by name: a run comes before its checks.
+/// Returns all entries of both results by name. A run precedes its checks.
 [[nodiscard]] std::vector<DiffRow> diff(const Entries& before, const Entries& after);
 
-/// One side: what runs came to.
+/// One side of a comparison: results of runs.
 struct Side {
   std::string label;
   results::Results results;
-  /// Of the one run of a variant computed now, which stands beside those of other names and whose
-  /// modes are told apart at stations along its members; otherwise runs of one name stand beside
-  /// each other, and modes are told apart by what is drawn of them.
+  /// Set for a single run of a variant computed now. Such runs are compared in spite of different
+  /// names, and their mode shapes are compared at stations along the members. Otherwise, runs of
+  /// the same name are compared, and mode shapes are compared by the drawings.
   std::optional<Document> document;
 };
 
-/// All sides against the first. Round-off is what refinements and checks state of a number, and at
-/// least 1e-9 of the largest number of its series.
-/// @param series  keeps the series and drawings of the runs that change most
+/// Compares all sides with the first. Round-off is the value stated by refinements and checks, and
+/// at least 1e-9 of the largest number of its series.
+/// @param series  keeps the series and drawings of the runs with the largest changes
 [[nodiscard]] results::SideComparison compare_sides(std::vector<Side> sides, bool series);
 
 }  // namespace trammel::harness

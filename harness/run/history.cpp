@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kFormat = 1;  ///< of the tables, as SQLite's user_version
+constexpr int kFormat = 1;  ///< version of the tables, stored as SQLite's user_version
 constexpr const char* kTables = R"(
 CREATE TABLE call (id INTEGER PRIMARY KEY, date TEXT, commit_id TEXT, machine TEXT, trammel TEXT,
   runs INTEGER, checks INTEGER, failures INTEGER, cpu_s REAL, work INTEGER);
@@ -28,7 +28,7 @@ PRAGMA user_version = 1;)";
 
 using Row = std::vector<Json>;
 
-/// A file of SQLite.
+/// An SQLite file.
 class Database {
  public:
   Database(const fs::path& file, bool create) : file_(file.string()) {
@@ -47,7 +47,8 @@ class Database {
 
   void execute(const char* sql) { check(sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr)); }
 
-  /// Executes one statement with these values. @returns its rows
+  /// Executes one statement with these values.
+  /// @returns its rows
   std::vector<Row> query(const char* sql, const Row& values = {}) {
     sqlite3_stmt* prepared = nullptr;
     check(sqlite3_prepare_v2(handle_, sql, -1, &prepared, nullptr));
@@ -64,7 +65,8 @@ class Database {
   }
   [[nodiscard]] std::int64_t last_id() const { return sqlite3_last_insert_rowid(handle_); }
 
-  /// Requires a history, or no table yet. @returns whether there are tables
+  /// Requires a history or an empty file.
+  /// @returns whether there are tables
   bool has_tables() {
     const Json format = query("PRAGMA user_version").front().front();
     const bool is_empty = query("SELECT count(*) FROM sqlite_master").front().front() == 0;
@@ -117,7 +119,7 @@ bool is_failure(const results::Check& check) {
          check.verdict == results::Verdict::not_run;
 }
 
-using Course = std::vector<std::pair<std::int64_t, Entry>>;  ///< by call
+using Course = std::vector<std::pair<std::int64_t, Entry>>;  ///< entries in the order of the calls
 
 /// @param sql  selects name, call, verdict, value and noise, in the order of the calls
 std::map<std::string, Course> courses_of(Database& database, const char* sql) {
@@ -154,7 +156,7 @@ void add_call(Database& database, const results::Results& results) {
                   failures, all_new ? Json(cpu_s) : Json(), work});
 }
 
-/// The entries of a call: of each course the last that is not newer.
+/// Returns the state of all entries at a call: for each, the last record that is not newer.
 Entries entries_at(const std::map<std::string, Course>& courses, std::int64_t call) {
   Entries entries;
   for (const auto& [name, course] : courses)
@@ -163,7 +165,7 @@ Entries entries_at(const std::map<std::string, Course>& courses, std::int64_t ca
   return entries;
 }
 
-/// Adds the entries that have changed, also those that a run no longer has.
+/// Adds entries that have changed, including those missing from a run.
 void write_entries(Database& database, const results::Results& results, std::int64_t call) {
   const auto insert = [&](const std::string& name, const char* sql, Row values) {
     database.query("INSERT OR IGNORE INTO name (text) VALUES (?)", {name});
@@ -201,7 +203,7 @@ std::vector<HistoryCall> calls_of(Database& database) {
   return calls;
 }
 
-/// Differences from the entries of a call, each with the first call after it that had them.
+/// Returns the differences from the entries of a call, each with the first later call that had it.
 std::vector<HistoryChange> changes_since(std::int64_t since,
                                          const std::map<std::string, Course>& courses,
                                          const std::vector<HistoryCall>& calls) {
@@ -209,7 +211,7 @@ std::vector<HistoryChange> changes_since(std::int64_t since,
   const Entries before = entries_at(courses, since), now = entries_at(courses, calls.back().id);
   for (const DiffRow& row : diff(before, now)) {
     if (!row.in_both() || !row.after->differs(*row.before)) continue;
-    std::int64_t first = 0;  // call since when it has differed without a break; 0: not yet
+    std::int64_t first = 0;  // first call of the current uninterrupted difference; 0: none yet
     for (const auto& [call, entry] : courses.at(row.name)) {
       const bool differs = call > since && entry.differs(*row.before);
       first = !differs ? 0 : first == 0 ? call : first;
@@ -224,7 +226,7 @@ std::vector<HistoryChange> changes_since(std::int64_t since,
 
 std::vector<HistoryDrift> drifts_of(const std::map<std::string, Course>& courses) {
   constexpr std::size_t kLeast = 3;      // steps
-  constexpr double kLargestStep = 0.01;  // relative: more is no slow drift
+  constexpr double kLargestStep = 0.01;  // relative; a larger step is not a slow drift
   std::vector<HistoryDrift> drifts;
   for (const auto& [name, course] : courses) {
     std::vector<double> values;

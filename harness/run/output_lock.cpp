@@ -17,7 +17,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Of "process NUMBER".
+/// Returns true if the process of "process NUMBER" no longer exists.
 bool is_gone(const std::string& holder) {
   const int process = std::atoi(holder.substr(holder.find(' ') + 1).c_str());
   return process > 0 && kill(process, 0) != 0 && errno == ESRCH;
@@ -31,10 +31,10 @@ OutputLock::OutputLock(const fs::path& folder) : folder_(folder), file_(folder /
   std::error_code error;
   fs::create_directories(folder, error);
   acquire();
-  fs::remove_all(folder_ / results::kUnfinishedFolder, error);  // of a call that was killed
+  fs::remove_all(folder_ / results::kUnfinishedFolder, error);  // left by a call that was killed
   const std::string holder = "process " + std::to_string(getpid());
   if (write(descriptor_, holder.data(), holder.size()) != static_cast<ssize_t>(holder.size()))
-    throw InputError("--out " + folder_.string() + ": expected a folder that can be written");
+    throw InputError("--out " + folder_.string() + ": expected a writable folder");
 }
 
 OutputLock::~OutputLock() {
@@ -42,7 +42,7 @@ OutputLock::~OutputLock() {
     std::error_code ignored;
     fs::remove(file_, ignored);
     fs::remove_all(folder_ / results::kUnfinishedFolder, ignored);
-  } catch (const std::bad_alloc&) {  // the next call removes what is left
+  } catch (const std::bad_alloc&) {  // the next call removes the remaining files
   }
   close(descriptor_);
 }
@@ -52,12 +52,13 @@ void OutputLock::acquire() {
   for (struct stat mine{}, there{};;) {
     descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_NOFOLLOW | O_CLOEXEC, 0666);
     if (descriptor_ < 0)
-      throw InputError("--out " + folder_.string() + ": expected a folder that can be written");
+      throw InputError("--out " + folder_.string() + ": expected a writable folder");
     if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) {
       close(descriptor_);
       std::string holder;
       std::getline(std::ifstream(file_), holder);
-      if (is_gone(holder) && ++waits < 100) {  // killed: its children let go as they die
+      // The process was killed; its children release the lock when they end.
+      if (is_gone(holder) && ++waits < 100) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         continue;
       }
@@ -69,7 +70,7 @@ void OutputLock::acquire() {
       close(descriptor_);
       throw InputError("--out " + folder_.string() + ": expected a file in the place of its lock");
     }
-    // Its last holder may have removed the file after it was opened here.
+    // The previous holder may have removed the file after it was opened here.
     if (fstat(descriptor_, &mine) == 0 && lstat(file_.c_str(), &there) == 0 &&
         mine.st_ino == there.st_ino && ftruncate(descriptor_, 0) == 0)
       return;

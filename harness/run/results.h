@@ -10,31 +10,33 @@
 
 namespace trammel::harness {
 
-/// Fills a run with the result of its analysis.
+/// Copies the result of an analysis into its run.
 void record_result(AnalysisResult result, Run& run);
 
-/// The runs with their cases, references and environment.
+/// Returns the runs with their cases, references and environment.
 /// @param store  folder in which the runs are stored
 [[nodiscard]] results::Results results_of(std::vector<Run> runs, const std::vector<Case>& cases,
                                           const References& references,
                                           const std::filesystem::path& store = {});
 
-/// Of the case with all that it extends, as its `CaseInfo` has it.
+/// Returns the hash of the case with all cases that it extends, as in its `CaseInfo`.
 [[nodiscard]] std::string case_hash(const Case& given);
 
-/// What calls of the program came to over time, in an SQLite file: a row for each call, the time
-/// and counted work of each run that it computed, and the verdict and value of each check entry
-/// where they are other than before.
+/// History of calls in an SQLite file. It has a row for each call, with the time and counted work
+/// of each computed run. Verdict and value of each check entry are added if they differ from the
+/// previous call.
 
 using results::History;
 using results::HistoryCall;
 using results::HistoryChange;
 using results::HistoryDrift;
 
-/// Adds a call. @throws InputError  where the file is no such history or cannot be written
+/// Adds a call.
+/// @throws InputError  if the file is not such a history or cannot be written.
 void append_history(const std::filesystem::path& file, const results::Results& results);
 
-/// @throws InputError  where the file is not there or is no such history
+/// Reads the history.
+/// @throws InputError  if the file does not exist or is not such a history.
 [[nodiscard]] History read_history(const std::filesystem::path& file);
 
 }  // namespace trammel::harness

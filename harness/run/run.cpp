@@ -27,20 +27,20 @@ using results::Status;
 
 namespace {
 
-/// A computation to do: one asked for, or one that a check of another variant looks at.
+/// A computation to run, either requested or needed by a check of another variant.
 struct Task {
   const Case* owner = nullptr;
   Document document;
   std::vector<Check> checks;
   bool requested = true;
-  bool studies = true;  ///< refinements and validation uncertainty
-  bool errors = false;  ///< of the discretization
+  bool studies = true;  ///< compute refinements and validation uncertainty
+  bool errors = false;  ///< estimate discretization errors
   std::vector<std::string> input_warnings;
-  AccuracyRequest accuracy = {0, {}, 0};  ///< searched for; 0: not
+  AccuracyRequest accuracy = {0, {}, 0};  ///< requested accuracy; 0: none
   Run run;
 };
 
-/// Ended without an answer of its solver, which a later call may get.
+/// Returns true if the solver ended without an answer. A later call may succeed.
 bool has_broken(const Run& run) {
   return run.status == Status::error || run.status == Status::crashed ||
          run.status == Status::timed_out;
@@ -52,7 +52,7 @@ void mark_failed(Run& run, const std::string& reason, Fault fault) {
   run.fault = fault;
 }
 
-/// Does what may fail, and leaves the failure in the run.
+/// Runs work and records its failure in the run.
 template <class Work>
 void run_guarded(Run& run, const Work& work) {
   try {
@@ -60,9 +60,9 @@ void run_guarded(Run& run, const Work& work) {
   } catch (const InputError& error) {
     mark_failed(run, error.what(), Fault::input);
   } catch (const std::bad_alloc&) {
-    throw;  // says the process how it ended
+    throw;  // the process reports how it ended
   } catch (const std::exception& error) {
-    mark_failed(run, std::string("a fault of trammel itself: ") + error.what(), Fault::internal);
+    mark_failed(run, std::string("internal error: ") + error.what(), Fault::internal);
   }
 }
 
@@ -109,7 +109,7 @@ std::vector<Task> prepare_all(const std::vector<Case>& cases, const std::string&
   return tasks;
 }
 
-/// The computation, with its discretization errors if they are wanted.
+/// Computes the task, with its discretization errors if they are requested.
 void compute_with_errors(Task& task, const References& references) {
   if (task.requested && task.accuracy.accuracy > 0) {
     AccuracySearch search = search_accuracy(task.document, task.accuracy, references);
@@ -164,7 +164,7 @@ std::string answer_of(Task task, const RunOptions& options) {
   return to_bytes(task.run);
 }
 
-/// The case's own limit of processor time [s].
+/// Returns the case's limit of processor time [s].
 unsigned time_limit_s(const Document& document) {
   constexpr double kDefault = 120, kLongest = 1e7;
   return static_cast<unsigned>(
@@ -193,24 +193,24 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
     case Termination::not_started:
       expected("", "a system that has room for its process");
       break;
-    case Termination::disk_full:  // is a limit of other programs
+    case Termination::disk_full:  // a limit of other programs only
     case Termination::crashed:
-      mark_failed(task.run,
-                  "a fault of trammel itself: " + task.run.case_id + ":" + task.run.variant + ": " +
-                      outcome.text,
-                  Fault::internal);
+      mark_failed(
+          task.run,
+          "internal error: " + task.run.case_id + ":" + task.run.variant + ": " + outcome.text,
+          Fault::internal);
   }
 }
 
-/// What else decides what a computation leaves behind.
+/// Returns the part of the request, besides the case, that determines the stored result.
 std::string request_of(const Task& task) {
   if (task.accuracy.accuracy == 0) return task.errors ? "errors" : "";
   return shortest(task.accuracy.accuracy) + " " + join(task.accuracy.quantities, " ");
 }
 
-/// Does what the store does not have, last what was under way most often when a call was
-/// interrupted: a long run keeps no other one from being done.
-/// @returns the signal that ended it early, else 0
+/// Computes the tasks that are missing from the store. Tasks that were interrupted most often go
+/// last, so that a long run does not block the others.
+/// @returns the signal that ended the computation early, else 0
 int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
   std::vector<std::pair<Task*, std::filesystem::path>> open;
   const References references;
@@ -260,8 +260,8 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
                           });
 }
 
-/// How the computation ended, as a check of its own where that is not plain.
-/// @returns whether it ended as the case expects.
+/// Judges the final status of the computation in a separate check, unless it is trivial.
+/// @returns whether the computation ended as the case expects
 bool evaluate_status_check(const Task& task, Run& run) {
   const std::string expected = task.document.value().value("expect_status", "solved");
   const std::string status = to_string(run.status);
@@ -279,7 +279,8 @@ bool evaluate_status_check(const Task& task, Run& run) {
   return status == expected;
 }
 
-/// Whether the comparisons of V&V 20 end as recorded, as a check of its own.
+/// Judges the verdicts of the V&V 20 comparisons in a separate check, which requires the recorded
+/// verdicts.
 void evaluate_validation_verdicts(const Check& check, Run& run) {
   if (check.validation_verdicts.empty()) return;
   CheckResult result = start_check_result(check);
@@ -287,7 +288,7 @@ void evaluate_validation_verdicts(const Check& check, Run& run) {
   result.measure = "validation";
   result.reference.clear();
   result.expectation = Expectation::none;
-  result.why = "the case records what the comparison of these values comes to";
+  result.why = "the case records the verdicts of these validation comparisons";
   std::vector<std::string> found;
   for (const results::Comparison& entry :
        run.uncertainty.value_or(results::Uncertainty()).comparisons)
@@ -312,7 +313,7 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
   if (run.status == Status::not_run) return leave_unjudged("interrupted", Verdict::not_run);
   if (run.status == Status::cannot || run.status == Status::not_exported)
     return leave_unjudged(to_string(run.status) + ": " + run.reason, Verdict::not_given);
-  // Where no solution is what the case expects, there is nothing more to judge.
+  // If the case expects a computation without solution, no other check applies.
   if (evaluate_status_check(task, run) && !run.is_solved()) return;
   for (const Sweep& sweep : run.sweeps) {
     auto found = study_sweep(sweep, task.document, task.checks, references, options.tracked,
@@ -335,7 +336,7 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
         run.is_solved()
             ? evaluate_check(check, context)
             : std::vector{failed_check_result(check, "no solution: " + to_string(run.status))};
-    // A regression guards trammel against itself.
+    // A regression check protects only trammel; other solvers do not fail it.
     for (CheckResult& result : judged)
       if (options.solver.compute && check.role == Role::regression &&
           result.verdict == Verdict::fail)
@@ -344,13 +345,13 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
   }
   if (!options.solver.compute && run.is_solved())
     for (const Check& check : task.checks) evaluate_validation_verdicts(check, run);
-  // Orders that are wrong on purpose say nothing of the method.
+  // Orders that are wrong on purpose are excluded from the summary of the method.
   if (std::ranges::any_of(task.checks,
                           [](const Check& check) { return check.negative_control.has_value(); }))
     run.convergence.clear();
 }
 
-/// Estimates of discretization errors as the options and the case want them.
+/// Requests estimates of discretization errors according to the options and the case.
 void request_errors(Task& task, const RunOptions& options) {
   if (options.solver.compute || !task.requested || task.run.status == Status::error) return;
   const Json& json = task.document.value();

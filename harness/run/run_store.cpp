@@ -25,9 +25,9 @@
 namespace trammel::harness {
 namespace {
 
-constexpr unsigned long long kMaxBytes = 1ULL << 30U;  ///< of what is uncompressed
+constexpr unsigned long long kMaxBytes = 1ULL << 30U;  ///< of uncompressed data
 
-/// @throws std::bad_alloc  if that is what zstd reports.
+/// @throws std::bad_alloc  if zstd reports a failed allocation.
 bool failed(std::size_t result) {
   if (ZSTD_getErrorCode(result) == ZSTD_error_memory_allocation) throw std::bad_alloc();
   return ZSTD_isError(result) != 0;
@@ -48,7 +48,7 @@ std::string compressed(const std::string& bytes) {
   return out;
 }
 
-/// @throws std::runtime_error  for a part of a file, or a damaged one.
+/// @throws std::runtime_error  for a truncated or damaged file.
 std::string uncompressed(const std::string& bytes) {
   const unsigned long long size = ZSTD_getFrameContentSize(bytes.data(), bytes.size());
   std::string out(size <= kMaxBytes ? size : 0, '\0');
@@ -84,8 +84,8 @@ std::string text_of(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// What the file holds if it is complete, of this version and as it should be; else what is
-/// computed, which is stored if it is as it should be.
+/// Returns the stored value if the file is complete, of this version and valid. Otherwise computes
+/// the value and stores it if it is valid.
 template <class Kept>
 Kept find_or_compute(const std::filesystem::path& store, const std::string& name, bool resume,
                      const std::function<bool(const Kept&)>& is_valid,
@@ -99,7 +99,7 @@ Kept find_or_compute(const std::filesystem::path& store, const std::string& name
         return kept;
       }
     }
-  } catch (const std::exception&) {  // half a file, or of another version
+  } catch (const std::exception&) {  // truncated file, or another version
   }
   Kept computed = compute();
   std::filesystem::create_directories(store);
@@ -131,12 +131,12 @@ std::string name_of(const CostStudy& study, const TimingOptions& timing) {
   return name_of(text_of(all));
 }
 
-/// A byte for each call that has begun the computation of that file.
+/// Returns the file with one byte for each call that has started the computation of that file.
 std::filesystem::path started(std::filesystem::path file) {
   return file.replace_extension(".started");
 }
 
-/// Cases that an analysis of other cases tries.
+/// Returns the cases used by an analysis of other cases.
 Json tried_cases(const Document& document) {
   Json tried = Json::object();
   if (analysis_kind(document) != "options") return tried;
@@ -183,7 +183,7 @@ bool find_stored(const std::filesystem::path& file, Run& run, bool any_machine,
     found.variant = run.variant;
     run = std::move(found);
   } catch (const std::exception&) {
-    return false;  // half a file, or of another version
+    return false;  // truncated file, or another version
   }
   mark_used(file);
   return true;

@@ -8,27 +8,27 @@
 #include "harness/base/json.h"
 #include "harness/run/run.h"
 
-/// Parts of one long call of `run` that are computed apart, each into a store of its own, and the
-/// union of their stores.
+/// Parts (shards) of a long call of `run` that are computed separately, each into its own store,
+/// and the union of these stores.
 namespace trammel::harness {
 
-/// "2/8": the second of eight.
-/// @throws InputError  where the text is none.
+/// Parses "2/8", the second of eight shards.
+/// @throws InputError  if the text is not a shard.
 [[nodiscard]] Shard shard_from(const std::string& text);
 
 /// Says in `folder` that a shard of the selection is done: what it has computed is in `store`.
 void write_shard(const std::filesystem::path& folder, const Shard& shard, const Json& selection,
                  const ShardRuns& done);
 
-/// The files of a shard beside those of a run.
+/// Files of a shard, in addition to those of a run.
 inline constexpr const char* kShardFile = "shard.json";
 inline constexpr const char* kStoreFolder = "store";
 
-/// Copies what the stores of all shards hold into one.
-/// @param folders  where `write_shard` has written, in any order
-/// @returns the selection that they are the shards of
-/// @throws InputError  where a shard is not done, missing, there twice, of another program or
-///                     selection, or where a computation is in two of them or in none.
+/// Copies the stores of all shards into one store.
+/// @param folders  folders written by `write_shard`, in any order.
+/// @returns the selection of the shards.
+/// @throws InputError  if a shard is incomplete, missing, duplicated, or of another program or
+///   selection, or if a computation is in two shards or in none.
 Json merge_shards(const std::vector<std::filesystem::path>& folders,
                   const std::filesystem::path& store);
 

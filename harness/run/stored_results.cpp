@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Beside the computation: what was judged of it.
+/// Returns the file of the judged studies, which is next to the file of the computation.
 fs::path judged_file(const fs::path& stored) {
   return fs::path(stored).replace_extension(".judged.cbor");
 }
@@ -25,7 +25,7 @@ results::Number as_number(double value) {
   return value;
 }
 
-/// The folder that a report will stand in, while it is written beside a former one.
+/// Returns the final folder of a report. The report may still be in its temporary folder.
 fs::path place_of(const fs::path& folder) {
   return folder.filename() == results::kUnfinishedFolder ? folder.parent_path() : folder;
 }
@@ -69,7 +69,7 @@ bool take_stored(Run& run, const fs::path& store) {
       return other != nullptr &&
              std::ranges::equal(*other, own.second.values, {}, as_number, as_number);
     });
-    if (!same) return false;  // it is of another run
+    if (!same) return false;  // the file belongs to another run
     if (!found.sweeps.empty())
       run.convergence = convergence_from(read_text(judged_file(store / run.stored)));
     run.quantities = std::move(found.quantities);

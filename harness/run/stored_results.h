@@ -5,37 +5,42 @@
 #include "harness/base/json.h"
 #include "harness/results/results.h"
 
-/// results.json holds the outcomes of runs and their verdicts. Their series, drawings and studies
-/// of convergence and uncertainty stay in the run store.
+/// results.json contains the outcomes of runs and their verdicts. Series, drawings and studies of
+/// convergence and uncertainty remain in the run store.
 namespace trammel::harness {
 
-inline constexpr std::size_t kLineDepth = 4;  ///< of results as text: a check is a line
+/// Nesting depth of single lines in results: a check is one line.
+inline constexpr std::size_t kLineDepth = 4;
 
-/// Writes results.json into the folder, all of it or nothing, and what was judged beside the
-/// computations of the store. @returns its path.
-/// @throws InputError  where the folder cannot be made or written.
+/// Writes results.json into the folder, completely or not at all. Judged studies are written next
+/// to the computations of the store.
+/// @returns the path of results.json
+/// @throws InputError  if the folder cannot be created or written.
 std::filesystem::path write_results(const results::Results& results,
                                     const std::filesystem::path& folder);
 
-/// What stands in the file itself; `store` as it is seen from here.
-/// @throws InputError  with the JSON pointer of what is wrong.
+/// Reads the content of the file without the store. The path of `store` is made relative to the
+/// working directory.
+/// @throws InputError  with the JSON pointer of an invalid value.
 [[nodiscard]] results::Results read_summary(const std::filesystem::path& file);
-/// The same of what has been read from there.
+/// Reads the same content from JSON that has already been parsed.
 [[nodiscard]] results::Results read_summary(const std::filesystem::path& file, Json json);
 
-/// Adds the series, drawing and studies that the store has of a run. @returns whether it has them
+/// Adds the series, drawing and studies of a run from the store.
+/// @returns whether the store contains them
 [[nodiscard]] bool take_stored(results::Run& run, const std::filesystem::path& store);
 
-/// A results file with what the store has of its runs. A copy without its store is whole but for
-/// that, which `missing` says.
-/// @throws InputError  with the JSON pointer of what is wrong.
+/// Reads a results file and the stored data of its runs. Without its store, a copy of the file is
+/// complete except for these data, and `missing` reports it.
+/// @throws InputError  with the JSON pointer of an invalid value.
 [[nodiscard]] results::Results load_results(const std::filesystem::path& file);
 
-/// A folder of results that this process alone writes, as long as the lock lives. Found out before
-/// hours are spent.
+/// Exclusive access to a results folder during the lifetime of the lock. It is acquired before any
+/// long computation.
 class OutputLock {
  public:
-  /// @throws InputError  where the folder cannot be made or written, or another process has it.
+  /// @throws InputError  if the folder cannot be created or written, or is locked by another
+  ///   process.
   explicit OutputLock(const std::filesystem::path& folder);
   ~OutputLock();
   OutputLock(const OutputLock&) = delete;

@@ -146,7 +146,7 @@ solver::Model build_bare_model(const CaseModel& case_model, std::size_t step) {
 }
 
 InputError model_error(const Document& document, const solver::ModelError& error) {
-  const std::string text = error.what(), message = "expected a model that has a meaning: " + text;
+  const std::string text = error.what(), message = "expected a valid model: " + text;
   const JsonView model = JsonView(document)["model"];
   const JsonView analysis = JsonView(document)["analysis"].entries().front().second;
   for (const auto& [kind, parts] : {std::pair("drive", analysis.entries("drives")),

@@ -251,7 +251,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
   }
   const MatrixXd M = MatrixXd(system.mass()).topLeftCorner(n, n), L = mass_factor(M);
   if (L.cols() == 0) {
-    found.outcome = {Status::singular, "nothing vibrates, for nothing that moves has mass"};
+    found.outcome = {Status::singular, "nothing vibrates: no part that can move has a mass"};
     return found;
   }
   Spectrum modes = spectrum(K, L, 0, system.symmetric());

@@ -121,7 +121,7 @@ const Refusal kRefusals[] = {
     {"run holds.json --variant none", "/variants: expected the name of a variant (got 'none')"},
     {"run holds.json --variant bse", "(got 'bse'); did you mean 'base'?"},
     {"run holds.json --out holds.json/x",
-     "--out holds.json/x: expected a folder that can be written"},
+     "--out holds.json/x: expected a writable folder"},
     {"run holds.json", "TRAMMEL_HOME: expected a folder with cases/schema",
      "TRAMMEL_HOME=/nonexistent"},
     {"run holds.json", "expected a standard output that can be written",
@@ -138,18 +138,18 @@ const Refusal kRefusals[] = {
     {"compare holds.json:base", "expected two sides (got one: it has no variants)"},
     {"compare results none.json", "none.json: expected a readable file"},
     {"compare results other.json", "other.json: /a: expected no key of that name"},
-    {"compare results holds.json", "expected variants alone or results alone (got both)"},
-    {"converge holds.json", "holds.json: /: expected 'sweeps', which say what to refine"},
+    {"compare results holds.json", "expected either variants or results (got both)"},
+    {"converge holds.json", "holds.json: /: expected 'sweeps', which define the refinement"},
     {"cost mods",
      "expected a family or study of cases/cost, a case or a file (got 'mods'); did "
      "you mean 'modes'?"},
     {"cost unjudged.json", "unjudged.json: /: expected 'sweeps', which define the refinement"},
     {"cost unjudged.json --sweep none", "unjudged.json: /: expected 'sweeps'"},
-    {"cost modes --sweep elements", "--sweep and --variant: expected a case beside them"},
+    {"cost modes --sweep elements", "--sweep and --variant: a case is required"},
     {"cost modes --repeats 6", "--repeats requires at least 7 measurements (got 6)"},
     {"cost modes --out page", "PATH: expected a folder with gnuplot", "PATH=/nonexistent"},
     {"report holds.json --out page", "PATH: expected a folder with gnuplot", "PATH=/nonexistent"},
-    {"certify unjudged.json", "expected cases with checks, for there is nothing to certify"},
+    {"certify unjudged.json", "expected cases with checks"},
     {"paper other.json", "other.json: /a: expected no key of that name"},
     {"effects --repeats 0 --out page", "either cases or --label is required"},
     {"references tabel-2-ansys", "did you mean 'table-2-ansys'?"}};
@@ -466,7 +466,7 @@ BOOST_AUTO_TEST_CASE(case_is_certified_over_ways_of_rounding) {
   const Outcome outcome = run(folder, "certify cantilever-tip-force");
   BOOST_TEST(outcome.status == 0, outcome.err);
   for (const char* words :
-       {"upwards", "downwards", "towards zero", "No verdict differs, and none is missing."})
+       {"upwards", "downwards", "toward zero", "No verdict differs, and none is missing."})
     BOOST_TEST(contains(outcome.out, words), outcome.out);
   const Json found = Json::parse(run(folder, "certify cantilever-tip-force --json").out);
   for (const Json& row : found.at("configurations"))

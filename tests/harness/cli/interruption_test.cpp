@@ -74,11 +74,11 @@ BOOST_AUTO_TEST_CASE(a_signal_while_drawing_or_timing_says_how_to_go_on) {
   const auto told = [&] { return read_text(folder.path() / "err.txt"); };
   BOOST_TEST(status_of("report cantilever.json", "until test -e drawing; do sleep 0.1; done") ==
              143);
-  BOOST_TEST(told() == "trammel: interrupted; the same command does what is missing\n");
+  BOOST_TEST(told() == "trammel: interrupted; the same command computes the rest\n");
   BOOST_TEST(status_of("cost cantilever.json --repeats 10000", "sleep 1") == 143);
   BOOST_TEST(contains(told(), "with --resume"));
   BOOST_TEST(status_of("effects scene-soft-platform --repeats 1000", "sleep 1") == 143);
-  BOOST_TEST(told() == "trammel: interrupted; the same command begins anew\n");
+  BOOST_TEST(told() == "trammel: interrupted; the same command starts from the beginning\n");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -115,17 +115,17 @@ BOOST_AUTO_TEST_CASE(a_check_that_nothing_could_fail_is_bad_input) {
   BOOST_TEST(check_of(json).windows.at(0).high == 1);
 }
 
-BOOST_AUTO_TEST_CASE(a_half_width_stands_beside_values_only) {
+BOOST_AUTO_TEST_CASE(half_width_requires_a_plain_value) {
   const Json agrees = {{"agrees", "r"}, {"within", 0.1}};
   const auto with = [](Json expect, const char* key, const Json& value) {
     expect[key] = value;
     return expect;
   };
   BOOST_TEST(contains(fault(with(agrees, "relative_between", {-1, 1})),
-                      "/checks/c/expect: expected 'relative' beside 'within' (got "
+                      "/checks/c/expect: 'within' requires 'relative' (got "
                       "'relative_between')"));
   BOOST_TEST(contains(fault({{"agrees", "r"}, {"ratio", {1, 2}}}),
-                      "/checks/c/expect: expected 'within' beside 'ratio'"));
+                      "/checks/c/expect: 'ratio' requires 'within'"));
   BOOST_TEST(contains(fault(agrees), "/checks/c/expect: expected exactly one of 'relative'"));
   BOOST_TEST(contains(fault(with(with(agrees, "relative", 1), "relative_between", {-1, 1})),
                       "/checks/c/expect: expected exactly one of 'relative'"));

@@ -233,7 +233,7 @@ BOOST_AUTO_TEST_CASE(exceeded_limits_affect_their_own_run_only) {
                                testing::read(folder, testing::cantilever())},
                               references, options);
   BOOST_TEST(contains(runs[0].reason,
-                      "/timeout_s: expected a computation within timeout_s (base: not done after "
+                      "/timeout_s: expected a computation within timeout_s (base: stopped after "
                       "1 s of processor time)"),
              runs[0].reason);
   BOOST_TEST(contains(runs[1].reason, "/model/elements: expected a computation of at most 0.25 GB"),

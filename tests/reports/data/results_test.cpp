@@ -27,7 +27,7 @@ const Refusal kRefusals[] = {
     {"/runs/0/status", "\"done\"",
      "/runs/0/status: expected one of solved singular not-converged error not-run cannot "
      "not-exported crashed timed-out"},
-    {"/runs/0/case", "\"nowhere\"", "/runs/0/case: expected a case that stands under /cases"},
+    {"/runs/0/case", "\"nowhere\"", "/runs/0/case: expected a case listed under /cases"},
     {"/runs/0/checks/0/computed", "\"16\"", "/runs/0/checks/0/computed: expected a number"},
     {"/runs/0/checks/0/verdict", "", "/runs/0/checks/0/verdict: expected a value, found nothing"},
     {"/runs/0/drawing/members/0/1", "99",
