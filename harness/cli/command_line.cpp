@@ -130,8 +130,6 @@ const std::vector<Option>& all_options() {
        "Also checks, worst share of a tolerance and time as ctest's measurements"},
       {"--vtk", &Options::vtk,
        "Also OUT/vtk: shapes, poses and motions for ParaView, each set as PVD of VTU files"},
-      {"--single-file", &Options::single_file,
-       "Also report.html: all in one file of at most 6 MB, to be mailed"},
       {"--html", &Options::html, "Also a page with curves over each other, one file"},
       {"--gate", &Options::gate, "Exit status 1 if something differs beyond round-off"},
       {"--sweep", &Options::sweeps, "Sweeps of the cases; all of them by default"},
@@ -203,7 +201,7 @@ constexpr CommandEntry kCommands[] = {
     {"paper", paper_command, "results --json"},
     {"effects", effects_command, "cases --label --variant --tolerance --repeats --out --json", ""},
     {"report", report_command,
-     "inputs --label --jobs --out --single-file --fresh --store --history --max-memory --errors "
+     "inputs --label --jobs --out --fresh --store --history --max-memory --errors "
      "--no-errors --warn-above --accuracy --quantity"},
     {"export", export_command, "case! --variant --level --sweep --out --matrices", ""},
     {"solve", solve_command, "case! result!", ""},

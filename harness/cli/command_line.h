@@ -15,7 +15,7 @@ namespace trammel::harness {
 /// What the harness cannot know: how results become a page and a JUnit file.
 struct Renderers {
   std::function<std::filesystem::path(const results::Results& results,
-                                      const std::filesystem::path& folder, bool single_file)>
+                                      const std::filesystem::path& folder)>
       report;
   std::function<void(const results::Results& results, const std::filesystem::path& junit)> junit;
   std::function<bool()> can_draw;  ///< whether there is what a report is drawn with

@@ -34,7 +34,6 @@ struct CommandOptions {
   std::string shard;    ///< of `run`: "K/N"
   std::string costs;    ///< results.json that shards are balanced by
   std::string history;  ///< SQLite file that the call is added to; empty: none
-  bool single_file = false;
   bool measurements = false;
   bool vtk = false;
 
@@ -92,8 +91,7 @@ Command export_command, solve_command, grade_command;
 /// Writes results.json, junit.xml if there are runs, and the pages, all of them or nothing.
 /// @returns the first page
 [[nodiscard]] std::filesystem::path write_pages(const results::Results& results,
-                                                const std::string& out, bool single_file,
-                                                const Renderers& renderers);
+                                                const std::string& out, const Renderers& renderers);
 
 /// Measures the quick sweep of each study of the catalogue into the store.
 /// @throws InputError  from the work: the message that `quick_cost` reports for the study

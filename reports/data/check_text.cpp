@@ -170,4 +170,16 @@ std::string failure_text(const CheckGroup& group) {
   return worst.message.empty() ? text : text + " (" + worst.message + ")";
 }
 
+std::string work_counters_text(const Counters& counters) {
+  std::string text;
+  for (const auto& [name, n] : counters) {
+    if (n == 0 && name == "steps") continue;  // most computations have none
+    std::string digits = std::to_string(n);
+    for (auto place = static_cast<std::ptrdiff_t>(digits.size()) - 3; place > 0; place -= 3)
+      digits.insert(static_cast<std::size_t>(place), "\u202f");
+    add_item(text, digits + " " + spaced(name));
+  }
+  return text;
+}
+
 }  // namespace trammel::reports

@@ -7,7 +7,6 @@
 #include "harness/base/find_or_add.h"
 #include "reports/drawing/interval.h"
 #include "reports/drawing/palette.h"
-#include "reports/drawing/plot_script.h"
 #include "reports/figures/figures.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"

@@ -174,7 +174,8 @@ Figure cost_figure(const CostStudy& study) {
               study.conclusion,
           .height = 350 + key_height,
           .commands = script.commands(),
-          .data = table_of(study)};
+          .data = table_of(study),
+          .is_linked = true};
 }
 
 }  // namespace trammel::reports

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "reports/drawing/palette.h"
-#include "reports/drawing/plot_script.h"
 #include "reports/figures/figures.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "reports/drawing/palette.h"
-#include "reports/drawing/plot_script.h"
 #include "reports/figures/figures.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"

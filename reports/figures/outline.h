@@ -76,16 +76,4 @@ inline constexpr double kDrawnAmplitude = 0.13;  ///< of the longer side: deflec
 [[nodiscard]] std::string moving_poses(const Drawing& drawing, const std::vector<Pose>& moments,
                                        double factor, const Box& box, double panel);
 
-/// Rows one under another, each with its label above its own line: long names need no margin, and
-/// a phone can show them. Row 0 is the uppermost.
-
-/// Height of the drawing for so many rows.
-[[nodiscard]] int strip_height(std::size_t rows);
-
-/// Sets the y axis and writes the labels.
-void strip_rows(PlotScript& script, const std::vector<std::string>& labels);
-
-/// Where the marks of a row stand.
-[[nodiscard]] double strip_y(std::size_t row);
-
 }  // namespace trammel::reports

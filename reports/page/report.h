@@ -7,16 +7,15 @@
 #include "harness/results/side_comparison.h"
 #include "reports/data/results.h"
 
-/// What the commands write: a report, a comparison, the grades of codes, JUnit.
+/// Pages and files that the commands write.
 namespace trammel::reports {
 
-/// Writes a report of complete results into `out`: `index.html`, a page for each family and
-/// case, figures (SVG) with their data (CSV); asked for a single file also `report.html`, which
-/// needs no other. Beside a former report, whose place it takes when all is there, with what else
-/// lies in the folder of unfinished files. Where it fails, the former one stays whole.
-/// @returns the path of the page to open.
-std::filesystem::path write_report(const Results& results, const std::filesystem::path& out,
-                                   bool single_file = false);
+/// Writes a report of complete results into `out`: `index.html`, a page for each family and case,
+/// and figures (SVG) with their data (CSV). The report, together with all files in the folder of
+/// unfinished files, replaces an earlier report at the end. If writing fails, the earlier report
+/// does not change.
+/// @returns the path of the first page.
+std::filesystem::path write_report(const Results& results, const std::filesystem::path& out);
 
 /// Writes sides beside each other as one page that needs no other file: what changed, time and
 /// accuracy, modes and numbers, and the curves of the runs that change most over each other.

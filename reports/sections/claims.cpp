@@ -3,7 +3,6 @@
 
 #include "reports/drawing/plot_script.h"
 #include "reports/sections/sections.h"
-#include "reports/text/html.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
 

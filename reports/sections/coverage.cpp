@@ -1,68 +1,60 @@
-#include <algorithm>
+#include <array>
 
+#include "harness/base/find_or_add.h"
 #include "reports/sections/sections.h"
 
 namespace trammel::reports {
+
 namespace {
 
-constexpr const char* kKinds[] = {"exact", "published", "manufactured", "code", "self-consistency"};
+constexpr std::array<const char*, 5> kKinds = {"exact", "published", "manufactured", "code",
+                                               "self-consistency"};
 
-Data row_data(const CoverageRow& row) {
-  const auto cell = [&](const char* kind) {
-    const bool has = std::ranges::find(row.evidence, kind) != row.evidence.end();
-    return object({{"mark", has ? "●" : ""}});
-  };
-  return object(
-      {{"feature", row.feature},
-       {"kinds", list_of(kKinds, cell)},
-       {"judged",
-        row.series == 0 ? "" : std::to_string(row.judged) + " of " + std::to_string(row.series)},
-       {"reason", row.reason}});
-}
-
+/// Returns the features of a group, those without independent evidence first.
 Data group_data(const std::vector<CoverageRow>& rows, const std::string& group,
-                const std::string& title, bool with_verified) {
-  Data all = list();
-  std::size_t count_all = 0, verified = 0, stated = 0;
-  // What has no independent evidence first.
+                const std::string& title) {
+  TextTable table{title, {"Feature"}};
+  table.heads.insert(table.heads.end(), kKinds.begin(), kKinds.end());
+  table.heads.insert(table.heads.end(), {"Series judged", "Reason for no independent evidence"});
+  std::size_t verified = 0, with_reason = 0;
   for (const bool is_verified : {false, true}) {
     for (const CoverageRow& row : rows) {
       if (row.group != group || row.is_verified() != is_verified) continue;
-      ++count_all;
-      verified += is_verified ? 1 : 0;
-      stated += row.reason.empty() ? 0 : 1;
-      if (with_verified || !is_verified) all.push_back(row_data(row));
+      if (is_verified) ++verified;
+      if (!row.reason.empty()) ++with_reason;
+      std::vector<std::string>& cells = table.rows.emplace_back();
+      cells = {row.feature};
+      for (const char* kind : kKinds)
+        cells.emplace_back(harness::contains(row.evidence, kind) ? "●" : "");
+      cells.push_back(row.series ? std::to_string(row.judged) + " of " + std::to_string(row.series)
+                                 : "");
+      cells.push_back(row.reason);
     }
   }
-  return object({{"title", title},
-                 {"has_rows", all.is_non_empty_list()},
-                 {"rows", all},
-                 {"count", std::to_string(verified) + " of " + std::to_string(count_all) +
-                               " with independent evidence, " + std::to_string(stated) +
-                               " without, for a recorded reason"}});
+  Data data = table_data(table);
+  data.set("count", std::to_string(verified) + " of " + std::to_string(table.rows.size()) +
+                        " with independent evidence, " + std::to_string(with_reason) +
+                        " without, for a recorded reason");
+  return data;
 }
 
 }  // namespace
 
-Data coverage_section(const Results& results, bool with_verified) {
+Data coverage_section(const Results& results) {
   const auto& rows = results.coverage;
   Data groups = list();
-  const auto add = [&](const char* group, const char* title) {
-    groups.push_back(group_data(rows, group, title, with_verified));
-  };
-  add("key", "Keys and values of a case");
-  add("pair", "Analyses with parts, elements and joints");
-  add("quantity", "Quantities");
-  const auto verified = std::ranges::count_if(rows, &CoverageRow::is_verified);
-  int series = 0, judged = 0;
+  groups.push_back(group_data(rows, "key", "Keys and values of a case"));
+  groups.push_back(
+      group_data(rows, "pair", "Combinations of analyses, parts, elements and joints"));
+  groups.push_back(group_data(rows, "quantity", "Quantities"));
+  int verified = 0, series = 0, judged = 0;
   for (const CoverageRow& row : rows) {
+    verified += row.is_verified() ? 1 : 0;
     series += row.series;
     judged += row.judged;
   }
   return object({{"has_rows", !rows.empty()},
-                 {"with_verified", with_verified},
                  {"groups", groups},
-                 {"kinds", list_of(kKinds, [](const char* kind) { return Data(kind); })},
                  {"words", std::to_string(verified) + " of " + std::to_string(rows.size()) +
                                " features have independent evidence; " + std::to_string(judged) +
                                " of " + std::to_string(series) + " recorded series are judged."}});

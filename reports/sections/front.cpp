@@ -1,15 +1,12 @@
 #include <algorithm>
 
-#include "reports/data/check_text.h"
 #include "reports/sections/sections.h"
-#include "reports/text/html.h"
-#include "reports/text/number.h"
 
 namespace trammel::reports {
 
 namespace {
 
-/// Checks of one role; a check counts once, by its worst entry.
+/// Checks of one role. A check counts once, by its worst entry.
 struct RoleCount {
   std::size_t passing = 0, all = 0;
 };
@@ -31,7 +28,7 @@ Data tile(const std::string& number, const std::string& title, const std::string
                      {{"number", number}, {"title", title}, {"words", words}, {"link", link}});
 }
 
-Data tiles_of(const Results& results, std::size_t printed) {
+Data tiles_of(const Results& results) {
   Data tiles = list();
   const RoleCount solver = count_role(results, "verification");
   tiles.push_back(tile(std::to_string(solver.passing) + " of " + std::to_string(solver.all),
@@ -40,27 +37,26 @@ Data tiles_of(const Results& results, std::size_t printed) {
                        results.claims ? "orders.html" : "index.html#trust",
                        solver.passing == solver.all ? CheckStatus::passes : CheckStatus::fails));
   if (results.claims) {
-    const auto count_of_verdict = [&](const std::string& verdict) {
-      return std::ranges::count(results.claims->claims, verdict, &Claim::verdict);
+    const auto count_of = [&](const std::string& verdict) {
+      return std::to_string(std::ranges::count(results.claims->claims, verdict, &Claim::verdict));
     };
     tiles.push_back(
-        tile(std::to_string(count_of_verdict("contradicted")) + " of " +
-                 std::to_string(results.claims->claims.size()),
+        tile(count_of("contradicted") + " of " + std::to_string(results.claims->claims.size()),
              "The paper's claims",
-             "are contradicted; " + std::to_string(count_of_verdict("confirmed")) + " confirmed, " +
-                 std::to_string(count_of_verdict("confirmed in part")) + " in part, " +
-                 std::to_string(count_of_verdict("cannot be decided")) + " cannot be decided.",
+             "are contradicted; " + count_of("confirmed") + " confirmed, " +
+                 count_of("confirmed in part") + " in part, " + count_of("cannot be decided") +
+                 " cannot be decided.",
              "paper.html", CheckStatus::known_discrepancy));
   }
-  if (printed > 0)
+  if (const std::size_t printed = count_printed(results))
     tiles.push_back(tile(std::to_string(printed), "Printed numbers that differ",
                          "from the computed ones, each with its reason.", "paper.html#known",
                          CheckStatus::known_discrepancy));
   return tiles;
 }
 
-/// The comparison of most printed numbers with computed ones and their validation uncertainty, and
-/// the case that has it.
+/// Returns the case that compares most printed numbers with computed ones and their validation
+/// uncertainty, and its figures.
 std::pair<const CaseInfo*, const Gallery*> find_answer(const std::vector<Family>& families) {
   std::pair<const CaseInfo*, const Gallery*> found{nullptr, nullptr};
   std::size_t most = 0;
@@ -86,7 +82,7 @@ void add_figure(const Figure& figure, const std::string& link, Data& figures) {
   figures.push_back(data);
 }
 
-/// The manipulator, what the paper prints and what is computed, and the mode shapes.
+/// Returns figures of the manipulator, of its printed and computed frequencies, and of its modes.
 Data answer_of(const std::vector<Family>& families) {
   Data figures = list();
   const auto [info, gallery] = find_answer(families);
@@ -99,12 +95,11 @@ Data answer_of(const std::vector<Family>& families) {
   return figures;
 }
 
-/// Cost, stability and effects, a figure each.
-Data questions_of(const std::vector<Family>& families, const CostPanels& panels) {
+/// Returns a figure each of cost, stability and effects.
+Data questions_of(const std::vector<Family>& families, const StudyFigures& studies) {
   Data figures = list();
-  const auto modes = std::ranges::find_if(
-      panels.studies, [](const CostPanel& panel) { return panel.study->id == "modes-elements"; });
-  if (modes != panels.studies.end()) add_figure(modes->figure, "cost.html", figures);
+  const auto modes = std::ranges::find(studies.cost, "cost-modes-elements", &Figure::id);
+  if (modes != studies.cost.end()) add_figure(*modes, "cost.html", figures);
   const auto stress_cases = [](const Family& family) {
     return std::ranges::count_if(
         family.cases, [](const CaseInfo* info) { return info->stress_suite.has_value(); });
@@ -112,16 +107,16 @@ Data questions_of(const std::vector<Family>& families, const CostPanels& panels)
   const auto stress = std::ranges::max_element(families, {}, stress_cases);
   if (stress != families.end() && stress_cases(*stress) > 0 && !stress->overview.empty())
     add_figure(stress->overview.front(), "stress.html", figures);
-  if (!panels.effects.empty()) add_figure(panels.effects.front(), "effects.html", figures);
+  if (!studies.effects.empty()) add_figure(studies.effects.front(), "effects.html", figures);
   return figures;
 }
 
 }  // namespace
 
 Data front_section(const Results& results, const std::vector<Family>& families,
-                   const CostPanels& panels, std::size_t printed) {
-  const Data answer = answer_of(families), questions = questions_of(families, panels);
-  return object({{"tiles", tiles_of(results, printed)},
+                   const StudyFigures& studies) {
+  const Data answer = answer_of(families), questions = questions_of(families, studies);
+  return object({{"tiles", tiles_of(results)},
                  {"has_answer", answer.is_non_empty_list()},
                  {"answer", answer},
                  {"has_questions", questions.is_non_empty_list()},

@@ -4,9 +4,7 @@
 #include <map>
 
 #include "harness/base/find_or_add.h"
-#include "reports/data/check_text.h"
 #include "reports/sections/sections.h"
-#include "reports/text/html.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
 

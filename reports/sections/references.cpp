@@ -1,9 +1,7 @@
 #include <array>
 #include <set>
 
-#include "reports/drawing/figure.h"
 #include "reports/sections/sections.h"
-#include "reports/text/html.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
 

@@ -1,10 +1,7 @@
-#include <algorithm>
 #include <map>
 #include <set>
 
-#include "reports/data/check_text.h"
 #include "reports/sections/sections.h"
-#include "reports/text/html.h"
 #include "reports/text/number.h"
 
 namespace trammel::reports {

@@ -1,12 +1,9 @@
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <tuple>
 
 #include "harness/base/find_or_add.h"
-#include "reports/data/check_text.h"
 #include "reports/sections/sections.h"
-#include "reports/text/html.h"
 #include "reports/text/number.h"
 
 namespace trammel::reports {

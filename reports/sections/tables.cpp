@@ -2,10 +2,7 @@
 
 #include "harness/base/find_or_add.h"
 #include "harness/results/quantity_definitions.h"
-#include "reports/data/check_text.h"
-#include "reports/drawing/figure.h"
 #include "reports/sections/sections.h"
-#include "reports/text/html.h"
 #include "reports/text/number.h"
 
 namespace trammel::reports {

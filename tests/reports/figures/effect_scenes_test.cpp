@@ -35,7 +35,7 @@ BOOST_AUTO_TEST_CASE(a_page_of_scenes_alone_shows_them) {
   Results results;
   results.effect_scenes = kScenes;
   const Workspace folder;
-  const std::string page = text_of(write_report(results, folder.path() / "out", false));
+  const std::string page = text_of(write_report(results, folder.path() / "out"));
   BOOST_TEST(contains(page, "Effects chosen automatically"));
   BOOST_TEST(contains(page, "figures/effects-obtained.svg"));
   BOOST_TEST(contains(page, "2 of 3 scenes keep within"));
