@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <utility>
 
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
@@ -10,17 +9,16 @@ namespace trammel::reports {
 
 namespace {
 
-/// @param work, time  call and what it came to, relative to the first
+/// @param work, time  rows of (call, value relative to the first call)
 std::string caption_of(const PlotScript::Rows& work, const PlotScript::Rows& time) {
   const auto last = [](const PlotScript::Rows& rows) { return trimmed(rows.back()[1], 3); };
-  std::string text;
-  if (!work.empty()) text = "Counted work is " + last(work) + " times the first call's";
+  std::string text =
+      "Counted work and processor time of all runs of a call, relative to the first call. Times "
+      "are those of complete calls on the newest call's machine.";
+  if (!work.empty()) text += " The newest call has " + last(work) + " times the work";
   if (time.size() > 1)
-    text += (text.empty() ? "Processor time is " : ", processor time ") + last(time) + " times";
-  if (!text.empty()) text += ". ";
-  return text +
-         "All runs of a call together; times where it computed all of them, on the machine of the "
-         "newest.";
+    text += (work.empty() ? " The newest call has " : " and ") + last(time) + " times the time";
+  return text + (work.empty() && time.size() < 2 ? "" : ".");
 }
 
 }  // namespace
@@ -34,10 +32,10 @@ Figure history_figure(const History& history) {
   for (const HistoryCall& call : history.calls) {
     const auto number = static_cast<double>(call.id);
     const auto counted = static_cast<double>(call.work);
-    const bool timed = call.cpu_s > 0 && call.machine == machine;  // times of one machine compare
-    if (timed && first_time == 0) first_time = call.cpu_s;
+    const bool is_timed = call.cpu_s > 0 && call.machine == machine;
+    if (is_timed && first_time == 0) first_time = call.cpu_s;
     if (first_work == 0) first_work = counted;
-    if (timed) time.push_back({number, call.cpu_s / first_time});
+    if (is_timed) time.push_back({number, call.cpu_s / first_time});
     if (first_work > 0) work.push_back({number, counted / first_work});
     if (!call.green()) failing.push_back({number, first_work > 0 ? counted / first_work : 1});
     table.rows.push_back({number, call.date, call.commit, static_cast<double>(call.runs),
@@ -47,15 +45,15 @@ Figure history_figure(const History& history) {
   PlotScript script;
   script.axis_label("x", "call");
   script.axis_label("y", "relative to the first");
-  const std::size_t step = std::max<std::size_t>(history.calls.size() / 8, 1);  // no half calls
+  const std::size_t step = std::max<std::size_t>(history.calls.size() / 8, 1);  // integer tics
   script.command("set yrange [0:*]; set xtics " + std::to_string(history.calls.front().id) + "," +
                  std::to_string(step));
   script.range("x", static_cast<double>(history.calls.front().id) - 0.5,
                static_cast<double>(history.calls.back().id) + 0.5);
   const int key = script.key_below({"counted work", "processor time", "with failures"});
-  script.curve(work, "with linespoints lw 1.6 ps 0.8 pt 7" + lc(palette::color(0)), "counted work");
-  script.curve(time, "with linespoints lw 1.6 ps 0.8 pt 5" + lc(palette::color(1)),
-               "processor time");
+  const std::string line = "with linespoints lw 1.6 ps 0.8 pt ";
+  script.curve(work, line + "7" + lc(palette::color(0)), "counted work");
+  script.curve(time, line + "5" + lc(palette::color(1)), "processor time");
   script.curve(failing, "with points lw 2 ps 1.6 pt 2" + lc(palette::kInk), "with failures");
   script.plot();
   return {.id = "history",

@@ -112,9 +112,8 @@ Data family_contents(const std::vector<Data>& sections, const std::string& path)
 /// of the front page loads. Pages that were opened from a file can load scripts, but not JSON.
 std::string check_list(const std::vector<Family>& families) {
   Json json = {{"cases", Json::array()}, {"rows", Json::array()}, {"roles", Json::array()}};
-  for (const CheckStatus status : kAllCheckStatuses)
-    json["statuses"].push_back(
-        {to_text(status), css_class(status), sign(status), severity(status)});
+  for (const StatusStyle& style : kStatusStyles)
+    json["statuses"].push_back({style.text, style.css_class, style.sign, style.severity});
   std::map<std::string, std::size_t> roles;
   for (const Family& family : families)
     for (const CaseInfo* info : family.cases) {

@@ -1,4 +1,3 @@
-
 #include "reports/sections/sections.h"
 #include "reports/text/number.h"
 
@@ -6,20 +5,18 @@ namespace trammel::reports {
 
 Data with_status(CheckStatus status, std::initializer_list<Entry> entries) {
   Data data = object(entries);
-  set(data, {{"status_text", to_text(status)},
-             {"status_class", css_class(status)},
-             {"sign", sign(status)}});
+  const StatusStyle& style = style_of(status);
+  set(data, {{"status_text", style.text}, {"status_class", style.css_class}, {"sign", style.sign}});
   return data;
 }
 
 Data counts_list(const Counts& counts) {
   Data out = list();
   const auto all = static_cast<double>(total(counts));
-  for (const CheckStatus status : kAllCheckStatuses) {
-    const std::size_t n = count_of(counts, status);
-    const std::string percent = shortest(100.0 * static_cast<double>(n) / all);
-    if (n > 0) out.push_back(with_status(status, {{"n", std::to_string(n)}, {"percent", percent}}));
-  }
+  for (const auto& [status, n] : counts)
+    out.push_back(with_status(
+        status,
+        {{"n", std::to_string(n)}, {"percent", shortest(100.0 * static_cast<double>(n) / all)}}));
   return out;
 }
 

@@ -227,7 +227,7 @@ BOOST_AUTO_TEST_CASE(history_caption_states_work_and_time) {
   call("this", 150, 20, 0);
   const Figure figure = history_figure(history);
   BOOST_TEST(contains(figure.caption,
-                      "Counted work is 2 times the first call's, processor time 1.5 times. "),
+                      "The newest call has 2 times the work and 1.5 times the time."),
              figure.caption);
   BOOST_TEST(contains(figure.commands, "EOD\n1 1\n2 1.2\n3 1.5\n4 2\nEOD"), figure.commands);
   BOOST_TEST(contains(figure.commands, "EOD\n2 1\n4 1.5\nEOD"), figure.commands);
@@ -235,7 +235,7 @@ BOOST_AUTO_TEST_CASE(history_caption_states_work_and_time) {
   BOOST_TEST(figure.data.rows.size() == 4U);
   history.calls.resize(1);
   BOOST_TEST(
-      contains(history_figure(history).caption, "Counted work is 1 times the first call's. "));
+      contains(history_figure(history).caption, "The newest call has 1 times the work."));
 }
 
 BOOST_AUTO_TEST_CASE(straight_limb_is_two_points) {
