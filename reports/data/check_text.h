@@ -67,27 +67,30 @@ using Counts = std::map<CheckStatus, std::size_t>;
 void add(Counts& counts, const Run& run);
 [[nodiscard]] bool all_checks_pass(const Counts& counts);
 
+// Numbers of a check as text in the cells of a table.
+
 [[nodiscard]] std::string target_text(const Check& check);
 [[nodiscard]] std::string computed_text(const Check& check);
 [[nodiscard]] std::string difference_text(const Check& check);
 [[nodiscard]] std::string tolerance_text(const Check& check);
 
-/// A difference of this check's measure: +26 %, −3 × 10⁻⁸ N, ratio 1.02.
+/// Returns a difference in the measure of the check: "+26 %", "−3 × 10⁻⁸ N", "× 1.02".
 [[nodiscard]] std::string difference_text(const Check& check, double difference);
 
-/// What the case calls the check, else its name.
+/// Returns the title of the check, or its name if it has none.
 [[nodiscard]] std::string check_title(const Check& check);
 
-/// "frequency (Hz)", "largest |x displacement of P| (m), over rigid-platform".
+/// Returns "frequency (Hz)", "largest magnitude of x displacement of P, against rigid-platform
+/// (m)".
 [[nodiscard]] std::string quantity_text(const Check& check);
 
-/// "mode 3", "point 37", "2"; empty without an index.
+/// Returns "mode 3", "point 37" or "2"; empty for a check without an index.
 [[nodiscard]] std::string entry_text(const Check& check, std::size_t entries);
 
-/// One line that says what went wrong with a group: how many, and the worst.
+/// Returns the number of failures of a group and its worst entry in one line.
 [[nodiscard]] std::string failure_text(const CheckGroup& group);
 
-/// "192 element evaluations, 2 factorizations".
+/// Returns "192 element evaluations, 2 factorizations".
 [[nodiscard]] std::string work_counters_text(const Counters& counters);
 
 }  // namespace trammel::reports

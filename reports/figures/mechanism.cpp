@@ -12,6 +12,7 @@ namespace trammel::reports {
 
 namespace {
 
+/// Point type of a kind of joint, and its words in the key.
 struct JointSymbol {
   const char *kind, *words;
   int point;
@@ -38,7 +39,7 @@ bool is_drawn(const Drawing& drawing, const JointSymbol& symbol) {
                              [&](const Joint& joint) { return joint.kind == symbol.kind; });
 }
 
-/// Joints of one kind; a hinge is a ring with paper inside.
+/// Draws the joints of one kind. A hinge is a ring that is filled with the color of the paper.
 void draw_joints(PlotScript& script, const Drawing& drawing, const JointSymbol& symbol) {
   PlotScript::Rows rows;
   for (const Joint& joint : drawing.joints)
@@ -53,7 +54,7 @@ void draw_joints(PlotScript& script, const Drawing& drawing, const JointSymbol& 
   script.key_entry("with points pt 6 ps 1 lw 2" + lc(palette::kInk), symbol.words);
 }
 
-/// Names stand outside: away from the middle of the drawing.
+/// Writes the names of joints away from the center of the drawing.
 void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
   const double cx = 0.5 * (box.x.low + box.x.high);
   const double cy = 0.5 * (box.y.low + box.y.high);
@@ -70,16 +71,6 @@ void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
   }
 }
 
-void draw_body(PlotScript& script, const Drawing& drawing, const std::vector<Point>& nodes,
-               const std::string& color, double width, const std::string& title) {
-  const std::string line = "with lines lw " + shortest(width) + lc(color);
-  script.curve(rows_of(triangle_edges_inside(drawing), nodes), "with lines lw 0.4" + lc(color));
-  script.curve(rows_of(triangle_edges(drawing), nodes),
-               "with lines lw " + shortest(0.5 * width) + lc(color),
-               drawing.members.empty() ? title : "");
-  script.curve(rows_of(polylines(drawing), nodes), line, title);
-}
-
 void add_rows(Table& table, const std::string& pose, const Drawing& drawing,
               const std::vector<Point>& nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -92,14 +83,14 @@ void add_rows(Table& table, const std::string& pose, const Drawing& drawing,
 }
 
 std::string mechanism_caption(const Box& box, std::size_t poses) {
-  std::string text = "The model as it was solved; it spans " + trimmed(box.width(), 3) + "\u202fm";
+  std::string text = "Model as solved";
+  if (poses > 1) text += " in " + std::to_string(poses) + " poses";
+  text += ". It spans " + trimmed(box.width(), 3) + "\u202fm";
   if (box.height() > 0) text += " × " + trimmed(box.height(), 3) + "\u202fm";
-  text += ".";
-  if (poses > 1) text += " " + std::to_string(poses) + " poses are laid over each other.";
-  return text;
+  return text + ".";
 }
 
-/// Poses laid over the model as it stands; moments of a motion have a figure of their own.
+/// Returns the further poses without moments of a motion, which have a separate figure.
 std::vector<const Pose*> overlays_of(const Drawing& drawing) {
   std::vector<const Pose*> overlays;
   for (const Pose& pose : drawing.poses)
@@ -127,7 +118,7 @@ int draw_overlays(PlotScript& script, Table& data, const std::vector<const Pose*
 std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   if (!run.drawing || run.drawing->nodes.empty()) return std::nullopt;
   const Drawing& drawing = *run.drawing;
-  // Points alone, as of a mass on springs, are no picture.
+  // A model of points only, such as a mass on springs, has no drawing.
   if (drawing.members.empty() && drawing.triangles.empty() && drawing.joints.empty()) {
     return std::nullopt;
   }
@@ -144,6 +135,8 @@ std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   const int key_height = draw_overlays(script, table, overlays, base_label, drawing);
   script.curve(filled_triangles(drawing, drawing.nodes),
                "with filledcurves closed" + lc(palette::kPlate));
+  script.curve(rows_of(triangle_edges_inside(drawing), drawing.nodes),
+               "with lines lw 0.4" + lc(palette::color(0)));
   draw_body(script, drawing, drawing.nodes, palette::color(0), 2.6, base_label);
   add_rows(table, base_label.empty() ? "pose" : base_label, drawing, drawing.nodes);
   for (const JointSymbol& symbol : kJointSymbols) draw_joints(script, drawing, symbol);

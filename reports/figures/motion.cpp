@@ -10,14 +10,14 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxLaidOver = 6;
+constexpr std::size_t kMaxDrawnMoments = 6;
 
-/// The largest length among vectors of all moments, and when.
+/// Largest length of the vectors of all moments, and its time.
 struct Largest {
   double length = 0, time = 0;
 };
 
-/// @param of  the vectors of a moment
+/// @param of  returns the vectors of a moment
 template <class Vectors>
 Largest largest(const std::vector<Pose>& moments, const Vectors& of) {
   Largest found;
@@ -37,7 +37,7 @@ std::vector<Pose> moments_of(const Drawing& drawing) {
   return moments;
 }
 
-/// Two digits, never less than life.
+/// Returns a factor with two digits, at least 1.
 double magnification(double deflection, double side) {
   if (!(deflection > 0)) return 1;
   const double factor = kDrawnAmplitude * side / deflection;
@@ -47,35 +47,23 @@ double magnification(double deflection, double side) {
 
 std::string caption_of(const std::vector<Pose>& moments, const Largest& deflection, double factor,
                        const std::string& drawn) {
-  const std::string end = trimmed(*moments.back().time_s, 4) + "\u202fs";
-  std::string text;
-  if (deflection.length > 0) {
-    text = "The largest deflection is " + length_text(deflection.length) + ", at " +
-           trimmed(deflection.time, 3) + "\u202fs; deflections are drawn " +
-           (factor > 1 ? trimmed(factor, 2) + " times (blue), from where rigid links are (grey)"
-                       : std::string("as they are (blue)")) +
-           ".";
-  } else {
-    const std::vector<Point>& first = moments.front().nodes;
-    const Largest way = largest(moments, [&](const Pose& moment) {
-      std::vector<Point> moved = moment.nodes;
-      for (std::size_t i = 0; i < moved.size(); ++i)
-        moved[i].first -= first[i].first, moved[i].second -= first[i].second;
-      return moved;
-    });
-    text = "Places as they are; no point is farther than " + length_text(way.length) +
-           " from where it begins, at " + trimmed(way.time, 3) + "\u202fs.";
-  }
-  return text + " Laid over each other: " + drawn + "; moving: " + std::to_string(moments.size()) +
-         " moments up to " + end + ", straight between them.";
-}
-
-/// Outlines of the mechanism at a moment.
-void draw_moment(PlotScript& script, const Drawing& drawing, const std::vector<Point>& nodes,
-                 const std::string& color, double width) {
-  const std::string style = "with lines lw " + shortest(width) + lc(color);
-  script.curve(rows_of(triangle_edges(drawing), nodes), style);
-  script.curve(rows_of(polylines(drawing), nodes), style);
+  const std::string all = " Drawn: " + drawn + ". Animated: " + std::to_string(moments.size()) +
+                          " moments up to " + trimmed(*moments.back().time_s, 4) +
+                          "\u202fs, interpolated linearly.";
+  if (deflection.length > 0)
+    return "Deflected mechanism (blue) and rigid links (gray); deflections are drawn " +
+           (factor > 1 ? trimmed(factor, 2) + " times magnified." : std::string("to scale.")) +
+           all + " The largest deflection is " + length_text(deflection.length) + ", at " +
+           trimmed(deflection.time, 3) + "\u202fs.";
+  const std::vector<Point>& first = moments.front().nodes;
+  const Largest way = largest(moments, [&](const Pose& moment) {
+    std::vector<Point> moved = moment.nodes;
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      moved[i].first -= first[i].first, moved[i].second -= first[i].second;
+    return moved;
+  });
+  return "Positions to scale." + all + " The largest distance of a point from its start is " +
+         length_text(way.length) + ", at " + trimmed(way.time, 3) + "\u202fs.";
 }
 
 Table table_of(const std::vector<Pose>& moments) {
@@ -113,18 +101,18 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
   frame(script, box);
   script.axis_label("x", "x (m)");
   script.axis_label("y", "y (m)");
-  const std::size_t stride = (moments.size() + kMaxLaidOver - 2) / (kMaxLaidOver - 1);
+  const std::size_t stride = (moments.size() + kMaxDrawnMoments - 2) / (kMaxDrawnMoments - 1);
   std::string drawn;
   for (std::size_t k = 0; k < moments.size(); ++k) {
     const bool last = k + 1 == moments.size();
     if (k % stride != 0 && !last) continue;
     drawn += (k == 0 ? "" : ", ") + trimmed(*moments[k].time_s, 3);
-    draw_moment(script, drawing, moments[k].nodes, palette::kStructure, 1);
-    draw_moment(script, drawing, places[k], palette::color(0), k == 0 ? 2.4 : 1.1);
+    draw_body(script, drawing, moments[k].nodes, palette::kStructure, 1);
+    draw_body(script, drawing, places[k], palette::color(0), k == 0 ? 2.4 : 1.1);
   }
   script.plot();
   const std::string caption =
-      caption_of(moments, deflection, factor, drawn + "\u202fs (thick: the first)");
+      caption_of(moments, deflection, factor, drawn + "\u202fs (thick: first)");
   return Figure{.id = slug(info.id + "-" + run.variant + "-motion"),
                 .title = titled("Motion", info, run),
                 .caption = caption,

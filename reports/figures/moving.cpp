@@ -13,7 +13,7 @@ namespace {
 using Json = nlohmann::json;
 using Coordinates = std::vector<long>;
 
-/// The lines of a drawing by the places of their nodes among those that are drawn.
+/// Lines of a drawing, with nodes numbered in the order in which they are drawn.
 class Panel {
  public:
   Panel(const Drawing& drawing, const Box& box, double width)
@@ -26,7 +26,7 @@ class Panel {
     json["fill"] = renumbered(loops ? edges : drawing.triangles);
   }
 
-  /// x, y of each node that is drawn. @param of  one a node of the drawing
+  /// Returns x and y of each drawn node. @param of  vectors of all nodes of the drawing
   [[nodiscard]] Coordinates vectors(const std::vector<Point>& of, double factor = 1) const {
     Coordinates numbers(2 * places_.size());
     for (const auto& [node, place] : places_) {
@@ -57,7 +57,7 @@ class Panel {
   std::map<int, int> places_;
 };
 
-/// Each row less the one before.
+/// Returns the differences of each row from the row before.
 Json steps(std::vector<Coordinates> rows) {
   for (std::size_t k = rows.size(); k-- > 1;)
     std::ranges::transform(rows[k], rows[k - 1], rows[k].begin(), std::minus());

@@ -7,14 +7,14 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::array<const char*, 5> kKinds = {"exact", "published", "manufactured", "code",
-                                               "self-consistency"};
+constexpr std::array<const char*, 5> kEvidence = {"exact", "published", "manufactured", "code",
+                                                  "self-consistency"};
 
 /// Returns the features of a group, those without independent evidence first.
 Data group_data(const std::vector<CoverageRow>& rows, const std::string& group,
                 const std::string& title) {
   TextTable table{title, {"Feature"}};
-  table.heads.insert(table.heads.end(), kKinds.begin(), kKinds.end());
+  table.heads.insert(table.heads.end(), kEvidence.begin(), kEvidence.end());
   table.heads.insert(table.heads.end(), {"Series judged", "Reason for no independent evidence"});
   std::size_t verified = 0, with_reason = 0;
   for (const bool is_verified : {false, true}) {
@@ -24,7 +24,7 @@ Data group_data(const std::vector<CoverageRow>& rows, const std::string& group,
       if (!row.reason.empty()) ++with_reason;
       std::vector<std::string>& cells = table.rows.emplace_back();
       cells = {row.feature};
-      for (const char* kind : kKinds)
+      for (const char* kind : kEvidence)
         cells.emplace_back(harness::contains(row.evidence, kind) ? "●" : "");
       cells.push_back(row.series ? std::to_string(row.judged) + " of " + std::to_string(row.series)
                                  : "");
@@ -44,8 +44,7 @@ Data coverage_section(const Results& results) {
   const auto& rows = results.coverage;
   Data groups = list();
   groups.push_back(group_data(rows, "key", "Keys and values of a case"));
-  groups.push_back(
-      group_data(rows, "pair", "Combinations of analyses, parts, elements and joints"));
+  groups.push_back(group_data(rows, "pair", "Types of analysis with parts, elements and joints"));
   groups.push_back(group_data(rows, "quantity", "Quantities"));
   int verified = 0, series = 0, judged = 0;
   for (const CoverageRow& row : rows) {

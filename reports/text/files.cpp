@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// While it lives, the signals that end the program are kept for later.
+/// Delays the signals that end the program, during its lifetime.
 class SignalsWait {
  public:
   SignalsWait() {
@@ -37,7 +37,7 @@ class SignalsWait {
   sigset_t before_{};
 };
 
-/// What a spreadsheet would take for a formula.
+/// Returns whether a spreadsheet would interpret the text as a formula.
 bool is_formula(const std::string& text) {
   const char first = text.empty() ? ' ' : text[0], second = text.size() > 1 ? text[1] : ' ';
   const bool letter = std::isalpha(static_cast<unsigned char>(second)) != 0 || second == '(';
@@ -45,7 +45,7 @@ bool is_formula(const std::string& text) {
          (first == '-' && letter);
 }
 
-/// A formula gets an apostrophe in front; control characters, but line breaks, become spaces.
+/// Puts an apostrophe before a formula. Control characters other than line breaks become spaces.
 std::string text_cell(const std::string& text) {
   const bool quoted = text.find_first_of(",\"\r\n") != std::string::npos;
   std::string out = quoted ? "\"" : "";
@@ -101,10 +101,10 @@ void replace_files(const fs::path& from, const fs::path& to, const std::string& 
     const fs::path path = to / file, folder = path.parent_path();
     if (fs::is_directory(fs::symlink_status(path)))
       throw std::system_error(EISDIR, std::generic_category(),
-                              path.string() + ": a folder stands where a file is written");
+                              path.string() + ": expected a file, but it is a folder");
     if (fs::is_regular_file(fs::symlink_status(folder)))
       throw std::system_error(ENOTDIR, std::generic_category(),
-                              folder.string() + ": a file stands where a folder is written");
+                              folder.string() + ": expected a folder, but it is a file");
   }
   const SignalsWait wait;
   for (const fs::path& file : files) {

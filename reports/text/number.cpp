@@ -44,7 +44,7 @@ std::string scientific(double x, int digits, bool trim) {
 std::string written(double x, int digits, bool trim) {
   if (!std::isfinite(x)) return std::isnan(x) ? "not a number" : (x > 0 ? "∞" : "\u2212∞");
   if (x == 0) return "0";
-  // The exponent after rounding: 9.9996 to four digits is 10.00.
+  // The exponent is that of the rounded number: 9.9996 with four digits is 10.00.
   const std::string rounded = format(x, std::chars_format::scientific, digits - 1);
   const int exponent = std::stoi(rounded.substr(rounded.find('e') + 1));
   if (exponent < -4 || exponent >= std::max(6, digits)) return scientific(x, digits, trim);
@@ -136,8 +136,9 @@ std::string duration(double seconds) {
   return std::to_string(total / 60) + " min " + std::to_string(total % 60) + " s";
 }
 
-std::string length_text(double metres) {
-  return metres < 0.2 ? trimmed(1000 * metres, 3) + "\u202fmm" : trimmed(metres, 3) + "\u202fm";
+std::string length_text(double length_m) {
+  return length_m < 0.2 ? trimmed(1000 * length_m, 3) + "\u202fmm"
+                        : trimmed(length_m, 3) + "\u202fm";
 }
 
 std::string or_dash(harness::Number x, int digits) {
