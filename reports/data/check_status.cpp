@@ -94,7 +94,7 @@ std::vector<CheckGroup> group_checks(const Run& run) {
     const auto same = [&](const CheckGroup& known) {
       return known.front().name == check.name && known.front().quantity == check.quantity;
     };
-    harness::find_or_add(groups, same, CheckGroup{&run, {}}).checks.push_back(&check);
+    harness::find_or_add(groups, same, {}).checks.push_back(&check);
   }
   return groups;
 }

@@ -44,7 +44,6 @@ inline constexpr std::array<StatusStyle, 7> kStatusStyles = {{
 
 /// Checks of one run with the same name and quantity, in their order.
 struct CheckGroup {
-  const Run* run = nullptr;
   std::vector<const Check*> checks;
 
   [[nodiscard]] const Check& front() const { return *checks.front(); }

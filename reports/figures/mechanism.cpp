@@ -17,22 +17,19 @@ struct JointSymbol {
   const char *kind, *words;
   int point;
   double size;
-  bool filled;
+  bool filled = true;
+  const char* color = palette::kInk;
 };
 
 constexpr std::array<JointSymbol, 7> kJointSymbols = {{
-    {"point", "", 7, 0.6, true},
-    {"support", "support", 9, 1.3, true},
-    {"rigid", "rigid body", 5, 0.9, true},
-    {"welded", "welded joint", 5, 0.8, true},
-    {"sprung", "joint on a spring", 13, 1.2, true},
+    {"point", "", 7, 0.6},
+    {"support", "support", 9, 1.3},
+    {"rigid", "rigid body", 5, 0.9},
+    {"welded", "welded joint", 5, 0.8},
+    {"sprung", "joint on a spring", 13, 1.2},
     {"hinged", "hinge", 7, 0.95, false},
-    {"active", "active joint", 7, 1.1, true},
+    {"active", "active joint", 7, 1.1, true, palette::kSeries[1]},
 }};
-
-const char* joint_color(const JointSymbol& symbol) {
-  return std::string(symbol.kind) == "active" ? palette::color(1) : palette::kInk;
-}
 
 bool is_drawn(const Drawing& drawing, const JointSymbol& symbol) {
   return std::ranges::any_of(drawing.joints,
@@ -47,7 +44,7 @@ void draw_joints(PlotScript& script, const Drawing& drawing, const JointSymbol& 
       rows.push_back({drawing.nodes[joint.node].first, drawing.nodes[joint.node].second});
   if (rows.empty()) return;
   const std::string style = "with points pt " + std::to_string(symbol.point) + " ps " +
-                            shortest(symbol.size) + lc(joint_color(symbol));
+                            shortest(symbol.size) + lc(symbol.color);
   script.curve(rows, style, symbol.filled ? symbol.words : "");
   if (symbol.filled) return;
   script.curve(rows, "with points pt 7 ps " + shortest(0.6 * symbol.size) + lc(palette::kPaper));

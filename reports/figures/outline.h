@@ -75,10 +75,4 @@ inline constexpr double kDrawnAmplitude = 0.13;  ///< of deflections, relative t
 [[nodiscard]] std::string moving_modes(const Drawing& drawing, const std::vector<double>& factor,
                                        const Box& box, double panel);
 
-/// Returns the moments of a motion: positions without deflections (only if they differ) and with
-/// them, each as steps from the moment before.
-/// @param moments  with times
-[[nodiscard]] std::string moving_poses(const Drawing& drawing, const std::vector<Pose>& moments,
-                                       double factor, const Box& box, double panel);
-
 }  // namespace trammel::reports

@@ -80,9 +80,6 @@ struct StudyFigures {
 /// Known discrepancies by family, with their reasons.
 [[nodiscard]] Data known_section(const Results& results, const std::vector<Family>& families);
 
-/// Returns the number of printed values that differ from the computed ones. Each counts once.
-[[nodiscard]] std::size_t count_printed(const Results& results);
-
 /// Tiles and figures of the front page.
 [[nodiscard]] Data front_section(const Results& results, const std::vector<Family>& families,
                                  const StudyFigures& figures);
