@@ -54,8 +54,8 @@ std::string caption_of(const std::vector<Pose>& moments, const Largest& deflecti
                           " moments up to " + trimmed(*moments.back().time_s, 4) +
                           "\u202fs, interpolated linearly.";
   if (deflection.length > 0)
-    return "Deflected mechanism (blue) and rigid links (gray); deflections are drawn " +
-           (factor > 1 ? trimmed(factor, 2) + " times magnified." : std::string("to scale.")) +
+    return "Deflected mechanism (blue) and rigid links (gray); deflections are " +
+           (factor > 1 ? "magnified " + trimmed(factor, 2) + " times." : std::string("to scale.")) +
            all + " The largest deflection is " + length_text(deflection.length) + ", at " +
            trimmed(deflection.time, 3) + "\u202fs.";
   const std::vector<Point>& first = moments.front().nodes;

@@ -79,7 +79,7 @@ std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
          " are nearest to each other, " + relative(gap(nearest), 2, false) + " apart.";
 }
 
-/// Returns "The largest displacement is 1.2 mm, drawn 83 times magnified."
+/// Returns "The largest displacement is 1.2 mm, magnified 83 times."
 std::string displacements_text(const Drawing& drawing, const std::vector<double>& factors,
                                double side) {
   std::size_t largest = 0;
@@ -88,7 +88,7 @@ std::string displacements_text(const Drawing& drawing, const std::vector<double>
   if (!(factors[largest] > 0)) return "Nothing is displaced.";
   const std::string of = factors.size() > 1 ? " (" + drawing.shapes[largest].label + ")" : "";
   return "The largest displacement is " + length_text(kDrawnAmplitude * side / factors[largest]) +
-         of + ", drawn " + trimmed(factors[largest], 2) + " times magnified.";
+         of + ", magnified " + trimmed(factors[largest], 2) + " times.";
 }
 
 }  // namespace

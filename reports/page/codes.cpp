@@ -2,6 +2,7 @@
 #include <map>
 #include <tuple>
 
+#include "harness/base/find_or_add.h"
 #include "harness/results/run_grade.h"
 #include "reports/data/check_text.h"
 #include "reports/data/results.h"
@@ -45,30 +46,20 @@ Code read_code(const std::filesystem::path& file) {
   return code;
 }
 
-const Run* find_run(const Results& results, const std::string& id, const std::string& variant) {
-  for (const Run& run : results.runs)
-    if (run.case_id == id && run.variant == variant) return &run;
-  return nullptr;
-}
-
+/// Returns a row for each variant of a case that a code has run.
 std::vector<Row> plan_rows(const std::vector<Code>& codes) {
   std::vector<Row> rows;
-  for (const Code& code : codes) {
-    for (const Run& run : code.results.runs) {
+  for (std::size_t c = 0; c < codes.size(); ++c)
+    for (const Run& run : codes[c].results.runs) {
+      const CaseInfo& info = codes[c].results.case_info(run.case_id);
       const auto same = [&](const Row& row) {
         return row.info->id == run.case_id && row.variant == run.variant;
       };
-      if (std::ranges::any_of(rows, same)) continue;
-      Row row{&code.results.case_info(run.case_id), run.variant, {}};
-      for (const Code& other : codes) {
-        row.runs.push_back(find_run(other.results, run.case_id, run.variant));
-        if (row.runs.back() == nullptr) continue;
-        const std::string& hash = other.results.case_info(run.case_id).hash;
-        row.other_case = row.other_case || hash != row.info->hash;
-      }
-      rows.push_back(std::move(row));
+      Row& row = harness::find_or_add(rows, same,
+                                      {&info, run.variant, std::vector<const Run*>(codes.size())});
+      row.runs[c] = &run;
+      row.other_case = row.other_case || info.hash != row.info->hash;
     }
-  }
   return rows;
 }
 

@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(what_is_far_from_zero_is_dark_whatever_its_sign) {
   BOOST_TEST(shade_of_lowest() == palette::kSequence.back());
   run.quantities["frequency_Hz"].values[0] = 7.0;
   BOOST_TEST(shade_of_lowest() == palette::kSequence.front());
-  BOOST_TEST(contains(draw(run, problem)->caption, "dark where it is high"));
+  BOOST_TEST(contains(draw(run, problem)->caption, "dark is high"));
 }
 
 BOOST_AUTO_TEST_CASE(maps_of_one_quantity_have_one_scale) {
