@@ -110,7 +110,7 @@ std::vector<Series> collect(const CaseInfo& info, const PlotRequest& request,
       return {};
     }
   }
-  if (series.empty()) problem = "nothing to draw is named";
+  if (series.empty()) problem = "the figure names no quantity";
   return series;
 }
 

@@ -45,7 +45,7 @@ bool can_move(const Drawing& drawing, std::size_t shapes) {
   return finite;
 }
 
-/// Returns "1 mode moves freely. Modes 2 to 6 have 15.1 Hz to 98.3 Hz; 4 and 5 are equal."
+/// Returns "1 mode is rigid. Modes 2 to 6 have 15.1 Hz to 98.3 Hz; 4 and 5 are equal."
 std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
   if (!is_mode(drawing.shapes.front())) {
     const std::string label = drawing.shapes.front().label;
@@ -60,7 +60,7 @@ std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
   while (free < n && values[free] <= 1e-4 * values.back()) ++free;
   const auto hertz = [](double value) { return trimmed(value, 4) + "\u202fHz"; };
   std::string text;
-  if (free > 0) text = count(free, "mode") + (free == 1 ? " moves" : " move") + " freely.";
+  if (free > 0) text = count(free, "mode is rigid", "modes are rigid") + ".";
   if (free == n) return text;
   if (free + 1 == n)
     return text + " Mode " + std::to_string(n) + " has " + hertz(values.back()) + ".";
@@ -143,7 +143,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
           "displacement is " +
           trimmed(100 * kDrawnAmplitude, 2) + "\u202f% of the longer side. " +
           (modes ? modes_text(drawing, n, run) : displacements_text(drawing, factors, side)),
-      .alt = "Small pictures of the shapes: " + labels,
+      .alt = "Drawings of the shapes: " + labels,
       .height = static_cast<int>(height * static_cast<double>(rows)) + 8,
       .commands = script.commands(),
       .data = std::move(table),

@@ -82,8 +82,8 @@ std::string conclusion(const std::vector<ToleranceRow>& rows) {
     }
   }
   if (beyond > 0)
-    return std::to_string(beyond) + " of " + count(n, "check") + " not within tolerance; see " +
-           worst->label + ".";
+    return std::to_string(beyond) + " of " + count(n, "check") +
+           " fail or could not be evaluated; the worst is in " + worst->label + ".";
   return (n == 1 ? "The check passes" : "All " + count(n, "check") + " pass") +
          "; the one nearest to its limit uses " + trimmed(100 * worst->worst, 2) +
          "\u202f% of its tolerance (" + worst->label + ").";
@@ -159,13 +159,15 @@ std::optional<Figure> tolerance_figure(const std::string& family,
   script.plot();
 
   const std::string caption = conclusion(rows);
-  return Figure{.id = slug(family + "-tolerance"),
-                .title = "Share of the tolerance used by each check",
-                .caption = "One dot per check; the line is the limit. " + caption,
-                .alt = "Dots on a logarithmic axis, with the limit marked. " + caption,
-                .height = 105 + 40 * static_cast<int>(rows.size()),
-                .commands = script.commands(),
-                .data = table_of(rows)};
+  return Figure{
+      .id = slug(family + "-tolerance"),
+      .title = "Share of the tolerance used by each check",
+      .caption =
+          "Share of the tolerance that each check uses, with the limit as a line. " + caption,
+      .alt = "Dots on a logarithmic axis, with the limit marked. " + caption,
+      .height = 105 + 40 * static_cast<int>(rows.size()),
+      .commands = script.commands(),
+      .data = table_of(rows)};
 }
 
 }  // namespace trammel::reports

@@ -40,7 +40,8 @@ void add_row(TextTable& table, const std::string& head, const CostStudy& study,
   std::vector<std::string>& row = table.rows.emplace_back();
   row = {head};
   for (const CheapestSetting& found : cheapest)
-    row.push_back(found.setting ? settings_text(study, found) + " (" + times(study.settings[*found.setting].relative) + ")"
+    row.push_back(found.setting ? settings_text(study, found) + " (" +
+                                      times(study.settings[*found.setting].relative) + ")"
                                 : "none");
 }
 

@@ -99,10 +99,8 @@ std::vector<std::string> cells_of(const OrderRow& row, const std::string& varian
 
 /// Returns how many levels the GCI covers, and its size over the true error.
 std::string coverage_text(std::size_t covered, const std::string& levels, Number ratio) {
-  std::string text =
-      "The numerical uncertainty (GCI), estimated from the computed values alone, "
-      "covers the exact value on " +
-      std::to_string(covered) + " of " + levels;
+  std::string text = "The numerical uncertainty (GCI) covers the exact value on " +
+                     std::to_string(covered) + " of " + levels;
   if (ratio) text += "; its median is " + trimmed(*ratio, 3) + " times the true error";
   return text;
 }
