@@ -60,7 +60,7 @@ std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
   while (free < n && values[free] <= 1e-4 * values.back()) ++free;
   const auto hertz = [](double value) { return trimmed(value, 4) + "\u202fHz"; };
   std::string text;
-  if (free > 0) text = count(free, "mode is rigid", "modes are rigid") + ".";
+  if (free > 0) text = count(free, "mode is a rigid-body mode", "modes are rigid-body modes") + ".";
   if (free == n) return text;
   if (free + 1 == n)
     return text + " Mode " + std::to_string(n) + " has " + hertz(values.back()) + ".";
