@@ -45,7 +45,7 @@ bool can_move(const Drawing& drawing, std::size_t shapes) {
   return finite;
 }
 
-/// Returns "1 mode is rigid. Modes 2 to 6 have 15.1 Hz to 98.3 Hz; 4 and 5 are equal."
+/// Returns "1 mode is a rigid-body mode. Modes 2 to 6 have 15.1 Hz to 98.3 Hz; 4 and 5 are equal."
 std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
   if (!is_mode(drawing.shapes.front())) {
     const std::string label = drawing.shapes.front().label;

@@ -22,7 +22,7 @@ struct ToleranceRow {
   double worst = 0;
 };
 
-/// Height of the points of a row; row 0 is the uppermost.
+/// Returns y of the points of a row. Row 0 is at the top.
 double row_y(std::size_t row) {
   return -static_cast<double>(row) - 0.72;
 }
