@@ -206,7 +206,7 @@ int cost_command(const CommandOptions& options, const Renderers& renderers) {
   const bool any_lost = std::ranges::any_of(
       measured, [](const results::CostStudy& study) { return cost_points(study).empty(); });
   results.cost = cost_results(std::move(measured), extent, cost_options.timing);
-  const fs::path page = write_pages(results, options.out, false, renderers);
+  const fs::path page = write_pages(results, options.out, renderers);
   const fs::path file = fs::path(options.out) / "results.json";
   if (!options.json) {
     std::cout << "results in " << file.string() << "\npage in " << page.string() << std::endl;

@@ -140,7 +140,7 @@ void write_scenes(std::vector<results::EffectScene> scenes, const CommandOptions
   const auto unfinished = std::filesystem::path(options.out) / results::kUnfinishedFolder;
   std::filesystem::create_directories(unfinished);
   write_results(results, unfinished);
-  const auto page = renderers.report(results, options.out, false);
+  const auto page = renderers.report(results, options.out);
   if (!options.json) std::cout << "page in " << page.string() << '\n';
 }
 

@@ -133,8 +133,6 @@ const std::vector<Option>& all_options() {
       {"--csv", &Options::csv, "Print CSV with a row for each number"},
       {"--vtk", &Options::vtk,
        "Also write shapes, poses and motions to OUT/vtk for ParaView, as PVD and VTU files"},
-      {"--single-file", &Options::single_file,
-       "Also write the report as a single file, report.html, of at most 6 MB"},
       {"--html", &Options::html, "Also write a page with overlaid curves to this file"},
       {"--gate", &Options::gate, "Exit status 1 if something differs beyond round-off"},
       {"--sweep", &Options::sweeps, "Use only this sweep of the cases; default: all sweeps"},
@@ -173,10 +171,8 @@ const std::vector<Option>& all_options() {
 }
 
 /// Pairs of options that exclude each other.
-constexpr std::pair<const char*, const char*> kExclusive[] = {{"--shard", "--store"},
-                                                              {"--errors", "--no-errors"},
-                                                              {"--ctest", "--json"},
-                                                              {"--csv", "--json"}};
+constexpr std::pair<const char*, const char*> kExclusive[] = {
+    {"--shard", "--store"}, {"--errors", "--no-errors"}, {"--csv", "--json"}};
 
 struct CommandEntry {
   const char* name;
@@ -207,8 +203,7 @@ constexpr CommandEntry kCommands[] = {
     {"paper", paper_command, "results --json"},
     {"effects", effects_command, "cases --label --variant --tolerance --repeats --out --json", ""},
     {"report", report_command,
-     "inputs --label --label-any --jobs --out --single-file --fresh --store --history --max-memory "
-     "--errors "
+     "inputs --label --label-any --jobs --out --fresh --store --history --max-memory --errors "
      "--no-errors --warn-above --accuracy --quantity"},
     {"export", export_command, "case! --variant --level --sweep --out --matrices", ""},
     {"solve", solve_command, "case! result!", ""},
@@ -221,6 +216,16 @@ constexpr CommandEntry kCommands[] = {
     {"slurm", slurm_command, "--shards! cases --label --label-any --variant --jobs --time --out"},
     {"history", history_command, "file! --json"},
 };
+
+/// Returns version, commit and libraries, one per line.
+std::string version_text() {
+  const Json all = environment();
+  std::string text =
+      fmt::format("trammel {}\ncommit {}", TRAMMEL_VERSION, all["commit"].get<std::string>());
+  for (const auto& [name, version] : all["libraries"].items())
+    text += "\n" + name + " " + version.get<std::string>();
+  return text;
+}
 
 /// Parser and dispatcher of the command line.
 class CommandLine {
@@ -237,6 +242,9 @@ class CommandLine {
   }
 
   int run(const std::vector<std::string>& arguments) {
+    const std::string first = arguments.empty() ? "" : arguments.front();
+    if (!is_command(first) && !first.starts_with('-'))
+      throw InputError("trammel: " + expected_command(first));
     // CLI11 takes the arguments from the back and keeps the unused ones.
     std::vector<std::string> stack(arguments.rbegin(), arguments.rend());
     try {

@@ -15,7 +15,7 @@ namespace trammel::harness {
 /// Functions that the harness cannot implement itself: rendering results as a page or a JUnit file.
 struct Renderers {
   std::function<std::filesystem::path(const results::Results& results,
-                                      const std::filesystem::path& folder, bool single_file)>
+                                      const std::filesystem::path& folder)>
       report;
   std::function<void(const results::Results& results, const std::filesystem::path& junit)> junit;
   std::function<bool()> can_draw;  ///< returns true if the tools for drawing a report are available

@@ -192,7 +192,7 @@ int report_results(const CommandOptions& options, const Renderers& renderers) {
     if (!results.missing.empty())
       std::cerr << files.front().string() << ": " << results.missing << '\n';
     std::filesystem::remove_all(std::filesystem::path(options.out) / results::kUnfinishedFolder);
-    page = renderers.report(results, options.out, options.single_file);
+    page = renderers.report(results, options.out);
   } else {
     page = renderers.codes(files, options.out);
   }
@@ -279,12 +279,12 @@ std::vector<Case> select_cases(const CommandOptions& options) {
 }
 
 std::filesystem::path write_pages(const results::Results& results, const std::string& out,
-                                  bool single_file, const Renderers& renderers) {
+                                  const Renderers& renderers) {
   const auto unfinished = std::filesystem::path(out) / results::kUnfinishedFolder;
   std::filesystem::create_directories(unfinished);
   write_results(results, unfinished);
   if (!results.runs.empty()) renderers.junit(results, unfinished / "junit.xml");
-  return renderers.report(results, out, single_file);
+  return renderers.report(results, out);
 }
 
 int run_command(const CommandOptions& options, const Renderers& renderers) {
@@ -345,7 +345,7 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
     append_history(options.history, results);
     results.history = read_history(options.history);
   }
-  const auto page = write_pages(results, options.out, options.single_file, renderers);
+  const auto page = write_pages(results, options.out, renderers);
   print_summary(results);
   std::cout << "report in " << page.string() << std::endl;
   print_run_errors(runs);

@@ -34,7 +34,6 @@ struct CommandOptions {
 
   std::string shard;    ///< for `run`: "K/N"
   std::string history;  ///< SQLite file to which the call is added; empty: none
-  bool single_file = false;
   bool vtk = false;
 
   std::string html;  ///< for `compare`: file of the page; empty: none
@@ -96,8 +95,7 @@ Command export_command, solve_command, grade_command;
 /// Writes results.json, junit.xml (if there are runs) and the pages, completely or not at all.
 /// @returns the first page
 [[nodiscard]] std::filesystem::path write_pages(const results::Results& results,
-                                                const std::string& out, bool single_file,
-                                                const Renderers& renderers);
+                                                const std::string& out, const Renderers& renderers);
 
 /// Returns functions that measure the quick sweep of each study of the catalogue into the store.
 /// @throws InputError  from the functions, with the message that `quick_cost` reports for the study

@@ -8,29 +8,9 @@
 
 namespace trammel::reports {
 
-namespace {
-
-struct StatusStyle {
-  CheckStatus status;
-  const char *words, *css, *sign;
-  int severity;
-};
-
-constexpr std::array<StatusStyle, 7> kStatusStyles = {{
-    {CheckStatus::passes, "passes", "passes", "✓", 0},
-    {CheckStatus::known_discrepancy, "known discrepancy", "known-discrepancy", "≠", 1},
-    {CheckStatus::not_judged, "not judged", "not-judged", "○", 2},
-    {CheckStatus::fails, "fails", "fails", "✗", 4},
-    {CheckStatus::error, "error", "error", "!", 5},
-    {CheckStatus::not_run, "not run", "not-run", "–", 3},
-    {CheckStatus::not_given, "not given", "not-run", "·", 3},
-}};
-
 const StatusStyle& style_of(CheckStatus status) {
   return *std::ranges::find(kStatusStyles, status, &StatusStyle::status);
 }
-
-}  // namespace
 
 CheckStatus check_status(const Check& check) {
   switch (check.verdict) {
@@ -73,19 +53,6 @@ CheckStatus check_status(const Run& run) {
   throw std::logic_error("unknown status");
 }
 
-std::string to_text(CheckStatus status) {
-  return style_of(status).words;
-}
-std::string css_class(CheckStatus status) {
-  return style_of(status).css;
-}
-std::string sign(CheckStatus status) {
-  return style_of(status).sign;
-}
-int severity(CheckStatus status) {
-  return style_of(status).severity;
-}
-
 double tolerance_fraction(const Check& check) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Number& judged = check.measure == "bound" ? check.computed : check.difference;
@@ -108,8 +75,8 @@ double size_of_difference(const Check& check) {
 }
 
 bool worse(const Check& a, const Check& b) {
-  const int sa = severity(check_status(a));
-  const int sb = severity(check_status(b));
+  const int sa = style_of(check_status(a)).severity;
+  const int sb = style_of(check_status(b)).severity;
   if (sa != sb) return sa > sb;
   if (a.known_discrepancy() && b.known_discrepancy())
     return size_of_difference(a) > size_of_difference(b);
@@ -127,7 +94,7 @@ std::vector<CheckGroup> group_checks(const Run& run) {
     const auto same = [&](const CheckGroup& known) {
       return known.front().name == check.name && known.front().quantity == check.quantity;
     };
-    harness::find_or_add(groups, same, CheckGroup{&run, {}}).checks.push_back(&check);
+    harness::find_or_add(groups, same, {}).checks.push_back(&check);
   }
   return groups;
 }

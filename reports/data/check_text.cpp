@@ -12,7 +12,7 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr int kMaxTargetDigits = 8;
+constexpr int kMaxTargetDigits = 8;  ///< of targets that are shown with all digits
 
 std::string with_unit(const std::string& number, const std::string& unit) {
   const std::string symbol = display_unit(unit);
@@ -32,7 +32,7 @@ int digits_for(const Check& check) {
   return distinguishing_digits(*check.expected, *check.computed);
 }
 
-/// The part of an order check that judges the extrapolated value.
+/// Returns whether the check judges the extrapolated value of a convergence study.
 bool is_extrapolated(const Check& check) {
   return check.name.ends_with(".richardson");
 }
@@ -49,12 +49,12 @@ std::string statistic_text(const std::string& statistic) {
   return spaced(statistic);
 }
 
-/// As many as show how far from 1 it is.
+/// Returns the number of digits that show the distance from 1.
 int ratio_digits(double ratio) {
   return distinguishing_digits(ratio, 1) + (ratio > 1 && ratio < 1.1 ? 1 : 0);
 }
 
-/// A limit or difference in the check's own measure.
+/// Returns a limit or difference in the measure of the check.
 std::string measured(const Check& check, double x, bool sign) {
   if (check.measure == "relative") return relative(x, 3, sign);
   if (check.measure == "ratio") return trimmed(x, ratio_digits(x));
@@ -81,7 +81,7 @@ std::string check_title(const Check& check) {
 std::string target_text(const Check& check) {
   if (check.measure == "validation") return "as recorded";
   if (!check.expected) return check.measure == "bound" && check.tolerance ? bound_text(check) : "–";
-  // A value that was printed with few digits is shown with those; a long one as far as it tells.
+  // A printed value is shown with all its digits, unless it has too many.
   const int own = digits_in(shortest(*check.expected));
   if (own <= kMaxTargetDigits) return significant(*check.expected, own);
   return significant(*check.expected, digits_for(check));
@@ -90,7 +90,7 @@ std::string target_text(const Check& check) {
 std::string computed_text(const Check& check) {
   if (check.measure == "status") return check.message.substr(0, check.message.find(':'));
   if (check.measure == "validation" && check.verdict == Verdict::pass) return "the same";
-  if (check.measure == "validation" && check.verdict == Verdict::fail) return "others";
+  if (check.measure == "validation" && check.verdict == Verdict::fail) return "different";
   if (!check.computed) return check.verdict == Verdict::not_run ? "–" : "none";
   const double x = *check.computed;
   if (x == std::round(x) && std::abs(x) < 1e6) return trimmed(x, 7);
@@ -104,7 +104,7 @@ std::string difference_text(const Check& check, double difference) {
 
 std::string difference_text(const Check& check) {
   if (check.measure == "bound") {
-    // Of an upper limit the share used; a range is only kept or not.
+    // For an upper limit, the share that is used; for a range, whether the value is inside.
     const double used = tolerance_fraction(check);
     if (!std::isfinite(used)) return "–";
     if (check.tolerance->low) return used <= 1 ? "within" : "outside";
@@ -129,11 +129,11 @@ std::string tolerance_text(const Check& check) {
 std::string quantity_text(const Check& check) {
   const QuantityLabel quantity = parse_quantity(check.quantity);
   std::string text = to_text(quantity);
-  if (check.measure == "status") return "how the run ends";
+  if (check.measure == "status") return "status of the run";
   if (check.measure == "validation") return "verdicts of ASME V&V 20 on " + text;
   if (check.measure == "order") return "order of convergence of " + text;
   if (check.measure == "leading-term")
-    return "error of " + text + " over the leading term of theory";
+    return "error of " + text + " over the theoretical leading term";
   if (is_extrapolated(check)) text = "extrapolated " + text;
   if (!check.statistic.empty()) text = statistic_text(check.statistic) + " of " + text;
   if (!check.against_quantity.empty())
@@ -168,6 +168,18 @@ std::string failure_text(const CheckGroup& group) {
     text += ", " + difference_text(worst) + " where " + tolerance_text(worst) +
             (worst.known_discrepancy() ? " is expected" : " is allowed");
   return worst.message.empty() ? text : text + " (" + worst.message + ")";
+}
+
+std::string work_counters_text(const Counters& counters) {
+  std::string text;
+  for (const auto& [name, n] : counters) {
+    if (n == 0 && name == "steps") continue;  // most runs have no steps
+    std::string digits = std::to_string(n);
+    for (auto place = static_cast<std::ptrdiff_t>(digits.size()) - 3; place > 0; place -= 3)
+      digits.insert(static_cast<std::size_t>(place), "\u202f");
+    add_item(text, digits + " " + spaced(name));
+  }
+  return text;
 }
 
 }  // namespace trammel::reports

@@ -7,82 +7,89 @@
 
 #include "reports/data/results.h"
 
-/// A check in words: its status, its numbers and its counts.
+/// Checks: their status, and their numbers as text.
 namespace trammel::reports {
 
-/// The status of a check on the page. A comparison that is recorded as not agreeing is a status of
-/// its own and no pass, although its verdict, which gates, is "pass" while it is as recorded.
+/// Status of a check on the page. A known discrepancy is a separate status: its verdict is "pass"
+/// as long as the difference is as recorded, but it does not pass.
 enum class CheckStatus { passes, known_discrepancy, not_judged, fails, error, not_run, not_given };
-inline constexpr std::array<CheckStatus, 7> kAllCheckStatuses = {
-    CheckStatus::passes,     CheckStatus::known_discrepancy,
-    CheckStatus::not_judged, CheckStatus::fails,
-    CheckStatus::error,      CheckStatus::not_run,
-    CheckStatus::not_given};
+
+/// Presentation of a status. The signs do not depend on color. A status of higher severity needs
+/// attention first.
+struct StatusStyle {
+  CheckStatus status;
+  const char *text, *css_class, *sign;
+  int severity;
+};
+inline constexpr std::array<StatusStyle, 7> kStatusStyles = {{
+    {CheckStatus::passes, "passes", "passes", "✓", 0},
+    {CheckStatus::known_discrepancy, "known discrepancy", "known-discrepancy", "≠", 1},
+    {CheckStatus::not_judged, "not judged", "not-judged", "○", 2},
+    {CheckStatus::fails, "fails", "fails", "✗", 4},
+    {CheckStatus::error, "error", "error", "!", 5},
+    {CheckStatus::not_run, "not run", "not-run", "–", 3},
+    {CheckStatus::not_given, "not given", "not-run", "·", 3},
+}};
+[[nodiscard]] const StatusStyle& style_of(CheckStatus status);
 
 [[nodiscard]] CheckStatus check_status(const Check& check);
 
-/// How a run's own ending counts: a singular or not converged run passes when it has checks and all
-/// of them pass, for then the case expects that ending.
+/// Returns the status of the way in which a run ended. A singular or not converged run passes if it
+/// has checks and all of them pass, because then the case expects this ending.
 [[nodiscard]] CheckStatus check_status(const Run& run);
 
-/// "passes", "known discrepancy", "not judged", "fails", "error", "not run", "not given"; and
-/// the class name in the style sheet; and a sign that does not need colour.
-[[nodiscard]] std::string to_text(CheckStatus status);
-[[nodiscard]] std::string css_class(CheckStatus status);
-[[nodiscard]] std::string sign(CheckStatus status);
-
-/// What deserves attention before others has more.
-[[nodiscard]] int severity(CheckStatus status);
-
-/// Share of its tolerance that a check uses: 1 at the limit, infinity where nothing can be said.
-/// For a band the distance from its middle over its half width.
+/// Returns the share of its tolerance that a check uses: 1 at the limit, infinity if there is no
+/// number. For a range, it is the distance from the middle over the half width.
 [[nodiscard]] double tolerance_fraction(const Check& check);
 
-/// Checks of one run under one name and quantity, in their order.
+/// Checks of one run with the same name and quantity, in their order.
 struct CheckGroup {
-  const Run* run = nullptr;
   std::vector<const Check*> checks;
 
   [[nodiscard]] const Check& front() const { return *checks.front(); }
-  /// An error before a failure before whatever uses most of its tolerance.
+  /// Returns the entry of highest severity, and among those the one that uses most of its
+  /// tolerance.
   [[nodiscard]] const Check& worst() const;
 };
 [[nodiscard]] std::vector<CheckGroup> group_checks(const Run& run);
 
-/// Distance of the difference from agreement, in the measure of the check.
+/// Returns the distance of the difference from agreement, in the measure of the check.
 [[nodiscard]] double size_of_difference(const Check& check);
-/// Whether `a` deserves attention before `b`: of known discrepancies the larger difference.
+/// Returns whether `a` needs attention before `b`. Of two known discrepancies, the larger one does.
 [[nodiscard]] bool worse(const Check& a, const Check& b);
 
+/// Number of checks of each status.
 using Counts = std::map<CheckStatus, std::size_t>;
 [[nodiscard]] std::size_t count_of(const Counts& counts, CheckStatus status);
 [[nodiscard]] std::size_t total(const Counts& counts);
-void add(Counts& counts, const Run& run);  ///< its checks
+/// Adds the checks of a run.
+void add(Counts& counts, const Run& run);
 [[nodiscard]] bool all_checks_pass(const Counts& counts);
 
-/// A check in the words and digits of a table's cells.
+// Numbers of a check as text in the cells of a table.
 
 [[nodiscard]] std::string target_text(const Check& check);
 [[nodiscard]] std::string computed_text(const Check& check);
 [[nodiscard]] std::string difference_text(const Check& check);
 [[nodiscard]] std::string tolerance_text(const Check& check);
 
-/// A difference of this check's measure: +26 %, −3 × 10⁻⁸ N, ratio 1.02.
+/// Returns a difference in the measure of the check: "+26 %", "−3 × 10⁻⁸ N", "× 1.02".
 [[nodiscard]] std::string difference_text(const Check& check, double difference);
 
-/// What the case calls the check, else its name.
+/// Returns the title of the check, or its name if it has none.
 [[nodiscard]] std::string check_title(const Check& check);
 
-/// "frequency (Hz)", "largest |x displacement of P| (m), over rigid-platform".
+/// Returns "frequency (Hz)", "largest magnitude of x displacement of P, against rigid-platform
+/// (m)".
 [[nodiscard]] std::string quantity_text(const Check& check);
 
-/// "mode 3", "point 37", "2"; empty without an index.
+/// Returns "mode 3", "point 37" or "2"; empty for a check without an index.
 [[nodiscard]] std::string entry_text(const Check& check, std::size_t entries);
 
-/// One line that says what went wrong with a group: how many, and the worst.
+/// Returns the number of failures of a group and its worst entry in one line.
 [[nodiscard]] std::string failure_text(const CheckGroup& group);
 
-/// "192 element evaluations, 2 factorizations".
+/// Returns "192 element evaluations, 2 factorizations".
 [[nodiscard]] std::string work_counters_text(const Counters& counters);
 
 }  // namespace trammel::reports

@@ -22,7 +22,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A gnuplot that gives up closes its pipe; the write that follows shall fail, not kill us.
+/// Ignores SIGPIPE during its lifetime: if gnuplot closes its pipe, writing fails instead.
 class NoBrokenPipe {
  public:
   NoBrokenPipe() : previous_(std::signal(SIGPIPE, SIG_IGN)) {}
@@ -34,7 +34,7 @@ class NoBrokenPipe {
   void (*previous_)(int);
 };
 
-/// What all figures have in common. Nothing is marked up in texts (noenhanced).
+/// Returns the common settings of all figures. Texts are not marked up (noenhanced).
 std::string preamble(const Figure& figure, const fs::path& svg) {
   std::ostringstream out;
   out << "reset session\n"
@@ -56,9 +56,9 @@ std::string preamble(const Figure& figure, const fs::path& svg) {
   return out.str();
 }
 
-/// Where a drawing's two axes lie and what they measure, for reading values off its curves; nothing
-/// where it has not two, or shows a place.
-/// @param extent  as gnuplot printed it: ends of x and y, and where they lie, y from below
+/// Returns attributes with the ranges, places and labels of the axes, from which the script of the
+/// page reads values of curves. Empty without two labels, and for drawings of positions.
+/// @param extent  ranges of x and y and their places (y from below), as printed by gnuplot
 std::string axes_of(const Figure& figure, const fs::path& extent) {
   const auto label = [&](const std::string& start) {
     const std::size_t at = figure.commands.find(start);
@@ -88,7 +88,7 @@ fs::path svg_path(const fs::path& folder, const Figure& figure) {
   return folder / (figure.id + ".svg");
 }
 
-/// What stands before a drawing in its file, with a hash of it and of all that it tells.
+/// Returns the head of the file of a drawing, with a hash of the drawing and of its inputs.
 std::string head_of(const Figure& figure, const std::string& program, const std::string& svg) {
   const std::string all =
       program + preamble(figure, "/") + figure.commands + figure.title + figure.alt + svg;
@@ -97,7 +97,8 @@ std::string head_of(const Figure& figure, const std::string& program, const std:
          std::to_string(std::hash<std::string>{}(all)) + " -->\n";
 }
 
-/// Whether the folder has the drawing of this figure, whole and as it was drawn.
+/// Reads an earlier drawing of the figure. @returns whether there is one that is complete and
+/// current.
 bool take_drawing(const fs::path& former, const std::string& program, Figure& figure) {
   const fs::path path = svg_path(former, figure);
   if (!fs::is_regular_file(path)) return false;
@@ -105,8 +106,7 @@ bool take_drawing(const fs::path& former, const std::string& program, Figure& fi
   const std::size_t start = drawn.find("<svg");
   if (start == std::string::npos) return false;
   figure.svg = drawn.substr(start);
-  if (drawn.compare(0, start, head_of(figure, program, figure.svg)) != 0) return false;
-  return true;
+  return drawn.compare(0, start, head_of(figure, program, figure.svg)) == 0;
 }
 
 void draw_by_gnuplot(const std::vector<Figure*>& figures, const fs::path& folder) {
@@ -115,7 +115,7 @@ void draw_by_gnuplot(const std::vector<Figure*>& figures, const fs::path& folder
   for (const Figure* figure : figures) fs::remove(svg_path(folder, *figure));
   {
     const NoBrokenPipe guard;
-    // Without the user's own settings; one that hangs is ended.
+    // gnuplot ignores the user's settings (-d), and is ended if it hangs.
     Gnuplot gnuplot("timeout -k 5 " + std::to_string(120 + figures.size()) + " gnuplot -d");
     for (const Figure* figure : figures)
       gnuplot << preamble(*figure, svg_path(folder, *figure)) << figure->commands
@@ -127,8 +127,10 @@ void draw_by_gnuplot(const std::vector<Figure*>& figures, const fs::path& folder
   for (Figure* figure : figures) {
     const fs::path path = svg_path(folder, *figure);
     const std::string drawn = fs::exists(path) ? read_file(path) : "";
-    if (drawn.find("</svg>") == std::string::npos)  // it does not say why: the disk may be full
-      throw std::system_error(EIO, std::generic_category(), path.string() + ": not drawn whole");
+    if (drawn.find("</svg>") ==
+        std::string::npos)  // without a message, for example if the disk is full
+      throw std::system_error(EIO, std::generic_category(),
+                              path.string() + ": the drawing is incomplete");
     figure->svg = tidy_svg(drawn, figure->id, figure->title, figure->alt);
     figure->svg.insert(figure->svg.find(" role="), axes_of(*figure, extent_path(*figure)));
     fs::remove(extent_path(*figure));
@@ -174,7 +176,8 @@ void draw(const std::vector<Figure*>& figures, const fs::path& folder, const fs:
   for (Figure* figure : figures) {
     write_file(svg_path(folder, *figure), head_of(*figure, program, figure->svg) + figure->svg);
     write_file(folder / (figure->id + ".csv"), to_csv(figure->data));
-    if (!figure->moving.empty() && !figure->is_linked)  // for the script, which reads no other file
+    if (!figure->moving.empty() &&
+        !figure->is_linked)  // for the script, which cannot read other files
       figure->svg.insert(figure->svg.rfind("</svg>"),
                          "<metadata>" + xml_escaped(figure->moving) + "</metadata>\n");
   }

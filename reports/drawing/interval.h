@@ -7,7 +7,7 @@
 
 namespace trammel::reports {
 
-/// From the lowest to the highest of the numbers that it covers.
+/// Range from the lowest to the highest of the covered numbers.
 struct Interval {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
@@ -17,7 +17,7 @@ struct Interval {
     low = std::min(low, *x);
     high = std::max(high, *x);
   }
-  /// A positive number and what lies up to a factor from it.
+  /// Covers a positive number with a margin by a factor.
   void cover_around(double x, double factor) {
     cover(x / factor);
     cover(x * factor);

@@ -5,9 +5,9 @@
 
 namespace trammel::reports::palette {
 
-/// The colours of all figures. They stay apart for every common kind of colour blindness and in
-/// grey print (after Okabe and Ito, darkened for thin lines on white), and style.css maps each to
-/// its partner on a dark page: a colour added here needs a line there.
+/// Colors of all figures. They are distinguishable with the common kinds of color blindness and in
+/// gray print (after Okabe and Ito, darkened for thin lines on white). figure.css maps each color
+/// to one for dark pages, so that a new color needs a line there.
 inline constexpr const char* kPaper = "#ffffff";
 inline constexpr const char* kInk = "#1d232b";
 inline constexpr const char* kMuted = "#5b6470";
@@ -23,7 +23,7 @@ inline constexpr std::array<const char*, 7> kSeries = {"#1f5fa8", "#c8500a", "#1
 /// Classes of a map, from low to high: light to dark blue.
 inline constexpr std::array<const char*, 7> kSequence = {"#e3edf7", "#c3d9ee", "#98bfe1", "#6a9fd0",
                                                          "#437eb8", "#265c96", "#123b6b"};
-/// Point types of gnuplot that go with them: disc, square, triangle, diamond, ...
+/// Point types of gnuplot for the series: disc, square, triangle, diamond, ...
 inline constexpr std::array<int, 7> kFilledPoint = {7, 5, 9, 13, 11, 15, 7};
 inline constexpr std::array<int, 7> kOpenPoint = {6, 4, 8, 12, 10, 14, 6};
 

@@ -10,9 +10,9 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxKeyCharacters = 38;  ///< characters that gnuplot finds room for
+constexpr std::size_t kMaxKeyCharacters = 38;  ///< of a title that gnuplot can place
 
-/// A break where there is no finite point.
+/// Returns a row of data; empty, which interrupts the line, if a number is not finite.
 std::string row_text(const std::vector<double>& row) {
   std::string out;
   for (const double x : row) {
@@ -22,7 +22,7 @@ std::string row_text(const std::vector<double>& row) {
   return out;
 }
 
-/// UTF-8: every byte that does not continue another.
+/// Returns whether a byte starts a character of UTF-8.
 bool starts_character(char c) {
   return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
 }
@@ -62,7 +62,7 @@ std::string gnuplot_path(const std::filesystem::path& path) {
 }
 
 std::string tic(const std::string& text, double at) {
-  std::string format;  // gnuplot reads it as one
+  std::string format;  // gnuplot interprets labels as formats
   for (const char c : text) format += c == '%' ? "%%" : std::string(1, c);
   return gnuplot_string(format) + " " + shortest(at);
 }

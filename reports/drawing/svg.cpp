@@ -22,8 +22,8 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
     text.replace(at, from.size(), to);
 }
 
-/// Takes out everything from `open` to `close`, both included, wherever they stand.
-/// @returns what stood between them at the first place.
+/// Removes every part from `open` to `close`, including both.
+/// @returns the text between them in the first part.
 std::string cut(std::string& text, const std::string& open, const std::string& close) {
   std::string first;
   for (std::size_t at = text.find(open); at != std::string::npos; at = text.find(open, at)) {
@@ -35,7 +35,7 @@ std::string cut(std::string& text, const std::string& open, const std::string& c
   return first;
 }
 
-/// rgb( 31,  95, 168) -> #1f5fa8
+/// Replaces colors such as rgb( 31,  95, 168) by #1f5fa8.
 void shorten_colors(std::string& text) {
   for (std::size_t at = text.find("rgb("); at != std::string::npos; at = text.find("rgb(", at)) {
     const std::size_t end = text.find(')', at);
@@ -47,21 +47,21 @@ void shorten_colors(std::string& text) {
   }
 }
 
-/// Attributes that gnuplot repeats for every group. They are on the root, are defaults, or have no
-/// effect, because every path, point and text has its own color.
+/// Attributes that gnuplot repeats for every group. They are set on the root, are defaults, or have
+/// no effect, because every path, point and text has a color.
 constexpr const char* kCommonAttributes =
     R"(fill="none" stroke-linecap="butt" stroke-linecap="round" stroke-linejoin="miter"
        stroke-linejoin="round" stroke-width="1.00" font-family="Helvetica" font-size="15.00"
        color="black" stroke="currentColor" stroke="none" class="gridline" text-anchor="middle")";
 
-/// Simplifies the lines of a path and writes them in tenths of a unit. Single points are invisible.
+/// Simplifies the lines of a path and rounds them to tenths of a unit. Single points are invisible.
 std::string short_path(const std::string& path) {
   using Line = boost::geometry::model::linestring<boost::geometry::model::d2::point_xy<double>>;
   std::string out;
   Line line;
   const auto end_line = [&] {
     Line kept;
-    boost::geometry::simplify(line, kept, 0.1);  // units from a point that is left out to the line
+    boost::geometry::simplify(line, kept, 0.1);  // largest distance of an omitted point
     for (std::size_t i = 0; kept.size() > 1 && i < kept.size(); ++i)
       out += (i == 0 ? "M" : " ") + shortest(std::round(10 * kept[i].x()) / 10) + ',' +
              shortest(std::round(10 * kept[i].y()) / 10);
@@ -80,7 +80,7 @@ std::string short_path(const std::string& path) {
   return out;
 }
 
-/// Polygons become paths, too.
+/// Shortens all paths. Polygons become paths.
 void shorten_paths(std::string& text) {
   const std::string open = " d='";
   replace_all(text, " " + open, open);
@@ -104,7 +104,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// Removes groups that contain nothing, and the tags of groups without attributes.
+/// Removes empty groups, and the tags of groups without attributes.
 std::string without_idle_groups(std::string text) {
   replace_all(text, "<g", "\n<g");
   replace_all(text, "</g>", "\n</g>\n");
@@ -127,7 +127,8 @@ std::string without_idle_groups(std::string text) {
   return out;
 }
 
-/// The definitions of the symbols that `body` uses, and of those that these use, which come before.
+/// Returns the definitions of the symbols that `body` uses, and of those that they use in turn.
+/// These are defined before them.
 std::string symbols(const std::string& definitions, const std::string& body) {
   const std::vector<std::string> lines = lines_of(definitions);
   std::string used;
@@ -154,7 +155,7 @@ std::string tidy_svg(const std::string& text, const std::string& id, const std::
   const std::string definitions = cut(body, "<defs>", "</defs>");
   cut(body, "<title>", "</title>");
   cut(body, "<desc>", "</desc>");
-  // Groups carry ids that repeat from drawing to drawing; nothing refers to them.
+  // Groups have ids that repeat in each drawing and are not used.
   for (std::size_t at = body.find("<g id="); at != std::string::npos; at = body.find("<g id=", at))
     body.replace(at, body.find('>', at) + 1 - at, "<g>");
   shorten_colors(body);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMinEntries = 3, kMaxEntries = 16;
 
-/// Entries that a run compares with one published reference.
+/// Entries of a run that are compared with one published reference.
 struct PrintedRow {
   std::string reference;
   std::vector<const Check*> entries;
@@ -38,7 +38,7 @@ std::vector<PrintedRow> printed_rows(const Run& run) {
   return rows;
 }
 
-/// Expanded uncertainty of a computed entry: discretization and inputs [unit].
+/// Returns the expanded uncertainty of a computed entry from discretization and inputs [unit].
 double uncertainty_of(const Run& run, const Check& check) {
   if (!run.uncertainty) return 0;
   for (const Comparison& c : run.uncertainty->comparisons)
@@ -91,7 +91,7 @@ std::optional<Figure> agreement_figure(const CaseInfo& info, const Results& resu
   const int key = script.key_below(titles);
   script.plot();
   const std::string caption =
-      "Printed values and computed ones with their expanded uncertainty (discretization and "
+      "Printed values, and computed values with their expanded uncertainty (discretization and "
       "inputs). The computed values differ by " +
       low_to_high(relative(differences.low, 3, true), relative(differences.high, 3, true)) + ".";
   return Figure{.id = slug(info.id + "-" + run.variant + "-agreement"),

@@ -7,7 +7,6 @@
 #include "harness/base/find_or_add.h"
 #include "reports/drawing/interval.h"
 #include "reports/drawing/palette.h"
-#include "reports/drawing/plot_script.h"
 #include "reports/figures/figures.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
@@ -17,11 +16,11 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double kSmallestDrawnError = 1e-17;  ///< stands for an error of exactly zero
+constexpr double kSmallestDrawnError = 1e-17;  ///< smaller errors, also zero, are drawn here
 
 using Sweeps = std::vector<const Convergence*>;
 
-/// Relative errors: as given, else the distance from the extrapolated value.
+/// Returns the relative errors; without an exact value, the distances from the extrapolated value.
 Numbers errors_of(const Convergence& c) {
   Numbers errors = c.error;
   const bool given = std::ranges::any_of(errors, &Number::has_value);
@@ -35,25 +34,23 @@ double drawn_error(double error) {
   return std::max(std::abs(error), kSmallestDrawnError);
 }
 
-/// Largest estimate of round-off at each level over all indices.
+/// Returns the largest estimate of the round-off error at each level, over all indices.
 PlotScript::Rows floor_of(const Sweeps& sweeps) {
-  std::map<double, double> largest;
+  std::map<double, Interval> roundoff;
   for (const Convergence* c : sweeps)
     for (std::size_t i = 0; i < c->parameter.size(); ++i)
-      if (c->roundoff[i] && *c->roundoff[i] > 0)
-        largest[*c->parameter[i]] = std::max(largest[*c->parameter[i]], *c->roundoff[i]);
+      if (c->roundoff[i].value_or(0) > 0) roundoff[*c->parameter[i]].cover(c->roundoff[i]);
   PlotScript::Rows rows;
-  for (const auto& [parameter, roundoff] : largest) rows.push_back({parameter, roundoff});
+  for (const auto& [parameter, interval] : roundoff) rows.push_back({parameter, interval.high});
   return rows;
 }
 
-/// "mode 3: 3.99"; "index" where the quantity has no better word.
 std::string entry_name(const Convergence& c) {
   const std::string word = c.quantity.starts_with("frequency") ? "mode " : "entry ";
   return word + std::to_string(c.index + 1);
 }
 
-/// With the fitted order, which the eye then finds beside its curve.
+/// Returns the title of a curve in the key, with its fitted order: "mode 3: 3.99".
 std::string series_title(const Convergence& c, bool alone) {
   std::string title = alone ? to_text(parse_quantity(c.quantity)) : entry_name(c);
   if (c.fitted_order) title += ": " + significant(*c.fitted_order, 3);
@@ -78,35 +75,31 @@ void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool a
   script.key_entry("with linespoints lw 1.4 ps 0.8 pt " + solid + color, series_title(c, alone));
 }
 
-/// The smallest error over all indices at each level.
-std::map<double, double> lowest_errors(const Sweeps& sweeps) {
-  std::map<double, double> lowest;
+/// Returns the range of the errors at each level, over all indices.
+std::map<double, Interval> error_ranges(const Sweeps& sweeps) {
+  std::map<double, Interval> ranges;
   for (const Convergence* c : sweeps) {
     const Numbers errors = errors_of(*c);
-    for (std::size_t k = 0; k < errors.size(); ++k) {
-      if (!errors[k]) continue;
-      const double y = drawn_error(*errors[k]);
-      const auto [known, added] = lowest.emplace(*c->parameter[k], y);
-      if (!added) known->second = std::min(known->second, y);
-    }
+    for (std::size_t k = 0; k < errors.size(); ++k)
+      if (errors[k]) ranges[*c->parameter[k]].cover(drawn_error(*errors[k]));
   }
-  return lowest;
+  return ranges;
 }
 
-/// A triangle below the lowest curve between two neighbouring levels, its slope the theory's.
+/// Draws a triangle with the theoretical slope below the lowest curve, between two adjacent levels.
 void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interval& extent) {
   if (theory <= 0) return;
-  const std::map<double, double> lowest = lowest_errors(sweeps);
-  // Where the lowest curve falls most steeply there is room beside it.
-  double best = 0;
-  auto at = lowest.end();
-  for (auto k = lowest.begin(); k != lowest.end() && std::next(k) != lowest.end(); ++k) {
-    const double fall = std::abs(std::log(k->second / std::next(k)->second));
-    if (fall > best) best = fall, at = k;
+  const std::map<double, Interval> ranges = error_ranges(sweeps);
+  // There is most room next to the steepest part of the curve.
+  double steepest = 0;
+  auto start = ranges.end();
+  for (auto k = ranges.begin(); k != ranges.end() && std::next(k) != ranges.end(); ++k) {
+    const double fall = std::abs(std::log(k->second.low / std::next(k)->second.low));
+    if (fall > steepest) steepest = fall, start = k;
   }
-  if (at == lowest.end()) return;
-  const auto [x0, y0] = *at;
-  const auto [x1, y1] = *std::next(at);
+  if (start == ranges.end()) return;
+  const double x0 = start->first, y0 = start->second.low;
+  const double x1 = std::next(start)->first, y1 = std::next(start)->second.low;
   const double ratio = std::pow(x1 / x0, theory);
   const bool falls = y0 > y1;
   const double top = std::max(y0, y1) / 8;
@@ -121,20 +114,18 @@ void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interva
                                        " front textcolor rgb '" + palette::kInk + "'");
 }
 
-/// "a h^4 + b h^1.35": the two orders that mix by theory.
+/// Returns the law of two orders that mix by theory: "a h^4 + b h^1.35".
 std::string law_of(const Convergence& c) {
   return "a h^" + trimmed(*c.theory_order, 3) + " + b h^" + trimmed(*c.lower_order, 3);
 }
 
 bool any_asymptotic(const Sweeps& sweeps) {
-  return std::ranges::any_of(sweeps, [](const Convergence* c) {
-    const auto& inside = c->in_asymptotic_range;
-    return std::ranges::find(inside, true) != inside.end();
-  });
+  return std::ranges::any_of(
+      sweeps, [](const Convergence* c) { return harness::contains(c->in_asymptotic_range, true); });
 }
 
-/// The fitted orders next to that of theory. If two orders mix there is no single order to fit, and
-/// a law of both is compared with the errors.
+/// Returns the fitted orders and the theoretical order. If two orders mix, there is no single order
+/// to fit, and the law of both is compared with the errors.
 std::string conclusion(const Sweeps& sweeps) {
   const Convergence& first = *sweeps.front();
   const bool mixed = first.lower_order && first.theory_order;
@@ -217,17 +208,19 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   script.plot();
 
   const std::string parameter = parse_quantity(first.sweep).label, result = conclusion(sweeps);
-  return {.id = slug(info.id + "-" + run.variant + "-" + first.sweep + "-" + first.quantity),
-          .title = titled("Convergence of " + words + " over " + parameter, info, run),
-          .caption = result +
-                     " Filled marks lie in the asymptotic range; the grey ground is round-off." +
-                     (exact ? ""
-                            : " No exact value is at hand: errors are distances from the "
-                              "Richardson-extrapolated value."),
-          .alt = "Error against " + parameter + " on logarithmic axes. " + result,
-          .height = 360 + key_height,
-          .commands = script.commands(),
-          .data = table_of(sweeps)};
+  return {
+      .id = slug(info.id + "-" + run.variant + "-" + first.sweep + "-" + first.quantity),
+      .title = titled("Convergence of " + words + " over " + parameter, info, run),
+      .caption = "Error against " + parameter +
+                 "; filled marks lie in the asymptotic range, and the gray area is round-off. " +
+                 (exact ? ""
+                        : "Without an exact value, errors are distances from the "
+                          "Richardson-extrapolated value. ") +
+                 result,
+      .alt = "Error against " + parameter + " on logarithmic axes. " + result,
+      .height = 360 + key_height,
+      .commands = script.commands(),
+      .data = table_of(sweeps)};
 }
 
 }  // namespace
@@ -236,7 +229,7 @@ std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run) {
   std::vector<Sweeps> groups;
   for (const Convergence& c : run.convergence) {
     if (c.parameter.empty()) continue;
-    // A count that is right on every mesh has nothing to show.
+    // A quantity that is exact on every mesh, such as a count, has no curve.
     const Numbers errors = errors_of(c);
     const auto nonzero =
         std::ranges::count_if(errors, [](const Number& e) { return e && *e != 0; });

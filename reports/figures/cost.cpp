@@ -12,7 +12,8 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double kSmallestDrawnCostError = 1e-16;  ///< stands for an error of zero
+constexpr double kSmallestDrawnCostError = 1e-16;  ///< smaller errors, also zero, are drawn here
+constexpr double kMargin = 1.3;                    ///< factor between the points and the frame
 
 double drawn_error(const CostStudy& study, const CostSetting& setting) {
   return std::max(study.error(setting).value_or(0), kSmallestDrawnCostError);
@@ -21,9 +22,6 @@ double drawn_error(const CostStudy& study, const CostSetting& setting) {
 bool is_drawn(const CostStudy& study, const CostSetting& setting) {
   return setting.measured() && study.error(setting) && setting.relative;
 }
-
-/// No point stands on the frame.
-constexpr double kMargin = 1.3;
 
 Interval errors_of(const CostStudy& study) {
   Interval errors;
@@ -40,7 +38,7 @@ Interval times_of(const CostStudy& study) {
   return times;
 }
 
-/// The first setting of each curve.
+/// Returns the first setting of each curve.
 std::vector<const CostSetting*> curves_of(const CostStudy& study) {
   std::vector<const CostSetting*> curves;
   for (const CostSetting& setting : study.settings) {
@@ -50,7 +48,7 @@ std::vector<const CostSetting*> curves_of(const CostStudy& study) {
   return curves;
 }
 
-/// Where what has no usable error stands: right of the axis, in a strip of its own.
+/// Strip for settings without a usable error, to the right of the axis of errors.
 struct Strip {
   double left = 0, middle = 0, right = 0;
 };
@@ -69,8 +67,8 @@ void draw_strip(PlotScript& script, const Strip& strip) {
                                 palette::kMuted + "'");
 }
 
-/// The steps of the front: within an error, its cheapest setting.
-/// @param right  where the front begins
+/// Returns the Pareto front as steps: the time of the cheapest setting within each error.
+/// @param right  largest error
 PlotScript::Rows steps_of(const CostStudy& study, double right) {
   std::vector<std::pair<double, double>> front;
   for (const CostSetting& setting : study.settings)
@@ -85,7 +83,7 @@ PlotScript::Rows steps_of(const CostStudy& study, double right) {
   return rows;
 }
 
-/// @param first  of its settings
+/// @param first  setting of the curve
 void draw_curve(PlotScript& script, const CostStudy& study, const CostSetting& first,
                 std::size_t number, const Strip& strip) {
   PlotScript::Rows points, outside;
@@ -154,9 +152,9 @@ Figure cost_figure(const CostStudy& study) {
   script.axis_label("x", "relative error (" + study.norm + ")");
   script.axis_label("y", "time, relative to the baseline");
   script.curve(steps_of(study, high), "using 1:2 with lines lw 5" + lc(palette::kPlate),
-               "efficient front");
+               "Pareto front");
   const std::vector<const CostSetting*> curves = curves_of(study);
-  std::vector<std::string> keys = {"efficient front"};
+  std::vector<std::string> keys = {"Pareto front"};
   for (std::size_t i = 0; i < curves.size(); ++i) {
     draw_curve(script, study, *curves[i], i, strip);
     keys.push_back(curves[i]->curve_title);
@@ -164,17 +162,19 @@ Figure cost_figure(const CostStudy& study) {
   const int key_height = script.key_below(keys);
   script.plot();
   const std::string note =
-      " The strip at the edge holds " + count(outside, "setting") + " without an answer.";
+      " The strip at the edge contains " + count(outside, "setting") + " without an answer.";
   return {.id = slug("cost-" + study.id),
           .title = study.title,
-          .caption = study.conclusion + (outside > 0 ? note : ""),
+          .caption = "Time against error, a curve for each kind of setting. " + study.conclusion +
+                     (outside > 0 ? note : ""),
           .alt =
               "Time against error on logarithmic axes, a curve for each kind of setting, with "
-              "the efficient front below them. " +
+              "the Pareto front below them. " +
               study.conclusion,
           .height = 350 + key_height,
           .commands = script.commands(),
-          .data = table_of(study)};
+          .data = table_of(study),
+          .is_linked = true};
 }
 
 }  // namespace trammel::reports

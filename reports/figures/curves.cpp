@@ -16,6 +16,7 @@ namespace {
 
 constexpr std::array<const char*, 5> kDashes = {"", "-", "..", "-.", "-.."};
 
+/// A curve: one quantity of one variant.
 struct Series {
   std::string quantity, variant, label;
   std::size_t color, dash;
@@ -30,7 +31,7 @@ double largest_of(const std::vector<double>& values) {
   return largest;
 }
 
-/// What a logarithmic axis shows of a number: its magnitude, and nothing of zero.
+/// Returns the number as drawn: on a logarithmic axis its magnitude, and nothing for zero.
 Number shown(const Number& value, bool log) {
   if (!value || !log) return value;
   return *value == 0 ? Number() : Number(std::abs(*value));
@@ -51,7 +52,6 @@ PlotScript::Rows curve_rows(const std::vector<double>* x, const std::vector<doub
   return rows;
 }
 
-/// Whether a run has one of the quantities at least.
 bool has_any(const Run& run, const std::vector<std::string>& names) {
   return std::ranges::any_of(names, [&](const std::string& name) {
     const std::vector<double>* values = run.quantity(name);
@@ -59,9 +59,19 @@ bool has_any(const Run& run, const std::vector<std::string>& names) {
   });
 }
 
-/// Every quantity of every variant asked for that has it; each has one, and each quantity is there.
-/// Units and lengths must agree.
-std::vector<Series> collect(const PlotRequest& request, const std::vector<std::string>& variants,
+/// Returns the part of a quantity's name that distinguishes it from the other quantities of the
+/// plot.
+std::string own_words(const std::string& name, const PlotRequest& request) {
+  const QuantityLabel quantity = parse_quantity(name);
+  const bool one_label = std::ranges::all_of(
+      request.y, [&](const auto& y) { return parse_quantity(y).label == quantity.label; });
+  return one_label && !quantity.subject.empty() ? quantity.subject : to_text(quantity);
+}
+
+/// Returns the requested quantities of the requested variants. Each variant must have one of the
+/// quantities at least, and each quantity a variant. Units and lengths must agree.
+std::vector<Series> collect(const CaseInfo& info, const PlotRequest& request,
+                            const std::vector<std::string>& variants,
                             const std::vector<const Run*>& runs, std::string& problem) {
   std::vector<Series> series;
   for (std::size_t iy = 0; iy < request.y.size(); ++iy) {
@@ -75,7 +85,7 @@ std::vector<Series> collect(const PlotRequest& request, const std::vector<std::s
       if (!run) {
         problem = "there is no run of the variant " + variant;
       } else if ((!values || values->empty()) && has_any(*run, request.y)) {
-        continue;  // another quantity of its own stands for it
+        continue;  // another quantity represents the variant
       } else if (!values || values->empty()) {
         problem = "the variant " + variant + " has no " + y;
       } else if (!request.x.empty() && !x) {
@@ -85,9 +95,12 @@ std::vector<Series> collect(const PlotRequest& request, const std::vector<std::s
       } else if (parse_quantity(y).unit != parse_quantity(request.y.front()).unit) {
         problem = y + " and " + request.y.front() + " differ in unit";
       } else {
-        // Colours tell quantities apart, kDashes variants; of one quantity both tell variants.
-        const std::size_t color = request.y.size() > 1 ? iy : iv;
-        series.push_back({y, variant, "", color, iv, values, largest_of(*values)});
+        // Colors distinguish quantities and dashes variants. Of one quantity, both distinguish
+        // variants.
+        const bool many = request.y.size() > 1;
+        std::string label = many ? own_words(y, request) : info.variant_title(variant);
+        if (many && variants.size() > 1) label += ", " + info.variant_title(variant);
+        series.push_back({y, variant, label, many ? iy : iv, iv, values, largest_of(*values)});
         continue;
       }
       return {};
@@ -97,32 +110,12 @@ std::vector<Series> collect(const PlotRequest& request, const std::vector<std::s
       return {};
     }
   }
-  if (series.empty()) problem = "nothing to draw is named";
+  if (series.empty()) problem = "the figure names no quantity";
   return series;
 }
 
-/// A quantity among those of a plot: what tells them apart.
-std::string own_words(const std::string& name, const PlotRequest& request) {
-  const QuantityLabel quantity = parse_quantity(name);
-  const bool one_label = std::ranges::all_of(
-      request.y, [&](const auto& y) { return parse_quantity(y).label == quantity.label; });
-  return one_label && !quantity.subject.empty() ? quantity.subject : to_text(quantity);
-}
-
-void name_series(std::vector<Series>& series, const CaseInfo& info, const PlotRequest& request,
-                 std::size_t variants) {
-  for (Series& s : series) {
-    const std::string quantity = own_words(s.quantity, request);
-    const std::string variant = info.variant_title(s.variant);
-    if (request.y.size() == 1) {
-      s.label = variant;
-    } else {
-      s.label = variants == 1 ? quantity : quantity + ", " + variant;
-    }
-  }
-}
-
-/// The words at the end that two texts share: "serial distance", "parallel distance": "distance".
+/// Returns the last words that two texts have in common: "distance" of "serial distance" and
+/// "parallel distance".
 std::string common_end(const std::string& a, const std::string& b) {
   std::size_t n = 0;
   while (n < a.size() && n < b.size() && a[a.size() - 1 - n] == b[b.size() - 1 - n]) ++n;
@@ -132,7 +125,7 @@ std::string common_end(const std::string& a, const std::string& b) {
   return space == std::string::npos ? "" : end.substr(space + 1);
 }
 
-/// "x displacement of P", "x reaction", "displacement", "value": as much as all have in common.
+/// Returns a label for all quantities: their common words, else "value".
 std::string common_words(const std::vector<std::string>& names) {
   if (names.size() == 1) return to_text(parse_quantity(names.front()));
   std::string common = parse_quantity(names.front()).label;
@@ -140,23 +133,19 @@ std::string common_words(const std::vector<std::string>& names) {
   return common.empty() ? "value" : common;
 }
 
-void x_range(PlotScript& script, const std::vector<double>& values, double factor) {
-  Interval x;
-  for (const Number value : values)
-    if (value) x.cover(factor * *value);
-  if (x.length() > 0) script.range("x", x.low, x.high);
-}
-
-void log_range(PlotScript& script, const std::string& axis,
-               const std::vector<const std::vector<double>*>& curves) {
-  Interval shown_values;
+/// Sets the range of an axis to that of the numbers.
+void set_range(PlotScript& script, const std::string& axis,
+               const std::vector<const std::vector<double>*>& curves, bool log, double factor) {
+  Interval range;
   for (const std::vector<double>* values : curves)
-    for (const Number value : *values) shown_values.cover(shown(value, true));
-  const auto [low, high] = shown_values;
-  if (low <= high) script.log_axis(axis, low, high > low ? high : 10 * high);
+    for (const Number value : *values)
+      if (const Number drawn = shown(value, log)) range.cover(factor * *drawn);
+  if (log && !range.empty())
+    script.log_axis(axis, range.low, range.high > range.low ? range.high : 10 * range.high);
+  if (!log && range.length() > 0) script.range(axis, range.low, range.high);
 }
 
-/// "Largest magnitude: 8.13 mm (base)." The power of ten of an axis is no unit of a number in text.
+/// Returns "Largest magnitude: 8.13 mm (base)." A power of ten of the axis is not used in the text.
 std::string measured(const std::vector<Series>& series, const Scale& axis,
                      const std::string& unit) {
   const Scale scale = axis.unit.starts_with("10") ? Scale{1, unit} : axis;
@@ -192,8 +181,8 @@ std::string dashed(std::size_t variant) {
   return pattern == 0 ? "" : " dt " + gnuplot_string(kDashes[pattern]);
 }
 
-/// The curves and their key: where quantities and variants both differ, the key tells colours and
-/// kDashes apart instead of naming every pair. @returns the height of the key.
+/// Draws the curves and their key. If quantities and variants both differ, the key has entries for
+/// colors and dashes instead of one for every pair. @returns the height of the key.
 int draw_series(PlotScript& script, const std::vector<Series>& series, const CaseInfo& info,
                 const PlotRequest& request, const std::vector<std::string>& variants,
                 std::pair<double, double> factors, const std::vector<const Run*>& runs) {
@@ -234,9 +223,8 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
   std::vector<std::string> variants = request.variants;
   if (variants.empty())
     for (const Run* run : runs) variants.push_back(run->variant);
-  std::vector<Series> series = collect(request, variants, runs, problem);
+  const std::vector<Series> series = collect(info, request, variants, runs, problem);
   if (series.empty()) return std::nullopt;
-  name_series(series, info, request, variants.size());
 
   const QuantityLabel y = parse_quantity(request.y.front());
   const QuantityLabel x = parse_quantity(request.x);
@@ -253,16 +241,10 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
   const std::string words = common_words(request.y);
   script.axis_label("y", axis_label(words, y_scale.unit));
   if (largest == 0) script.range("y", -1, 1);
-  if (request.is_log("y") && largest > 0) {
-    std::vector<const std::vector<double>*> all;
-    for (const Series& s : series) all.push_back(s.values);
-    log_range(script, "y", all);
-  }
-  if (x_values && request.is_log("x")) {
-    log_range(script, "x", {x_values});
-  } else if (x_values) {
-    x_range(script, *x_values, x_scale.factor);
-  }
+  std::vector<const std::vector<double>*> all;
+  for (const Series& s : series) all.push_back(s.values);
+  if (request.is_log("y")) set_range(script, "y", all, true, 1);
+  if (x_values) set_range(script, "x", {x_values}, request.is_log("x"), x_scale.factor);
   const int key_height =
       draw_series(script, series, info, request, variants, {x_scale.factor, y_scale.factor}, runs);
   script.plot();

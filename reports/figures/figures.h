@@ -3,63 +3,57 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "reports/data/results.h"
 #include "reports/drawing/figure.h"
 
-/// The makers of figures: one for each kind, neither numbered nor drawn.
+/// Makers of figures, one for each kind. The figures are neither numbered nor drawn.
 namespace trammel::reports {
 
-/// Printed values of the references that a run is compared with, next to the computed ones with
-/// their uncertainty. Nothing where a run compares fewer than three entries.
+/// Printed values of the references that a run is compared with, and the computed values with their
+/// uncertainty. Empty if the run compares fewer than three entries.
 [[nodiscard]] std::optional<Figure> agreement_figure(const CaseInfo& info, const Results& results,
                                                      const Run& run);
 
-/// Log-log error over one sweep of one quantity, all its indices together.
+/// Errors along each sweep on logarithmic axes, one figure for each quantity with all its indices.
 [[nodiscard]] std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run);
 
-/// Time over error on logarithmic axes with the efficient front; what failed in a strip at the
-/// edge.
+/// Time against error on logarithmic axes with the Pareto front. Settings without a result are in a
+/// strip at the edge.
 [[nodiscard]] Figure cost_figure(const CostStudy& study);
 
-/// @returns nullptr where no run is of this variant.
+/// @returns nullptr if there is no run of the variant.
 [[nodiscard]] const Run* find_run(const std::vector<const Run*>& runs, const std::string& variant);
 
-/// What a case's "figures" entry asks for. @param problem  set to the reason where it cannot be
-/// drawn (a quantity or variant that is not there, lengths that differ).
+/// Curves that a case requests. @param problem  set to the reason if the figure cannot be drawn
 [[nodiscard]] std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& request,
                                                   const std::vector<const Run*>& runs,
                                                   std::string& problem);
 
-/// What choosing effects automatically came to over many scenes: the change asked for against the
-/// one obtained, and the time of deciding and running against that with all effects. None without
-/// scenes.
+/// Automatic selection of effects: obtained change against the tolerance, one point for each scene.
 [[nodiscard]] std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes);
 
-/// Processor time and counted work over the calls, relative to the first that has them; calls with
-/// failures are marked.
+/// Processor time and counted work of calls, relative to the first. Calls with failures are marked.
 [[nodiscard]] Figure history_figure(const History& history);
 
-/// What an entry of a case's "figures" with a "value" asks for: a quantity in classes of colour
-/// over positions, one variant, with lines on it.
+/// Map that a case requests: classes of a quantity over positions, with lines, for one variant.
 [[nodiscard]] std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& request,
                                                const std::vector<const Run*>& runs,
                                                std::string& problem);
 
-/// The undeformed mechanism with its joints; the further poses of the drawing are laid under it.
+/// Undeformed mechanism with its joints, drawn over its further poses.
 [[nodiscard]] std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run);
 
-/// A motion of one run: a few moments laid over each other, deflections magnified; a page's script
-/// lets it move. Nothing where fewer than two moments are known.
+/// Moments of a motion with magnified deflections. The script of a page animates them. Empty if
+/// there are fewer than two moments.
 [[nodiscard]] std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run);
 
-/// Up to eight shapes of one run as small multiples: undeformed grey, deformed coloured.
+/// Up to eight mode shapes or deformed shapes of a run, one panel each.
 [[nodiscard]] std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run);
 
-/// Share of the tolerance that every check of a family uses which is expected to agree.
-/// @param titles  of the cases, by id.
+/// Share of its tolerance that each check of a family uses, without known discrepancies.
+/// @param titles  of the cases, by id
 [[nodiscard]] std::optional<Figure> tolerance_figure(
     const std::string& family, const std::map<std::string, std::string>& titles,
     const std::vector<const Run*>& runs);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 #include <set>
 
@@ -14,13 +13,13 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxDrawnVariants = 12;  ///< of one case, with shapes on its page
+constexpr std::size_t kMaxDrawnVariants = 12;  ///< variants of a case with a figure of shapes
 
 void append(std::vector<Figure>& figures, std::vector<Figure> more) {
   std::ranges::move(more, std::back_inserter(figures));
 }
 
-/// Drawing and shapes of the first run are shown; the shapes and convergence of others are folded.
+/// Shows the geometry and the shapes of the first run; folds the shapes and convergence of others.
 Gallery gallery_of(const CaseInfo& info, const Results& results,
                    const std::vector<const Run*>& runs) {
   Gallery gallery;
@@ -36,18 +35,18 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
       (variants == 1 ? gallery.shown : gallery.folded).push_back(*shapes);
   }
   if (variants > kMaxDrawnVariants)
-    gallery.problems.push_back("The page draws the shapes of the first " +
-                               std::to_string(kMaxDrawnVariants) + " variants; those of " +
+    gallery.problems.push_back("The shapes of the first " + std::to_string(kMaxDrawnVariants) +
+                               " variants are drawn; those of " +
                                std::to_string(variants - kMaxDrawnVariants) +
-                               " more stand in the store of runs.");
+                               " more are in the run store.");
   std::size_t motions = 0;
   for (const Run* run : runs)
     if (auto motion = motion_figure(info, *run); motion && ++motions == 1)
       gallery.shown.push_back(*motion);
   if (motions > 1)
-    gallery.problems.push_back("The page moves the first variant; the motions of " +
+    gallery.problems.push_back("The motion of the first variant is drawn; those of " +
                                std::to_string(motions - 1) +
-                               " more are written by 'run --vtk', and stand in the store of runs.");
+                               " more are in the run store, and 'run --vtk' writes them.");
   for (const PlotRequest& request : info.figures) {
     std::string problem;
     const auto draw = request.value.empty() ? curves_figure : map_figure;
@@ -68,8 +67,8 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
   return gallery;
 }
 
-/// Place of a family in the order of interest: manipulators, effects, the paper, beams, large
-/// motion, membranes, benchmarks, stress suite, controls.
+/// Returns the place of a family in the report: manipulators first, then effects, the paper, beams,
+/// large motion, membranes, benchmarks, stress suite and controls.
 std::size_t interest_of(const Family& family) {
   constexpr std::array<const char*, 19> kOrder = {
       "manipulator", "elastodynamics", "sensitivity", "kinematics", "rigid-dynamics",
@@ -90,19 +89,19 @@ std::map<std::string, std::string> short_titles(const Family& family) {
 }  // namespace
 
 std::string Family::short_title(const CaseInfo& info) const {
-  const std::string& whole = info.title;
-  std::size_t same = whole.size();
+  const std::string& title = info.title;
+  std::size_t same = title.size();
   for (const CaseInfo* other : cases) {
     if (other == &info) continue;
     std::size_t i = 0;
-    while (i < same && i < other->title.size() && other->title[i] == whole[i]) ++i;
+    while (i < same && i < other->title.size() && other->title[i] == title[i]) ++i;
     same = i;
   }
-  if (cases.size() < 2 || same == 0 || same == whole.size()) return whole;
-  const std::size_t word = whole.find_last_of(",:", same - 1);
-  if (word == std::string::npos) return whole;
-  const std::size_t from = whole.find_first_not_of(" ,:", word);
-  return from == std::string::npos ? whole : whole.substr(from);
+  if (cases.size() < 2 || same == 0 || same == title.size()) return title;
+  const std::size_t word = title.find_last_of(",:", same - 1);
+  if (word == std::string::npos) return title;
+  const std::size_t from = title.find_first_not_of(" ,:", word);
+  return from == std::string::npos ? title : title.substr(from);
 }
 
 std::vector<const Run*> Family::runs_of(const std::string& case_id) const {

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "reports/drawing/palette.h"
-#include "reports/drawing/plot_script.h"
 #include "reports/figures/figures.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
@@ -12,6 +11,7 @@ namespace trammel::reports {
 
 namespace {
 
+/// A value at a position, and its class of color.
 struct Cell {
   double x, y, value;
   std::size_t color = 0;
@@ -22,14 +22,14 @@ struct Field {
   double dx = 0, dy = 0;
 };
 
-/// The smallest distance between two different coordinates.
+/// Returns the smallest distance between two different coordinates.
 double spacing(std::vector<double> values) {
   std::ranges::sort(values);
-  const double whole = values.back() - values.front();
-  double min_gap = whole;
+  const double extent = values.back() - values.front();
+  double min_gap = extent;
   for (std::size_t i = 1; i < values.size(); ++i) {
     const double gap = values[i] - values[i - 1];
-    if (gap > 1e-9 * whole) min_gap = std::min(min_gap, gap);
+    if (gap > 1e-9 * extent) min_gap = std::min(min_gap, gap);
   }
   return min_gap;
 }
@@ -47,7 +47,7 @@ Field read_field(const std::vector<double>& x, const std::vector<double>& y,
   if (field.cells.empty()) return field;
   field.dx = spacing(xs);
   field.dy = spacing(ys);
-  if (field.dx == 0) field.dx = field.dy;  // one column, or one row, of square cells
+  if (field.dx == 0) field.dx = field.dy;  // one column or row: square cells
   if (field.dy == 0) field.dy = field.dx;
   std::ranges::sort(field.cells, [&](const Cell& a, const Cell& b) {
     return std::abs(a.y - b.y) > 0.5 * field.dy ? a.y < b.y : a.x < b.x;
@@ -55,7 +55,7 @@ Field read_field(const std::vector<double>& x, const std::vector<double>& y,
   return field;
 }
 
-/// Limits between classes that hold about as many cells each, in two digits.
+/// Returns limits between classes that have about the same number of cells, rounded to two digits.
 std::vector<double> class_limits(std::vector<double> sorted) {
   std::ranges::sort(sorted);
   const std::size_t classes = palette::kSequence.size();
@@ -70,7 +70,7 @@ std::vector<double> class_limits(std::vector<double> sorted) {
   return limits;
 }
 
-/// Neighbours of one colour in a row are drawn as one box: centre, then its sides.
+/// Returns boxes (center, then sides) by color. Neighbors of the same color in a row are one box.
 std::vector<PlotScript::Rows> boxes(const Field& field) {
   std::vector<PlotScript::Rows> by_color(palette::kSequence.size());
   for (std::size_t from = 0; from < field.cells.size();) {
@@ -101,7 +101,8 @@ const Run* run_for(const PlotRequest& request, const std::vector<const Run*>& ru
   return find_run(runs, request.variants.empty() ? "base" : request.variants.front());
 }
 
-/// Values of all maps of the case that show the same quantity, so that one colour means one thing.
+/// Returns the values of all maps of the case that show the same quantity, so that a color has the
+/// same meaning in all of them.
 std::vector<double> values_of_all_maps(const CaseInfo& info, const PlotRequest& request,
                                        const std::vector<const Run*>& runs, const Field& own) {
   const auto name = [](const PlotRequest& map) { return map.value.substr(0, map.value.find(':')); };
@@ -136,7 +137,7 @@ void draw_lines(PlotScript& script, const PlotRequest& request, const Run& run,
     const PlotRequest::Line& line = request.lines[i];
     const std::vector<double>* x = run.quantity(line.x);
     const std::vector<double>* y = run.quantity(line.y);
-    if (!x || !y) continue;  // there is none at this orientation
+    if (!x || !y) continue;  // the run has no such line
     const std::string style = "with lines lw 2.2" + lc(i == 0 ? palette::kInk : palette::color(i));
     script.curve(line_rows(*x, *y), style);
     script.key_entry(style, line.title);
@@ -151,44 +152,25 @@ Table table_of(const Field& field, const PlotRequest& request) {
   return table;
 }
 
-struct MapQuantities {
-  const Run* run;
-  const std::vector<double>*x, *y, *value;
-};
-
-/// @param problem  why there is none
-std::optional<MapQuantities> quantities_of(const PlotRequest& request,
-                                           const std::vector<const Run*>& runs,
-                                           std::string& problem) {
-  const Run* run = run_for(request, runs);
-  const auto find = [run](const std::string& name) { return run ? run->quantity(name) : nullptr; };
-  const MapQuantities found{run, find(request.x), find(request.y.front()), find(request.value)};
-  if (found.x && found.y && found.value && found.x->size() == found.value->size() &&
-      found.y->size() == found.value->size())
-    return found;
-  problem = "there is no " + request.value + " over " + request.x + " and " + request.y.front();
-  return std::nullopt;
-}
-
-/// The classes of all maps of one quantity, and where they are dark.
+/// Classes of the values of all maps of one quantity, with their colors.
 struct ColorClasses {
   explicit ColorClasses(const std::vector<double>& values)
       : count(values.size()),
         limits(class_limits(values)),
-        negative(std::ranges::all_of(values, [](double one) { return one <= 0; })),
-        positive(std::ranges::all_of(values, [](double one) { return one >= 0; })) {}
+        negative(std::ranges::all_of(values, [](double value) { return value <= 0; })),
+        positive(std::ranges::all_of(values, [](double value) { return value >= 0; })) {}
 
   [[nodiscard]] std::size_t class_of(double value) const {
     return static_cast<std::size_t>(std::ranges::upper_bound(limits, value) - limits.begin());
   }
-  /// Dark is far from zero: of negative numbers the lowest.
+  /// Dark is far from zero; of negative numbers, the lowest are dark.
   [[nodiscard]] std::string color(std::size_t k) const {
     return lc(palette::kSequence[negative ? limits.size() - std::min(k, limits.size()) : k]);
   }
   [[nodiscard]] std::string describe(std::size_t of_this_map) const {
-    return std::string(negative || positive ? ", dark far from zero" : ", dark where it is high") +
-           (count == of_this_map ? ", in classes of about equally many positions."
-                                 : ", in the same classes in all maps of it here.");
+    return std::string(negative || positive ? "; dark is far from zero" : "; dark is high") +
+           (count == of_this_map ? ". Each class has about the same number of positions."
+                                 : ". All maps of this quantity have the same classes.");
   }
 
   std::size_t count;
@@ -225,9 +207,14 @@ int draw_map(PlotScript& script, const PlotRequest& request, const Run& run, con
 
 std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& request,
                                  const std::vector<const Run*>& runs, std::string& problem) {
-  const auto found = quantities_of(request, runs, problem);
-  if (!found) return std::nullopt;
-  Field field = read_field(*found->x, *found->y, *found->value);
+  const Run* run = run_for(request, runs);
+  const auto find = [&](const std::string& name) { return run ? run->quantity(name) : nullptr; };
+  const auto *x = find(request.x), *y = find(request.y.front()), *value = find(request.value);
+  if (!x || !y || !value || x->size() != value->size() || y->size() != value->size()) {
+    problem = "there is no " + request.value + " over " + request.x + " and " + request.y.front();
+    return std::nullopt;
+  }
+  Field field = read_field(*x, *y, *value);
   if (field.cells.empty() || !(field.dx > 0)) {
     problem = request.value + (field.cells.empty() ? " has no numbers" : " has a single position");
     return std::nullopt;
@@ -239,16 +226,16 @@ std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& reques
     cell.color = classes.class_of(cell.value);
   }
   PlotScript script;
-  const int key_height = draw_map(script, request, *found->run, field, classes);
+  const int key_height = draw_map(script, request, *run, field, classes);
 
   const QuantityLabel quantity = parse_quantity(request.value);
   return Figure{.id = slug(info.id + "-" + request.id),
                 .title = request.title,
-                .caption = request.caption + (request.caption.empty() ? "" : " ") + "Colours: " +
+                .caption = request.caption + (request.caption.empty() ? "" : " ") + "Colors: " +
                            quantity.label + (quantity.unit.empty() ? "" : " in " + quantity.unit) +
                            classes.describe(field.cells.size()),
                 .alt = "Map of " + to_text(quantity) +
-                       " over positions; the largest magnitude is " + trimmed(largest, 3) + " " +
+                       " over positions. The largest magnitude is " + trimmed(largest, 3) + " " +
                        quantity.unit + ".",
                 .height = 420 + key_height,
                 .commands = script.commands(),

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "reports/drawing/palette.h"
-#include "reports/drawing/plot_script.h"
 #include "reports/figures/figures.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
@@ -13,33 +12,31 @@ namespace trammel::reports {
 
 namespace {
 
+/// Point type of a kind of joint, and its words in the key.
 struct JointSymbol {
   const char *kind, *words;
   int point;
   double size;
-  bool filled;
+  bool filled = true;
+  const char* color = palette::kInk;
 };
 
 constexpr std::array<JointSymbol, 7> kJointSymbols = {{
-    {"point", "", 7, 0.6, true},
-    {"support", "support", 9, 1.3, true},
-    {"rigid", "rigid body", 5, 0.9, true},
-    {"welded", "welded joint", 5, 0.8, true},
-    {"sprung", "joint on a spring", 13, 1.2, true},
+    {"point", "", 7, 0.6},
+    {"support", "support", 9, 1.3},
+    {"rigid", "rigid body", 5, 0.9},
+    {"welded", "welded joint", 5, 0.8},
+    {"sprung", "joint on a spring", 13, 1.2},
     {"hinged", "hinge", 7, 0.95, false},
-    {"active", "active joint", 7, 1.1, true},
+    {"active", "active joint", 7, 1.1, true, palette::kSeries[1]},
 }};
-
-const char* joint_color(const JointSymbol& symbol) {
-  return std::string(symbol.kind) == "active" ? palette::color(1) : palette::kInk;
-}
 
 bool is_drawn(const Drawing& drawing, const JointSymbol& symbol) {
   return std::ranges::any_of(drawing.joints,
                              [&](const Joint& joint) { return joint.kind == symbol.kind; });
 }
 
-/// Joints of one kind; a hinge is a ring with paper inside.
+/// Draws the joints of one kind. A hinge is a ring that is filled with the color of the paper.
 void draw_joints(PlotScript& script, const Drawing& drawing, const JointSymbol& symbol) {
   PlotScript::Rows rows;
   for (const Joint& joint : drawing.joints)
@@ -47,14 +44,14 @@ void draw_joints(PlotScript& script, const Drawing& drawing, const JointSymbol& 
       rows.push_back({drawing.nodes[joint.node].first, drawing.nodes[joint.node].second});
   if (rows.empty()) return;
   const std::string style = "with points pt " + std::to_string(symbol.point) + " ps " +
-                            shortest(symbol.size) + lc(joint_color(symbol));
+                            shortest(symbol.size) + lc(symbol.color);
   script.curve(rows, style, symbol.filled ? symbol.words : "");
   if (symbol.filled) return;
   script.curve(rows, "with points pt 7 ps " + shortest(0.6 * symbol.size) + lc(palette::kPaper));
   script.key_entry("with points pt 6 ps 1 lw 2" + lc(palette::kInk), symbol.words);
 }
 
-/// Names stand outside: away from the middle of the drawing.
+/// Writes the names of joints away from the center of the drawing.
 void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
   const double cx = 0.5 * (box.x.low + box.x.high);
   const double cy = 0.5 * (box.y.low + box.y.high);
@@ -71,16 +68,6 @@ void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
   }
 }
 
-void draw_body(PlotScript& script, const Drawing& drawing, const std::vector<Point>& nodes,
-               const std::string& color, double width, const std::string& title) {
-  const std::string line = "with lines lw " + shortest(width) + lc(color);
-  script.curve(rows_of(triangle_edges_inside(drawing), nodes), "with lines lw 0.4" + lc(color));
-  script.curve(rows_of(triangle_edges(drawing), nodes),
-               "with lines lw " + shortest(0.5 * width) + lc(color),
-               drawing.members.empty() ? title : "");
-  script.curve(rows_of(polylines(drawing), nodes), line, title);
-}
-
 void add_rows(Table& table, const std::string& pose, const Drawing& drawing,
               const std::vector<Point>& nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -93,14 +80,14 @@ void add_rows(Table& table, const std::string& pose, const Drawing& drawing,
 }
 
 std::string mechanism_caption(const Box& box, std::size_t poses) {
-  std::string text = "The model as it was solved; it spans " + trimmed(box.width(), 3) + "\u202fm";
+  std::string text = "Model as solved";
+  if (poses > 1) text += " in " + std::to_string(poses) + " poses";
+  text += ". It spans " + trimmed(box.width(), 3) + "\u202fm";
   if (box.height() > 0) text += " × " + trimmed(box.height(), 3) + "\u202fm";
-  text += ".";
-  if (poses > 1) text += " " + std::to_string(poses) + " poses are laid over each other.";
-  return text;
+  return text + ".";
 }
 
-/// Poses laid over the model as it stands; moments of a motion have a figure of their own.
+/// Returns the further poses without moments of a motion, which have a separate figure.
 std::vector<const Pose*> overlays_of(const Drawing& drawing) {
   std::vector<const Pose*> overlays;
   for (const Pose& pose : drawing.poses)
@@ -128,7 +115,7 @@ int draw_overlays(PlotScript& script, Table& data, const std::vector<const Pose*
 std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   if (!run.drawing || run.drawing->nodes.empty()) return std::nullopt;
   const Drawing& drawing = *run.drawing;
-  // Points alone, as of a mass on springs, are no picture.
+  // A model of points only, such as a mass on springs, has no drawing.
   if (drawing.members.empty() && drawing.triangles.empty() && drawing.joints.empty()) {
     return std::nullopt;
   }
@@ -145,6 +132,8 @@ std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   const int key_height = draw_overlays(script, table, overlays, base_label, drawing);
   script.curve(filled_triangles(drawing, drawing.nodes),
                "with filledcurves closed" + lc(palette::kPlate));
+  script.curve(rows_of(triangle_edges_inside(drawing), drawing.nodes),
+               "with lines lw 0.4" + lc(palette::color(0)));
   draw_body(script, drawing, drawing.nodes, palette::color(0), 2.6, base_label);
   add_rows(table, base_label.empty() ? "pose" : base_label, drawing, drawing.nodes);
   for (const JointSymbol& symbol : kJointSymbols) draw_joints(script, drawing, symbol);

@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <nlohmann/json.hpp>
 
 #include "reports/drawing/palette.h"
-#include "reports/drawing/plot_script.h"
 #include "reports/figures/figures.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
@@ -11,14 +13,14 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxLaidOver = 6;
+constexpr std::size_t kMaxDrawnMoments = 6;
 
-/// The largest length among vectors of all moments, and when.
+/// Largest length of the vectors of all moments, and its time.
 struct Largest {
   double length = 0, time = 0;
 };
 
-/// @param of  the vectors of a moment
+/// @param of  returns the vectors of a moment
 template <class Vectors>
 Largest largest(const std::vector<Pose>& moments, const Vectors& of) {
   Largest found;
@@ -38,7 +40,7 @@ std::vector<Pose> moments_of(const Drawing& drawing) {
   return moments;
 }
 
-/// Two digits, never less than life.
+/// Returns a factor with two digits, at least 1.
 double magnification(double deflection, double side) {
   if (!(deflection > 0)) return 1;
   const double factor = kDrawnAmplitude * side / deflection;
@@ -48,35 +50,23 @@ double magnification(double deflection, double side) {
 
 std::string caption_of(const std::vector<Pose>& moments, const Largest& deflection, double factor,
                        const std::string& drawn) {
-  const std::string end = trimmed(*moments.back().time_s, 4) + "\u202fs";
-  std::string text;
-  if (deflection.length > 0) {
-    text = "The largest deflection is " + length_text(deflection.length) + ", at " +
-           trimmed(deflection.time, 3) + "\u202fs; deflections are drawn " +
-           (factor > 1 ? trimmed(factor, 2) + " times (blue), from where rigid links are (grey)"
-                       : std::string("as they are (blue)")) +
-           ".";
-  } else {
-    const std::vector<Point>& first = moments.front().nodes;
-    const Largest way = largest(moments, [&](const Pose& moment) {
-      std::vector<Point> moved = moment.nodes;
-      for (std::size_t i = 0; i < moved.size(); ++i)
-        moved[i].first -= first[i].first, moved[i].second -= first[i].second;
-      return moved;
-    });
-    text = "Places as they are; no point is farther than " + length_text(way.length) +
-           " from where it begins, at " + trimmed(way.time, 3) + "\u202fs.";
-  }
-  return text + " Laid over each other: " + drawn + "; moving: " + std::to_string(moments.size()) +
-         " moments up to " + end + ", straight between them.";
-}
-
-/// Outlines of the mechanism at a moment.
-void draw_moment(PlotScript& script, const Drawing& drawing, const std::vector<Point>& nodes,
-                 const std::string& color, double width) {
-  const std::string style = "with lines lw " + shortest(width) + lc(color);
-  script.curve(rows_of(triangle_edges(drawing), nodes), style);
-  script.curve(rows_of(polylines(drawing), nodes), style);
+  const std::string all = " Drawn: " + drawn + ". Animated: " + std::to_string(moments.size()) +
+                          " moments up to " + trimmed(*moments.back().time_s, 4) +
+                          "\u202fs, interpolated linearly.";
+  if (deflection.length > 0)
+    return "Deflected mechanism (blue) and rigid links (gray); deflections are " +
+           (factor > 1 ? "magnified " + trimmed(factor, 2) + " times." : std::string("to scale.")) +
+           all + " The largest deflection is " + length_text(deflection.length) + ", at " +
+           trimmed(deflection.time, 3) + "\u202fs.";
+  const std::vector<Point>& first = moments.front().nodes;
+  const Largest way = largest(moments, [&](const Pose& moment) {
+    std::vector<Point> moved = moment.nodes;
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      moved[i].first -= first[i].first, moved[i].second -= first[i].second;
+    return moved;
+  });
+  return "Positions to scale." + all + " The largest distance of a point from its start is " +
+         length_text(way.length) + ", at " + trimmed(way.time, 3) + "\u202fs.";
 }
 
 Table table_of(const std::vector<Pose>& moments) {
@@ -88,6 +78,79 @@ Table table_of(const std::vector<Pose>& moments) {
                             moment.nodes[i].second, u.first, u.second});
     }
   return table;
+}
+
+using Json = nlohmann::json;
+using Coordinates = std::vector<long>;
+
+/// Lines of a drawing, with nodes numbered in the order in which they are drawn.
+class Panel {
+ public:
+  Panel(const Drawing& drawing, const Box& box, double width)
+      : box_(box), scale_(10 * width / box.width()) {
+    json["panel"] = {std::lround(10 * width), std::lround(scale_ * box.height())};
+    json["lines"] = renumbered(polylines(drawing));
+    const auto edges = triangle_edges(drawing);
+    const bool loops = !edges.empty() && edges.front().front() == edges.front().back();
+    json["edges"] = renumbered(edges);
+    json["fill"] = renumbered(loops ? edges : drawing.triangles);
+  }
+
+  /// Returns x and y of each drawn node. @param of  vectors of all nodes of the drawing
+  [[nodiscard]] Coordinates vectors(const std::vector<Point>& of, double factor = 1) const {
+    Coordinates numbers(2 * places_.size());
+    for (const auto& [node, place] : places_) {
+      const auto& [x, y] = of[static_cast<std::size_t>(node)];
+      numbers[2 * static_cast<std::size_t>(place)] = std::lround(scale_ * factor * x);
+      numbers[2 * static_cast<std::size_t>(place) + 1] = std::lround(-scale_ * factor * y);
+    }
+    return numbers;
+  }
+
+  [[nodiscard]] Coordinates places(std::vector<Point> nodes) const {
+    for (auto& [x, y] : nodes) x -= box_.x.low, y -= box_.y.high;
+    return vectors(nodes);
+  }
+
+  Json json;
+
+ private:
+  Json renumbered(std::vector<std::vector<int>> lines) {
+    for (auto& line : lines)
+      for (int& node : line)
+        node = places_.emplace(node, static_cast<int>(places_.size())).first->second;
+    return lines;
+  }
+
+  Box box_;
+  double scale_;
+  std::map<int, int> places_;
+};
+
+/// Returns the differences of each row from the row before.
+Json steps(std::vector<Coordinates> rows) {
+  for (std::size_t k = rows.size(); k-- > 1;)
+    std::ranges::transform(rows[k], rows[k - 1], rows[k].begin(), std::minus());
+  return rows;
+}
+
+/// Returns the moments of a motion: positions without deflections (only if they differ) and with
+/// them, each as steps from the moment before.
+std::string moving_poses(const Drawing& drawing, const std::vector<Pose>& moments, double factor,
+                         const Box& box, double panel) {
+  Panel moving(drawing, box, panel);
+  std::vector<Coordinates> still, moved;
+  for (const Pose& moment : moments) {
+    moving.json["times"].push_back(*moment.time_s);
+    still.push_back(moving.places(moment.nodes));
+    const bool deflects = !moment.displacement.empty();
+    moved.push_back(deflects ? moving.places(displaced(moment.nodes,
+                                                       {moment.label, moment.displacement}, factor))
+                             : still.back());
+  }
+  if (still != moved) moving.json["still"] = steps(std::move(still));
+  moving.json["moved"] = steps(std::move(moved));
+  return moving.json.dump();
 }
 
 }  // namespace
@@ -114,18 +177,18 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
   frame(script, box);
   script.axis_label("x", "x (m)");
   script.axis_label("y", "y (m)");
-  const std::size_t stride = (moments.size() + kMaxLaidOver - 2) / (kMaxLaidOver - 1);
+  const std::size_t stride = (moments.size() + kMaxDrawnMoments - 2) / (kMaxDrawnMoments - 1);
   std::string drawn;
   for (std::size_t k = 0; k < moments.size(); ++k) {
     const bool last = k + 1 == moments.size();
     if (k % stride != 0 && !last) continue;
     drawn += (k == 0 ? "" : ", ") + trimmed(*moments[k].time_s, 3);
-    draw_moment(script, drawing, moments[k].nodes, palette::kStructure, 1);
-    draw_moment(script, drawing, places[k], palette::color(0), k == 0 ? 2.4 : 1.1);
+    draw_body(script, drawing, moments[k].nodes, palette::kStructure, 1);
+    draw_body(script, drawing, places[k], palette::color(0), k == 0 ? 2.4 : 1.1);
   }
   script.plot();
   const std::string caption =
-      caption_of(moments, deflection, factor, drawn + "\u202fs (thick: the first)");
+      caption_of(moments, deflection, factor, drawn + "\u202fs (thick: first)");
   return Figure{.id = slug(info.id + "-" + run.variant + "-motion"),
                 .title = titled("Motion", info, run),
                 .caption = caption,
@@ -134,6 +197,23 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
                 .commands = script.commands(),
                 .data = table_of(moments),
                 .moving = moving_poses(drawing, moments, factor, box, 500)};
+}
+
+bool are_finite(const std::vector<Point>& points) {
+  return std::ranges::all_of(
+      points, [](const Point& p) { return std::isfinite(p.first) && std::isfinite(p.second); });
+}
+
+std::string moving_modes(const Drawing& drawing, const std::vector<double>& factor, const Box& box,
+                         double panel) {
+  Panel moving(drawing, box, panel);
+  moving.json["nodes"] = moving.places(drawing.nodes);
+  for (std::size_t s = 0; s < factor.size(); ++s) {
+    const Shape& shape = drawing.shapes[s];
+    moving.json["shapes"].push_back(
+        {{"label", shape.label}, {"moved", moving.vectors(shape.displacement, factor[s])}});
+  }
+  return moving.json.dump();
 }
 
 }  // namespace trammel::reports

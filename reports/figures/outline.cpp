@@ -11,10 +11,10 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kCoarseMesh = 12;  ///< triangles up to which every edge can be seen
-constexpr std::size_t kFineMesh = 600;  ///< and up to which thin lines show the mesh in one drawing
+constexpr std::size_t kCoarseMesh = 12;  ///< largest number of triangles with all edges drawn
+constexpr std::size_t kFineMesh = 600;   ///< largest number of triangles with thin edges drawn
 
-/// Whether a line from `from` over `p` to `to` is straight for the eye.
+/// Returns whether the line from `from` through `p` to `to` is straight within 1e-3 rad.
 bool is_between(const std::vector<double>& from, const Point& p, const Point& to) {
   const double ax = p.first - from[0], ay = p.second - from[1];
   const double bx = to.first - p.first, by = to.second - p.second;
@@ -22,15 +22,15 @@ bool is_between(const std::vector<double>& from, const Point& p, const Point& to
   return std::abs(ax * by - ay * bx) <= 1e-3 * lengths && ax * bx + ay * by >= 0;
 }
 
-/// Whether the corners run counterclockwise.
+/// Returns whether the corners are in counterclockwise order.
 bool runs_left(const std::vector<int>& triangle, const std::vector<Point>& nodes) {
   const std::size_t step = triangle.size() / 3;
   const Point &a = nodes[triangle[0]], &b = nodes[triangle[step]], &c = nodes[triangle[2 * step]];
   return (b.first - a.first) * (c.second - a.second) > (c.first - a.first) * (b.second - a.second);
 }
 
-/// A side of a triangle, counterclockwise, its middle in between where it is drawn, and how many
-/// triangles have it.
+/// A side of a triangle in counterclockwise order, with its middle node if there is one, and the
+/// number of triangles that have it.
 struct Side {
   std::vector<int> nodes;
   int uses = 0;
@@ -53,8 +53,8 @@ std::map<std::pair<int, int>, Side> sides(const Drawing& drawing) {
   return found;
 }
 
-/// The sides that one triangle alone has, joined end to end into closed loops: around the plate to
-/// the left, around a hole to the right.
+/// Returns the sides of only one triangle, joined to closed loops: counterclockwise around a plate,
+/// clockwise around a hole.
 std::vector<std::vector<int>> outline(const Drawing& drawing) {
   std::multimap<int, std::vector<int>> from;
   for (auto& [_, side] : sides(drawing))
@@ -136,7 +136,8 @@ PlotScript::Rows filled_triangles(const Drawing& drawing, const std::vector<Poin
     }
     return rows_of(closed, nodes);
   }
-  // One polygon through all loops, there and back: what runs to the right stays empty.
+  // One polygon goes through all loops and returns to its start after each, so that holes stay
+  // empty.
   for (const auto& loop : outline(drawing)) {
     if (closed.empty()) {
       closed.push_back(loop);
@@ -177,6 +178,14 @@ void frame(PlotScript& script, const Box& box) {
   script.command("set size ratio -1");
   const std::string step = shortest(round_step(box.side() / 5));
   script.command("set xtics " + step + "; set ytics " + step);
+}
+
+void draw_body(PlotScript& script, const Drawing& drawing, const std::vector<Point>& nodes,
+               const std::string& color, double width, const std::string& title) {
+  const std::string line = "with lines" + lc(color) + " lw ";
+  script.curve(rows_of(triangle_edges(drawing), nodes), line + shortest(0.5 * width),
+               drawing.members.empty() ? title : "");
+  script.curve(rows_of(polylines(drawing), nodes), line + shortest(width), title);
 }
 
 int height_of(const Box& box) {

@@ -8,84 +8,71 @@
 #include "reports/drawing/interval.h"
 #include "reports/drawing/plot_script.h"
 
-/// Lines of a drawing, rows of labels, and what moves a drawing.
+/// Geometry of drawings: lines and areas, their frame, and the data of animations.
 namespace trammel::reports {
 
-/// Lines of a drawing through given node positions.
-
-/// Members joined end to end into as few polylines as their order allows.
+/// Returns the members, joined to polylines where one starts at the end of the one before.
 [[nodiscard]] std::vector<std::vector<int>> polylines(const Drawing& drawing);
 
-/// Edges to draw of the triangles: all of a coarse mesh, the outline of a fine one.
+/// Returns all edges of a coarse mesh of triangles, or the outline of a fine one.
 [[nodiscard]] std::vector<std::vector<int>> triangle_edges(const Drawing& drawing);
 
-/// The other edges, for thin lines: none of a coarse mesh, and none of one too fine to be seen
-/// where a figure has so many panels.
+/// Returns the edges inside the outline. Empty for a coarse mesh, and for a mesh that is too fine
+/// to be visible in a figure with this number of panels.
 [[nodiscard]] std::vector<std::vector<int>> triangle_edges_inside(const Drawing& drawing,
                                                                   std::size_t panels = 1);
 
-/// Rows of (x, y), polylines apart by an empty row.
+/// Returns rows of (x, y), with an empty row between polylines.
 [[nodiscard]] PlotScript::Rows rows_of(const std::vector<std::vector<int>>& lines,
                                        const std::vector<Point>& nodes);
 
-/// Triangles as closed polygons, or their outline as one, for filling.
+/// Returns closed polygons for filling: the triangles of a coarse mesh, or the outline of a fine
+/// one.
 [[nodiscard]] PlotScript::Rows filled_triangles(const Drawing& drawing,
                                                 const std::vector<Point>& nodes);
 
-/// Node positions moved by `factor` times a shape's displacements.
+/// Returns the node positions plus `factor` times the displacements of a shape.
 [[nodiscard]] std::vector<Point> displaced(const std::vector<Point>& nodes, const Shape& shape,
                                            double factor);
 
-/// The smallest box around all points, never thinner than `min_aspect` times its longer side.
+/// Smallest box around points.
 struct Box {
   Interval x, y;
   [[nodiscard]] double width() const { return x.length(); }
   [[nodiscard]] double height() const { return y.length(); }
   [[nodiscard]] double side() const { return std::max(width(), height()); }  ///< the longer one
 };
+/// @param margin      around the box, relative to its longer side
+/// @param min_aspect  smallest ratio of the sides
 [[nodiscard]] Box box_around(const std::vector<std::vector<Point>>& sets, double margin,
                              double min_aspect);
 
-/// 1, 2 or 5 times a power of ten, not below `min_step`.
+/// Returns the smallest number of at least `min_step` that is 1, 2 or 5 times a power of ten.
 [[nodiscard]] double round_step(double min_step);
-/// Sets ranges and an equal scale on both axes.
+/// Sets the ranges of both axes, with the same scale.
 void frame(PlotScript& script, const Box& box);
 
-/// Height of a drawing of its own that has room for the box, its axes included [px].
+/// Returns the height of a drawing of the box, including the axes [px].
 [[nodiscard]] int height_of(const Box& box);
 
-/// A title with the variant's behind it, unless it is the case as it stands.
+/// Draws members with this line width, and edges with half of it.
+void draw_body(PlotScript& script, const Drawing& drawing, const std::vector<Point>& nodes,
+               const std::string& color, double width, const std::string& title = "");
+
+/// Returns a title, followed by the title of the variant unless it is the base.
 [[nodiscard]] std::string titled(const std::string& what, const CaseInfo& info, const Run& run);
 
-// The moving parts of a drawing are JSON for the page's script: a panel in tenths of a unit of the
-// drawing, y downwards, with the lines through the nodes that are drawn.
+// Animated drawings are JSON for the script of the page. Coordinates are in tenths of a unit of the
+// drawing, with y downwards, and only contain nodes that are drawn.
 
-inline constexpr double kDrawnAmplitude = 0.13;  ///< of the longer side: deflections magnified
+inline constexpr double kDrawnAmplitude = 0.13;  ///< of deflections, relative to the longer side
 
 [[nodiscard]] bool are_finite(const std::vector<Point>& points);
 
-/// Modes to swing, a panel each: displacements as they are drawn.
+/// Returns the displacements of modes as drawn, a panel each.
 /// @param factor  of each shape
-/// @param panel   its width [px]
+/// @param panel   width of a panel [px]
 [[nodiscard]] std::string moving_modes(const Drawing& drawing, const std::vector<double>& factor,
                                        const Box& box, double panel);
-
-/// Moments of a motion: places at rest (only where they differ) and displaced, each less those of
-/// the moment before.
-/// @param moments  with times
-[[nodiscard]] std::string moving_poses(const Drawing& drawing, const std::vector<Pose>& moments,
-                                       double factor, const Box& box, double panel);
-
-/// Rows one under another, each with its label above its own line: long names need no margin, and
-/// a phone can show them. Row 0 is the uppermost.
-
-/// Height of the drawing for so many rows.
-[[nodiscard]] int strip_height(std::size_t rows);
-
-/// Sets the y axis and writes the labels.
-void strip_rows(PlotScript& script, const std::vector<std::string>& labels);
-
-/// Where the marks of a row stand.
-[[nodiscard]] double strip_y(std::size_t row);
 
 }  // namespace trammel::reports

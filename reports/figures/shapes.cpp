@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "reports/drawing/palette.h"
-#include "reports/drawing/plot_script.h"
 #include "reports/figures/figures.h"
 #include "reports/figures/outline.h"
 #include "reports/text/number.h"
@@ -25,36 +24,32 @@ void draw_panel(PlotScript& script, const Drawing& drawing, const std::vector<Po
   script.command("unset label");
   script.label(
       label, "graph 0.5,1 center offset 0,0.75 textcolor rgb '" + std::string(palette::kInk) + "'");
-  const auto lines = polylines(drawing);
-  const auto edges = triangle_edges(drawing);
-  const std::string grey = lc(palette::kStructure);
-  const std::string blue = lc(palette::color(0));
-  script.curve(rows_of(edges, drawing.nodes), "with lines lw 1" + grey);
-  script.curve(rows_of(lines, drawing.nodes), "with lines lw 1.2" + grey);
+  draw_body(script, drawing, drawing.nodes, palette::kStructure, 1.2);
   script.curve(filled_triangles(drawing, moved), "with filledcurves closed" + lc(palette::kPlate));
-  script.curve(rows_of(triangle_edges_inside(drawing, panels), moved), "with lines lw 0.4" + blue);
-  script.curve(rows_of(edges, moved), "with lines lw 1.2" + blue);
-  script.curve(rows_of(lines, moved), "with lines lw 2.2" + blue);
+  script.curve(rows_of(triangle_edges_inside(drawing, panels), moved),
+               "with lines lw 0.4" + lc(palette::color(0)));
+  draw_body(script, drawing, moved, palette::color(0), 2.2);
   script.plot();
 }
 
-/// "mode 3, 15.1 Hz": what swings with a frequency.
+/// Returns whether a shape is a vibration mode, labeled as "mode 3, 15.1 Hz".
 bool is_mode(const Shape& shape) {
   return shape.label.starts_with("mode") && shape.label.find(" Hz") != std::string::npos;
 }
 
-bool is_drawn_whole(const Drawing& drawing, std::size_t shapes) {
-  bool whole = are_finite(drawing.nodes);
+/// Returns whether the shapes can be animated: vibration modes with finite displacements.
+bool can_move(const Drawing& drawing, std::size_t shapes) {
+  bool finite = are_finite(drawing.nodes);
   for (std::size_t s = 0; s < shapes; ++s)
-    whole = whole && is_mode(drawing.shapes[s]) && are_finite(drawing.shapes[s].displacement);
-  return whole;
+    finite = finite && is_mode(drawing.shapes[s]) && are_finite(drawing.shapes[s].displacement);
+  return finite;
 }
 
-/// "1 mode moves freely. Modes 2 to 6 have 15.1 Hz to 98.3 Hz; 4 and 5 are equal. "
+/// Returns "1 mode is a rigid-body mode. Modes 2 to 6 have 15.1 Hz to 98.3 Hz; 4 and 5 are equal."
 std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
   if (!is_mode(drawing.shapes.front())) {
     const std::string label = drawing.shapes.front().label;
-    return "The lowest mode buckles at " + label.substr(label.find(", ") + 2) + ". ";
+    return "The lowest mode buckles at " + label.substr(label.find(", ") + 2) + ".";
   }
   const auto* frequency = run.quantity("frequency_Hz");
   std::vector<double> values;
@@ -65,10 +60,10 @@ std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
   while (free < n && values[free] <= 1e-4 * values.back()) ++free;
   const auto hertz = [](double value) { return trimmed(value, 4) + "\u202fHz"; };
   std::string text;
-  if (free > 0) text = count(free, "mode") + (free == 1 ? " moves" : " move") + " freely. ";
+  if (free > 0) text = count(free, "mode is a rigid-body mode", "modes are rigid-body modes") + ".";
   if (free == n) return text;
   if (free + 1 == n)
-    return text + "Mode " + std::to_string(n) + " has " + hertz(values.back()) + ". ";
+    return text + " Mode " + std::to_string(n) + " has " + hertz(values.back()) + ".";
   const auto gap = [&](std::size_t s) { return 1 - values[s] / values[s + 1]; };
   std::size_t nearest = free;
   std::string equal;
@@ -77,23 +72,23 @@ std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
     if (gap(s) < 1e-9) add_item(equal, pair);
     if (gap(s) < gap(nearest)) nearest = s;
   }
-  text += "Modes " + std::to_string(free + 1) + " to " + std::to_string(n) + " have " +
+  text += " Modes " + std::to_string(free + 1) + " to " + std::to_string(n) + " have " +
           hertz(values[free]) + " to " + hertz(values.back()) + "; ";
-  if (!equal.empty()) return text + equal + " are equal. ";
+  if (!equal.empty()) return text + equal + " are equal.";
   return text + std::to_string(nearest + 1) + " and " + std::to_string(nearest + 2) +
-         " are nearest to each other, " + relative(gap(nearest), 2, false) + " apart. ";
+         " are nearest to each other, " + relative(gap(nearest), 2, false) + " apart.";
 }
 
-/// "The largest displacement is 1.2 mm, drawn 83 times. "
+/// Returns "The largest displacement is 1.2 mm, magnified 83 times."
 std::string displacements_text(const Drawing& drawing, const std::vector<double>& factors,
                                double side) {
   std::size_t largest = 0;
   for (std::size_t s = 1; s < factors.size(); ++s)  // the least magnified
     if (factors[s] > 0 && !(factors[largest] > 0 && factors[largest] <= factors[s])) largest = s;
-  if (!(factors[largest] > 0)) return "Nothing is displaced. ";
+  if (!(factors[largest] > 0)) return "Nothing is displaced.";
   const std::string of = factors.size() > 1 ? " (" + drawing.shapes[largest].label + ")" : "";
   return "The largest displacement is " + length_text(kDrawnAmplitude * side / factors[largest]) +
-         of + ", drawn " + trimmed(factors[largest], 2) + " times. ";
+         of + ", magnified " + trimmed(factors[largest], 2) + " times.";
 }
 
 }  // namespace
@@ -144,15 +139,15 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
       .id = slug(info.id + "-" + run.variant + "-shapes"),
       .title = titled(modes ? "Mode shapes" : "Deformed shapes", info, run),
       .caption =
-          (modes ? modes_text(drawing, n, run) : displacements_text(drawing, factors, side)) +
-          "Grey: at rest; blue: displaced. Each shape is scaled so that its largest "
+          "Undeformed (gray) and deformed (blue) shapes, each scaled so that its largest "
           "displacement is " +
-          trimmed(100 * kDrawnAmplitude, 2) + "\u202f% of the longer side.",
-      .alt = "Small pictures of the shapes: " + labels,
+          trimmed(100 * kDrawnAmplitude, 2) + "\u202f% of the longer side. " +
+          (modes ? modes_text(drawing, n, run) : displacements_text(drawing, factors, side)),
+      .alt = "Drawings of the shapes: " + labels,
       .height = static_cast<int>(height * static_cast<double>(rows)) + 8,
       .commands = script.commands(),
       .data = std::move(table),
-      .moving = is_drawn_whole(drawing, n) ? moving_modes(drawing, factors, box, panel) : ""};
+      .moving = can_move(drawing, n) ? moving_modes(drawing, factors, box, panel) : ""};
 }
 
 }  // namespace trammel::reports

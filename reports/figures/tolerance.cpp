@@ -4,22 +4,28 @@
 #include "harness/base/find_or_add.h"
 #include "reports/data/check_text.h"
 #include "reports/drawing/palette.h"
+#include "reports/drawing/plot_script.h"
 #include "reports/figures/figures.h"
-#include "reports/figures/outline.h"
 #include "reports/text/number.h"
 
 namespace trammel::reports {
 
 namespace {
 
-constexpr double kMinShare = 1e-8;  ///< left edge: smaller shares, exact agreement included
-constexpr double kMaxShare = 100;   ///< right edge: anything beyond, and what has no number
+constexpr double kMinShare = 1e-8;  ///< left edge, also of smaller shares
+constexpr double kMaxShare = 100;   ///< right edge, also of larger shares and of errors
 
+/// Checks whose shares of the tolerance are points on one line.
 struct ToleranceRow {
   std::string label;
   std::vector<std::pair<const Run*, const Check*>> checks;
   double worst = 0;
 };
+
+/// Returns y of the points of a row. Row 0 is at the top.
+double row_y(std::size_t row) {
+  return -static_cast<double>(row) - 0.72;
+}
 
 double share(const Check& check) {
   if (check.verdict == Verdict::error) return kMaxShare;
@@ -32,7 +38,7 @@ bool is_shown(const Check& check) {
          (check.verdict == Verdict::pass && std::isfinite(tolerance_fraction(check)));
 }
 
-/// A row a case; a row a check where the family has one case only.
+/// Returns a row for each case; of a family with one case, a row for each check.
 std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string>& titles,
                                          const std::vector<const Run*>& runs) {
   const bool one_case = std::ranges::all_of(
@@ -51,14 +57,14 @@ std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string
   return rows;
 }
 
-/// Points of the rows that `belongs` picks.
+/// Returns the points of the checks for which `belongs` holds.
 template <typename Belongs>
 PlotScript::Rows points(const std::vector<ToleranceRow>& rows, Belongs belongs) {
   PlotScript::Rows out;
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (const auto& [_, check] : rows[i].checks)
-      if (belongs(*check)) out.push_back({share(*check), strip_y(i)});
-  // Points that fall on each other are one on paper.
+      if (belongs(*check)) out.push_back({share(*check), row_y(i)});
+  // Points that would cover each other are drawn once.
   for (auto& point : out) point[0] = std::pow(10, std::round(100 * std::log10(point[0])) / 100);
   std::ranges::sort(out);
   out.erase(std::unique(out.begin(), out.end()), out.end());
@@ -76,11 +82,29 @@ std::string conclusion(const std::vector<ToleranceRow>& rows) {
     }
   }
   if (beyond > 0)
-    return std::to_string(beyond) + " of " + count(n, "check") + " not within tolerance; see " +
-           worst->label + ".";
+    return std::to_string(beyond) + " of " + count(n, "check") +
+           " fail or could not be evaluated; the worst is in " + worst->label + ".";
   return (n == 1 ? "The check passes" : "All " + count(n, "check") + " pass") +
          "; the one nearest to its limit uses " + trimmed(100 * worst->worst, 2) +
          "\u202f% of its tolerance (" + worst->label + ").";
+}
+
+/// Sets the y axis and writes each label above the line of its row, so that long labels need no
+/// margin.
+void draw_labels(PlotScript& script, const std::vector<ToleranceRow>& rows) {
+  script.command("unset ytics; set border 1; set lmargin 2; set rmargin 3");
+  script.command("unset grid; set grid xtics" + lc(palette::kGrid) + " lw 1 lt 1");
+  script.range("y", -static_cast<double>(rows.size()), 0);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::string label =
+        shortened(rows[i].label, 44) + " (" + std::to_string(rows[i].checks.size()) + ")";
+    const std::string line = ", first " + shortest(-static_cast<double>(i));
+    script.label(label, "graph 0.006, first " + shortest(-static_cast<double>(i) - 0.3) +
+                            " left front font ',13.5' textcolor rgb '" + palette::kInk + "'");
+    if (i > 0)
+      script.command("set arrow from graph 0" + line + " to graph 1" + line + " nohead back lw 1" +
+                     lc(palette::kGrid));
+  }
 }
 
 void draw_limits(PlotScript& script, std::size_t rows) {
@@ -115,10 +139,7 @@ std::optional<Figure> tolerance_figure(const std::string& family,
   if (rows.empty()) return std::nullopt;
 
   PlotScript script;
-  std::vector<std::string> labels;
-  for (const ToleranceRow& row : rows)
-    labels.push_back(shortened(row.label, 44) + " (" + std::to_string(row.checks.size()) + ")");
-  strip_rows(script, labels);
+  draw_labels(script, rows);
   script.log_axis("x", kMinShare, kMaxShare);
   script.range("x", kMinShare / 1.6, kMaxShare * 1.6);
   script.command(
@@ -128,26 +149,25 @@ std::optional<Figure> tolerance_figure(const std::string& family,
   draw_limits(script, rows.size());
   const auto passes = [](const Check& c) { return c.verdict == Verdict::pass; };
   const std::string dot = "with points pt 7 ps 0.55";
-  const std::vector<std::pair<std::string, std::string>> roles = {
-      {"verification", palette::color(0)},
-      {"validation", palette::color(3)},
-      {"regression", palette::color(5)}};
-  for (const auto& [role, color] : roles)
-    script.curve(
-        points(rows, [&, wanted = role](const Check& c) { return passes(c) && c.role == wanted; }),
-        dot + lc(color), role);
+  for (const auto& [role, color] :
+       {std::pair("verification", 0U), std::pair("validation", 3U), std::pair("regression", 5U)}) {
+    const auto belongs = [&, role = role](const Check& c) { return passes(c) && c.role == role; };
+    script.curve(points(rows, belongs), dot + lc(palette::color(color)), role);
+  }
   script.curve(points(rows, [&](const Check& c) { return !passes(c); }),
                "with points pt 2 ps 1 lw 2.5" + lc(palette::color(1)), "fails or error");
   script.plot();
 
   const std::string caption = conclusion(rows);
-  return Figure{.id = slug(family + "-tolerance"),
-                .title = "Share of the tolerance used by each check",
-                .caption = caption,
-                .alt = "One dot per check on a logarithmic axis, with the limit marked. " + caption,
-                .height = strip_height(rows.size()) + 20,
-                .commands = script.commands(),
-                .data = table_of(rows)};
+  return Figure{
+      .id = slug(family + "-tolerance"),
+      .title = "Share of the tolerance used by each check",
+      .caption =
+          "Share of the tolerance that each check uses, with the limit as a line. " + caption,
+      .alt = "Dots on a logarithmic axis, with the limit marked. " + caption,
+      .height = 105 + 40 * static_cast<int>(rows.size()),
+      .commands = script.commands(),
+      .data = table_of(rows)};
 }
 
 }  // namespace trammel::reports

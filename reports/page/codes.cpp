@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <map>
+#include <tuple>
 
+#include "harness/base/find_or_add.h"
 #include "harness/results/run_grade.h"
 #include "reports/data/check_text.h"
 #include "reports/data/results.h"
@@ -16,16 +16,15 @@ namespace trammel::reports {
 
 namespace {
 
-/// A column of the matrix, with what its cells come to.
+/// Results of one code with the number of runs of each grade.
 struct Code {
   Results results;
   std::string name, version;
   std::map<Grade, std::size_t> counts;
-  std::size_t nearest = 0;
   double wall_s = 0;
 };
 
-/// One variant of a case, by code; null where a code has none.
+/// One variant of a case with its run by each code; null if a code has no such run.
 struct Row {
   const CaseInfo* info = nullptr;
   std::string variant;
@@ -34,7 +33,7 @@ struct Row {
 };
 
 Code read_code(const std::filesystem::path& file) {
-  Code code{read_results(file), "trammel", "", {}, 0, 0};
+  Code code{read_results(file), "trammel", "", {}, 0};
   code.version = code.results.environment.trammel;
   if (const auto& solver = code.results.solver) {
     code.name = solver->name;
@@ -47,34 +46,24 @@ Code read_code(const std::filesystem::path& file) {
   return code;
 }
 
-const Run* find_run(const Results& results, const std::string& id, const std::string& variant) {
-  for (const Run& run : results.runs)
-    if (run.case_id == id && run.variant == variant) return &run;
-  return nullptr;
-}
-
+/// Returns a row for each variant of a case that a code has run.
 std::vector<Row> plan_rows(const std::vector<Code>& codes) {
   std::vector<Row> rows;
-  for (const Code& code : codes) {
-    for (const Run& run : code.results.runs) {
+  for (std::size_t c = 0; c < codes.size(); ++c)
+    for (const Run& run : codes[c].results.runs) {
+      const CaseInfo& info = codes[c].results.case_info(run.case_id);
       const auto same = [&](const Row& row) {
         return row.info->id == run.case_id && row.variant == run.variant;
       };
-      if (std::ranges::any_of(rows, same)) continue;
-      Row row{&code.results.case_info(run.case_id), run.variant, {}};
-      for (const Code& other : codes) {
-        row.runs.push_back(find_run(other.results, run.case_id, run.variant));
-        if (row.runs.back() == nullptr) continue;
-        const std::string& hash = other.results.case_info(run.case_id).hash;
-        row.other_case = row.other_case || hash != row.info->hash;
-      }
-      rows.push_back(std::move(row));
+      Row& row = harness::find_or_add(rows, same,
+                                      {&info, run.variant, std::vector<const Run*>(codes.size())});
+      row.runs[c] = &run;
+      row.other_case = row.other_case || info.hash != row.info->hash;
     }
-  }
   return rows;
 }
 
-/// The same entry of the same check in another run.
+/// Returns the same entry of the same check in another run.
 const Check* find_check(const Run& run, const Check& like) {
   for (const Check& check : run.checks)
     if (check.name == like.name && check.quantity == like.quantity && check.index == like.index &&
@@ -83,8 +72,7 @@ const Check* find_check(const Run& run, const Check& like) {
   return nullptr;
 }
 
-/// What the row shows: the entry that some code fails worst, else the one that uses most of its
-/// tolerance.
+/// Returns the entry that a code fails worst; else the one that uses most of its tolerance.
 const Check* shown_check(const Row& row) {
   const Check* shown = nullptr;
   const auto rank = [](const Check& check) {
@@ -98,7 +86,7 @@ const Check* shown_check(const Row& row) {
   return shown;
 }
 
-/// Class in the style sheet, and a sign that does not need colour.
+/// Returns the class in the style sheet, and a sign that does not depend on color.
 std::pair<const char*, const char*> mark(Grade grade) {
   if (grade == Grade::agrees) return {"passes", "✓"};
   if (grade == Grade::off) return {"fails", "✗"};
@@ -112,40 +100,18 @@ std::string status_text(const Run& run, Grade grade, const Check* here) {
   return check == nullptr ? "off" : "off in " + check_title(*check);
 }
 
-Data cell(const Run* run, const Check* shown, bool nearest) {
-  if (run == nullptr) return object({{"there", false}});
+Data cell(const Run* run, const Check* shown) {
+  if (run == nullptr) return object({{"has_run", false}});
   const Grade grade = grade_of(*run);
   const Check* here = shown == nullptr ? nullptr : find_check(*run, *shown);
   const bool not_computed = grade == Grade::cannot || grade == Grade::not_exported;
-  return object({{"there", true},
+  return object({{"has_run", true},
                  {"status_class", mark(grade).first},
                  {"sign", mark(grade).second},
                  {"status_text", status_text(*run, grade, here)},
                  {"difference", here == nullptr ? "" : difference_text(*here)},
                  {"reason", is_failure(grade) || not_computed ? run->reason : std::string()},
-                 {"time", not_computed ? "" : duration(run->cost.wall_s)},
-                 {"nearest", nearest}});
-}
-
-/// The codes whose numbers lie nearest to the expected one; none where all are as near.
-std::vector<bool> nearest_of(const Row& row, const Check* shown) {
-  constexpr double kTie = 1e-13;  // of the expected value: round-off
-  std::vector<double> away;
-  for (const Run* run : row.runs) {
-    const Check* check = run == nullptr || shown == nullptr ? nullptr : find_check(*run, *shown);
-    const bool has = check != nullptr && check->expected && check->computed;
-    away.push_back(has ? std::abs(*check->computed - *check->expected)
-                       : std::numeric_limits<double>::infinity());
-  }
-  const double least = *std::ranges::min_element(away);
-  std::vector<bool> nearest;
-  std::size_t farther = 0;
-  for (const double distance : away) {
-    nearest.push_back(distance <=
-                      1.000001 * least + kTie * std::abs(shown ? shown->expected.value_or(0) : 0));
-    if (std::isfinite(distance) && !nearest.back()) ++farther;
-  }
-  return farther > 0 ? nearest : std::vector<bool>(row.runs.size(), false);
+                 {"time", not_computed ? "" : duration(run->cost.wall_s)}});
 }
 
 std::size_t entries_of(const Row& row, const Check& shown) {
@@ -158,14 +124,9 @@ std::size_t entries_of(const Row& row, const Check& shown) {
   return static_cast<std::size_t>(most);
 }
 
-Data row_data(const Row& row, std::vector<Code>& codes) {
+Data row_data(const Row& row) {
   const Check* shown = shown_check(row);
-  const std::vector<bool> nearest = nearest_of(row, shown);
-  Data cells = list();
-  for (std::size_t i = 0; i < row.runs.size(); ++i) {
-    if (nearest[i]) ++codes[i].nearest;
-    cells.push_back(cell(row.runs[i], shown, nearest[i]));
-  }
+  const auto cell_of = [&](const Run* run) { return cell(run, shown); };
   return object({{"title", row.info->title},
                  {"variant", row.variant == "base" ? "" : row.info->variant_title(row.variant)},
                  {"run", row.info->id + (row.variant == "base" ? "" : ":" + row.variant)},
@@ -174,24 +135,30 @@ Data row_data(const Row& row, std::vector<Code>& codes) {
                                                : quantity_text(*shown) + " " +
                                                      entry_text(*shown, entries_of(row, *shown))},
                  {"expected", shown == nullptr ? "" : target_text(*shown)},
-                 {"cells", cells}});
+                 {"cells", list_of(row.runs, cell_of)}});
 }
 
-Data code_data(const Code& code, const std::vector<Grade>& grades) {
-  const auto number_of = [&](Grade grade) {
-    const auto found = code.counts.find(grade);
-    return object({{"n", found == code.counts.end() ? "" : std::to_string(found->second)}});
-  };
-  const Environment& environment = code.results.environment;
-  return object({{"name", code.name},
-                 {"version", code.version},
-                 {"command", code.results.solver ? code.results.solver->command : ""},
-                 {"catalogue", environment.trammel + " (" + environment.commit + ")"},
-                 {"date", environment.date},
-                 {"runs", std::to_string(code.results.runs.size())},
-                 {"counts", list_of(grades, number_of)},
-                 {"nearest", std::to_string(code.nearest)},
-                 {"time", duration(code.wall_s)}});
+/// Returns the number of runs of each grade, by code.
+TextTable codes_table(const std::vector<Code>& codes) {
+  std::vector<Grade> grades;
+  for (const Grade grade : kAllGrades)
+    if (std::ranges::any_of(codes, [&](const Code& code) { return code.counts.contains(grade); }))
+      grades.push_back(grade);
+  TextTable table{"Codes", {"Code", "Command", ">runs"}};
+  for (const Grade grade : grades) table.heads.push_back(">" + to_string(grade));
+  table.heads.insert(table.heads.end(), {">time", "Catalogue"});
+  for (const Code& code : codes) {
+    const Results& results = code.results;
+    std::vector<std::string>& row = table.rows.emplace_back();
+    row = {code.name + " " + code.version, results.solver ? results.solver->command : "",
+           std::to_string(results.runs.size())};
+    for (const Grade grade : grades)
+      row.push_back(code.counts.contains(grade) ? std::to_string(code.counts.at(grade)) : "");
+    row.push_back(duration(code.wall_s));
+    row.push_back(results.environment.trammel + " (" + results.environment.commit + "), " +
+                  results.environment.date);
+  }
+  return table;
 }
 
 }  // namespace
@@ -200,21 +167,13 @@ std::filesystem::path write_codes(const std::vector<std::filesystem::path>& resu
                                   const std::filesystem::path& out) {
   std::vector<Code> codes;
   for (const auto& file : results_json) codes.push_back(read_code(file));
-  const std::vector<Row> planned = plan_rows(codes);
-  // The rows first: they count for the codes how often each is nearest.
-  const Data rows = list_of(planned, [&](const Row& row) { return row_data(row, codes); });
-  std::vector<Grade> grades;
-  for (const Grade grade : kAllGrades)
-    if (std::ranges::any_of(codes, [&](const Code& code) { return code.counts.contains(grade); }))
-      grades.push_back(grade);
-  const auto column = [&](const Code& code) { return code_data(code, grades); };
-  const auto head = [](Grade grade) { return object({{"grade", to_string(grade)}}); };
+  const std::vector<Row> rows = plan_rows(codes);
+  const auto name = [](const Code& code) { return object({{"name", code.name}}); };
   const Data page = object({{"style", template_text("style.css")},
-                            {"codes", list_of(codes, column)},
-                            {"grades", list_of(grades, head)},
-                            {"rows", rows},
-                            {"several", codes.size() > 1},
-                            {"extent", count(planned.size(), "run") + " of the catalogue, " +
+                            {"table", table_data(codes_table(codes))},
+                            {"codes", list_of(codes, name)},
+                            {"rows", list_of(rows, row_data)},
+                            {"extent", count(rows.size(), "run") + " of the catalogue, " +
                                            count(codes.size(), "code")}});
   write_file(out / "index.html", render("codes.mustache", page));
   return out / "index.html";

@@ -20,27 +20,12 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxFigures = 12;  ///< of a run
 
-/// A table as text; the first column heads its rows.
-struct PlainTable {
-  std::string title;
-  std::vector<std::string> heads;
-  std::vector<std::vector<std::string>> rows;
-};
-
-Data table_data(const PlainTable& table) {
-  const auto row = [](const std::vector<std::string>& cells) {
-    return object({{"head", cells.front()},
-                   {"cells", texts(std::vector<std::string>(cells.begin() + 1, cells.end()))}});
-  };
-  return object(
-      {{"title", table.title}, {"heads", texts(table.heads)}, {"rows", list_of(table.rows, row)}});
-}
-
 std::string percent_text(const Number& percent) {
   return percent ? with_sign(*percent, 3) + "\u202f%" : "";
 }
 
-/// What tells a side from the others: commit, day, machine and code as far as they differ.
+/// Returns the label of a side with those of its code, commit, date and machine that differ between
+/// the sides.
 std::string side_text(const SideComparison& comparison, const ComparedSide& side) {
   std::string text = side.label;
   for (const auto member : {&ComparedSide::solver, &ComparedSide::commit, &ComparedSide::date,
@@ -52,32 +37,30 @@ std::string side_text(const SideComparison& comparison, const ComparedSide& side
   return text;
 }
 
-PlainTable sides_table(const SideComparison& comparison) {
+TextTable sides_table(const SideComparison& comparison) {
   const bool errors = comparison.sides.front().median_error.has_value();
-  PlainTable table{
-      "Time beside accuracy", {"Side", "Runs", "Processor time", "Of the first", "Work"}, {}};
-  if (errors)
-    for (const char* head : {"Median error", "Largest error"}) table.heads.emplace_back(head);
+  TextTable table{"Time and accuracy",
+                  {"Side", ">Runs", ">Processor time", ">Relative to the first", ">Work"}};
+  if (errors) table.heads.insert(table.heads.end(), {">Median error", ">Largest error"});
   for (const ComparedSide& side : comparison.sides) {
     std::vector<std::string> row = {
         side_text(comparison, side), std::to_string(side.runs), duration(side.cpu_s),
         side.relative_time ? "× " + trimmed(*side.relative_time, 3) : "",
         std::to_string(side.work)};
     if (errors)
-      for (const std::string& cell : {relative(side.median_error.value_or(0), 3, false),
-                                      relative(side.largest_error.value_or(0), 3, false)})
-        row.push_back(cell);
+      row.insert(row.end(), {relative(side.median_error.value_or(0), 3, false),
+                             relative(side.largest_error.value_or(0), 3, false)});
     table.rows.push_back(row);
   }
   return table;
 }
 
-PlainTable value_table(const std::string& title, const std::string& what,
-                       const SideComparison& comparison) {
-  PlainTable table{title, {what}, {}};
+TextTable value_table(const std::string& title, const std::string& head,
+                      const SideComparison& comparison) {
+  TextTable table{title, {head}};
   for (std::size_t s = 0; s < comparison.sides.size(); ++s) {
-    table.heads.push_back(comparison.sides[s].label);
-    if (s > 0) table.heads.emplace_back("Change");
+    table.heads.push_back(">" + comparison.sides[s].label);
+    if (s > 0) table.heads.emplace_back(">Change");
   }
   return table;
 }
@@ -88,12 +71,12 @@ std::string numbers_text(const std::vector<std::size_t>& set) {
   return text;
 }
 
-PlainTable modes_table(const ComparedRun& run, const SideComparison& comparison) {
-  PlainTable table = value_table("Modes by shape (Hz)", "Mode", comparison);
+TextTable modes_table(const ComparedRun& run, const SideComparison& comparison) {
+  TextTable table = value_table("Modes by shape (Hz)", "Mode", comparison);
   for (const ComparedModes& found : run.modes) {
     std::vector<std::string> row = {numbers_text(found.modes[0])};
     for (std::size_t s = 0; s < found.values.size(); ++s) {
-      std::string text = found.values[s] ? significant(*found.values[s], 6) : "no mode looks alike";
+      std::string text = found.values[s] ? significant(*found.values[s], 6) : "no similar mode";
       if (found.last[s]) text += " to " + significant(*found.last[s], 6);
       if (found.modes[s] != found.modes[0] && !found.modes[s].empty())
         text += " (mode " + numbers_text(found.modes[s]) + ")";
@@ -105,8 +88,8 @@ PlainTable modes_table(const ComparedRun& run, const SideComparison& comparison)
   return table;
 }
 
-PlainTable numbers_table(const ComparedRun& run, const SideComparison& comparison) {
-  PlainTable table = value_table("Numbers that differ", "Quantity", comparison);
+TextTable numbers_table(const ComparedRun& run, const SideComparison& comparison) {
+  TextTable table = value_table("Numbers that differ", "Quantity", comparison);
   for (const ComparedNumber& number : run.numbers) {
     if (!number.changed) continue;
     std::vector<std::string> row = {
@@ -122,10 +105,10 @@ PlainTable numbers_table(const ComparedRun& run, const SideComparison& compariso
   return table;
 }
 
-/// The figures that the case asks for, then what differs without standing in one of them.
+/// Returns the figures that the case requests, then a figure for each other series that differs.
 std::vector<PlotRequest> requests_of(const ComparedRun& run) {
   std::vector<PlotRequest> requests;
-  std::set<std::string> drawn = {"time_s"};  // what others are drawn over
+  std::set<std::string> drawn = {"time_s"};  // the axis of others
   for (PlotRequest request : run.info.figures) {
     if (!request.value.empty()) continue;
     request.variants.clear();
@@ -145,7 +128,7 @@ std::vector<PlotRequest> requests_of(const ComparedRun& run) {
   return requests;
 }
 
-/// The runs stand for variants of one case whose titles are the sides' labels.
+/// Draws the runs as variants of one case whose titles are the labels of the sides.
 std::vector<Figure> figures_of(const ComparedRun& run, const SideComparison& comparison) {
   if (run.runs.empty()) return {};
   CaseInfo info = run.info;
@@ -186,7 +169,7 @@ void write_comparison(const SideComparison& comparison, const fs::path& file) {
     if (!run.changed && figures[i].empty()) continue;
     const bool variants = run.name == comparison.sides.front().label;
     Data tables = list();
-    for (const PlainTable& table : {modes_table(run, comparison), numbers_table(run, comparison)})
+    for (const TextTable& table : {modes_table(run, comparison), numbers_table(run, comparison)})
       if (!table.rows.empty()) tables.push_back(table_data(table));
     runs.push_back(object({{"name", run.info.title.empty() ? run.name
                                     : variants             ? run.info.title
@@ -201,7 +184,6 @@ void write_comparison(const SideComparison& comparison, const fs::path& file) {
                       {"conclusion", comparison.conclusion},
                       {"sides", table_data(sides_table(comparison))},
                       {"runs", runs}});
-  set_partials(data, {"figure", "table"});
   if (!file.parent_path().empty()) fs::create_directories(file.parent_path());
   write_file(file, render("comparison.mustache", data));
 }

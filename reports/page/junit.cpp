@@ -1,6 +1,9 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <map>
+#include <utility>
 
 #include "reports/data/check_text.h"
 #include "reports/data/results.h"
@@ -13,16 +16,29 @@ namespace trammel::reports {
 
 namespace {
 
+/// Element and type of a test case that does not pass.
+struct Outcome {
+  CheckStatus status;
+  const char *element, *type;
+};
+constexpr std::array<Outcome, 5> kOutcomes = {{
+    {CheckStatus::fails, "failure", "fail"},
+    {CheckStatus::error, "error", "error"},
+    {CheckStatus::known_discrepancy, "skipped", "known-discrepancy"},
+    {CheckStatus::not_run, "skipped", "not-run"},
+    {CheckStatus::not_given, "skipped", "not-run"},
+}};
+
+/// Number of test cases, and of those with each element.
 struct Tally {
-  std::size_t tests = 0, failures = 0, errors = 0, skipped = 0;
+  std::size_t tests = 0;
   double time_s = 0;
+  std::map<std::string, std::size_t> elements = {};
 
   void add(const Tally& other) {
     tests += other.tests;
-    failures += other.failures;
-    errors += other.errors;
-    skipped += other.skipped;
     time_s += other.time_s;
+    for (const auto& [element, n] : other.elements) elements[element] += n;
   }
 };
 
@@ -30,15 +46,15 @@ std::string attribute(const std::string& name, const std::string& value) {
   return " " + name + "=\"" + xml_escaped(value) + "\"";
 }
 
-std::string attributes(const Tally& tally) {
-  return attribute("tests", std::to_string(tally.tests)) +
-         attribute("failures", std::to_string(tally.failures)) +
-         attribute("errors", std::to_string(tally.errors)) +
-         attribute("skipped", std::to_string(tally.skipped)) +
-         attribute("time", shortest(tally.time_s));
+std::string attributes(Tally tally) {
+  std::string text = attribute("tests", std::to_string(tally.tests));
+  for (const auto& [name, element] :
+       {std::pair("failures", "failure"), {"errors", "error"}, {"skipped", "skipped"}})
+    text += attribute(name, std::to_string(tally.elements[element]));
+  return text + attribute("time", shortest(tally.time_s));
 }
 
-/// A test case with its outcome and what it prints, counted.
+/// Returns a test case with its outcome and output, and counts it.
 std::string testcase(const std::string& classname, const std::string& name, double time_s,
                      CheckStatus status, const std::string& message, const std::string& output,
                      Tally& tally) {
@@ -46,46 +62,27 @@ std::string testcase(const std::string& classname, const std::string& name, doub
   tally.time_s += time_s;
   std::string text = "    <testcase" + attribute("classname", classname) + attribute("name", name) +
                      attribute("time", shortest(time_s)) + ">\n";
-  const auto add = [&](const std::string& element, const std::string& type,
-                       const std::string& words) {
-    text += "      <" + element + attribute("type", "trammel." + type) +
-            attribute("message", words) + "/>\n";
-  };
-  switch (status) {
-    case CheckStatus::fails:
-      ++tally.failures;
-      add("failure", "fail", message);
-      break;
-    case CheckStatus::error:
-      ++tally.errors;
-      add("error", "error", message);
-      break;
-    case CheckStatus::known_discrepancy:
-      ++tally.skipped;
-      add("skipped", "known-discrepancy", "Known discrepancy: " + message);
-      break;
-    case CheckStatus::not_run:
-    case CheckStatus::not_given:
-      ++tally.skipped;
-      add("skipped", "not-run", message);
-      break;
-    case CheckStatus::passes:
-    case CheckStatus::not_judged:
-      break;
+  const auto outcome = std::ranges::find(kOutcomes, status, &Outcome::status);
+  if (outcome != kOutcomes.end()) {
+    ++tally.elements[outcome->element];
+    text += std::string("      <") + outcome->element +
+            attribute("type", std::string("trammel.") + outcome->type) +
+            attribute("message", message) + "/>\n";
   }
   if (!output.empty()) text += "      <system-out>" + xml_escaped(output) + "</system-out>\n";
   return text + "    </testcase>\n";
 }
 
-/// The worst entry of a check in one line.
+/// Returns the worst entry of a check in one line.
 std::string check_message(const CheckGroup& group) {
   const Check& worst = group.worst();
   if (check_status(worst) == CheckStatus::known_discrepancy)
-    return difference_text(worst) + ", recorded " + tolerance_text(worst) + "; " + worst.why;
+    return "Known discrepancy: " + difference_text(worst) + ", recorded " + tolerance_text(worst) +
+           "; " + worst.why;
   return failure_text(group);
 }
 
-/// All entries of a check, and the reason of its tolerance.
+/// Returns all entries of a check, and the reason of its tolerance.
 std::string check_output(const CheckGroup& group) {
   std::string text;
   for (const Check* check : group.checks) {
@@ -120,7 +117,7 @@ std::string properties_of(const Environment& environment) {
   return text + "    </properties>\n";
 }
 
-/// One check of a run is a test case; the run itself is a test case with the name "status".
+/// Returns a test case for each run, with the name "status", and for each check of the runs.
 std::string suite(const CaseInfo& info, const Results& results, Tally& all) {
   Tally tally;
   std::string body;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <stdexcept>
 #include <string_view>
 
@@ -12,15 +13,21 @@ namespace trammel::reports {
 
 namespace {
 
-/// Numbers between the tags as people write them, but not within code and data.
+/// Templates that others include.
+constexpr std::array<const char*, 17> kPartials = {
+    "cell",  "checks", "claims_table", "counts", "families",   "figure",
+    "find",  "front",  "head",         "matrix", "matrix_row", "questions",
+    "roles", "rows",   "summary",      "table",  "tables"};
+
+/// Typesets the powers of ten between tags, except in code and data.
 std::string with_powers_in_text(const std::string& html) {
-  constexpr std::array<std::string_view, 4> kAsTheyStand = {"code", "style", "script", "metadata"};
+  constexpr std::array<std::string_view, 4> kUnchanged = {"code", "style", "script", "metadata"};
   std::string out;
   for (std::size_t from = 0; from < html.size();) {
     const std::size_t tag = std::min(html.find('<', from), html.size());
     out += with_powers(html.substr(from, tag - from));
     from = html.find('>', tag);
-    for (const std::string_view name : kAsTheyStand)
+    for (const std::string_view name : kUnchanged)
       if (html.compare(std::min(tag + 1, html.size()), name.size(), name) == 0)
         from = html.find("</" + std::string(name), tag);
     from = from == std::string::npos ? html.size() : from + 1;
@@ -29,21 +36,49 @@ std::string with_powers_in_text(const std::string& html) {
   return out;
 }
 
-}  // namespace
-
-void set_partials(Data& data, std::initializer_list<const char*> names) {
-  for (const std::string name : names)
-    data.set(name + "_partial", kainjow::mustache::partial(
-                                    [file = name + ".mustache"] { return template_text(file); }));
+/// Changes the values of an attribute, which are in double quotes.
+std::string with_attribute(const std::string& html, const std::string& attribute,
+                           const std::function<std::string(const std::string&)>& change) {
+  const std::string open = " " + attribute + "=\"";
+  std::string out;
+  std::size_t from = 0;
+  for (std::size_t at = html.find(open); at != std::string::npos; at = html.find(open, from)) {
+    const std::size_t begin = at + open.size(), end = html.find('"', begin);
+    out.append(html, from, begin - from);
+    out += change(html.substr(begin, end - begin));
+    from = end;
+  }
+  return out.append(html, from);
 }
 
-std::string render(const std::string& template_name, const Data& data) {
+}  // namespace
+
+std::string render(const std::string& template_name, Data data) {
+  for (const std::string name : kPartials)
+    data.set(name + "_partial", kainjow::mustache::partial(
+                                    [file = name + ".mustache"] { return template_text(file); }));
   kainjow::mustache::mustache page(template_text(template_name));
   std::string html = page.render(data);
   if (!page.is_valid()) throw std::logic_error(template_name + ": " + page.error_message());
   std::ranges::replace_if(
       html, [](char c) { return is_control(c) && c != '\n' && c != '\t'; }, ' ');
   return with_powers_in_text(html);
+}
+
+std::string linked_from(const std::string& html, const std::string& page) {
+  const auto change = [&](const std::string& target) {
+    if (target.empty() || target[0] == '#' || target.starts_with("https:")) return target;
+    if (target.starts_with(page + "#")) return target.substr(page.size());
+    return (page.find('/') == std::string::npos ? "" : "../") + target;
+  };
+  return with_attribute(with_attribute(html, "href", change), "src", change);
+}
+
+std::vector<std::string> targets_in(const std::string& html) {
+  std::vector<std::string> targets;
+  const auto collect = [&](const std::string& target) { return targets.emplace_back(target); };
+  (void)with_attribute(with_attribute(html, "href", collect), "src", collect);
+  return targets;
 }
 
 }  // namespace trammel::reports

@@ -1,14 +1,10 @@
 #include "reports/page/report.h"
 
-#include <optional>
 #include <set>
 
 #include "harness/results/unfinished_folder.h"
-#include "reports/figures/figures.h"
-#include "reports/figures/gallery.h"
 #include "reports/page/render.h"
 #include "reports/page/site.h"
-#include "reports/sections/sections.h"
 #include "reports/text/files.h"
 
 namespace trammel::reports {
@@ -19,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kGenerator = R"(<meta name="generator" content="trammel">)";
 
-/// What an earlier report in the same folder has written: its pages, and what they link to.
+/// Returns the pages of an earlier report in the folder, and the files that they link to.
 std::vector<fs::path> earlier_files(const fs::path& out) {
   std::set<fs::path> files, pages = {"index.html"};
   while (!pages.empty()) {
@@ -54,41 +50,37 @@ void write_checks(const std::vector<Family>& families, const fs::path& folder) {
 
 }  // namespace
 
-fs::path write_report(const Results& results, const fs::path& out, bool single_file) {
+fs::path write_report(const Results& results, const fs::path& out) {
   const fs::path part = out / kUnfinishedFolder;
   try {
     std::vector<Family> families = plan_families(results);
-    CostPanels panels = plan_cost(results);
+    StudyFigures studies = plan_studies(results);
     std::vector<std::vector<Figure*>> pages = figures_by_page(families);
-    pages.push_back(panels.figures());
-    std::optional<Figure> over_time;
-    if (results.history && results.history->calls.size() > 1)
-      pages.back().push_back(&over_time.emplace(history_figure(*results.history)));
+    pages.push_back(studies.all());
     number_figures(pages);
     std::vector<Figure*> figures;
     for (const auto& page : pages) figures.insert(figures.end(), page.begin(), page.end());
-    // Where nothing was to be computed anew, nothing is drawn anew that is there.
+    // If runs come from the store, drawings that did not change are kept.
     const Environment& from = results.environment;
     draw(figures, part / "figures", from.stored_runs > 0 ? out / "figures" : fs::path(),
          from.trammel + from.commit);
-    // The script reads curves and moves shapes in their page only; the rest is loaded when seen.
+    // The script reads curves and moves shapes of inlined drawings. Other drawings are loaded when
+    // they come into view.
     for (Figure* figure : figures)
       figure->is_linked |=
           figure->moving.empty() && figure->svg.find(" data-axes=") == std::string::npos;
     write_checks(families, part / "checks");
-    for (const SiteFile& file : site_files(results, families, panels, over_time)) {
+    for (const SiteFile& file : site_files(results, families, studies)) {
       fs::create_directories((part / file.path).parent_path());
       write_file(part / file.path, file.text);
     }
-    if (single_file)
-      write_file(part / "report.html", single_page(results, families, panels, over_time));
     replace_files(part, out, "index.html", earlier_files(out));
   } catch (...) {
     std::error_code ignored;
     fs::remove_all(part, ignored);
     throw;
   }
-  return out / (single_file ? "report.html" : "index.html");
+  return out / "index.html";
 }
 
 }  // namespace trammel::reports

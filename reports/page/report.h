@@ -7,33 +7,32 @@
 #include "harness/results/side_comparison.h"
 #include "reports/data/results.h"
 
-/// What the commands write: a report, a comparison, the grades of codes, JUnit.
+/// Pages and files that the commands write.
 namespace trammel::reports {
 
-/// Writes a report of complete results into `out`: `index.html`, a page for each family and
-/// case, figures (SVG) with their data (CSV); asked for a single file also `report.html`, which
-/// needs no other. Beside a former report, whose place it takes when all is there, with what else
-/// lies in the folder of unfinished files. Where it fails, the former one stays whole.
-/// @returns the path of the page to open.
-std::filesystem::path write_report(const Results& results, const std::filesystem::path& out,
-                                   bool single_file = false);
+/// Writes a report of complete results into `out`: `index.html`, a page for each family and case,
+/// and figures (SVG) with their data (CSV). The report, together with all files in the folder of
+/// unfinished files, replaces an earlier report at the end. If writing fails, the earlier report
+/// does not change.
+/// @returns the path of the first page.
+std::filesystem::path write_report(const Results& results, const std::filesystem::path& out);
 
-/// Writes sides beside each other as one page that needs no other file: what changed, time and
-/// accuracy, modes and numbers, and the curves of the runs that change most over each other.
-/// @throws std::runtime_error  where a figure cannot be drawn or the file not be written
+/// Writes a page that compares sides and needs no other file: changes, time and accuracy, modes and
+/// numbers, and curves of the runs that change most.
+/// @throws std::runtime_error  if a figure cannot be drawn or the file cannot be written
 void write_comparison(const results::SideComparison& comparison, const std::filesystem::path& file);
 
-/// Writes `index.html` into `out`: the results of several codes, case by code, trammel's own as
-/// one of them. Each row has the check that says most of it, with the expected value; each cell how
-/// the code did there, its difference and its time.
-/// @returns the page's path. @throws std::runtime_error on an unreadable results file.
+/// Writes `index.html` into `out`, which compares the results of several codes, case by case. Each
+/// row has the worst check of a case with its expected value. Each cell has the grade of a code,
+/// its difference and its time.
+/// @returns the path of the page. @throws std::runtime_error  if a results file cannot be read.
 std::filesystem::path write_codes(const std::vector<std::filesystem::path>& results_json,
                                   const std::filesystem::path& out);
 
 /// Writes results as JUnit XML: a testsuite for each case, a testcase for each check of a run, and
-/// one with the name "status" for each run. Names do not depend on the outcome. A known discrepancy
-/// is skipped with the type trammel.known-discrepancy, a check that was not run with
-/// trammel.not-run. Values, reasons and warnings are in system-out.
+/// one with the name "status" for each run. The names do not depend on the outcome. A known
+/// discrepancy is skipped with the type trammel.known-discrepancy, a check that was not run with
+/// trammel.not-run. The system-out contains values, reasons and warnings.
 void write_junit(const results::Results& results, const std::filesystem::path& junit_xml);
 
 }  // namespace trammel::reports

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
 
+#include "harness/base/find_or_add.h"
 #include "reports/drawing/plot_script.h"
 #include "reports/sections/sections.h"
-#include "reports/text/html.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
 
@@ -13,8 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxClaim = 90;  ///< characters in the table of claims
 
-/// How the page shows a verdict: the words say it, the sign and its colour only help to
-/// find it.
+/// Presentation of a verdict. The signs do not depend on color.
 struct VerdictStyle {
   const char *verdict, *css_class, *sign;
 };
@@ -31,7 +30,7 @@ constexpr std::array<VerdictStyle, 10> kVerdictStyles = {{
     {"", "not-run", "–"},
 }};
 
-/// With words, class name and sign of a verdict.
+/// Returns the entries together with the text, class and sign of a verdict.
 Data with_verdict(const std::string& verdict, std::initializer_list<Entry> entries) {
   const auto* found =
       std::find_if(kVerdictStyles.begin(), kVerdictStyles.end() - 1,
@@ -48,7 +47,7 @@ std::string number_text(const ClaimInterpretation& interpretation, double value)
   return trimmed(value, 4) + (unit.empty() ? "" : "\u202f" + unit);
 }
 
-/// The value, or the least and the most of several.
+/// Returns the value, or the range of several values.
 std::string measured(const ClaimInterpretation& interpretation) {
   if (interpretation.entries.empty()) return "";
   const auto [lowest, highest] =
@@ -61,9 +60,8 @@ Data interpretation_data(const ClaimInterpretation& interpretation, const Result
   Data cases = list();
   std::vector<std::string> seen;
   for (const ClaimEntry& entry : interpretation.entries) {
-    const bool listed = std::ranges::any_of(
-        results.runs, [&](const Run& run) { return run.case_id == entry.case_id; });
-    if (!listed || std::ranges::find(seen, entry.case_id) != seen.end()) continue;
+    const bool has_page = std::ranges::count(results.runs, entry.case_id, &Run::case_id) > 0;
+    if (!has_page || harness::contains(seen, entry.case_id)) continue;
     seen.push_back(entry.case_id);
     cases.push_back(object({{"case_id", entry.case_id}, {"case_link", case_link(entry.case_id)}}));
   }
@@ -73,8 +71,8 @@ Data interpretation_data(const ClaimInterpretation& interpretation, const Result
 }
 
 Data claim_data(const Claim& claim, const Results& results) {
-  const auto interpretation = [&](const ClaimInterpretation& read) {
-    return interpretation_data(read, results);
+  const auto interpretation = [&](const ClaimInterpretation& reading) {
+    return interpretation_data(reading, results);
   };
   return with_verdict(
       claim.verdict,
@@ -91,7 +89,7 @@ Data claim_data(const Claim& claim, const Results& results) {
        {"interpretations", list_of(claim.interpretations, interpretation)}});
 }
 
-/// "Eq. 14", "Table 2", "Figure 7", "Statement".
+/// Returns "Eq. 14", "Table 2", "Figure 7" or "Statement".
 std::string item_title(const std::string& id) {
   const std::string kind = id.substr(0, id.find('-')), number = id.substr(id.find('-') + 1);
   if (kind == "equation") return "Eq. " + number;
@@ -108,10 +106,9 @@ Data item_data(const PaperItem& item, const Claims& claims) {
                    {"verdict", counterpart.verdict}});
   };
   Data verdicts = list();
-  for (const Claim& claim : claims.claims) {
-    if (std::ranges::find(item.claims, claim.id) == item.claims.end()) continue;
-    verdicts.push_back(with_verdict(claim.verdict, {{"claim_id", claim.id}}));
-  }
+  for (const Claim& claim : claims.claims)
+    if (harness::contains(item.claims, claim.id))
+      verdicts.push_back(with_verdict(claim.verdict, {{"claim_id", claim.id}}));
   return object({{"title", item_title(item.id)},
                  {"section", item.section},
                  {"what", item.what},
@@ -121,7 +118,7 @@ Data item_data(const PaperItem& item, const Claims& claims) {
                  {"note", item.note}});
 }
 
-/// "2 confirmed, 4 contradicted, ..."
+/// Returns the number of claims by verdict.
 std::string overview(const Claims& claims) {
   std::string text;
   for (const VerdictStyle& style : kVerdictStyles) {
@@ -130,8 +127,9 @@ std::string overview(const Claims& claims) {
     if (n > 0) add_item(text, std::to_string(n) + " " + style.verdict);
   }
   return count(claims.claims.size(), "claim") + ": " + text +
-         ". Each verdict follows from the interpretations listed below it by a stated rule; a test "
-         "fails when it changes.";
+         ". Each verdict follows from the listed interpretations by a fixed rule. A test fails if "
+         "it "
+         "changes.";
 }
 
 }  // namespace

@@ -1,11 +1,34 @@
-#include <algorithm>
-
-#include "reports/data/check_text.h"
 #include "reports/sections/sections.h"
-#include "reports/text/html.h"
 #include "reports/text/number.h"
 
 namespace trammel::reports {
+
+Data with_status(CheckStatus status, std::initializer_list<Entry> entries) {
+  Data data = object(entries);
+  const StatusStyle& style = style_of(status);
+  set(data, {{"status_text", style.text}, {"status_class", style.css_class}, {"sign", style.sign}});
+  return data;
+}
+
+Data counts_list(const Counts& counts) {
+  Data out = list();
+  const auto all = static_cast<double>(total(counts));
+  for (const auto& [status, n] : counts)
+    out.push_back(with_status(
+        status,
+        {{"n", std::to_string(n)}, {"percent", shortest(100.0 * static_cast<double>(n) / all)}}));
+  return out;
+}
+
+std::string case_link(const std::string& id) {
+  return "cases/" + slug(id) + ".html";
+}
+std::string family_link(const std::string& id) {
+  return "families/" + slug(id) + ".html";
+}
+std::string reference_link(const std::string& id) {
+  return "references.html#ref-" + slug(id);
+}
 
 Data figure_data(const Figure& figure) {
   return object({{"id", figure.id},
@@ -26,28 +49,26 @@ Counts counts_of(const std::vector<const Run*>& runs) {
   return counts;
 }
 
-/// The one sign of many checks and runs: the worst of them.
+/// Returns the worst status of many checks and runs.
 CheckStatus overall(const std::vector<const Run*>& runs) {
-  const Counts counts = counts_of(runs);
-  const auto any_run = [&](CheckStatus which) {
-    return std::ranges::any_of(runs, [&](const Run* run) { return check_status(*run) == which; });
-  };
-  for (const CheckStatus bad : {CheckStatus::error, CheckStatus::fails})
-    if (count_of(counts, bad) > 0 || any_run(bad)) return bad;
-  for (const CheckStatus some :
-       {CheckStatus::known_discrepancy, CheckStatus::passes, CheckStatus::not_judged})
-    if (count_of(counts, some) > 0) return some;
+  Counts counts = counts_of(runs);
+  for (const Run* run : runs)
+    if (check_status(*run) != CheckStatus::passes) ++counts[check_status(*run)];
+  for (const CheckStatus status :
+       {CheckStatus::error, CheckStatus::fails, CheckStatus::known_discrepancy, CheckStatus::passes,
+        CheckStatus::not_judged})
+    if (count_of(counts, status) > 0) return status;
   return CheckStatus::not_run;
 }
 
+/// Returns the runs that were not solved, with their reasons.
 Data endings(const CaseInfo& info, const std::vector<const Run*>& runs) {
   Data out = list();
-  for (const Run* run : runs) {
-    if (run->status == Status::solved) continue;
-    out.push_back(with_status(check_status(*run), {{"variant", info.variant_title(run->variant)},
-                                                   {"status", to_string(run->status)},
-                                                   {"reason", run->reason}}));
-  }
+  for (const Run* run : runs)
+    if (run->status != Status::solved)
+      out.push_back(with_status(check_status(*run), {{"variant", info.variant_title(run->variant)},
+                                                     {"status", to_string(run->status)},
+                                                     {"reason", run->reason}}));
   return out;
 }
 
@@ -59,7 +80,7 @@ Data warnings(const CaseInfo& info, const std::vector<const Run*>& runs) {
   return out;
 }
 
-/// What the contents and the page of its family say of a case.
+/// Returns the data of a case for the contents and the page of its family.
 Data case_entry(const CaseInfo& info, const Family& family) {
   const std::vector<const Run*> runs = family.runs_of(info.id);
   return with_status(overall(runs),
@@ -76,13 +97,9 @@ Data case_entry(const CaseInfo& info, const Family& family) {
 Data case_section(const CaseInfo& info, const Family& family, const Results& results) {
   const std::vector<const Run*> runs = family.runs_of(info.id);
   const Gallery& gallery = family.galleries.at(info.id);
-  const Data tables = variant_tables(info, runs);
   const Data warned = warnings(info, runs);
   Data data = case_entry(info, family);
-  set(data, {{"case_anchor", case_anchor(info.id)},
-             {"family_title", family.title},
-             {"family_link", family_link(family.id)},
-             {"description", info.description},
+  set(data, {{"description", info.description},
              {"labels", texts(info.labels)},
              {"endings", endings(info, runs)},
              {"warnings", warned},
@@ -96,12 +113,10 @@ Data case_section(const CaseInfo& info, const Family& family, const Results& res
               gallery.folded.empty() ? "" : count(gallery.folded.size(), "further figure")},
              {"folded_figures", list_of(gallery.folded, figure_data)},
              {"tables", case_tables(info, runs, results)},
-             {"has_variant_tables", tables.is_non_empty_list()},
-             {"variant_tables", tables},
+             {"has_variant_tables", !info.tables.empty()},
+             {"variant_tables", object({{"tables", variant_tables(info, runs)}})},
              {"csv", "checks/" + slug(info.id) + ".csv"}});
-  set_errors(data, runs);
-  set_effects(data, runs);
-  set_model_probabilities(data, runs);
+  set_run_tables(data, runs);
   return data;
 }
 
@@ -111,8 +126,7 @@ Data family_section(const Family& family, const Results& results) {
   const Data matrices = comparison_matrices(family, results);
   const auto entry = [&](const CaseInfo* info) { return case_entry(*info, family); };
   return with_status(overall(family.runs),
-                     {{"family_anchor", "family-" + slug(family.id)},
-                      {"family_link", family_link(family.id)},
+                     {{"family_link", family_link(family.id)},
                       {"family_title", family.title},
                       {"cases_count", cases_count},
                       {"extent", cases_count + ", " + count(total(counts), "check")},

@@ -4,9 +4,7 @@
 #include <map>
 
 #include "harness/base/find_or_add.h"
-#include "reports/data/check_text.h"
 #include "reports/sections/sections.h"
-#include "reports/text/html.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
 
@@ -15,26 +13,26 @@ namespace trammel::reports {
 namespace {
 
 constexpr std::size_t kMinRows = 4, kMinColumns = 3, kMaxColumns = 16;
-constexpr std::size_t kMaxUnfoldedMatrixRows =
-    10;  ///< of more than three rows beyond these, the rest is folded
-constexpr double kFullColourDifference = 0.4;  ///< relative difference that is drawn in full colour
-constexpr double kTargetReached = 0.01;        ///< a target nearer than this counts as reached
+constexpr std::size_t kMaxUnfoldedMatrixRows = 10;  ///< if there are more than three further rows
+constexpr double kFullColorDifference = 0.4;        ///< relative difference of the darkest color
+constexpr double kTargetReached =
+    0.01;  ///< largest relative difference of a target that is reached
 
-/// A check with its comparison after ASME V&V 20, if the run has one.
+/// A check, and its comparison after ASME V&V 20 if the run has one.
 struct MatrixCell {
   const Check* check = nullptr;
   const Comparison* comparison = nullptr;
 };
 
-/// One variant: its checks by entry.
+/// Checks of one variant by entry.
 struct MatrixRow {
   const Run* run;
   std::map<int, MatrixCell> checks;
   double distance = 0;  ///< root mean square of the relative differences
 };
 
-/// All variants that make one check. Another check may compare the same entries with other ones of
-/// the same reference.
+/// Variants that have the same check. Other checks may compare the same entries with other entries
+/// of the same reference.
 struct MatrixSubject {
   std::string reference, quantity, check;
   std::vector<MatrixRow> rows;
@@ -77,7 +75,7 @@ std::vector<MatrixSubject> subjects(const Family& family) {
   return out;
 }
 
-/// Whole rows before partial ones, then nearest first.
+/// Sorts complete rows before partial ones, then nearest rows first.
 void sort_rows(MatrixSubject& subject) {
   for (MatrixRow& row : subject.rows) {
     double sum = 0;
@@ -106,13 +104,13 @@ Data cell_of(const MatrixCell& cell) {
                    {"value", significant(*cell.check->computed, 4)},
                    {"difference", relative(d, std::abs(d) >= 0.1 ? 2 : 1, true)},
                    {"side", d < 0 ? "below" : "above"},
-                   {"depth", trimmed(std::min(1.0, std::abs(d) / kFullColourDifference), 2)}});
+                   {"depth", trimmed(std::min(1.0, std::abs(d) / kFullColorDifference), 2)}});
   if (!cell.comparison) return data;
   const Comparison& c = *cell.comparison;
   std::string words = c.conclusion;
   if (!c.all_inputs.conclusion.empty())
     words +=
-        " With nominal lengths as uncertain as their printed digits: " + c.all_inputs.conclusion;
+        " If nominal lengths are as uncertain as their printed digits: " + c.all_inputs.conclusion;
   set(data,
       {{"status_text", words},
        {"expanded_uncertainty", relative(2 * *c.u_val / std::abs(*cell.check->expected), 2, false)},
@@ -120,7 +118,7 @@ Data cell_of(const MatrixCell& cell) {
   return data;
 }
 
-/// Number of comparisons of each verdict, and of those that an input dominates.
+/// Numbers of comparisons by verdict and by dominant input.
 struct Tally {
   std::map<std::string, std::size_t> verdict, dominant;
   std::size_t entries = 0;
@@ -144,8 +142,8 @@ struct Tally {
     for (const auto& [key, words] : kWords)
       if (verdict.contains(key)) add_item(text, std::to_string(verdict.at(key)) + " " + words);
     text += ".";
-    const auto most = std::ranges::max_element(
-        dominant, [](const auto& a, const auto& b) { return a.second < b.second; });
+    const auto most =
+        std::ranges::max_element(dominant, {}, [](const auto& input) { return input.second; });
     if (most != dominant.end())
       text += " The dominant input is the " + spaced(most->first) + ", for " +
               std::to_string(most->second) + " of " + std::to_string(entries) + ".";
@@ -153,7 +151,7 @@ struct Tally {
   }
 };
 
-/// The inputs that dominate a row, each with the largest share of its entries.
+/// Returns the dominant inputs of a row, each with its largest share of the uncertainty.
 std::string dominant_text(const MatrixRow& row) {
   std::map<std::string, double> shares;
   for (const auto& [_, cell] : row.checks) {
@@ -171,7 +169,7 @@ std::string entry_word(const MatrixSubject& subject) {
   return subject.quantity.starts_with("frequency") ? "mode" : "entry";
 }
 
-/// The nearest value of each entry.
+/// Returns the nearest value of each entry.
 std::map<int, MatrixCell> nearest_of(const MatrixSubject& subject) {
   std::map<int, MatrixCell> nearest;
   for (const MatrixRow& row : subject.rows)
@@ -183,8 +181,9 @@ std::map<int, MatrixCell> nearest_of(const MatrixSubject& subject) {
   return nearest;
 }
 
-/// "Of 666 readings the most probable one is, under a discrepancy of 1 %: X (40 %); ..." Empty
-/// where no run has judged the row so.
+/// Returns the most probable reading for each discrepancy: "Of 666 readings (case) the most
+/// probable is under a discrepancy of 1 % X (40 %); ...". Empty if no run has probabilities of the
+/// row.
 std::string most_probable(const std::string& reference, const Results& results) {
   std::string text;
   for (const Run& run : results.runs) {
@@ -202,12 +201,12 @@ std::string most_probable(const std::string& reference, const Results& results) 
   return text.empty() ? text : text + ".";
 }
 
-/// "Nearest as a whole: X (12 % root mean square). No variant comes within 1 % of modes 4 and 6."
+/// Returns the nearest variant, and the targets that no variant reaches.
 std::string conclusion(const MatrixSubject& subject, const Family& family, const Results& results) {
   const MatrixRow& best = subject.rows.front();
   std::string text = most_probable(subject.reference, results);
   if (text.empty())
-    text = "Nearest as a whole: " + row_title(family, results, best) +
+    text = "Nearest overall: " + row_title(family, results, best) +
            ", with a root mean square difference of " + relative(best.distance, 2, false) +
            " over " + count(best.checks.size(), entry_word(subject)) + ".";
   std::string missed;
@@ -218,12 +217,13 @@ std::string conclusion(const MatrixSubject& subject, const Family& family, const
               relative(*nearest.check->difference, 2, true) + ")";
   }
   if (n == 0)
-    return text + " Every target is reached within 1\u202f% by some variant, though not by one.";
+    return text +
+           " Every target is reached within 1\u202f% by a variant, but not all by the same one.";
   return text + " No variant comes within 1\u202f% of " + entry_word(subject) +
          (n == 1 ? " " : "s ") + missed + ".";
 }
 
-/// A cell for each target; an empty one if there is no such entry.
+/// Returns a cell for each target. It is empty if there is no such entry.
 Data cells_of(const MatrixSubject& subject, const std::map<int, MatrixCell>& entries) {
   return list_of(subject.targets, [&](const auto& target) {
     const auto found = entries.find(target.first);
@@ -233,14 +233,14 @@ Data cells_of(const MatrixSubject& subject, const std::map<int, MatrixCell>& ent
 
 Data matrix_row(const MatrixSubject& subject, const MatrixRow& row, const Family& family,
                 const Results& results) {
-  const std::size_t whole = subject.rows.front().checks.size();
+  const std::size_t complete = subject.rows.front().checks.size();
   return object(
       {{"title", row_title(family, results, row)},
        {"distance", relative(row.distance, 2, false)},
        {"best", &row == &subject.rows.front() && subject.rows.size() > 1},
-       {"partial", row.checks.size() == whole ? ""
-                                              : count(row.checks.size(), entry_word(subject)) +
-                                                    " only: not ranked with the rest"},
+       {"partial", row.checks.size() == complete ? ""
+                                                 : count(row.checks.size(), entry_word(subject)) +
+                                                       " only, ranked after complete rows"},
        {"cells", cells_of(subject, row.checks)},
        {"dominant", dominant_text(row)}});
 }
@@ -277,25 +277,25 @@ Data matrix_of(const MatrixSubject& subject, const Family& family, const Results
        {"folded_title", shown == rows ? "" : count(rows - shown, "further variant")}});
 }
 
-std::vector<MatrixSubject> compared(const Family& family) {
-  std::vector<MatrixSubject> out;
-  for (MatrixSubject& subject : subjects(family)) {
-    const bool uncertain = std::ranges::any_of(subject.rows, [](const MatrixRow& row) {
-      return row.checks.begin()->second.comparison != nullptr;
-    });
-    const bool many = subject.rows.size() >= kMinRows && subject.targets.size() >= kMinColumns;
-    if (!(uncertain || many) || subject.targets.size() > kMaxColumns) continue;
-    sort_rows(subject);
-    out.push_back(std::move(subject));
-  }
-  return out;
+/// Returns whether a matrix is shown: with many variants, or with validation uncertainties.
+bool is_shown(const MatrixSubject& subject) {
+  const bool uncertain = std::ranges::any_of(subject.rows, [](const MatrixRow& row) {
+    return row.checks.begin()->second.comparison != nullptr;
+  });
+  const bool many = subject.rows.size() >= kMinRows && subject.targets.size() >= kMinColumns;
+  return (uncertain || many) && subject.targets.size() <= kMaxColumns;
 }
 
 }  // namespace
 
 Data comparison_matrices(const Family& family, const Results& results) {
-  return list_of(compared(family),
-                 [&](const MatrixSubject& subject) { return matrix_of(subject, family, results); });
+  Data matrices = list();
+  for (MatrixSubject& subject : subjects(family)) {
+    if (!is_shown(subject)) continue;
+    sort_rows(subject);
+    matrices.push_back(matrix_of(subject, family, results));
+  }
+  return matrices;
 }
 
 Data validation_uncertainty_section(const std::vector<Family>& families) {

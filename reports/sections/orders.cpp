@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "harness/base/find_or_add.h"
+#include "harness/base/statistic.h"
 #include "reports/drawing/interval.h"
 #include "reports/sections/sections.h"
-#include "reports/text/html.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
 
@@ -12,99 +12,67 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double kOrderTolerance = 0.1;
-constexpr std::size_t kMaxUnfoldedOrders = 24;  ///< rows of a family's table that is not folded
-
-/// How many bands hold the exact value, and how wide they are for the error that there is.
-struct GciCoverage {
-  std::size_t levels = 0, hits = 0;
-  std::vector<double> ratios;
-
-  void add(const Convergence& c) {
-    if (!c.exact || *c.exact == 0) return;
-    for (std::size_t k = 0; k < c.gci.size(); ++k) {
-      if (!c.gci[k] || !c.values[k] || !c.error[k]) continue;
-      // The band is relative to the value, the error to the exact one.
-      const double half_width = *c.gci[k] * std::abs(*c.values[k] / *c.exact);
-      ++levels;
-      hits += half_width >= *c.error[k] ? 1 : 0;
-      if (!c.at_roundoff_floor[k] && *c.error[k] > 0) ratios.push_back(half_width / *c.error[k]);
-    }
-  }
-  void add(const GciCoverage& more) {
-    levels += more.levels;
-    hits += more.hits;
-    ratios.insert(ratios.end(), more.ratios.begin(), more.ratios.end());
-  }
-  [[nodiscard]] Number median() const {
-    if (ratios.empty()) return std::nullopt;
-    std::vector<double> sorted = ratios;
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    std::nth_element(sorted.begin(), middle, sorted.end());
-    return *middle;
-  }
-};
-
-Number finite(const Number& x) {
-  return x && std::isfinite(*x) ? x : std::nullopt;
-}
+constexpr double kOrderTolerance = 0.1;         ///< relative, of an order close to theory
+constexpr std::size_t kMaxUnfoldedOrders = 24;  ///< rows of a table that is not folded
 
 /// Entries of one quantity along one sweep of one run.
-struct OrderRow {
-  const Run* run;
-  std::vector<const Convergence*> entries;
-
-  [[nodiscard]] const Convergence& front() const { return *entries.front(); }
-};
+using OrderRow = std::vector<const Convergence*>;
 
 std::vector<OrderRow> rows_of(const Run& run) {
   std::vector<OrderRow> rows;
   for (const Convergence& c : run.convergence) {
     const auto same = [&](const OrderRow& row) {
-      return row.front().sweep == c.sweep && row.front().quantity == c.quantity;
+      return row.front()->sweep == c.sweep && row.front()->quantity == c.quantity;
     };
-    harness::find_or_add(rows, same, {&run, {}}).entries.push_back(&c);
+    harness::find_or_add(rows, same, {}).push_back(&c);
   }
   return rows;
 }
 
-double largest_finite(const Numbers& numbers, bool first) {
-  double found = 0;
-  for (const Number& x : numbers) {
-    if (!x || !std::isfinite(*x)) continue;
-    found = *x;
-    if (first) break;
-  }
-  return found;
-}
-
-/// What a row has to say, over its entries.
+/// Orders and errors over the entries of a row or of all rows of a family.
 struct Findings {
-  Interval order, law;
-  double first = 0, last = 0;
-  double off = -1;  ///< of the extrapolated value from the exact one; below 0: not known
-  std::size_t fitted = 0, near = 0;  ///< entries with a fitted order, and with one near theory
-  GciCoverage coverage;
-};
+  std::size_t rows = 0, entries = 0;
+  Interval order, law;                  ///< fitted orders; relative misfits of two-term laws
+  double first = 0, last = 0;           ///< largest error on the coarsest and on the finest mesh
+  Number extrapolated;                  ///< largest relative error of the extrapolated values
+  std::size_t fitted = 0, near = 0;     ///< entries with a fitted order, and with one near theory
+  std::size_t levels = 0, covered = 0;  ///< levels with a GCI, and those where it covers the error
+  std::vector<double> ratios;           ///< of the GCI over the true error
 
-Findings summarise(const OrderRow& row) {
-  Findings found;
-  for (const Convergence* c : row.entries) {
-    if (!c->lower_order) found.order.cover(finite(c->fitted_order));
-    if (c->two_term) found.law.cover(finite(c->two_term->max_relative_misfit));
-    found.first = std::max(found.first, largest_finite(c->error, true));
-    found.last = std::max(found.last, largest_finite(c->error, false));
-    if (c->exact && *c->exact != 0 && c->richardson)
-      found.off = std::max(found.off, std::abs(*c->richardson / *c->exact - 1));
-    if (!c->lower_order && c->fitted_order && c->theory_order) {
-      ++found.fitted;
-      const double apart = std::abs(*c->fitted_order - *c->theory_order);
-      found.near += apart <= kOrderTolerance * std::max(1.0, *c->theory_order) ? 1 : 0;
-    }
-    found.coverage.add(*c);
+  void add(const OrderRow& row) {
+    ++rows;
+    for (const Convergence* c : row) add(*c);
   }
-  return found;
-}
+  void add(const Convergence& c) {
+    ++entries;
+    if (c.two_term) law.cover(c.two_term->max_relative_misfit);
+    Numbers errors = c.error;
+    std::erase_if(errors, [](Number error) { return !error; });
+    if (!errors.empty()) {
+      first = std::max(first, *errors.front());
+      last = std::max(last, *errors.back());
+    }
+    if (!c.lower_order) order.cover(c.fitted_order);
+    if (!c.lower_order && c.fitted_order && c.theory_order) {
+      ++fitted;
+      const double difference = std::abs(*c.fitted_order - *c.theory_order);
+      if (difference <= kOrderTolerance * std::max(1.0, *c.theory_order)) ++near;
+    }
+    if (c.exact.value_or(0) != 0) add_bands(c);
+  }
+  /// Compares the GCI, which is relative to the value, with the error relative to the exact one.
+  void add_bands(const Convergence& c) {
+    if (c.richardson)
+      extrapolated = std::max(extrapolated.value_or(0), std::abs(*c.richardson / *c.exact - 1));
+    for (std::size_t k = 0; k < c.gci.size(); ++k) {
+      if (!c.gci[k] || !c.values[k] || !c.error[k]) continue;
+      const double half_width = *c.gci[k] * std::abs(*c.values[k] / *c.exact);
+      ++levels;
+      if (half_width >= *c.error[k]) ++covered;
+      if (!c.at_roundoff_floor[k] && *c.error[k] > 0) ratios.push_back(half_width / *c.error[k]);
+    }
+  }
+};
 
 std::string theory_text(const Convergence& c) {
   if (!c.theory_order) return "–";
@@ -112,110 +80,96 @@ std::string theory_text(const Convergence& c) {
   return c.lower_order ? order + " and " + trimmed(*c.lower_order, 4) : order;
 }
 
-std::string observed_text(const Findings& found) {
-  if (!found.law.empty()) return "law within " + relative(found.law.high, 2, false);
-  if (found.order.empty()) return "–";
-  return low_to_high(trimmed(found.order.low, 3), trimmed(found.order.high, 3));
+std::string observed_text(const Findings& findings) {
+  if (!findings.law.empty()) return "law within " + relative(findings.law.high, 2, false);
+  if (findings.order.empty()) return "–";
+  return low_to_high(trimmed(findings.order.low, 3), trimmed(findings.order.high, 3));
 }
 
-Data data_of(const OrderRow& row, const Findings& found, const CaseInfo& info) {
-  const QuantityLabel quantity = parse_quantity(row.front().quantity);
-  return object(
-      {{"quantity", to_text(quantity)},
-       {"entries", row.entries.size() > 1 ? count(row.entries.size(), "entry", "entries") : ""},
-       {"variant", row.run->variant == "base" ? "" : info.variant_title(row.run->variant)},
-       {"theory", theory_text(row.front())},
-       {"observed", observed_text(found)},
-       {"error", significant(found.first, 2) + " to " + significant(found.last, 2)},
-       {"off", found.off < 0 ? "–" : significant(found.off, 2)}});
+std::vector<std::string> cells_of(const OrderRow& row, const std::string& variant) {
+  Findings findings;
+  findings.add(row);
+  std::string quantity = to_text(parse_quantity(row.front()->quantity));
+  if (row.size() > 1) quantity += ", " + count(row.size(), "entry", "entries");
+  if (!variant.empty()) quantity += "; " + variant;
+  return {quantity, theory_text(*row.front()), observed_text(findings),
+          significant(findings.first, 2) + " to " + significant(findings.last, 2),
+          findings.extrapolated ? significant(*findings.extrapolated, 2) : "–"};
 }
 
-std::string coverage_text(const GciCoverage& coverage) {
-  if (coverage.levels == 0) return "";
+/// Returns how many levels the GCI covers, and its size over the true error.
+std::string coverage_text(std::size_t covered, const std::string& levels, Number ratio) {
   std::string text = "The numerical uncertainty (GCI) covers the exact value on " +
-                     std::to_string(coverage.hits) + " of " + count(coverage.levels, "level");
-  if (const Number median = coverage.median())
-    text += " and is " + trimmed(*median, 3) + " times the error (median)";
-  return text + ".";
-}
-
-struct Totals {
-  std::size_t rows = 0, series = 0, fitted = 0, near = 0;
-  double law = 0;
-  GciCoverage coverage;
-};
-
-std::string orders_text(const Totals& totals) {
-  std::string text = count(totals.series, "refinement") + ".";
-  if (totals.fitted > 0)
-    text += " The fitted order lies within a tenth of theory for " + std::to_string(totals.near) +
-            " of " + std::to_string(totals.fitted) + ".";
-  if (totals.law > 0)
-    text += " Where two orders mix, the two-term law fits the errors within " +
-            relative(totals.law, 2, false) + ".";
+                     std::to_string(covered) + " of " + levels;
+  if (ratio) text += "; its median is " + trimmed(*ratio, 3) + " times the true error";
   return text;
 }
 
-Data family_of(const Family& family, Totals& totals) {
-  Data cases = list();
+std::string conclusion_of(const Findings& all) {
+  std::string text = count(all.entries, "refinement") + ".";
+  if (all.fitted > 0)
+    text += " The fitted order lies within a tenth of theory for " + std::to_string(all.near) +
+            " of " + std::to_string(all.fitted) + ".";
+  if (!all.law.empty())
+    text += " Where two orders mix, the two-term law fits the errors within " +
+            relative(all.law.high, 2, false) + ".";
+  if (all.levels == 0) return text;
+  const Number median = all.ratios.empty() ? Number() : Number(harness::upper_median(all.ratios));
+  return text + " " + coverage_text(all.covered, count(all.levels, "level"), median) + ".";
+}
+
+Data family_of(const Family& family, Findings& all) {
+  TextTable table{family.title,
+                  {"Quantity", ">Order by theory", ">Observed", ">Error, coarsest to finest",
+                   ">Error of the extrapolated value"}};
   for (const CaseInfo* info : family.cases) {
-    Data rows = list();
+    const std::size_t before = table.rows.size();
     for (const Run* run : family.runs_of(info->id)) {
+      const std::string variant = run->variant == "base" ? "" : info->variant_title(run->variant);
       for (const OrderRow& row : rows_of(*run)) {
-        const Findings found = summarise(row);
-        rows.push_back(data_of(row, found, *info));
-        ++totals.rows;
-        totals.series += row.entries.size();
-        totals.fitted += found.fitted;
-        totals.near += found.near;
-        if (!found.law.empty()) totals.law = std::max(totals.law, found.law.high);
-        totals.coverage.add(found.coverage);
+        all.add(row);
+        table.rows.push_back(cells_of(row, variant));
       }
     }
-    if (rows.is_empty_list()) continue;
-    cases.push_back(object({{"case_title", family.short_title(*info)},
-                            {"case_link", case_link(info->id)},
-                            {"rows", rows}}));
+    if (table.rows.size() == before) continue;
+    const std::string title = family.short_title(*info);
+    table.rows.emplace(table.rows.begin() + static_cast<std::ptrdiff_t>(before), 1, title);
+    table.links[title] = case_link(info->id);
   }
-  return object({{"family_title", family.title},
-                 {"cases", cases},
-                 {"words", orders_text(totals) + " " + coverage_text(totals.coverage)},
-                 {"folded_title", count(totals.rows, "row")},
-                 {"open", totals.rows <= kMaxUnfoldedOrders}});
+  table.caption = conclusion_of(all);
+  Data data = table_data(table);
+  set(data, {{"folded_title", count(all.rows, "row")}, {"open", all.rows <= kMaxUnfoldedOrders}});
+  return data;
 }
 
 }  // namespace
 
 Data orders_section(const Results& results, const std::vector<Family>& families) {
   Data shown = list();
-  std::size_t series = 0;
+  std::size_t entries = 0;
   for (const Family& family : families) {
-    Totals totals;
-    const Data data = family_of(family, totals);
-    if (totals.rows == 0) continue;
-    series += totals.series;
-    shown.push_back(data);
+    Findings all;
+    const Data data = family_of(family, all);
+    if (all.rows > 0) shown.push_back(data);
+    entries += all.entries;
   }
   std::string text;
   if (results.uncertainty_coverage && results.uncertainty_coverage->levels > 0) {
     const UncertaintyCoverage& found = *results.uncertainty_coverage;
     const double rate = static_cast<double>(found.covered) / found.levels;
     text =
-        "The numerical uncertainty (GCI), estimated from the computed values alone, covers the "
-        "exact value on " +
-        std::to_string(found.covered) + " of " + std::to_string(found.levels) + " levels (" +
-        relative(rate, 3, false) + ")";
-    if (found.min_coverage) text += "; " + relative(*found.min_coverage, 3, false) + " is required";
-    if (found.median_ratio)
-      text += ". In the median it is " + trimmed(*found.median_ratio, 3) + " times the true error";
-    if (found.max_median_ratio)
-      text += "; a median above " + trimmed(*found.max_median_ratio, 3) +
-              " times the true error counts as too conservative";
-    text += ".";
+        coverage_text(found.covered,
+                      std::to_string(found.levels) + " levels (" + relative(rate, 3, false) + ")",
+                      found.median_ratio) +
+        ".";
+    if (found.min_coverage && found.max_median_ratio)
+      text += " Required are a coverage of at least " + relative(*found.min_coverage, 3, false) +
+              " and a median of at most " + trimmed(*found.max_median_ratio, 3) +
+              " times the error.";
   }
-  return object({{"has_rows", series > 0},
-                 {"words", count(series, "quantity", "quantities") +
-                               " refined; the theoretical and the observed order of each."},
+  return object({{"has_rows", entries > 0},
+                 {"words", "Theoretical and observed orders of " +
+                               count(entries, "refined quantity", "refined quantities") + "."},
                  {"coverage", text},
                  {"families", shown}});
 }

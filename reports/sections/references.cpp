@@ -1,9 +1,7 @@
 #include <array>
 #include <set>
 
-#include "reports/drawing/figure.h"
 #include "reports/sections/sections.h"
-#include "reports/text/html.h"
 #include "reports/text/number.h"
 #include "reports/text/quantity.h"
 
@@ -13,20 +11,17 @@ namespace {
 
 constexpr std::size_t kMaxUnfoldedValues = 8;
 
-struct Kind {
-  const char *name, *meaning;
-};
-constexpr std::array<Kind, 5> kKinds = {{
-    {"proved", "proved: enclosed by ball arithmetic, none missed; 30 digits"},
-    {"exact", "exact: from a closed form, re-derived by a program of its own"},
+constexpr std::array<std::pair<const char*, const char*>, 5> kKinds = {{
+    {"proved", "proved: all values enclosed by ball arithmetic, 30 digits"},
+    {"exact", "exact: from a closed form, derived again by a separate program"},
     {"computed", "computed by an independent program"},
     {"paper", "printed in a publication"},
     {"code", "published by another code"},
 }};
 
 std::string kind_meaning(const std::string& kind) {
-  for (const Kind& known : kKinds)
-    if (kind == known.name) return known.meaning;
+  for (const auto& [name, meaning] : kKinds)
+    if (kind == name) return meaning;
   return kind;
 }
 
@@ -36,22 +31,21 @@ std::string value_text(const Reference& reference, std::size_t i) {
 }
 
 std::string uncertainty_text(const Reference& reference, std::size_t i) {
-  if (reference.uncertainty.empty()) return "";
-  const std::size_t at = reference.uncertainty.size() == 1 ? 0 : i;
-  if (at >= reference.uncertainty.size() || !reference.uncertainty[at]) return "";
-  return "± " + trimmed(*reference.uncertainty[at], 2);
+  const Numbers& all = reference.uncertainty;
+  const std::size_t k = all.size() == 1 ? 0 : i;
+  return k < all.size() && all[k] ? "± " + trimmed(*all[k], 2) : "";
 }
 
 Data values_of(const Reference& reference) {
   Data out = list();
-  for (std::size_t i = 0; i < reference.values.size(); ++i) {
+  for (std::size_t i = 0; i < reference.values.size(); ++i)
     out.push_back(object({{"i", reference.values.size() > 1 ? std::to_string(i + 1) : ""},
                           {"value", value_text(reference, i)},
                           {"uncertainty", uncertainty_text(reference, i)}}));
-  }
   return out;
 }
 
+/// Returns the cases that use a reference.
 Data used_by(const Results& results, const std::string& id) {
   std::set<std::string> seen;
   Data out = list();

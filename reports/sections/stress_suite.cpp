@@ -1,22 +1,18 @@
-#include <algorithm>
 #include <map>
 #include <set>
 
-#include "reports/data/check_text.h"
 #include "reports/sections/sections.h"
-#include "reports/text/html.h"
 #include "reports/text/number.h"
 
 namespace trammel::reports {
 
 namespace {
 
-/// An indicator of a case: one check, over all variants that it judges.
+/// One check of a case over all variants.
 struct Indicator {
   const Check* worst = nullptr;
-  const Run* run = nullptr;       ///< that of the worst
-  std::size_t entries = 0;        ///< of all runs together
-  std::set<const Run*> variants;  ///< that have it
+  const Run* run = nullptr;  ///< run of the worst entry
+  std::size_t entries = 0;   ///< of all runs together
 };
 
 Indicator worst_of(const std::string& check, const std::vector<const Run*>& runs) {
@@ -25,7 +21,6 @@ Indicator worst_of(const std::string& check, const std::vector<const Run*>& runs
     for (const Check& entry : run->checks) {
       if (entry.name != check) continue;
       ++found.entries;
-      found.variants.insert(run);
       if (found.worst && !worse(entry, *found.worst)) continue;
       found.worst = &entry;
       found.run = run;
@@ -34,34 +29,21 @@ Indicator worst_of(const std::string& check, const std::vector<const Run*>& runs
   return found;
 }
 
-std::string scope_text(const Indicator& indicator, const CaseInfo& info) {
-  std::string text =
-      indicator.run->variant == "base" ? "" : info.variant_title(indicator.run->variant);
-  if (indicator.entries > 1) {
-    add_item(text, "worst of " + std::to_string(indicator.entries), "; ");
-  }
-  return text;
-}
-
-/// What was allowed; a bound is its own target.
-std::string bound_of(const Check& check) {
-  return check.measure == "bound" ? target_text(check) : tolerance_text(check);
-}
-
-/// How far it is from what it is compared with, or itself where it is only bounded.
-std::string value_of(const Check& check) {
-  const bool compared = check.measure != "bound" && check.difference;
-  return compared ? difference_text(check) : computed_text(check);
-}
-
+/// Returns the worst value of an indicator: its difference from the reference, or itself if it is
+/// only bounded.
 Data row_of(const Indicator& indicator, const CaseInfo& info) {
   const Check& check = *indicator.worst;
-  return with_status(check_status(check),
-                     {{"quantity", check.title.empty() ? quantity_text(check) : check.title},
-                      {"of_what", scope_text(indicator, info)},
-                      {"value", value_of(check)},
-                      {"bound", bound_of(check)},
-                      {"why", check.why}});
+  const bool is_bound = check.measure == "bound";
+  std::string scope =
+      indicator.run->variant == "base" ? "" : info.variant_title(indicator.run->variant);
+  if (indicator.entries > 1) add_item(scope, "worst of " + std::to_string(indicator.entries), "; ");
+  return with_status(
+      check_status(check),
+      {{"quantity", check.title.empty() ? quantity_text(check) : check.title},
+       {"of_what", scope},
+       {"value", is_bound || !check.difference ? computed_text(check) : difference_text(check)},
+       {"bound", is_bound ? target_text(check) : tolerance_text(check)},
+       {"why", check.why}});
 }
 
 Data missing_row(const std::string& check) {
@@ -72,7 +54,8 @@ Data missing_row(const std::string& check) {
                                             {"why", ""}});
 }
 
-/// "Stress case 7: from 1 to 10,000 elements" is listed under item 7 without its first words.
+/// Returns the title without its number: "From 1 to 10,000 elements" for "Stress case 7: from 1 to
+/// 10,000 elements".
 std::string title_of(const CaseInfo& info) {
   const std::string prefix = "Stress case " + std::to_string(info.stress_suite->item) + ": ";
   if (!info.title.starts_with(prefix)) return info.title;
@@ -93,15 +76,12 @@ Data case_of(const CaseInfo& info, const Family& family, Counts& counts) {
 }
 
 std::string text_of(const Counts& counts, std::size_t items, std::size_t cases) {
-  std::string text = count(items, "item") + ", " + count(cases, "case") + ", " +
-                     count(total(counts), "indicator") + ":";
-  for (const CheckStatus status : kAllCheckStatuses) {
-    if (count_of(counts, status) == 0) continue;
-    text +=
-        (text.back() == ':' ? " " : ", ") + std::to_string(count_of(counts, status)) + " " +
-        (status == CheckStatus::passes && count_of(counts, status) > 1 ? "pass" : to_text(status));
-  }
-  return text + ".";
+  std::string text;
+  for (const auto& [status, n] : counts)
+    add_item(text, std::to_string(n) + " " +
+                       (status == CheckStatus::passes && n > 1 ? "pass" : style_of(status).text));
+  return count(items, "item") + ", " + count(cases, "case") + ", " +
+         count(total(counts), "indicator") + ": " + text + ".";
 }
 
 }  // namespace

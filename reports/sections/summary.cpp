@@ -1,78 +1,65 @@
 #include <algorithm>
-#include <cmath>
 #include <set>
 #include <tuple>
 
 #include "harness/base/find_or_add.h"
-#include "reports/data/check_text.h"
 #include "reports/sections/sections.h"
-#include "reports/text/html.h"
 #include "reports/text/number.h"
 
 namespace trammel::reports {
 
 namespace {
 
-using harness::find_or_add;
-
-struct Role {
-  const char *name, *meaning;
-};
-constexpr std::array<Role, 3> kRoles = {{
+/// Roles of checks with their meanings. The last row is the sum.
+constexpr std::array<std::pair<const char*, const char*>, 4> kRoles = {{
     {"verification", "against exact or independent reference solutions"},
     {"validation", "against the published results under examination"},
     {"regression", "against our own earlier results"},
+    {"all", ""},
 }};
 
+/// @param role  "all" for the checks of all roles
 Counts counts_of(const Results& results, const std::string& role) {
   Counts counts;
   for (const Run& run : results.runs)
     for (const Check& check : run.checks)
-      if (role.empty() || check.role == role) ++counts[check_status(check)];
+      if (role == "all" || check.role == role) ++counts[check_status(check)];
   return counts;
 }
 
-/// All but what few results have and none of these does.
-std::vector<CheckStatus> role_columns(const Counts& all) {
+/// Sets the number of checks of each role and status. Rare statuses without a check have no column.
+void set_roles(Data& data, const Results& results, const Counts& all) {
+  Data heads = list(), rows = list();
   std::vector<CheckStatus> columns;
-  for (const CheckStatus which : kAllCheckStatuses)
-    if ((which != CheckStatus::not_judged && which != CheckStatus::not_given) ||
-        count_of(all, which) > 0)
-      columns.push_back(which);
-  return columns;
-}
-
-Data role_row(const std::string& name, const std::string& meaning, const Counts& counts,
-              const std::vector<CheckStatus>& columns) {
-  const auto cell = [&](CheckStatus which) {
-    const std::size_t n = count_of(counts, which);
-    return with_status(which, {{"n", n ? std::to_string(n) : ""}});
-  };
-  return object({{"role", name},
-                 {"meaning", meaning},
-                 {"cells", list_of(columns, cell)},
-                 {"total", std::to_string(total(counts))}});
-}
-
-Data role_table(const Results& results) {
-  Data rows = list();
-  const Counts all = counts_of(results, "");
-  const std::vector<CheckStatus> columns = role_columns(all);
-  for (const Role& role : kRoles) {
-    const Counts counts = counts_of(results, role.name);
-    if (total(counts) > 0) rows.push_back(role_row(role.name, role.meaning, counts, columns));
+  for (const StatusStyle& style : kStatusStyles) {
+    const bool is_rare =
+        style.status == CheckStatus::not_judged || style.status == CheckStatus::not_given;
+    if (is_rare && count_of(all, style.status) == 0) continue;
+    columns.push_back(style.status);
+    heads.push_back(with_status(style.status));
   }
-  rows.push_back(role_row("all", "", all, columns));
-  return rows;
+  for (const auto& [role, meaning] : kRoles) {
+    const Counts counts = counts_of(results, role);
+    if (counts.empty() && std::string(role) != "all") continue;
+    const auto cell = [&](CheckStatus status) {
+      const std::size_t n = count_of(counts, status);
+      return with_status(status, {{"n", n ? std::to_string(n) : ""}});
+    };
+    rows.push_back(object({{"role", role},
+                           {"meaning", meaning},
+                           {"cells", list_of(columns, cell)},
+                           {"total", std::to_string(total(counts))}}));
+  }
+  set(data, {{"heads", heads}, {"roles", rows}});
 }
 
-Data item(const CaseInfo& info, const Run& run, CheckStatus status, const std::string& what,
-          const std::string& text) {
+Data failure_data(const CaseInfo& info, const Run& run, CheckStatus status,
+                  const std::string& subject, const std::string& text) {
   return with_status(
       status, {{"case_title", info.title},
                {"case_link", case_link(info.id)},
                {"variant_title", info.variants.size() > 1 ? info.variant_title(run.variant) : ""},
-               {"what", what},
+               {"what", subject},
                {"text", text}});
 }
 
@@ -80,7 +67,7 @@ bool is_failure(CheckStatus status) {
   return status == CheckStatus::fails || status == CheckStatus::error;
 }
 
-/// Runs that did not end as their case expects, and checks that fail or could not be judged.
+/// Returns the runs that did not end as expected, and the checks that fail or could not be judged.
 Data failures(const Results& results, std::size_t& unexpected_endings) {
   Data out = list();
   for (const Run& run : results.runs) {
@@ -88,21 +75,22 @@ Data failures(const Results& results, std::size_t& unexpected_endings) {
     const CheckStatus ending = check_status(run);
     if (is_failure(ending)) {
       ++unexpected_endings;
-      out.push_back(item(info, run, ending, to_string(run.status), run.reason));
+      out.push_back(failure_data(info, run, ending, to_string(run.status), run.reason));
     }
     for (const CheckGroup& group : group_checks(run)) {
       const CheckStatus worst = check_status(group.worst());
       if (is_failure(worst))
-        out.push_back(item(info, run, worst, check_title(group.front()), failure_text(group)));
+        out.push_back(
+            failure_data(info, run, worst, check_title(group.front()), failure_text(group)));
     }
   }
   return out;
 }
 
-/// What known discrepancies are about, each once however many variants are compared with it.
+/// Targets of known discrepancies. A target counts once for all variants that are compared with it.
 struct Targets {
   std::set<std::tuple<std::string, double, int>>
-      printed;  ///< reference, value, which of equal ones
+      printed;  ///< reference, value, entry of repeated values
   std::set<std::tuple<std::string, std::string, std::string, int>> stated;  ///< case, check, entry
 
   void add(const Run& run, const Check& check, const Results& results) {
@@ -130,19 +118,13 @@ Targets targets_of(const Results& results) {
   return targets;
 }
 
-/// Known discrepancies of a case under one name.
+/// Known discrepancies of a case with the same name.
 struct KnownDiscrepancy {
   const CaseInfo* info;
-  const Check* largest;  ///< difference of all
+  const Check* largest;  ///< with the largest difference
   std::size_t entries = 0;
   std::set<std::string> reasons = {};
 };
-
-/// What does not agree: as the case puts it, else what it is compared with.
-std::string known_title(const Check& check, const Reference* reference) {
-  if (!check.title.empty()) return check.title;
-  return reference ? reference->title : check.name;
-}
 
 Data known_data(const KnownDiscrepancy& known, const Family& family, const Results& results) {
   const Check& check = *known.largest;
@@ -150,7 +132,7 @@ Data known_data(const KnownDiscrepancy& known, const Family& family, const Resul
   return object(
       {{"case_title", family.short_title(*known.info)},
        {"case_link", case_link(known.info->id)},
-       {"what", known_title(check, reference)},
+       {"what", check.title.empty() && reference ? reference->title : check_title(check)},
        {"reference_link", reference ? reference_link(reference->id) : ""},
        {"difference", check.difference ? difference_text(check, *check.difference) : ""},
        {"extent", count(known.entries, "entry", "entries")},
@@ -160,7 +142,7 @@ Data known_data(const KnownDiscrepancy& known, const Family& family, const Resul
                                : ""}});
 }
 
-/// Families with known discrepancies, each with its list.
+/// Returns the families with known discrepancies, each with its list.
 Data known_by_family(const Results& results, const std::vector<Family>& families) {
   Data out = list();
   for (const Family& family : families) {
@@ -174,7 +156,7 @@ Data known_by_family(const Results& results, const std::vector<Family>& families
         const auto same = [&](const KnownDiscrepancy& other) {
           return other.info == &info && other.largest->name == check.name;
         };
-        KnownDiscrepancy& found = find_or_add(known, same, {&info, &check});
+        KnownDiscrepancy& found = harness::find_or_add(known, same, {&info, &check});
         if (worse(check, *found.largest)) found.largest = &check;
         found.reasons.insert(check.why);
         ++found.entries;
@@ -183,8 +165,8 @@ Data known_by_family(const Results& results, const std::vector<Family>& families
       }
     }
     if (known.empty()) continue;
-    const auto entry = [&](const KnownDiscrepancy& one) {
-      return known_data(one, family, results);
+    const auto entry = [&](const KnownDiscrepancy& discrepancy) {
+      return known_data(discrepancy, family, results);
     };
     out.push_back(object({{"family_title", family.title},
                           {"extent", targets.text() + " in " + count(entries, "entry", "entries")},
@@ -194,9 +176,9 @@ Data known_by_family(const Results& results, const std::vector<Family>& families
 }
 
 std::string verdict_text(const Counts& counts, std::size_t unexpected_endings) {
+  if (total(counts) == 0) return "No checks were made.";
   const std::size_t fails = count_of(counts, CheckStatus::fails);
   const std::size_t errors = count_of(counts, CheckStatus::error);
-  if (total(counts) == 0) return "No checks were made.";
   std::string text;
   if (fails > 0) add_item(text, count(fails, "check fails", "checks fail"));
   if (errors > 0) add_item(text, std::to_string(errors) + " could not be evaluated");
@@ -204,8 +186,7 @@ std::string verdict_text(const Counts& counts, std::size_t unexpected_endings) {
     add_item(text, count(unexpected_endings, "run did not end as expected",
                          "runs did not end as expected"));
   if (!text.empty()) return text + ".";
-  const std::size_t known = count_of(counts, CheckStatus::known_discrepancy);
-  if (known == 0) return "Every check passes.";
+  if (count_of(counts, CheckStatus::known_discrepancy) == 0) return "Every check passes.";
   return "Every check passes, or differs from the publication as recorded.";
 }
 
@@ -219,11 +200,112 @@ std::string overview_text(const Results& results, const std::vector<Family>& fam
          count(total(counts), "number") + ":";
 }
 
-}  // namespace
+/// Checks of one role. A check counts once, by its worst entry.
+struct RoleCount {
+  std::size_t passing = 0, all = 0;
+};
 
-std::size_t count_printed(const Results& results) {
-  return targets_of(results).printed.size();
+RoleCount count_role(const Results& results, const std::string& role) {
+  RoleCount found;
+  for (const Run& run : results.runs)
+    for (const CheckGroup& group : group_checks(run)) {
+      if (group.front().role != role) continue;
+      ++found.all;
+      if (check_status(group.worst()) == CheckStatus::passes) ++found.passing;
+    }
+  return found;
 }
+
+Data tile(const std::string& number, const std::string& title, const std::string& words,
+          const std::string& link, CheckStatus status) {
+  return with_status(status,
+                     {{"number", number}, {"title", title}, {"words", words}, {"link", link}});
+}
+
+Data tiles_of(const Results& results) {
+  Data tiles = list();
+  const RoleCount solver = count_role(results, "verification");
+  tiles.push_back(tile(std::to_string(solver.passing) + " of " + std::to_string(solver.all),
+                       "Solver verification",
+                       "checks against exact values, other codes and theory pass.",
+                       results.claims ? "orders.html" : "index.html#trust",
+                       solver.passing == solver.all ? CheckStatus::passes : CheckStatus::fails));
+  if (results.claims) {
+    const auto count_of = [&](const std::string& verdict) {
+      return std::to_string(std::ranges::count(results.claims->claims, verdict, &Claim::verdict));
+    };
+    tiles.push_back(
+        tile(count_of("contradicted") + " of " + std::to_string(results.claims->claims.size()),
+             "The paper's claims",
+             "are contradicted; " + count_of("confirmed") + " confirmed, " +
+                 count_of("confirmed in part") + " in part, " + count_of("cannot be decided") +
+                 " cannot be decided.",
+             "paper.html", CheckStatus::known_discrepancy));
+  }
+  if (const std::size_t printed = targets_of(results).printed.size())
+    tiles.push_back(tile(std::to_string(printed), "Printed numbers that differ",
+                         "from the computed ones, each with its reason.", "paper.html#known",
+                         CheckStatus::known_discrepancy));
+  return tiles;
+}
+
+/// Returns the case that compares most printed numbers with computed ones and their validation
+/// uncertainty, and its figures.
+std::pair<const CaseInfo*, const Gallery*> find_answer(const std::vector<Family>& families) {
+  std::pair<const CaseInfo*, const Gallery*> found{nullptr, nullptr};
+  std::size_t most = 0;
+  for (const Family& family : families)
+    for (const CaseInfo* info : family.cases) {
+      const Gallery& gallery = family.galleries.at(info->id);
+      if (!family.runs_of(info->id).front()->uncertainty) continue;
+      for (const Figure& figure : gallery.shown) {
+        if (!figure.id.ends_with("-agreement") || figure.data.rows.size() <= most) continue;
+        most = figure.data.rows.size();
+        found = {info, &gallery};
+      }
+    }
+  return found;
+}
+
+void add_figure(const Figure& figure, const std::string& link, Data& figures) {
+  Figure linked = figure;
+  linked.is_linked = true;
+  linked.number = static_cast<int>(figures.list_value().size()) + 1;
+  Data data = figure_data(linked);
+  data.set("more", link);
+  figures.push_back(data);
+}
+
+/// Returns figures of the manipulator, of its printed and computed frequencies, and of its modes.
+Data answer_of(const std::vector<Family>& families) {
+  Data figures = list();
+  const auto [info, gallery] = find_answer(families);
+  if (info == nullptr) return figures;
+  for (const char* end : {"-mechanism", "-agreement", "-shapes"}) {
+    const auto figure = std::ranges::find_if(
+        gallery->shown, [&](const Figure& shown) { return shown.id.ends_with(end); });
+    if (figure != gallery->shown.end()) add_figure(*figure, case_link(info->id), figures);
+  }
+  return figures;
+}
+
+/// Returns a figure each of cost, stability and effects.
+Data questions_of(const std::vector<Family>& families, const StudyFigures& studies) {
+  Data figures = list();
+  const auto modes = std::ranges::find(studies.cost, "cost-modes-elements", &Figure::id);
+  if (modes != studies.cost.end()) add_figure(*modes, "cost.html", figures);
+  const auto stress_cases = [](const Family& family) {
+    return std::ranges::count_if(
+        family.cases, [](const CaseInfo* info) { return info->stress_suite.has_value(); });
+  };
+  const auto stress = std::ranges::max_element(families, {}, stress_cases);
+  if (stress != families.end() && stress_cases(*stress) > 0 && !stress->overview.empty())
+    add_figure(stress->overview.front(), "stress.html", figures);
+  if (!studies.effects.empty()) add_figure(studies.effects.front(), "effects.html", figures);
+  return figures;
+}
+
+}  // namespace
 
 Data known_section(const Results& results, const std::vector<Family>& families) {
   const Data known = known_by_family(results, families);
@@ -233,22 +315,32 @@ Data known_section(const Results& results, const std::vector<Family>& families) 
 }
 
 Data summary_section(const Results& results, const std::vector<Family>& families) {
-  const Counts counts = counts_of(results, "");
+  const Counts counts = counts_of(results, "all");
   std::size_t unexpected_endings = 0;
   const Data failure_list = failures(results, unexpected_endings);
   const bool good = all_checks_pass(counts) && unexpected_endings == 0 && total(counts) > 0;
   const bool all_agree = count_of(counts, CheckStatus::known_discrepancy) == 0;
-  const auto head = [](CheckStatus which) { return with_status(which); };
-  return object({{"verdict", verdict_text(counts, unexpected_endings)},
-                 {"verdict_class", css_class(!good       ? CheckStatus::fails
-                                             : all_agree ? CheckStatus::passes
-                                                         : CheckStatus::known_discrepancy)},
-                 {"overview", overview_text(results, families, counts)},
-                 {"bar", counts_list(counts)},
-                 {"roles", role_table(results)},
-                 {"has_troubles", failure_list.is_non_empty_list()},
-                 {"troubles", failure_list},
-                 {"heads", list_of(role_columns(counts), head)}});
+  const CheckStatus status = !good       ? CheckStatus::fails
+                             : all_agree ? CheckStatus::passes
+                                         : CheckStatus::known_discrepancy;
+  Data data = object({{"verdict", verdict_text(counts, unexpected_endings)},
+                      {"verdict_class", style_of(status).css_class},
+                      {"overview", overview_text(results, families, counts)},
+                      {"bar", counts_list(counts)},
+                      {"has_troubles", failure_list.is_non_empty_list()},
+                      {"troubles", failure_list}});
+  set_roles(data, results, counts);
+  return data;
+}
+
+Data front_section(const Results& results, const std::vector<Family>& families,
+                   const StudyFigures& studies) {
+  const Data answer = answer_of(families), questions = questions_of(families, studies);
+  return object({{"tiles", tiles_of(results)},
+                 {"has_answer", answer.is_non_empty_list()},
+                 {"answer", answer},
+                 {"has_questions", questions.is_non_empty_list()},
+                 {"questions", questions}});
 }
 
 }  // namespace trammel::reports

@@ -2,47 +2,44 @@
 
 #include "harness/base/find_or_add.h"
 #include "harness/results/quantity_definitions.h"
-#include "reports/data/check_text.h"
-#include "reports/drawing/figure.h"
 #include "reports/sections/sections.h"
-#include "reports/text/html.h"
 #include "reports/text/number.h"
 
 namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxUnfoldedChecks = 16;  ///< rows of a case shown without folding
-constexpr std::size_t kMaxEntries = 12;         ///< entries of one check shown one by one
+constexpr std::size_t kMaxUnfoldedChecks = 16;  ///< rows of a case that are not folded
+constexpr std::size_t kMaxEntries = 12;         ///< entries of a check with a row each
 
-/// The cells of one check; the first of its group carries what the group has in common.
+/// Returns the cells of one check. The first row of a group contains the common cells.
 Data row_of(const Check& check, const std::string& entry, bool first = true) {
-  const bool telling = check.verdict != Verdict::pass || check.measure == "status";
+  const bool has_message = check.verdict != Verdict::pass || check.measure == "status";
   return with_status(check_status(check), {{"entry", entry},
                                            {"long_entry", entry.size() > 24},
                                            {"target", target_text(check)},
                                            {"computed", computed_text(check)},
                                            {"difference", difference_text(check)},
-                                           {"message", telling ? check.message : ""},
+                                           {"message", has_message ? check.message : ""},
                                            {"own_range", ""},
                                            {"first", first}});
 }
 
-/// A bound is its own target and need not be said twice.
+/// Returns the tolerance. Empty for a bound, which is already the target.
 std::string range_text(const Check& check) {
   if (check.measure == "status" || (check.measure == "bound" && !check.expected)) return "";
   return (check.known_discrepancy() ? "expected " : "") + tolerance_text(check);
 }
 
-/// Of a table: what its rows look up, and the names whose first check carries their anchor.
+/// State of a table while it is built: references, and the names of checks that have an anchor.
 struct Rows {
   const Results& results;
   bool is_linked = false;
   std::set<std::string> named = {};
 };
 
-/// One check with all its entries: name, reference and reason stand once for all of them, and so
-/// does the tolerance if they share it.
+/// Returns one check with its entries, which share name, reference and reason.
+/// @param shared  the entries share the tolerance, too
 Data group_of(const Check& check, Rows& table, const Data& rows, bool shared) {
   const bool first = table.is_linked && table.named.insert(check.name).second;
   std::size_t n = rows.list_value().size();
@@ -63,8 +60,7 @@ Data group_of(const Check& check, Rows& table, const Data& rows, bool shared) {
                  {"reference_link", reference ? reference_link(reference->id) : ""}});
 }
 
-/// "largest of 631: point 12": for a check of which only the entry with the largest difference, or
-/// the largest share of its tolerance, is shown.
+/// Returns "largest of 631: point 12", for a check with many entries, of which the worst is shown.
 std::string worst_entry(const Check& worst, std::size_t entries) {
   const std::string entry = entry_text(worst, entries);
   return "largest of " + std::to_string(entries) + (entry.empty() ? "" : ": " + entry);
@@ -80,7 +76,7 @@ bool same_reason(const Check& a, const Check& b) {
   return a.why == b.why && a.reference == b.reference;
 }
 
-/// Every entry, or the worst of many. Entries with reasons of their own stand apart.
+/// Adds every entry, or the worst of many. Entries with different reasons are separate groups.
 void add_group(Data& groups, const CheckGroup& group, Rows& table) {
   if (group.checks.size() > kMaxEntries) {
     const Check& worst = group.worst();
@@ -113,7 +109,7 @@ Data run_data(const CaseInfo& info, const Run& run, bool many) {
        {"reason", run.reason}});
 }
 
-/// Rows that `add_group` makes.
+/// Returns the number of rows that `add_group` adds.
 std::size_t rows_in(const std::vector<const Run*>& runs) {
   std::size_t n = 0;
   for (const Run* run : runs)
@@ -122,11 +118,11 @@ std::size_t rows_in(const std::vector<const Run*>& runs) {
   return n;
 }
 
-/// All runs one after another.
+/// Returns the checks of all runs.
 Data full_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows linked) {
   Data table = list();
   for (const Run* run : runs) {
-    // A variant that others are measured against, and that ended well, has no rows.
+    // A solved variant without checks, such as a baseline of other variants, has no rows.
     if (run->checks.empty() && run->status == Status::solved) continue;
     Data data = run_data(info, *run, runs.size() > 1);
     Data groups = list();
@@ -137,7 +133,7 @@ Data full_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows 
   return table;
 }
 
-/// For every check the worst of all variants and entries.
+/// Returns the worst entry of each check over all variants.
 Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows linked) {
   struct Worst {
     const Check* check;

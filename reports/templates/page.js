@@ -1,5 +1,5 @@
-// The page works without this. A link into a folded part opens it; a narrow screen starts with the
-// contents folded.
+// The page works without this script. A link to a folded part opens that part. On a narrow screen, the contents are
+// folded at the start.
 function unfold() {
   const target = location.hash.length > 1 && document.getElementById(location.hash.slice(1));
   if (!target) return;
@@ -23,8 +23,8 @@ function made(parent, name, attributes = {}, text = "") {
   return parent.appendChild(e);
 }
 
-// The values of all curves at the pointer, or where the arrow keys have moved; a part of them is enlarged by
-// drawing a frame around it, or by keys.
+// Shows the values of all curves at the pointer, or at the place that the arrow keys select. Drawing a frame, or keys,
+// enlarge a part of the drawing.
 function readable(svg) {
   const [x0, x1, y0, y1, left, right, bottom, top, logX, logY] = svg.dataset.axes.split(" ").map(Number);
   const box = svg.parentElement, none = ["#ffffff", "#e4e7eb", "#a6aeb8", "#eef0f3"];
@@ -99,7 +99,7 @@ function readable(svg) {
 }
 document.querySelectorAll("figure svg[data-axes]").forEach(readable);
 
-// Modes swing, slowed down alike, and motions run along their paths; still where the reader prefers so, until asked.
+// Animates modes, all slowed down by the same factor, and motions. If the reader prefers reduced motion, a button starts them.
 function outlines(parent, drawn, color) {
   const paths = color ? [["fill", {fill: "#dde6f0", "fill-rule": "evenodd"}], ["edges", {stroke: color, "stroke-width": 12}],
     ["lines", {stroke: color, "stroke-width": 22, "stroke-linejoin": "round"}]] : ["edges", "lines"].map(name => [name, {stroke: "#a6aeb8", "stroke-width": 11}]);
@@ -107,7 +107,7 @@ function outlines(parent, drawn, color) {
   return at => all.forEach(([path, lines]) => path.setAttribute("d",
     lines.map(line => "M" + line.map(i => at[2 * i].toFixed() + "," + at[2 * i + 1].toFixed()).join("L")).join("")));
 }
-// Drawings of the modes at a time, and how much they are slowed down.
+// Returns a function that draws the modes at a time, and the factor by which they are slowed down.
 function swinging(modes, panel) {
   const shapes = modes.shapes.map((shape, k) => {
     const g = panel(k);
@@ -119,7 +119,7 @@ function swinging(modes, panel) {
   const all = shapes.map(p => p.hz).filter(hz => hz > 0), fastest = Math.max(...all);
   return {draw: t => shapes.forEach(shape => shape.draw(t)), slowed: Math.max(Math.min(...all.filter(hz => hz > 1e-6 * fastest)) / 0.5, fastest / 4)};
 }
-// The same of a motion, from its first moment to its last and again.
+// Returns the same for a motion, which repeats after its last moment.
 function running(motion, panel) {
   const sums = rows => rows.slice(1).reduce((all, row) => [...all, row.map((step, i) => all.at(-1)[i] + step)], [rows[0]]);
   const g = panel(0), text = made(g, "text", {x: motion.panel[0] / 2, y: -70}), times = motion.times, start = times[0], length = times.at(-1) - start;
@@ -172,7 +172,7 @@ function moving(svg) {
 }
 for (const data of document.querySelectorAll("figure svg metadata")) moving(data.parentElement);
 
-// Search over all checks, whose list is loaded when it is first asked for.
+// Search over all checks. Their list is loaded when the search is opened.
 const find = document.getElementById("find");
 if (find) {
   const form = find.querySelector("form"), body = find.querySelector("tbody"), status = find.querySelector("[role=status]");
@@ -189,7 +189,7 @@ if (find) {
       const all = tidy([id, name, variant, title, quantity].join(" "));
       return words.every(word => all.includes(word));
     });
-    const share = row => row[6] ?? (statuses[row[5]][1] === "passes" ? -1 : 1e99);  // none: by status alone
+    const share = row => row[6] ?? (statuses[row[5]][1] === "passes" ? -1 : 1e99);  // without a number: by status alone
     if (asked.get("order") === "worst") hit.sort((a, b) => statuses[b[5]][3] - statuses[a[5]][3] || share(b) - share(a));
     status.textContent = `${hit.length} of ${rows.length} checks` + (hit.length > most ? `, the first ${most}` : "");
     body.replaceChildren();

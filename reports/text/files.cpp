@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <fstream>
@@ -11,13 +12,15 @@
 #include <system_error>
 #include <utility>
 
+#include "reports/text/number.h"
+
 namespace trammel::reports {
 
 namespace {
 
 namespace fs = std::filesystem;
 
-/// While it lives, the signals that end the program are kept for later.
+/// Delays the signals that end the program, during its lifetime.
 class SignalsWait {
  public:
   SignalsWait() {
@@ -33,6 +36,33 @@ class SignalsWait {
  private:
   sigset_t before_{};
 };
+
+/// Returns whether a spreadsheet would interpret the text as a formula.
+bool is_formula(const std::string& text) {
+  const char first = text.empty() ? ' ' : text[0], second = text.size() > 1 ? text[1] : ' ';
+  const bool letter = std::isalpha(static_cast<unsigned char>(second)) != 0 || second == '(';
+  return first == '=' || first == '+' || first == '@' || first == '\t' || first == '\r' ||
+         (first == '-' && letter);
+}
+
+/// Puts an apostrophe before a formula. Control characters other than line breaks become spaces.
+std::string text_cell(const std::string& text) {
+  const bool quoted = text.find_first_of(",\"\r\n") != std::string::npos;
+  std::string out = quoted ? "\"" : "";
+  if (is_formula(text)) out += '\'';
+  for (const char c : text) {
+    out += is_control(c) && c != '\n' ? ' ' : c;
+    if (c == '"') out += c;
+  }
+  return quoted ? out + '"' : out;
+}
+
+std::string written(const Table::Cell& value, int digits) {
+  if (const auto* number = std::get_if<double>(&value))
+    return digits > 0 ? shortest(*number, digits) : shortest(*number);
+  if (const auto* text = std::get_if<std::string>(&value)) return text_cell(*text);
+  return "";
+}
 
 }  // namespace
 
@@ -71,10 +101,10 @@ void replace_files(const fs::path& from, const fs::path& to, const std::string& 
     const fs::path path = to / file, folder = path.parent_path();
     if (fs::is_directory(fs::symlink_status(path)))
       throw std::system_error(EISDIR, std::generic_category(),
-                              path.string() + ": a folder stands where a file is written");
+                              path.string() + ": expected a file, but it is a folder");
     if (fs::is_regular_file(fs::symlink_status(folder)))
       throw std::system_error(ENOTDIR, std::generic_category(),
-                              folder.string() + ": a file stands where a folder is written");
+                              folder.string() + ": expected a folder, but it is a file");
   }
   const SignalsWait wait;
   for (const fs::path& file : files) {
@@ -87,6 +117,24 @@ void replace_files(const fs::path& from, const fs::path& to, const std::string& 
   for (const fs::path& file : obsolete)
     if (std::ranges::find(files, file) == files.end()) fs::remove(to / file, ignored);
   fs::remove_all(from);
+}
+
+Table::Cell cell(harness::Number number) {
+  if (number) return *number;
+  return std::monostate{};
+}
+
+std::string to_csv(const Table& table) {
+  std::string out;
+  for (std::size_t i = 0; i < table.heads.size(); ++i)
+    out += (i ? "," : "") + text_cell(table.heads[i]);
+  out += '\n';
+  for (const auto& row : table.rows) {
+    for (std::size_t i = 0; i < row.size(); ++i)
+      out += (i ? "," : "") + written(row[i], table.digits);
+    out += '\n';
+  }
+  return out;
 }
 
 }  // namespace trammel::reports

@@ -3,16 +3,18 @@
 #include <concepts>
 #include <initializer_list>
 #include <kainjow/mustache.hpp>
+#include <map>
 #include <string>
 #include <utility>
+#include <vector>
 
+/// Data of templates. Mustache escapes {{name}} and copies {{{name}}} unchanged.
 namespace trammel::reports {
 
-/// What a template is filled with. {{name}} is escaped by mustache, {{{name}}} is not.
 using Data = kainjow::mustache::data;
 
-/// What a template finds under a name: a text, yes or no, or data in turn. An empty text is no, so
-/// that {{#name}} skips it and no outer `name` shines through.
+/// A name in a template with its value: a text, a truth value, or further data. An empty text
+/// counts as false: {{#name}} skips it, and no outer `name` is used instead.
 struct Entry {
   Entry(std::string key, const std::string& text)
       : name(std::move(key)), value(text.empty() ? Data(false) : Data(text)) {}
@@ -28,7 +30,7 @@ inline void set(Data& data, std::initializer_list<Entry> entries) {
   for (const Entry& entry : entries) data.set(entry.name, entry.value);
 }
 
-/// A text that was set, an empty one too.
+/// Returns the text under a name; empty if there is none.
 [[nodiscard]] inline std::string text_under(const Data& data, const std::string& name) {
   const Data* found = data.get(name);
   return found != nullptr && found->is_string() ? found->string_value() : "";
@@ -44,17 +46,51 @@ inline void set(Data& data, std::initializer_list<Entry> entries) {
   return Data(Data::type::list);
 }
 
-/// What `make` makes of each, in order.
+/// Returns the results of `make` for each item, in order.
 template <typename Range, typename Make>
 [[nodiscard]] Data list_of(const Range& range, Make make) {
   Data out = list();
   for (const auto& item : range) out.push_back(make(item));
   return out;
 }
-/// A list whose items hold one text each, under `name`.
+
+/// Returns a list whose items hold one text each, under the name "text".
 template <typename Range>
-[[nodiscard]] Data texts(const Range& range, const char* name = "text") {
-  return list_of(range, [&](const auto& text) { return object({{name, text}}); });
+[[nodiscard]] Data texts(const Range& range) {
+  return list_of(range, [&](const auto& text) { return object({{"text", text}}); });
+}
+
+/// A table of texts for table.mustache. The first cell of a row is its head; a row of one cell
+/// is the head of the rows below it.
+struct TextTable {
+  std::string title;
+  std::vector<std::string> heads;  ///< '>' in front: a column of numbers
+  std::vector<std::vector<std::string>> rows = {};
+  std::string caption = {};
+  std::map<std::string, std::string> links = {};  ///< of rows, by their heads
+};
+
+[[nodiscard]] inline Data table_data(const TextTable& table) {
+  const auto is_number = [&](std::size_t column) { return table.heads[column].starts_with('>'); };
+  Data heads = list(), rows = list();
+  for (std::size_t i = 0; i < table.heads.size(); ++i)
+    heads.push_back(
+        object({{"text", table.heads[i].substr(is_number(i))}, {"is_number", is_number(i)}}));
+  for (const auto& row : table.rows) {
+    Data cells = list();
+    for (std::size_t i = 1; i < row.size(); ++i)
+      cells.push_back(object({{"text", row[i]}, {"is_number", is_number(i)}}));
+    const auto link = table.links.find(row.front());
+    rows.push_back(object({{"head", row.front()},
+                           {"link", link == table.links.end() ? "" : link->second},
+                           {"is_group", row.size() == 1},
+                           {"cells", cells}}));
+  }
+  return object({{"title", table.title},
+                 {"caption", table.caption},
+                 {"columns", std::to_string(table.heads.size())},
+                 {"heads", heads},
+                 {"rows", rows}});
 }
 
 }  // namespace trammel::reports

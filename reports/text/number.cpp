@@ -5,6 +5,8 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
+#include <iterator>
+#include <sstream>
 
 namespace trammel::reports {
 
@@ -42,7 +44,7 @@ std::string scientific(double x, int digits, bool trim) {
 std::string written(double x, int digits, bool trim) {
   if (!std::isfinite(x)) return std::isnan(x) ? "not a number" : (x > 0 ? "∞" : "\u2212∞");
   if (x == 0) return "0";
-  // The exponent after rounding: 9.9996 to four digits is 10.00.
+  // The exponent is that of the rounded number: 9.9996 with four digits is 10.00.
   const std::string rounded = format(x, std::chars_format::scientific, digits - 1);
   const int exponent = std::stoi(rounded.substr(rounded.find('e') + 1));
   if (exponent < -4 || exponent >= std::max(6, digits)) return scientific(x, digits, trim);
@@ -134,12 +136,37 @@ std::string duration(double seconds) {
   return std::to_string(total / 60) + " min " + std::to_string(total % 60) + " s";
 }
 
-std::string length_text(double metres) {
-  return metres < 0.2 ? trimmed(1000 * metres, 3) + "\u202fmm" : trimmed(metres, 3) + "\u202fm";
+std::string length_text(double length_m) {
+  return length_m < 0.2 ? trimmed(1000 * length_m, 3) + "\u202fmm"
+                        : trimmed(length_m, 3) + "\u202fm";
 }
 
 std::string or_dash(harness::Number x, int digits) {
   return x ? trimmed(*x, digits) : "–";
+}
+
+std::string spaced(std::string name) {
+  std::ranges::replace_if(
+      name, [](char c) { return c == '-' || c == '_'; }, ' ');
+  return name;
+}
+
+std::string capitalized(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] -= 'a' - 'A';
+  return text;
+}
+
+std::string low_to_high(const std::string& low, const std::string& high) {
+  return low == high ? low : low + " to " + high;
+}
+
+void add_item(std::string& list, const std::string& item, const std::string& separator) {
+  list += (list.empty() ? "" : separator) + item;
+}
+
+std::vector<std::string> words_in(const std::string& text) {
+  std::istringstream in(text);
+  return {std::istream_iterator<std::string>(in), {}};
 }
 
 }  // namespace trammel::reports

@@ -7,69 +7,71 @@
 
 namespace trammel::reports {
 
-/// Numbers for people: a real minus sign, powers of ten as 10⁻⁷, no more digits than say something.
-/// Full precision is for the CSV files (`shortest`).
+// Numbers as text for pages, with a typographic minus sign, powers of ten as 10⁻⁷, and significant
+// digits only. CSV files have full precision (`shortest`).
 
-/// Neither a printed character nor a space; every byte of a longer UTF-8 character is none.
+/// Returns whether a byte is a control character. Bytes of longer UTF-8 characters are not.
 [[nodiscard]] inline bool is_control(char c) {
   return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
 }
 
-/// `digits` significant digits, zeros at the end kept; scientific outside 1e-4 ... 1e6.
+/// Returns `digits` significant digits, with trailing zeros; scientific outside 1e-4 ... 1e6.
 [[nodiscard]] std::string significant(double x, int digits);
 
-/// The same with zeros at the end dropped: 0.002, not 0.002000.
+/// Returns the same without trailing zeros: 0.002, not 0.002000.
 [[nodiscard]] std::string trimmed(double x, int digits);
 
-/// With a sign always: +0.31, −4.2 × 10⁻⁹.
+/// Returns the same with a sign: +0.31, −4.2 × 10⁻⁹.
 [[nodiscard]] std::string with_sign(double x, int digits);
 
-/// A relative difference: in per cent from 1e-5 upwards, as a plain number below.
+/// Returns a relative difference as a percentage; below 1e-5, as a plain number.
 [[nodiscard]] std::string relative(double x, int digits, bool sign);
 
-/// Digits that show where two numbers part, between 4 and 10; 6 where they agree beyond that.
+/// Returns the number of digits that show the difference of two numbers, from 4 to 10; 6 if they
+/// agree in more digits.
 [[nodiscard]] int distinguishing_digits(double a, double b);
 
-/// Significant digits of samples that are drawn, finer than any pixel; the store of runs has all.
+/// Significant digits of drawn samples, which resolve less than a pixel. The run store has all
+/// digits.
 inline constexpr int kSampleDigits = 7;
 
-/// The shortest text that reads back as the same double, independent of the locale.
+/// Returns the shortest text that reads back as the same double, independent of the locale.
 [[nodiscard]] std::string shortest(double x);
 
-/// The same with at most `digits` significant digits.
+/// Returns the number with at most `digits` significant digits.
 [[nodiscard]] std::string shortest(double x, int digits);
 
-/// 10⁻⁷.
+/// Returns "10⁻⁷".
 [[nodiscard]] std::string power_of_ten(int exponent);
 
-/// A text whose numbers written as 1e-6 and 2.1e-09 are 10⁻⁶ and 2.1 × 10⁻⁹.
+/// Replaces numbers such as 1e-6 and 2.1e-09 in a text by 10⁻⁶ and 2.1 × 10⁻⁹.
 [[nodiscard]] std::string with_powers(const std::string& text);
 
-/// "1 check", "3 checks".
+/// Returns "1 check" or "3 checks".
 [[nodiscard]] std::string count(std::size_t n, const std::string& singular,
                                 const std::string& plural = "");
 
-/// Seconds as people say them: 840 µs, 12 ms, 3.4 s, 2 min 5 s.
+/// Returns a time in a suitable unit: 840 µs, 12 ms, 3.4 s, 2 min 5 s.
 [[nodiscard]] std::string duration(double seconds);
 
-/// 8.1 mm, 1.25 m: metres from 0.2 m up, as on axes.
-[[nodiscard]] std::string length_text(double metres);
+/// Returns a length as "8.1 mm" or "1.25 m": in meters from 0.2 m upward, as on axes.
+[[nodiscard]] std::string length_text(double length_m);
 
-/// An em dash for what is not there.
+/// Returns the number, or a dash if it is missing.
 [[nodiscard]] std::string or_dash(harness::Number x, int digits);
 
-/// "axial-flexibility" and "mean_square" as words with blanks between them.
+/// Replaces hyphens and underscores by spaces.
 [[nodiscard]] std::string spaced(std::string name);
 
 [[nodiscard]] std::string capitalized(std::string text);
 
-/// "3.9 to 4.1", or "4" where both ends read alike.
+/// Returns "3.9 to 4.1", or "4" if both texts are equal.
 [[nodiscard]] std::string low_to_high(const std::string& low, const std::string& high);
 
-/// Adds to a list in words: after a separator, but for the first item.
+/// Appends an item to a list, after a separator unless it is the first item.
 void add_item(std::string& list, const std::string& item, const std::string& separator = ", ");
 
-/// What stands between blanks: heads of a table's columns.
+/// Splits a text at spaces, for heads of tables.
 [[nodiscard]] std::vector<std::string> words_in(const std::string& text);
 
 }  // namespace trammel::reports

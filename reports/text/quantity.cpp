@@ -20,14 +20,14 @@ std::string words(const std::string& key) {
   return name;
 }
 
-/// Units to which an SI prefix can be put in front, whatever they are multiplied with.
+/// Returns whether a unit accepts SI prefixes.
 bool takes_prefix(const std::string& unit) {
   static const std::array<const char*, 10> plain = {"m",   "N",  "Pa", "s", "Hz",
                                                     "N·m", "kg", "J",  "W", "rad"};
   return std::ranges::find(plain, unit) != plain.end();
 }
 
-/// Whether what follows the colon is the name of a quantity in turn, be it of the whole model:
+/// Returns whether the subject of a quantity is another quantity, as in
 /// relative_error:frequency_Hz.
 bool is_of_a_quantity(const std::string& base) {
   static const std::array<const char*, 4> names = {"relative_error", "roundoff",
@@ -40,18 +40,18 @@ bool is_of_a_quantity(const std::string& base) {
 std::string display_unit(const std::string& unit) {
   if (unit == "1") return "";
   if (unit == "deg") return "°";
-  std::string people;
+  std::string typeset;
   for (std::size_t i = 0; i < unit.size(); ++i) {
     if (unit[i] == ' ') {
-      people += "·";
+      typeset += "·";
     } else if (unit[i] == '^' && i + 1 < unit.size() && unit[i + 1] >= '2' && unit[i + 1] <= '4') {
       constexpr std::array<const char*, 3> powers = {"²", "³", "⁴"};
-      people += powers[unit[++i] - '2'];
+      typeset += powers[unit[++i] - '2'];
     } else {
-      people += unit[i];
+      typeset += unit[i];
     }
   }
-  return people;
+  return typeset;
 }
 
 QuantityLabel parse_quantity(const std::string& name) {
@@ -60,14 +60,15 @@ QuantityLabel parse_quantity(const std::string& name) {
   const auto [base, unit] = harness::split_unit(name);
   quantity.unit = display_unit(unit);
   if (colon != std::string::npos) quantity.subject = name.substr(colon + 1);
-  // frequency_Hz:1 along a path or over a range of speeds.
+  // frequency_Hz:1 is a mode along a path or over a range of speeds.
   if (quantity.subject.find_first_not_of("0123456789") == std::string::npos &&
       !quantity.subject.empty()) {
     quantity.subject.insert(0, "mode ");
   } else if (quantity.subject.find(':') != std::string::npos || is_of_a_quantity(base)) {
     quantity.subject = to_text(parse_quantity(quantity.subject));
   }
-  quantity.label = base == "error_over_roundoff" ? "error over promised round-off" : words(base);
+  quantity.label =
+      base == "error_over_roundoff" ? "error over estimated round-off error" : words(base);
   return quantity;
 }
 
@@ -78,7 +79,7 @@ std::string to_text(const QuantityLabel& quantity) {
 Scale readable_scale(const std::string& unit, double largest) {
   if (largest <= 0 || !std::isfinite(largest)) return {1, unit};
   if (takes_prefix(unit) && unit != "kg") {
-    // Lengths are spoken of in metres from half a metre up, in millimetres below.
+    // Lengths are in meters from 0.2 m upward, and in millimeters below.
     const double small = unit == "m" ? 0.2 : 1;
     static const std::array<std::pair<double, const char*>, 6> prefixes = {
         {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1, ""}, {1e-3, "m"}, {1e-6, "µ"}}};

@@ -25,10 +25,10 @@ def main():
     flips = result["flips"]
     heads = "".join(f'<th scope="col">{head}</th>' for head in HEADS)
     return page_section.write(
-        "certification", "Digits under other rounding and in other builds",
-        f"{result['of']}: the solver rounding one way throughout, or built another way. Verdicts that differ, and digits of"
-        " judged numbers that agree, from those of gcc -O3 rounded to the nearest. Of"
-        f" {result['tight_tolerances']} checks the tolerance is less than ten times the largest difference seen; bounds are not counted.",
+        "certification", "Digits with other rounding modes and other builds",
+        f"{result['of']}. The solver uses a directed rounding mode or a different build. The table lists the verdicts that differ"
+        " from those of gcc -O3 with rounding to nearest, and the digits of judged numbers that agree."
+        f" {result['tight_tolerances']} checks, bounds not counted, have a tolerance of less than ten times the largest difference.",
         "Verdicts and digits by configuration",
         [f"    <thead><tr>{heads}</tr></thead>", "    <tbody>",
          *(row(entry, flips) for entry in result["configurations"]), "    </tbody>"],

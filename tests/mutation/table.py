@@ -19,7 +19,7 @@ def row_of(fault):
     """Who notices it, or why nobody does."""
     expected = fault["expected"]
     if isinstance(expected, str):
-        return "Not noticed: " + ("equivalent or unobservable" if expected.startswith("survives") else "open")
+        return "Not detected: " + ("equivalent or unobservable" if expected.startswith("survives") else "open")
     folder, *suite = expected[0].split(".")
     return f"Tests of {folder}" if suite else folder.replace("-", " ").capitalize()
 
@@ -29,8 +29,8 @@ def table(faults):
     order = sorted({name for name, _ in counts}, key=lambda n: (
         n.startswith("Not"), n.startswith("Tests"), -sum(counts[n, k] for k in KINDS), n))
     rows = [(name, [counts[name, k] for k in KINDS]) for name in order]
-    rows.append(("Together", [sum(column) for column in zip(*(numbers for _, numbers in rows))]))
-    yield '    <thead><tr><th scope="col">Noticed by</th>'
+    rows.append(("Total", [sum(column) for column in zip(*(numbers for _, numbers in rows))]))
+    yield '    <thead><tr><th scope="col">Detected by</th>'
     yield from (f'    <th scope="col">{HEADS[k]}</th>' for k in KINDS)
     yield "    </tr></thead>\n    <tbody>"
     for name, numbers in rows:
@@ -43,10 +43,10 @@ def main():
     faults = seeding.load(sorted((ROOT / "tests/mutation/faults").glob("*.json")))
     noticed = sum(isinstance(f["expected"], list) for f in faults)
     return page_section.write(
-        "detection", "Faults that are noticed",
-        f"Of {len(faults)} faults that were seeded into the program one at a time, {noticed} are noticed."
-        " Each counts for one family of cases that notices it, or one suite of tests. Coefficients are 1 % off; generic faults are"
-        " drawn from all constants, operators, indices, conditions and terms of the solver.",
+        "detection", "Detection of seeded faults",
+        f"Of {len(faults)} faults that were seeded into the program one at a time, {noticed} are detected."
+        " Each counts for one family of cases that detects it, or for one suite of tests. Coefficients are changed by 1 %. Generic"
+        " faults are drawn from all constants, operators, indices, conditions and terms of the solver.",
         "Faults by family", table(faults))
 
 

@@ -189,7 +189,7 @@ const std::vector<Call> kCalls = {
      {"u_input", "link thickness", "is within the validation uncertainty of",
       "comparisons with the paper (ASME V&V 20)"}},
     {"report fails.json --out page", 1, {"report in page/index.html"}},
-    {"report holds.json --out blocked", 2, {"blocked/index.html: a folder"}, "err"},
+    {"report holds.json --out blocked", 2, {"blocked/index.html: expected a file"}, "err"},
     {"list >/dev/full 2>err.txt; exit $?; true",
      2,
      {"expected a standard output that can be written\n"},
@@ -399,9 +399,9 @@ BOOST_AUTO_TEST_CASE(report_draws_its_history_and_counts_no_time_twice) {
   BOOST_TEST(calls[1]["work"] == calls[0]["work"]);
   const std::string page = read_text(folder.path() / "out/environment.html");
   BOOST_TEST(contains(page, "<section id=\"history\">"));
-  BOOST_TEST(contains(page, "2 calls; nothing changed since call 1"));
+  BOOST_TEST(contains(page, "2 calls; no value changed since call 1"));
   BOOST_TEST(contains(page, "<figure id=\"fig-history\">"));
-  BOOST_TEST(contains(page, "Counted work is 1 times the first call"));
+  BOOST_TEST(contains(page, "The newest call has 1 times the work"));
   BOOST_TEST(run(folder, "report out/results.json --out again").status == 0);
   BOOST_TEST(
       contains(read_text(folder.path() / "again/environment.html"), "<section id=\"history\">"));

@@ -16,7 +16,7 @@ BOOST_AUTO_TEST_CASE(a_group_is_as_good_as_its_worst_entry) {
   std::array<Check, 3> checks;
   for (Check& check : checks) check.verdict = Verdict::pass;
   checks[1].verdict = Verdict::fail;
-  const CheckGroup group{nullptr, {&checks[0], &checks[1], &checks[2]}};
+  const CheckGroup group{{&checks[0], &checks[1], &checks[2]}};
   BOOST_TEST(&group.worst() == &checks[1]);
 }
 

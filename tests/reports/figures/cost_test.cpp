@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(data_contain_all_settings_and_those_without_result) {
   study.settings.resize(7);
   const Figure without = cost_figure(study);
   BOOST_TEST(!contains(without.commands, "no answer"));
-  BOOST_TEST(without.caption == study.conclusion);
+  BOOST_TEST(without.caption.ends_with(study.conclusion));
 }
 
 BOOST_AUTO_TEST_CASE(page_of_studies_has_figure_table_and_sweep) {
@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(page_of_studies_has_figure_table_and_sweep) {
   for (const char* part :
        {"<h1>Accuracy and computing time</h1>", "<figure id=\"fig-cost-sample-modes\">",
         "This is the quick sweep", "sparse, 4 elements", "none of these settings",
-        "6 of 7 settings on the Pareto front in both halves"})
+        "both put 6 of 7 settings on the Pareto front"})
     BOOST_TEST(contains(text, part), part);
   for (const char* part : {"id=\"summary\"", "href=\"#summary\"", "Computing time of this report"})
     BOOST_TEST(!contains(text, part), part);

@@ -24,8 +24,8 @@ const std::vector<EffectScene> kScenes = {
 BOOST_AUTO_TEST_CASE(caption_counts_what_is_within_and_minimal) {
   const std::vector<Figure> figures = effect_scene_figures(kScenes);
   BOOST_TEST_REQUIRE(figures.size() == 1U);
-  BOOST_TEST(contains(figures[0].caption, "2 of 3 scenes keep within"));
-  BOOST_TEST(contains(figures[0].caption, "in 2 no chosen effect"));
+  BOOST_TEST(contains(figures[0].caption, "2 of 3 scenes stay within"));
+  BOOST_TEST(contains(figures[0].caption, "In 2, no selected effect"));
   BOOST_TEST(contains(figures[0].caption, "took 0.915 times as long"));
   BOOST_TEST(figures[0].data.rows.size() == 3U);
   BOOST_TEST(effect_scene_figures({}).empty());
@@ -35,10 +35,10 @@ BOOST_AUTO_TEST_CASE(a_page_of_scenes_alone_shows_them) {
   Results results;
   results.effect_scenes = kScenes;
   const Workspace folder;
-  const std::string page = text_of(write_report(results, folder.path() / "out", false));
-  BOOST_TEST(contains(page, "Effects chosen automatically"));
+  const std::string page = text_of(write_report(results, folder.path() / "out"));
+  BOOST_TEST(contains(page, "Automatic selection of effects"));
   BOOST_TEST(contains(page, "figures/effects-obtained.svg"));
-  BOOST_TEST(contains(page, "2 of 3 scenes keep within"));
+  BOOST_TEST(contains(page, "2 of 3 scenes stay within"));
   const Results again = trammel::results::read_results(to_json(results));
   BOOST_TEST_REQUIRE(again.effect_scenes.size() == 3U);
   BOOST_TEST(again.effect_scenes[1].deciding_s == 0.01);

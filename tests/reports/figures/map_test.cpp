@@ -56,9 +56,10 @@ BOOST_AUTO_TEST_CASE(map_keeps_every_position_and_explains_its_colors) {
   BOOST_TEST_REQUIRE(figure.has_value(), problem);
   BOOST_TEST(figure->data.rows.size() == 70U);
   BOOST_TEST(contains(figure->caption,
-                      " in Hz, dark far from zero, in classes of about equally many positions."));
+                      " in Hz; dark is far from zero. Each class has about the same number of "
+                      "positions."));
   BOOST_TEST(contains(figure->commands, "'below 1'"));  // ten of the 70, in seven classes
-  BOOST_TEST(contains(figure->alt, "the largest magnitude is 5.3 Hz"));
+  BOOST_TEST(contains(figure->alt, "The largest magnitude is 5.3 Hz"));
 }
 
 BOOST_AUTO_TEST_CASE(what_is_far_from_zero_is_dark_whatever_its_sign) {
@@ -76,7 +77,7 @@ BOOST_AUTO_TEST_CASE(what_is_far_from_zero_is_dark_whatever_its_sign) {
   BOOST_TEST(shade_of_lowest() == palette::kSequence.back());
   run.quantities["frequency_Hz"].values[0] = 7.0;
   BOOST_TEST(shade_of_lowest() == palette::kSequence.front());
-  BOOST_TEST(contains(draw(run, problem)->caption, "dark where it is high"));
+  BOOST_TEST(contains(draw(run, problem)->caption, "dark is high"));
 }
 
 BOOST_AUTO_TEST_CASE(maps_of_one_quantity_have_one_scale) {
@@ -98,7 +99,7 @@ BOOST_AUTO_TEST_CASE(maps_of_one_quantity_have_one_scale) {
   const auto cold = map_figure(info, info.figures[0], {&run}, problem);
   const auto high = map_figure(info, info.figures[1], {&run}, problem);
   BOOST_TEST_REQUIRE((cold && high), problem);
-  BOOST_TEST(contains(cold->caption, "the same classes in all maps"));
+  BOOST_TEST(contains(cold->caption, "All maps of this quantity have the same classes"));
   BOOST_TEST(contains(cold->commands, "'below "));
   BOOST_TEST(!contains(cold->commands, "'above "));
   BOOST_TEST(contains(high->commands, "'above "));

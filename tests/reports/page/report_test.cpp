@@ -163,24 +163,6 @@ BOOST_AUTO_TEST_CASE(addresses_consist_of_names_alone) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(single_file_holds_all_pages_and_needs_no_other) {
-  const Workspace workspace;
-  const fs::path file = write_report(sample_results(), workspace.path() / "out", true);
-  const std::string text = text_of(file);
-  BOOST_TEST(markup_fault(text, true) == "");
-  BOOST_TEST(text.size() < 6'000'000U);
-  BOOST_TEST(attribute_values(text, "src").empty());
-  BOOST_TEST(text.find("<link") == std::string::npos);
-  BOOST_TEST(text.find("without the figures of further variants") != std::string::npos);
-  BOOST_TEST(text.find("class=\"derivation\"") == std::string::npos);
-  std::set<std::string> ids;
-  for (const std::string& id : attribute_values(text, "id"))
-    BOOST_TEST(ids.insert(id).second, "twice: " << id);
-  BOOST_TEST(dead_links({{"report.html", text}}, file.parent_path()) == "");
-  BOOST_TEST(occurrences(text, "<svg ") > 5U);
-  BOOST_TEST(ids.count("case-beam-pinned-pinned-check-exact") == 1U);
-}
-
 BOOST_AUTO_TEST_CASE(summary_counts_the_checks_by_verdict) {
   std::size_t pass = 0, known = 0;
   for (const Run& run : sample_results().runs)

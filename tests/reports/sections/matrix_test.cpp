@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(unreached_targets_are_named_with_the_nearest) {
   Sample sample;
   sample.results.runs[2].checks[0] = compared("program", 0, 0.005);
   const std::string words = sample.conclusion(sample.results.runs[0].checks[0]);
-  BOOST_TEST(contains(words, "Nearest as a whole: c,"), words);
+  BOOST_TEST(contains(words, "Nearest overall: c,"), words);
   BOOST_TEST(contains(words, "No variant comes within 1\u202f% of modes 2 (nearest +20\u202f%)"),
              words);
 }

@@ -16,7 +16,7 @@ std::string cell(const std::string& quantity, const std::string& statistic) {
   info.tables.push_back({"t", "Table", "", {{"c", "Column", quantity, "", "", statistic}}, {}});
   const Data tables = trammel::reports::variant_tables(info, {&run});
   const Data row = tables.list_value().at(0).get("rows")->list_value().at(0);
-  return row.get("cells")->list_value().at(0).get("value")->string_value();
+  return row.get("cells")->list_value().at(0).get("text")->string_value();
 }
 
 }  // namespace

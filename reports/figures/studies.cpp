@@ -1,0 +1,143 @@
+#include <algorithm>
+#include <map>
+
+#include "reports/drawing/interval.h"
+#include "reports/drawing/palette.h"
+#include "reports/drawing/plot_script.h"
+#include "reports/figures/figures.h"
+#include "reports/text/number.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr double kSmallestDrawnChange = 1e-9;  ///< smaller changes are drawn here
+constexpr double kSceneMargin = 1.3;           ///< factor between the points and the frame
+
+Table table_of(const std::vector<EffectScene>& scenes) {
+  Table table;
+  table.heads = words_in("scene analysis tolerance change minimal whole_s chosen_s deciding_s");
+  for (const EffectScene& s : scenes)
+    table.rows.push_back({s.scene, s.analysis, s.tolerance, s.change,
+                          std::string(s.minimal ? "yes" : "no"), s.whole_s, s.chosen_s,
+                          s.deciding_s});
+  return table;
+}
+
+/// Returns the numbers of scenes within their tolerance and with a minimal selection, and the time
+/// of selecting effects and running over that of running with all effects.
+std::string conclusion(const std::vector<EffectScene>& scenes) {
+  std::size_t within = 0, minimal = 0;
+  double all_effects_s = 0, selected_s = 0;
+  for (const EffectScene& scene : scenes) {
+    if (scene.change <= scene.tolerance) ++within;
+    if (scene.minimal) ++minimal;
+    all_effects_s += scene.whole_s;
+    selected_s += scene.deciding_s + scene.chosen_s;
+  }
+  return std::to_string(within) + " of " + count(scenes.size(), "scene") +
+         " stay within the tolerance (below the line). In " + std::to_string(minimal) +
+         ", no selected effect could be left out. Selecting and running took " +
+         trimmed(all_effects_s > 0 ? selected_s / all_effects_s : 0, 3) +
+         " times as long as running with all effects.";
+}
+
+/// @param work, time  rows of (call, value relative to the first call)
+std::string caption_of(const PlotScript::Rows& work, const PlotScript::Rows& time) {
+  const auto last = [](const PlotScript::Rows& rows) { return trimmed(rows.back()[1], 3); };
+  std::string text =
+      "Counted work and processor time of all runs of a call, relative to the first call. Times "
+      "are those of complete calls on the newest call's machine.";
+  if (!work.empty()) text += " The newest call has " + last(work) + " times the work";
+  if (time.size() > 1)
+    text += (work.empty() ? " The newest call has " : " and ") + last(time) + " times the time";
+  return text + (work.empty() && time.size() < 2 ? "" : ".");
+}
+
+}  // namespace
+
+std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes) {
+  if (scenes.empty()) return {};
+  Interval x{1, 0}, y{1, 0};
+  std::map<std::string, PlotScript::Rows> points;
+  for (const EffectScene& scene : scenes) {
+    const double change = std::max(scene.change, kSmallestDrawnChange);
+    points[scene.analysis].push_back({scene.tolerance, change});
+    x.cover_around(scene.tolerance, kSceneMargin);
+    y.cover_around(change, kSceneMargin);
+    y.high = std::max(y.high, scene.tolerance * kSceneMargin);
+  }
+  PlotScript script;
+  script.log_axis("x", x.low, x.high);
+  script.log_axis("y", y.low, y.high);
+  script.axis_label("x", "tolerance: requested largest change");
+  script.axis_label("y", "obtained change");
+  std::vector<std::string> keys = {"tolerance"};
+  script.curve({{x.low, x.low}, {x.high, x.high}},
+               "using 1:2 with lines lw 1.5 dt 2" + lc(palette::kMuted), keys.front());
+  for (const auto& [analysis, rows] : points) {
+    const std::size_t number = keys.size() - 1;
+    script.curve(rows,
+                 "using 1:2 with points ps 0.7 pt " + palette::filled_point(number) +
+                     lc(palette::color(number)),
+                 analysis);
+    keys.push_back(analysis);
+  }
+  const int key_height = script.key_below(keys);
+  script.plot();
+  const std::string plotted =
+      "Change of the results without the omitted effects against the tolerance, one point per "
+      "scene. ";
+  return {{.id = "effects-obtained",
+           .title = "Automatic selection of effects: obtained change against tolerance",
+           .caption = plotted + conclusion(scenes),
+           .alt = plotted + conclusion(scenes),
+           .height = 350 + key_height,
+           .commands = script.commands(),
+           .data = table_of(scenes),
+           .is_linked = true}};
+}
+
+Figure history_figure(const History& history) {
+  const std::string machine = history.calls.back().machine;
+  PlotScript::Rows time, work, failing;
+  double first_time = 0, first_work = 0;
+  Table table;
+  table.heads = words_in("call date commit runs checks failures cpu_s work");
+  for (const HistoryCall& call : history.calls) {
+    const auto number = static_cast<double>(call.id);
+    const auto counted = static_cast<double>(call.work);
+    const bool is_timed = call.cpu_s > 0 && call.machine == machine;
+    if (is_timed && first_time == 0) first_time = call.cpu_s;
+    if (first_work == 0) first_work = counted;
+    if (is_timed) time.push_back({number, call.cpu_s / first_time});
+    if (first_work > 0) work.push_back({number, counted / first_work});
+    if (!call.green()) failing.push_back({number, first_work > 0 ? counted / first_work : 1});
+    table.rows.push_back({number, call.date, call.commit, static_cast<double>(call.runs),
+                          static_cast<double>(call.checks), static_cast<double>(call.failures),
+                          call.cpu_s, counted});
+  }
+  PlotScript script;
+  script.axis_label("x", "call");
+  script.axis_label("y", "relative to the first");
+  const std::size_t step = std::max<std::size_t>(history.calls.size() / 8, 1);  // integer tics
+  script.command("set yrange [0:*]; set xtics " + std::to_string(history.calls.front().id) + "," +
+                 std::to_string(step));
+  script.range("x", static_cast<double>(history.calls.front().id) - 0.5,
+               static_cast<double>(history.calls.back().id) + 0.5);
+  const int key = script.key_below({"counted work", "processor time", "with failures"});
+  const std::string line = "with linespoints lw 1.6 ps 0.8 pt ";
+  script.curve(work, line + "7" + lc(palette::color(0)), "counted work");
+  script.curve(time, line + "5" + lc(palette::color(1)), "processor time");
+  script.curve(failing, "with points lw 2 ps 1.6 pt 2" + lc(palette::kInk), "with failures");
+  script.plot();
+  return {.id = "history",
+          .title = "Work and time of the calls",
+          .caption = caption_of(work, time),
+          .alt = "Curves of counted work and processor time over the calls.",
+          .height = 260 + key,
+          .commands = script.commands(),
+          .data = std::move(table)};
+}
+
+}  // namespace trammel::reports

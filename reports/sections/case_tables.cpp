@@ -1,0 +1,174 @@
+#include <algorithm>
+
+#include "harness/base/find_or_add.h"
+#include "harness/base/statistic.h"
+#include "reports/sections/sections.h"
+#include "reports/text/number.h"
+#include "reports/text/quantity.h"
+
+namespace trammel::reports {
+
+namespace {
+
+constexpr std::size_t kMaxListedValues = 8;
+
+Number statistic(const std::string& name, const std::vector<double>* values) {
+  if (!values || std::ranges::any_of(*values, [](Number value) { return !value; })) return {};
+  return harness::statistic_of(name.empty() ? "first" : name, *values);
+}
+
+Number timing_of(const Run& run, const std::string& name) {
+  for (const auto& [key, seconds, evaluations] : run.cost.timings)
+    if (key == name) return seconds;
+  return {};
+}
+
+std::string cell_text(const ColumnRequest& column, const Run& run) {
+  if (column.timing.empty())
+    return or_dash(statistic(column.statistic, run.quantity(column.quantity)), 3);
+  const Number time = timing_of(run, column.timing), other = timing_of(run, column.over_timing);
+  if (!time || (!column.over_timing.empty() && other.value_or(0) == 0)) return or_dash({}, 3);
+  return column.over_timing.empty() ? duration(*time) : "× " + trimmed(*time / *other, 2);
+}
+
+/// Returns a table that a case requests: variants down, quantities and timings across.
+TextTable variant_table(const TableRequest& request, const CaseInfo& info,
+                        const std::vector<const Run*>& runs) {
+  TextTable table{request.title, {"Variant"}, {}, request.caption};
+  for (const ColumnRequest& column : request.columns) table.heads.push_back(">" + column.title);
+  for (const Run* run : runs) {
+    if (!request.variants.empty() && !harness::contains(request.variants, run->variant)) continue;
+    std::vector<std::string>& row = table.rows.emplace_back();
+    row.push_back(info.variant_title(run->variant));
+    for (const ColumnRequest& column : request.columns) row.push_back(cell_text(column, *run));
+  }
+  return table;
+}
+
+/// Returns the probable classes of readings of one row of printed numbers, and their predictions.
+TextTable probability_table(const RowProbabilities& row, const std::string& variant) {
+  const auto count_of = [](int n, const char* noun, const char* nouns = "") {
+    return count(static_cast<std::size_t>(n), noun, nouns);
+  };
+  TextTable table{"Row " + row.row + " under a discrepancy of " +
+                      relative(row.discrepancy.value_or(0), 2, false) +
+                      (variant == "base" ? "" : ", variant " + variant),
+                  {"Most probable reading of each class", ">Probability"},
+                  {},
+                  count_of(row.readings, "reading") + " in " +
+                      count_of(row.classes, "class", "classes") +
+                      ". The numbers of the row cannot distinguish the readings of a class. " +
+                      count_of(row.credible_classes, "class holds", "classes hold") +
+                      " 95\u202f% of the probability."};
+  const auto add_row = [&](const std::string& title, const std::string& probability,
+                           const Numbers& values) {
+    std::vector<std::string>& cells = table.rows.emplace_back();
+    cells = {title, probability};
+    for (const Number& value : values) cells.push_back(value ? significant(*value, 5) : "");
+    for (std::size_t i = table.heads.size(); i < cells.size(); ++i)
+      table.heads.push_back(">Value " + std::to_string(i - 1));
+  };
+  add_row("as printed [" + row.unit + "]", "", row.printed);
+  for (const ReadingClass& reading : row.leading)
+    add_row(reading.title +
+                (reading.readings == 1
+                     ? ""
+                     : " (and " + count_of(reading.readings - 1, "other") + " within the noise)"),
+            relative(reading.probability.value_or(0), 3, false), reading.values);
+  return table;
+}
+
+/// Returns up to eight values, or the range of more.
+std::string values_text(const std::vector<double>& values) {
+  if (values.size() > kMaxListedValues) {
+    const auto [low, high] = std::ranges::minmax(values);
+    return low_to_high(significant(low, 4), significant(high, 4));
+  }
+  std::string text;
+  for (const double value : values) add_item(text, significant(value, 6));
+  return text;
+}
+
+std::vector<std::string> error_row(const ErrorEstimate& estimate,
+                                   const std::vector<double>& values) {
+  double largest = 0;
+  for (const Number& error : estimate.relative) largest = std::max(largest, error.value_or(0));
+  const QuantityLabel quantity = parse_quantity(estimate.quantity);
+  return {axis_label(to_text(quantity), quantity.unit), values_text(values),
+          "± " + relative(largest, 2, false) +
+              (estimate.asymptotic ? "" : " (not in the asymptotic range)")};
+}
+
+bool selects_effects(const Run* run) {
+  return std::ranges::any_of(
+      run->effects, [](const EffectRow& effect) { return effect.cumulative_change.has_value(); });
+}
+
+std::string effects_title(const Run& run) {
+  std::string active;
+  std::size_t inactive = 0;
+  for (const EffectRow& effect : run.effects) {
+    if (effect.active) add_item(active, spaced(effect.name));
+    if (effect.applicable && !effect.active) ++inactive;
+  }
+  return "Computed with " + (active.empty() ? "bending alone" : active) + "; " +
+         count(inactive, "other effect was left out", "other effects were left out");
+}
+
+TextTable effects_table(const Run& run) {
+  TextTable table{effects_title(run),
+                  {"Effect", "State", ">Dimensionless number", "Definition", ">Own change",
+                   ">Cumulative change", "Reason"}};
+  const auto change = [](Number x) { return x ? relative(*x, 3, false) : ""; };
+  for (const EffectRow& e : run.effects) {
+    if (!e.applicable) continue;
+    table.rows.push_back({spaced(e.name), e.active ? "on" : "off",
+                          e.dimensionless_number ? trimmed(*e.dimensionless_number, 3) : "",
+                          e.number_definition, change(e.own_change), change(e.cumulative_change),
+                          e.why});
+  }
+  return table;
+}
+
+}  // namespace
+
+Data variant_tables(const CaseInfo& info, const std::vector<const Run*>& runs) {
+  return list_of(info.tables, [&](const TableRequest& request) {
+    return table_data(variant_table(request, info, runs));
+  });
+}
+
+void set_run_tables(Data& data, const std::vector<const Run*>& runs) {
+  Data errors(false), probabilities = list(), effects(false);
+  std::vector<std::string> excluded;
+  const auto chosen = std::ranges::find_if(runs, selects_effects);
+  if (chosen != runs.end()) effects = table_data(effects_table(**chosen));
+  const auto estimated =
+      std::ranges::find_if(runs, [](const Run* run) { return run->errors.has_value(); });
+  if (estimated != runs.end()) {
+    TextTable table{"Results and their discretization errors",
+                    {"Quantity", "Values", ">Largest error"},
+                    {},
+                    (*estimated)->errors->companions};
+    for (const ErrorEstimate& estimate : (*estimated)->errors->quantities)
+      if (const std::vector<double>* values = (*estimated)->quantity(estimate.quantity))
+        table.rows.push_back(error_row(estimate, *values));
+    if (!table.rows.empty()) errors = table_data(table);
+  }
+  for (const Run* run : runs) {
+    if (!run->model_probabilities) continue;
+    for (const RowProbabilities& row : run->model_probabilities->rows)
+      probabilities.push_back(table_data(probability_table(row, run->variant)));
+    for (const ExcludedReadings& readings : run->model_probabilities->excluded)
+      excluded.push_back(count(static_cast<std::size_t>(readings.readings), "combination") +
+                         ", as " + readings.first + ": " + readings.reason);
+  }
+  set(data, {{"errors", errors},
+             {"effects", effects},
+             {"has_probabilities", probabilities.is_non_empty_list()},
+             {"probabilities", object({{"tables", probabilities}})},
+             {"has_excluded", !excluded.empty()},
+             {"excluded", texts(excluded)}});
+}
+
+}  // namespace trammel::reports
