@@ -23,11 +23,7 @@ double seconds() {
 }
 
 void run(Index elements, Index count, bool one_by_one) {
-  ManipulatorDesign design = table_1_design();
-  design.platform.kind = PlatformKind::rigid;
-  for (auto* links : {&design.proximal, &design.distal}) {
-    for (LinkDesign& link : *links) link.elements = elements;
-  }
+  const ManipulatorDesign design = with_elements(elements);
   std::vector<Pose> poses;
   for (Index i = 0; i < count; ++i) {
     const double t = 0.01 * static_cast<double>(i);

@@ -19,11 +19,8 @@ using boost::test_tools::tolerance;
 enum class Integrator { generalized_alpha, energy_momentum };
 
 TransientOptions options_of(Integrator integrator, double step, double end) {
-  TransientOptions options;
-  options.scheme = generalized_alpha(0.9);
+  TransientOptions options{.end = end, .step = step, .scheme = generalized_alpha(0.9)};
   options.scheme.conserves_energy = integrator == Integrator::energy_momentum;
-  options.step = step;
-  options.end = end;
   return options;
 }
 

@@ -15,13 +15,8 @@ namespace {
 
 ElastodynamicsOptions options_of(ElbowKind elbow, double angular_speed, double end, double step) {
   ElastodynamicsOptions options;
-  options.design = table_1_design();
-  options.design.platform.kind = PlatformKind::rigid;
-  for (std::size_t i = 0; i < 3; ++i) {
-    options.design.proximal[i].elements = options.design.distal[i].elements = 2;
-    options.design.elbow[i].kind = elbow;
-    if (elbow == ElbowKind::sprung) options.design.elbow[i].stiffness = 5;
-  }
+  options.design = with_elements(2);
+  options.design.elbow.fill({elbow, elbow == ElbowKind::sprung ? 5.0 : 0.0});
   options.path =
       Circle{.center = {0.25, 0.144}, .radius = 0.01, .angular_speed = angular_speed, .phi = 0};
   options.time.end = end;

@@ -26,11 +26,7 @@ GeometricallyExactSystem pendulum() {
 }
 
 TransientOptions options_to(double end) {
-  TransientOptions options;
-  options.end = end;
-  options.step = 0.01;
-  options.scheme = generalized_alpha(0.9);
-  return options;
+  return {.end = end, .step = 0.01, .scheme = generalized_alpha(0.9)};
 }
 
 /// The outcome of ten steps whose last state is claimed to be another.

@@ -36,8 +36,7 @@ BOOST_AUTO_TEST_CASE(terms_that_cancel_in_a_strain_keep_their_size) {
   Model model;
   model.nodes = {{"A", {0, 0}}, {"B", {3, 4}}};
   model.rigid_bodies = {{"body", 0, {1}}};
-  model.members = {member("AB", 0, 1, unit_section())};
-  model.members[0].ends[0].fixity = model.members[0].ends[1].fixity = EndFixity::hinged;
+  model.members = {hinged("AB", 0, 1, unit_section())};
   const StiffnessFactors K = stiffness_factors(assemble(model));
   BOOST_TEST(Eigen::MatrixXd(K.A).row(0).lpNorm<Eigen::Infinity>() < 1e-15);
   // Along the bar both ends move by 0.6 x + 0.8 y; a turn moves B by (-4, 3).

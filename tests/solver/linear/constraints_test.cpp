@@ -60,8 +60,7 @@ BOOST_AUTO_TEST_CASE(inextensible_parallel_links_leave_one_motion) {
   model.nodes = {{"A", {0, 0}}, {"B", {0.3, 0.7}}, {"C", {2.3, 0.7}},
                  {"D", {2, 0}}, {"E", {1, 0}},     {"F", {1.3, 0.7}}};
   const auto link = [](Index a, Index b) {
-    Member m = member("", a, b, {0, 0, 0, 1, 0, 1, 1});
-    m.ends[0].fixity = m.ends[1].fixity = EndFixity::hinged;
+    Member m = hinged("", a, b, {0, 0, 0, 1, 0, 1, 1});
     m.axially_flexible = false;
     return m;
   };

@@ -79,8 +79,7 @@ BOOST_AUTO_TEST_CASE(digits_next_to_a_singularity_are_kept_and_reported) {
     for (const Vector2d& p : {Vector2d(-1, 0), Vector2d(1.3, 0), Vector2d(0, height)}) {
       model.nodes.push_back({"", Eigen::Rotation2Dd(0.5) * p});
     }
-    model.members = {member("a", 0, 2, unit_section(1)), member("b", 1, 2, unit_section(1))};
-    for (Member& m : model.members) m.ends[0].fixity = m.ends[1].fixity = EndFixity::hinged;
+    model.members = {hinged("a", 0, 2, unit_section(1)), hinged("b", 1, 2, unit_section(1))};
     model.supports = {pin(0), pin(1)};
     model.loads = {{2, {0, 1, 0}}};
     const StaticSolution r = solve_statics(assemble(model));

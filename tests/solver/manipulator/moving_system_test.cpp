@@ -32,13 +32,9 @@ Path waltz() {
 }
 
 std::vector<ManipulatorDesign> designs() {
-  std::vector<ManipulatorDesign> all(4, table_1_design());
-  for (ManipulatorDesign& design : all) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      design.proximal[i].elements = 2;
-      design.distal[i].elements = 3;
-    }
-  }
+  std::vector<ManipulatorDesign> all(4, with_elements(2, PlatformKind::triangles));
+  for (ManipulatorDesign& design : all)
+    for (LinkDesign& link : design.distal) link.elements = 3;
   all[1].platform.kind = PlatformKind::rigid;
   all[1].platform_joint.fill({PlatformJointKind::welded});
   all[2].platform.kind = PlatformKind::rigid;  // P off the centre of mass, printed inertias
@@ -109,10 +105,7 @@ BOOST_AUTO_TEST_CASE(moved_system_has_the_matrices_of_a_built_one) {
 BOOST_AUTO_TEST_CASE(load_of_inertia_is_that_of_equation_14) {
   // F = T_s^T (w^2 H7^T - alpha H8^T - H9^T R^T a_A), H7 = int rho (x, 0) N, H8 = int rho (0, x) N,
   // H9 = int rho N, for every link by itself: clamped at one node, free at the other
-  const double length = 0.2;
-  const double angle = 0.7;
-  const double w = 3;
-  const double alpha = -11;
+  const double length = 0.2, angle = 0.7, w = 3, alpha = -11;
   const Vector2d a_A(0.8, -1.7);
   Model model;
   const Vector2d d(std::cos(angle), std::sin(angle));
@@ -196,10 +189,9 @@ BOOST_AUTO_TEST_CASE(matrices_of_inextensible_links_grow_linearly) {
   // by the pattern of the constraints alone each node followed all before it on its link
   std::vector<double> entries;
   for (const Index elements : {8, 16}) {
-    ManipulatorDesign design = designs()[3];
-    for (std::size_t i = 0; i < 3; ++i) {
-      design.proximal[i].elements = design.distal[i].elements = elements;
-    }
+    ManipulatorDesign design = with_elements(elements);
+    for (auto* links : {&design.proximal, &design.distal})
+      for (LinkDesign& link : *links) link.axially_flexible = false;
     const Walk walk(design, waltz(), 0.1, false);
     entries.push_back(static_cast<double>(walk.moving.K().nonZeros()));
   }

@@ -8,7 +8,6 @@
 
 #include "solver/linear/modes.h"
 #include "solver/linear/validate.h"
-#include "solver/manipulator/manipulator.h"
 #include "solver/manipulator/moving_pencil.h"
 #include "tests/support/solver/table_1.h"
 
@@ -25,15 +24,6 @@ std::vector<Pose> circle(Index points, double radius, double phi = 0) {
     poses.push_back({0.25 + radius * std::cos(t), 0.144 + radius * std::sin(t), phi});
   }
   return poses;
-}
-
-ManipulatorDesign with_elements(Index elements, PlatformKind platform = PlatformKind::rigid) {
-  ManipulatorDesign design = table_1_design();
-  design.platform.kind = platform;
-  for (auto* links : {&design.proximal, &design.distal}) {
-    for (LinkDesign& link : *links) link.elements = elements;
-  }
-  return design;
 }
 
 /// The worst difference from `solve_modes` at every pose, over what rounding explains.

@@ -2,7 +2,6 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <functional>
 #include <numbers>
 
 BOOST_AUTO_TEST_SUITE(trajectory)
@@ -111,44 +110,19 @@ BOOST_AUTO_TEST_CASE(invalid_paths_are_refused) {
   const auto natural = [](const std::vector<double>& times, const std::vector<Pose>& poses) {
     return make_spline(times, poses, SplineEnds::natural);
   };
-  const std::vector<std::function<void()>> calls = {
-      [&] {
-        (void)at(Circle{{0, 0}, -1}, 0);
-      },
-      [&] {
-        (void)at(Circle{{nan, 0}, 1}, 0);
-      },
-      [&] {
-        (void)at(Circle{{0, 0}, 1}, nan);
-      },
-      [&] {
-        (void)at(Line{kFrom, kTo, 0}, 0);
-      },
-      [&] {
-        (void)at(RestToRest{kFrom, {nan, 0, 0}, 1}, 0);
-      },
-      [&] {
-        (void)sample(Circle{{0, 0}, 1}, 0, 0.1);
-      },
-      [&] {
-        (void)sample(Circle{{0, 0}, 1}, 5, 0);
-      },
-      [&] {
-        (void)natural({0, 1}, {kFrom, kTo});
-      },
-      [&] {
-        (void)natural({0, 1, 1}, three);
-      },
-      [&] {
-        (void)natural({0, 1, nan}, three);
-      },
-      [&] {
-        (void)make_spline({0, 1, 2}, {kFrom, kTo, kTo}, SplineEnds::periodic);
-      },
-      [&] {
-        (void)at(natural({0, 1, 2}, three), 2.1);
-      }};
-  for (const auto& call : calls) BOOST_CHECK_THROW(call(), ModelError);
+  BOOST_CHECK_THROW((void)at(Circle{{0, 0}, -1}, 0), ModelError);
+  BOOST_CHECK_THROW((void)at(Circle{{nan, 0}, 1}, 0), ModelError);
+  BOOST_CHECK_THROW((void)at(Circle{{0, 0}, 1}, nan), ModelError);
+  BOOST_CHECK_THROW((void)at(Line{kFrom, kTo, 0}, 0), ModelError);
+  BOOST_CHECK_THROW((void)at(RestToRest{kFrom, {nan, 0, 0}, 1}, 0), ModelError);
+  BOOST_CHECK_THROW((void)sample(Circle{{0, 0}, 1}, 0, 0.1), ModelError);
+  BOOST_CHECK_THROW((void)sample(Circle{{0, 0}, 1}, 5, 0), ModelError);
+  BOOST_CHECK_THROW((void)natural({0, 1}, {kFrom, kTo}), ModelError);
+  BOOST_CHECK_THROW((void)natural({0, 1, 1}, three), ModelError);
+  BOOST_CHECK_THROW((void)natural({0, 1, nan}, three), ModelError);
+  BOOST_CHECK_THROW((void)make_spline({0, 1, 2}, {kFrom, kTo, kTo}, SplineEnds::periodic),
+                    ModelError);
+  BOOST_CHECK_THROW((void)at(natural({0, 1, 2}, three), 2.1), ModelError);
 }
 
 BOOST_AUTO_TEST_CASE(path_stands_still_only_if_it_never_moves) {

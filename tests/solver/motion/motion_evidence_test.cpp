@@ -29,10 +29,7 @@ EquationOfMotion oscillator() {
 }
 
 TransientHistory run(const EquationOfMotion& equation, const TimeScheme& scheme = {}) {
-  TransientOptions options;
-  options.end = 2;
-  options.step = 0.02;
-  options.scheme = scheme;
+  TransientOptions options{.end = 2, .step = 0.02, .scheme = scheme};
   options.v0 = VectorXd::Constant(1, 0.3);
   return solve_transient(equation, options);
 }

@@ -32,6 +32,13 @@ inline Member member(std::string name, Index first, Index second, const Section&
   return m;
 }
 
+/// A member of one element that is hinged at both ends.
+inline Member hinged(std::string name, Index first, Index second, const Section& section) {
+  Member m = member(std::move(name), first, second, section);
+  m.ends[0].fixity = m.ends[1].fixity = EndFixity::hinged;
+  return m;
+}
+
 inline Support clamp(Index node) {
   return {"", node, {true, true, true}};
 }

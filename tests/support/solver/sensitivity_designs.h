@@ -22,11 +22,7 @@ inline DesignParameter one_length(std::size_t limb, bool is_proximal) {
 }
 
 inline ManipulatorDesign coarse_design(Index elements = 2) {
-  ManipulatorDesign design = table_1_design();
-  for (std::size_t i = 0; i < 3; ++i) {
-    design.proximal[i].elements = design.distal[i].elements = elements;
-  }
-  return design;
+  return with_elements(elements, PlatformKind::triangles);
 }
 
 /// A pose well inside the reach, where no limb is nearly straight or folded.

@@ -54,6 +54,16 @@ inline ManipulatorDesign table_1_design() {
   return design;
 }
 
+/// The same with this many elements in each link.
+inline ManipulatorDesign with_elements(Index elements,
+                                       PlatformKind platform = PlatformKind::rigid) {
+  ManipulatorDesign design = table_1_design();
+  design.platform.kind = platform;
+  for (auto* links : {&design.proximal, &design.distal})
+    for (LinkDesign& link : *links) link.elements = elements;
+  return design;
+}
+
 /// Unequal links with centers of mass off the middle, P off the platform's center of mass.
 inline RigidManipulator uneven_bodies() {
   RigidManipulator m;
