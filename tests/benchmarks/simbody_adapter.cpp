@@ -66,6 +66,16 @@ struct System {
     }
   }
 
+  void add_weight(const Json& model) {
+    const Json g = model.value("gravity_m_s2", Json{0, 0});
+    if (g.is_array() && point(g).norm() > 0) SimTK::Force::UniformGravity(forces, matter, point(g));
+  }
+  void add_load(const Json& load, const Place& place) {
+    SimTK::Force::ConstantForce(forces, place.body, place.station,
+                                point(load.value("force_N", Json{0, 0})));
+    SimTK::Force::ConstantTorque(forces, place.body, Vec3(0, 0, load.value("moment_N_m", 0.0)));
+  }
+
   MobilizedBody turning(const SimTK::Body& body, const Vec3& in_ground) {
     return MobilizedBody::Pin(matter.Ground(), in_ground, body, Vec3(0));
   }
@@ -157,8 +167,7 @@ struct Mechanism : System {
   }
 
   void add_forces(const Json& model) {
-    const Json g = model.value("gravity_m_s2", Json{0, 0});
-    if (point(g).norm() > 0) SimTK::Force::UniformGravity(forces, matter, point(g));
+    add_weight(model);
     for (const auto& item : section(model, "axial_springs").items()) {
       const Json& spring = item.value();
       refuse(spring, {"nodes", "stiffness_N_per_m", "rest_length_m"}, "spring with");
@@ -172,10 +181,7 @@ struct Mechanism : System {
       const Json& load = item.value();
       refuse(load, {"node", "force_N", "moment_N_m"}, "load with");
       const Place& place = places.at(load.at("node"));
-      if (place.body.isGround()) continue;
-      SimTK::Force::ConstantForce(forces, place.body, place.station,
-                                  point(load.value("force_N", Json{0, 0})));
-      SimTK::Force::ConstantTorque(forces, place.body, Vec3(0, 0, load.value("moment_N_m", 0.0)));
+      if (!place.body.isGround()) add_load(load, place);
     }
   }
 
@@ -202,14 +208,18 @@ struct Mechanism : System {
 
 using Answer = std::map<std::string, std::vector<double>>;
 
+/// Appends the components along x and y of a quantity: `head` + "x" + `tail`.
+void keep_plane(Answer& answer, const std::string& head, const std::string& tail, const Vec3& v) {
+  answer[head + "x" + tail].push_back(v[0]);
+  answer[head + "y" + tail].push_back(v[1]);
+}
+
 void keep(const Mechanism& mechanism, const Json& angles, const State& state, Answer& answer) {
   for (const auto& [name, place] : mechanism.places) {
-    const Vec3 p = place.body.findStationLocationInGround(state, place.station);
-    const Vec3 v = place.body.findStationVelocityInGround(state, place.station);
-    answer["position_x_m:" + name].push_back(p[0]);
-    answer["position_y_m:" + name].push_back(p[1]);
-    answer["velocity_x_m_per_s:" + name].push_back(v[0]);
-    answer["velocity_y_m_per_s:" + name].push_back(v[1]);
+    keep_plane(answer, "position_", "_m:" + name,
+               place.body.findStationLocationInGround(state, place.station));
+    keep_plane(answer, "velocity_", "_m_per_s:" + name,
+               place.body.findStationVelocityInGround(state, place.station));
   }
   for (const auto& item : angles.items()) {
     const MobilizedBody& body = mechanism.places.at(item.value().at("node")).body;
@@ -289,11 +299,6 @@ struct Manipulator : System {
   }
 };
 
-void lock(const std::vector<MobilizedBody>& bodies, State& state,
-          const std::vector<SimTK::Vector>& to, Motion::Level level) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].lockAt(state, to[i], level);
-}
-
 SimTK::Vector planar(const Json& row) {  // Simbody's order: the angle first
   SimTK::Vector v(3);
   v[0] = row[2].get<double>();
@@ -306,17 +311,17 @@ SimTK::Vector planar(const Json& row) {  // Simbody's order: the angle first
 void follow(Manipulator& m, const Json& path, std::size_t i, const SimTK::Vector& q0,
             State& state) {
   const MobilizedBody platform = m.bodies["platform"];
-  lock({platform}, state, {SimTK::Vector(planar(path["pose_m_rad"][i]) - q0)}, Motion::Position);
+  platform.lockAt(state, SimTK::Vector(planar(path["pose_m_rad"][i]) - q0), Motion::Position);
   m.system.realize(state, SimTK::Stage::Time);
   m.system.prescribe(state);
   m.system.projectQ(state, 1e-13);
   platform.unlock(state);
-  lock({platform}, state, {planar(path["velocity_per_s"][i])}, Motion::Velocity);
+  platform.lockAt(state, planar(path["velocity_per_s"][i]), Motion::Velocity);
   m.system.realize(state, SimTK::Stage::Position);
   m.system.prescribe(state);
   m.system.projectU(state, 1e-13);
   platform.unlock(state);
-  lock({platform}, state, {planar(path["acceleration_per_s2"][i])}, Motion::Acceleration);
+  platform.lockAt(state, planar(path["acceleration_per_s2"][i]), Motion::Acceleration);
   m.system.realize(state, SimTK::Stage::Acceleration);
 }
 
@@ -334,15 +339,11 @@ void keep_motion(const Manipulator& m, const State& state, Answer& answer) {
           body.getBodyAngularAcceleration(state)[2]);
     }
     const Vec3& at = m.centers.at(name);
-    const Vec3 p = body.findStationLocationInGround(state, at),
-               v = body.findStationVelocityInGround(state, at),
-               a = body.findStationAccelerationInGround(state, at);
-    for (const int k : {0, 1}) {
-      const std::string axis = k == 0 ? "x" : "y";
-      answer["center_" + axis + "_m:" + name].push_back(p[k]);
-      answer["center_velocity_" + axis + "_m_per_s:" + name].push_back(v[k]);
-      answer["center_acceleration_" + axis + "_m_per_s2:" + name].push_back(a[k]);
-    }
+    keep_plane(answer, "center_", "_m:" + name, body.findStationLocationInGround(state, at));
+    keep_plane(answer, "center_velocity_", "_m_per_s:" + name,
+               body.findStationVelocityInGround(state, at));
+    keep_plane(answer, "center_acceleration_", "_m_per_s2:" + name,
+               body.findStationAccelerationInGround(state, at));
   }
   answer["kinetic_energy_J"].push_back(m.system.calcKineticEnergy(state));
 }
@@ -356,7 +357,8 @@ void keep_torques(Manipulator& m, State& state, Answer& answer) {
     accelerations.push_back(active.back().getUDotAsVector(state));
   }
   m.bodies["platform"].unlock(state);
-  lock(active, state, accelerations, Motion::Acceleration);
+  for (std::size_t i = 0; i < 3; ++i)
+    active[i].lockAt(state, accelerations[i], Motion::Acceleration);
   m.system.realize(state, SimTK::Stage::Acceleration);
   SimTK::Vector torques;
   m.matter.findMotionForces(state, torques);
@@ -371,17 +373,12 @@ void keep_torques(Manipulator& m, State& state, Answer& answer) {
 }
 
 void load(Manipulator& m, const Json& model) {
-  const Json g = model.value("gravity_m_s2", Json{0, 0});
-  if (g.is_array() && point(g).norm() > 0)
-    SimTK::Force::UniformGravity(m.forces, m.matter, point(g));
+  m.add_weight(model);
   for (const auto& item : section(model, "loads").items()) {
     if (item.value().is_null()) continue;
     refuse(item.value(), {"node", "force_N", "moment_N_m"}, "load with");
     if (item.value().at("node") != "P") throw Cannot("no loads but on P");
-    SimTK::Force::ConstantForce(m.forces, m.bodies["platform"], Vec3(0),
-                                point(item.value().value("force_N", Json{0, 0})));
-    SimTK::Force::ConstantTorque(m.forces, m.bodies["platform"],
-                                 Vec3(0, 0, item.value().value("moment_N_m", 0.0)));
+    m.add_load(item.value(), {m.bodies["platform"], Vec3(0)});
   }
 }
 
@@ -411,13 +408,10 @@ Answer driven(const Json& model, const Json& mechanism, const Json& options) {
     while (integrator.getTime() < time.get<double>()) integrator.stepTo(time.get<double>());
     const State& now = integrator.getState();
     m.system.realize(now, SimTK::Stage::Velocity);
-    const Vec3 p = platform.getBodyOriginLocation(now), v = platform.getBodyOriginVelocity(now);
-    answer["motion_x_m"].push_back(p[0]);
-    answer["motion_y_m"].push_back(p[1]);
+    keep_plane(answer, "motion_", "_m", platform.getBodyOriginLocation(now));
     answer["motion_phi_rad"].push_back(path["pose_m_rad"][0][2].get<double>() +
                                        turn(platform, now));
-    answer["motion_velocity_x_m_per_s"].push_back(v[0]);
-    answer["motion_velocity_y_m_per_s"].push_back(v[1]);
+    keep_plane(answer, "motion_velocity_", "_m_per_s", platform.getBodyOriginVelocity(now));
     answer["motion_velocity_phi_rad_per_s"].push_back(rate(platform, now));
     answer["kinetic_energy_J"].push_back(m.system.calcKineticEnergy(now));
   }

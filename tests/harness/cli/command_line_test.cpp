@@ -248,28 +248,17 @@ BOOST_AUTO_TEST_CASE(own_robot_is_run_with_a_reference_next_to_it) {
   robot["platform"]["vertices_m"] = {{-0.1, -0.05}, {0.12, -0.06}, {0, 0.11}};
   robot["working_mode"] = {1, -1, 1};
   json["model"]["pose"] = {{"x_m", 0.22}, {"y_m", 0.2}, {"phi_rad", 0.2}};
-  json["checks"]["first"] = {
-      {"quantity", "frequency_Hz"},
-      {"index", 0},
-      {"reference", "measured"},
-      {"reference_index", 0},
-      {"role", "validation"},
-      {"expect", {{"agrees", "a rough bench"}, {"ratio_between", {0.1, 10}}}}};
+  json["checks"]["first"] = Json::parse(R"({
+    "quantity": "frequency_Hz", "index": 0, "reference": "measured", "reference_index": 0,
+    "role": "validation", "expect": {"agrees": "a rough bench", "ratio_between": [0.1, 10]}})");
   (void)folder.write(json);
-  folder.write_reference({{"id", "measured"},
-                          {"title", "Measured"},
-                          {"kind", "paper"},
-                          {"unit", "Hz"},
-                          {"values", {12}},
-                          {"uncertainty", {{"absolute", 1}}},
-                          {"source", "my bench"},
-                          {"place", "run 1"}});
+  folder.write_reference("measured", "Hz", 12, {{"absolute", 1}});
   const Outcome outcome = run(folder, "run robot.json --out here/results");
   BOOST_TEST(outcome.status == 0, outcome.err);
   const Json results = read_json(folder.path() / "here/results/results.json");
   const auto fault = find_schema_fault(results, "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
-  BOOST_TEST(results["citations"][0] == "my bench");
+  BOOST_TEST(results["citations"][0] == "me");
   BOOST_TEST(results["runs"][0]["checks"][0]["verdict"] == "pass");
 }
 
@@ -451,10 +440,8 @@ BOOST_AUTO_TEST_CASE(comparison_is_a_page_of_one_file) {
   const Folder folder;
   Json json = judged(101);
   json["variants"]["soft"]["model"]["materials"]["steel"]["E_Pa"] = 1e11;
-  json["figures"]["twice"] = {{"title", "Tip"},
-                              {"caption", "Tip."},
-                              {"x", "displacement_x_m:B"},
-                              {"y", {"displacement_y_m:B"}}};
+  json["figures"]["twice"] = Json::parse(R"({
+    "title": "Tip", "caption": "Tip.", "x": "displacement_x_m:B", "y": ["displacement_y_m:B"]})");
   (void)folder.write(json);
   const Outcome outcome = run(folder, "compare cantilever.json --html out/page.html");
   BOOST_TEST(outcome.status == 0, outcome.err);

@@ -17,14 +17,7 @@ namespace {
 std::vector<std::string> evidence(const Json& check, const std::string& feature,
                                   const Json& analysis = {}) {
   const Folder folder;
-  folder.write_reference({{"id", "truth"},
-                          {"title", "Truth"},
-                          {"kind", "paper"},
-                          {"unit", "m"},
-                          {"values", {1}},
-                          {"source", "me"},
-                          {"uncertainty", {{"absolute", 0}}},
-                          {"place", "here"}});
+  folder.write_reference("truth", "m", 1, {{"absolute", 0}});
   Json json = testing::cantilever();
   json["checks"] = {{"c", check}};
   if (!analysis.is_null()) json["analysis"] = analysis;
@@ -88,12 +81,10 @@ BOOST_AUTO_TEST_CASE(bounds_and_discrepancies_are_no_independent_evidence) {
 }
 
 BOOST_AUTO_TEST_CASE(error_of_a_study_counts_as_its_reference) {
-  const Json study = {{"analysis", {{"statics", Json::object()}}},
-                      {"pointers", {"/model/elements"}},
-                      {"values", {1, 2}},
-                      {"quantities",
-                       {{"displacement_y_m:B", {{"reference", "truth"}}},
-                        {"displacement_x_m:B", {{"relative_to", "last"}}}}}};
+  const Json study = Json::parse(R"({
+    "analysis": {"statics": {}}, "pointers": ["/model/elements"], "values": [1, 2],
+    "quantities": {"displacement_y_m:B": {"reference": "truth"},
+                   "displacement_x_m:B": {"relative_to": "last"}}})");
   Json check = {{"quantity", "relative_error:displacement_y_m:B"},
                 {"role", "verification"},
                 {"bound", {{"at_most", 1}, {"why", "w"}}}};

@@ -12,22 +12,11 @@ namespace {
 
 /// The manipulator of Table 1 with a rigid platform, two poses of which make a path.
 Json motion(const Json& trajectory) {
-  Json json = Json::parse(R"({
-    "id": "motion", "title": "A motion",
-    "model": {
-      "manipulator": {
-        "base_side_m": 0.5,
-        "links": {"proximal_length_m": 0.2, "distal_length_m": 0.2, "thickness_m": 0.0015,
-                  "width_m": 0.03, "elements": 1},
-        "platform": {"kind": "rigid", "side_m": 0.2, "thickness_m": 0.0015},
-        "material": {"E_Pa": 6.9e10, "rho_kg_m3": 2700, "nu": 0.33},
-        "joints": {"active": "locked", "elbow": "welded", "platform": "hinged"},
-        "working_mode": [-1, -1, -1]
-      },
-      "loads": {"F": {"node": "P", "force_N": [1, 0]}}
-    },
-    "analysis": {"elastodynamics": {"step_s": 0.001, "initial_state": "quasi-static"}}
-  })");
+  Json json = testing::manipulator();
+  json["model"].erase("pose");
+  json["model"]["manipulator"]["links"]["elements"] = 1;
+  json["model"]["loads"]["P"]["force_N"] = {1, 0};
+  json["analysis"] = {{"elastodynamics", {{"step_s", 0.001}, {"initial_state", "quasi-static"}}}};
   json["model"]["trajectory"] = trajectory;
   return json;
 }

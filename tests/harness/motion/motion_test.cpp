@@ -33,12 +33,9 @@ Json oscillator() {
 
 Json harmonic() {
   Json json = oscillator();
-  json["analysis"] = {{"harmonic",
-                       {{"from_Hz", 1},
-                        {"to_Hz", 2},
-                        {"points", 11},
-                        {"damping", {{"modal", {{"ratio", 0.05}, {"modes", 1}}}}},
-                        {"outputs", {"displacement_x_m:P"}}}}};
+  json["analysis"] = Json::parse(
+      R"({"harmonic": {"from_Hz": 1, "to_Hz": 2, "points": 11, "outputs": ["displacement_x_m:P"],
+                       "damping": {"modal": {"ratio": 0.05, "modes": 1}}}})");
   return json;
 }
 

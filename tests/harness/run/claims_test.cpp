@@ -17,16 +17,10 @@ namespace {
 
 Document claims_of(const Json& readings, const std::string& expected,
                    const std::string& together = "parts") {
-  const Json json = {{"title", "A paper"},
-                     {"source", "someone-2020"},
-                     {"claims",
-                      {{"1",
-                        {{"claim", "It holds."},
-                         {"place", "Page 1"},
-                         {"interpretations", readings},
-                         {"combine_as", together},
-                         {"expected", expected},
-                         {"conclusion", "So it is."}}}}}};
+  Json json = Json::parse(R"({"title": "A paper", "source": "someone-2020", "claims": {"1": {
+    "claim": "It holds.", "place": "Page 1", "conclusion": "So it is."}}})");
+  json["claims"]["1"].update(
+      {{"interpretations", readings}, {"combine_as", together}, {"expected", expected}});
   Document document;
   document.apply_patch("claims.json", "", json);
   document.validate("claims");
@@ -62,6 +56,10 @@ const Json ratio = {{"description", "tip over target"},
                     {"metric", "ratio"},
                     {"confirms", {0.9, 1.1}},
                     {"contradicts", {1.5, nullptr}}};
+
+const Json grows = {{"description", "growth"},    {"case", "bend"},
+                    {"quantity", "frequency_Hz"}, {"metric", "steps"},
+                    {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
 
 std::string verdict(const Document& document, const std::vector<Run>& runs) {
   return evaluate_claims(document, runs).claims.at(0).verdict;
@@ -164,9 +162,6 @@ BOOST_AUTO_TEST_CASE(what_confirms_may_be_all_that_does_not_contradict) {
 }
 
 BOOST_AUTO_TEST_CASE(steps_of_a_quantity_say_whether_it_grows) {
-  const Json grows = {{"description", "growth"},    {"case", "bend"},
-                      {"quantity", "frequency_Hz"}, {"metric", "steps"},
-                      {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
   const results::Claims found =
       evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {bend(1, 1)});
   const results::ClaimInterpretation& reading = found.claims[0].interpretations[0];
@@ -178,12 +173,11 @@ BOOST_AUTO_TEST_CASE(steps_of_a_quantity_say_whether_it_grows) {
 }
 
 BOOST_AUTO_TEST_CASE(quantity_that_is_no_number_leaves_its_claim_unmeasured) {
-  const Json grows = {{"description", "growth"},    {"case", "bend"},
-                      {"quantity", "frequency_Hz"}, {"metric", "value"},
-                      {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
+  Json value = grows;
+  value["metric"] = "value";
   Run run = bend(1, 1);
   run.quantities["frequency_Hz"] = {{1, std::nan(""), 2}, {}};
-  const results::Claims found = evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {run});
+  const results::Claims found = evaluate_claims(claims_of({{"g", value}}, "confirmed"), {run});
   BOOST_TEST((found.claims[0].verdict == "not measured"));
   BOOST_TEST(found.claims[0].interpretations[0].entries.size() == 2U);
   for (const results::ClaimEntry& entry : found.claims[0].interpretations[0].entries) {

@@ -25,14 +25,7 @@ std::vector<fs::path> entries(const fs::path& store) {
 
 /// A cantilever and variants of it, one with a reference beside the case.
 Json cases(const Folder& folder, double reference_N) {
-  folder.write_reference({{"id", "load"},
-                          {"title", "Load"},
-                          {"kind", "computed"},
-                          {"unit", "N"},
-                          {"values", {reference_N}},
-                          {"uncertainty", {{"absolute", 0}}},
-                          {"source", "me"},
-                          {"place", "here"}});
+  folder.write_reference("load", "N", reference_N, {{"absolute", 0}}, "computed");
   Json json = testing::cantilever();
   json["variants"]["long"]["model"]["nodes"]["B"] = {3, 0};
   json["variants"]["unsupported"]["model"]["supports"] = {{"A", {"x", "y"}}};
@@ -143,12 +136,8 @@ BOOST_AUTO_TEST_CASE(a_case_that_options_try_decides_their_name) {
   const Folder folder;
   Json tried = testing::cantilever();
   tried["id"] = "tried";
-  const Json options = {
-      {"id", "options"},
-      {"title", "t"},
-      {"analysis",
-       {{"options",
-         {{"cases", {{"tried", Json::object()}}}, {"analyses", {{"statics", Json::object()}}}}}}}};
+  const Json options = Json::parse(R"({"id": "options", "title": "t", "analysis": {
+    "options": {"cases": {"tried": {}}, "analyses": {"statics": {}}}}})");
   const auto name = [&] {
     (void)folder.write(tried);
     return computation_name(load_case(folder.write(options)).document, true);

@@ -13,8 +13,7 @@ using namespace trammel::testing;
 namespace {
 
 CaseModel case_model_of(const Json& json) {
-  const Folder folder;
-  return read_case_model(patched(testing::read(folder, json), "base"));
+  return read_case_model(document_of(json));
 }
 
 }  // namespace

@@ -156,13 +156,10 @@ BOOST_AUTO_TEST_CASE(a_velocity_outside_the_reduced_basis_is_told) {
   json["model"]["loads"] = Json::object();
   json["model"]["elements"] = 64;
   json["checks"] = Json::object();
-  json["analysis"] = {{"transient",
-                       {{"duration_s", 0.01},
-                        {"step_s", 0.001},
-                        {"method", "modal-superposition"},
-                        {"initial_state", {{"velocity_m_per_s", {0, -1}}}},
-                        {"reduction", {{"modes", 1}}},
-                        {"outputs", {"velocity_y_m_per_s:B"}}}}};
+  json["analysis"] = Json::parse(R"({"transient": {
+    "duration_s": 0.01, "step_s": 0.001, "method": "modal-superposition",
+    "initial_state": {"velocity_m_per_s": [0, -1]}, "reduction": {"modes": 1},
+    "outputs": ["velocity_y_m_per_s:B"]}})");
   BOOST_TEST(warns(result_of(json), "outside the reduced basis is 0.61"));
   json["analysis"]["transient"].erase("reduction");
   BOOST_TEST(!warns(result_of(json), "outside the reduced basis"));

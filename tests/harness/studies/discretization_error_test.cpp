@@ -13,6 +13,7 @@ using namespace trammel::harness;
 using testing::cantilever;
 using testing::complaint;
 using testing::contains;
+using testing::document_of;
 using testing::Folder;
 
 namespace {
@@ -31,11 +32,6 @@ struct Estimated {
     return result.quantities.at(quantity).values;
   }
 };
-
-Document document_of(const Json& json) {
-  const Folder folder;
-  return patched(load_case(folder.write(json)), kBaseVariant);
-}
 
 Estimated estimated(const Json& json) {
   const References references;
@@ -72,11 +68,8 @@ Json with_links(Json json, int elements) {
 
 Json vibrating_cantilever() {
   Json json = cantilever();
-  json["analysis"] = {{"transient",
-                       {{"duration_s", 0.1},
-                        {"step_s", 1e-3},
-                        {"samples", 50},
-                        {"outputs", {"displacement_y_m:B"}}}}};
+  json["analysis"] = Json::parse(R"({"transient": {"duration_s": 0.1, "step_s": 1e-3,
+    "samples": 50, "outputs": ["displacement_y_m:B"]}})");
   return json;
 }
 

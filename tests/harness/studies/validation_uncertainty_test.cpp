@@ -20,30 +20,17 @@ namespace {
 /// First frequency of a steel cantilever, exact. It goes with depth, sqrt(E) and 1 / length^2.
 const double kExact = 3.5160152685 * std::sqrt(2e11 / 7800 / 12) * 0.1 / 4 / (2 * std::acos(-1.0));
 
-void write_reference(const Folder& folder, const std::string& id, const char* unit, double value,
-                     double uncertainty) {
-  folder.write_reference({{"id", id},
-                          {"title", id},
-                          {"kind", "code"},
-                          {"unit", unit},
-                          {"values", {value}},
-                          {"uncertainty", {{"absolute", uncertainty}}},
-                          {"source", "me"},
-                          {"place", "here"}});
-}
-
 /// Depth 0.1 m within 1 mm, E within 1 %, a nominal length of 2 m within 0.5 m; the printed
 /// frequency is off by `off`.
 Json beam(const Folder& folder, double off) {
-  write_reference(folder, "printed", "Hz", kExact * (1 - off), 0.05);
-  write_reference(folder, "other", "Hz", kExact * (1 - off) + 3, 0.05);
-  write_reference(folder, "depth", "m", 0.1, 1e-3);
+  folder.write_reference("printed", "Hz", kExact * (1 - off), {{"absolute", 0.05}}, "code");
+  folder.write_reference("other", "Hz", kExact * (1 - off) + 3, {{"absolute", 0.05}}, "code");
+  folder.write_reference("depth", "m", 0.1, {{"absolute", 1e-3}}, "code");
   Json json = testing::cantilever();
   json["analysis"] = {{"modes", {{"count", 1}}}};
-  json["checks"]["printed"] = {
-      {"quantity", "frequency_Hz"}, {"reference", "printed"}, {"role", "validation"}};
-  json["checks"]["other"] = {
-      {"quantity", "frequency_Hz"}, {"reference", "other"}, {"role", "validation"}};
+  for (const char* name : {"printed", "other"})
+    json["checks"][name] = {
+        {"quantity", "frequency_Hz"}, {"reference", name}, {"role", "validation"}};
   json["uncertainty"] = Json::parse(R"({
     "inputs": {
       "depth": {"pointers": ["/model/sections/bar/rectangle/thickness_m"], "reference": "depth"},

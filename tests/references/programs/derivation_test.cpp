@@ -128,16 +128,10 @@ BOOST_AUTO_TEST_CASE(a_corrupted_length_or_a_not_a_number_never_holds) {
 }
 
 BOOST_AUTO_TEST_CASE(an_error_inside_a_derivation_points_into_the_file) {
-  const Json reference = {
-      {"title", "x"},
-      {"kind", "exact"},
-      {"unit", "1"},
-      {"source", "x"},
-      {"place", "x"},
-      {"values", {1}},
-      {"uncertainty", {{"relative", 0}}},
-      {"derivation",
-       {{"program", "beam-roots"}, {"arguments", {{"ends", "glued"}, {"count", 1}}}}}};
+  const Json reference = Json::parse(R"({
+    "title": "x", "kind": "exact", "unit": "1", "source": "x", "place": "x", "values": [1],
+    "uncertainty": {"relative": 0}, "derivation": {
+      "program": "beam-roots", "arguments": {"ends": "glued", "count": 1}}})");
   try {
     static_cast<void>(compare_with_derivation(reference, "x.json", "x"));
     BOOST_TEST(false, "accepted");

@@ -38,14 +38,17 @@ Run field(int columns, int rows) {
   return run;
 }
 
+PlotRequest request(const char* id, const std::string& value) {
+  PlotRequest made;
+  made.id = made.title = id;
+  made.x = "position_x_m";
+  made.y = {"position_y_m"};
+  made.value = value;
+  return made;
+}
+
 std::optional<Figure> draw(const Run& run, std::string& problem) {
-  PlotRequest request;
-  request.id = "map";
-  request.title = "A map";
-  request.x = "position_x_m";
-  request.y = {"position_y_m"};
-  request.value = "frequency_Hz";
-  return map_figure(workspace(), request, {&run}, problem);
+  return map_figure(workspace(), request("map", "frequency_Hz"), {&run}, problem);
 }
 
 }  // namespace
@@ -86,14 +89,8 @@ BOOST_AUTO_TEST_CASE(maps_of_one_quantity_have_one_scale) {
   run.quantities.erase("frequency_Hz");
   for (double& number : hot) number += 100;
   CaseInfo info = workspace();
-  for (const char* name : {"cold", "hot"}) {
-    PlotRequest request;
-    request.id = name;
-    request.x = "position_x_m";
-    request.y = {"position_y_m"};
-    request.value = std::string("frequency_Hz:") + name;
-    info.figures.push_back(request);
-  }
+  for (const char* name : {"cold", "hot"})
+    info.figures.push_back(request(name, std::string("frequency_Hz:") + name));
   std::string problem;
   const auto cold = map_figure(info, info.figures[0], {&run}, problem);
   const auto high = map_figure(info, info.figures[1], {&run}, problem);

@@ -199,35 +199,23 @@ BOOST_AUTO_TEST_CASE(summary_counts_the_checks_by_verdict) {
 
 BOOST_AUTO_TEST_CASE(claims_are_shown_with_verdict_and_evidence) {
   Results results = sample_of("vpcs-sdll02");
+  const auto claim = [](const char* id, const char* words, const char* verdict,
+                        const char* expected, const char* undecidable,
+                        const std::vector<ClaimInterpretation>& readings) {
+    return Claim{id,          words,   "Abstract", verdict, expected, "This <b>follows</b>.",
+                 undecidable, readings};
+  };
   const ClaimEntry low{"vpcs-sdll02", "base", "exact", 1},
       high{"vpcs-sdll02", "base", "exact", 1.5};
-  const char* conclusion = "This <b>follows</b>.";
-  results.claims = Claims{"Three claims",
-                          false,
-                          {{"3",
-                            "Displacements are small.",
-                            "Abstract",
-                            "contradicted",
-                            "confirmed",
-                            conclusion,
-                            "",
-                            {{"flexible over rigid", "ratio", "1", "contradicts", {low, high}}}},
-                           {"7",
-                            "The sensitivity rises.",
-                            "Abstract",
-                            "not measured",
-                            "not measured",
-                            conclusion,
-                            "",
-                            {{"sensitivity", "relative", "1", "not measured", {}}}},
-                           {"10",
-                            "It matches.",
-                            "Abstract",
-                            "cannot be decided",
-                            "cannot be decided",
-                            conclusion,
-                            "Nothing is published.",
-                            {}}}};
+  const ClaimInterpretation ratio{"flexible over rigid", "ratio", "1", "contradicts", {low, high}},
+      relative{"sensitivity", "relative", "1", "not measured", {}};
+  const char* undecided = "cannot be decided";
+  results.claims =
+      Claims{"Three claims",
+             false,
+             {claim("3", "Displacements are small.", "contradicted", "confirmed", "", {ratio}),
+              claim("7", "The sensitivity rises.", "not measured", "not measured", "", {relative}),
+              claim("10", "It matches.", undecided, undecided, "Nothing is published.", {})}};
   const std::string text = all_pages_of(results);
   for (const char* part : {"3 claims: 1 contradicted, 1 cannot be decided, 1 not measured.",
                            "<strong>× 1 to × 1.5</strong>", "(expected: confirmed)",

@@ -13,12 +13,6 @@ using namespace references;
 using namespace solver;
 using namespace harness;
 
-/// A case as it stands, without the references that its checks may name.
-inline Document document_of(const Json& json) {
-  const Folder folder;
-  return patched(read(folder, json), "base");
-}
-
 inline AnalysisResult result_of(const Json& json) {
   const References references;
   return analyse(document_of(json), references, {});

@@ -49,6 +49,18 @@ class Folder {
   [[nodiscard]] std::filesystem::path write(const Json& json) const {
     return write(json.at("id").get<std::string>() + ".json", json.dump(1));
   }
+  /// Adds a reference with one value to those next to the cases.
+  void write_reference(const std::string& id, const char* unit, double value,
+                       const Json& uncertainty, const char* kind = "paper") const {
+    write_reference({{"id", id},
+                     {"title", id},
+                     {"kind", kind},
+                     {"unit", unit},
+                     {"source", "me"},
+                     {"values", {value}},
+                     {"uncertainty", uncertainty},
+                     {"place", "here"}});
+  }
   /// Adds a reference to those next to the cases.
   void write_reference(Json reference) const {
     const std::filesystem::path file = path_ / "references.json";
@@ -100,11 +112,8 @@ inline Json endless() {
   Json json = cantilever();
   json["id"] = "endless";
   json["model"]["elements"] = 40;
-  json["analysis"] = {{"transient",
-                       {{"duration_s", 1000},
-                        {"step_s", 1e-4},
-                        {"samples", 10},
-                        {"outputs", {"displacement_y_m:B"}}}}};
+  json["analysis"] = Json::parse(R"({"transient": {"duration_s": 1000, "step_s": 1e-4,
+    "samples": 10, "outputs": ["displacement_y_m:B"]}})");
   return json;
 }
 
@@ -179,6 +188,12 @@ inline Json slider_crank() {
 /// A case of that JSON, as if it stood in `folder`.
 inline Case read(const Folder& folder, const Json& json) {
   return load_case(folder.write(json));
+}
+
+/// A case as it stands, without the references that its checks may name.
+inline Document document_of(const Json& json) {
+  const Folder folder;
+  return patched(read(folder, json), kBaseVariant);
 }
 
 }  // namespace trammel::testing
