@@ -156,7 +156,7 @@ std::vector<std::string> code() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_room_includes_only_rooms_above_it_in_the_table) {
+BOOST_AUTO_TEST_CASE(room_includes_only_rooms_above_it_in_the_table) {
   BOOST_TEST(rooms().order.size() > 20U);
   std::set<std::string> above;
   for (const std::string& room : rooms().order) {
@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(no_room_holds_too_many_files) {
     BOOST_TEST(count <= kFilesInRoom, room << " holds " << count << " files");
 }
 
-BOOST_AUTO_TEST_CASE(the_readme_of_a_folder_names_its_rooms_and_their_arrows) {
+BOOST_AUTO_TEST_CASE(folder_readme_lists_its_rooms_and_their_arrows) {
   for (const std::string& top : rooms().tops()) {
     std::map<std::string, std::string> told;
     for (const Cells& cells : table(kRoot / top / "README.md", "| room |"))
@@ -221,7 +221,7 @@ BOOST_AUTO_TEST_CASE(the_readme_of_a_folder_names_its_rooms_and_their_arrows) {
 }
 
 // The linker takes either for both, and memory is overwritten.
-BOOST_AUTO_TEST_CASE(no_two_types_of_a_namespace_have_one_name) {
+BOOST_AUTO_TEST_CASE(types_of_a_namespace_have_unique_names) {
   static const std::regex space("^namespace (trammel\\S*) \\{"),
       type("^(struct|class|enum class) (\\w+)(<.*>)? (: .*)?\\{.*");
   std::map<std::string, std::string> first;
@@ -241,7 +241,7 @@ BOOST_AUTO_TEST_CASE(no_two_types_of_a_namespace_have_one_name) {
   BOOST_TEST(first.size() > 100U);
 }
 
-BOOST_AUTO_TEST_CASE(the_tests_mirror_the_rooms) {
+BOOST_AUTO_TEST_CASE(tests_mirror_the_rooms) {
   const std::set<std::string> tops = rooms().tops();
   for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests")) {
     if (!is_code(entry.path())) continue;
@@ -255,7 +255,7 @@ BOOST_AUTO_TEST_CASE(the_tests_mirror_the_rooms) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_readme_of_the_tests_names_their_folders) {
+BOOST_AUTO_TEST_CASE(readme_of_the_tests_lists_their_folders) {
   std::set<std::string> told, there;
   for (const Cells& cells : table(kRoot / "tests/README.md", "| folder |"))
     for (const std::string& name : names_in(cells.at(0))) told.insert(name);

@@ -70,7 +70,7 @@ void check(const std::string& what, long count, const nlohmann::json& entry) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(sizes_are_within_their_limits_and_limits_follow_them) {
+BOOST_AUTO_TEST_CASE(sizes_are_within_limits_that_follow_them) {
   const fs::path root = TRAMMEL_SOURCE_DIR;
   std::ifstream in(root / "tests/house/budgets.json");
   const nlohmann::json budgets = nlohmann::json::parse(in);

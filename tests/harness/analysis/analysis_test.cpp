@@ -39,14 +39,14 @@ BOOST_AUTO_TEST_CASE(fine_mesh_is_drawn_by_its_corners) {
   BOOST_TEST(fine.drawing->shapes.at(0).displacement.size() == 17U * 33);
 }
 
-BOOST_AUTO_TEST_CASE(section_without_outermost_fibre_has_no_stress) {
+BOOST_AUTO_TEST_CASE(section_without_outermost_fiber_has_no_stress) {
   Json json = testing::cantilever();
   json["model"]["sections"]["bar"] = {
       {"material", "steel"}, {"area_m2", 0.01}, {"second_moment_m4", 1e-6}};
   BOOST_TEST(result_of(json).quantities.count("stress_Pa:AB") == 0U);
 }
 
-BOOST_AUTO_TEST_CASE(quantities_along_a_path_have_one_number_a_point) {
+BOOST_AUTO_TEST_CASE(quantities_along_a_path_have_one_number_per_point) {
   for (const char* kind : {"statics", "kinematics"}) {
     Json json = on_a_circle(testing::manipulator(), 50);
     json["analysis"] = {{kind, Json::object()}};
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(quantities_along_a_path_have_one_number_a_point) {
   BOOST_TEST(modes.quantities.at("frequency_Hz:6").values.size() == 5);
 }
 
-BOOST_AUTO_TEST_CASE(largest_error_of_a_network_counts_downwards_too) {
+BOOST_AUTO_TEST_CASE(largest_network_error_includes_negative_errors) {
   Json json = on_a_circle(testing::manipulator(), 100);
   json["model"]["trajectory"]["circle"]["step_s"] = 0.0628;
   json["analysis"] = {{"grnn", {{"train", 60}, {"split", "first"}}}};

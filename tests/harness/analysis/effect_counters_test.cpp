@@ -40,7 +40,7 @@ void check_counters(const Document& document, const References& references) {
 
 /// Every case whose analysis knows effects, with every variant: as it stands, and with nothing that
 /// it can do without.
-BOOST_AUTO_TEST_CASE(what_is_off_is_never_evaluated_in_the_whole_catalogue) {
+BOOST_AUTO_TEST_CASE(inactive_effects_are_never_evaluated) {
   const References references;
   std::size_t runs = 0;
   for (const Case& given : Catalogue().load()) {

@@ -30,7 +30,7 @@ double tip(const AnalysisResult& result) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(effects_by_name_are_what_there_is) {
+BOOST_AUTO_TEST_CASE(named_effects_are_the_only_active_ones) {
   Json json = timoshenko_cantilever();
   const double whole = tip(result_of(json));
   json["effects"] = {"axial-flexibility"};
@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(automatic_effects_state_numbers_and_reasons) {
 }
 
 /// A study measures what closed-form numbers limit.
-BOOST_AUTO_TEST_CASE(a_study_measures_own_contributions) {
+BOOST_AUTO_TEST_CASE(effect_study_measures_each_contribution) {
   const Folder folder;
   const Document document = patched(testing::read(folder, timoshenko_cantilever()), "base");
   const EffectStudy study = study_effects(document, {0.01, 0});
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(effect_numbers_are_ratios_of_stiffness_and_inertia) {
 }
 
 /// Expensive effects of each scene; those that cost nothing may stay.
-BOOST_AUTO_TEST_CASE(each_scene_gets_the_expensive_effects_it_requires) {
+BOOST_AUTO_TEST_CASE(scenes_use_only_the_expensive_effects_they_require) {
   const std::map<std::string, std::string> expected = {
       {"scene-10-newton", "geometric-stiffening and large-displacement"},
       {"scene-buckling-on-the-way", "geometric-stiffening and large-displacement"},
@@ -174,7 +174,7 @@ BOOST_AUTO_TEST_CASE(columns_near_buckling_get_the_required_tier) {
 }
 
 /// Linear theory is off there by what statics finds along the same circle: the exact tier has it.
-BOOST_AUTO_TEST_CASE(a_slow_circle_under_10_N_gets_the_tier_that_holds_it) {
+BOOST_AUTO_TEST_CASE(slow_circle_under_10_N_uses_large_displacement) {
   const Case circle = load_named_case("scene-slow-circle");
   const EffectStudy study = study_effects(patched(circle, "ten-newton"), {0.01, 0});
   BOOST_TEST(study.within_tolerance());
@@ -200,7 +200,7 @@ BOOST_AUTO_TEST_CASE(sudden_start_keeps_stiff_parts) {
 }
 
 /// Fixed steps and driven actuators are what the exact tier takes along a path.
-BOOST_AUTO_TEST_CASE(a_motion_beyond_every_tier_says_so) {
+BOOST_AUTO_TEST_CASE(motion_beyond_every_tier_is_reported) {
   Document document = patched(load_named_case("scene-slow-circle"), "ten-newton");
   document.apply_patch(
       "test", "", {{"analysis", {{"elastodynamics", {{"error_control", {{"relative", 1e-6}}}}}}}});

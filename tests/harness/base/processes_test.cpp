@@ -42,7 +42,7 @@ std::map<std::size_t, ProcessOutcome> run_all(const std::vector<ProcessTask>& ta
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(what_ends_one_process_leaves_the_others_alone) {
+BOOST_AUTO_TEST_CASE(failed_process_does_not_affect_the_others) {
   const std::string large(1 << 20, 'x');
   const std::vector<ProcessTask> tasks = {{[&] { return large; }, 10},
                                           {[] { return end_by(SIGSEGV); }, 10},
@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(failed_fork_affects_its_own_task_only) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_signal_stops_what_is_under_way_and_what_is_left) {
+BOOST_AUTO_TEST_CASE(signal_stops_running_and_waiting_tasks) {
   for (const int asked : {SIGINT, SIGTERM}) {
     std::size_t answered = 0;
     const ProcessTask stop{[] { return std::string(); }, 10};
@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(a_signal_stops_what_is_under_way_and_what_is_left) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(each_process_knows_what_it_may_take_and_waiting_is_told) {
+BOOST_AUTO_TEST_CASE(process_knows_its_memory_and_waiting_is_reported) {
   int waited = 0;
   const auto outcomes =
       run_all({{[] { return std::to_string(memory_limit_bytes()); }, 10}, {loop, 2}},

@@ -15,7 +15,7 @@ BOOST_AUTO_TEST_CASE(quantiles_lie_between_the_sorted_values) {
   BOOST_TEST(quantile({7}, 0.75) == 7);
 }
 
-BOOST_AUTO_TEST_CASE(the_order_is_shuffled_anew_and_the_same_for_a_seed) {
+BOOST_AUTO_TEST_CASE(shuffled_order_is_reproducible_for_a_seed) {
   std::uint64_t a = 1, b = 1, c = 2;
   const auto first = shuffled(20, a), second = shuffled(20, a);
   BOOST_TEST((first != second));
@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_CASE(each_repeat_runs_all_tasks_before_the_next) {
   BOOST_TEST(after[0] == 3 * 2U + 3U);
 }
 
-BOOST_AUTO_TEST_CASE(a_short_work_is_repeated_until_the_clock_can_tell) {
+BOOST_AUTO_TEST_CASE(short_task_is_repeated_up_to_the_limit) {
   int calls = 0;
   TimingOptions options;
   options.shortest_s = 1;  // never reached by an empty work: as often as is allowed
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(a_short_work_is_repeated_until_the_clock_can_tell) {
   BOOST_TEST(calls == 7 * 1000 + 2);
 }
 
-BOOST_AUTO_TEST_CASE(what_slows_both_works_of_a_repeat_leaves_their_ratio) {
+BOOST_AUTO_TEST_CASE(common_slowdown_does_not_change_the_time_ratio) {
   Timing baseline, timing;
   baseline.cpu_s = {1, 5, 1, 2, 1, 9, 1};
   for (const double t : baseline.cpu_s) timing.cpu_s.push_back(3 * t);

@@ -305,7 +305,7 @@ BOOST_AUTO_TEST_CASE(lock_that_is_a_pipe_and_linked_store_are_refused) {
              "--out out: expected no link named 'store' (--store follows one)\n");
 }
 
-BOOST_AUTO_TEST_CASE(no_text_of_a_case_commands_the_terminal) {
+BOOST_AUTO_TEST_CASE(text_of_a_case_cannot_control_the_terminal) {
   const Folder folder;
   Json json = judged(101);
   json["title"] = "red \x1b[31m";
@@ -381,7 +381,7 @@ BOOST_AUTO_TEST_CASE(drawings_are_written_as_vtk_files) {
   BOOST_TEST(contains(name("poses-1.vtu"), "\n2 0 0\n"));  // node B
 }
 
-BOOST_AUTO_TEST_CASE(report_draws_its_history_and_counts_no_time_twice) {
+BOOST_AUTO_TEST_CASE(report_draws_history_without_counting_time_twice) {
   const Folder folder;
   (void)folder.write(judged(101));
   for (const char* words : {"report cantilever.json --out out --history h.db",
@@ -402,7 +402,7 @@ BOOST_AUTO_TEST_CASE(report_draws_its_history_and_counts_no_time_twice) {
       contains(read_text(folder.path() / "again/environment.html"), "<section id=\"history\">"));
 }
 
-BOOST_AUTO_TEST_CASE(data_folder_can_be_named) {
+BOOST_AUTO_TEST_CASE(data_folder_is_set_by_the_environment) {
   BOOST_TEST(run(files(), "run holds.json", "TRAMMEL_HOME='" TRAMMEL_SOURCE_DIR "'").status == 0);
 }
 

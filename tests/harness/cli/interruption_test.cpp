@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_SUITE(interruption)
 using namespace trammel;
 using namespace trammel::testing;
 
-BOOST_AUTO_TEST_CASE(ten_kills_lose_and_double_nothing) {
+BOOST_AUTO_TEST_CASE(ten_kills_lose_and_duplicate_nothing) {
   testing::interrupt_and_resume(10, 1);
 }
 
@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(killed_computation_affects_its_own_run_only) {
   BOOST_TEST(runs[1]["status"] == "solved");
 }
 
-BOOST_AUTO_TEST_CASE(a_signal_while_drawing_or_timing_says_how_to_go_on) {
+BOOST_AUTO_TEST_CASE(interrupted_command_explains_how_to_continue) {
   const Folder folder;
   Json json = testing::cantilever();
   json["sweeps"]["elements"] = {{"pointers", {"/model/elements"}},

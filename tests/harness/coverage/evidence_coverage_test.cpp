@@ -62,7 +62,7 @@ BOOST_AUTO_TEST_CASE(check_counts_for_quantity_and_features_of_the_model) {
   BOOST_TEST(evidence(printed_check(), "slider.rail").empty());
 }
 
-BOOST_AUTO_TEST_CASE(bounds_and_discrepancies_are_no_independent_evidence) {
+BOOST_AUTO_TEST_CASE(bounds_and_discrepancies_are_not_independent_evidence) {
   const char* feature = "model.supports";
   BOOST_TEST(evidence({{"quantity", "displacement_y_m:B"},
                        {"role", "verification"},
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(error_of_a_study_counts_as_its_reference) {
              boost::test_tools::per_element());
 }
 
-BOOST_AUTO_TEST_CASE(what_agrees_with_itself_alone_is_not_verified) {
+BOOST_AUTO_TEST_CASE(self_consistency_alone_is_not_verification) {
   results::CoverageRow row;
   BOOST_TEST(!row.is_verified());
   row.evidence = {"self-consistency"};
@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(what_agrees_with_itself_alone_is_not_verified) {
   BOOST_TEST(row.is_verified());
 }
 
-BOOST_AUTO_TEST_CASE(a_series_whose_check_fails_has_none) {
+BOOST_AUTO_TEST_CASE(series_with_a_failed_check_is_not_counted) {
   results::Results made;
   results::Run run;
   run.case_id = "a";

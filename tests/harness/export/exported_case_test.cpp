@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(tapers_arcs_and_edges_are_exported_to_round_off) {
               1e-12);
 }
 
-BOOST_AUTO_TEST_CASE(nothing_is_left_to_resolve) {
+BOOST_AUTO_TEST_CASE(exported_case_has_no_unresolved_keys) {
   const std::set<std::string> keys = {"extends", "variants", "manipulator", "pose",        "edges",
                                       "blocks",  "sweeps",   "end_section", "rectangle",   "circle",
                                       "checks",  "effects",  "taper",       "arc_center_m"};
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(nothing_is_left_to_resolve) {
     require_no_key(export_case(load_named_case(name), {}), keys);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_asked_is_what_the_exported_case_gives) {
+BOOST_AUTO_TEST_CASE(exported_quantities_are_those_of_the_exported_case) {
   for (const char* name : {"portal-frame", "manipulator-modes", "buckling-portal"}) {
     const ExportTwin twin = export_twin(load_named_case(name), {});
     BOOST_TEST(!twin.json["export"]["quantities"].empty());
@@ -127,14 +127,14 @@ BOOST_AUTO_TEST_CASE(what_is_asked_is_what_the_exported_case_gives) {
 
 // The variant has no check of its own: it was asked for nothing, and the base had nothing to be
 // compared with.
-BOOST_AUTO_TEST_CASE(a_variant_is_asked_for_what_others_compare_with_it) {
+BOOST_AUTO_TEST_CASE(variant_exports_quantities_that_others_compare) {
   const Case given = load_named_case("scene-thick-link-modes");
   const Json asked = export_case(given, {"whole"})["export"]["quantities"];
   BOOST_REQUIRE(asked.size() == 1);
   BOOST_TEST(asked[0]["name"] == "frequency_Hz");
 }
 
-BOOST_AUTO_TEST_CASE(exporting_what_was_exported_changes_nothing) {
+BOOST_AUTO_TEST_CASE(exporting_twice_changes_nothing) {
   const Folder folder;
   for (const char* name : {"manipulator-modes", "iftomm-a03-andrews", "cooks-membrane"}) {
     const Json once = export_case(load_named_case(name), {});
@@ -145,7 +145,7 @@ BOOST_AUTO_TEST_CASE(exporting_what_was_exported_changes_nothing) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_level_of_a_sweep_is_one_case) {
+BOOST_AUTO_TEST_CASE(sweep_level_is_exported_as_one_case) {
   const Case given = load_named_case("beam-cantilever");
   const std::size_t count = given.document.value()["sweeps"]["elements"]["values"].size();
   const Json finest = export_case(given, {"base", "elements", count - 1});
@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(a_level_of_a_sweep_is_one_case) {
   BOOST_TEST(contains(message({"base", "steps", 0}), "expected the name of a sweep (got 'steps'"));
 }
 
-BOOST_AUTO_TEST_CASE(what_a_case_file_cannot_say_is_refused_by_name) {
+BOOST_AUTO_TEST_CASE(inexpressible_parts_are_refused_by_name) {
   Json robot = manipulator();
   robot["model"]["manipulator"]["joints"]["platform"] = "eq25-mean";
   BOOST_TEST(contains(refusal_of(robot), "no words for its constraint 'eq25'"));
@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(what_a_case_file_cannot_say_is_refused_by_name) {
   BOOST_TEST(contains(refusal_of(ring), "'reaction_y_N:bottom' is of an edge"));
 }
 
-BOOST_AUTO_TEST_CASE(a_network_on_samples_of_its_own_needs_no_model) {
+BOOST_AUTO_TEST_CASE(network_with_its_own_samples_is_exported_without_model) {
   const ExportTwin twin = export_twin(load_named_case("grnn-example"), {});
   BOOST_TEST(twin.refused == "");
   BOOST_TEST(twin.difference == 0);
@@ -210,7 +210,7 @@ BOOST_AUTO_TEST_CASE(manipulator_on_a_path_is_bodies_joints_and_a_table) {
 }
 
 // The cantilever's tip under its force, by the matrices alone: u = T K^-1 f.
-BOOST_AUTO_TEST_CASE(the_matrices_are_those_of_the_case) {
+BOOST_AUTO_TEST_CASE(exported_matrices_solve_the_case) {
   const Folder folder;
   const Document document = document_of(cantilever());
   write_matrices(document, exported_scene(document), folder.path() / "m");

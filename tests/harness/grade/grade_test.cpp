@@ -166,7 +166,7 @@ BOOST_AUTO_TEST_CASE(changed_adapter_is_not_resumed) {
   BOOST_TEST(fs::exists(trace));
 }
 
-BOOST_AUTO_TEST_CASE(several_codes_stand_side_by_side_and_none_is_spared) {
+BOOST_AUTO_TEST_CASE(several_codes_are_compared_in_one_report) {
   const Folder folder;
   for (const char* id : {"is-off", "cannot", "dies"}) (void)folder.write(judged(id));
   const std::string names = "is-off.json cannot.json dies.json";
@@ -196,7 +196,7 @@ BOOST_AUTO_TEST_CASE(order_is_judged_by_the_declared_one) {
   BOOST_TEST(verdict(" 2 2 --no-level-converges") != "0 pass");  // numbers of no solution
 }
 
-BOOST_AUTO_TEST_CASE(the_adapter_in_the_documentation_works_as_it_stands) {
+BOOST_AUTO_TEST_CASE(documented_adapter_works_unchanged) {
   const Folder folder;
   const fs::path adapters = kSource / "harness/adapters";
   const std::string page = read_text(adapters / "README.md");

@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(valid_values_at_the_limits_are_accepted) {
   BOOST_TEST(!find_schema_fault(json, "case").has_value());
 }
 
-BOOST_AUTO_TEST_CASE(every_key_of_the_schemas_says_what_it_is) {
+BOOST_AUTO_TEST_CASE(every_key_of_the_schemas_has_a_description) {
   for (const char* name : {"adapter_result", "case", "cost", "reference", "results"}) {
     const Json text =
         read_json(data_root() / "cases" / "schema" / (std::string(name) + ".schema.json"));
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(every_key_of_the_schemas_says_what_it_is) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_schemas_use_only_what_is_checked) {
+BOOST_AUTO_TEST_CASE(schemas_use_only_implemented_keywords) {
   const std::string checked =
       " type enum minimum maximum exclusiveMinimum minLength pattern minItems maxItems uniqueItems "
       "items required anyOf properties description minProperties maxProperties $ref "

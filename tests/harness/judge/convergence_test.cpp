@@ -26,7 +26,7 @@ Convergence made_up(double p, double a, double b, std::size_t levels, double rou
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(the_order_of_a_power_is_that_power) {
+BOOST_AUTO_TEST_CASE(order_of_a_power_law_is_its_exponent) {
   for (const double p : {1.0, 2.0, 4.0}) {
     Convergence series = made_up(p, 0.1, 0, 6);
     for (const bool known : {false, true}) {
@@ -39,7 +39,7 @@ BOOST_AUTO_TEST_CASE(the_order_of_a_power_is_that_power) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_refinement_by_any_ratio_shows_its_order) {
+BOOST_AUTO_TEST_CASE(order_is_found_for_any_refinement_ratio) {
   Convergence series;
   for (const double n : {4.0, 5.0, 7.0, 12.0}) {
     series.parameter.push_back(n);
@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(next_term_limits_the_asymptotic_range) {
   BOOST_TEST(found.in_asymptotic_range[5]);
 }
 
-BOOST_AUTO_TEST_CASE(the_roundoff_floor_is_recognised_as_such) {
+BOOST_AUTO_TEST_CASE(round_off_floor_is_recognized) {
   Convergence series = made_up(4, 0.1, 0, 12, 1e-12);
   series.exact = 10;
   const Convergence found = analyse_convergence(series);
@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(the_roundoff_floor_is_recognised_as_such) {
   BOOST_TEST(std::abs(found.richardson.value() - 10) < 1e-10);
 }
 
-BOOST_AUTO_TEST_CASE(the_band_holds_the_exact_value_and_is_not_huge) {
+BOOST_AUTO_TEST_CASE(band_contains_the_exact_value_and_is_narrow) {
   for (const double b : {0.5, -0.03, 0.0}) {
     const Convergence series = made_up(4, 0.1, b, 12, 1e-14);
     const Convergence found = analyse_convergence(series);
@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(the_band_holds_the_exact_value_and_is_not_huge) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(an_order_other_than_theory_gets_the_factor_three) {
+BOOST_AUTO_TEST_CASE(order_other_than_theory_has_safety_factor_3) {
   Convergence series = made_up(2, 0.1, 0, 6);
   series.theory_order = 4;
   const Convergence found = analyse_convergence(series);
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(an_order_other_than_theory_gets_the_factor_three) {
   BOOST_TEST(*analyse_convergence(series).safety_factor[5] == 3);  // nothing to be near to
 }
 
-BOOST_AUTO_TEST_CASE(an_order_is_not_made_up_from_values_that_go_to_and_fro) {
+BOOST_AUTO_TEST_CASE(oscillating_values_have_no_order) {
   Convergence series = made_up(2, 0.1, 0, 5);
   for (std::size_t k = 0; k < 5; ++k) series.values[k] = k % 2 == 0 ? 1.0 : 2.0;
   const Convergence found = analyse_convergence(series);
@@ -158,7 +158,7 @@ BOOST_AUTO_TEST_CASE(missing_levels_are_skipped_at_the_coarse_end_only) {
   BOOST_TEST(found.broken);
 }
 
-BOOST_AUTO_TEST_CASE(too_few_levels_say_nothing) {
+BOOST_AUTO_TEST_CASE(too_few_levels_have_no_order) {
   const Convergence found = analyse_convergence(made_up(4, 0.1, 0, 1));
   BOOST_TEST(!found.richardson.has_value());
   BOOST_TEST(!found.fitted_order.has_value());

@@ -22,7 +22,7 @@ const Values kHalfWidths = {0.1, 0.2};
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_linear_model_adds_its_inputs_in_quadrature) {
+BOOST_AUTO_TEST_CASE(linear_model_has_exact_input_uncertainties) {
   const auto u = uncertainty_by_derivatives(linear_and_square, kHalfWidths);
   BOOST_REQUIRE(u.has_value());
   BOOST_TEST(u->at(0)[0] == 0.3 / std::sqrt(3.0), boost::test_tools::tolerance(1e-12));

@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(unknown_mixture_gets_the_large_factor) {
   BOOST_TEST(large);
 }
 
-BOOST_AUTO_TEST_CASE(a_linear_error_is_no_mixture_of_orders_four_and_two) {
+BOOST_AUTO_TEST_CASE(linear_error_does_not_fit_orders_four_and_two) {
   Convergence series = series_of([](double h) { return 10 * (1 + 0.1 * h); }, 7);
   series.exact = 10;
   series.theory_order = 4;
@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(two_levels_get_the_order_of_theory_and_the_large_factor) {
              boost::test_tools::tolerance(1e-9));
 }
 
-BOOST_AUTO_TEST_CASE(values_that_turn_back_settle_on_fine_levels) {
+BOOST_AUTO_TEST_CASE(nonmonotone_values_converge_on_fine_levels) {
   // h^2 - 0.8 h^3 ... falls and rises again: the coarse end is not monotone.
   Convergence series =
       series_of([](double h) { return 10 * (1 + 0.1 * h * h - 0.13 * h * h * h); }, 10);

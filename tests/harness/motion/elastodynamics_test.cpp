@@ -34,7 +34,7 @@ Json& options(Json& json) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(platform_at_constant_speed_does_not_stand_still) {
+BOOST_AUTO_TEST_CASE(platform_at_constant_speed_is_not_at_rest) {
   // without acceleration its path frequency is nothing, and it was once compared with a pose held
   Json json = motion(between("line", 0.01));
   options(json)["step_errors"] = true;

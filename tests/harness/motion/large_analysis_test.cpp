@@ -38,7 +38,7 @@ constexpr const char* kStraightSpline = R"({"spline": {"points": 2, "step_s": 0.
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(step_that_does_not_converge_is_named) {
+BOOST_AUTO_TEST_CASE(step_that_does_not_converge_is_reported) {
   Json json = testing::slider_crank();
   json["analysis"]["large-motion"]["steps"] = 3;
   const AnalysisResult result = result_of(json);

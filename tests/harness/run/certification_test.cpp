@@ -42,7 +42,7 @@ std::string told(const Certification& certificate) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(digits_that_agree_are_counted_and_the_worst_is_named) {
+BOOST_AUTO_TEST_CASE(agreeing_digits_are_counted_and_the_worst_is_named) {
   const Certification found =
       certify({configuration("here", 2, 2), configuration("there", 2 + 2e-12, 2)});
   BOOST_TEST_REQUIRE(found.rows.size() == 1U);
@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(worst_entry_of_a_bound_may_differ) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_run_that_ends_otherwise_or_is_not_there_is_told) {
+BOOST_AUTO_TEST_CASE(different_status_and_missing_run_are_reported) {
   for (const auto status : {results::Status::not_converged, results::Status::error}) {
     Configuration other = configuration("other", 2, 2);
     other.results.runs[0].status = status;
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(a_run_that_ends_otherwise_or_is_not_there_is_told) {
   BOOST_TEST(told(none) == "none beam:base solved missing; ");
 }
 
-BOOST_AUTO_TEST_CASE(run_that_ends_nowhere_is_reported_for_each) {
+BOOST_AUTO_TEST_CASE(run_failing_everywhere_is_reported_for_each) {
   Configuration here = configuration("here", 2, 2), there = configuration("there", 2, 2);
   for (Configuration* one : {&here, &there}) one->results.runs[0].status = results::Status::error;
   BOOST_TEST(told(certify({here, there})) ==

@@ -76,14 +76,14 @@ BOOST_AUTO_TEST_CASE(numbers_and_rules_alone_decide_a_claim) {
   BOOST_TEST((verdict(document, {}) == "not measured"));
 }
 
-BOOST_AUTO_TEST_CASE(a_verdict_that_no_longer_follows_is_seen) {
+BOOST_AUTO_TEST_CASE(changed_verdict_of_a_claim_is_detected) {
   const Document document = claims_of({{"r", ratio}}, "confirmed");
   BOOST_TEST(exit_status(evaluate_claims(document, {bend(1, 1)})) == 0);
   BOOST_TEST(exit_status(evaluate_claims(document, {bend(1, 2)})) == 1);
   BOOST_TEST(!evaluate_claims(document, {}).as_recorded);
 }
 
-BOOST_AUTO_TEST_CASE(one_verdict_that_no_longer_follows_spoils_the_set) {
+BOOST_AUTO_TEST_CASE(one_changed_verdict_changes_the_full_set) {
   Json json = claims_of({{"r", ratio}}, "confirmed").value();
   json["claims"]["2"] = json["claims"]["1"];
   json["claims"]["2"]["expected"] = "contradicted";
@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(one_verdict_that_no_longer_follows_spoils_the_set) {
   BOOST_TEST(!evaluate_claims(document, {bend(1, 1)}).as_recorded);
 }
 
-BOOST_AUTO_TEST_CASE(a_claim_that_misses_a_number_is_not_measured) {
+BOOST_AUTO_TEST_CASE(claim_with_a_missing_number_is_not_measured) {
   const Document document = claims_of({{"r", ratio}}, "confirmed");
   Run broken = bend(1, 1);
   broken.status = results::Status::error;
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(a_claim_that_misses_a_number_is_not_measured) {
   BOOST_TEST((verdict(document, {half}) == "not measured"));
 }
 
-BOOST_AUTO_TEST_CASE(what_one_interpretation_misses_no_other_makes_up_for) {
+BOOST_AUTO_TEST_CASE(missing_interpretation_leaves_a_claim_unmeasured) {
   Json other = ratio;
   other["check"] = "tip-y";
   Run half = bend(1, 1);
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(what_one_interpretation_misses_no_other_makes_up_for) {
       (verdict(claims_of({{"r", ratio}, {"s", other}}, "contradicted"), {half}) == "not measured"));
 }
 
-BOOST_AUTO_TEST_CASE(a_relative_difference_is_one_of_what_is_expected) {
+BOOST_AUTO_TEST_CASE(relative_metric_refers_to_the_expected_value) {
   Json relative = ratio;
   relative["metric"] = "relative";
   relative["confirms"] = {0.45, 0.55};
@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(alternatives_that_differ_decide_nothing) {
                  .entries.size() == 3U);
 }
 
-BOOST_AUTO_TEST_CASE(entries_that_count_jointly_confirm_only_together) {
+BOOST_AUTO_TEST_CASE(entries_required_together_confirm_together_only) {
   Json jointly = ratio;
   jointly["require_all_entries"] = true;
   jointly["contradicts"] = "otherwise";
@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(entries_that_count_jointly_confirm_only_together) {
   BOOST_TEST((verdict(document, {bend(3, 1)}) == "contradicted"));
 }
 
-BOOST_AUTO_TEST_CASE(what_confirms_may_be_all_that_does_not_contradict) {
+BOOST_AUTO_TEST_CASE(otherwise_confirms_all_that_does_not_contradict) {
   Json away = ratio;
   away["confirms"] = "otherwise";
   away["contradicts"] = {-1, 1};
@@ -161,7 +161,7 @@ BOOST_AUTO_TEST_CASE(what_confirms_may_be_all_that_does_not_contradict) {
   BOOST_TEST(!evaluate_claims(document, {bend(0.5, 0.5)}).as_recorded);
 }
 
-BOOST_AUTO_TEST_CASE(steps_of_a_quantity_say_whether_it_grows) {
+BOOST_AUTO_TEST_CASE(steps_of_a_quantity_measure_its_growth) {
   const results::Claims found =
       evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {bend(1, 1)});
   const results::ClaimInterpretation& reading = found.claims[0].interpretations[0];
@@ -172,7 +172,7 @@ BOOST_AUTO_TEST_CASE(steps_of_a_quantity_say_whether_it_grows) {
   BOOST_TEST((reading.verdict == "confirms in part"));
 }
 
-BOOST_AUTO_TEST_CASE(quantity_that_is_no_number_leaves_its_claim_unmeasured) {
+BOOST_AUTO_TEST_CASE(claim_on_a_nan_quantity_is_not_measured) {
   Json value = grows;
   value["metric"] = "value";
   Run run = bend(1, 1);
@@ -185,7 +185,7 @@ BOOST_AUTO_TEST_CASE(quantity_that_is_no_number_leaves_its_claim_unmeasured) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_rule_that_contradicts_itself_is_refused) {
+BOOST_AUTO_TEST_CASE(contradictory_claim_rule_is_refused) {
   const auto refusal = [](const char* key, const Json& value) {
     Json reading = ratio;
     reading[key] = value;
@@ -202,7 +202,7 @@ BOOST_AUTO_TEST_CASE(a_rule_that_contradicts_itself_is_refused) {
   BOOST_TEST(contains(refusal("metric", "quotient"), "/claims/1/interpretations/r/metric"));
 }
 
-BOOST_AUTO_TEST_CASE(the_catalogue_has_eleven_claims_and_knows_their_cases) {
+BOOST_AUTO_TEST_CASE(eleven_claims_name_existing_cases_and_checks) {
   const Document document = load_claims();
   const results::Claims found = evaluate_claims(document, {});
   BOOST_TEST(found.claims.size() == 11U);

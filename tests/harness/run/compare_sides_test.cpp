@@ -72,14 +72,14 @@ BOOST_AUTO_TEST_CASE(difference_within_stated_round_off_is_no_change) {
   BOOST_TEST(compared(a, b).changed == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(a_change_on_the_second_of_three_sides_is_one) {
+BOOST_AUTO_TEST_CASE(change_on_any_of_three_sides_is_counted) {
   const Side a = side("a", {{"mass_kg", {1.0}}}), b = side("b", {{"mass_kg", {2.0}}}),
              c = side("c", {{"mass_kg", {1.0}}});
   BOOST_TEST(harness::compare_sides({a, b, c}, false).changed == 1U);
   BOOST_TEST(harness::compare_sides({a, c, b}, false).changed == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(the_round_off_of_a_relative_check_is_of_what_it_expects) {
+BOOST_AUTO_TEST_CASE(round_off_of_a_relative_check_scales_with_expected) {
   Side a = side("a", {{"mass_kg", {10.0}}});
   const Side b = side("b", {{"mass_kg", {10 + 5e-8}}});
   a.results.runs[0].checks = {check_of("mass_kg", 10, 1e-8, "round-off of long sums")};
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(round_off_of_a_refinement_counts) {
   BOOST_TEST(compared(a, b).changed == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(a_zero_has_no_percent_and_its_round_off_is_no_change) {
+BOOST_AUTO_TEST_CASE(zero_has_no_percent_and_its_round_off_is_no_change) {
   const Side a = side("a", {{"force_N:A", {1e-13}}, {"force_N:B", {100.0}}});
   const Side b = side("b", {{"force_N:A", {-3e-12}}, {"force_N:B", {101.0}}});
   const results::SideComparison found = compared(a, b);
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(modes_are_matched_by_their_drawn_shapes) {
   BOOST_TEST(*modes[1].percent[1] == -40, boost::test_tools::tolerance(1e-9));
 }
 
-BOOST_AUTO_TEST_CASE(two_equal_frequencies_are_one_set_whose_shapes_may_turn) {
+BOOST_AUTO_TEST_CASE(equal_frequencies_are_matched_as_one_set) {
   const double s = std::sqrt(0.5);
   const Side a = drawn("a", {10, 10}, {{1, 0}, {0, 1}});
   const results::SideComparison found = compared(a, drawn("b", {11, 11}, {{s, s}, {s, -s}}));

@@ -56,7 +56,7 @@ Resumed run_all(const Folder& folder, const Json& json, bool resume) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_computation_is_kept_bit_for_bit) {
+BOOST_AUTO_TEST_CASE(stored_computation_is_bit_identical) {
   Run computation;
   computation.status = results::Status::solved;
   computation.quantities["q"] = {
@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(a_computation_is_kept_bit_for_bit) {
               std::isnan(values[3]) && std::isinf(values[4])));
 }
 
-BOOST_AUTO_TEST_CASE(a_resumed_run_gives_the_same_results_times_included) {
+BOOST_AUTO_TEST_CASE(resumed_run_returns_identical_results) {
   const Folder folder;
   const Json json = cases(folder, 100);
   const std::string first = run_all(folder, json, false).results;
@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(a_resumed_run_gives_the_same_results_times_included) {
   BOOST_TEST(run_all(folder, json, true).results == first);
 }
 
-BOOST_AUTO_TEST_CASE(what_was_under_way_at_an_interruption_is_resumed_last) {
+BOOST_AUTO_TEST_CASE(interrupted_run_is_resumed_last) {
   const Folder folder;
   const Json json = cases(folder, 100);
   const Document base = patched(testing::read(folder, json), kBaseVariant);
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(what_was_under_way_at_an_interruption_is_resumed_last) {
     BOOST_TEST((fs::last_write_time(file) <= fs::last_write_time(first)), file);
 }
 
-BOOST_AUTO_TEST_CASE(a_broken_entry_is_computed_again) {
+BOOST_AUTO_TEST_CASE(corrupted_entry_is_computed_again) {
   const Folder folder;
   const Json json = cases(folder, 100);
   const Resumed first = run_all(folder, json, false);
@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(a_broken_entry_is_computed_again) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_decides_a_run_decides_its_name) {
+BOOST_AUTO_TEST_CASE(name_of_a_run_depends_on_its_inputs) {
   const Folder folder;
   Json json = cases(folder, 100);
   const auto name = [&] { return computation_name(testing::read(folder, json).document, true); };
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(what_decides_a_run_decides_its_name) {
   BOOST_TEST(name() != first);
 }
 
-BOOST_AUTO_TEST_CASE(a_case_that_options_try_decides_their_name) {
+BOOST_AUTO_TEST_CASE(changed_tried_case_changes_the_name_of_options) {
   const Folder folder;
   Json tried = testing::cantilever();
   tried["id"] = "tried";
@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(a_case_that_options_try_decides_their_name) {
   BOOST_TEST(name() != first);
 }
 
-BOOST_AUTO_TEST_CASE(a_reference_that_changed_or_came_makes_an_entry_stale) {
+BOOST_AUTO_TEST_CASE(changed_or_added_reference_invalidates_an_entry) {
   const Folder folder;
   const std::string place = (folder.path() / "references.json").string() + "#/";
   folder.write_reference({{"id", "r"}, {"values", {1}}});
@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_CASE(a_reference_that_changed_or_came_makes_an_entry_stale) {
   BOOST_TEST(!find_stored(entry, computation));
 }
 
-BOOST_AUTO_TEST_CASE(times_of_another_machine_are_not_taken_over) {
+BOOST_AUTO_TEST_CASE(times_of_another_machine_are_not_reused) {
   const Folder folder;
   Run computation;
   computation.machine = "another";
@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(unchanged_scenes_of_effects_are_measured_once) {
   BOOST_TEST(measured == 3);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_not_used_for_a_month_is_dropped) {
+BOOST_AUTO_TEST_CASE(entries_unused_for_a_month_are_removed) {
   const Folder folder;
   const auto old = folder.path() / "old.cbor", used = folder.path() / "used.cbor";
   const auto other = folder.write("old.json", "1");

@@ -72,7 +72,7 @@ BOOST_AUTO_TEST_CASE(order_leading_term_and_limit_are_judged) {
   BOOST_TEST(exit_status(runs) == 1);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_not_computed_and_bands_that_miss_do_not_pass) {
+BOOST_AUTO_TEST_CASE(uncomputed_checks_and_missing_bands_fail) {
   const Folder folder;
   Json json = beam(folder);
   json["variants"]["no-length"]["model"]["nodes"]["B"] = {0, 0};
@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(what_is_not_computed_and_bands_that_miss_do_not_pass) {
   BOOST_TEST(element_size("halvings", 3) == 0.125);
 }
 
-BOOST_AUTO_TEST_CASE(the_exit_status_is_that_of_the_worst) {
+BOOST_AUTO_TEST_CASE(exit_status_is_that_of_the_worst_run) {
   CheckResult failing;
   failing.verdict = Verdict::fail;
   Run run;
@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(the_exit_status_is_that_of_the_worst) {
   BOOST_TEST(exit_status({run}) == 3);
 }
 
-BOOST_AUTO_TEST_CASE(an_order_from_too_few_meshes_is_no_order) {
+BOOST_AUTO_TEST_CASE(order_from_too_few_meshes_is_an_error) {
   const Folder folder;
   Json json = beam(folder);
   json["sweeps"]["elements"]["values"] = {4, 8};
@@ -176,7 +176,7 @@ BOOST_AUTO_TEST_CASE(singular_model_passes_only_where_expected) {
   BOOST_TEST(exit_status(runs) == 1);
 }
 
-BOOST_AUTO_TEST_CASE(a_regression_fails_trammel_itself) {
+BOOST_AUTO_TEST_CASE(failed_regression_check_fails_the_run) {
   const Folder folder;
   Json json = testing::cantilever();
   json["checks"]["as-before"] = {{"quantity", "displacement_y_m:B"},
@@ -187,7 +187,7 @@ BOOST_AUTO_TEST_CASE(a_regression_fails_trammel_itself) {
   BOOST_TEST(exit_status(runs) == 1);
 }
 
-BOOST_AUTO_TEST_CASE(bad_input_spoils_its_own_run_only) {
+BOOST_AUTO_TEST_CASE(invalid_input_affects_its_own_run_only) {
   const Folder folder;
   Json json = testing::cantilever();
   json["variants"]["lost"]["model"]["members"]["AB"]["nodes"] = {"A", "Q"};
@@ -223,7 +223,7 @@ BOOST_AUTO_TEST_CASE(exceeded_limits_affect_their_own_run_only) {
   BOOST_TEST(exit_status(runs) == 2);
 }
 
-BOOST_AUTO_TEST_CASE(a_variant_that_is_looked_at_is_computed_but_not_told) {
+BOOST_AUTO_TEST_CASE(compared_variant_is_computed_but_not_reported) {
   const Folder folder;
   Json json = testing::cantilever();
   json["variants"]["soft"]["model"]["materials"]["steel"]["E_Pa"] = 1e11;

@@ -63,7 +63,7 @@ void change(const fs::path& folder, const char* key, const Json& value) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_shard_is_k_of_n) {
+BOOST_AUTO_TEST_CASE(shard_is_read_from_k_of_n) {
   BOOST_TEST(shard_from("2/8").number == 2U);
   BOOST_TEST(shard_from("8/8").count == 8U);
   for (const char* bad : {"", "2", "0/3", "4/3", "1/100001", "-1/3", "1/3 ", "1/", "/3", "a/b"})
@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(merged_shards_equal_a_run_in_one) {
   BOOST_TEST(done_before == 4U);  // the first told is the one that ends in an error
 }
 
-BOOST_AUTO_TEST_CASE(shards_that_are_no_whole_are_refused) {
+BOOST_AUTO_TEST_CASE(incomplete_and_inconsistent_shards_are_refused) {
   const Folder folder;
   const auto folders = computed_shards(folder, cases(folder), 2);
   const fs::path store = folder.path() / "merged";

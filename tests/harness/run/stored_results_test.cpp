@@ -32,7 +32,7 @@ results::Results computed(const Folder& folder) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(what_is_read_back_with_its_store_is_what_was_written) {
+BOOST_AUTO_TEST_CASE(results_read_back_with_their_store_are_unchanged) {
   const Folder folder;
   results::Results before = computed(folder);
   const fs::path file = write_results(before, folder.path() / "out");
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(broken_and_foreign_files_of_a_store_are_missing) {
   BOOST_TEST(load_results(file).missing == "");
 }
 
-BOOST_AUTO_TEST_CASE(a_place_beyond_the_reasons_is_refused) {
+BOOST_AUTO_TEST_CASE(index_beyond_the_reasons_is_refused) {
   const Folder folder;
   const fs::path file = write_results(computed(folder), folder.path() / "out");
   Json json = read_json(file);

@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(moment_along_a_path_is_drawn_with_its_deflection) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_moment_of_a_large_motion_is_drawn_where_it_is) {
+BOOST_AUTO_TEST_CASE(poses_of_a_large_motion_are_drawn_at_their_positions) {
   const AnalysisResult result = result_of(Json::parse(R"({
     "id": "pendulum", "title": "A pendulum that is turned",
     "model": {

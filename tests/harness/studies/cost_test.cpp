@@ -47,7 +47,7 @@ results::CostStudy measured(const Json& json) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(errors_are_divided_by_what_the_scale_says) {
+BOOST_AUTO_TEST_CASE(errors_are_relative_to_the_chosen_scale) {
   const Observations reference_solution = {{10, 0, -5}}, found = {{11, 1, -5}};
   const results::ErrorNorms entry = error_norms(found, reference_solution, {});
   BOOST_TEST(*entry.max == 0.1);  // of the true zero: 1 over the largest, 10
@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(errors_are_divided_by_what_the_scale_says) {
   BOOST_CHECK_THROW((void)error_norms({{1}}, {{0}}, {}), std::runtime_error);
 }
 
-BOOST_AUTO_TEST_CASE(every_setting_has_a_standing_and_none_is_dropped) {
+BOOST_AUTO_TEST_CASE(every_setting_is_kept_with_a_status) {
   const results::CostStudy study = measured(study_json());
   BOOST_TEST_REQUIRE(study.settings.size() == 5U);
   for (std::size_t i : {0U, 1U, 2U}) {
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(every_setting_has_a_standing_and_none_is_dropped) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(outputs_are_judged_one_by_one_and_all_at_once) {
+BOOST_AUTO_TEST_CASE(outputs_are_judged_separately_and_together) {
   Json json = study_json();
   json["outputs"] = {{"tones", {{"title", "frequencies"}}},
                      {"size", {{"title", "coordinates"}, {"scale", "largest"}}}};
@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(outputs_are_judged_one_by_one_and_all_at_once) {
   BOOST_TEST(!study.outputs[1].cheapest[0].setting.has_value());
 }
 
-BOOST_AUTO_TEST_CASE(counters_are_the_work_and_do_not_depend_on_the_machine) {
+BOOST_AUTO_TEST_CASE(counters_measure_work_and_are_reproducible) {
   const results::CostStudy a = measured(study_json()), b = measured(study_json());
   for (std::size_t i = 0; i < a.settings.size(); ++i) {
     BOOST_TEST((a.settings[i].counters == b.settings[i].counters));
@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(counters_are_the_work_and_do_not_depend_on_the_machine) {
   BOOST_TEST(a.settings[2].counters.front().second == 2 * a.settings[1].counters.front().second);
 }
 
-BOOST_AUTO_TEST_CASE(a_setting_is_never_dropped_for_its_noise_it_is_tied) {
+BOOST_AUTO_TEST_CASE(noisy_setting_is_kept_as_a_tie) {
   results::CostStudy study = measured(study_json());
   for (std::size_t i : {0U, 1U, 2U}) study.settings[i].time->cpu_s.assign(7, 1.0 + 10.0 * i);
   study.settings[1].time->cpu_s = {11, 1, 11, 300, 11, 11, 11};
@@ -142,7 +142,7 @@ BOOST_AUTO_TEST_CASE(a_setting_is_never_dropped_for_its_noise_it_is_tied) {
   BOOST_TEST(tied_settings(points, 10) == tied, boost::test_tools::per_element());
 }
 
-BOOST_AUTO_TEST_CASE(a_computation_that_takes_too_long_is_ended) {
+BOOST_AUTO_TEST_CASE(computation_beyond_its_time_limit_is_stopped) {
   Json json = study_json();
   json["time_limit_s"] = 1;
   json["curves"]["more"] = {
@@ -155,7 +155,7 @@ BOOST_AUTO_TEST_CASE(a_computation_that_takes_too_long_is_ended) {
   BOOST_TEST(contains(study.settings[4].reason, "1 s of processor time"));
 }
 
-BOOST_AUTO_TEST_CASE(an_error_above_1000_per_cent_is_a_divergence) {
+BOOST_AUTO_TEST_CASE(error_above_1000_percent_is_a_divergence) {
   Json json = study_json();
   // Each frequency goes with the square root of E.
   json["curves"]["more"] = {{"title", "stiff beyond reason"},
@@ -174,7 +174,7 @@ BOOST_AUTO_TEST_CASE(exact_setting_that_is_not_the_reference_is_measured) {
   BOOST_TEST(*study.settings[4].errors->max == 0);
 }
 
-BOOST_AUTO_TEST_CASE(without_a_truth_or_a_baseline_nothing_can_be_said) {
+BOOST_AUTO_TEST_CASE(study_requires_a_reference_solution_and_a_baseline) {
   Json json = study_json();
   json["reference_solution"]["patch"]["model"]["supports"] = {{"A", nullptr}};
   json["quantities"]["frequency_Hz"]["index"] = {7};
@@ -184,7 +184,7 @@ BOOST_AUTO_TEST_CASE(without_a_truth_or_a_baseline_nothing_can_be_said) {
   BOOST_TEST(contains(complaint([&] { (void)measured(json); }), "expected a baseline"));
 }
 
-BOOST_AUTO_TEST_CASE(the_results_obey_their_schema_and_give_the_front_back) {
+BOOST_AUTO_TEST_CASE(results_obey_their_schema_and_keep_the_front) {
   const results::CostStudy study = measured(study_json());
   const References references;
   results::Results filled = results_of({}, {}, references);

@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(errors_of_modes_hold_the_converged_values) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_default_mesh_is_accurate_and_a_coarse_one_warns) {
+BOOST_AUTO_TEST_CASE(default_mesh_is_accurate_and_a_coarse_one_warns) {
   const std::vector<double> converged =
       estimated(with_links(own_manipulator(), 32)).values("frequency_Hz");
   const Estimated by_default = estimated(own_manipulator());
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(nodal_values_of_linear_statics_are_exact) {
   BOOST_TEST(*found.of("displacement_y_m:B").relative.front() < 1e-10);
 }
 
-BOOST_AUTO_TEST_CASE(an_odd_mesh_has_a_finer_companion) {
+BOOST_AUTO_TEST_CASE(odd_mesh_has_a_finer_companion) {
   Json json = cantilever();
   json["analysis"] = {{"modes", {{"count", 3}}}};
   json["model"]["elements"] = 3;
@@ -159,7 +159,7 @@ BOOST_AUTO_TEST_CASE(errors_of_steps_hold_the_motion_without_them) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_search_reaches_its_accuracy_and_states_its_levels) {
+BOOST_AUTO_TEST_CASE(search_reaches_its_accuracy) {
   const References references;
   const std::vector<double> converged =
       estimated(with_links(own_manipulator(), 64)).values("frequency_Hz");
@@ -174,7 +174,7 @@ BOOST_AUTO_TEST_CASE(a_search_reaches_its_accuracy_and_states_its_levels) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_search_refines_mesh_and_step) {
+BOOST_AUTO_TEST_CASE(search_refines_mesh_and_step) {
   const References references;
   const AccuracySearch search =
       search_accuracy(document_of(vibrating_cantilever()), {1e-3, {}, 60}, references);
@@ -182,7 +182,7 @@ BOOST_AUTO_TEST_CASE(a_search_refines_mesh_and_step) {
   BOOST_TEST(search.tried.size() > 3U);
 }
 
-BOOST_AUTO_TEST_CASE(what_a_search_cannot_reach_is_stated) {
+BOOST_AUTO_TEST_CASE(unreachable_accuracy_and_invalid_search_are_reported) {
   const References references;
   const AccuracySearch search =
       search_accuracy(document_of(own_manipulator()), {1e-14, {}, 60}, references);
@@ -216,7 +216,7 @@ BOOST_AUTO_TEST_CASE(defaults_follow_the_analysis_and_the_member) {
   BOOST_TEST(elements_of(document_of(json), "AB") == 3);
 }
 
-BOOST_AUTO_TEST_CASE(numbers_in_a_wrong_unit_are_warned_of) {
+BOOST_AUTO_TEST_CASE(numbers_in_a_wrong_unit_warn) {
   Json json = own_manipulator();
   json["model"]["pose"]["phi_rad"] = 30;
   BOOST_TEST(contains(unit_warnings(document_of(json)).at(0), "/model/pose/phi_rad is 30 rad"));
@@ -230,7 +230,7 @@ BOOST_AUTO_TEST_CASE(numbers_in_a_wrong_unit_are_warned_of) {
   BOOST_TEST(contains(unit_warnings(document_of(json)).at(0), "/model/nodes/C is 1500 m"));
 }
 
-BOOST_AUTO_TEST_CASE(the_catalogue_has_no_numbers_in_a_wrong_unit) {
+BOOST_AUTO_TEST_CASE(catalogue_has_no_numbers_in_a_wrong_unit) {
   for (const Case& given : Catalogue().load())
     for (const std::string& variant : given.variants())
       for (const std::string& warning : unit_warnings(patched(given, variant)))

@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(nominal_lengths_count_in_the_literal_reading_alone) {
   BOOST_TEST(*entry.all_inputs.u_val > 10 * *entry.u_val);
 }
 
-BOOST_AUTO_TEST_CASE(u_num_holds_the_error_of_the_mesh_and_is_not_huge) {
+BOOST_AUTO_TEST_CASE(u_num_contains_the_mesh_error_and_is_not_large) {
   const Folder folder;
   const Run found = run(testing::read(folder, beam(folder, 0)));
   const double u = found.uncertainty->comparisons[0].u_num.value();
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(uncertainty_does_not_depend_on_jobs) {
   BOOST_TEST(one["runs"][1]["uncertainty"]["comparisons"].size() == 2U);
 }
 
-BOOST_AUTO_TEST_CASE(a_pointer_to_nothing_is_bad_input) {
+BOOST_AUTO_TEST_CASE(pointer_to_a_missing_value_is_refused) {
   const Folder folder;
   Json json = beam(folder, 0);
   json["uncertainty"]["inputs"]["depth"]["pointers"][0] = "/model/sections/beam";
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(a_pointer_to_nothing_is_bad_input) {
   BOOST_TEST(testing::contains(found.reason, "/uncertainty/inputs/depth/pointers/0"));
 }
 
-BOOST_AUTO_TEST_CASE(an_input_needs_one_half_width) {
+BOOST_AUTO_TEST_CASE(input_with_two_half_widths_is_refused) {
   const Folder folder;
   Json json = beam(folder, 0);
   json["uncertainty"]["inputs"]["depth"]["half_width"] = 1e-3;
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(an_input_needs_one_half_width) {
                                "expected either 'half_width' or 'reference'"));
 }
 
-BOOST_AUTO_TEST_CASE(a_verdict_other_than_the_recorded_one_fails) {
+BOOST_AUTO_TEST_CASE(verdict_other_than_the_recorded_one_fails) {
   const Folder folder;
   Json json = beam(folder, 0);
   Json& expect = json["checks"]["printed"]["expect"];

@@ -9,7 +9,7 @@ BOOST_AUTO_TEST_SUITE(ball)
 
 using namespace trammel::references;
 
-BOOST_AUTO_TEST_CASE(ball_decides_only_what_holds_for_all_its_numbers) {
+BOOST_AUTO_TEST_CASE(ball_decides_only_relations_true_for_all_its_numbers) {
   const Ball third = Ball(1) / 3, doubtful = Ball(Real(1) / 3);
   BOOST_TEST((third < Ball(1)));
   BOOST_TEST((Ball(1) > doubtful));

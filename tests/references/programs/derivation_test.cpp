@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(changed_proved_digit_is_caught) {
   BOOST_CHECK_THROW((void)prove("pendulum", Json::object()), DerivationError);
 }
 
-BOOST_AUTO_TEST_CASE(a_corrupted_length_or_a_not_a_number_never_holds) {
+BOOST_AUTO_TEST_CASE(wrong_length_and_nan_never_agree) {
   Comparison comparison;
   comparison.stored = {1.0, 2.0};
   comparison.uncertainty = {1e-9, 1e-9};
@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(a_corrupted_length_or_a_not_a_number_never_holds) {
   BOOST_TEST(!comparison.within_uncertainty());
 }
 
-BOOST_AUTO_TEST_CASE(an_error_inside_a_derivation_points_into_the_file) {
+BOOST_AUTO_TEST_CASE(error_in_a_derivation_has_file_and_pointer) {
   const Json reference = Json::parse(R"({
     "title": "x", "kind": "exact", "unit": "1", "source": "x", "place": "x", "values": [1],
     "uncertainty": {"relative": 0}, "derivation": {

@@ -63,7 +63,7 @@ Results cost_results() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(data_contain_all_settings_and_those_without_result) {
+BOOST_AUTO_TEST_CASE(data_contain_settings_with_and_without_result) {
   CostStudy study = cost_results().cost->studies[0];
   const Figure figure = cost_figure(study);
   BOOST_TEST(figure.data.rows.size() == study.settings.size());

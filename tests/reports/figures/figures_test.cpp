@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(caption_of_two_orders_names_their_law) {
   BOOST_TEST(contains(figure[0].caption, "within 4.2\u202f%"));
 }
 
-BOOST_AUTO_TEST_CASE(without_an_asymptotic_range_no_order_is_stated) {
+BOOST_AUTO_TEST_CASE(no_order_is_stated_outside_the_asymptotic_range) {
   Convergence coarse = sweep(0, 4);
   coarse.fitted_order.reset();
   const auto figure = convergence_figures(beam(), run_with({coarse}));
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(caption_states_small_numbers_in_their_unit) {
              figure->caption);
 }
 
-BOOST_AUTO_TEST_CASE(a_count_that_is_right_on_every_mesh_makes_no_figure) {
+BOOST_AUTO_TEST_CASE(count_exact_on_every_mesh_has_no_figure) {
   Convergence count = sweep(0, 4);
   for (Number& error : count.error) error = 0;
   BOOST_TEST(convergence_figures(beam(), run_with({count})).empty());
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(tolerance_caption_names_the_worst_check) {
   BOOST_TEST(contains(figure->caption, "1 of 3 checks not within tolerance; see beyond."));
 }
 
-BOOST_AUTO_TEST_CASE(curves_that_cannot_be_drawn_say_why) {
+BOOST_AUTO_TEST_CASE(undrawable_curves_report_the_reason) {
   Run run = run_with({});
   run.quantities["time_s"].values = {0.0, 1.0};
   run.quantities["force_N:A"].values = {1.0, 2.0};
@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(curves_that_cannot_be_drawn_say_why) {
   BOOST_TEST(contains(problem_of({"force_N:A", "length_m:B"}), "differ in unit"));
 }
 
-BOOST_AUTO_TEST_CASE(a_motion_is_drawn_magnified_and_says_how_large_it_is) {
+BOOST_AUTO_TEST_CASE(magnified_motion_states_its_largest_deflection) {
   Run run = run_with({});
   run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}};
   BOOST_TEST(!motion_figure(beam(), run));

@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(map_keeps_every_position_and_explains_its_colors) {
   BOOST_TEST(contains(figure->alt, "the largest magnitude is 5.3 Hz"));
 }
 
-BOOST_AUTO_TEST_CASE(what_is_far_from_zero_is_dark_whatever_its_sign) {
+BOOST_AUTO_TEST_CASE(large_magnitudes_are_dark_for_either_sign) {
   std::string problem;
   Run run = field(14, 5);
   const auto shade_of_lowest = [&] {
@@ -114,7 +114,7 @@ BOOST_AUTO_TEST_CASE(positions_without_a_number_stay_blank) {
   BOOST_TEST(problem == "frequency_Hz has no numbers");
 }
 
-BOOST_AUTO_TEST_CASE(a_single_column_has_cells_with_a_width_and_tics_apart) {
+BOOST_AUTO_TEST_CASE(map_of_one_row_or_column_has_valid_cells_and_tics) {
   // tics 0 apart are an error to gnuplot, and took the whole report with them
   std::string problem;
   for (const auto& [columns, rows] : {std::pair{1, 6}, std::pair{6, 1}}) {
@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(a_single_column_has_cells_with_a_width_and_tics_apart) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_single_position_makes_no_map) {
+BOOST_AUTO_TEST_CASE(single_position_has_no_map) {
   std::string problem;
   BOOST_TEST(!draw(field(1, 1), problem).has_value());
   BOOST_TEST(problem == "frequency_Hz has a single position");

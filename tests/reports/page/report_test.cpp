@@ -149,7 +149,7 @@ BOOST_AUTO_TEST_CASE(pages_load_nothing_else_and_every_link_arrives) {
   BOOST_TEST(dead_links({{"index.html", "<a href=\"cases/none.html\">"}}, sample_report()) != "");
 }
 
-BOOST_AUTO_TEST_CASE(addresses_consist_of_names_alone) {
+BOOST_AUTO_TEST_CASE(addresses_consist_of_names_only) {
   const auto pages = pages_of(sample_report());
   const std::string& beam = pages.at("cases/beam-pinned-pinned.html");
   BOOST_TEST(beam.find(" id=\"check-exact\"") != std::string::npos);
@@ -345,7 +345,7 @@ BOOST_AUTO_TEST_CASE(stored_runs_keep_drawings_that_did_not_change) {
   BOOST_TEST(text_of(svg).find("torn") == std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(similar_names_have_separate_files_and_long_ones_are_cut) {
+BOOST_AUTO_TEST_CASE(similar_names_have_separate_files) {
   std::set<std::string> slugs;
   for (const std::string& name :
        {std::string("a-b"), std::string("a.b"), std::string("A-B"), std::string("a_b"),
@@ -357,7 +357,7 @@ BOOST_AUTO_TEST_CASE(similar_names_have_separate_files_and_long_ones_are_cut) {
   BOOST_TEST(trammel::reports::slug("a-b") == "a-b");
 }
 
-BOOST_AUTO_TEST_CASE(no_text_or_folder_becomes_a_command_of_gnuplot) {
+BOOST_AUTO_TEST_CASE(titles_and_folders_cannot_become_gnuplot_commands) {
   const Workspace workspace;
   Results results = sample_of("beam-pinned-pinned");
   const std::string file = (workspace.path() / "intruder").string();

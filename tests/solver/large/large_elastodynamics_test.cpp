@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(pulse_within_a_step_is_resolved) {
   BOOST_TEST(largest(large.deflection) == linear, boost::test_tools::tolerance(0.05));
 }
 
-BOOST_AUTO_TEST_CASE(path_out_of_reach_is_named) {
+BOOST_AUTO_TEST_CASE(path_out_of_reach_is_reported) {
   // With steps of 1e-2 s the vibration is not resolved, and it depends on rounding whether they
   // fail before the end of the reach.
   ElastodynamicsOptions options = options_of(ElbowKind::hinged, 1, 1, 5e-3);

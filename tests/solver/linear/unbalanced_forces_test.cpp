@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(constraint_forces_are_terms_of_their_rows) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(wrong_sign_or_place_of_a_force_is_noticed) {
+BOOST_AUTO_TEST_CASE(wrong_sign_or_place_of_a_force_is_detected) {
   for (const Index column : {0, 1, 2}) {
     Solved sign = manipulator();
     sign.solution.resultant_start.col(column) *= -1;

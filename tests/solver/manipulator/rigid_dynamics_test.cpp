@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(velocities_and_accelerations_are_derivatives) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(map_of_the_actuators_gives_velocities_and_energy) {
+BOOST_AUTO_TEST_CASE(actuator_map_returns_velocities_and_energy) {
   RandomStates random(2);
   for (const RigidManipulator& m : {rigid_manipulator(table_1_design()), uneven_bodies()}) {
     for (int trial = 0; trial < 200; ++trial) {

@@ -27,7 +27,7 @@ BOOST_AUTO_TEST_CASE(derivatives_of_single_links_add_up) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(limbs_have_equal_derivatives_at_the_symmetric_pose) {
+BOOST_AUTO_TEST_CASE(limbs_have_equal_derivatives_in_a_symmetric_pose) {
   // Three-fold symmetry: pairs of equal frequencies, whose shapes the eigensolver mixes at will.
   for (const double phi : {0.0, 0.3}) {
     std::vector<DesignParameter> parameters;

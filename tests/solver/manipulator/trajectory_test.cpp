@@ -125,7 +125,7 @@ BOOST_AUTO_TEST_CASE(invalid_paths_are_refused) {
   BOOST_CHECK_THROW((void)at(natural({0, 1, 2}, three), 2.1), ModelError);
 }
 
-BOOST_AUTO_TEST_CASE(path_stands_still_only_if_it_never_moves) {
+BOOST_AUTO_TEST_CASE(path_is_at_rest_only_if_it_never_moves) {
   BOOST_TEST(stands_still(Circle{{0.25, 0.144}, 0, 1}));
   BOOST_TEST(stands_still(Circle{{0.25, 0.144}, 0.01, 0}));
   BOOST_TEST(!stands_still(Circle{{0.25, 0.144}, 0.01, 1}));
