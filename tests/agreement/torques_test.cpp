@@ -39,7 +39,7 @@ references::ManipulatorNumbers bodies(const RigidManipulator& m) {
   return result;
 }
 
-/// Torques of Newton and Euler in 50 digits.
+/// Actuator torques [N m] by the Newton-Euler equations, computed with 50 digits.
 Vector3d independent_torques(const RigidManipulator& m, const TrajectoryPoint& motion,
                              const Vector3d& wrench) {
   const Vector3d x(motion.pose.x, motion.pose.y, motion.pose.phi);

@@ -1,4 +1,4 @@
-// What README.md and CONTRIBUTING.md say of the house is there.
+// Tests that the files and names in README.md, CONTRIBUTING.md and other documents exist.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(conventions_have_a_row_for_every_analysis) {
   std::vector<std::string> cases;
   for (const auto& entry : fs::recursive_directory_iterator(root / "cases"))
     cases.push_back(entry.path().stem().string());
-  // The last of four columns names cases.
+  // The last of four columns lists cases.
   const std::regex last("\n\\|[^|\n]*\\|[^|\n]*\\|[^|\n]*\\|([^|\n]*`[^|\n]*)\\|(?=\n)");
   std::size_t named = 0;
   for (const std::string& column : found(text, last)) {

@@ -1,4 +1,4 @@
-// The wrapper ./trammel around a cmake and a program that only pretend.
+// Tests the wrapper ./trammel with stubs of cmake and of the program.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -28,7 +28,7 @@ void write_script(const fs::path& file, const std::string& text) {
   fs::permissions(file, fs::perms::owner_all);
 }
 
-/// A checkout with the wrapper, and a cmake that takes a while and notices when it is not alone.
+/// Checkout with the wrapper and a stub of cmake that takes a while and records simultaneous calls.
 class Checkout {
  public:
   Checkout() {
@@ -56,7 +56,7 @@ rmdir "$folder/busy"
   Checkout(const Checkout&) = delete;
   Checkout& operator=(const Checkout&) = delete;
 
-  /// @returns what the shell command says; it finds the checkout in `source`.
+  /// Runs a shell command next to the checkout in `source`. @returns its output
   [[nodiscard]] std::string run(const std::string& command) const {
     const std::string line = "cd '" + root_.string() + "' && export PATH=\"$PWD/bin:$PATH\" && (" +
                              command + ") >said.txt 2>&1 </dev/null";
@@ -102,7 +102,8 @@ BOOST_AUTO_TEST_CASE(log_of_a_former_call_is_discarded) {
   (void)checkout.run("source/trammel list");
   const fs::path build = checkout.root() / "source/build/release";
   std::ofstream(build / "wrapper.log") << "an old fault\n";
-  (void)checkout.run("script -qec 'source/trammel list' /dev/null");  // a terminal has no log
+  (void)checkout.run(
+      "script -qec 'source/trammel list' /dev/null");  // output to a terminal is not logged
   BOOST_TEST(!says(text_of(build / "wrapper.log"), "an old fault"));
   std::ofstream(build / "wrapper.log") << "an old fault\n";
   std::ofstream(build / "broken") << '\n';

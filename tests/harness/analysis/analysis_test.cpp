@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(errors_of_a_study_are_relative_to_the_named_run) {
 
 namespace {
 
-/// The cantilever of this name with a check against a reference of the catalogue.
+/// Returns the cantilever under this id with a check against a reference of the catalogue.
 Document against_table_2(const Folder& folder, const char* id) {
   Json json = testing::cantilever();
   json["id"] = id;
@@ -196,8 +196,8 @@ BOOST_AUTO_TEST_CASE(catalogue_stays_below_the_limit_of_memory) {
   }
 }
 
-/// Rounded upwards, a step came to another branch, on which one direction is unstable: its change
-/// of stability counted as an event though nothing was found between the two points.
+/// With upward rounding a step once ended on another branch with one unstable direction. The change
+/// of stability was counted as an event, although there was none between the two points.
 BOOST_AUTO_TEST_CASE(path_of_equilibria_keeps_its_branch_in_any_rounding) {
   const Document arch = patched(load_named_case("shallow-arch"), "nearly-perfect");
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {

@@ -22,7 +22,7 @@ struct Memory {
   double estimated = 0, most = 0;  ///< [B]
 };
 
-/// Of a run as a process of its own, in which all of it happens: nothing is left from others.
+/// Runs an analysis in a separate process, so that no memory of other runs is counted.
 Memory memory_of(const std::function<Json()>& make) {
   Memory memory;
   const auto work = [&] {

@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(pipe_is_written_to_and_not_replaced) {
   const testing::Folder folder;
   const auto pipe = folder.path() / "pipe";
   BOOST_REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
-  const int end = open(pipe.c_str(), O_RDWR | O_NONBLOCK);  // so that nobody waits
+  const int end = open(pipe.c_str(), O_RDWR | O_NONBLOCK);  // so that no end blocks
   std::filesystem::create_symlink("pipe", folder.path() / "link");
   write_file(pipe, "[1]");
   write_file(folder.path() / "link", "[2]");
@@ -138,7 +138,8 @@ BOOST_AUTO_TEST_CASE(endless_and_too_large_files_are_refused) {
              "/dev/zero: expected a readable file");
   const testing::Folder folder;
   const auto large = folder.write("large.json", "{}");
-  std::filesystem::resize_file(large, (std::uintmax_t{1} << 28) + 1);  // has no blocks
+  std::filesystem::resize_file(large,
+                               (std::uintmax_t{1} << 28) + 1);  // a sparse file without blocks
   BOOST_TEST(testing::contains(complaint([&] { (void)read_json(large); }), "at most 256 MiB"));
 }
 

@@ -16,7 +16,7 @@ using Termination = ProcessOutcome::Termination;
 
 namespace {
 
-/// Without the handler of the test framework.
+/// Raises a signal without the handler of the test framework.
 std::string end_by(int signal) {
   std::signal(signal, SIG_DFL);
   std::raise(signal);
@@ -72,11 +72,11 @@ BOOST_AUTO_TEST_CASE(failed_process_does_not_affect_the_others) {
 BOOST_AUTO_TEST_CASE(failed_fork_affects_its_own_task_only) {
   rlimit before{};
   getrlimit(RLIMIT_NOFILE, &before);
-  const int descriptor = dup(0);  // the lowest that is free: of signals, then two of a pipe
+  const int descriptor = dup(0);  // the lowest free descriptor: for signals, then two for a pipe
   close(descriptor);
   const auto lowest = static_cast<rlim_t>(descriptor);
   const rlimit one_pipe{lowest + 3, before.rlim_max}, no_pipe{lowest + 2, before.rlim_max};
-  const auto read = [] {  // the descriptors that this process has for others are not the child's
+  const auto read = [] {  // a child does not inherit the descriptors of other tasks
     return std::string(std::ifstream("/dev/null").is_open() ? "done" : "no file");
   };
   const std::vector<ProcessTask> tasks(5, {read, 10});

@@ -30,7 +30,7 @@ BOOST_AUTO_TEST_CASE(each_repeat_runs_all_tasks_before_the_next) {
   std::vector<std::size_t> calls;
   std::vector<std::function<void()>> works;
   for (std::size_t i = 0; i < 3; ++i) works.emplace_back([&calls, i] { calls.push_back(i); });
-  std::vector<std::size_t> after;  // calls after each repeat
+  std::vector<std::size_t> after;  // number of calls after each repeat
   TimingOptions options;
   options.shortest_s = 0;
   const auto timings = time_interleaved(works, options, [&] { after.push_back(calls.size()); });
@@ -45,14 +45,14 @@ BOOST_AUTO_TEST_CASE(each_repeat_runs_all_tasks_before_the_next) {
     BOOST_TEST(timing.cpu_s.size() == 7U);
     BOOST_TEST(timing.runs_each == 1);
   }
-  // Warm-ups come before the first repeat.
+  // Warm-up calls precede the first repeat.
   BOOST_TEST(after[0] == 3 * 2U + 3U);
 }
 
 BOOST_AUTO_TEST_CASE(short_task_is_repeated_up_to_the_limit) {
   int calls = 0;
   TimingOptions options;
-  options.shortest_s = 1;  // never reached by an empty work: as often as is allowed
+  options.shortest_s = 1;  // an empty task never reaches it, so the number of runs is the maximum
   const auto timings = time_interleaved({[&] { ++calls; }}, options, {});
   BOOST_TEST(timings[0].runs_each == 1000);
   BOOST_TEST(calls == 7 * 1000 + 2);
@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(common_slowdown_does_not_change_the_time_ratio) {
   BOOST_TEST(ratio.median == 3);
   BOOST_TEST(ratio.low == 0.1);
   BOOST_TEST(ratio.high == 8);
-  // Of fifteen repeats the two outermost on either side are left out of the interval.
+  // With fifteen repeats, the interval excludes the two outermost values on either side.
   for (int i = 0; i < 8; ++i) baseline.cpu_s.push_back(1), timing.cpu_s.push_back(3);
   BOOST_TEST(relative_time(timing.cpu_s, baseline.cpu_s).low == 3);
   BOOST_TEST(relative_time(timing.cpu_s, baseline.cpu_s).high == 3);

@@ -26,7 +26,7 @@ struct Outcome {
   std::string out, err;
 };
 
-/// The program itself, started in the folder.
+/// Starts the program in the folder.
 Outcome run(const Folder& folder, const std::string& words, const std::string& before = "") {
   const std::string line = "cd '" + folder.path().string() + "' && " + before + " '" +
                            testing::trammel_program() + "' " + words +
@@ -56,7 +56,7 @@ std::size_t lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// The files that the calls of the tables name.
+/// Folder with the files that the calls of the tables name.
 const Folder& files() {
   static const Folder folder;
   static const bool is_written = [] {
@@ -100,7 +100,7 @@ const Folder& files() {
   return folder;
 }
 
-/// A call that is refused: it prints nothing but one line with the message.
+/// Call that is refused with status 2 and one line that contains the message.
 struct Refusal {
   const char *arguments, *message, *before = "";
 };
@@ -156,7 +156,7 @@ const Refusal kRefusals[] = {
     {"effects --repeats 0 --out page", "either cases or --label is required"},
     {"references tabel-2-ansys", "did you mean 'table-2-ansys'?"}};
 
-/// A call that ends with the status, and what it prints in the order of the parts.
+/// Call with its exit status and the expected parts of its output, in any order.
 struct Call {
   const char* arguments;
   int status;
@@ -172,7 +172,7 @@ const std::vector<Call> kCalls = {
     {"--help", 0, {"Usage: trammel"}},
     {"--version", 0, {"0."}},
     {"run --help", 0, {"Usage: trammel run"}},
-    {"claims --help", 0, {"--json"}},  // which computes the full catalogue
+    {"claims --help", 0, {"--json"}},  // the command itself computes the full catalogue
     {"list", 0, {"manipulator-modes"}},
     {"run holds.json", 0, {"pass", "1 check with 1 number: 1 pass"}},
     {"run variants.json --ctest",
@@ -227,7 +227,7 @@ BOOST_DATA_TEST_CASE(call_prints_its_results, kCalls, call) {
   const Outcome outcome = run(files(), call.arguments);
   BOOST_TEST(outcome.status == call.status, outcome.err);
   const bool to_err = std::string(call.stream) == "err";
-  BOOST_TEST(outcome.err.empty() == !to_err, outcome.err);  // a pipe sees no progress bar
+  BOOST_TEST(outcome.err.empty() == !to_err, outcome.err);  // there is no progress bar in a pipe
   BOOST_TEST(!contains(outcome.out, "\r"));
   for (const char* part : call.parts)
     BOOST_TEST(contains(to_err ? outcome.err : outcome.out, part), part << " in " << outcome.out);
@@ -390,7 +390,7 @@ BOOST_AUTO_TEST_CASE(report_draws_history_without_counting_time_twice) {
   const Json calls = parse_json(run(folder, "history h.db --json").out, "out")["calls"];
   BOOST_REQUIRE(calls.size() == 2U);
   BOOST_TEST(calls[0]["cpu_s"].get<double>() > 0);
-  BOOST_TEST(calls[1]["cpu_s"].get<double>() == 0);  // the store had the run
+  BOOST_TEST(calls[1]["cpu_s"].get<double>() == 0);  // the run came from the store
   BOOST_TEST(calls[1]["work"] == calls[0]["work"]);
   const std::string page = read_text(folder.path() / "out/environment.html");
   BOOST_TEST(contains(page, "<section id=\"history\">"));
@@ -575,7 +575,8 @@ BOOST_AUTO_TEST_CASE(full_disk_leaves_the_former_report) {
   };
   const auto former = contents();
   std::size_t broken_off = 0;
-  for (const int blocks : {1, 2, 4, 8, 16, 32, 64, 128}) {  // of 512 bytes in one file
+  for (const int blocks :
+       {1, 2, 4, 8, 16, 32, 64, 128}) {  // limit of one file, in blocks of 512 bytes
     const Outcome full = run(folder, "report cantilever.json --out out",
                              "ulimit -f " + std::to_string(blocks) + " &&");
     if (full.status == 0) continue;

@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(killed_computation_affects_its_own_run_only) {
     std::ifstream("/proc/" + id + "/task/" + id + "/children") >> child;
   }
   BOOST_REQUIRE(child > 0);
-  kill(child, SIGILL);  // which no sanitizer answers
+  kill(child, SIGILL);  // sanitizers do not handle this signal
   int status = 0;
   waitpid(program, &status, 0);
   BOOST_TEST(WEXITSTATUS(status) == 3);

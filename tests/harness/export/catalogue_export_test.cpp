@@ -10,7 +10,8 @@
 
 BOOST_AUTO_TEST_SUITE(catalogue_export)
 
-/// Every case of the catalogue with its variants and levels, exported and computed again.
+/// Exports every case of the catalogue with its variants and levels, and computes the exported
+/// cases.
 using namespace trammel;
 using namespace trammel::harness;
 using namespace trammel::testing;

@@ -16,14 +16,15 @@
 
 BOOST_AUTO_TEST_SUITE(exported_case)
 
-/// A resolved case is the same computation, and says all that another code needs.
+/// Tests that an exported case is the same computation and contains everything that another code
+/// needs.
 using namespace trammel;
 using namespace trammel::harness;
 using namespace trammel::testing;
 
 namespace {
 
-/// @param limit  0: every number to the last bit
+/// @param limit  0: all numbers must be bit-identical
 void check_twins(const std::vector<std::string>& names, double limit) {
   for (const std::string& name : names) {
     const Case given = load_named_case(name);
@@ -46,7 +47,7 @@ void require_no_key(const Json& json, const std::set<std::string>& keys) {
   }
 }
 
-/// A Matrix Market file, whole.
+/// Reads a complete Matrix Market file.
 Eigen::MatrixXd read_matrix(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::string head, line;
@@ -78,7 +79,7 @@ BOOST_AUTO_TEST_CASE(plain_models_have_the_same_numbers_to_the_last_bit) {
       0);
 }
 
-// Pins and axial springs; sliders and drives.
+// The cases contain pins and axial springs, or sliders and drives.
 BOOST_AUTO_TEST_CASE(beginning_of_a_motion_is_exported_bit_for_bit) {
   for (const auto& [name, end] :
        {std::pair("iftomm-a03-andrews", 1e-3), std::pair("slider-crank-flexible", 0.02)}) {
@@ -93,8 +94,8 @@ BOOST_AUTO_TEST_CASE(beginning_of_a_motion_is_exported_bit_for_bit) {
   }
 }
 
-// Sections of tapers are written as E and A, whose product is off by a bit; forces on edges are
-// summed at nodes before those of members.
+// Sections of tapers are written as E and A, whose product is wrong in the last bit. Forces on
+// edges are added at nodes before those of members.
 BOOST_AUTO_TEST_CASE(tapers_arcs_and_edges_are_exported_to_round_off) {
   check_twins({"ansys-vm34", "ansys-vm61", "cooks-membrane", "nafems-ring", "tapered-cantilever",
                "vpcs-sdll10"},
@@ -125,8 +126,8 @@ BOOST_AUTO_TEST_CASE(exported_quantities_are_those_of_the_exported_case) {
   }
 }
 
-// The variant has no check of its own: it was asked for nothing, and the base had nothing to be
-// compared with.
+// The variant has no check itself. It once exported no quantities, and the base could not be
+// compared.
 BOOST_AUTO_TEST_CASE(variant_exports_quantities_that_others_compare) {
   const Case given = load_named_case("scene-thick-link-modes");
   const Json asked = export_case(given, {"whole"})["export"]["quantities"];
@@ -196,7 +197,7 @@ BOOST_AUTO_TEST_CASE(manipulator_on_a_path_is_bodies_joints_and_a_table) {
     return Eigen::Vector2d(mechanism["joints"][joint]["position_m"][0].get<double>(),
                            mechanism["joints"][joint]["position_m"][1].get<double>());
   };
-  for (const auto& [name, body] : mechanism["bodies"].items()) {  // a uniform link's middle
+  for (const auto& [name, body] : mechanism["bodies"].items()) {  // middle of a uniform link
     if (name == "platform") continue;
     const Eigen::Vector2d center(body["center_m"][0].get<double>(),
                                  body["center_m"][1].get<double>());
@@ -209,7 +210,7 @@ BOOST_AUTO_TEST_CASE(manipulator_on_a_path_is_bodies_joints_and_a_table) {
   BOOST_TEST(vibrating.json["export"]["mechanism"]["elastic_model"].contains("members"));
 }
 
-// The cantilever's tip under its force, by the matrices alone: u = T K^-1 f.
+// The cantilever's tip displacement follows from the matrices alone: u = T K^-1 f.
 BOOST_AUTO_TEST_CASE(exported_matrices_solve_the_case) {
   const Folder folder;
   const Document document = document_of(cantilever());

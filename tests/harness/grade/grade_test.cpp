@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 const fs::path kSource = TRAMMEL_SOURCE_DIR;
 
-/// The program itself, started in the folder. @returns its exit status
+/// Starts the program in the folder. @returns its exit status
 int run(const Folder& folder, const std::string& words) {
   const std::string line = "cd '" + folder.path().string() + "' && '" + testing::trammel_program() +
                            "' " + words + " >out.txt 2>err.txt </dev/null";
@@ -40,7 +40,7 @@ std::string grade_words(const fs::path& adapter, const std::string& words) {
   return "grade 'python3 " + adapter.string() + "' " + words;
 }
 
-/// The cantilever with a check of its reaction under that name: -100 N.
+/// Returns the cantilever under this id with a check of its reaction, -100 N.
 Json judged(const std::string& id) {
   Json json = testing::cantilever();
   json["id"] = id;
@@ -132,7 +132,8 @@ BOOST_AUTO_TEST_CASE(missing_answer_is_no_failure_but_wrong_command_is) {
   BOOST_TEST(
       run(folder, grade_words(adapter, "cannot.json gives-nothing.json well-behaved.json")) == 0);
   BOOST_TEST(run(folder, "grade ./no-such-adapter well-behaved.json") == 2);
-  BOOST_TEST(run(folder, "grade well-behaved.json well-behaved.json") == 2);  // not executable
+  BOOST_TEST(run(folder, "grade well-behaved.json well-behaved.json") ==
+             2);  // the adapter is not executable
   BOOST_TEST(run(folder, grade_words(adapter, "no-such-case")) == 2);
   BOOST_TEST(run(folder, "grade 'python3 no-such-adapter.py' well-behaved.json") == 2);
 }
@@ -193,7 +194,8 @@ BOOST_AUTO_TEST_CASE(order_is_judged_by_the_declared_one) {
   BOOST_TEST(verdict(" 2 2") == "0 pass");
   BOOST_TEST(verdict(" 2 4") == "1 fail");
   BOOST_TEST(verdict(" 2 null") == "0 not-given");
-  BOOST_TEST(verdict(" 2 2 --no-level-converges") != "0 pass");  // numbers of no solution
+  BOOST_TEST(verdict(" 2 2 --no-level-converges") !=
+             "0 pass");  // the declared numbers are not a solution
 }
 
 BOOST_AUTO_TEST_CASE(documented_adapter_works_unchanged) {
@@ -213,7 +215,7 @@ BOOST_AUTO_TEST_CASE(documented_adapter_works_unchanged) {
         row.case_id << ": " << row.reason);
 }
 
-/// The table of the page that documents adapters: fault, cases that catch it.
+/// Returns the faults in the table of the adapters' README and the cases that detect each of them.
 std::map<std::string, std::set<std::string>> documented_faults() {
   std::map<std::string, std::set<std::string>> faults;
   std::istringstream page(read_text(kSource / "harness/adapters/README.md"));
@@ -230,7 +232,7 @@ std::map<std::string, std::set<std::string>> documented_faults() {
   return faults;
 }
 
-/// Cases that are off, of those named.
+/// Returns those of the named cases that are graded as off.
 std::set<std::string> off_cases(const Folder& folder, const std::string& fault,
                                 const std::set<std::string>& cases, int status) {
   std::string names;

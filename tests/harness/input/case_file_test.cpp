@@ -26,7 +26,7 @@ BOOST_AUTO_TEST_CASE(variant_is_a_merge_patch) {
   BOOST_TEST((base.at(bar) == Json{{"thickness_m", 0.1}, {"width_m", 0.05}}));
   BOOST_TEST((deep.at(bar) == Json{{"thickness_m", 0.2}, {"width_m", 0.05}}));
   BOOST_TEST(base["model"].contains("loads"));
-  BOOST_TEST(!deep["model"].contains("loads"));  // null removes
+  BOOST_TEST(!deep["model"].contains("loads"));  // null removes the key
   BOOST_TEST(deep["title"] == base["title"]);
   BOOST_TEST(!deep.contains("variants"));
 }
@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(sweep_sets_the_values_at_its_pointers) {
     const Json& model = found[i].document.value()["model"];
     BOOST_TEST(model["elements"] == std::size_t{1} << i);
     BOOST_TEST(
-        (model["nodes"]["B"] == Json{std::size_t{1} << i, 0}));  // the rest of the array stays
+        (model["nodes"]["B"] == Json{std::size_t{1} << i, 0}));  // the other entry is unchanged
     BOOST_TEST(found[i].parameter == static_cast<double>(std::size_t{1} << i));
   }
 }
@@ -183,7 +183,7 @@ BOOST_AUTO_TEST_CASE(variants_share_the_memory_of_their_file) {
   for (const std::string& variant : given.variants()) documents.push_back(patched(given, variant));
   BOOST_TEST(documents.size() == count + 1U);
   const std::size_t after = used();
-  BOOST_TEST(after < before + 32 * 1024 * 1024);  // all of them of 1.2 MB: 360 MB
+  BOOST_TEST(after < before + 32 * 1024 * 1024);  // 301 copies of 1.2 MB would be 360 MB
 }
 
 BOOST_AUTO_TEST_SUITE_END()

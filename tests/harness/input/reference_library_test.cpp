@@ -20,7 +20,7 @@ Json reference() {
           {"place", "here"}};
 }
 
-/// What is reported of the reference "x" in a family.
+/// Returns the message about the reference "x" of a family.
 std::string fault(const std::string& text) {
   const Folder folder;
   const std::string file = folder.write("references.json", text).string();

@@ -9,7 +9,8 @@ using namespace trammel::harness;
 
 namespace {
 
-/// v(h) = 10 (1 + a h^p + b h^(p+2)) on h = 1, 1/2 ... with some round-off on top.
+/// Returns the series v(h) = 10 (1 + a h^p + b h^(p+2)) for h = 1, 1/2, ... with alternating
+/// round-off.
 Convergence made_up(double p, double a, double b, std::size_t levels, double roundoff = 1e-15) {
   Convergence series;
   series.theory_order = p;
@@ -53,7 +54,7 @@ BOOST_AUTO_TEST_CASE(order_is_found_for_any_refinement_ratio) {
   BOOST_TEST(std::abs(found.richardson.value() - 3) < 1e-9);
 }
 
-/// v on h = 1, 1/2, 1/4 ...
+/// Returns a series of values for h = 1, 1/2, 1/4, ...
 Convergence of_values(const std::vector<double>& values) {
   Convergence series = made_up(2, 0, 0, values.size());
   series.values = {values.begin(), values.end()};
@@ -61,7 +62,7 @@ Convergence of_values(const std::vector<double>& values) {
 }
 
 BOOST_AUTO_TEST_CASE(values_that_diverge_are_not_extrapolated) {
-  // As the logarithm of h does, as 1/h does, and to and fro.
+  // The series grow like log h or 1/h, or oscillate.
   for (const auto& values : {std::vector<double>{1, 2, 3, 4, 5}, {1, 2, 4, 8, 16}, {1, 2, 0, 4}}) {
     for (const bool known : {false, true}) {
       Convergence series = of_values(values);
@@ -134,7 +135,8 @@ BOOST_AUTO_TEST_CASE(order_other_than_theory_has_safety_factor_3) {
   const Convergence found = analyse_convergence(series);
   for (std::size_t k = 2; k < 6; ++k) BOOST_TEST(*found.safety_factor[k] == 3);
   series.theory_order.reset();
-  BOOST_TEST(*analyse_convergence(series).safety_factor[5] == 3);  // nothing to be near to
+  BOOST_TEST(*analyse_convergence(series).safety_factor[5] ==
+             3);  // without a theoretical order to compare with
 }
 
 BOOST_AUTO_TEST_CASE(oscillating_values_have_no_order) {

@@ -19,7 +19,7 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Three frequencies, their reference, and one check between them.
+/// Three frequencies, their reference, and one check of them.
 struct Bench {
   std::shared_ptr<Folder> folder = std::make_shared<Folder>();
   Json check = {{"quantity", "frequency_Hz"},
@@ -47,7 +47,7 @@ struct Bench {
     return harness::evaluate_check(checks.at(0),
                                    {document, quantities, {}, references, variant, other_solver});
   }
-  /// The worst verdict, with its message.
+  /// Returns the worst verdict and stores its message.
   std::string verdict() {
     Verdict worst = Verdict::pass;
     for (const CheckResult& one : judge_all()) {
@@ -236,7 +236,7 @@ BOOST_AUTO_TEST_CASE(changed_known_discrepancy_fails) {
   bench.quantities["frequency_Hz"].values = {11.5, 23, 34.5};
   BOOST_TEST(bench.verdict() == "pass");
   BOOST_TEST((bench.judge_all()[0].expectation == Expectation::known_discrepancy));
-  for (const double value : {10.0, 13.0}) {  // it agrees now; it is off by more now
+  for (const double value : {10.0, 13.0}) {  // agreement, then a larger difference
     bench.set(0, value);
     BOOST_TEST(bench.verdict() == "fail");
     BOOST_TEST(contains(bench.message, "the difference left its recorded range"));
@@ -303,7 +303,7 @@ BOOST_AUTO_TEST_CASE(quantities_of_one_run_are_judged_against_each_other) {
   BOOST_TEST(all[0].difference.value() == -1);
   bench.check["against_quantity"] = "other_m";
   BOOST_TEST(bench.verdict() == "error");
-  // Also where the variant itself is named.
+  // The rule also holds if the variant itself is named.
   bench.check["against_quantity"] = "other_Hz";
   bench.check["against_variant"] = "base";
   bench.other = bench.quantities;

@@ -11,7 +11,7 @@ using namespace trammel::harness;
 
 namespace {
 
-/// A study of values 10 (1 + a h^p) on `levels` halvings, whose bands are then scaled.
+/// Returns a study of the values 10 (1 + 0.1 h^2) on halved sizes, with scaled uncertainty bands.
 Convergence made_up(std::size_t levels, double scale) {
   Convergence series;
   series.theory_order = 2;
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(band_is_relative_to_value_and_error_to_exact_value) {
   Convergence found = made_up(3, 1);
   found.values = {10, 10, 15};
   found.error = {0, 0, 0.5};
-  found.gci = {NAN, NAN, 0.4};  // 6 beside an error of 5
+  found.gci = {NAN, NAN, 0.4};  // band of 6, error of 5
   BOOST_TEST(summarise({found}).levels == 1U);
   BOOST_TEST(summarise({found}).covered == 1U);
   found.gci[2] = 0.3;

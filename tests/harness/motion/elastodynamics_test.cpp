@@ -10,7 +10,8 @@ using namespace trammel::testing;
 
 namespace {
 
-/// The manipulator of Table 1 with a rigid platform, two poses of which make a path.
+/// Returns the manipulator of Table 1 with a rigid platform and one element per link on a
+/// trajectory.
 Json motion(const Json& trajectory) {
   Json json = testing::manipulator();
   json["model"].erase("pose");
@@ -35,7 +36,8 @@ Json& options(Json& json) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(platform_at_constant_speed_is_not_at_rest) {
-  // without acceleration its path frequency is nothing, and it was once compared with a pose held
+  // Without acceleration the path frequency is zero. The motion was once compared with that at a
+  // fixed pose.
   Json json = motion(between("line", 0.01));
   options(json)["step_errors"] = true;
   const AnalysisResult moving = result_of(json);
@@ -47,7 +49,7 @@ BOOST_AUTO_TEST_CASE(platform_at_constant_speed_is_not_at_rest) {
 }
 
 BOOST_AUTO_TEST_CASE(quasi_static_motion_has_no_work_of_its_loads) {
-  // it once gave 0 J, nothing dissipated, and a drift of an energy of which that was a part
+  // The work was once 0 J, and the energy drift included it.
   Json json = motion(between("line", 0.01));
   options(json)["effects"] = {{"elastic_inertia", false}};
   const AnalysisResult result = result_of(json);

@@ -15,7 +15,7 @@ using boost::test_tools::tolerance;
 
 namespace {
 
-/// A quarter circle of 1 m from A to B about the origin, clamped at A, a force at B.
+/// Returns a quarter circle of 1 m from A to B about the origin, clamped at A, with a force at B.
 Json quarter(Index elements) {
   Json json = testing::cantilever();
   json["model"]["nodes"] = {{"A", {1, 0}}, {"B", {0, 1}}};
@@ -62,7 +62,8 @@ BOOST_AUTO_TEST_CASE(intermediate_nodes_have_no_quantities) {
       tolerance(1e-9));
 }
 
-// A and I were linear: frequencies of a strip tapered 5 : 1 were off by up to 178 %.
+// Area and inertia were once linear. Frequencies of a strip tapered 5 : 1 were wrong by up to 178
+// %.
 BOOST_AUTO_TEST_CASE(between_rectangles_depth_and_width_are_linear) {
   Json json = testing::cantilever();
   json["model"]["sections"]["thin"] = {{"material", "steel"},

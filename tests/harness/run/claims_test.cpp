@@ -37,7 +37,7 @@ CheckResult entry(const std::string& name, double computed, double expected) {
   return one;
 }
 
-/// A run of the case "bend" with a check of two entries and a quantity.
+/// Returns a run of the case "bend" with a check of two entries and a quantity.
 Run bend(double first, double second) {
   Run run;
   run.case_id = "bend";
@@ -210,7 +210,7 @@ BOOST_AUTO_TEST_CASE(eleven_claims_name_existing_cases_and_checks) {
     const bool undecidable = !claim.undecidable.empty();
     BOOST_TEST((claim.verdict == (undecidable ? "cannot be decided" : "not measured")));
   }
-  // No reading names a case or a check that is not there.
+  // Every interpretation names an existing case and check.
   const std::vector<Case> catalogue = Catalogue().load();
   for (const auto& [id, claim] : JsonView(document)["claims"].entries()) {
     if (!claim.has("interpretations")) continue;

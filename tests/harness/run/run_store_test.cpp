@@ -23,7 +23,7 @@ std::vector<fs::path> entries(const fs::path& store) {
   return files;
 }
 
-/// A cantilever and variants of it, one with a reference beside the case.
+/// Returns a cantilever with variants and writes a reference next to the case.
 Json cases(const Folder& folder, double reference_N) {
   folder.write_reference("load", "N", reference_N, {{"absolute", 0}}, "computed");
   Json json = testing::cantilever();
@@ -36,7 +36,7 @@ Json cases(const Folder& folder, double reference_N) {
 
 struct Resumed {
   std::string results;
-  std::vector<double> wall_s;  ///< of a run taken from the store as it was when it was computed
+  std::vector<double> wall_s;  ///< a stored run keeps the time of its computation
 };
 
 Resumed run_all(const Folder& folder, const Json& json, bool resume) {

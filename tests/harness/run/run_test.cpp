@@ -18,7 +18,8 @@ using namespace trammel::testing;
 
 namespace {
 
-/// A cantilever's modes along a sweep, with the exact first frequency as a reference beside it.
+/// Returns the modes of a cantilever with a sweep, and writes the exact first frequency as a
+/// reference.
 Json beam(const Folder& folder) {
   const double EI = 2e11 * 0.05 * 1e-3 / 12, mu = 7800 * 0.005, root = 1.8751040687119611;
   const double exact = root * root / 4 * std::sqrt(EI / mu) / (2 * std::acos(-1.0));
@@ -64,7 +65,7 @@ BOOST_AUTO_TEST_CASE(order_leading_term_and_limit_are_judged) {
   }
   BOOST_TEST(exit_status(runs) == 0);
   BOOST_TEST(std::abs(find(runs[0], "order").computed.value() - 4) < 0.05);
-  // Lumped mass is of order 2 and its leading term another.
+  // Lumped mass has order 2 and another leading term.
   json["model"]["members"]["AB"]["mass_matrix"] = "lumped";
   runs = run_all({testing::read(folder, json)});
   BOOST_TEST((find(runs.at(0), "order").verdict == Verdict::fail));
@@ -237,7 +238,7 @@ BOOST_AUTO_TEST_CASE(compared_variant_is_computed_but_not_reported) {
   BOOST_TEST((find(runs[0], "half").verdict == Verdict::pass));
   runs = run_all({testing::read(folder, json)});
   BOOST_REQUIRE(runs.size() == 2);
-  BOOST_TEST(runs[1].checks.empty());  // not against itself
+  BOOST_TEST(runs[1].checks.empty());  // the variant is not compared with itself
 }
 
 BOOST_AUTO_TEST_SUITE_END()

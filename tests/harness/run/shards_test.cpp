@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Four computations, one of them only compared with, and one that ends in an error.
+/// Returns four computations: one is only compared with, and one ends with an error.
 std::vector<Case> cases(const Folder& folder) {
   Json json = testing::cantilever();
   json["variants"]["long"]["model"]["nodes"]["B"] = {3, 0};
@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(shards_are_balanced_for_any_order_of_names) {
   double sum = 0, largest = 0;
   for (int i = 0; i < 200; ++i) {
     names.push_back("case-" + std::to_string(i));
-    if (i % 10 == 0) continue;  // those are of usual cost
+    if (i % 10 == 0) continue;  // names without a cost have the mean cost
     costs[names.back()] = 1 + (i * i) % 97;
   }
   const auto load_of = [&](const std::vector<std::size_t>& shards) {
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(merged_shards_equal_a_run_in_one) {
     if (done_before == 0) done_before = done;
   };
   BOOST_TEST(results_text(run_cases(all, References(), options), all) == whole);
-  BOOST_TEST(done_before == 4U);  // the first told is the one that ends in an error
+  BOOST_TEST(done_before == 4U);  // the first one reported ends with an error
 }
 
 BOOST_AUTO_TEST_CASE(incomplete_and_inconsistent_shards_are_refused) {

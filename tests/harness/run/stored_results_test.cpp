@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A cantilever in two meshes, refined, with its drawing, in a store.
+/// Returns stored results of a cantilever with two meshes, a sweep and a drawing.
 results::Results computed(const Folder& folder) {
   Json json = testing::cantilever();
   json["variants"]["two"]["model"]["elements"] = 2;
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(shared_citation_is_stored_once) {
   }
   results.references.back().notes = "A note.";
   Json json = to_json(results);
-  BOOST_TEST(json["citations"] == Json::array({"One book.", ""}));  // and no place
+  BOOST_TEST(json["citations"] == Json::array({"One book.", ""}));  // the places are empty
   BOOST_TEST(json["references"]["b"]["citation"] == 0);
   const results::Results read = results::read_results(json);
   BOOST_TEST(read.references.at(1).citation == "One book.");

@@ -21,7 +21,7 @@ std::vector<Eigen::VectorXd> wave(double periods) {
   return q;
 }
 
-/// The manipulator on a line of 10 mm in 0.1 s, pushed at P.
+/// Returns the manipulator on a line of 10 mm in 0.1 s with a force at P.
 Json on_a_line(const Json& analysis) {
   Json json = testing::manipulator();
   json["model"].erase("pose");
@@ -33,7 +33,7 @@ Json on_a_line(const Json& analysis) {
   return json;
 }
 
-/// The value of a quantity at a moment that is drawn.
+/// Returns the value of a quantity at a drawn moment.
 double at(const AnalysisResult& result, const std::string& name, const results::Pose& moment) {
   const std::vector<double>& time = values(result, "time_s");
   const auto found =
@@ -48,7 +48,7 @@ const std::vector<results::Pose>& moments(const AnalysisResult& result, std::siz
   return result.drawing->poses;
 }
 
-constexpr std::size_t kP = 9;  ///< the platform's centre among the nodes of a manipulator
+constexpr std::size_t kP = 9;  ///< index of the platform's center among the nodes of a manipulator
 
 }  // namespace
 

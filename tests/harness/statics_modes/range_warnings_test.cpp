@@ -31,7 +31,7 @@ AnalysisResult of_cantilever(double force_x, double force_y, const char* analysi
 
 }  // namespace
 
-// The tip turns by F L^2 / 2 EI = 2.4e-6 rad a newton.
+// The tip rotates by F L^2 / (2 E I) = 2.4e-6 rad per newton.
 BOOST_AUTO_TEST_CASE(linear_rotation_beyond_its_range_warns) {
   BOOST_TEST(of_cantilever(0, 40000, "statics").warnings.empty());
   const AnalysisResult beyond = of_cantilever(0, 50000, "statics");
@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(linear_rotation_beyond_its_range_warns) {
   BOOST_TEST(of_cantilever(0, 50000, "large-statics").warnings.empty());
 }
 
-// A strip of 0.2 m ended at -64 m without a word. N / EA = V / EA = 1e-9 a newton.
+// A strip of 0.2 m once ended at -64 m without a warning. N / EA = V / EA = 1e-9 per newton.
 BOOST_AUTO_TEST_CASE(strain_beyond_its_range_warns) {
   for (const char* analysis : {"statics", "large-statics"}) {
     BOOST_TEST(of_cantilever(9e7, 0, analysis).warnings.empty());
@@ -55,8 +55,8 @@ BOOST_AUTO_TEST_CASE(strain_beyond_its_range_warns) {
   }
 }
 
-// Euler's load of the cantilever is pi^2 E I / 4 L^2; at 0.95 of it displacements are some 20 times
-// as large.
+// Euler's load of the cantilever is pi^2 E I / (4 L^2). At 0.95 of it, displacements are about 20
+// times those of linear theory.
 BOOST_AUTO_TEST_CASE(second_order_theory_near_buckling_warns) {
   const double critical = std::pow(std::numbers::pi / 4, 2) * 2e11 * 0.05 * 1e-3 / 12;
   for (const auto& [share, across, warned] :
@@ -99,7 +99,7 @@ BOOST_AUTO_TEST_CASE(model_that_cannot_vibrate_or_buckle_is_singular) {
              "nothing vibrates, for nothing that moves has mass");
 }
 
-// A rigid beam on three supports: two bear it.
+// A rigid beam on three supports is statically indeterminate.
 BOOST_AUTO_TEST_CASE(indeterminate_reactions_warn) {
   Json json = testing::cantilever();
   BOOST_TEST(result_of(json).warnings.empty());
@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(indeterminate_reactions_warn) {
   }
 }
 
-// Of a cantilever's fourth mode, a quarter of the beam is more than half a wave long.
+// A quarter of the cantilever is longer than half a wave of its fourth mode.
 BOOST_AUTO_TEST_CASE(frequencies_of_coarse_meshes_have_a_warning) {
   Json json = testing::cantilever();
   json["analysis"] = {{"modes", {{"count", 4}}}};
@@ -149,8 +149,8 @@ BOOST_AUTO_TEST_CASE(coarse_meshes_of_tapered_members_warn) {
   }
 }
 
-// One mode has 0.613 of the kinetic energy of a cantilever that moves everywhere alike, so that the
-// norm of what is outside is the root of 0.387, 0.622, on a fine mesh.
+// The first mode has the share 0.613 of the kinetic energy of a cantilever in uniform translation.
+// The norm of the remainder is sqrt(0.387) = 0.622 on a fine mesh.
 BOOST_AUTO_TEST_CASE(velocity_outside_the_reduced_basis_warns) {
   Json json = testing::cantilever();
   json["model"]["loads"] = Json::object();
@@ -167,7 +167,7 @@ BOOST_AUTO_TEST_CASE(velocity_outside_the_reduced_basis_warns) {
 
 namespace {
 
-/// The centred platform turns from 0 to an angle in 40 steps.
+/// Returns statics along a path: the centered platform rotates from 0 to an angle in 40 steps.
 AnalysisResult turning_to(double angle, const Json& analysis = {{"statics", Json::object()}}) {
   Json json = Json::parse(R"({
     "id": "across", "title": "Across a singularity", "extends": "table-1.json",
@@ -199,7 +199,7 @@ BOOST_AUTO_TEST_CASE(path_has_one_warning_with_its_largest_rotation) {
   BOOST_TEST(result.warnings[0].value >= largest);
 }
 
-// The lines of the distal links meet in P at 0.669 rad, 0.744 of the way.
+// The lines of the distal links intersect in P at 0.669 rad, which is 0.744 of the path.
 BOOST_AUTO_TEST_CASE(path_through_a_parallel_singularity_warns) {
   const AnalysisResult result = turning_to(0.9);
   BOOST_TEST(contains(result.warnings.back().text(),

@@ -29,7 +29,7 @@ Json study_json() {
   })");
 }
 
-/// The study beside its case.
+/// Loads the study next to its case.
 CostStudy load(const Json& json, SweepExtent sweeping = SweepExtent::full) {
   const Folder folder;
   (void)folder.write(testing::cantilever());
@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(each_output_has_a_scale_and_quantities) {
   spoiled = json;
   spoiled["scale"] = "largest";
   BOOST_TEST(contains(fault_of(spoiled), "/scale: expected it in each of 'outputs'"));
-  // A curve may be silent on the second output, never on the first.
+  // A curve may lack the second output, but not the first.
   spoiled = json;
   spoiled["curves"]["lumped"]["quantities"] = {{"frequency_Hz", {{"index", {0, 1}}}}};
   BOOST_TEST(fault_of(spoiled) == "");

@@ -42,7 +42,7 @@ Estimated estimated(const Json& json) {
   return found;
 }
 
-/// A manipulator as a new user writes it, without a mesh.
+/// Returns a manipulator as a new user writes it, without a mesh.
 Json own_manipulator() {
   return Json::parse(R"({
     "id": "own-manipulator", "title": "Own 3-RRR",
@@ -129,7 +129,7 @@ BOOST_AUTO_TEST_CASE(relative_errors_do_not_depend_on_units) {
   Json json = cantilever();
   json["analysis"] = {{"modes", {{"count", 3}}}};
   const Estimated meters = estimated(json);
-  constexpr double kLength = 1e3, kMass = 1e-3;  // millimeters and tonnes; time stays
+  constexpr double kLength = 1e3, kMass = 1e-3;  // millimeters and tonnes, the same unit of time
   Json& model = json["model"];
   model["materials"]["steel"]["E_Pa"] = 2e11 * kMass / kLength;
   model["materials"]["steel"]["rho_kg_m3"] = 7800 * kMass / (kLength * kLength * kLength);

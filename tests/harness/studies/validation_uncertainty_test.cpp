@@ -17,11 +17,12 @@ using namespace trammel::testing;
 
 namespace {
 
-/// First frequency of a steel cantilever, exact. It goes with depth, sqrt(E) and 1 / length^2.
+/// Exact first frequency of a steel cantilever [Hz]. It is proportional to depth, sqrt(E) and 1 /
+/// length^2.
 const double kExact = 3.5160152685 * std::sqrt(2e11 / 7800 / 12) * 0.1 / 4 / (2 * std::acos(-1.0));
 
-/// Depth 0.1 m within 1 mm, E within 1 %, a nominal length of 2 m within 0.5 m; the printed
-/// frequency is off by `off`.
+/// Returns a beam of depth 0.1 m within 1 mm, E within 1 % and a nominal length of 2 m within 0.5
+/// m. The printed frequency is wrong by the share `off`.
 Json beam(const Folder& folder, double off) {
   folder.write_reference("printed", "Hz", kExact * (1 - off), {{"absolute", 0.05}}, "code");
   folder.write_reference("other", "Hz", kExact * (1 - off) + 3, {{"absolute", 0.05}}, "code");
@@ -66,11 +67,11 @@ BOOST_AUTO_TEST_CASE(uncertainties_agree_with_scaling_laws_of_a_beam) {
   BOOST_TEST(entry.dominant_input == "depth");
   BOOST_TEST(*entry.dominant_share == 0.8, boost::test_tools::tolerance(1e-3));
   BOOST_TEST(*entry.u_reference == 0.05 / std::sqrt(3.0), boost::test_tools::tolerance(1e-12));
-  // The spread of two references is shown and has no influence.
+  // The spread of two references is shown, but has no influence.
   BOOST_REQUIRE(entry.spread.size() == 1U);
   BOOST_TEST(*entry.spread[0] == 3, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(*entry.u_val < 0.5);
-  BOOST_TEST(found.uncertainty->inputs.size() == 3U);  // without the one that is no number
+  BOOST_TEST(found.uncertainty->inputs.size() == 3U);  // without the input that is not a number
 }
 
 BOOST_AUTO_TEST_CASE(nominal_lengths_count_in_the_literal_reading_alone) {

@@ -36,7 +36,7 @@ Outcome run(const std::vector<std::string>& words) {
   return {status, out.str(), err.str()};
 }
 
-/// A file beside the build that is gone when the test ends.
+/// Temporary file that is deleted at the end of the test.
 class ScratchFile {
  public:
   explicit ScratchFile(const std::string& text)

@@ -32,7 +32,7 @@ const std::map<std::string, Json>& stored() {
   return all;
 }
 
-/// Every stored reference with what its derivation gives, derived once.
+/// Returns every stored reference with its derived values, computed once.
 const std::map<std::string, Comparison>& comparisons() {
   static const auto all = [] {
     std::map<std::string, Comparison> result;
@@ -43,7 +43,7 @@ const std::map<std::string, Comparison>& comparisons() {
   return all;
 }
 
-/// `value` with its tenth significant digit changed by one.
+/// Returns the value with its tenth significant digit changed by one.
 double with_tenth_digit_changed(double value) {
   return value + std::pow(10.0, std::floor(std::log10(std::abs(value))) - 9);
 }

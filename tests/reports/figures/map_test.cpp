@@ -19,7 +19,7 @@ CaseInfo workspace() {
   return info;
 }
 
-/// Values x + 10 y on columns x rows positions, 0.1 m apart.
+/// Returns a field x + 10 y at columns x rows positions, 0.1 m apart.
 Run field(int columns, int rows) {
   std::vector<double> x, y, value;
   for (int j = 0; j < rows; ++j) {
@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(map_keeps_every_position_and_explains_its_colors) {
   BOOST_TEST(figure->data.rows.size() == 70U);
   BOOST_TEST(contains(figure->caption,
                       " in Hz, dark far from zero, in classes of about equally many positions."));
-  BOOST_TEST(contains(figure->commands, "'below 1'"));  // ten of the 70, in seven classes
+  BOOST_TEST(contains(figure->commands, "'below 1'"));  // ten of 70 values in each of seven classes
   BOOST_TEST(contains(figure->alt, "the largest magnitude is 5.3 Hz"));
 }
 
@@ -115,14 +115,14 @@ BOOST_AUTO_TEST_CASE(positions_without_a_number_stay_blank) {
 }
 
 BOOST_AUTO_TEST_CASE(map_of_one_row_or_column_has_valid_cells_and_tics) {
-  // tics 0 apart are an error to gnuplot, and took the whole report with them
+  // Gnuplot refuses a distance of 0 between tics. No report was written.
   std::string problem;
   for (const auto& [columns, rows] : {std::pair{1, 6}, std::pair{6, 1}}) {
     const auto figure = draw(field(columns, rows), problem);
     BOOST_TEST_REQUIRE(figure.has_value(), problem);
     BOOST_TEST(!contains(figure->commands, "set xtics 0\n"));
     BOOST_TEST(!contains(figure->commands, "nan"));
-    BOOST_TEST(contains(figure->commands, "-0.05 0.05"));  // the first cell, 0.1 m wide about 0
+    BOOST_TEST(contains(figure->commands, "-0.05 0.05"));  // the first cell is 0.1 m wide about 0
   }
 }
 

@@ -20,7 +20,7 @@ using trammel::reports::write_report;
 
 namespace {
 
-/// All pages of the sample, one after another.
+/// Returns all pages of the sample as one text.
 const std::string& page() {
   static const std::string text = text_of_pages(sample_report());
   return text;
@@ -30,7 +30,7 @@ bool shows(const std::string& text) {
   return page().find(text) != std::string::npos;
 }
 
-/// The links of the pages that lead to nothing.
+/// Returns the links of the pages without a target.
 std::string dead_links(const std::map<std::string, std::string>& pages, const fs::path& folder) {
   std::string dead;
   for (const auto& [path, text] : pages) {
@@ -59,7 +59,7 @@ std::set<std::string> files_with(const std::string& extension) {
   return names;
 }
 
-/// Hides gnuplot as long as it lives.
+/// Hides gnuplot during its lifetime.
 class WithoutGnuplot {
  public:
   WithoutGnuplot() : search_(std::getenv("PATH")) { setenv("PATH", "/nonexistent", 1); }
@@ -71,7 +71,8 @@ class WithoutGnuplot {
   std::string search_;
 };
 
-/// A title that commands gnuplot to create a file, with all control characters.
+/// Returns a title with commands that would make gnuplot create a file, and with all control
+/// characters.
 std::string commanding_title(const std::string& file) {
   std::string title = "'; system('touch " + file + "'); `touch " + file + "`\n!touch " + file +
                       "\n$(touch " + file + ")|set output @x %d \"";
@@ -122,7 +123,8 @@ BOOST_AUTO_TEST_CASE(powers_of_ten_are_typeset_in_text_only) {
   const std::string text = text_of(workspace.path() / "cases/vpcs-sdll02.html");
   BOOST_TEST(text.find("below 10⁻⁶ of all") != std::string::npos);
   BOOST_TEST(text.find("Frame of 2.5\u202f×\u202f10³") != std::string::npos);
-  BOOST_TEST(text.find("Checks of Frame of 2.5e3") != std::string::npos);  // an attribute
+  BOOST_TEST(text.find("Checks of Frame of 2.5e3") !=
+             std::string::npos);  // attributes are not typeset
 }
 
 BOOST_AUTO_TEST_CASE(pages_and_drawings_are_balanced_and_escaped) {
@@ -192,7 +194,7 @@ BOOST_AUTO_TEST_CASE(summary_counts_the_checks_by_verdict) {
   BOOST_TEST(shows("1 check fails, 1 could not be evaluated, 1 run did not end as expected."));
   BOOST_TEST(shows("<p class=\"reason\">the value is not finite"));
   BOOST_TEST(shows("/model/nodes/B: a member of length 0"));
-  // An expected ending is judged like any other check.
+  // An expected status is judged like any other check.
   BOOST_TEST(shows("A free frame has no stiffness"));
   BOOST_TEST(shows("<td class=\"number\">singular</td>"));
 }
@@ -260,7 +262,7 @@ BOOST_AUTO_TEST_CASE(known_discrepancy_is_never_shown_as_a_success) {
   Check known = results.runs[0].checks[0];
   known.name = "printed";
   known.role = "validation";
-  known.reference = "table-1-link-mass";  // of the paper
+  known.reference = "table-1-link-mass";  // a reference of the paper
   known.expectation = Expectation::known_discrepancy;
   known.tolerance = Tolerance{0.004, 0.006};
   results.runs[0].checks = {results.runs[0].checks[0], known};
@@ -271,7 +273,7 @@ BOOST_AUTO_TEST_CASE(known_discrepancy_is_never_shown_as_a_success) {
                            "class=\"mark known-discrepancy\" title=\"known discrepancy"})
     BOOST_TEST(text.find(part) != std::string::npos, part);
   BOOST_TEST(text.find("class=\"banner passes\"") == std::string::npos);
-  // Variants that meet one printed number have one target.
+  // Variants with the same printed number have one target.
   for (const char* variant : {"second", "third"}) {
     results.cases[0].variants.push_back({variant, variant});
     results.runs.push_back(results.runs[0]);
@@ -310,14 +312,14 @@ BOOST_AUTO_TEST_CASE(failed_report_leaves_the_former_one) {
   }
   BOOST_TEST((text_of(out / "index.html") == before));
   BOOST_TEST(count() == files);
-  // A link is not followed out of the folder, but replaced.
+  // A link out of the folder is not followed, but replaced.
   fs::rename(out / "checks", elsewhere);
   fs::create_directory_symlink(elsewhere, out / "checks");
   for (const auto& entry : fs::directory_iterator(elsewhere)) fs::remove(entry);
   write_report(all, out);
   BOOST_TEST(fs::is_empty(elsewhere));
   BOOST_TEST(count() == files);
-  // A file is the user's own.
+  // A file of the user is not replaced.
   fs::remove_all(out / "checks");
   std::ofstream(out / "checks") << "mine";
   BOOST_CHECK_THROW(write_report(all, out), std::system_error);

@@ -10,7 +10,7 @@ using namespace trammel::results;
 
 namespace {
 
-/// The sample with three of its cases in a stress suite, as the items 1, 3 and 4.
+/// Returns the sample with three of its cases as items 1, 3 and 4 of a stress suite.
 Results with_stress_suite() {
   Results results = sample_results();
   results.cases[2].stress_suite = StressSuiteEntry{1, {"fe-program"}};

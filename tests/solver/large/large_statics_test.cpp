@@ -21,7 +21,7 @@ using boost::test_tools::tolerance;
 
 constexpr double kPi = std::numbers::pi;
 
-/// Tip motion (x, y, rotation) of a solved path's last point.
+/// Returns the tip motion (x, y, rotation) at the last point of a path.
 Vector3d tip(const GeometricallyExactSystem& system, const StaticPath& path) {
   return node_motion(system, path.points.back().state.q).row(1).transpose();
 }
@@ -30,7 +30,7 @@ struct Elastica {
   double load, transverse, shortening, angle;
 };
 
-/// Tip of a cantilever under a transverse load P L^2 / EI, by elliptic integrals.
+/// Exact tip of a cantilever under a transverse load P L^2 / EI, from elliptic integrals.
 constexpr Elastica kSmall{1, .301720773799814, .0564332362833769, .461351949711879};
 constexpr Elastica kLarge{10, .810609024880296, .554995597753751, 1.43028553880386};
 
@@ -47,7 +47,7 @@ double elastica_error(const Elastica& exact, Index elements, double angle = 0) {
                    std::abs(moved[2] - exact.angle)});
 }
 
-/// Of the elastica under a force at its tip.
+/// Returns the estimate for the elastica under a force at its tip.
 StaticSolution estimate_of(const Vector2d& force) {
   Model model = elastica(8);
   model.loads = {{1, {force.x(), force.y(), 0}}};
@@ -75,12 +75,13 @@ BOOST_AUTO_TEST_CASE(tip_errors_of_turned_beams_fall_with_order_6) {
   }
 }
 
-// A step that shrank with round-off would need hundreds of points instead of 10.
+// A step limited by round-off would require hundreds of points instead of 10.
 BOOST_AUTO_TEST_CASE(round_off_of_a_fine_mesh_shortens_no_step) {
   Model model = elastica(1024);
   model.loads = {{1, {0, kSmall.load, 0}}};
   const GeometricallyExactSystem system(model);
-  std::fesetround(FE_UPWARD);  // spoils the tangent: corrections shrink by 60 each, however short
+  std::fesetround(
+      FE_UPWARD);  // perturbs the tangent: each correction is 60 times smaller than the last one
   const StaticPath path = follow_static_path(system, {.max_points = 20});
   std::fesetround(FE_TONEAREST);
   BOOST_REQUIRE(path.outcome.solved());

@@ -18,7 +18,7 @@ StiffnessFactors factors(const MatrixXd& A) {
   return {A.sparseView(), A.cwiseAbs().sparseView(), VectorXd::Ones(A.rows())};
 }
 
-/// The solution of A^T C A q = f with the bound of the error of all its coordinates.
+/// Solution of A^T C A q = f with the error bound of all its coordinates.
 struct Bounded {
   VectorXd q;
   double bound = 0;
@@ -51,7 +51,7 @@ BOOST_AUTO_TEST_CASE(estimated_norm_is_a_close_lower_bound) {
 }
 
 BOOST_AUTO_TEST_CASE(bound_follows_the_condition_of_A_near_a_singularity) {
-  // q = (1 - 1/phi, 1/phi) exactly; K = A^T A has a condition number of about 16/phi^2.
+  // q = (1 - 1/phi, 1/phi) exactly. K = A^T A has a condition number of about 16/phi^2.
   for (int power = 4; power <= 40; power += 4) {
     const double phi = std::ldexp(1.0, -power);
     const StiffnessFactors K = factors(MatrixXd{{1, 1}, {1, 1 + phi}});
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(bound_follows_the_condition_of_A_near_a_singularity) {
 }
 
 BOOST_AUTO_TEST_CASE(stiff_part_costs_no_digits) {
-  for (const double stiff : {1.0, 1e6, 1e12}) {  // two springs in a row, the first one stiff
+  for (const double stiff : {1.0, 1e6, 1e12}) {  // two springs in series, the first one stiff
     StiffnessFactors K = factors(MatrixXd{{1, 0}, {-1, 1}});
     K.C = Eigen::Vector2d(stiff, 1);
     const auto [q, bound] = bounded_solution(K, Eigen::Vector2d(0, 1));
@@ -72,7 +72,7 @@ BOOST_AUTO_TEST_CASE(stiff_part_costs_no_digits) {
   }
 }
 
-// Of one coordinate the norm is a sum, so that the estimate is exact.
+// With one coordinate the norm is a sum, so the estimate is exact.
 BOOST_AUTO_TEST_CASE(bound_is_the_sum_of_rounded_strains_and_forces) {
   StiffnessFactors K = factors(MatrixXd{{1, 0}, {-3, 2}, {0.5, 1}});
   K.C = Eigen::Vector3d(2, 5, 0.7);

@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(both_methods_agree_on_repeated_modes_and_cuts) {
   const System system = assemble(pinned_double_cross(8));
   const ModalSolution all = solve_modes(system, {16, EigenMethod::dense});
   for (const EigenMethod path : kPaths) {
-    for (const Index count : {1, 4, 6, 13, 16}) {  // 4, 6, 13: inside a cluster
+    for (const Index count : {1, 4, 6, 13, 16}) {  // 4, 6 and 13 are inside a cluster
       const ModalSolution m = solve_modes(system, {count, path});
       BOOST_REQUIRE(m.outcome.solved());
       BOOST_REQUIRE(m.frequency.size() == count);
@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(rigid_motions_are_counted_beyond_the_modes_requested) {
   }
 }
 
-/// A body on a massless beam that floats: its three motions carry all the mass there is.
+/// A body floats on a massless beam. Its three rigid motions have all the mass.
 BOOST_AUTO_TEST_CASE(model_with_only_rigid_modes_has_no_vibration) {
   Section section = unit_section();
   section.mass_per_length = 0;

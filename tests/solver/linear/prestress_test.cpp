@@ -13,7 +13,7 @@ using boost::test_tools::tolerance;
 
 namespace {
 
-/// Unit column, clamped at the origin along an angle, compressed by 1 N at its top.
+/// Returns a unit column, clamped at the origin at an angle [rad], compressed by 1 N at its top.
 Model column(Index elements, double angle) {
   Model model = cantilever(unit_section(1e6), 1, elements, angle);
   model.loads = {{1, {-std::cos(angle), -std::sin(angle), 0}}};

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// Unit cantilever (E I = 1, 1 kg/m, 1 m) that points outward from a hub of radius r.
+/// Returns a unit cantilever (E I = 1, 1 kg/m, 1 m) that points outward from a hub of radius r.
 Model blade(double hub, Index elements, double angle = 0.4) {
   Model model = beam(unit_section(1e7), 1, elements, angle);
   const Vector2d direction(std::cos(angle), std::sin(angle));
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(huge_coordinates_do_not_crash) {
       try {
         const RotatingModes r = rotate(far, 10, 2, path);
         BOOST_TEST((!r.outcome.solved() || r.frequency.size() == 2), size);
-      } catch (const ModelError& error) {  // a length beyond the range of numbers
+      } catch (const ModelError& error) {  // lengths beyond the range of double
         BOOST_TEST(size >= 1e155, error.what());
       }
     }

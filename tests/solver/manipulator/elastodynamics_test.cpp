@@ -32,7 +32,7 @@ ElastodynamicsOptions options_on(const Path& path, double end, double step) {
   return options;
 }
 
-/// A platform at rest under a force that begins to act, for 0.1 s.
+/// Returns a platform at rest for 0.1 s under a force that is applied suddenly.
 ElastodynamicsOptions resting(double step) {
   const Pose pose{0.26, 0.15, 0.1};
   ElastodynamicsOptions options = options_on(RestToRest{pose, pose, 1}, 0.1, step);
@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(motion_without_inertia_is_statics_at_every_pose) {
 }
 
 BOOST_AUTO_TEST_CASE(links_lost_to_round_off_of_a_platform_are_refused) {
-  // The result was once called solved with 384 N out of balance under a load of 10 N.
+  // The result was once called solved with an unbalanced force of 384 N under a load of 10 N.
   ElastodynamicsOptions options = resting(1e-2);
   options.design = coarse_design(PlatformKind::triangles);
   options.modal_superposition = true;
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(steps_balance_at_their_ends_between_samples) {
   BOOST_TEST(solve_elastodynamics(options).outcome.solved());
   options.design.platform.material.E = 6.9e19;
   BOOST_TEST(!solve_elastodynamics(options).outcome.solved());
-  // Round-off of a stiff part is compared with the loads, not with the terms of its rows.
+  // Round-off of a stiff part is relative to the loads, not to the terms of its rows.
   options.design.platform.material.E = 6.9e15;
   const ElastodynamicsSolution s = solve_elastodynamics(options);
   BOOST_TEST(s.evidence.largest(Residual::equation_of_motion) > 1e-10);
@@ -137,7 +137,8 @@ BOOST_AUTO_TEST_CASE(errors_along_and_across_the_path_are_the_deflection) {
     const auto k = static_cast<Index>(i);
     const Vector2d radial(std::cos(s.time[i]), std::sin(s.time[i]));
     const Vector2d u = s.deflection.row(k);
-    BOOST_TEST(std::abs(s.normal_error[k] + radial.dot(u)) < 1e-14);  // left is inwards
+    BOOST_TEST(std::abs(s.normal_error[k] + radial.dot(u)) <
+               1e-14);  // the left side of the path is inside
     BOOST_TEST(std::abs(std::hypot(s.normal_error[k], s.tangential_error[k]) - u.norm()) < 1e-14);
   }
 }
@@ -181,7 +182,8 @@ BOOST_AUTO_TEST_CASE(mechanism_has_no_quasi_static_deflection) {
   BOOST_TEST_REQUIRE(s.outcome.solved(), s.outcome.reason);
   BOOST_TEST(std::isnan(s.effects.nominal_inertia));
   BOOST_TEST(s.quasi_static_deflection.array().isNaN().all());
-  BOOST_TEST(s.effects.first_frequency > 0);  // the first elastic one, after three rigid motions
+  BOOST_TEST(s.effects.first_frequency >
+             0);  // the first elastic frequency, after three rigid motions
 }
 
 BOOST_AUTO_TEST_CASE(combinations_without_a_model_are_refused) {
@@ -189,7 +191,7 @@ BOOST_AUTO_TEST_CASE(combinations_without_a_model_are_refused) {
   const std::vector<std::function<void(ElastodynamicsOptions&)>> changes = {
       [](auto& o) { o.modal_superposition = true; },
       [&](auto& o) {
-        o.path = line;  // at rest at its samples alone
+        o.path = line;  // at rest only at its samples
         o.time.sample_times = {0, 0.2};
         o.modal_superposition = true;
       },
@@ -197,7 +199,7 @@ BOOST_AUTO_TEST_CASE(combinations_without_a_model_are_refused) {
         o.gyroscopic = true;
         o.elastic_inertia = false;
       },
-      [](auto& o) {  // the platform cannot turn
+      [](auto& o) {  // the platform cannot rotate
         o.design = coarse_design(PlatformKind::triangles);
         o.wrench = {0, 0, 1};
       }};

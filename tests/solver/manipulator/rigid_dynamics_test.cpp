@@ -14,7 +14,7 @@ namespace {
 using namespace trammel::solver;
 using boost::test_tools::tolerance;
 
-/// The point of the uniformly accelerated motion through p at the time s.
+/// Returns the point at time s of the uniformly accelerated motion through p.
 TrajectoryPoint along(const TrajectoryPoint& p, double s) {
   const Vector3d x =
       Vector3d(p.pose.x, p.pose.y, p.pose.phi) + s * p.velocity + s * s / 2 * p.acceleration;

@@ -17,7 +17,7 @@ Vector3d as_vector(const Pose& p) {
   return {p.x, p.y, p.phi};
 }
 
-/// Velocity and acceleration against central differences of pose and velocity.
+/// Compares velocity and acceleration with central differences of pose and velocity.
 void check_derivatives(const Path& path, double t, double h, double tolerance) {
   const TrajectoryPoint before = at(path, t - h);
   const TrajectoryPoint now = at(path, t);
@@ -49,14 +49,15 @@ BOOST_AUTO_TEST_CASE(rest_to_rest_motion_starts_and_ends_at_rest) {
     BOOST_TEST(at(path, t).acceleration.norm() == 0.0);
   }
   BOOST_TEST((as_vector(at(path, 2).pose) - as_vector(kTo)).norm() < 1e-16);
-  // Symmetric in time about the middle, where it is fastest: 15/8 of the mean speed.
+  // The motion is symmetric about its middle, where its speed is 15/8 of the mean speed.
   const Vector3d mean = (as_vector(kTo) - as_vector(kFrom)) / 2;
   BOOST_TEST((at(path, 1).velocity - 15.0 / 8 * mean).norm() < 1e-15);
   BOOST_TEST((at(path, 0.5).velocity - at(path, 1.5).velocity).norm() < 1e-15);
 }
 
 BOOST_AUTO_TEST_CASE(spline_reproduces_a_cubic) {
-  // x = t^3 - 3 t^2 on [0, 2] starts and ends at rest: the spline at rest must reproduce it.
+  // x = t^3 - 3 t^2 on [0, 2] starts and ends at rest. A spline with ends at rest must reproduce
+  // it.
   const auto cubic = [](double t) { return t * t * (t - 3); };
   const std::vector<double> times{0, 0.3, 0.9, 1.2, 2};
   std::vector<Pose> poses;

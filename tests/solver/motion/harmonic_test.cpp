@@ -29,7 +29,7 @@ Model oscillator() {
   return model;
 }
 
-/// Two welded members, clamped at one end, under a line load.
+/// Returns two welded members, clamped at one end, under a line load.
 Model frame() {
   Model model = cantilever(unit_section(), 1, 4, 0.5);
   model.nodes.push_back({"C", {1.4, 0.9}});
@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(response_at_zero_frequency_is_statics) {
 }
 
 BOOST_AUTO_TEST_CASE(superposition_equals_the_direct_solution) {
-  // Rayleigh damping on all and none: superposing modes or solving directly is the same.
+  // With Rayleigh damping, superposition of all modes equals the direct solution.
   const System system = assemble(frame());
   const HarmonicSolver direct(system, {{1.0, 1e-4}, {}});
   const HarmonicSolver superposed(system, {{1.0, 1e-4}, std::vector<double>(6, 0.0)});
@@ -63,8 +63,8 @@ BOOST_AUTO_TEST_CASE(superposition_equals_the_direct_solution) {
   }
 }
 
-// Two free masses, 2 and 3 kg, on a spring of 50 N/m: the load carries them off as F / (m w^2),
-// with what the spring lets them move apart. At 1e-5 Hz K and M differ by 1e-9.
+// Two free masses of 2 and 3 kg on a spring of 50 N/m. The load displaces both by F / (m w^2), and
+// the spring adds a relative displacement. At 1e-5 Hz K and w^2 M differ by a factor of 1e-9.
 BOOST_AUTO_TEST_CASE(slowly_shaken_free_body_moves_by_its_mass) {
   Model model;
   model.nodes = {{"A", {0, 0}}, {"B", {1, 0}}};

@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// A chain of masses between springs, fixed at its first end.
+/// Returns a chain of masses between springs, fixed at its first end.
 EquationOfMotion chain(Index n, double mass, double stiffness) {
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);
@@ -29,7 +29,7 @@ EquationOfMotion chain(Index n, double mass, double stiffness) {
   return {.M = sparse(M), .K = sparse(K)};
 }
 
-/// A load of two patterns with slopes that jump and, at 0.3 s, a value that jumps.
+/// Returns a load of two patterns whose slopes jump, and with a jump at 0.3 s.
 PiecewiseLinearLoad rough_load(Index n) {
   PiecewiseLinearLoad load;
   load.pattern = Eigen::MatrixXd::Zero(n, 2);
@@ -40,7 +40,7 @@ PiecewiseLinearLoad rough_load(Index n) {
   return load;
 }
 
-/// Expects the outcome of a motion that stops with a reason that contains a text.
+/// Checks that a motion stopped with a reason that contains a text.
 void check_stopped(const TransientSummary& summary, const std::string& reason) {
   BOOST_TEST((summary.outcome.status == Status::not_converged));
   BOOST_TEST(summary.outcome.reason.find(reason) != std::string::npos, summary.outcome.reason);
@@ -48,8 +48,7 @@ void check_stopped(const TransientSummary& summary, const std::string& reason) {
 
 }  // namespace
 
-// Manufactured solution q = (sin 3t, cos 2t) with matrices that change with time and have skew
-// parts.
+// Manufactured solution q = (sin 3t, cos 2t) with time-dependent matrices that have skew parts.
 BOOST_AUTO_TEST_CASE(schemes_converge_with_their_order) {
   const auto M = [](double t) -> Eigen::Matrix2d {
     return (Eigen::Matrix2d() << 2 + std::sin(t), 0.3, 0.3, 1 + 0.5 * std::cos(t)).finished();
@@ -126,7 +125,8 @@ BOOST_AUTO_TEST_CASE(error_control_holds_its_tolerance_and_counts_its_steps) {
       BOOST_TEST(h.summary.accepted > 0);
       BOOST_TEST(h.summary.rejected > 0);
       BOOST_TEST(h.summary.smallest_step < h.summary.largest_step);
-      // a factorization for each size of step in each segment, not for each change of step
+      // One factorization is required for each size of step in each segment, not for each change of
+      // step.
       BOOST_TEST(h.summary.counters.factorizations < 60);
     }
   }
@@ -178,7 +178,7 @@ BOOST_AUTO_TEST_CASE(ten_thousand_steps_allocate_as_ten, *boost::unit_test::labe
     options.end = end;
     const std::int64_t before = allocations();
     const TransientSummary summary = solve_transient(equation, options, observe);
-    BOOST_TEST(summary.counters.factorizations == 2);  // the mass and the step
+    BOOST_TEST(summary.counters.factorizations == 2);  // of the mass and of the step
     return allocations() - before;
   };
   static_cast<void>(cost(0.01));
@@ -199,7 +199,7 @@ BOOST_AUTO_TEST_CASE(quasi_static_start_ignores_a_later_jump) {
   BOOST_TEST(h.v(0, 0) == 2 / equation.K.coeff(0, 0), tolerance(1e-10));
 }
 
-/// Stiff and strongly damped masses follow a slow load without vibration from the start.
+/// Stiff and strongly damped masses follow a slow load without an initial vibration.
 BOOST_AUTO_TEST_CASE(quasi_static_start_includes_its_drag) {
   EquationOfMotion equation = chain(3, 1, 1e6);
   equation.C = 0.003 * equation.K;
@@ -212,7 +212,7 @@ BOOST_AUTO_TEST_CASE(quasi_static_start_includes_its_drag) {
   const TransientHistory h = solve_transient(equation, options);
   BOOST_REQUIRE(h.summary.outcome.solved());
   const double of_the_drag =
-      0.003 * slow;  // [N], in each spring; on 1 kg it would be as many m/s^2
+      0.003 * slow;  // [N] in each spring; the same number is the acceleration of 1 kg
   BOOST_TEST(h.a.col(0).cwiseAbs().maxCoeff() < 1e-6 * of_the_drag);
   BOOST_TEST(h.q(2, 0) == 3 * (10 - of_the_drag) / 1e6, tolerance(1e-9));
   BOOST_TEST(h.v(2, 0) == 3 * slow / 1e6, tolerance(1e-6));
@@ -245,9 +245,8 @@ BOOST_AUTO_TEST_CASE(invalid_options_and_equations_are_refused) {
 
 BOOST_AUTO_TEST_CASE(decayed_vibration_ends_in_zeros) {
   EquationOfMotion equation = chain(4, 1, 200);
-  TransientOptions options{
-      .end = 40000,
-      .step = 1};  // a radius of 0.5 a step: nothing that a double holds after 1075 steps
+  TransientOptions options{.end = 40000,
+                           .step = 1};  // a factor of 0.5 per step underflows after 1075 steps
   options.scheme = generalized_alpha(0.5);
   options.sample_times = {0, 40000};
   options.v0 = VectorXd::Ones(4);

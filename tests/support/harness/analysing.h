@@ -23,7 +23,7 @@ inline const std::vector<double>& values(const AnalysisResult& result, const std
   return result.quantities.at(name).values;
 }
 
-/// The value of a quantity that has one.
+/// Returns the value of a quantity with one value.
 inline double only(const AnalysisResult& result, const std::string& name) {
   BOOST_REQUIRE_MESSAGE(values(result, name).size() == 1, name);
   return values(result, name).front();
