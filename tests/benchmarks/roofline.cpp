@@ -79,8 +79,7 @@ void add_factorization(std::vector<LoopRate>& loops) {
   const SparseMatrix A = grid_laplacian(160);
   solver::SparseLdlt ldlt(solver::SparseLdlt::Triangle::lower);
   if (!ldlt.factorize(A)) return;
-  const SparseMatrix U =
-      Eigen::SimplicialLDLT<SparseMatrix>(A).matrixU();  // in Eigen's own ordering
+  const SparseMatrix U = Eigen::SimplicialLDLT<SparseMatrix>(A).matrixU();  // Eigen's ordering
   Eigen::VectorXd below = Eigen::VectorXd::Constant(A.rows(), -1);
   for (Index j = 0; j < U.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(U, j); it; ++it) ++below[it.row()];

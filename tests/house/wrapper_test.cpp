@@ -102,8 +102,7 @@ BOOST_AUTO_TEST_CASE(log_of_a_former_call_is_discarded) {
   (void)checkout.run("source/trammel list");
   const fs::path build = checkout.root() / "source/build/release";
   std::ofstream(build / "wrapper.log") << "an old fault\n";
-  (void)checkout.run(
-      "script -qec 'source/trammel list' /dev/null");  // output to a terminal is not logged
+  (void)checkout.run("script -qec 'source/trammel list' /dev/null");  // a terminal has no log
   BOOST_TEST(!says(text_of(build / "wrapper.log"), "an old fault"));
   std::ofstream(build / "wrapper.log") << "an old fault\n";
   std::ofstream(build / "broken") << '\n';

@@ -138,8 +138,7 @@ BOOST_AUTO_TEST_CASE(endless_and_too_large_files_are_refused) {
              "/dev/zero: expected a readable file");
   const testing::Folder folder;
   const auto large = folder.write("large.json", "{}");
-  std::filesystem::resize_file(large,
-                               (std::uintmax_t{1} << 28) + 1);  // a sparse file without blocks
+  std::filesystem::resize_file(large, (std::uintmax_t{1} << 28) + 1);  // sparse
   BOOST_TEST(testing::contains(complaint([&] { (void)read_json(large); }), "at most 256 MiB"));
 }
 

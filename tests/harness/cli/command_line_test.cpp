@@ -575,8 +575,7 @@ BOOST_AUTO_TEST_CASE(full_disk_leaves_the_former_report) {
   };
   const auto former = contents();
   std::size_t broken_off = 0;
-  for (const int blocks :
-       {1, 2, 4, 8, 16, 32, 64, 128}) {  // limit of one file, in blocks of 512 bytes
+  for (const int blocks : {1, 2, 4, 8, 16, 32, 64, 128}) {  // of 512 bytes per file
     const Outcome full = run(folder, "report cantilever.json --out out",
                              "ulimit -f " + std::to_string(blocks) + " &&");
     if (full.status == 0) continue;

@@ -132,8 +132,7 @@ BOOST_AUTO_TEST_CASE(missing_answer_is_no_failure_but_wrong_command_is) {
   BOOST_TEST(
       run(folder, grade_words(adapter, "cannot.json gives-nothing.json well-behaved.json")) == 0);
   BOOST_TEST(run(folder, "grade ./no-such-adapter well-behaved.json") == 2);
-  BOOST_TEST(run(folder, "grade well-behaved.json well-behaved.json") ==
-             2);  // the adapter is not executable
+  BOOST_TEST(run(folder, "grade well-behaved.json well-behaved.json") == 2);  // not executable
   BOOST_TEST(run(folder, grade_words(adapter, "no-such-case")) == 2);
   BOOST_TEST(run(folder, "grade 'python3 no-such-adapter.py' well-behaved.json") == 2);
 }
@@ -194,8 +193,7 @@ BOOST_AUTO_TEST_CASE(order_is_judged_by_the_declared_one) {
   BOOST_TEST(verdict(" 2 2") == "0 pass");
   BOOST_TEST(verdict(" 2 4") == "1 fail");
   BOOST_TEST(verdict(" 2 null") == "0 not-given");
-  BOOST_TEST(verdict(" 2 2 --no-level-converges") !=
-             "0 pass");  // the declared numbers are not a solution
+  BOOST_TEST(verdict(" 2 2 --no-level-converges") != "0 pass");  // no solution
 }
 
 BOOST_AUTO_TEST_CASE(documented_adapter_works_unchanged) {

@@ -135,8 +135,7 @@ BOOST_AUTO_TEST_CASE(order_other_than_theory_has_safety_factor_3) {
   const Convergence found = analyse_convergence(series);
   for (std::size_t k = 2; k < 6; ++k) BOOST_TEST(*found.safety_factor[k] == 3);
   series.theory_order.reset();
-  BOOST_TEST(*analyse_convergence(series).safety_factor[5] ==
-             3);  // without a theoretical order to compare with
+  BOOST_TEST(*analyse_convergence(series).safety_factor[5] == 3);  // no theoretical order
 }
 
 BOOST_AUTO_TEST_CASE(oscillating_values_have_no_order) {

@@ -40,8 +40,7 @@ BOOST_AUTO_TEST_CASE(coarse_levels_with_a_third_term_are_excluded) {
 }
 
 BOOST_AUTO_TEST_CASE(worst_misfit_may_have_either_sign) {
-  for (const double factor :
-       {0.5, 2.0}) {  // one level violates the law, with a smaller or larger error
+  for (const double factor : {0.5, 2.0}) {  // the error of one level is too small or too large
     std::vector<double> off = errors(0.3, 2e-3);
     off[2] *= factor;
     const auto fit = fit_two_terms(kSizes, off, kAll, {4, 2}, 10);

@@ -19,7 +19,7 @@ using boost::test_tools::tolerance;
 enum class Integrator { generalized_alpha, energy_momentum };
 
 TransientOptions options_of(Integrator integrator, double step, double end) {
-  TransientOptions options{.end = end, .step = step, .scheme = generalized_alpha(0.9)};
+  TransientOptions options = options_to(end, step, generalized_alpha(0.9));
   options.scheme.conserves_energy = integrator == Integrator::energy_momentum;
   return options;
 }

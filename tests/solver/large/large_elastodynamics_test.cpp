@@ -35,8 +35,7 @@ double largest(const Eigen::MatrixX2d& rows) {
 
 BOOST_AUTO_TEST_CASE(large_motion_without_inertia_is_large_statics) {
   for (const ElbowKind elbow : kElbows) {
-    ElastodynamicsOptions options =
-        options_of(elbow, 1e-4, 6e4, 1);  // inertia forces are 1e-8 of those at 1 rad/s
+    ElastodynamicsOptions options = options_of(elbow, 1e-4, 6e4, 1);  // 1e-8 of the inertia
     options.wrench = {10, 0, 0};
     options.gravity = {0, -1};
     options.elastic_inertia = false;

@@ -47,7 +47,9 @@ BOOST_AUTO_TEST_CASE(path_does_not_step_over_its_target) {
   // Newton's method may fail at the target from a distant state. The step must then be reduced, not
   // taken.
   const GeometricallyExactSystem system(column(24));
-  const StaticPathOptions options{.target = kPi * kPi / 2, .switch_branch = true};
+  StaticPathOptions options;
+  options.target = kPi * kPi / 2;
+  options.switch_branch = true;
   const StaticPath path = follow_static_path(system, options);
   BOOST_REQUIRE(path.outcome.solved());
   BOOST_TEST(path.points.back().state.load == options.target);
@@ -56,7 +58,10 @@ BOOST_AUTO_TEST_CASE(path_does_not_step_over_its_target) {
 BOOST_AUTO_TEST_CASE(path_does_not_jump_to_a_near_branch) {
   for (const double across : {0.05, 0.01, 0.002}) {
     const GeometricallyExactSystem system(shallow_arch(across));
-    const StaticPath path = follow_static_path(system, {.target = 0.8, .first_step = 0.05});
+    StaticPathOptions options;
+    options.target = 0.8;
+    options.first_step = 0.05;
+    const StaticPath path = follow_static_path(system, options);
     BOOST_REQUIRE(path.outcome.solved());
     BOOST_REQUIRE(path.events.size() == 2U);
     BOOST_TEST((path.events[0].kind == PathEvent::Kind::limit_point));
@@ -68,7 +73,10 @@ BOOST_AUTO_TEST_CASE(path_does_not_jump_to_a_near_branch) {
 
 BOOST_AUTO_TEST_CASE(path_that_stops_reports_load_and_residual) {
   const GeometricallyExactSystem system(column(8));
-  const StaticPath path = follow_static_path(system, {.target = 100, .max_points = 5});
+  StaticPathOptions options;
+  options.target = 100;
+  options.max_points = 5;
+  const StaticPath path = follow_static_path(system, options);
   BOOST_TEST((path.outcome.status == Status::not_converged));
   BOOST_TEST(path.outcome.reason.find("load factor") != std::string::npos);
   BOOST_TEST(path.outcome.reason.find("residual") != std::string::npos);

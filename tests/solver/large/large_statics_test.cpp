@@ -80,9 +80,10 @@ BOOST_AUTO_TEST_CASE(round_off_of_a_fine_mesh_shortens_no_step) {
   Model model = elastica(1024);
   model.loads = {{1, {0, kSmall.load, 0}}};
   const GeometricallyExactSystem system(model);
-  std::fesetround(
-      FE_UPWARD);  // perturbs the tangent: each correction is 60 times smaller than the last one
-  const StaticPath path = follow_static_path(system, {.max_points = 20});
+  std::fesetround(FE_UPWARD);  // perturbs the tangent: corrections shrink by a factor of only 60
+  StaticPathOptions options;
+  options.max_points = 20;
+  const StaticPath path = follow_static_path(system, options);
   std::fesetround(FE_TONEAREST);
   BOOST_REQUIRE(path.outcome.solved());
   BOOST_TEST(std::abs(tip(system, path)[1] - kSmall.transverse) < 2e-11);  // 10 3 N 2 eps

@@ -7,6 +7,7 @@
 #include "solver/large/state_results.h"
 #include "solver/large/static_path.h"
 #include "tests/support/solver/large_models.h"
+#include "tests/support/solver/numerics.h"
 
 BOOST_AUTO_TEST_SUITE(motion_residuals)
 
@@ -25,15 +26,15 @@ GeometricallyExactSystem pendulum() {
   return GeometricallyExactSystem(simple_pendulum(), large_motion);
 }
 
-TransientOptions options_to(double end) {
-  return {.end = end, .step = 0.01, .scheme = generalized_alpha(0.9)};
+TransientOptions options_for(double end) {
+  return options_to(end, 0.01, generalized_alpha(0.9));
 }
 
 /// Returns the outcome of ten steps after a change of the last state.
 Outcome outcome_of(const std::function<void(State&)>& change) {
   const GeometricallyExactSystem system = pendulum();
   State state;
-  BOOST_TEST_REQUIRE(integrate(system, state, options_to(0.1)).outcome.solved());
+  BOOST_TEST_REQUIRE(integrate(system, state, options_for(0.1)).outcome.solved());
   change(state);
   VectorXd force = VectorXd::Zero(system.coordinates());
   system.force_residual(state, force);
@@ -66,7 +67,7 @@ BOOST_AUTO_TEST_CASE(wrong_states_of_a_motion_are_refused) {
 BOOST_AUTO_TEST_CASE(integration_reports_its_residuals) {
   const GeometricallyExactSystem system = pendulum();
   State state;
-  const IntegrationSummary summary = integrate(system, state, options_to(1));
+  const IntegrationSummary summary = integrate(system, state, options_for(1));
   BOOST_TEST(summary.outcome.solved(), summary.outcome.reason);
   BOOST_TEST(summary.evidence.largest(Residual::constraints) < 1e-13);
   BOOST_TEST(summary.evidence.largest(Residual::equation_of_motion) < 1e-12);
@@ -89,7 +90,7 @@ BOOST_AUTO_TEST_CASE(energy_balances_with_every_kind_of_work) {
        }}};
   const GeometricallyExactSystem system(model, large_motion);
   State state;
-  TransientOptions options = options_to(1);
+  TransientOptions options = options_for(1);
   options.scheme.conserves_energy = true;
   const IntegrationSummary summary = integrate(system, state, options);
   BOOST_TEST(summary.outcome.solved(), summary.outcome.reason);

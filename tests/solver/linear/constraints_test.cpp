@@ -47,8 +47,7 @@ BOOST_AUTO_TEST_CASE(rigid_body_has_three_motions) {
 
 BOOST_AUTO_TEST_CASE(redundant_constraints_are_dropped) {
   Model model = rigid_triangle();
-  model.rigid_bodies.push_back(
-      {"again", 1, {2, 3, 0}});  // the same body, described from another node
+  model.rigid_bodies.push_back({"again", 1, {2, 3, 0}});  // the same body from another node
   model.supports = {pin(1), {"", 1, {true, false, false}}};
   const System system = assemble(model);
   BOOST_TEST(system.T.cols() == 1);

@@ -137,8 +137,7 @@ BOOST_AUTO_TEST_CASE(errors_along_and_across_the_path_are_the_deflection) {
     const auto k = static_cast<Index>(i);
     const Vector2d radial(std::cos(s.time[i]), std::sin(s.time[i]));
     const Vector2d u = s.deflection.row(k);
-    BOOST_TEST(std::abs(s.normal_error[k] + radial.dot(u)) <
-               1e-14);  // the left side of the path is inside
+    BOOST_TEST(std::abs(s.normal_error[k] + radial.dot(u)) < 1e-14);  // left is inside
     BOOST_TEST(std::abs(std::hypot(s.normal_error[k], s.tangential_error[k]) - u.norm()) < 1e-14);
   }
 }
@@ -182,8 +181,7 @@ BOOST_AUTO_TEST_CASE(mechanism_has_no_quasi_static_deflection) {
   BOOST_TEST_REQUIRE(s.outcome.solved(), s.outcome.reason);
   BOOST_TEST(std::isnan(s.effects.nominal_inertia));
   BOOST_TEST(s.quasi_static_deflection.array().isNaN().all());
-  BOOST_TEST(s.effects.first_frequency >
-             0);  // the first elastic frequency, after three rigid motions
+  BOOST_TEST(s.effects.first_frequency > 0);  // elastic, after three rigid motions
 }
 
 BOOST_AUTO_TEST_CASE(combinations_without_a_model_are_refused) {

@@ -5,6 +5,7 @@
 
 #include "solver/model/numbers.h"
 #include "solver/motion/transient.h"
+#include "tests/support/solver/numerics.h"
 
 BOOST_AUTO_TEST_SUITE(motion_evidence)
 
@@ -29,7 +30,7 @@ EquationOfMotion oscillator() {
 }
 
 TransientHistory run(const EquationOfMotion& equation, const TimeScheme& scheme = {}) {
-  TransientOptions options{.end = 2, .step = 0.02, .scheme = scheme};
+  TransientOptions options = options_to(2, 0.02, scheme);
   options.v0 = VectorXd::Constant(1, 0.3);
   return solve_transient(equation, options);
 }

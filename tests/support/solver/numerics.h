@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/model/effects.h"
+#include "solver/motion/integrate.h"
 
 /// Small numerical tools that the tests of the solver share.
 namespace trammel::solver {
@@ -24,6 +25,15 @@ auto richardson(const F& f, double h) {
 /// Returns the order of convergence from the errors at a step and at half of it.
 inline double observed_order(double coarse, double fine) {
   return std::log2(coarse / fine);
+}
+
+inline TransientOptions options_to(double end, double step,
+                                   const TimeScheme& scheme = average_acceleration()) {
+  TransientOptions options;
+  options.end = end;
+  options.step = step;
+  options.scheme = scheme;
+  return options;
 }
 
 inline SparseMatrix sparse(const Eigen::MatrixXd& A) {
