@@ -140,7 +140,7 @@ std::size_t tell(Board& board, const Maker& make, const std::string& what, const
   for (std::size_t i = 0; i < board.size; ++i) {
     const Input input = make(i);
     const Outcome outcome = board[i].outcome;
-    for (const std::string& row : {input.kind, std::string("in all")})
+    for (const std::string& row : {input.kind, std::string("total")})
       ++counts[row][static_cast<std::size_t>(outcome)];
     if (options.only >= 0 || !options.files.empty())
       std::cout << input.how << '\n'
@@ -207,19 +207,20 @@ std::size_t run_made(const Options& options) {
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App app("Inputs that are wrong in a way, and what the program makes of them");
-  app.add_option("--inputs", options.inputs, "How many")->capture_default_str();
-  app.add_option("--seed", options.seed, "Of the inputs")->capture_default_str();
-  app.add_option("--only", options.only, "Only the input of this number, told in full");
+  CLI::App app("Runs the program on invalid and unusual inputs");
+  app.add_option("--inputs", options.inputs, "Number of inputs")->capture_default_str();
+  app.add_option("--seed", options.seed, "Seed of the inputs")->capture_default_str();
+  app.add_option("--only", options.only, "Only the input of this number, with a full description");
   app.add_option("--kind", options.kind, "Only inputs of this kind")
       ->check(CLI::IsMember(Mutator::kinds()));
-  app.add_option("--limit", options.limit_s, "Processor time that one may compute [s]")
+  app.add_option("--limit", options.limit_s, "Processor time of each computation [s]")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
-  app.add_option("-j,--jobs", options.jobs, "Processes at a time")->capture_default_str();
-  app.add_option("--findings", options.findings, "Folder for what is found")->capture_default_str();
+  app.add_option("-j,--jobs", options.jobs, "Simultaneous processes")->capture_default_str();
+  app.add_option("--findings", options.findings, "Folder for inputs with findings")
+      ->capture_default_str();
   app.add_option("files", options.files,
-                 "Files of KIND/NAME.json instead of the corpus and others");
+                 "Files of the form KIND/NAME.json instead of the corpus and new inputs");
   CLI11_PARSE(app, argc, argv);
   if (!options.files.empty()) return run_files(options.files, options) == 0 ? 0 : 1;
   std::vector<fs::path> known;

@@ -171,7 +171,7 @@ BOOST_AUTO_TEST_CASE(room_includes_only_rooms_above_it_in_the_table) {
     const auto direct = rooms().direct.find(room);
     if (direct != rooms().direct.end()) {
       for (const std::string& target : direct->second)
-        BOOST_TEST(above.count(target) == 1U, target << " stands not above " << room);
+        BOOST_TEST(above.count(target) == 1U, target << " is not above " << room);
     }
     above.insert(room);
   }
@@ -210,16 +210,16 @@ BOOST_AUTO_TEST_CASE(no_room_holds_too_many_files) {
 
 BOOST_AUTO_TEST_CASE(folder_readme_lists_its_rooms_and_their_arrows) {
   for (const std::string& top : rooms().tops()) {
-    std::map<std::string, std::string> told;
+    std::map<std::string, std::string> listed;
     for (const Cells& cells : table(kRoot / top / "README.md", "| room |"))
-      told[top + "/" + names_in(cells.at(0)).at(0)] = cells.back();
+      listed[top + "/" + names_in(cells.at(0)).at(0)] = cells.back();
     for (const std::string& room : rooms().order) {
       if (first_part(room) != top) continue;
-      BOOST_TEST(told.count(room) == 1U, top << "/README.md has no row for " << room);
-      BOOST_TEST(told[room] == rooms().arrows.at(room), room << " in " << top << "/README.md");
-      told.erase(room);
+      BOOST_TEST(listed.count(room) == 1U, top << "/README.md has no row for " << room);
+      BOOST_TEST(listed[room] == rooms().arrows.at(room), room << " in " << top << "/README.md");
+      listed.erase(room);
     }
-    for (const auto& [room, arrows] : told)
+    for (const auto& [room, arrows] : listed)
       BOOST_TEST(false, top << "/README.md names " << room << ", CONTRIBUTING.md does not");
   }
 }
@@ -260,12 +260,12 @@ BOOST_AUTO_TEST_CASE(tests_mirror_the_rooms) {
 }
 
 BOOST_AUTO_TEST_CASE(readme_of_the_tests_lists_their_folders) {
-  std::set<std::string> told, there;
+  std::set<std::string> listed, there;
   for (const Cells& cells : table(kRoot / "tests/README.md", "| folder |"))
-    for (const std::string& name : names_in(cells.at(0))) told.insert(name);
+    for (const std::string& name : names_in(cells.at(0))) listed.insert(name);
   for (const auto& entry : fs::directory_iterator(kRoot / "tests"))
     if (entry.is_directory()) there.insert(entry.path().filename().string());
-  BOOST_TEST(told == there, boost::test_tools::per_element());
+  BOOST_TEST(listed == there, boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -60,7 +60,7 @@ BOOST_AUTO_TEST_CASE(inactive_effects_are_never_evaluated) {
       }
     }
   }
-  BOOST_TEST_MESSAGE(runs << " runs, each as it stands and without all that it can do without");
+  BOOST_TEST_MESSAGE(runs << " runs, each with its own effects and with the required effects only");
   BOOST_TEST(runs > 100);
 }
 

@@ -71,14 +71,14 @@ BOOST_AUTO_TEST_CASE(interrupted_command_explains_how_to_continue) {
                              until + "; kill -TERM $!; wait $!";
     return WEXITSTATUS(std::system(line.c_str()));
   };
-  const auto told = [&] { return read_text(folder.path() / "err.txt"); };
+  const auto error_text = [&] { return read_text(folder.path() / "err.txt"); };
   BOOST_TEST(status_of("report cantilever.json", "until test -e drawing; do sleep 0.1; done") ==
              143);
-  BOOST_TEST(told() == "trammel: interrupted; the same command does what is missing\n");
+  BOOST_TEST(error_text() == "trammel: interrupted; the same command does what is missing\n");
   BOOST_TEST(status_of("cost cantilever.json --repeats 10000", "sleep 1") == 143);
-  BOOST_TEST(contains(told(), "with --resume"));
+  BOOST_TEST(contains(error_text(), "with --resume"));
   BOOST_TEST(status_of("effects scene-soft-platform --repeats 1000", "sleep 1") == 143);
-  BOOST_TEST(told() == "trammel: interrupted; the same command begins anew\n");
+  BOOST_TEST(error_text() == "trammel: interrupted; the same command begins anew\n");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

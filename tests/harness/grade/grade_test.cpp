@@ -71,7 +71,7 @@ const std::map<std::string, std::pair<std::string, std::string>> kHostile = {
     {"prints-much", {"agrees", ""}},
     {"prints-for-ever", {"timed out", ""}},
     {"dies", {"crashed", "signal 11"}},
-    {"fails", {"crashed", "exit status 1: the licence has run out"}},
+    {"fails", {"crashed", "exit status 1: the license has expired"}},
     {"says-nothing", {"broken", "expected a file that the adapter writes"}},
     {"links-to-zeros", {"broken", "result.json"}},
     {"makes-a-pipe", {"broken", "result.json"}},

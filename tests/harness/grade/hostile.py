@@ -80,7 +80,7 @@ elif mode == "prints-for-ever":
 elif mode == "dies":
     os.kill(os.getpid(), signal.SIGSEGV)
 elif mode == "fails":
-    sys.exit("the licence has run out")
+    sys.exit("the license has expired")
 elif mode == "says-nothing":
     pass
 elif mode == "links-to-zeros":

@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(invalid_family_file_is_refused_with_its_pointer) {
     return fault(common, entry);
   };
   BOOST_TEST(contains(changed("values", {1, "2"}), ": /x/values/1: expected"));
-  BOOST_TEST(contains(changed("colour", "red"), ": /x/colour: "));
+  BOOST_TEST(contains(changed("color", "red"), ": /x/color: "));
   BOOST_TEST(contains(changed("unit", "furlong"), ": /x/unit: expected"));
   BOOST_TEST(contains(changed("uncertainty", {{"relative", -1}}), ": /x/uncertainty/relative"));
   BOOST_TEST(contains(changed("derivation", {{"program", "p"}}), ": /x/derivation: expected"));

@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(schemas_use_only_implemented_keywords) {
                  key);
       if (key == "pattern") BOOST_TEST(item.value() == "^[A-Za-z0-9][A-Za-z0-9._-]*$");
       const bool used = key == "description" || key == "$ref" || key == "anyOf";
-      BOOST_TEST((!refers || used), key << " beside $ref or anyOf is not checked");
+      BOOST_TEST((!refers || used), key << " next to $ref or anyOf is not checked");
       if (key == "properties" || key == "definitions" || key == "anyOf") {
         for (const Json& inner : item.value()) visit(inner, false);
       } else if (key == "items" || key == "additionalProperties") {
