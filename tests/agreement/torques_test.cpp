@@ -39,7 +39,7 @@ references::ManipulatorNumbers bodies(const RigidManipulator& m) {
   return result;
 }
 
-/// Torques of Newton and Euler in 50 digits.
+/// Actuator torques [N m] by the Newton-Euler equations, computed with 50 digits.
 Vector3d independent_torques(const RigidManipulator& m, const TrajectoryPoint& motion,
                              const Vector3d& wrench) {
   const Vector3d x(motion.pose.x, motion.pose.y, motion.pose.phi);
@@ -84,7 +84,7 @@ BOOST_AUTO_TEST_CASE(random_states_have_the_torques_of_newton_and_euler) {
   BOOST_TEST(least > 0.001);
 }
 
-BOOST_AUTO_TEST_CASE(wrong_inertia_of_one_link_is_noticed) {
+BOOST_AUTO_TEST_CASE(wrong_inertia_of_one_link_is_detected) {
   const TrajectoryPoint motion = RandomStates(1).point();
   RigidManipulator m = uneven_bodies();
   const Vector3d expected = independent_torques(m, motion, Vector3d::Zero());

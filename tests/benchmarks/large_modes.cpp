@@ -1,8 +1,9 @@
-// Processor time and peak memory of the first ten modes of two large models, at four sizes from a
-// 32nd on, each in its own process, and how they grow. Measured, never asserted.
+// Measures processor time and peak memory of the first ten modes of two large models. Each model is
+// solved at four sizes, from 1/32 of the full size on, in separate processes. Prints the exponents
+// of growth. Asserts nothing.
 //   large_modes                  both models, four sizes
-//   large_modes lattice 100000   one of them: a square lattice of frame members ...
-//   large_modes plate 200000     ... or a square plate of constant-strain triangles
+//   large_modes lattice 100000   one model: a square lattice of 100000 frame members
+//   large_modes plate 200000     one model: a square plate of 200000 constant-strain triangles
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -25,7 +26,7 @@ double seconds() {
   return std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
 }
 
-/// n x n nodes in a square of 1 m, clamped along x = 0.
+/// Grid of n x n nodes in a square of 1 m, clamped along x = 0.
 Model square(Index n, bool rotations) {
   Model model;
   for (Index j = 0; j < n; ++j) {

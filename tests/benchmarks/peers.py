@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""What trammel costs beside other programs that do the same work, each from start to end.
+"""Compares the processor time of trammel with that of other programs that do the same work from start to end.
 
-Arguments: the program, then rows (all by default): manipulator-4, manipulator-64 (eight modes and statics under 10 N, elements a
-link; beside CalculiX), grnn-631, grnn-100000 (queries of 379 samples; beside numpy), pendulum-16 (rods; a second of
-a flexible pendulum in large motion, the bob within 1e-6 m of where each mesh alone has it; beside Simbody), instructions-4, instructions-64 (of the first
-two, by valgrind; what is done before a computation gets a process of its own counts once). Both sides run in turn, ROUNDS times; a ratio
-is the median of their processor times pair by pair, with the least and the largest. Answers are compared first.
-"""
+Arguments: the program, then rows (all by default). manipulator-4 and manipulator-64: eight modes and statics under 10 N, elements per
+link, against CalculiX. grnn-631 and grnn-100000: queries of 379 samples, against numpy. pendulum-16: a second of a flexible pendulum in
+large motion with 16 rods, against Simbody; both bobs are within 1e-6 m of the limit of their meshes. instructions-4 and instructions-64:
+the first two by valgrind; work before a computation gets a separate process counts once. Programs run alternately, ROUNDS times. The
+ratio is the median of the ratios of the pairs, with the minimum and maximum. Answers are compared before times."""
 import json
 import math
 import os
@@ -38,7 +37,7 @@ json.dump(answer.tolist(), open(sys.argv[2], "w"))
 
 
 def seconds(command, folder):
-    """Processor time of a command and all that it starts."""
+    """Returns the processor time of a command and its child processes [s]."""
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     subprocess.run(command, cwd=folder, env=environment, stdout=subprocess.DEVNULL, check=True)
@@ -46,12 +45,12 @@ def seconds(command, folder):
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
-def beside(row, ours, theirs, folder, difference):
-    """Runs both in turn; `difference` is that of their answers, and where one is met that they do not give."""
+def compare(row, ours, theirs, folder, difference):
+    """Runs both sides alternately and prints the ratio of times and the `difference` of the answers."""
     pairs = [(seconds(ours, folder), sum(seconds(command, folder) for command in theirs)) for _ in range(ROUNDS)]
     ratios = sorted(a / b for a, b in pairs)
     a, b = (statistics.median(side) for side in zip(*pairs))
-    print(f"{row}: {a:.3f} s beside {b:.3f} s: ratio {statistics.median(ratios):.3f} ({ratios[0]:.3f} to {ratios[-1]:.3f}); "
+    print(f"{row}: {a:.3f} s against {b:.3f} s: ratio {statistics.median(ratios):.3f} ({ratios[0]:.3f} to {ratios[-1]:.3f}); "
           f"answers differ by {difference:.1e}", flush=True)
 
 
@@ -61,7 +60,7 @@ def write(folder, name, case):
 
 
 def answer(program, folder, name):
-    """Its run: quantities of one entry, and what checks computed."""
+    """Returns the run of a case: quantities with one entry, and the computed values of checks."""
     seconds([program, "run", f"{name}.json", "--out", "out"], folder)
     return json.loads((folder / "out" / "results.json").read_text())["runs"][0]
 
@@ -72,7 +71,7 @@ def grnn(program, folder, count):
     times = [2 * math.pi * k / 630 for k in range(379)]
     samples = {"inputs": [inputs(t) for t in times], "outputs": [[math.sin(t + k) for k in range(6)] for t in times]}
     queries = [inputs(2 * math.pi * k / count) for k in range(count)]
-    for sigma in (0.3, 0.02):  # most samples count, or the nearest dozen
+    for sigma in (0.3, 0.02):  # most samples contribute, or about the nearest twelve
         peer = ["/usr/bin/python3", "-c", NUMPY, "grnn.json", "answer.json"]
         for name, some in (("grnn", queries), ("one", queries[count // 3:count // 3 + 1])):
             write(folder, name, {"analysis": {"grnn": {"sigma": sigma, "samples": samples, "queries": some}}})
@@ -80,7 +79,7 @@ def grnn(program, folder, count):
         expected = json.loads((folder / "answer.json").read_text())[count // 3]
         found = answer(program, folder, "one")["quantities"]
         difference = max(abs(found[f"prediction:{j + 1}"][0] - value) for j, value in enumerate(expected))
-        beside(f"grnn-{count}, sigma {sigma}", [program, "run", "grnn.json", "--out", "out"], [peer], folder, difference)
+        compare(f"grnn-{count}, sigma {sigma}", [program, "run", "grnn.json", "--out", "out"], [peer], folder, difference)
 
 
 def manipulator(folder, elements):
@@ -91,8 +90,8 @@ def manipulator(folder, elements):
     return ["run", "modes.json", "statics.json", "--jobs", "1", "--out", "out"]
 
 
-def beside_calculix(program, folder, elements):
-    """ccx alone, from its decks: plane-stress strips for modes, beams of their own for statics."""
+def against_calculix(program, folder, elements):
+    """Runs ccx without the adapter on its decks: plane-stress strips for modes, beam elements for statics."""
     words = manipulator(folder, elements)
     seen = {"quantity": "frequency_Hz", "role": "verification", "bound": {"at_least": 0, "why": "to be read"}}
     write(folder, "seen", {"extends": "modes.json", "checks": {str(k): {**seen, "index": k} for k in range(8)}})
@@ -104,11 +103,11 @@ def beside_calculix(program, folder, elements):
     found = [check["computed"] for check in answer(program, folder, "seen")["checks"]]
     runs = [["ccx", "seen/deck"], ["ccx", "statics/deck"]]
     difference = max(abs(a / b - 1) for a, b in zip(expected, found))
-    beside(f"manipulator-{elements}", [program, *words], runs, folder, difference)
+    compare(f"manipulator-{elements}", [program, *words], runs, folder, difference)
 
 
 def pendulum(program, folder, rods):
-    """Two elements of degree 3 beside rigid rods; the mesh's error is from 6 elements."""
+    """Compares two elements of degree 3 with rigid rods; the mesh's error is relative to 6 elements."""
     seen = {"role": "verification", "bound": {"at_least": -2, "why": "to be read"}}
     strip = {"material": "steel", "rectangle": {"thickness_m": 0.002, "width_m": 0.02}}
 
@@ -125,16 +124,16 @@ def pendulum(program, folder, rods):
         return list(zip(values[::2], values[1::2]))
 
     def chain(accuracy):
-        told = subprocess.run([*simbody, accuracy], stdout=subprocess.PIPE, check=True, text=True).stdout
-        return [tuple(map(float, line.split())) for line in told.splitlines()]
+        printed = subprocess.run([*simbody, accuracy], stdout=subprocess.PIPE, check=True, text=True).stdout
+        return [tuple(map(float, line.split())) for line in printed.splitlines()]
 
     def apart(a, b):
         return max(math.dist(p, q) for p, q in zip(a, b, strict=True))
     simbody = [str(simbody_pendulum(program)), str(rods)]
     continuum, fine, fine_chain = bob("continuum", 6, 200), bob("fine", 2, 400), chain("1e-8")
     ours, theirs = apart(bob("pendulum", 2, 40), fine), apart(chain("1e-4"), fine_chain)
-    print(f"pendulum-{rods}: time's error {ours:.1e} m beside {theirs:.1e} m, the mesh's {apart(fine, continuum):.1e} m beside {apart(fine_chain, continuum):.1e} m")
-    beside(f"pendulum-{rods}", [program, "run", "pendulum.json", "--out", "out"], [[*simbody, "1e-4"]], folder, apart(fine, fine_chain))
+    print(f"pendulum-{rods}: error in time {ours:.1e} m against {theirs:.1e} m, of the mesh {apart(fine, continuum):.1e} m against {apart(fine_chain, continuum):.1e} m")
+    compare(f"pendulum-{rods}", [program, "run", "pendulum.json", "--out", "out"], [[*simbody, "1e-4"]], folder, apart(fine, fine_chain))
 
 
 def simbody_pendulum(program):
@@ -148,17 +147,17 @@ def instructions(program, folder, elements):
     seconds(["valgrind", "-q", "--tool=callgrind", f"--callgrind-out-file={folder}/count.%p", program, *words], folder)
     total = 0
     for number, file in enumerate(sorted(folder.glob("count.*"), key=lambda f: int(f.suffix[1:]))):
-        told = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", str(file)], check=True,
+        printed = subprocess.run(["callgrind_annotate", "--inclusive=yes", "--threshold=100", str(file)], check=True,
                               stdout=subprocess.PIPE, text=True).stdout
         whole = r"PROGRAM TOTALS" if number == 0 else r"_Function_handler<std::__cxx11::basic_string<[^(]*\(\)"
-        total += int(re.search(r"^ *([0-9,]+) .*" + whole, told, re.M)[1].replace(",", ""))
+        total += int(re.search(r"^ *([0-9,]+) .*" + whole, printed, re.M)[1].replace(",", ""))
     print(f"instructions, manipulator-{elements}: {total / 1e6:.1f} million")
 
 
 def main():
     program = str(pathlib.Path(sys.argv[1]).resolve())
     rows = {f"{name}-{count}": (needs, run, count) for name, needs, run, counts in (
-        ("manipulator", "ccx", beside_calculix, (4, 64)), ("grnn", "/usr/bin/python3", grnn, (631, 100000)), ("pendulum", simbody_pendulum(program), pendulum, (16,)),
+        ("manipulator", "ccx", against_calculix, (4, 64)), ("grnn", "/usr/bin/python3", grnn, (631, 100000)), ("pendulum", simbody_pendulum(program), pendulum, (16,)),
         ("instructions", "valgrind", instructions, (4, 64))) for count in counts}
     for row in sys.argv[2:] or rows:
         needs, run, count = rows[row]

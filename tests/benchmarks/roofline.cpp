@@ -1,6 +1,6 @@
-// Inner loops of the solver against what one core and its memory allow: rates in the lower of the
-// two for their operations and bytes, which are counted from sizes. By hand:
-// build/release/tests/roofline
+// Measures the rates of the solver's inner loops relative to their roofline: the lower of the peak
+// rate of one core and the bandwidth of its memory. Operations and bytes are counted from sizes.
+// Run by hand: build/release/tests/roofline
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -14,7 +14,7 @@
 #include "solver/grnn/grnn.h"
 #include "solver/linalg/factorization.h"
 
-// The widest instructions of the machine, as a library that is built for it would use them.
+// Compiles a function for the widest vector instructions of the machine.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__)
 #define TRAMMEL_WIDE __attribute__((target_clones("avx512f", "arch=haswell", "default")))
 #else
@@ -27,7 +27,7 @@ namespace solver = trammel::solver;
 using solver::Index;
 using solver::SparseMatrix;
 
-/// Processor time of one call [s]: the least of several that take some time together.
+/// Returns the processor time of one call [s]: the minimum of several calls.
 double least_time(const std::function<void()>& work) {
   constexpr double kTogether = 0.12, kShortest = 1e-6;
   double least = 1e300;
@@ -42,13 +42,13 @@ double least_time(const std::function<void()>& work) {
   return least;
 }
 
-/// An inner loop: operations and bytes that it cannot do without, and its processor time.
+/// Inner loop: the operations and bytes that it requires, and its processor time.
 struct LoopRate {
   std::string title;
   double operations = 0, bytes = 0, cpu_s = 0;
 };
 
-constexpr std::size_t kLanes = 64;  // enough to hide how long an operation takes
+constexpr std::size_t kLanes = 64;  // hides the latency of one operation
 constexpr int kRounds = 200000;
 
 TRAMMEL_WIDE void multiply_and_add(std::array<double, kLanes>& values) {
@@ -58,7 +58,7 @@ TRAMMEL_WIDE void multiply_and_add(std::array<double, kLanes>& values) {
   values = local;
 }
 
-/// The Laplacian of a square grid, as sparse as a lattice's stiffness.
+/// Returns the Laplacian of a square grid, which is as sparse as the stiffness of a lattice.
 SparseMatrix grid_laplacian(Index n) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto couple = [&](Index i, Index j) {
@@ -79,12 +79,12 @@ void add_factorization(std::vector<LoopRate>& loops) {
   const SparseMatrix A = grid_laplacian(160);
   solver::SparseLdlt ldlt(solver::SparseLdlt::Triangle::lower);
   if (!ldlt.factorize(A)) return;
-  const SparseMatrix U = Eigen::SimplicialLDLT<SparseMatrix>(A).matrixU();  // in its own order
+  const SparseMatrix U = Eigen::SimplicialLDLT<SparseMatrix>(A).matrixU();  // Eigen's ordering
   Eigen::VectorXd below = Eigen::VectorXd::Constant(A.rows(), -1);
   for (Index j = 0; j < U.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(U, j); it; ++it) ++below[it.row()];
   const double entries = static_cast<double>(U.nonZeros());
-  const SparseMatrix twice = 2 * A;  // what it has factorized already costs it nothing
+  const SparseMatrix twice = 2 * A;  // a second factorization of the same matrix costs nothing
   bool is_doubled = false;
   const double time = least_time([&] {
     is_doubled = !is_doubled;
@@ -99,7 +99,8 @@ void add_factorization(std::vector<LoopRate>& loops) {
 
 void add_network(std::vector<LoopRate>& loops) {
   constexpr Index kSamples = 379, kInputs = 3, kOutputs = 6, kQueries = 1000;
-  // A pair: squares and their least, excess and its least, exponential, products with the outputs.
+  // Operations per pair: squares and their minimum, excess and its minimum, exponential, products
+  // with the outputs.
   constexpr double kPair = 3 * kInputs + 1 + 5 * kInputs + 2 + 24 + 2 * (kOutputs + 1);
   const solver::Grnn network = solver::make_grnn(Eigen::MatrixXd::Random(kSamples, kInputs),
                                                  Eigen::MatrixXd::Random(kSamples, kOutputs), 1);

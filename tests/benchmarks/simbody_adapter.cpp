@@ -1,10 +1,11 @@
-/// Simbody 3.7 as an adapter: rigid bodies with pins in motion, and the rigid manipulator along its
+/// Adapter for Simbody 3.7: motions of rigid bodies with pins, and the rigid manipulator along its
 /// path.
 ///
-/// Bodies that are pinned to the ground turn about that pin; the others move freely in the plane
-/// and are held by pins, each of two planes of one body that a point of the other lies in. Motion
-/// is integrated by Runge, Kutta and Merson to 2e-10. Torques of the manipulator are what Simbody
-/// asks for to let its proximal links have the acceleration of the path.
+/// A body that is pinned to the ground has one rotation as its coordinate. All other bodies move
+/// freely in the plane. Each of their pins is a pair of constraints that keep a point of one body
+/// in two planes of the other. The Runge-Kutta-Merson method integrates motions with an accuracy of
+/// 2e-10. Torques of the manipulator are the motion forces that Simbody requires for the
+/// accelerations of the proximal links.
 #include <Simbody.h>
 
 #include <fstream>
@@ -29,7 +30,7 @@ struct Cannot : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What stands under a key; an empty object where it is not there.
+/// Returns the object under a key, or an empty object.
 const Json& section(const Json& json, const char* key) {
   static const Json empty = Json::object();
   return json.contains(key) && json.at(key).is_object() ? json.at(key) : empty;
@@ -39,7 +40,7 @@ Vec3 point(const Json& at) {
   return {at.at(0).get<double>(), at.at(1).get<double>(), 0};
 }
 
-/// Positions of a mobilized body's point and of its pins, in its own frame.
+/// Point of a mobilized body, in the frame of the body.
 struct Place {
   MobilizedBody body;
   Vec3 station;
@@ -50,20 +51,31 @@ struct System {
   SimTK::SimbodyMatterSubsystem matter{system};
   SimTK::GeneralForceSubsystem forces{system};
 
-  /// In the plane, about `center`, in a frame that is parallel to the ground's at the start.
+  /// Returns a planar body with a given center of mass. At the start its axes are those of the
+  /// ground.
   static SimTK::Body::Rigid rigid(double mass, const Vec3& center, double inertia) {
     const SimTK::Inertia about_center(inertia, inertia, inertia);
     return SimTK::Body::Rigid(
         SimTK::MassProperties(mass, center, about_center.shiftFromMassCenter(center, mass)));
   }
 
-  /// A point of one body stays at a point of the other.
+  /// Keeps a point of one body at a point of another.
   void pin(Place first, Place second) {
     for (const int axis : {0, 1}) {
       const SimTK::UnitVec3 normal{SimTK::CoordinateAxis(axis)};
       SimTK::Constraint::PointInPlane(first.body, normal, first.station[axis], second.body,
                                       second.station);
     }
+  }
+
+  void add_weight(const Json& model) {
+    const Json g = model.value("gravity_m_s2", Json{0, 0});
+    if (g.is_array() && point(g).norm() > 0) SimTK::Force::UniformGravity(forces, matter, point(g));
+  }
+  void add_load(const Json& load, const Place& place) {
+    SimTK::Force::ConstantForce(forces, place.body, place.station,
+                                point(load.value("force_N", Json{0, 0})));
+    SimTK::Force::ConstantTorque(forces, place.body, Vec3(0, 0, load.value("moment_N_m", 0.0)));
   }
 
   MobilizedBody turning(const SimTK::Body& body, const Vec3& in_ground) {
@@ -88,9 +100,9 @@ void refuse(const Json& json, const std::set<std::string>& known, const char* wh
       throw Cannot(std::string("no ") + what + " '" + item.key() + "'");
 }
 
-/// Nodes, rigid bodies, masses, supports, pins, springs and loads of a case's model.
+/// Mechanism of a case: nodes, rigid bodies, masses, supports, pins, springs and loads.
 struct Mechanism : System {
-  static constexpr std::size_t kMaxBodies = 20;  // more in closed loops take minutes
+  static constexpr std::size_t kMaxBodies = 20;  // closed loops of more bodies take minutes
   std::map<std::string, Place> places;
 
   Vec3 at(const Json& model, const std::string& node) { return point(model.at("nodes").at(node)); }
@@ -117,7 +129,7 @@ struct Mechanism : System {
     add_forces(model);
   }
 
-  /// Nodes that move as one body: on the ground, about a node of it that is held, or freely.
+  /// Adds nodes that move as one body: fixed to the ground, pinned at a supported node, or free.
   void add_group(const Json& model, const std::set<std::string>& nodes) {
     std::string held;
     bool fixed = false;
@@ -157,8 +169,7 @@ struct Mechanism : System {
   }
 
   void add_forces(const Json& model) {
-    const Json g = model.value("gravity_m_s2", Json{0, 0});
-    if (point(g).norm() > 0) SimTK::Force::UniformGravity(forces, matter, point(g));
+    add_weight(model);
     for (const auto& item : section(model, "axial_springs").items()) {
       const Json& spring = item.value();
       refuse(spring, {"nodes", "stiffness_N_per_m", "rest_length_m"}, "spring with");
@@ -172,14 +183,11 @@ struct Mechanism : System {
       const Json& load = item.value();
       refuse(load, {"node", "force_N", "moment_N_m"}, "load with");
       const Place& place = places.at(load.at("node"));
-      if (place.body.isGround()) continue;
-      SimTK::Force::ConstantForce(forces, place.body, place.station,
-                                  point(load.value("force_N", Json{0, 0})));
-      SimTK::Force::ConstantTorque(forces, place.body, Vec3(0, 0, load.value("moment_N_m", 0.0)));
+      if (!place.body.isGround()) add_load(load, place);
     }
   }
 
-  /// Velocities that the case gives stay, and the others follow.
+  /// Prescribes the given velocities and computes the others from the constraints.
   void start(const Json& given, State& state) {
     std::vector<std::pair<MobilizedBody, Real>> known;
     for (const auto& item : given.items()) {
@@ -202,14 +210,18 @@ struct Mechanism : System {
 
 using Answer = std::map<std::string, std::vector<double>>;
 
+/// Appends the components of a vector along x and y under the names `head` + "x" or "y" + `tail`.
+void keep_plane(Answer& answer, const std::string& head, const std::string& tail, const Vec3& v) {
+  answer[head + "x" + tail].push_back(v[0]);
+  answer[head + "y" + tail].push_back(v[1]);
+}
+
 void keep(const Mechanism& mechanism, const Json& angles, const State& state, Answer& answer) {
   for (const auto& [name, place] : mechanism.places) {
-    const Vec3 p = place.body.findStationLocationInGround(state, place.station);
-    const Vec3 v = place.body.findStationVelocityInGround(state, place.station);
-    answer["position_x_m:" + name].push_back(p[0]);
-    answer["position_y_m:" + name].push_back(p[1]);
-    answer["velocity_x_m_per_s:" + name].push_back(v[0]);
-    answer["velocity_y_m_per_s:" + name].push_back(v[1]);
+    keep_plane(answer, "position_", "_m:" + name,
+               place.body.findStationLocationInGround(state, place.station));
+    keep_plane(answer, "velocity_", "_m_per_s:" + name,
+               place.body.findStationVelocityInGround(state, place.station));
   }
   for (const auto& item : angles.items()) {
     const MobilizedBody& body = mechanism.places.at(item.value().at("node")).body;
@@ -250,12 +262,11 @@ Answer motion(const Json& model, const Json& options) {
   return answer;
 }
 
-/// The manipulator as "export": {"mechanism"} has it: three chains from the ground, and the
-/// platform.
+/// Manipulator of "export": {"mechanism"}: three chains from the ground, and the platform.
 struct Manipulator : System {
   std::map<std::string, MobilizedBody> bodies;
   std::map<std::string, Vec3>
-      centers;  ///< in a frame that is parallel to the ground's at the start
+      centers;  ///< from the origin of the body, in axes of the ground at the start
   Json mechanism;
 
   explicit Manipulator(const Json& exported) : mechanism(exported) {
@@ -266,8 +277,8 @@ struct Manipulator : System {
       bodies[low] = turning(solid(low, a), a);
       bodies[high] = MobilizedBody::Pin(bodies[low], b - a, solid(high, b), Vec3(0));
     }
-    const Vec3 p =
-        point(mechanism["path"]["pose_m_rad"][0]);  // the path is that of P, not of the center
+    const Vec3 p = point(
+        mechanism["path"]["pose_m_rad"][0]);  // the path is that of P, not of the center of mass
     bodies["platform"] = moving(solid("platform", p), p);
     for (const char* i : {"1", "2", "3"}) {
       const std::string n(i);
@@ -289,11 +300,6 @@ struct Manipulator : System {
   }
 };
 
-void lock(const std::vector<MobilizedBody>& bodies, State& state,
-          const std::vector<SimTK::Vector>& to, Motion::Level level) {
-  for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].lockAt(state, to[i], level);
-}
-
 SimTK::Vector planar(const Json& row) {  // Simbody's order: the angle first
   SimTK::Vector v(3);
   v[0] = row[2].get<double>();
@@ -302,25 +308,26 @@ SimTK::Vector planar(const Json& row) {  // Simbody's order: the angle first
   return v;
 }
 
-/// The state at a point of the path: the platform's motion is given, the links' follow.
+/// Computes the state at a point of the path. The platform's motion is prescribed and the links
+/// follow.
 void follow(Manipulator& m, const Json& path, std::size_t i, const SimTK::Vector& q0,
             State& state) {
   const MobilizedBody platform = m.bodies["platform"];
-  lock({platform}, state, {SimTK::Vector(planar(path["pose_m_rad"][i]) - q0)}, Motion::Position);
+  platform.lockAt(state, SimTK::Vector(planar(path["pose_m_rad"][i]) - q0), Motion::Position);
   m.system.realize(state, SimTK::Stage::Time);
   m.system.prescribe(state);
   m.system.projectQ(state, 1e-13);
   platform.unlock(state);
-  lock({platform}, state, {planar(path["velocity_per_s"][i])}, Motion::Velocity);
+  platform.lockAt(state, planar(path["velocity_per_s"][i]), Motion::Velocity);
   m.system.realize(state, SimTK::Stage::Position);
   m.system.prescribe(state);
   m.system.projectU(state, 1e-13);
   platform.unlock(state);
-  lock({platform}, state, {planar(path["acceleration_per_s2"][i])}, Motion::Acceleration);
+  platform.lockAt(state, planar(path["acceleration_per_s2"][i]), Motion::Acceleration);
   m.system.realize(state, SimTK::Stage::Acceleration);
 }
 
-/// Angles, rates, accelerations and centers of the links.
+/// Appends angles, rates and accelerations of the links, and the motion of all centers of mass.
 void keep_motion(const Manipulator& m, const State& state, Answer& answer) {
   for (const auto& [name, body] : m.bodies) {
     const double start = m.mechanism["bodies"][name]["angle_rad"].get<double>();
@@ -334,20 +341,16 @@ void keep_motion(const Manipulator& m, const State& state, Answer& answer) {
           body.getBodyAngularAcceleration(state)[2]);
     }
     const Vec3& at = m.centers.at(name);
-    const Vec3 p = body.findStationLocationInGround(state, at),
-               v = body.findStationVelocityInGround(state, at),
-               a = body.findStationAccelerationInGround(state, at);
-    for (const int k : {0, 1}) {
-      const std::string axis = k == 0 ? "x" : "y";
-      answer["center_" + axis + "_m:" + name].push_back(p[k]);
-      answer["center_velocity_" + axis + "_m_per_s:" + name].push_back(v[k]);
-      answer["center_acceleration_" + axis + "_m_per_s2:" + name].push_back(a[k]);
-    }
+    keep_plane(answer, "center_", "_m:" + name, body.findStationLocationInGround(state, at));
+    keep_plane(answer, "center_velocity_", "_m_per_s:" + name,
+               body.findStationVelocityInGround(state, at));
+    keep_plane(answer, "center_acceleration_", "_m_per_s2:" + name,
+               body.findStationAccelerationInGround(state, at));
   }
   answer["kinetic_energy_J"].push_back(m.system.calcKineticEnergy(state));
 }
 
-/// The torques that let the proximal links have the accelerations of the path.
+/// Appends the torques for which the proximal links have the accelerations of the path.
 void keep_torques(Manipulator& m, State& state, Answer& answer) {
   std::vector<MobilizedBody> active;
   std::vector<SimTK::Vector> accelerations;
@@ -356,7 +359,8 @@ void keep_torques(Manipulator& m, State& state, Answer& answer) {
     accelerations.push_back(active.back().getUDotAsVector(state));
   }
   m.bodies["platform"].unlock(state);
-  lock(active, state, accelerations, Motion::Acceleration);
+  for (std::size_t i = 0; i < 3; ++i)
+    active[i].lockAt(state, accelerations[i], Motion::Acceleration);
   m.system.realize(state, SimTK::Stage::Acceleration);
   SimTK::Vector torques;
   m.matter.findMotionForces(state, torques);
@@ -371,21 +375,16 @@ void keep_torques(Manipulator& m, State& state, Answer& answer) {
 }
 
 void load(Manipulator& m, const Json& model) {
-  const Json g = model.value("gravity_m_s2", Json{0, 0});
-  if (g.is_array() && point(g).norm() > 0)
-    SimTK::Force::UniformGravity(m.forces, m.matter, point(g));
+  m.add_weight(model);
   for (const auto& item : section(model, "loads").items()) {
     if (item.value().is_null()) continue;
     refuse(item.value(), {"node", "force_N", "moment_N_m"}, "load with");
     if (item.value().at("node") != "P") throw Cannot("no loads but on P");
-    SimTK::Force::ConstantForce(m.forces, m.bodies["platform"], Vec3(0),
-                                point(item.value().value("force_N", Json{0, 0})));
-    SimTK::Force::ConstantTorque(m.forces, m.bodies["platform"],
-                                 Vec3(0, 0, item.value().value("moment_N_m", 0.0)));
+    m.add_load(item.value(), {m.bodies["platform"], Vec3(0)});
   }
 }
 
-/// From the first point of the path, under torques that stay.
+/// Integrates the motion from the first point of the path under constant torques.
 Answer driven(const Json& model, const Json& mechanism, const Json& options) {
   refuse(options, {"torque_N_m", "tolerance"}, "option");
   if (!options.contains("torque_N_m")) throw Cannot("torques that follow a path");
@@ -411,13 +410,10 @@ Answer driven(const Json& model, const Json& mechanism, const Json& options) {
     while (integrator.getTime() < time.get<double>()) integrator.stepTo(time.get<double>());
     const State& now = integrator.getState();
     m.system.realize(now, SimTK::Stage::Velocity);
-    const Vec3 p = platform.getBodyOriginLocation(now), v = platform.getBodyOriginVelocity(now);
-    answer["motion_x_m"].push_back(p[0]);
-    answer["motion_y_m"].push_back(p[1]);
+    keep_plane(answer, "motion_", "_m", platform.getBodyOriginLocation(now));
     answer["motion_phi_rad"].push_back(path["pose_m_rad"][0][2].get<double>() +
                                        turn(platform, now));
-    answer["motion_velocity_x_m_per_s"].push_back(v[0]);
-    answer["motion_velocity_y_m_per_s"].push_back(v[1]);
+    keep_plane(answer, "motion_velocity_", "_m_per_s", platform.getBodyOriginVelocity(now));
     answer["motion_velocity_phi_rad_per_s"].push_back(rate(platform, now));
     answer["kinetic_energy_J"].push_back(m.system.calcKineticEnergy(now));
   }

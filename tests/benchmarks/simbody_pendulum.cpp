@@ -1,6 +1,7 @@
-// The pendulum of peers.py in Simbody 3.7: a steel strip with a bob at its end, let go where it is
-// level, as rigid rods joined by torsion springs of stiffness EI / length; error of order 2 in that
-// length. Runge, Kutta and Merson's method took the least time of Simbody's integrators.
+// Pendulum of peers.py in Simbody 3.7: a steel strip with a bob at its end, released where it is
+// level. The strip is modeled by rigid rods and torsion springs of stiffness EI / length; the error
+// is of order 2 in this length. The Runge-Kutta-Merson method was the fastest of Simbody's
+// integrators.
 //   simbody_pendulum RODS ACCURACY    x and y of the bob at 0, 0.05, ..., 1 s [m]
 #include <Simbody.h>
 

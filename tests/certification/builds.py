@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Builds trammel in other ways, runs the catalogue with each, and compares by `trammel certify`, also with ways of rounding.
+"""Builds trammel in other ways, runs the catalogue with each build, and compares the results with `trammel certify`.
 
-Builds and results of the same sources in OUT are used again; a build takes some ten minutes on two cores, the rest half an hour.
-With --write the page's section and result.json are replaced. Exit status 1 if a verdict differs or is missing, or a run fails.
-"""
+The comparison includes other modes of rounding. Builds and results of the same sources in OUT are reused. A build takes about ten
+minutes on two cores, and the rest half an hour. --write replaces the page's section and result.json. The exit status is 1 if a
+verdict differs or is missing, or if a run fails."""
 import argparse
 import json
 import pathlib
@@ -26,7 +26,7 @@ def call(*command, **options):
 
 
 def run(program, cases, out):
-    """The results of a build, whose checks may fail: certify judges by the first."""
+    """Returns the results of a build. Its checks may fail, because certify compares with the first build."""
     subprocess.run([program, "run", *cases, "--out", out, "--resume"], cwd=ROOT, stdout=subprocess.DEVNULL)
     return out
 
@@ -38,7 +38,7 @@ def build(name, out):
 
 
 def certify(program, cases, results):
-    """What certify says of the cases, rounded and by the builds whose results are given."""
+    """Returns the output of certify for the cases: modes of rounding, and the builds with given results."""
     command = [program, "certify", *cases, "--json", "--results", *results.values()]
     found = json.loads(subprocess.run(command, cwd=ROOT, stdout=subprocess.PIPE, text=True).stdout)
     titles = {str(path): BUILDS[name][0] for name, path in results.items()}
@@ -65,7 +65,7 @@ def write(found, cases):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("program", type=pathlib.Path, help="trammel, of which the others are to differ")
+    parser.add_argument("program", type=pathlib.Path, help="the program with which the builds are compared")
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "build/certification")
     parser.add_argument("--write", action="store_true")
     given = parser.parse_args()

@@ -1,8 +1,7 @@
 #!/usr/bin/env python3
-"""Writes the page's section about rounding and builds from result.json: what `trammel certify --json` said
-of the cases that it names.
+"""Writes the page's section about rounding and builds from result.json, the output of `trammel certify --json`.
 
-With --check it writes nothing, and exit status 1 says that the page has another section.
+With --check it writes nothing; the exit status is 1 if the section differs.
 """
 import json
 import pathlib

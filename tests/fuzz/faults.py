@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
-"""Runs the program while the system fails it: memory, disk, signals, gnuplot, clock, surroundings.
+"""Runs the program with system faults: memory, disk, signals, gnuplot, clock and environment.
 
-Each time it must end with a line and the right exit status, and what a former call has written must
-stay whole or be replaced as one. Prints a table; exit status 1 where something is wrong.
-"""
+Each call must end with a line and the correct exit status. Results of a former call must stay unchanged or be replaced completely.
+Prints a table; the exit status is 1 if a call fails these tests."""
 import argparse
 import ctypes
 import json
@@ -15,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-CANNOT = 125  # this machine does not allow it
+CANNOT = 125  # not permitted on this machine
 CASE = {
     "id": "own", "title": "A cantilever",
     "model": {
@@ -31,7 +30,7 @@ CASE = {
 
 
 class Bench:
-    """A case, and the folder of a former call that must not be harmed."""
+    """Case, and the folder of a former call that must not be damaged."""
 
     def __init__(self, folder, command, program, library):
         self.folder, self.command, self.program, self.library = folder / command, command, program, library
@@ -44,7 +43,7 @@ class Bench:
         self.files = self.written()
 
     def call(self, fault=None, environment=None, before=None, out=None):
-        """Exit status as a shell tells it, -1 after two minutes, and standard error."""
+        """Returns the exit status as a shell does, or -1 after four minutes, and standard error."""
         surroundings = {**os.environ, **(environment or {})}
         surroundings = {name: value for name, value in surroundings.items() if value is not None}
         if fault:
@@ -52,7 +51,7 @@ class Bench:
         words = [self.program, self.command, str(self.folder / "own.json"), "--jobs", "2", "--out",
                  str(out or self.out)]
         if self.command == "report":
-            words.append("--fresh")  # or it computes nothing
+            words.append("--fresh")  # otherwise it reuses stored runs
         try:
             done = subprocess.run(words, env=surroundings, preexec_fn=before, timeout=240,
                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
@@ -67,7 +66,7 @@ class Bench:
                 if file.is_file() and file.suffix != ".cbor" and ".part-" not in file.name}
 
     def damage(self):
-        """What is wrong with the results, be they the former or new ones."""
+        """Returns a fault of the former or new results, or an empty text."""
         try:
             if len(json.loads((self.out / "results.json").read_text())["runs"]) != 2:
                 return "results.json has lost runs"
@@ -103,14 +102,14 @@ class Faults:
             print(f"{bench.command}: {what} {how.get('fault') or ''}: {wrong}: {said[-300:].strip()}")
 
     def tell(self):
-        print(f"{'fault':34}{'calls':>7}{'status 0':>10}{'told':>7}{'not here':>10}{'wrong':>7}")
+        print(f"{'fault':34}{'calls':>7}{'status 0':>10}{'refused':>9}{'not here':>10}{'wrong':>7}")
         for what, row in self.rows.items():
-            print(f"{what:34}{row[0]:7}{row[1]:10}{row[2]:7}{row[3]:10}{row[4]:7}")
+            print(f"{what:34}{row[0]:7}{row[1]:10}{row[2]:9}{row[3]:10}{row[4]:7}")
         return any(row[4] for row in self.rows.values())
 
 
 def steps(count, last):
-    """From 1 to `last` in geometric steps."""
+    """Returns numbers from 1 to `last` in geometric steps."""
     return sorted({round(last ** (i / max(1, count - 1))) for i in range(count)})
 
 
@@ -143,7 +142,7 @@ def change_surroundings(faults, bench):
     for folder in (empty, own):
         folder.mkdir()
     faults.check("no gnuplot", bench, (2,), environment={"PATH": str(empty)})
-    # The program's own patience with gnuplot (timeout -k 5 SECONDS gnuplot -d), cut short.
+    # Shortens the time limit that the program gives to gnuplot (timeout -k 5 SECONDS gnuplot -d).
     (own / "timeout").write_text('#!/bin/sh\nshift 3\nexec /usr/bin/timeout -k 1 2 "$@"\n')
     (own / "timeout").chmod(0o755)
     for what, script in (("gives up", "exit 1"), ("hangs", "exec sleep 1000")):
@@ -171,7 +170,7 @@ def change_surroundings(faults, bench):
 
 
 def locale_folder(folder, name):
-    """A locale that few machines have, made where its sources are."""
+    """Returns a folder with a rare locale, which is made if its sources are installed."""
     subprocess.run(["localedef", "-i", "de_DE", "-f", name.split(".")[1], str(folder / name)],
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
     return str(folder)
@@ -183,7 +182,7 @@ def main():
     parser.add_argument("library", help="to be loaded before the C library (inject.cpp)")
     parser.add_argument("--count", type=int, default=20, help="values of n where memory or disk fails")
     words = parser.parse_args()
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # which a shell lets its background ignore
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # a shell makes background processes ignore it
     faults = Faults()
     with tempfile.TemporaryDirectory(prefix="trammel-faults-") as folder:
         for command in ("run", "report"):

@@ -19,8 +19,8 @@
 #include "harness/base/stopwatch.h"
 #include "tests/fuzz/target.h"
 
-// Runs the program's own readers and analyses on inputs that are wrong in a way, many in each of a
-// few forked processes. First the corpus: what was found before.
+// Runs the program's readers and analysis code on invalid or unusual inputs, in a few forked
+// processes with many inputs each. Starts with the corpus of inputs with former findings.
 
 namespace trammel::fuzz {
 namespace {
@@ -38,7 +38,7 @@ struct Options {
   std::vector<fs::path> files;
 };
 
-/// What is known of an input in all processes, also when the one that takes it dies.
+/// State of an input, shared by all processes; it remains if the process that handles it dies.
 struct Slot {
   enum class Stage { open, reading, computing, done } stage;
   Outcome outcome;
@@ -66,7 +66,8 @@ struct Board {
 
 using Maker = std::function<Input(std::size_t)>;
 
-/// Processor time of this process from now on [s], and far more by the clock; then it is killed.
+/// Limits the processor time of this process from now on [s]; the limit of wall time is much
+/// larger.
 void limit_time(double seconds) {
   const auto whole = static_cast<time_t>(seconds);
   const itimerval timer{{0, 0}, {whole, static_cast<suseconds_t>(1e6 * (seconds - double(whole)))}};
@@ -78,8 +79,8 @@ void take_all(Board& board, const Maker& make, std::size_t first, std::size_t la
               double limit_s) {
   const fs::path folder = fs::temp_directory_path() / ("trammel-fuzz-" + std::to_string(getpid()));
   fs::create_directories(folder);
-  std::cout.setstate(std::ios::badbit);  // what commands say is of no interest
-  constexpr double kReading_s = 5;       // may take, of a file that is hard to refuse
+  std::cout.setstate(std::ios::badbit);  // the output of commands is not needed
+  constexpr double kReading_s = 5;       // time for reading an input
   for (std::size_t i = first; i < last; ++i) {
     Slot& slot = board[i];
     const Input input = make(i);
@@ -95,7 +96,7 @@ void take_all(Board& board, const Maker& make, std::size_t first, std::size_t la
   fs::remove_all(folder);
 }
 
-/// Fills the slots, from the next open one on where a process has died.
+/// Fills the slots. If a process dies, another one continues with the next open slot.
 void fill(Board& board, const Maker& make, const Options& options) {
   constexpr std::size_t kBatch = 50;
   std::vector<std::pair<std::size_t, std::size_t>> batches;
@@ -131,14 +132,15 @@ void fill(Board& board, const Maker& make, const Options& options) {
   }
 }
 
-/// A table by kind, and a line for each finding, whose input is kept. @returns findings
+/// Prints a table by kind and a line for each finding, and saves the input of each finding.
+/// @returns the number of findings
 std::size_t tell(Board& board, const Maker& make, const std::string& what, const Options& options) {
   std::map<std::string, std::array<std::size_t, kOutcomes>> counts;
   std::size_t findings = 0;
   for (std::size_t i = 0; i < board.size; ++i) {
     const Input input = make(i);
     const Outcome outcome = board[i].outcome;
-    for (const std::string& row : {input.kind, std::string("in all")})
+    for (const std::string& row : {input.kind, std::string("total")})
       ++counts[row][static_cast<std::size_t>(outcome)];
     if (options.only >= 0 || !options.files.empty())
       std::cout << input.how << '\n'
@@ -169,7 +171,7 @@ std::size_t tell(Board& board, const Maker& make, const std::string& what, const
   return findings;
 }
 
-/// Files of kind/NAME.json, as the corpus has them.
+/// Runs files of the form KIND/NAME.json, as in the corpus.
 std::size_t run_files(const std::vector<fs::path>& files, Options options) {
   const Maker make = [&](std::size_t i) {
     return Input{files[i].parent_path().filename(),
@@ -205,19 +207,20 @@ std::size_t run_made(const Options& options) {
 
 int run(int argc, char** argv) {
   Options options;
-  CLI::App app("Inputs that are wrong in a way, and what the program makes of them");
-  app.add_option("--inputs", options.inputs, "How many")->capture_default_str();
-  app.add_option("--seed", options.seed, "Of the inputs")->capture_default_str();
-  app.add_option("--only", options.only, "Only the input of this number, told in full");
+  CLI::App app("Runs the program on invalid and unusual inputs");
+  app.add_option("--inputs", options.inputs, "Number of inputs")->capture_default_str();
+  app.add_option("--seed", options.seed, "Seed of the inputs")->capture_default_str();
+  app.add_option("--only", options.only, "Only the input of this number, with a full description");
   app.add_option("--kind", options.kind, "Only inputs of this kind")
       ->check(CLI::IsMember(Mutator::kinds()));
-  app.add_option("--limit", options.limit_s, "Processor time that one may compute [s]")
+  app.add_option("--limit", options.limit_s, "Processor time of each computation [s]")
       ->check(CLI::Range(0.01, 1000.0))
       ->capture_default_str();
-  app.add_option("-j,--jobs", options.jobs, "Processes at a time")->capture_default_str();
-  app.add_option("--findings", options.findings, "Folder for what is found")->capture_default_str();
+  app.add_option("-j,--jobs", options.jobs, "Simultaneous processes")->capture_default_str();
+  app.add_option("--findings", options.findings, "Folder for inputs with findings")
+      ->capture_default_str();
   app.add_option("files", options.files,
-                 "Files of KIND/NAME.json instead of the corpus and others");
+                 "Files of the form KIND/NAME.json instead of the corpus and new inputs");
   CLI11_PARSE(app, argc, argv);
   if (!options.files.empty()) return run_files(options.files, options) == 0 ? 0 : 1;
   std::vector<fs::path> known;

@@ -23,7 +23,8 @@ auto one_of(Random& random, const List& list) {
   return list[below(random, list.size())];
 }
 
-/// What a document calls things by: keys, words, pointers to its values, and words after a colon.
+/// Returns a name related to a document: a key, a word, a pointer to a value, or a word after a
+/// colon.
 std::string any_word(Random& random, const Json& document) {
   static const Json odd =
       Json::parse(R"(["", " ", "x", "..", "/", "~", "-1", "0", "base", "a:b", ":", "../x", "=1+1",
@@ -49,7 +50,7 @@ std::string any_word(Random& random, const Json& document) {
              : text.substr(0, colon + 1) + (pointer.empty() ? "" : pointer.back());
 }
 
-/// Numbers at and beyond the ends of the rule, and those that arithmetic breaks on.
+/// Returns a number at or beyond the limits of the rule, or one that is difficult in arithmetic.
 Json any_number(Random& random, const Json& rule, const Json& former) {
   static const Json hard = Json::parse(
       R"([0, -0.0, 1, -1, 2, 3, 7, 0.5, 0.99, 1e-9, 1e9, 1e-30, 1e30, 1e100, 1e-300, 1e300, -1e300,
@@ -74,7 +75,7 @@ Json any_number(Random& random, const Json& rule, const Json& former) {
                                           number / 1e6, std::nextafter(number, 1e308)});
 }
 
-/// The merge patch that makes `after` of `before`.
+/// Returns the merge patch that changes `before` into `after`.
 Json merge_patch(const Json& before, const Json& after) {
   if (!before.is_object() || !after.is_object()) return after;
   Json patch = Json::object();
@@ -95,7 +96,7 @@ void erase(Json& json, const JsonPointer& at) {
   around.is_array() ? around.erase(std::stoul(at.back())) : (void)around.erase(at.back());
 }
 
-/// Breaks the text itself. @returns what was done
+/// Damages the text itself. @returns a description of the change
 std::string disturb_text(Random& random, std::string& text) {
   const std::size_t at = below(random, text.size());
   static const std::vector<std::string> pieces = [] {
@@ -175,7 +176,7 @@ Mutator::Mutator(const std::vector<Json>& results) {
     if (entry.path().extension() == ".json")
       add("reference", entry.path().stem(), harness::read_json(entry.path()));
   for (const Json& json : results) add("results", "results", json);
-  // The order in which a folder is listed is not the same everywhere.
+  // Directories are listed in different orders on different systems.
   for (auto& [kind, origins] : origins_)
     std::stable_sort(origins.begin(), origins.end(),
                      [](const Origin& a, const Origin& b) { return a.name < b.name; });
@@ -222,7 +223,7 @@ Json Mutator::generate(Random& random, const Schema& schema, const Json& rule, c
   return object;
 }
 
-/// One change of the document, at a place chosen at random.
+/// Changes the document at a random place.
 void Mutator::change(Random& random, const std::string& kind, Json& json, Input& input) const {
   const Schema& schema = schemas_.at(kind);
   const auto places = schema.places(json);
@@ -257,7 +258,7 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
                                                Json::object(), Json::array({1, 2})});
       note("retyped");
       break;
-    case 5: {  // something more: a key that the rule has, or one that it does not have
+    case 5: {  // adds a key that the rule has, or one that it does not have
       const Json properties = rule.empty() ? json : rule.value("properties", Json::object());
       const std::string key =
           properties.empty() || below(random, 6) == 0
@@ -274,7 +275,7 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
       note("added '" + key + "' to");
       break;
     }
-    default: {  // what stands at such a place in another file
+    default: {  // copies the value at such a place of another file
       const Origin& other = origins_.at(kind)[below(random, origins_.at(kind).size())];
       std::vector<const Place*> alike;
       for (const Place& candidate : other.places)
@@ -283,7 +284,7 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
       note("taken from " + other.name);
     }
   }
-  // What surrounds the place has to obey its rule, too.
+  // The surrounding value must obey its rule, too.
   if (!place.is_certain || json.contains("extends")) return;
   const Json found = json.value(at, Json());
   const bool erased = !json.contains(at);
@@ -314,7 +315,7 @@ Input Mutator::make(std::uint32_t seed, std::uint32_t number, const std::string&
   for (std::size_t i = 0; i < changes; ++i) {
     change(random, input.kind, json, input);
   }
-  if (changes > 1) input.is_invalid = false;  // one change may mend another
+  if (changes > 1) input.is_invalid = false;  // a second change may repair the first
   if (as_variant) {
     Json patch = merge_patch(origin.json, json);
     json = origin.json;

@@ -8,24 +8,24 @@
 
 #include "tests/fuzz/schema.h"
 
-/// Inputs made from the files of the catalogue by one to three changes that know the schema, the
-/// grammar of JSON, merge patches and what a document calls by name.
+/// Makes inputs from the files of the catalogue by one to three changes. The changes follow the
+/// schema, the grammar of JSON, merge patches and the names in the document.
 namespace trammel::fuzz {
 
 struct Input {
   std::string kind;         ///< case, cost, claims, reference or results
   std::string name;         ///< of its file, without .json
-  std::string text, how;    ///< and what was changed
-  bool is_invalid = false;  ///< by construction: whoever accepts it is wrong
-  std::size_t pick = 0;     ///< which of its variants is computed, by remainder
+  std::string text, how;    ///< `how`: the changes
+  bool is_invalid = false;  ///< by construction; accepting it is a finding
+  std::size_t pick = 0;     ///< selects the variant to compute, modulo their number
 };
 
 class Mutator {
  public:
-  /// Reads the catalogue; `results` are texts of results files to start from.
+  /// Reads the catalogue. @param results  results files to start from
   explicit Mutator(const std::vector<Json>& results);
 
-  /// The same for the same seed and number. @param kind  empty: any
+  /// Returns the same input for the same seed and number. @param kind  empty: any kind
   [[nodiscard]] Input make(std::uint32_t seed, std::uint32_t number, const std::string& kind) const;
 
   static const std::vector<std::string>& kinds();

@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
-"""Runs cases to the end, and again with ten kills at random times and --resume after each.
+"""Runs cases to the end, and again with ten kills at random times, each followed by --resume.
 
-Arguments: the program, then words for `run` (-L beam; the catalogue without slow cases by default). Says
-how many runs each call found done; exit status 1 where the two results.json differ in more than
-times and date, or where a computation that was kept is lost.
-"""
+Arguments: the program, then words for `run`, such as -L beam (the catalogue without slow cases by default). Prints the number of runs
+that each call found in the store. The exit status is 1 if the two results.json differ in more than times and date, or if a stored
+computation is lost."""
 import json
 import pathlib
 import random
@@ -31,7 +30,7 @@ def call(program, words, out, kill_after=None, number=None):
 
 
 def numbers(out):
-    """All but times, date and cases that measure times, and how many runs that is."""
+    """Returns the results without times, date and cases that measure times, the number of runs, and these cases."""
     results = json.loads((out / "results.json").read_text())
     results["environment"].pop("date")
     results["environment"].pop("stored_runs", None)
@@ -43,7 +42,7 @@ def numbers(out):
 
 
 def same_series(program, first, second):
-    """By the program itself, which reads what results.json leaves in the store."""
+    """Compares two results with the program itself, which also reads the store."""
     said = subprocess.run([program, "compare", str(first / "results.json"), str(second / "results.json")],
                           stdout=subprocess.PIPE, text=True, check=True).stdout
     print(said.splitlines()[-1])
@@ -58,7 +57,7 @@ def catalogue(program):
 def main():
     program, words = sys.argv[1], sys.argv[2:]
     words = words or catalogue(program)
-    signal.signal(signal.SIGINT, signal.SIG_DFL)  # which a shell lets its background ignore
+    signal.signal(signal.SIGINT, signal.SIG_DFL)  # a shell makes background processes ignore it
     chance = random.Random(1)
     with tempfile.TemporaryDirectory(prefix="trammel-resume-") as folder:
         whole, out = pathlib.Path(folder, "whole"), pathlib.Path(folder, "out")

@@ -5,29 +5,29 @@
 
 #include "harness/base/json.h"
 
-/// What a schema of cases/schema says of each place in a document: read here anew, so that what it
-/// forbids is known without the reader that is under test.
+/// Second reader of cases/schema. It decides which values the rules forbid, independently of the
+/// reader under test.
 namespace trammel::fuzz {
 
 using harness::Json;
 using harness::JsonPointer;
 
-/// A value in a document, with the rules that hold there.
+/// Value in a document, with the rules that apply to it.
 struct Place {
   JsonPointer at;
-  std::vector<const Json*> rules;  ///< one of them must be obeyed; empty: nothing is known
-  bool is_certain = false;         ///< no choice between rules on the way to it
+  std::vector<const Json*> rules;  ///< alternatives; empty: unknown
+  bool is_certain = false;         ///< no choice between rules on the path to it
 };
 
 class Schema {
  public:
   explicit Schema(const std::string& name);
 
-  /// The document itself and all that is in it.
+  /// Returns the places of the document and of all values in it.
   [[nodiscard]] std::vector<Place> places(const Json& document) const;
-  /// What a rule comes to: references resolved, choices listed.
+  /// Returns the alternatives of a rule, with references resolved.
   [[nodiscard]] std::vector<const Json*> alternatives(const Json& rule) const;
-  /// Rules of an entry of an object or array.
+  /// Returns the rules of an entry of an object or array.
   [[nodiscard]] std::vector<const Json*> rules_of_entry(const std::vector<const Json*>& rules,
                                                         const std::string& key) const;
   [[nodiscard]] const Json& root() const { return root_; }
@@ -36,7 +36,7 @@ class Schema {
   Json root_;
 };
 
-/// Whether the rule alone forbids this value, whatever is in it: its type, its range, its words.
+/// Returns true if the rule forbids this value by its type, range, words or required keys alone.
 [[nodiscard]] bool forbids(const Json& rule, const Json& value);
 
 }  // namespace trammel::fuzz

@@ -32,7 +32,7 @@ const Catalogue& catalogue() {
   return all;
 }
 
-/// As `run` computes and judges a variant, with its sweeps and its uncertainty now and then.
+/// Computes and judges a variant as `run` does. @param all  includes sweeps and uncertainties
 void compute(const Case& given, const std::string& variant, bool all) {
   const References references;
   const Document document = patched(given, variant);
@@ -97,7 +97,7 @@ void take_results(const fs::path& file, const fs::path& sample) {
   try {
     reports::write_junit(results::read_results(file), file.parent_path() / "junit.xml");
   } catch (const std::runtime_error& error) {
-    throw InputError(error.what());  // read by the reports, which do not know the harness
+    throw InputError(error.what());  // the reports read it without the error types of the harness
   }
   CommandOptions compare;
   compare.words = {file.string(), sample.string()};
@@ -126,7 +126,7 @@ void take_file(const Input& input, const fs::path& file, const std::function<voi
   take_results(file, sample);
 }
 
-/// A refusal is one line that says where.
+/// Checks that a refusal is one line that names a place.
 Verdict judge_refusal(const std::string& message) {
   static const std::regex place("(: /|: line |at byte |expected )");
   const bool is_line = std::none_of(message.begin(), message.end(),

@@ -1,4 +1,5 @@
-// The rooms of the house and the arrows between them, as the tables in CONTRIBUTING.md give them.
+// Tests the rooms and the allowed includes between them, as listed in the tables of
+// CONTRIBUTING.md.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
@@ -34,7 +35,7 @@ Cells cells_of(const std::string& line) {
   return cells;
 }
 
-/// The rows of the first markdown table in a file whose head begins with these words.
+/// Returns the rows of the first Markdown table in a file whose header begins with these words.
 std::vector<Cells> table(const fs::path& file, const std::string& head) {
   std::vector<Cells> rows;
   bool inside = false;
@@ -50,7 +51,7 @@ std::vector<Cells> table(const fs::path& file, const std::string& head) {
   return rows;
 }
 
-/// What stands between backquotes.
+/// Returns the texts between backquotes.
 std::vector<std::string> names_in(const std::string& cell) {
   static const std::regex name("`([^`]+)`");
   std::vector<std::string> names;
@@ -71,11 +72,12 @@ bool is_code(const fs::path& file) {
   return file.extension() == ".h" || file.extension() == ".cpp";
 }
 
-/// The table of rooms. A room may include itself, the rooms that its row names, and what those may.
-/// A row may also name one file, for which it holds in place of the file's room.
+/// Table of rooms. A room may include itself, the rooms of its row, and the rooms that those may
+/// include. A row may also name a single file. It then applies to this file instead of the row of
+/// its room.
 struct Rooms {
   std::vector<std::string> order;
-  std::map<std::string, std::string> arrows;  ///< the last cell of each row, as it is written
+  std::map<std::string, std::string> arrows;  ///< the last cell of each row, as written
   std::map<std::string, std::set<std::string>> direct, all;
 
   [[nodiscard]] std::set<std::string> tops() const {
@@ -84,15 +86,15 @@ struct Rooms {
     return found;
   }
 
-  /// The row that a file stands under; empty if there is none.
+  /// Returns the row that applies to a file, or an empty text.
   [[nodiscard]] std::string row_of(const std::string& file) const {
     const std::string folder = fs::path(file).parent_path().generic_string();
     return arrows.count(file) > 0 ? file : arrows.count(folder) > 0 ? folder : "";
   }
 };
 
-/// A name in a row is a room of the same top folder, a room with its whole path, or a top folder
-/// for all its rooms.
+/// Resolves a name in a row: a room of the same top folder, a room with its full path, or a top
+/// folder for all its rooms.
 std::vector<std::string> resolve(const std::string& name, const std::string& room,
                                  const std::vector<std::string>& order) {
   const auto has = [&](const std::string& key) {
@@ -130,7 +132,8 @@ const Rooms& rooms() {
   return read;
 }
 
-/// Outside headers that a top folder must not include, by their first part.
+/// Returns the external headers that each top folder must not include, by the first part of their
+/// paths.
 std::map<std::string, std::set<std::string>> forbidden() {
   std::map<std::string, std::set<std::string>> found;
   for (const Cells& cells : table(kRoot / "CONTRIBUTING.md", "| folder | must not include |")) {
@@ -140,7 +143,8 @@ std::map<std::string, std::set<std::string>> forbidden() {
   return found;
 }
 
-/// Paths from the root of all sources and headers outside tests/ and build folders.
+/// Returns the paths of all sources and headers outside tests/ and build folders, relative to the
+/// root.
 std::vector<std::string> code() {
   std::vector<std::string> files;
   for (const auto& top : fs::directory_iterator(kRoot)) {
@@ -156,7 +160,7 @@ std::vector<std::string> code() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_room_includes_only_rooms_above_it_in_the_table) {
+BOOST_AUTO_TEST_CASE(room_includes_only_rooms_above_it_in_the_table) {
   BOOST_TEST(rooms().order.size() > 20U);
   std::set<std::string> above;
   for (const std::string& room : rooms().order) {
@@ -167,7 +171,7 @@ BOOST_AUTO_TEST_CASE(a_room_includes_only_rooms_above_it_in_the_table) {
     const auto direct = rooms().direct.find(room);
     if (direct != rooms().direct.end()) {
       for (const std::string& target : direct->second)
-        BOOST_TEST(above.count(target) == 1U, target << " stands not above " << room);
+        BOOST_TEST(above.count(target) == 1U, target << " is not above " << room);
     }
     above.insert(room);
   }
@@ -204,24 +208,24 @@ BOOST_AUTO_TEST_CASE(no_room_holds_too_many_files) {
     BOOST_TEST(count <= kFilesInRoom, room << " holds " << count << " files");
 }
 
-BOOST_AUTO_TEST_CASE(the_readme_of_a_folder_names_its_rooms_and_their_arrows) {
+BOOST_AUTO_TEST_CASE(folder_readme_lists_its_rooms_and_their_arrows) {
   for (const std::string& top : rooms().tops()) {
-    std::map<std::string, std::string> told;
+    std::map<std::string, std::string> listed;
     for (const Cells& cells : table(kRoot / top / "README.md", "| room |"))
-      told[top + "/" + names_in(cells.at(0)).at(0)] = cells.back();
+      listed[top + "/" + names_in(cells.at(0)).at(0)] = cells.back();
     for (const std::string& room : rooms().order) {
       if (first_part(room) != top) continue;
-      BOOST_TEST(told.count(room) == 1U, top << "/README.md has no row for " << room);
-      BOOST_TEST(told[room] == rooms().arrows.at(room), room << " in " << top << "/README.md");
-      told.erase(room);
+      BOOST_TEST(listed.count(room) == 1U, top << "/README.md has no row for " << room);
+      BOOST_TEST(listed[room] == rooms().arrows.at(room), room << " in " << top << "/README.md");
+      listed.erase(room);
     }
-    for (const auto& [room, arrows] : told)
+    for (const auto& [room, arrows] : listed)
       BOOST_TEST(false, top << "/README.md names " << room << ", CONTRIBUTING.md does not");
   }
 }
 
-// The linker takes either for both, and memory is overwritten.
-BOOST_AUTO_TEST_CASE(no_two_types_of_a_namespace_have_one_name) {
+// The linker would merge two types of one name, which corrupts memory.
+BOOST_AUTO_TEST_CASE(types_of_a_namespace_have_unique_names) {
   static const std::regex space("^namespace (trammel\\S*) \\{"),
       type("^(struct|class|enum class) (\\w+)(<.*>)? (: .*)?\\{.*");
   std::map<std::string, std::string> first;
@@ -241,7 +245,7 @@ BOOST_AUTO_TEST_CASE(no_two_types_of_a_namespace_have_one_name) {
   BOOST_TEST(first.size() > 100U);
 }
 
-BOOST_AUTO_TEST_CASE(the_tests_mirror_the_rooms) {
+BOOST_AUTO_TEST_CASE(tests_mirror_the_rooms) {
   const std::set<std::string> tops = rooms().tops();
   for (const auto& entry : fs::recursive_directory_iterator(kRoot / "tests")) {
     if (!is_code(entry.path())) continue;
@@ -255,13 +259,13 @@ BOOST_AUTO_TEST_CASE(the_tests_mirror_the_rooms) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_readme_of_the_tests_names_their_folders) {
-  std::set<std::string> told, there;
+BOOST_AUTO_TEST_CASE(readme_of_the_tests_lists_their_folders) {
+  std::set<std::string> listed, there;
   for (const Cells& cells : table(kRoot / "tests/README.md", "| folder |"))
-    for (const std::string& name : names_in(cells.at(0))) told.insert(name);
+    for (const std::string& name : names_in(cells.at(0))) listed.insert(name);
   for (const auto& entry : fs::directory_iterator(kRoot / "tests"))
     if (entry.is_directory()) there.insert(entry.path().filename().string());
-  BOOST_TEST(told == there, boost::test_tools::per_element());
+  BOOST_TEST(listed == there, boost::test_tools::per_element());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

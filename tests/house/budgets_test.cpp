@@ -1,4 +1,5 @@
-// Sizes of the project against budgets.json. A limit follows its count down to the budget.
+// Compares the size of the project with budgets.json. Limits must follow the counts down to the
+// budget.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
@@ -14,15 +15,15 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr long kSmallHeader = 15;  // code lines, at most
+constexpr long kSmallHeader = 15;  // maximum of code lines
 
 struct Sizes {
-  std::map<std::string, long> code_lines;  ///< of C++ by top folder, and of "python" in all folders
+  std::map<std::string, long> code_lines;  ///< of C++ by top folder; "python" for all folders
   long files = 0;
   long small_headers = 0;
 };
 
-/// Lines that are neither blank nor a comment alone.
+/// Counts the lines that are neither blank nor a comment only.
 long code_lines(const fs::path& file, const std::string& comment) {
   std::ifstream in(file);
   long count = 0;
@@ -33,7 +34,7 @@ long code_lines(const fs::path& file, const std::string& comment) {
   return count;
 }
 
-/// Folders that a build or a run makes, as in .gitignore, and hidden ones of other programs.
+/// Returns true for generated folders, as in .gitignore, and for hidden folders of other programs.
 bool is_made(const fs::path& folder) {
   static const std::set<std::string> made = {"build", "out", "__pycache__", "fuzz-findings"};
   const std::string name = folder.filename().string();
@@ -70,7 +71,7 @@ void check(const std::string& what, long count, const nlohmann::json& entry) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(sizes_are_within_their_limits_and_limits_follow_them) {
+BOOST_AUTO_TEST_CASE(sizes_are_within_limits_that_follow_them) {
   const fs::path root = TRAMMEL_SOURCE_DIR;
   std::ifstream in(root / "tests/house/budgets.json");
   const nlohmann::json budgets = nlohmann::json::parse(in);

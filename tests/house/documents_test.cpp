@@ -1,4 +1,4 @@
-// What README.md and CONTRIBUTING.md say of the house is there.
+// Tests that the files and names in README.md, CONTRIBUTING.md and other documents exist.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
@@ -34,7 +34,7 @@ std::vector<std::string> found(const std::string& text, const std::regex& patter
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(every_file_that_the_tour_names_is_there) {
+BOOST_AUTO_TEST_CASE(files_named_in_the_main_documents_exist) {
   const std::regex path("`((?:cases|harness|references|reports|solver|tests|\\.ci)/[\\w./-]*)`");
   for (const char* document : {"README.md", "CONTRIBUTING.md"}) {
     const std::vector<std::string> named = found(text_of(document), path);
@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(every_file_that_the_tour_names_is_there) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(every_file_that_the_readme_of_a_folder_names_is_there) {
+BOOST_AUTO_TEST_CASE(files_named_in_folder_readmes_exist) {
   const std::regex path("`([\\w-]+/[\\w./-]+\\.(?:h|cpp|json))`");
   for (const char* folder : {"solver", "harness", "references", "reports", "cases"}) {
     const std::string readme = std::string(folder) + "/README.md";
@@ -57,7 +57,7 @@ BOOST_AUTO_TEST_CASE(every_file_that_the_readme_of_a_folder_names_is_there) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_file_that_names_its_schema_names_one_that_is_there) {
+BOOST_AUTO_TEST_CASE(named_schema_of_a_file_exists) {
   const std::regex schema("\"\\$schema\": \"(\\.[^\"]*)\"");
   std::size_t named = 0;
   for (const char* folder : {"cases", "references/values"}) {
@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(conventions_have_a_row_for_every_analysis) {
   std::vector<std::string> cases;
   for (const auto& entry : fs::recursive_directory_iterator(root / "cases"))
     cases.push_back(entry.path().stem().string());
-  // The last of four columns names cases.
+  // The last of four columns lists cases.
   const std::regex last("\n\\|[^|\n]*\\|[^|\n]*\\|[^|\n]*\\|([^|\n]*`[^|\n]*)\\|(?=\n)");
   std::size_t named = 0;
   for (const std::string& column : found(text, last)) {

@@ -1,4 +1,4 @@
-// The wrapper ./trammel around a cmake and a program that only pretend.
+// Tests the wrapper ./trammel with stubs of cmake and of the program.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -28,7 +28,7 @@ void write_script(const fs::path& file, const std::string& text) {
   fs::permissions(file, fs::perms::owner_all);
 }
 
-/// A checkout with the wrapper, and a cmake that takes a while and notices when it is not alone.
+/// Checkout with the wrapper and a stub of cmake that takes a while and records simultaneous calls.
 class Checkout {
  public:
   Checkout() {
@@ -56,7 +56,7 @@ rmdir "$folder/busy"
   Checkout(const Checkout&) = delete;
   Checkout& operator=(const Checkout&) = delete;
 
-  /// @returns what the shell command says; it finds the checkout in `source`.
+  /// Runs a shell command next to the checkout in `source`. @returns its output
   [[nodiscard]] std::string run(const std::string& command) const {
     const std::string line = "cd '" + root_.string() + "' && export PATH=\"$PWD/bin:$PATH\" && (" +
                              command + ") >said.txt 2>&1 </dev/null";
@@ -77,7 +77,7 @@ bool says(const std::string& text, const std::string& part) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(two_calls_at_once_build_one_after_the_other) {
+BOOST_AUTO_TEST_CASE(simultaneous_calls_build_one_after_the_other) {
   const Checkout checkout;
   const std::string said = checkout.run(
       "source/trammel list & a=$!; source/trammel describe & b=$!; wait $a && wait $b");
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(other_build_folder_leaves_the_checkout_unchanged) {
   BOOST_TEST(!fs::exists(checkout.root() / "source/build"));
 }
 
-BOOST_AUTO_TEST_CASE(the_log_of_a_former_call_is_neither_shown_nor_kept) {
+BOOST_AUTO_TEST_CASE(log_of_a_former_call_is_discarded) {
   const Checkout checkout;
   (void)checkout.run("source/trammel list");
   const fs::path build = checkout.root() / "source/build/release";
@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(the_log_of_a_former_call_is_neither_shown_nor_kept) {
   BOOST_TEST(!says(said, "an old fault"), said);
 }
 
-BOOST_AUTO_TEST_CASE(a_build_folder_that_cannot_be_is_told_in_a_line) {
+BOOST_AUTO_TEST_CASE(impossible_build_folder_is_refused_in_one_line) {
   const Checkout checkout;
   const std::string said = checkout.run("TRAMMEL_BUILD=/dev/null/x source/trammel list");
   BOOST_TEST(checkout.status() == 3);

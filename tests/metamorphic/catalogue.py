@@ -1,11 +1,11 @@
-"""Reads the catalogue's cases as documents, each variant and level of a study by itself."""
+"""Reads the catalogue's cases as documents, with separate documents for variants and levels of studies."""
 
 import collections
 import copy
 import json
 
 Computation = collections.namedtuple("Computation", "name case is_slow")
-ONE_OF = ("analysis", "trajectory", "law", "method", "scheme")  # objects with one key: another one replaces it
+ONE_OF = ("analysis", "trajectory", "law", "method", "scheme")  # objects with one key, which another key replaces
 LEVELS = 3  # of a study: the first, the middle and the last of its values
 
 
@@ -25,7 +25,7 @@ def merged(target, patch):
 
 
 def documents(folder):
-    """Yields every case with what it extends."""
+    """Yields every case merged with the case that it extends."""
     cases = {}
     for path in sorted(folder.glob("**/*.json")):
         case = json.loads(path.read_text())

@@ -6,7 +6,7 @@ import re
 ROUNDOFF = 1e-9  # times a tolerance of 1e-5 or less: below 1e-14 of the size, displacements are round-off error
 TURNS = {"motion_phi_rad": "motion_m", "motion_velocity_phi_rad_per_s": "motion_velocity_m_per_s", "rotation_rad": "displacement_m", "end_rotation_rad": "displacement_m", "platform_rotation_rad": "displacement_m",
          "angular_velocity_rad_per_s": "velocity_m_per_s"}
-UNCOUNTED = re.compile(  # work, round-off and positions of extremes, which no law of mechanics determines
+UNCOUNTED = re.compile(  # work, round-off and positions of extrema, which no law of mechanics determines
     r"degrees_of_freedom|peak_frequency|estimated_correct_digits|.*residual|.*roundoff|.*steps?(_|$)|.*_drift|.*evaluations|"
     r"newton_|frequency_gap|.*_error|effect_|rejected|peak_time_s|.*_number|.*_difference|"
     r"result_|sample")
@@ -46,7 +46,7 @@ class Law:
         return values
 
     def turned(self, name, quantities):
-        """Returns both components of a vector; a bearing along one axis has one component, the other is zero."""
+        """Returns both components of a vector; a support along one axis has one component, and the other is zero."""
         names = [re.sub("_[xy]_", f"_{axis}_", name, count=1) for axis in "xy"]
         zero = [0.0] * len(quantities[name])
         x, y = (quantities.get(n, zero) for n in names)
@@ -84,16 +84,16 @@ def kind(name):
 
 
 def scales(values, forces, size, stiffness):
-    """Returns the largest magnitude of each kind in a case. Forces and moments are one scale by the model's size,
-    to which the applied forces belong."""
+    """Returns the largest magnitude of each kind in a case. Forces and moments have one scale by the model's size,
+    which includes the applied forces."""
     largest = {"_N": forces}
     for name, series in values.items():
         for value in series:
             if value is not None and math.isfinite(value):
                 largest[kind(name)] = max(largest.get(kind(name), 0.0), abs(value))
-    for head in ("displacement_m", "velocity_m_per_s", "motion_velocity_m_per_s"):  # round-off error of places is 1e-16 of the size
+    for head in ("displacement_m", "velocity_m_per_s", "motion_velocity_m_per_s"):  # round-off error of positions is 1e-16 of the size
         largest[head] = max(largest.get(head, 0.0), ROUNDOFF * size)
-    for turn, length in TURNS.items():  # a turn by what its points move over the model's size
+    for turn, length in TURNS.items():  # a rotation by the displacement of its points over the model's size
         largest[turn] = max(largest.get(turn, 0.0), largest.get(length, 0.0) / size)
     moved = largest.get("displacement_m", 0.0) / size
     largest["_N"] = max(largest["_N"], largest.get("_N_m", 0.0) / size, ROUNDOFF * moved * stiffness)
@@ -116,7 +116,7 @@ def forces_and_size(model):
 
 
 def stated_roundoff(*runs):
-    """Returns kind -> relative round-off error that the runs state together."""
+    """Returns kind -> relative round-off error, the sum of the largest errors of the runs."""
     total = {}
     for run in runs:
         largest = {}
@@ -128,8 +128,8 @@ def stated_roundoff(*runs):
 
 
 def differences(expected, obtained, tolerance, model, stated):
-    """Returns (name, expected, obtained, error over the scale of the kind) where the tolerance is exceeded, and the
-    largest of the errors that do not exceed it."""
+    """Returns (name, expected, obtained, error over the scale of the kind) if the error exceeds the tolerance, and
+    the largest of the other errors."""
     scale, found, largest_error = scales(expected, *forces_and_size(model)), [], 0.0
     for name, series in expected.items():
         other = obtained.get(name)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs cases of the catalogue, transformed, and compares the results with those that the law of each
-transformation predicts. Exit status 1 if a difference is neither within tolerance nor in exceptions.json."""
+"""Runs transformed cases of the catalogue and compares the results with the predictions by the law of each
+transformation. The exit status is 1 if a difference is neither within tolerance nor in exceptions.json."""
 
 import argparse
 import collections
@@ -23,10 +23,10 @@ from transformations import ALL, Skip
 
 HERE = pathlib.Path(__file__).parent
 CASES = HERE.parent.parent / "cases"
-# Relative to the scale of the kind of quantity, in addition to the round-off error that the program states. Where it states
-# one, 1e-9 is for quantities that are differences of others. Where it states none, round-off error grows with the
-# condition number and with the number of steps; searches (peaks, sensitivities by differences) stop at 1e-7, and the
-# iterations of large motion and paths at up to 1e-6 of small responses.
+# Relative to the scale of the kind of quantity, in addition to the stated round-off error. If the program states one, 1e-9
+# allows for quantities that are differences of others. Otherwise round-off error grows with the condition number and the
+# number of steps. Searches (peaks, sensitivities by differences) stop at 1e-7. Iterations of large motions and paths stop at
+# up to 1e-6 of small responses.
 TOLERANCE = collections.defaultdict(lambda: 1e-5, statics=1e-9, modes=1e-9, buckling=1e-9, harmonic=1e-6, transient=1e-6)
 SIGN_FREE = {"modes", "buckling"}  # shapes have no fixed sign and no fixed basis among repeated frequencies
 
@@ -56,7 +56,7 @@ def solve(program, folder, cases, seconds):
     shutil.rmtree(out, ignore_errors=True)
     answer = run_program(program, "run", *files, "--jobs", 1, "--out", out)
     if not (out / "results.json").exists():
-        if len(cases) > 1:  # one bad file refuses the call
+        if len(cases) > 1:  # one invalid file refuses the call
             return {n: r for name in cases for n, r in solve(program, folder, {name: cases[name]}, seconds).items()}
         lines = answer.stderr.strip().splitlines() or [""]
         return dict.fromkeys(cases, {"status": "refused", "reason": lines[-1]})
@@ -70,7 +70,7 @@ def solve(program, folder, cases, seconds):
 
 
 def compare(analysis, options, law, before, after, model):
-    """Returns lines that describe what differs from the law, and the largest difference over the scale."""
+    """Returns lines that describe differences from the law, and the largest difference over the scale."""
     if before["status"] != after["status"]:
         return [f"status: {before['status']} -> {after['status']} {after['reason'][:200]}"], 0.0
     if before["status"] != "solved":
@@ -83,14 +83,14 @@ def compare(analysis, options, law, before, after, model):
     expected, obtained = law.expected(before["quantities"]), after["quantities"]
     if analysis in SIGN_FREE:
         expected = {n: v for n, v in expected.items() if re.match(r"frequency|load_factor|critical|mass_kg|growth", n)}
-    if options.get("whole_path"):  # step control chooses the points of a path; what it passes and reaches has a law
+    if options.get("whole_path"):  # step control chooses the points of a path; only its events and its end have a law
         expected = {n: v if re.match(r"limit_|bifurcation_", n) else v[-1:] for n, v in expected.items()}
         obtained = {n: v if re.match(r"limit_|bifurcation_", n) else v[-1:] for n, v in obtained.items()}
     if analysis == "harmonic":  # amplitudes, without phase
         expected, obtained = ({n: [v and abs(v) for v in s] for n, s in q.items()} for q in (expected, obtained))
     stated = stated_roundoff(before["roundoff"], after["roundoff"])
     tolerance = TOLERANCE[analysis]
-    if law.inert:  # more coordinates, other steps: each motion errs by what was requested
+    if law.inert:  # more coordinates have other steps; each motion has the requested error
         tolerance = max(tolerance, options.get("error_control", {}).get("relative", 0.0))
     found, largest = differences(expected, obtained, tolerance, model, stated)
     found.sort(key=lambda item: -item[3])
@@ -99,7 +99,7 @@ def compare(analysis, options, law, before, after, model):
 
 
 def reason_of_exception(exceptions, name, transformation, lines):
-    """Returns why a difference is expected; each of its lines must be one that an exception names."""
+    """Returns the reason of an expected difference; an exception must name each of its lines."""
     fitting = [e for e in exceptions if re.fullmatch(e["case"], name) and re.fullmatch(e["transformation"], transformation)]
     if all(any(re.search(e["line"], line) for e in fitting) for line in lines):
         return fitting[0]["why"]
@@ -134,7 +134,7 @@ def main():
 
 
 class Findings:
-    """What comparisons have found."""
+    """Results of the comparisons."""
 
     def __init__(self):
         self.counts, self.skipped = collections.defaultdict(collections.Counter), collections.Counter()
@@ -160,7 +160,7 @@ class Findings:
 
 
 def check_case(options, computation, exceptions):
-    """Compares one computation with its transformed twins."""
+    """Compares one computation with its transformations."""
     found = Findings()
     with tempfile.TemporaryDirectory() as temporary:
         folder = pathlib.Path(temporary)

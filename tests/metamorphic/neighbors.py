@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs neighbors of inputs that once gave wrong results: other numbers, angles, schemes and steps. Prints obtained and
-right values, which follow from closed forms; exit status 1 if one is missed."""
+"""Runs neighbors of inputs that once had wrong results: other numbers, angles, schemes and steps. Prints obtained and exact
+values, which follow from closed forms. The exit status is 1 if a value is wrong."""
 
 import json
 import math
@@ -21,20 +21,20 @@ def turned(point, angle):
 
 
 def cantilever(turn=0.0, **member):
-    """Returns a cantilever of 2 m, turned about its clamp A."""
+    """Returns a cantilever of 2 m, rotated about its clamp A."""
     return {"materials": STEEL, "sections": BAR, "nodes": {"A": [0, 0], "B": turned([2, 0], turn)},
             "supports": {"A": ["x", "y", "rotation"]}, "members": {"AB": {"nodes": ["A", "B"], "section": "b", **member}}}
 
 
 class Neighbor:
-    """One input: what is looked at, and what is right."""
+    """Input with a selected value and the exact value."""
 
     def __init__(self, kind, what, model, analysis, quantity, right, tolerance=1e-6, index=-1):
         self.kind, self.what, self.model, self.analysis = kind, what, model, analysis
         self.quantity, self.right, self.tolerance, self.index = quantity, right, tolerance, index
 
     def obtained(self, run, folder):
-        """Returns the value, or the text of a warning, of a reason or of the status."""
+        """Returns the value, or the text of a warning, a reason or the status."""
         if self.quantity == "refusal":
             return run.get("refused", run["status"])
         if self.quantity == "warned number":
@@ -53,7 +53,7 @@ class Neighbor:
 
 
 def branches():
-    """Four-bar linkages near a change point: the triangle of the branch in which they start."""
+    """Yields four-bar linkages near a change point: they keep the branch in which they start."""
     for speed, step, crank, turn in ((6, 0.01, 0.5, 0.0), (6, 0.004, 0.5, 0.7), (3, 0.02, 0.499, -1.0), (-6, 0.01, 0.5, 2.0),
                                      (4, 0.01, 0.4995, 0.3), (9, 0.01, 0.4999, 1.2)):
         coupler, rocker, ground, start = 1.0, 0.5, 1.0, 1.0
@@ -81,7 +81,7 @@ def branches():
 
 
 def torques():
-    """An arm that a drive turns evenly: m g L cos(w t)."""
+    """Yields an arm that a drive rotates uniformly: the torque is m g L cos(w t)."""
     for mass, length, speed, step, turn in ((1, 1, 5, 0.01, 0), (3, 0.2, 5, 0.01, 0), (1, 1, 40, 0.001, 0.4),
                                             (0.01, 5, 1, 0.02, -0.9), (1, 1, -5, 0.005, 1.2)):
         model = {"nodes": {"O": [0, 0], "B": turned([length, 0], turn)}, "supports": {"O": ["x", "y"]},
@@ -97,7 +97,7 @@ def torques():
 
 
 def stresses():
-    """A bar under a pull without moment: force over area."""
+    """Yields a bar in tension without moment: the stress is force over area."""
     for turn in (0.0, 0.3, 0.7, -0.87, 1.3, math.pi / 2):
         model = {"materials": {"soft": {"E_Pa": 1e6, "rho_kg_m3": 1000, "nu": 0.3}},
                  "sections": {"s": {"material": "soft", "area_m2": 0.01, "second_moment_m4": 1e-5}},
@@ -108,7 +108,7 @@ def stresses():
 
 
 def rests():
-    """A drive that has come to rest."""
+    """Yields drives that are at rest after their motion."""
     for step, radius, travel, inertia in ((1e-3, 0.9, 1, 0.1), (1e-4, 0.9, 1, 0.1), (1e-3, 0.0, 1, 0.1), (1e-3, 0.5, 1e-3, 1e-6),
                                           (2e-3, 1.0, -3, 40), (1e-3, 0.8, 1, 1e-9)):
         model = {"nodes": {"H": [0, 0]}, "supports": {"H": ["x", "y"]},
@@ -121,7 +121,7 @@ def rests():
 
 
 def small_models():
-    """A model of springs and masses in every size."""
+    """Yields a model of springs and masses in many sizes."""
     for size in (1.0, 0.3, 1e-2, 1e-3, 1e3, 1e5):
         length = 0.5 * size
         model = {"nodes": {"O": [0, 0], "D": [length, 0]}, "supports": {"O": ["x", "y"], "D": ["x"]},
@@ -133,7 +133,7 @@ def small_models():
 
 
 def mechanisms():
-    """An arm that turns freely, pulled: singular, and named."""
+    """Yields a free arm under a force: the model is singular, and the motion is named."""
     for turn, pull in ((0, 1), (0.4, 1), (1.1, 1e-6), (-2.2, 1e4), (3.0, -1)):
         model = {"materials": STEEL, "sections": BAR, "supports": {"P": ["x", "y", "rotation"]},
                  "nodes": {n: turned(p, turn) for n, p in {"P": [0, 0], "Q": [2, 0], "R": [2.3, 0.2]}.items()},
@@ -145,7 +145,7 @@ def mechanisms():
 
 
 def tails():
-    """A massless tail changes nothing: sqrt(k / (m L^2 / 3)) / 2 pi of a rigid arm with lumped ends."""
+    """Yields rigid arms with lumped ends: a massless tail does not change sqrt(k / (m L^2 / 3)) / 2 pi."""
     for spring, length, angle in ((0.05, 0.18, 0.29), (0.05, 2.0, 1.0), (5.0, 0.01, -2.0), (1e-3, 0.4, 3.0), (500.0, 0.3, 0.1)):
         mass = 1000 * 0.01 * 1.2
         stiff = {"E_Pa": 1e13, "rho_kg_m3": 1000, "nu": 0.3}
@@ -158,13 +158,13 @@ def tails():
                              "ET": {"nodes": ["E", "T"], "section": "t"}},
                  "loads": {"O": {"node": "O", "force_N": [1, 0]}}}
         right = math.sqrt(spring / (mass * 1.2 ** 2 / 3)) / (2 * math.pi)
-        rounding = sys.float_info.epsilon * 3 * 1e13 * 1e-5 / 1.2 / spring  # of the arm's stiffness beside the spring's
+        rounding = sys.float_info.epsilon * 3 * 1e13 * 1e-5 / 1.2 / spring  # of the arm's stiffness relative to the spring's
         yield Neighbor("massless tail", f"{spring:g} N m/rad, tail of {length} m at {angle} rad", model,
                        {"large-statics": {"vibration_modes": 1}}, "frequency_Hz", right, 1e-5 + 5 * rounding)
 
 
 def reduced_members():
-    """Section forces of a reduced cantilever under line loads at 0 Hz: q L at the clamp."""
+    """Yields a reduced cantilever under line loads at 0 Hz: the section force is q L at the clamp."""
     for axial, across, elements, modes, turn in ((40, -300, 8, 2, 0), (40, -300, 8, 0, 0.6), (-7, 1e3, 4, 1, -1.1), (1e4, 1, 16, 4, 2.5),
                                                  (0, 50, 2, 1, 0.2)):
         model = cantilever(turn, elements=elements, load_N_per_m=turned([axial, across], turn))
@@ -176,7 +176,7 @@ def reduced_members():
 
 
 def free_arms():
-    """An arm on which no load acts is neither stable nor unstable."""
+    """Yields an arm without loads, which is neither stable nor unstable."""
     for turn, place, elements in ((0, 0, 4), (0.9, 0, 4), (-1.7, 3, 2), (0.3, -20, 4), (2.6, 0.7, 6)):
         nodes = {"A": [0.0, 0.0], "B": [0.5, 0.0], "C": [0.9, 0.3]}
         section = {"s": {"material": "steel", "rectangle": {"thickness_m": 0.02, "width_m": 0.02}}}
@@ -192,7 +192,7 @@ def free_arms():
 
 
 def redundant():
-    """Parallel cranks that a coupler joins: every crank beyond the second is redundant."""
+    """Yields parallel cranks with a coupler: every crank after the second is redundant."""
     for cranks, turn, kind in ((3, 0.0, "large-motion"), (4, 0.5, "large-motion"), (3, -1.3, "large-statics"),
                                (5, 0.2, "large-statics"), (3, 0.8, "energy-momentum")):
         nodes, bodies, masses, pins, supports = {}, {}, {}, {}, {}
@@ -219,7 +219,7 @@ def redundant():
 
 
 def coarse():
-    """Meshes that are too coarse for the highest mode or for a taper."""
+    """Yields meshes that are too coarse for the highest mode or for a taper."""
     tip = {"t": {"material": "steel", "rectangle": {"thickness_m": 0.01, "width_m": 0.05}}}
     for elements, modes, warned in ((1, 1, True), (1, 3, True), (2, 4, True), (16, 3, False), (32, 4, False)):
         yield Neighbor("coarse mesh", f"modes, {elements} elements, {modes} modes", cantilever(elements=elements),
@@ -234,7 +234,7 @@ def coarse():
 
 
 def pulses():
-    """The impulse of a load history over the mass, however short a pulse or steep a ramp is."""
+    """Yields pulses and ramps of any duration: the velocity is the impulse over the mass."""
     for mass, force, times, factors in (
         (5, 10, [0, 0.3, 0.30000001, 0.30000002], [0, 0, 1e7, 0]),
         (2, 1, [0, 0.5, 0.5000001, 1], [0, 0, 1, 1]),
@@ -260,7 +260,7 @@ def pulses():
 
 
 def bases():
-    """A uniform velocity of a cantilever: the modes hold 0.6131, 0.1883, 0.0647, 0.0331 and 0.0200 of its energy."""
+    """Yields a uniform velocity of a cantilever: the modes have 0.6131, 0.1883, 0.0647, 0.0331 and 0.0200 of its energy."""
     held = 0.0
     for modes, share in enumerate((0.6131, 0.1883, 0.0647, 0.0331, 0.0200), 1):
         held += share
@@ -288,7 +288,7 @@ def bases():
 
 
 def collisions():
-    """Two parts of one name are refused."""
+    """Yields models with two parts of one name, which are refused."""
     arc = {"nodes": ["A", "B"], "section": "b", "arc_center_m": [0, 0], "elements": 3}
     straight = {"nodes": ["A", "B"], "section": "b"}
     nodes, held = {"A": [1, 0], "B": [0, 1], "C": [2, 1]}, {"A": ["x", "y", "rotation"]}
@@ -307,7 +307,7 @@ def collisions():
 
 
 def tensions():
-    """A column and a tie in large tension: pi^2 EI / 4 L^2 over its force."""
+    """Yields a column and a tie in large tension: the load factor is pi^2 EI / (4 L^2) over the force."""
     inertia, area = 0.05 * 0.1**3 / 12, 0.005
     for pull, push, length, turn in (
         (1e3, 1, 2, 0),
@@ -355,7 +355,7 @@ def main():
             print(answer.stderr)
             return 1
         runs = {r["case"]: r for r in json.loads((folder / "out" / "results.json").read_text())["runs"]}
-        for name, file in refused.items():  # one bad file refuses the call
+        for name, file in refused.items():  # one invalid file refuses the call
             answer = run_program(sys.argv[1], "run", file)
             message = answer.stderr.partition(": ")[2].strip()
             runs[name] = {"status": f"exit status {answer.returncode}", "refused": message}

@@ -17,7 +17,7 @@ from transformations import multiply_loads
 
 SECONDS = 60
 LOAD_SHARE = 1e-5
-LINEAR_TOLERANCE = 1e-3  # large statics is nonlinear at order of the load's share times slenderness squared
+LINEAR_TOLERANCE = 1e-3  # large statics is nonlinear of the order of the load share times the slenderness squared
 
 
 def base_model(rng):
@@ -73,7 +73,7 @@ def random_frame(rng):
 
 
 def random_mechanism(rng):
-    """Returns the motion of a chain of pinned rigid bodies: driven, sprung or on a slider."""
+    """Returns the motion of a chain of pinned rigid bodies with a drive, a spring or a slider."""
     model = base_model(rng)
     count = rng.randint(1, 3)
     nodes, bodies, pins, masses = {"O": [0.0, 0.0]}, {}, {}, {}
@@ -103,7 +103,7 @@ def random_mechanism(rng):
 
 
 def nonlinear_differences(program, folder, case):
-    """Returns what differs between statics and large statics under small loads."""
+    """Returns the differences between statics and large statics under small loads."""
     model = copy.deepcopy(case["model"])
     multiply_loads(model, LOAD_SHARE)
     linear, large = (solve(program, folder, {case["id"]: {**case, "model": model, "analysis": {analysis: {}}}}, SECONDS)[case["id"]]

@@ -7,7 +7,7 @@ FLOATS = {25: ">e", 26: ">f", 27: ">d"}
 
 
 def decode(data, at=0):
-    """Returns the value that begins at a position, and the position behind it."""
+    """Returns the value at a position, and the position after it."""
     major, info = data[at] >> 5, data[at] & 31
     at += 1
     if major == 7:
@@ -37,7 +37,7 @@ def uncompressed(data):
 
 
 def numbers(data):
-    # The lowest bytes of all differences to the number before the last one, then the next bytes, ...
+    # The lowest bytes of all differences from the number two places before, then the next bytes, ...
     count = len(data) // 8
     bits = [int.from_bytes(data[i::count], "little") for i in range(count)]
     for i in range(2, count):

@@ -32,7 +32,7 @@ def dimensions(name):
 
 
 def plane_only(case):
-    """Returns model and analysis of a model in the plane: of nodes, or a manipulator."""
+    """Returns model and analysis of a plane model of nodes or of a manipulator."""
     model = case.get("model", {})
     if "nodes" not in model and "manipulator" not in model:
         raise Skip("there is no model in the plane")
@@ -63,7 +63,7 @@ POINTS = ("arc_center_m", "center_m")
 
 
 def move(case, point, vector, angle, mirrored=False):
-    """Applies a motion of the plane to everything that has a place or a direction."""
+    """Applies a motion of the plane to everything that has a position or a direction."""
     model, analysis = plane_only(case)
     sign = -1 if mirrored else 1
 
@@ -132,7 +132,7 @@ def move_manipulator(case, point, sign, angle):
 
 
 def base_corners(manipulator):
-    """Returns A1, A2, A3, and removes what stated them."""
+    """Returns A1, A2, A3, and removes the keys that defined them."""
     if "base_m" in manipulator:
         return manipulator.pop("base_m")
     side = manipulator.pop("base_side_m")
@@ -140,7 +140,7 @@ def base_corners(manipulator):
 
 
 def platform_corners(platform):
-    """Returns C1, C2, C3 from P, and removes what stated them."""
+    """Returns C1, C2, C3 from P, and removes the keys that defined them."""
     if "vertices_m" in platform:
         return platform.pop("vertices_m")
     radius = platform.pop("side_m") / math.sqrt(3)
@@ -148,7 +148,7 @@ def platform_corners(platform):
 
 
 def next_limb(text):
-    """Returns a name of the manipulator's parts with the limbs 1, 2, 3 called 2, 3, 1."""
+    """Returns a name of the manipulator's parts with the limbs 1, 2, 3 renamed to 2, 3, 1."""
     return re.sub(r"(?<![A-Za-z0-9])([ABC])([123])(?![A-Za-z0-9])", lambda m: m[1] + "231"[int(m[2]) - 1], text)
 
 
@@ -168,7 +168,7 @@ def relabel(case):
         return [value[2], value[0], value[1]]
 
     def visit(value):
-        """Of limbs there are three of everything; of links, the proximal and the distal three."""
+        """Renames the limbs in all keys and values."""
         if isinstance(value, dict):
             return {next_limb(key): visit(item) for key, item in value.items()}
         if isinstance(value, list):
@@ -188,7 +188,7 @@ def relabel(case):
     return case, Law(rename=lambda name: next_limb(name))
 
 
-# What the schema says of an absent key, by the definition it belongs to.
+# Defaults of the schema by definition.
 DEFAULTS = {
     "model": {"elements": 1},
     "member": {"ends": ["welded", "welded"], "end_inertia_kg_m2": [0, 0]},
@@ -212,7 +212,7 @@ DEFAULTS = {
 
 
 def defaults(case):
-    """States what an absent key means."""
+    """Writes the defaults of absent keys."""
     model, analysis = plane_only(case)
     kind, options = next(iter(analysis.items()))
     if kind not in DEFAULTS:
@@ -233,13 +233,13 @@ def defaults(case):
 
 
 def stated(name, holder, key, has_effects):
-    """Returns whether a default may be written out where other keys forbid some."""
+    """Returns True if a default may be written, because no other key forbids it."""
     if name == "large-motion" and key == "extrapolated":
         return "tolerance" not in holder and "track" not in holder
     if key == "initial_state":
         return "rotating_frame" not in holder
     if key in ("second_order", "prestressed", "coriolis"):
-        return not has_effects  # which say it
+        return not has_effects  # effects state it instead
     if name == "grnn":
         return holder.get("surrogate") != "spline" and (key != "split" or "train" in holder)
     return True
@@ -388,7 +388,7 @@ def rescale(base, power):
             return 2.0 ** (power * dimensions(key)[base])
 
         def visit(value, key):
-            if isinstance(value, dict):  # a range of a quantity has the unit of its name, but for its number of points
+            if isinstance(value, dict):  # a range of a quantity has the unit of its name, except its number of points
                 return {k: visit(v, k if any(dimensions(k)) or not any(dimensions(key)) or k == "points" else key)
                         for k, v in value.items()}
             if isinstance(value, list):

@@ -1,6 +1,6 @@
 #pragma once
 
-// What mutate.py includes before every source: faults, of which the environment switches one on.
+// Header that mutate.py includes before every source. The environment activates one of the faults.
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -14,9 +14,9 @@ namespace mutation {
 
 inline constexpr int kMost = 4096;
 inline unsigned char unlogged[kMost] = {};
-inline unsigned char* reached = unlogged;  ///< a byte for each fault; shared with forked processes
+inline unsigned char* reached = unlogged;  ///< one byte per fault, shared with forked processes
 inline int active = -1;
-inline double error = 0.01;  ///< relative, of coefficients
+inline double error = 0.01;  ///< relative error of coefficients
 
 inline bool read_environment() {
   if (const char* number = std::getenv("TRAMMEL_FAULT_NUMBER")) active = std::atoi(number);
@@ -39,14 +39,15 @@ inline bool fault(int number) {
   return number == mutation::active;
 }
 
-/// A coefficient, or with the fault 1 + error times as much. Whole numbers stand for real ones.
+/// Returns a coefficient; with the fault, 1 + error times the coefficient. Integers become real
+/// numbers.
 template <class T>
 auto scaled(int number, const T& x) {
   using Number = std::conditional_t<std::is_arithmetic_v<T>, double, T>;
   return fault(number) ? Number(Number(x) * (1 + mutation::error)) : Number(x);
 }
 
-/// Behind + or -, or in place of a sign: `whole`, or `size` with the fault.
+/// Replaces the factor after + or - or a sign: `whole`, or `size` with the fault.
 struct Factor {
   int number, size, whole = 1;
 };
@@ -56,7 +57,7 @@ auto operator*(Factor factor, const T& x) {
   return Number(fault(factor.number) ? factor.size : factor.whole) * x;
 }
 
-/// Behind * or /: x, or with the fault 1 / x. Whole numbers are indices.
+/// Replaces the operand after * or /: x, or 1 / x with the fault. Integers are indices.
 struct Reciprocal {
   int number;
 };
@@ -66,7 +67,8 @@ T operator->*(Reciprocal reciprocal, const T& x) {
   return fault(reciprocal.number) ? T(1.0 / x) : x;
 }
 
-/// Behind a comparison, before the same again: with the fault the other one of the two.
+/// Follows a comparison operator and precedes it again; the fault replaces it by the other
+/// operator.
 struct Compared {
   int number;
 };

@@ -1,13 +1,11 @@
 #!/usr/bin/env python3
-"""Which faults would the catalogue notice? Seeds them one at a time, all in one build (seeding.py).
+"""Finds out which seeded faults the catalogue detects. Faults are active one at a time, all in one build (seeding.py).
 
-The environment names the fault that is on, and a mapped file tells which ones a case comes by. One
-pass logs that and how long each case takes; then each fault is on in the cases that come by it,
-cheapest first and those of the expected families before all others, until a gate breaks: by the exit
-status, a crash, or ten times the ordinary time. What each came to is in OUT/table.json.
+The environment names the active fault, and a mapped file records the faults that a case reaches. A first pass records these and the
+time of each case. Then each fault is active in the cases that reach it: expected families first, cheap cases first. The search ends
+when a gate breaks by the exit status, a crash, or ten times the usual time. OUT/table.json contains the outcomes.
 
-Exit status 1 where a fault came to something else than its file expects.
-"""
+The exit status is 1 if an outcome differs from the expected one."""
 import argparse
 import concurrent.futures
 import hashlib
@@ -29,7 +27,7 @@ from store import uncompressed
 
 
 def call(command, out, limit, **environment):
-    """Exit status, None after the limit; seconds; hashes of what was recorded of the runs."""
+    """Returns the exit status (None after the limit), the seconds, and hashes of the stored runs."""
     begun = time.monotonic()
     process = subprocess.Popen([*map(str, command)], env={**os.environ, **environment}, cwd=ROOT,
                                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
@@ -41,7 +39,7 @@ def call(command, out, limit, **environment):
         process.wait()
         status = None
     seconds = time.monotonic() - begun
-    # Times, counts of repetitions and hashes.
+    # Times, numbers of repetitions and hashes are not compared.
     number, count = rb"(\xfb.{8}|\xfa.{4}|\xf6)", rb"(\x1a.{4}|\x19..|\x18.|[\0-\x17])"
     times = re.compile(rb"(wall_s|cpu_s)" + number + rb"|evaluation_s" + number + rb"kevaluations" + count +
                        rb"|[0-9a-f]{8}-[0-9a-f-]{27}", re.DOTALL)
@@ -50,7 +48,7 @@ def call(command, out, limit, **environment):
 
 
 def failing_cases(out):
-    """Those of which a gate breaks, by the results that a call has written; None where it has not."""
+    """Returns the cases with a failed gate by the results of a call, or None without results."""
     file = pathlib.Path(out) / "results.json"
     if not file.exists():
         return None
@@ -60,7 +58,7 @@ def failing_cases(out):
 
 
 class Probe:
-    """A case of the catalogue, or a suite of tests, that may notice faults."""
+    """Case of the catalogue, or suite of tests, that may detect faults."""
 
     def __init__(self, name, group, command):
         self.name, self.group, self.command = name, group, command
@@ -68,7 +66,7 @@ class Probe:
         self.is_case = command[1] == "run"
 
     def measure(self, faults):
-        """How long it takes with no fault on, what it records, and which faults it comes by."""
+        """Records the time without faults, the stored runs, and the faults that the probe reaches."""
         with tempfile.NamedTemporaryFile() as log:
             log.write(bytes(4096))
             log.flush()
@@ -81,7 +79,7 @@ class Probe:
 
 
 def run(probes, limit, **environment):
-    """Some cases in one call, or one suite: as `call`, and names of cases of which a gate breaks."""
+    """Runs cases in one call, or one suite. Returns the result of `call` and the cases with a failed gate."""
     command = list(probes[0].command)
     with tempfile.TemporaryDirectory(prefix="mutation-") as out:
         if probes[0].is_case:
@@ -90,7 +88,7 @@ def run(probes, limit, **environment):
 
 
 def notice(fault, probes, **environment):
-    """Which probe notices the fault, and how; whether anything recorded differs."""
+    """Returns the probe that detects the fault, the way of detection, and True if a stored run differs."""
     limit = 2 + 10 * sum(p.seconds for p in probes)
     status, _, recorded, failing = run(probes, limit, TRAMMEL_FAULT_NUMBER=str(fault["number"]), **environment)
     if status == 0:
@@ -98,14 +96,14 @@ def notice(fault, probes, **environment):
     how = "time" if status is None else f"exit {status}"
     if len(probes) == 1:
         return probes[0], how, True
-    # Where no case is named, the call has ended early, or bands of some cases alone are too narrow.
+    # Without a named case, the call ended early, or only the bands of separate cases are too narrow.
     found = ((p, how, True) for p in probes if p.name in (failing or ()))
     alone = (notice(fault, [p], **environment) for p in (probes if failing is None else ()))
     return next(found, None) or next((f for f in alone if f[0]), (None, "", True))
 
 
 def chunks(probes, expected=()):
-    """Cases, first a few, then ever more at a time; suites each by itself, those that are expected first."""
+    """Yields cases in groups of growing size, and suites one by one, with expected suites first."""
     suites = [p for p in probes if not p.is_case]
     yield from ([p] for p in suites if p.group in expected)
     cases, size = [p for p in probes if p.is_case], 4
@@ -116,7 +114,7 @@ def chunks(probes, expected=()):
 
 
 def cases_of(program, chosen):
-    """Cases of the catalogue, each in its family."""
+    """Returns the cases of the catalogue with their families."""
     listed = subprocess.run([program, "list"], cwd=ROOT, check=True, capture_output=True, text=True).stdout
     names = [line.split()[0] for line in listed.splitlines() if re.match(r"[a-z0-9-]+ {2,}", line)]
     families = {}
@@ -127,7 +125,7 @@ def cases_of(program, chosen):
 
 
 def suites_of(program, folder, chosen):
-    """The suites of a test program that are not labelled slow; switches allocate, so that what counts is left out."""
+    """Returns the suites of a test program that are not slow. Switches allocate memory, so tests of allocations are excluded."""
     files = [f for f in (ROOT / "tests" / folder).rglob("*_test.cpp")
              if "slow" not in f.read_text().splitlines()[0]]
     suites = [(f"{folder}.{f.stem[:-5]}", f"--run_test={f.stem[:-5]}") for f in files]
@@ -136,7 +134,7 @@ def suites_of(program, folder, chosen):
 
 
 def hunt(fault, probes, cap):
-    """What a fault comes to."""
+    """Returns the outcome of a fault."""
     expected = fault["expected"] if isinstance(fault["expected"], list) else []
     near = sorted((p for p in probes if fault["id"] in p.reached),
                   key=lambda p: (p.seconds > cap, p.group not in expected, p.seconds))
@@ -151,7 +149,7 @@ def hunt(fault, probes, cap):
 
 
 def smallest_error(fault, probes, cap):
-    """The smallest power of ten of a relative error that is noticed, by the cases below the cap."""
+    """Returns the smallest power of ten of a relative error that the cases below the cap detect."""
     near = sorted((p for p in probes if fault["id"] in p.reached and p.seconds <= cap and p.is_case),
                   key=lambda p: p.seconds)
     best = None
@@ -166,7 +164,7 @@ def smallest_error(fault, probes, cap):
 
 
 def as_expected(fault, found):
-    """Whether a fault came to what its file says, or an error that small or smaller is noticed."""
+    """Returns True if the outcome is the expected one, or if an error of the expected size or less is detected."""
     if "smallest_error" in found:
         return (found["smallest_error"] or 1) <= 1.001 * fault.get("smallest_error", 1)
     if isinstance(fault["expected"], str):
@@ -175,7 +173,7 @@ def as_expected(fault, found):
 
 
 def check_bits(build, probes):
-    """The program with no fault on computes what the one without switches does."""
+    """Checks that the program without an active fault computes the same bits as the one without switches."""
     for probe in sorted(probes, key=lambda p: p.seconds)[::8]:
         plain = Probe(probe.name, probe.group, [build / "harness/trammel", *probe.command[1:]])
         if run([plain], 600)[2] != probe.recorded:
@@ -202,7 +200,7 @@ def main():
         faults = seeding.number([f for f in faults if f.get("quick")])
     targets = ["harness/trammel", *(f"tests/test_{folder}" for folder in given.tests)]
     programs = seeding.Build(build, out, given.jobs).run(faults, targets)
-    os.environ["TRAMMEL_PROGRAM"] = str(programs["harness/trammel"])  # which tests start
+    os.environ["TRAMMEL_PROGRAM"] = str(programs["harness/trammel"])  # the program that tests start
     probes = cases_of(programs["harness/trammel"], given.cases)
     for folder in given.tests:
         probes += suites_of(programs[f"tests/test_{folder}"], folder, given.cases)

@@ -1,7 +1,7 @@
-"""Faults as data, and a build that has all of them, each behind a switch.
+"""Reads faults as data and makes a build that contains all of them behind switches.
 
-A fault replaces a text that occurs exactly once in a source. A copy of the sources gets all of them;
-only what they touch is compiled again and linked with the rest of a ready build.
+A fault replaces a text that occurs exactly once in a source. All faults are written into a copy of the sources.
+Only the affected objects are compiled again and linked with the rest of a ready build.
 """
 import concurrent.futures
 import json
@@ -19,7 +19,7 @@ FOLDERS = ("solver", "harness", "references", "reports", "tests")
 
 
 def number(faults):
-    """Numbers them and finds their places; a drift of the sources is an error, a fault that stands twice as well."""
+    """Numbers the faults and finds their places. A changed source text or a duplicate fault is an error."""
     same = {}
     for index, fault in enumerate(faults):
         text = (ROOT / fault["file"]).read_text()
@@ -37,7 +37,7 @@ def number(faults):
 
 
 def load(files):
-    """The faults of some files."""
+    """Returns the faults of some files."""
     faults = []
     for file in files:
         data = json.loads(file.read_text())
@@ -54,7 +54,7 @@ def load(files):
     return number(faults)
 
 
-# What stands behind an operator that may be another: of the same precedence, or of the highest (->*).
+# Text inserted after an operator that a fault may change. Its precedence is the same or the highest (->*).
 OPERATORS = {**dict.fromkeys("+-", "Factor{{{number}, {size}}} *"),
              **dict.fromkeys("*/", "Reciprocal{{{number}}} ->*"),
              **dict.fromkeys(("<", ">", "<=", ">=", "==", "!="), "Compared{{{number}}} {old}"),
@@ -62,12 +62,12 @@ OPERATORS = {**dict.fromkeys("+-", "Factor{{{number}, {size}}} *"),
 
 
 def switched(fault, old):
-    """The text behind its switch; `old` has the switches inside it."""
+    """Returns the text with its switch; `old` is the text with the inner switches."""
     number, name = fault["number"], fault.get("type", "")
     if fault["old"] in OPERATORS:
         here = OPERATORS[fault["old"]]
         size = 0 if fault["new"].endswith("0 *") else -1
-        if not fault["new"]:  # the sign of what follows
+        if not fault["new"]:  # the sign of the following operand
             return f"::trammel::Factor{{{number}, 1, -1}} *"
         return f"{old} ::trammel::" + here.format(number=number, size=size, old=fault["old"])
     if fault.get("kind") == "coefficient":
@@ -78,7 +78,7 @@ def switched(fault, old):
 
 
 def patched(text, faults, begin=0, end=None):
-    """The text with its faults, which lie apart or within each other."""
+    """Returns the text with its faults, which are separate or nested."""
     out, at, end = "", begin, len(text) if end is None else end
     rest = sorted(faults, key=lambda f: (f["span"][0], -f["span"][1]))
     while rest:
@@ -93,14 +93,14 @@ def patched(text, faults, begin=0, end=None):
 
 
 class Build:
-    """Links targets with the faults in, from a ready build folder."""
+    """Links targets that contain the faults, from a ready build folder."""
 
     def __init__(self, folder, out, jobs):
         self.folder, self.out, self.jobs = folder, out, jobs
         self.tree = out / "tree"
         listed = json.loads(self.said("ninja", "-t", "compdb"))
         self.rule = {entry["output"]: entry for entry in listed}
-        # A target of a folder is named by it in the links of others, but not in compdb's own list.
+        # Link commands name an archive with its folder, but compdb lists it without.
         self.rule.update({self.archive_of(e["command"]): e for e in listed if " ar qc " in e["command"]
                           or "/ar qc " in e["command"]})
 
@@ -112,7 +112,7 @@ class Build:
         return subprocess.run(command, cwd=self.folder, check=True, capture_output=True, text=True).stdout
 
     def dependents(self, files):
-        """Objects that are compiled from the files."""
+        """Returns the objects that depend on the files."""
         wanted, found, current = {str(ROOT / file) for file in files}, set(), None
         for line in self.said("ninja", "-t", "deps").splitlines():
             if line and not line.startswith(" "):
@@ -131,20 +131,20 @@ class Build:
         entry, made = self.rule[name], self.out / "objects" / name
         made.parent.mkdir(parents=True, exist_ok=True)
         source = pathlib.Path(entry["file"])
-        if source.is_relative_to(self.folder):  # several sources as one
+        if source.is_relative_to(self.folder):  # a unity source
             copy = made.with_suffix(".cpp")
             copy.write_text(source.read_text().replace(f'"{ROOT}/', f'"{self.tree}/'))
         else:
             copy = self.tree / source.relative_to(ROOT)
         command = entry["command"].replace(f"-I{ROOT} ", f"-I{self.tree} ").replace(f" -c {source}", "")
         command = re.sub(r" -M[DTF]( \S+\.o(\.d)?)?", "", command).replace(f"-o {name}", f"-o {made}")
-        command = command.replace(" -O3 ", " -O1 ")  # the same bits, which are compared, in half the time
+        command = command.replace(" -O3 ", " -O1 ")  # the same bits in half the time; the bits are compared
         command += f" -w -include {self.tree}/tests/mutation/fault.h -c {copy}"
         done = subprocess.run(command, shell=True, cwd=self.folder, capture_output=True, text=True)
         return done.stderr if done.returncode != 0 else ""
 
     def patch(self, faults):
-        """Copies the sources and puts the faults in."""
+        """Copies the sources and inserts the faults."""
         shutil.rmtree(self.tree, ignore_errors=True)
         for folder in FOLDERS:
             shutil.copytree(ROOT / folder, self.tree / folder, symlinks=True)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Writes the page's table of seeded faults by the family that notices them, from what is expected of them.
+"""Writes the page's table of seeded faults by the family that detects them, from their expected outcomes.
 
-With --check it writes nothing, and exit status 1 says that the page has another table.
+With --check it writes nothing; the exit status is 1 if the table differs.
 """
 import collections
 import sys
@@ -16,7 +16,7 @@ HEADS = {"physical": "Physics", "coefficient": "Coefficients", "generic": "Gener
 
 
 def row_of(fault):
-    """Who notices it, or why nobody does."""
+    """Returns the row of a fault: the family or suite that detects it, or the reason why none does."""
     expected = fault["expected"]
     if isinstance(expected, str):
         return "Not detected: " + ("equivalent or unobservable" if expected.startswith("survives") else "open")

@@ -1,4 +1,4 @@
-"""A section of the report's page that a program of the tests writes: words, and a table to unfold."""
+"""Writes a section of the report's page for a program of the tests: a paragraph and a folded table."""
 import pathlib
 import sys
 
@@ -8,8 +8,8 @@ TEMPLATES = pathlib.Path(__file__).resolve().parent.parent.parent / "reports/tem
 def write(name, title, words, summary, table, after=()):
     """Writes reports/templates/NAME.mustache; with --check it writes nothing.
 
-    table and after are lines: within the table, and below it.
-    Returns the exit status: 1 where --check finds another section.
+    table and after are the lines of the table and below it.
+    Returns the exit status: 1 if --check finds a different section.
     """
     text = "\n".join([
         "{{#%s}}<section id=\"%s\">" % (name, name), f"  <h2>{title}</h2>", f"  <p>{words}</p>", "  <details>",

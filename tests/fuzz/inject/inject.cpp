@@ -1,11 +1,13 @@
-// Loaded before the C library (LD_PRELOAD): makes one call of it fail, once main() has begun.
-// TRAMMEL_FAULT is KIND:NUMBER:
-//   memory:N  the N-th malloc finds no memory
-//   disk:N    files take N bytes and no more, as on a full disk
-//   read:S, compute:S, result:S, draw:S   signal S comes at the first reading of a case, when the
-//             first run starts, before results.json is put in place, when gnuplot is started
-//   clock:0   each look at the calendar is an hour earlier than the one before
-//   count:0   how many calls and bytes there were, to standard error
+// Library that is loaded before the C library (LD_PRELOAD). It makes one call fail after main() has
+// begun. TRAMMEL_FAULT is KIND:NUMBER.
+//   memory:N   the N-th malloc fails.
+//   disk:N     files accept only N bytes, as on a full disk.
+//   read:S     signal S arrives when a case is read first.
+//   compute:S  signal S arrives when the first run starts.
+//   result:S   signal S arrives before results.json is renamed to its name.
+//   draw:S     signal S arrives when gnuplot is started.
+//   clock:0    each reading of the calendar clock is an hour earlier than the one before.
+//   count:0    prints the numbers of calls and bytes to standard error.
 #include <dlfcn.h>
 #include <sys/stat.h>
 #include <sys/types.h>
@@ -45,7 +47,7 @@ bool ends_with(const char* text, const char* end) {
   return length >= tail && std::strcmp(text + length - tail, end) == 0;
 }
 
-/// @returns whether these bytes are too many for the disk
+/// @returns true if these bytes exceed the disk
 bool is_full(int file, std::size_t size) {
   struct stat what {};
   if ((kind != Kind::disk && kind != Kind::count) || fstat(file, &what) != 0 ||

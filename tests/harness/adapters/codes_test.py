@@ -1,8 +1,8 @@
-"""What other codes answer through their adapters agrees with trammel.
+"""Tests that the answers of another code through its adapter agree with trammel.
 
     codes_test.py TRAMMEL CODE ADAPTER...
 
-77 where the code is not installed, or 1 where TRAMMEL_OTHER_CODES=required says that it has to be.
+The exit status is 77 if the code is not installed, or 1 if TRAMMEL_OTHER_CODES=required is set.
 """
 import json
 import os
@@ -11,20 +11,20 @@ import subprocess
 import sys
 import tempfile
 
-# case or case:variant, quantity, and how far it may be off, relative to its largest entry
+# case or case:variant, quantity, and its tolerance relative to the largest entry
 CALCULIX = {
     "cantilever-tip-force": {"reaction_y_N:A": 1e-8, "bending_moment_N_m:AB.start": 1e-8},  # all digits, from the restart file
     "portal-frame": {"displacement_x_m:B": 1e-8, "rotation_rad:C": 1e-8, "reaction_moment_N_m:A": 1e-8},
     "timoshenko-cantilever-tip-force": {"displacement_y_m:B": 1e-9},
-    "exact-statics:welded-hinged-start": {"rotation_rad:P": 1e-8, "reaction_x_N:A3": 1e-7},  # no U1 at P gives it a rotation
-    "frame-every-part": {"displacement_x_m:C": 1e-6, "axial_force_N:AC.start": 1e-6},  # springs on nodes that others follow
-    "scene-soft-joints": {"displacement_x_m:P": 1e-4},  # springs on rotations, which U1 gets wrong
-    "scene-thick-links": {"displacement_x_m:P": 1e-9},  # a plate may contract out of its plane
-    "manipulator-modes": {"frequency_Hz": 4e-4},  # triangles have inertia about their middle; four elements a link in trammel
-    "scene-thick-link-modes": {"frequency_Hz": 3e-3},  # sheared strips whose mass lies in a core; four elements a link in trammel
+    "exact-statics:welded-hinged-start": {"rotation_rad:P": 1e-8, "reaction_x_N:A3": 1e-7},  # P has no rotation without U1
+    "frame-every-part": {"displacement_x_m:C": 1e-6, "axial_force_N:AC.start": 1e-6},  # springs at nodes with dependent nodes
+    "scene-soft-joints": {"displacement_x_m:P": 1e-4},  # springs on rotations, which are wrong with U1
+    "scene-thick-links": {"displacement_x_m:P": 1e-9},  # a plate may contract across its plane
+    "manipulator-modes": {"frequency_Hz": 4e-4},  # triangles have inertia about their centroid; four elements per link in trammel
+    "scene-thick-link-modes": {"frequency_Hz": 3e-3},  # shear-flexible strips with their mass in a core; four elements per link in trammel
     "exact-locked-welded-hinged": {"frequency_Hz": 2e-5},
-    "tapered-cantilever": {"frequency_Hz": 3e-5},  # short pieces lost three digits
-    "beam-clamped-pinned": {"frequency_Hz": 2e-4},  # no rotary inertia; the mesh of trammel itself 6e-5
+    "tapered-cantilever": {"frequency_Hz": 3e-5},  # short elements lose three digits
+    "beam-clamped-pinned": {"frequency_Hz": 2e-4},  # no rotary inertia; the mesh error of trammel is 6e-5
     "prestressed-pinned-pinned": {"frequency_Hz": 3e-4},
     "buckling-clamped-free": {"critical_force_N:tip": 1e-3},  # P / EA
     "macneal-harder-beam": {"displacement_y_m:C": 1e-6},
@@ -35,7 +35,7 @@ GETFEM = {
     "cooks-membrane": {"displacement_y_m:M": 1e-8, "compliance_J": 1e-8},
     "macneal-harder-beam": {"displacement_y_m:C": 1e-7},
     "nafems-le1": {"stress_yy_Pa:D": 1e-6, "displacement_y_m:B": 1e-6},
-    "pressurised-ring": {"displacement_x_m:A": 1e-8, "stress_yy_Pa:A": 1e-4},  # which points of a curved triangle are averaged
+    "pressurised-ring": {"displacement_x_m:A": 1e-8, "stress_yy_Pa:A": 1e-4},  # other averaging points in a curved triangle
     "nafems-fv32:three-node": {"frequency_Hz": 1e-10},
     "nafems-t33": {"frequency_Hz": 1e-8},
 }
@@ -53,7 +53,7 @@ CANNOT = {"calculix": "rotating-cantilever-hub-0", "getfem": "portal-frame", "si
 
 
 def imports(module):
-    """What the adapters' own interpreter has, which is the system's."""
+    """Returns True if the system's interpreter, which runs the adapters, has the module."""
     return subprocess.run(["/usr/bin/python3", "-c", f"import {module}"], stderr=subprocess.DEVNULL, check=False).returncode == 0
 
 

@@ -39,14 +39,14 @@ BOOST_AUTO_TEST_CASE(fine_mesh_is_drawn_by_its_corners) {
   BOOST_TEST(fine.drawing->shapes.at(0).displacement.size() == 17U * 33);
 }
 
-BOOST_AUTO_TEST_CASE(section_without_outermost_fibre_has_no_stress) {
+BOOST_AUTO_TEST_CASE(section_without_outermost_fiber_has_no_stress) {
   Json json = testing::cantilever();
   json["model"]["sections"]["bar"] = {
       {"material", "steel"}, {"area_m2", 0.01}, {"second_moment_m4", 1e-6}};
   BOOST_TEST(result_of(json).quantities.count("stress_Pa:AB") == 0U);
 }
 
-BOOST_AUTO_TEST_CASE(quantities_along_a_path_have_one_number_a_point) {
+BOOST_AUTO_TEST_CASE(quantities_along_a_path_have_one_number_per_point) {
   for (const char* kind : {"statics", "kinematics"}) {
     Json json = on_a_circle(testing::manipulator(), 50);
     json["analysis"] = {{kind, Json::object()}};
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(quantities_along_a_path_have_one_number_a_point) {
   BOOST_TEST(modes.quantities.at("frequency_Hz:6").values.size() == 5);
 }
 
-BOOST_AUTO_TEST_CASE(largest_error_of_a_network_counts_downwards_too) {
+BOOST_AUTO_TEST_CASE(largest_network_error_includes_negative_errors) {
   Json json = on_a_circle(testing::manipulator(), 100);
   json["model"]["trajectory"]["circle"]["step_s"] = 0.0628;
   json["analysis"] = {{"grnn", {{"train", 60}, {"split", "first"}}}};
@@ -90,13 +90,11 @@ BOOST_AUTO_TEST_CASE(largest_error_of_a_network_counts_downwards_too) {
 
 BOOST_AUTO_TEST_CASE(errors_of_a_study_are_relative_to_the_named_run) {
   Json json = testing::cantilever();
-  json["analysis"] = {
-      {"study",
-       {{"analysis", {{"modes", {{"count", 1}}}}},
-        {"parameter", "elements"},
-        {"values", {1, 2, 4}},
-        {"pointers", {"/model/elements"}},
-        {"quantities", {{"frequency_Hz", {{"index", 0}, {"relative_to", "first"}}}}}}}};
+  json["analysis"]["study"] = Json::parse(R"({
+    "analysis": {"modes": {"count": 1}}, "parameter": "elements", "values": [1, 2, 4],
+    "pointers": ["/model/elements"],
+    "quantities": {"frequency_Hz": {"index": 0, "relative_to": "first"}}})");
+  json["analysis"].erase("statics");
   const auto errors = [&] {
     return result_of(json).quantities.at("relative_error:frequency_Hz").values;
   };
@@ -107,12 +105,22 @@ BOOST_AUTO_TEST_CASE(errors_of_a_study_are_relative_to_the_named_run) {
   BOOST_TEST(errors().back() == 0);
 }
 
-BOOST_AUTO_TEST_CASE(absent_reference_next_to_a_case_is_hashed) {
-  const Folder folder;
+namespace {
+
+/// Returns the cantilever under this id with a check against a reference of the catalogue.
+Document against_table_2(const Folder& folder, const char* id) {
   Json json = testing::cantilever();
+  json["id"] = id;
   json["checks"]["c"] = {
       {"quantity", "frequency_Hz"}, {"role", "validation"}, {"reference", "table-2-ansys"}};
-  const Document document = patched(testing::read(folder, json), "base");
+  return patched(testing::read(folder, json), "base");
+}
+
+}  // namespace
+
+BOOST_AUTO_TEST_CASE(absent_reference_next_to_a_case_is_hashed) {
+  const Folder folder;
+  const Document document = against_table_2(folder, "cantilever");
   const References references;
   (void)references.get(JsonView(document)["checks"]["c"]["reference"]);
   const auto hashes = references.hashes();
@@ -123,11 +131,7 @@ BOOST_AUTO_TEST_CASE(absent_reference_next_to_a_case_is_hashed) {
 
 BOOST_AUTO_TEST_CASE(case_named_references_is_no_reference) {
   const Folder folder;
-  Json json = testing::cantilever();
-  json["id"] = "references";
-  json["checks"]["c"] = {
-      {"quantity", "frequency_Hz"}, {"role", "validation"}, {"reference", "table-2-ansys"}};
-  const Document document = patched(testing::read(folder, json), "base");
+  const Document document = against_table_2(folder, "references");
   const References references;
   BOOST_TEST(references.get(JsonView(document)["checks"]["c"]["reference"]).unit == "Hz");
 }
@@ -154,7 +158,7 @@ BOOST_AUTO_TEST_CASE(intended_gap_is_solved) {
 
 BOOST_AUTO_TEST_CASE(too_large_computation_is_refused_at_its_cause) {
   const auto refusal = [](const Json& json) {
-    return complaint([&] { require_fits(testing::document_of(json), 1e8); });
+    return complaint([&] { require_fits(document_of(json), 1e8); });
   };
   Json json = testing::cantilever();
   BOOST_TEST(refusal(json) == "");
@@ -165,11 +169,8 @@ BOOST_AUTO_TEST_CASE(too_large_computation_is_refused_at_its_cause) {
   json["model"]["members"]["AB"]["elements"] = 1000;
   json["analysis"] = {{"modes", {{"count", 5}, {"eigensolver", "dense"}}}};
   BOOST_TEST(contains(refusal(json), "/analysis/modes/eigensolver: "));
-  json["analysis"] = {{"transient",
-                       {{"duration_s", 1},
-                        {"step_s", 1e-5},
-                        {"samples", 100000},
-                        {"outputs", {"displacement_y_m:B"}}}}};
+  json["analysis"] = Json::parse(R"({"transient": {"duration_s": 1, "step_s": 1e-5,
+    "samples": 100000, "outputs": ["displacement_y_m:B"]}})");
   BOOST_TEST(contains(refusal(json), "/analysis/transient/samples: "));
   Json ring = testing::quarter_ring();
   BOOST_TEST(refusal(ring) == "");
@@ -195,8 +196,8 @@ BOOST_AUTO_TEST_CASE(catalogue_stays_below_the_limit_of_memory) {
   }
 }
 
-/// Rounded upwards, a step came to another branch, on which one direction is unstable: its change
-/// of stability counted as an event though nothing was found between the two points.
+/// With upward rounding a step once ended on another branch with one unstable direction. The change
+/// of stability was counted as an event, although there was none between the two points.
 BOOST_AUTO_TEST_CASE(path_of_equilibria_keeps_its_branch_in_any_rounding) {
   const Document arch = patched(load_named_case("shallow-arch"), "nearly-perfect");
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {

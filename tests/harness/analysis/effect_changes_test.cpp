@@ -7,13 +7,13 @@ BOOST_AUTO_TEST_SUITE(effect_changes)
 
 using namespace trammel::harness;
 
-BOOST_AUTO_TEST_CASE(a_mode_that_is_lost_is_beyond_any_tolerance) {
+BOOST_AUTO_TEST_CASE(lost_mode_is_an_infinite_change) {
   Quantities whole;
   whole["frequency_Hz"] = {{1, 2}, {}};
   whole["displacement_y_m:B"] = {{0.1}, {}};
   Quantities without = whole;
   BOOST_TEST(max_change(changes_between(whole, without, {.length = 1})).value == 0);
-  without.erase("displacement_y_m:B");  // a part may have no such thing
+  without.erase("displacement_y_m:B");  // a part may lack a quantity
   BOOST_TEST(max_change(changes_between(whole, without, {.length = 1})).value == 0);
   without.erase("frequency_Hz");
   BOOST_TEST(max_change(changes_between(whole, without, {.length = 1})).value ==

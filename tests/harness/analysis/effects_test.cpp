@@ -30,7 +30,7 @@ double tip(const AnalysisResult& result) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(effects_by_name_are_what_there_is) {
+BOOST_AUTO_TEST_CASE(named_effects_are_the_only_active_ones) {
   Json json = timoshenko_cantilever();
   const double whole = tip(result_of(json));
   json["effects"] = {"axial-flexibility"};
@@ -66,8 +66,8 @@ BOOST_AUTO_TEST_CASE(automatic_effects_state_numbers_and_reasons) {
   BOOST_TEST(!result_of(json).effects.at(static_cast<std::size_t>(Effect::shear)).active);
 }
 
-/// A study measures what closed-form numbers limit.
-BOOST_AUTO_TEST_CASE(a_study_measures_own_contributions) {
+/// A study measures the changes that the dimensionless numbers bound.
+BOOST_AUTO_TEST_CASE(effect_study_measures_each_contribution) {
   const Folder folder;
   const Document document = patched(testing::read(folder, timoshenko_cantilever()), "base");
   const EffectStudy study = study_effects(document, {0.01, 0});
@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(a_study_measures_own_contributions) {
   }
 }
 
-/// One number of each kind against its definition.
+/// One number of each kind is compared with its definition.
 BOOST_AUTO_TEST_CASE(effect_numbers_are_ratios_of_stiffness_and_inertia) {
   Model model;
   model.nodes = {{"A", {0, 0}}, {"B", {3, 4}}};
@@ -109,8 +109,8 @@ BOOST_AUTO_TEST_CASE(effect_numbers_are_ratios_of_stiffness_and_inertia) {
   BOOST_TEST(!numbers[static_cast<std::size_t>(Effect::platform_flexibility)].value);
 }
 
-/// Expensive effects of each scene; those that cost nothing may stay.
-BOOST_AUTO_TEST_CASE(each_scene_gets_the_expensive_effects_it_requires) {
+/// Lists the expensive effects of each scene; effects without cost may stay.
+BOOST_AUTO_TEST_CASE(scenes_use_only_the_expensive_effects_they_require) {
   const std::map<std::string, std::string> expected = {
       {"scene-10-newton", "geometric-stiffening and large-displacement"},
       {"scene-buckling-on-the-way", "geometric-stiffening and large-displacement"},
@@ -158,7 +158,8 @@ BOOST_AUTO_TEST_CASE(each_scene_gets_the_expensive_effects_it_requires) {
   }
 }
 
-/// Large displacement used to be estimated from the linear state, which knows no 1 / (1 - P / Pcr).
+/// Large displacement was once estimated from the linear state without the factor 1 / (1 - P /
+/// Pcr).
 BOOST_AUTO_TEST_CASE(columns_near_buckling_get_the_required_tier) {
   const Case columns = load_named_case("scene-columns-near-buckling");
   for (const std::string& variant : columns.variants()) {
@@ -173,8 +174,9 @@ BOOST_AUTO_TEST_CASE(columns_near_buckling_get_the_required_tier) {
   }
 }
 
-/// Linear theory is off there by what statics finds along the same circle: the exact tier has it.
-BOOST_AUTO_TEST_CASE(a_slow_circle_under_10_N_gets_the_tier_that_holds_it) {
+/// Linear theory has the same error there as in statics along the same circle. The exact tier is
+/// required.
+BOOST_AUTO_TEST_CASE(slow_circle_under_10_N_uses_large_displacement) {
   const Case circle = load_named_case("scene-slow-circle");
   const EffectStudy study = study_effects(patched(circle, "ten-newton"), {0.01, 0});
   BOOST_TEST(study.within_tolerance());
@@ -186,8 +188,8 @@ BOOST_AUTO_TEST_CASE(a_slow_circle_under_10_N_gets_the_tier_that_holds_it) {
   }
 }
 
-/// A sudden start excites stiff parts: without the platform's flexibility, 3e-6 of the strain
-/// energy, the largest force was off by 28 %.
+/// A sudden start excites stiff parts. The platform's flexibility has only 3e-6 of the strain
+/// energy, but without it the largest force was wrong by 28 %.
 BOOST_AUTO_TEST_CASE(sudden_start_keeps_stiff_parts) {
   Json json = patched(load_named_case("scene-slow-circle"), "base").value();
   json.erase("extends");
@@ -199,8 +201,8 @@ BOOST_AUTO_TEST_CASE(sudden_start_keeps_stiff_parts) {
   BOOST_TEST(choice.chosen.has(Effect::platform_flexibility));
 }
 
-/// Fixed steps and driven actuators are what the exact tier takes along a path.
-BOOST_AUTO_TEST_CASE(a_motion_beyond_every_tier_says_so) {
+/// Along a path the exact tier supports fixed steps and driven actuators only.
+BOOST_AUTO_TEST_CASE(motion_beyond_every_tier_is_reported) {
   Document document = patched(load_named_case("scene-slow-circle"), "ten-newton");
   document.apply_patch(
       "test", "", {{"analysis", {{"elastodynamics", {{"error_control", {{"relative", 1e-6}}}}}}}});

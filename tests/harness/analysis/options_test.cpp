@@ -14,7 +14,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// A pendulum that asks for more steps than it may take.
+/// Pendulum that requires more steps than `steps` allows in some of the tests.
 const char* const pendulum = R"({"id": "pendulum", "title": "t",
   "model": {"nodes": {"O": [0, 0], "B": [-1, 0]}, "rigid_bodies": {"rod": {"reference": "O", "nodes": ["B"]}},
             "point_masses": {"bob": {"node": "B", "mass_kg": 1}}, "supports": {"O": ["x", "y"]},
@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_CASE(every_combination_is_tried_on_every_variant) {
   BOOST_TEST(number(found, "not_finite") == 0);
 }
 
-BOOST_AUTO_TEST_CASE(a_reason_without_its_words_is_counted) {
+BOOST_AUTO_TEST_CASE(reason_without_expected_words_is_counted) {
   const Json set = {{"steps", 3}};
   const Json said = {{"large-motion", {{"set", set}, {"reason_contains", {"step", "time"}}}}};
   BOOST_TEST(number(tried(said), "not_converged") == 2);
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(a_reason_without_its_words_is_counted) {
   BOOST_TEST(number(tried(unsaid), "unexplained") == 2);
 }
 
-BOOST_AUTO_TEST_CASE(bad_values_are_refused_and_do_not_end_the_trial) {
+BOOST_AUTO_TEST_CASE(refused_option_values_do_not_stop_the_others) {
   const Quantities found = tried({{"large-motion", {{"vary", {{"spectral_radius", {1, 17}}}}}}});
   BOOST_TEST(number(found, "refused") == 2);
   BOOST_TEST(number(found, "solved") == 2);
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(different_endings_are_an_infinite_difference) {
   BOOST_TEST(number(found, "result_difference_over_roundoff") > 1e300);
 }
 
-BOOST_AUTO_TEST_CASE(the_stress_suite_of_the_catalogue_has_no_item_missing) {
+BOOST_AUTO_TEST_CASE(stress_suite_has_every_item) {
   std::set<int> items;
   for (const Case& one : Catalogue().load({"hard"})) {
     const Json& document = one.document.value();

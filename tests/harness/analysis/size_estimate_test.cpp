@@ -22,7 +22,7 @@ struct Memory {
   double estimated = 0, most = 0;  ///< [B]
 };
 
-/// Of a run as a process of its own, in which all of it happens: nothing is left from others.
+/// Runs an analysis in a separate process, so that no memory of other runs is counted.
 Memory memory_of(const std::function<Json()>& make) {
   Memory memory;
   const auto work = [&] {
@@ -60,28 +60,20 @@ void check(const std::string& name, const std::function<Json(int)>& sized,
 Json harmonic(int elements, int points) {
   Json json = testing::cantilever();
   json["model"]["elements"] = elements;
-  json["analysis"] = {{"harmonic",
-                       {{"from_Hz", 1},
-                        {"to_Hz", 20},
-                        {"points", points},
-                        {"outputs", {"displacement_x_m:B", "displacement_y_m:B"}}}}};
+  json["analysis"] = Json::parse(
+      R"({"harmonic": {"from_Hz": 1, "to_Hz": 20,
+                       "outputs": ["displacement_x_m:B", "displacement_y_m:B"]}})");
+  json["analysis"]["harmonic"]["points"] = points;
   return json;
 }
 
 Json membrane(int cells, const char* triangles) {
-  const Json material = {{"E_Pa", 7e10}, {"rho_kg_m3", 2700}, {"nu", 0.33}};
-  return {{"id", "membrane"},
-          {"title", "Membrane"},
-          {"analysis",
-           {{"manufactured",
-             {{"cells", cells},
-              {"membrane",
-               {{"field", "clamped"},
-                {"length_m", 0.8},
-                {"height_m", 0.5},
-                {"thickness_m", 0.01},
-                {"material", material},
-                {"triangles", triangles}}}}}}}};
+  Json json = Json::parse(R"({"id": "membrane", "title": "Membrane", "analysis": {"manufactured": {
+    "membrane": {"field": "clamped", "length_m": 0.8, "height_m": 0.5, "thickness_m": 0.01,
+                 "material": {"E_Pa": 7e10, "rho_kg_m3": 2700, "nu": 0.33}}}}})");
+  json["analysis"]["manufactured"]["cells"] = cells;
+  json["analysis"]["manufactured"]["membrane"]["triangles"] = triangles;
+  return json;
 }
 
 Json samples(int count) {

@@ -6,13 +6,13 @@ BOOST_AUTO_TEST_SUITE(content_hash)
 
 namespace harness = trammel::harness;
 
-BOOST_AUTO_TEST_CASE(texts_that_differ_have_hashes_that_differ) {
+BOOST_AUTO_TEST_CASE(different_texts_have_different_hashes) {
   BOOST_TEST(harness::content_hash("a") == harness::content_hash("a"));
   BOOST_TEST(harness::content_hash("a") != harness::content_hash("b"));
   BOOST_TEST(harness::file_hash("/nowhere/at/all").empty());
 }
 
-BOOST_AUTO_TEST_CASE(the_program_is_named_by_its_build_id_without_being_read) {
+BOOST_AUTO_TEST_CASE(program_hash_is_its_build_id) {
   BOOST_TEST(harness::program_hash().size() == harness::content_hash("").size());
   BOOST_TEST(harness::program_hash() == harness::program_hash());
   BOOST_TEST(harness::program_hash() != harness::content_hash(""));

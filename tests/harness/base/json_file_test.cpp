@@ -34,18 +34,18 @@ BOOST_AUTO_TEST_CASE(invalid_json_is_refused_with_line_and_column) {
   BOOST_TEST(fault("{\n  \"a\": 1,\n  \"b\": }\n").rfind("x.json: line 3, column 8: ", 0) == 0);
 }
 
-BOOST_AUTO_TEST_CASE(a_key_that_stands_twice_is_refused_where_it_stands) {
+BOOST_AUTO_TEST_CASE(duplicate_key_is_refused_with_its_pointer) {
   BOOST_TEST(fault(R"({"a": {"b": [0, {"c": 1, "c": 2}]}})") ==
              "x.json: /a/b/1/c: expected every key once (got 'c' twice)");
   BOOST_TEST(fault(R"({"a": {"c": 1}, "b": {"c": 2}})").empty());
 }
 
-BOOST_AUTO_TEST_CASE(a_number_beyond_a_double_is_refused) {
+BOOST_AUTO_TEST_CASE(number_beyond_the_range_of_double_is_refused) {
   BOOST_TEST(fault(R"({"a": [1, 1e999]})") ==
              "x.json: /a/1: expected a number that a double can hold (got '1e999')");
 }
 
-BOOST_AUTO_TEST_CASE(a_number_that_underflows_to_zero_is_refused) {
+BOOST_AUTO_TEST_CASE(number_that_underflows_to_zero_is_refused) {
   for (const std::string number : {"1e-400", "-1e-400", "0.001e-330", "2E-324", "1.0e-9999"}) {
     BOOST_TEST(fault(R"({"a": [1, )" + number + "]}") ==
                "x.json: /a/1: expected 0 or a number that a double does not round to 0 (got '" +
@@ -55,11 +55,11 @@ BOOST_AUTO_TEST_CASE(a_number_that_underflows_to_zero_is_refused) {
     BOOST_TEST(fault(R"({"a": [1, )" + number + "]}").empty());
 }
 
-BOOST_AUTO_TEST_CASE(bottomless_nesting_does_not_overflow_the_stack) {
+BOOST_AUTO_TEST_CASE(deep_nesting_is_refused_without_stack_overflow) {
   BOOST_TEST(testing::contains(fault(std::string(1000000, '[')), "levels of nesting"));
 }
 
-BOOST_AUTO_TEST_CASE(a_missing_file_and_a_folder_are_no_readable_files) {
+BOOST_AUTO_TEST_CASE(missing_file_and_folder_are_not_readable) {
   const testing::Folder folder;
   for (const auto& path : {folder.path(), folder.path() / "none.json"}) {
     BOOST_TEST(complaint([&] { (void)read_json(path); }) ==
@@ -67,20 +67,20 @@ BOOST_AUTO_TEST_CASE(a_missing_file_and_a_folder_are_no_readable_files) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_is_written_reads_back_the_same_bit_for_bit) {
+BOOST_AUTO_TEST_CASE(written_json_reads_back_bit_identical) {
   const Json json = {{"a", {0.1, 1.0 / 3, 5e-324, 1.7976931348623157e308, -0.0}},
                      {"b", {{"c", "line\nbreak"}, {"d", nullptr}}}};
   BOOST_TEST((parse_json(pretty(json), "x.json") == json));
 }
 
-BOOST_AUTO_TEST_CASE(what_stands_behind_a_null_character_is_not_passed_over) {
+BOOST_AUTO_TEST_CASE(text_after_a_null_character_is_refused) {
   const std::string text("{}\0 and more", 12);
   BOOST_CHECK_EXCEPTION((void)parse_json(text, "a.json"), InputError, [](const InputError& error) {
     return testing::contains(error.what(), "a.json: expected the end of the JSON (got '\\u0000'");
   });
 }
 
-BOOST_AUTO_TEST_CASE(a_file_is_written_whole_or_not_at_all) {
+BOOST_AUTO_TEST_CASE(file_is_written_completely_or_not_at_all) {
   const testing::Folder folder;
   write_file(folder.path() / "a.json", "[1]");
   BOOST_TEST((read_json(folder.path() / "a.json") == Json::array({1})));
@@ -99,11 +99,11 @@ BOOST_AUTO_TEST_CASE(failed_write_leaves_no_part_and_links_are_replaced) {
   BOOST_TEST(read_text(folder.path() / "elsewhere") == "kept");
 }
 
-BOOST_AUTO_TEST_CASE(a_pipe_is_written_to_and_stays_one) {
+BOOST_AUTO_TEST_CASE(pipe_is_written_to_and_not_replaced) {
   const testing::Folder folder;
   const auto pipe = folder.path() / "pipe";
   BOOST_REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
-  const int end = open(pipe.c_str(), O_RDWR | O_NONBLOCK);  // so that nobody waits
+  const int end = open(pipe.c_str(), O_RDWR | O_NONBLOCK);  // so that no end blocks
   std::filesystem::create_symlink("pipe", folder.path() / "link");
   write_file(pipe, "[1]");
   write_file(folder.path() / "link", "[2]");
@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(a_pipe_is_written_to_and_stays_one) {
   close(end);
 }
 
-BOOST_AUTO_TEST_CASE(an_open_file_of_the_system_is_written_to) {
+BOOST_AUTO_TEST_CASE(link_to_an_open_file_is_written_through) {
   const testing::Folder folder;
   const auto file = folder.path() / "file", link = folder.path() / "link";
   const int end = open(file.c_str(), O_RDWR | O_CREAT, 0600);
@@ -126,19 +126,19 @@ BOOST_AUTO_TEST_CASE(an_open_file_of_the_system_is_written_to) {
   close(end);
 }
 
-BOOST_AUTO_TEST_CASE(a_message_is_one_line_whatever_a_key_holds) {
+BOOST_AUTO_TEST_CASE(message_with_control_characters_is_one_line) {
   BOOST_TEST(one_line("a.json: /b\n\x1b[2J: x") == "a.json: /b\\u000a\\u001b[2J: x");
   const std::string cut = one_line("a.json: /" + std::string(5000, 'k') + ": x");
   BOOST_TEST(cut.size() < 200U);
   BOOST_TEST(cut.ends_with("... x"), cut);
 }
 
-BOOST_AUTO_TEST_CASE(a_file_without_end_is_refused) {
+BOOST_AUTO_TEST_CASE(endless_and_too_large_files_are_refused) {
   BOOST_TEST(complaint([] { (void)read_json("/dev/zero"); }) ==
              "/dev/zero: expected a readable file");
   const testing::Folder folder;
   const auto large = folder.write("large.json", "{}");
-  std::filesystem::resize_file(large, (std::uintmax_t{1} << 28) + 1);  // has no blocks
+  std::filesystem::resize_file(large, (std::uintmax_t{1} << 28) + 1);  // sparse
   BOOST_TEST(testing::contains(complaint([&] { (void)read_json(large); }), "at most 256 MiB"));
 }
 

@@ -16,7 +16,7 @@ using Termination = ProcessOutcome::Termination;
 
 namespace {
 
-/// Without the handler of the test framework.
+/// Raises a signal without the handler of the test framework.
 std::string end_by(int signal) {
   std::signal(signal, SIG_DFL);
   std::raise(signal);
@@ -42,7 +42,7 @@ std::map<std::size_t, ProcessOutcome> run_all(const std::vector<ProcessTask>& ta
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(what_ends_one_process_leaves_the_others_alone) {
+BOOST_AUTO_TEST_CASE(failed_process_does_not_affect_the_others) {
   const std::string large(1 << 20, 'x');
   const std::vector<ProcessTask> tasks = {{[&] { return large; }, 10},
                                           {[] { return end_by(SIGSEGV); }, 10},
@@ -72,11 +72,11 @@ BOOST_AUTO_TEST_CASE(what_ends_one_process_leaves_the_others_alone) {
 BOOST_AUTO_TEST_CASE(failed_fork_affects_its_own_task_only) {
   rlimit before{};
   getrlimit(RLIMIT_NOFILE, &before);
-  const int descriptor = dup(0);  // the lowest that is free: of signals, then two of a pipe
+  const int descriptor = dup(0);  // the lowest free descriptor: for signals, then two for a pipe
   close(descriptor);
   const auto lowest = static_cast<rlim_t>(descriptor);
   const rlimit one_pipe{lowest + 3, before.rlim_max}, no_pipe{lowest + 2, before.rlim_max};
-  const auto read = [] {  // the descriptors that this process has for others are not the child's
+  const auto read = [] {  // a child does not inherit the descriptors of other tasks
     return std::string(std::ifstream("/dev/null").is_open() ? "done" : "no file");
   };
   const std::vector<ProcessTask> tasks(5, {read, 10});
@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(failed_fork_affects_its_own_task_only) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_signal_stops_what_is_under_way_and_what_is_left) {
+BOOST_AUTO_TEST_CASE(signal_stops_running_and_waiting_tasks) {
   for (const int asked : {SIGINT, SIGTERM}) {
     std::size_t answered = 0;
     const ProcessTask stop{[] { return std::string(); }, 10};
@@ -105,7 +105,7 @@ BOOST_AUTO_TEST_CASE(a_signal_stops_what_is_under_way_and_what_is_left) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(each_process_knows_what_it_may_take_and_waiting_is_told) {
+BOOST_AUTO_TEST_CASE(process_knows_its_memory_and_waiting_is_reported) {
   int waited = 0;
   const auto outcomes =
       run_all({{[] { return std::to_string(memory_limit_bytes()); }, 10}, {loop, 2}},

@@ -6,7 +6,7 @@ BOOST_AUTO_TEST_SUITE(quantity)
 
 using namespace trammel::harness;
 
-BOOST_AUTO_TEST_CASE(the_unit_is_the_end_of_the_name) {
+BOOST_AUTO_TEST_CASE(unit_is_the_end_of_the_name) {
   BOOST_TEST(unit_of("frequency_Hz") == "Hz");
   BOOST_TEST(unit_of("displacement_x_m:P") == "m");
   BOOST_TEST(unit_of("reaction_moment_N_m:A1") == "N m");
@@ -22,7 +22,7 @@ BOOST_AUTO_TEST_CASE(the_unit_is_the_end_of_the_name) {
   BOOST_TEST(unit_of("odd:name_m") == "1");
 }
 
-BOOST_AUTO_TEST_CASE(diagnostics_are_no_results_that_converge) {
+BOOST_AUTO_TEST_CASE(diagnostic_quantities_are_recognized) {
   for (const char* name : {"frequency_roundoff", "equilibrium_residual_N", "step_residual:J",
                            "constraint_rate_residual"}) {
     BOOST_TEST(is_diagnostic(name), name);

@@ -8,7 +8,7 @@ BOOST_AUTO_TEST_SUITE(statistic)
 
 using namespace trammel::harness;
 
-BOOST_AUTO_TEST_CASE(what_is_no_number_or_has_no_partner_differs_infinitely) {
+BOOST_AUTO_TEST_CASE(nan_or_missing_value_is_an_infinite_difference) {
   const auto one = [](std::size_t) { return 1.0; };
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const LargestDifference plain = largest_difference({1, 2, 5}, {1, 4, 4}, one);
@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_CASE(what_is_no_number_or_has_no_partner_differs_infinitely) {
   BOOST_TEST(std::isinf(largest_difference({1}, {2}, [](std::size_t) { return 0.0; }).value));
 }
 
-BOOST_AUTO_TEST_CASE(a_statistic_of_what_is_no_number_is_none) {
+BOOST_AUTO_TEST_CASE(statistic_of_no_or_missing_numbers_is_nan) {
   BOOST_TEST(statistic_of("median", {4, 1, 3, 2}) == 2.5);
   BOOST_TEST(std::isnan(statistic_of("max", {1, std::nan(""), 3})));
   BOOST_TEST(std::isnan(statistic_of("mean", {})));

@@ -15,7 +15,7 @@ BOOST_AUTO_TEST_CASE(quantiles_lie_between_the_sorted_values) {
   BOOST_TEST(quantile({7}, 0.75) == 7);
 }
 
-BOOST_AUTO_TEST_CASE(the_order_is_shuffled_anew_and_the_same_for_a_seed) {
+BOOST_AUTO_TEST_CASE(shuffled_order_is_reproducible_for_a_seed) {
   std::uint64_t a = 1, b = 1, c = 2;
   const auto first = shuffled(20, a), second = shuffled(20, a);
   BOOST_TEST((first != second));
@@ -30,7 +30,7 @@ BOOST_AUTO_TEST_CASE(each_repeat_runs_all_tasks_before_the_next) {
   std::vector<std::size_t> calls;
   std::vector<std::function<void()>> works;
   for (std::size_t i = 0; i < 3; ++i) works.emplace_back([&calls, i] { calls.push_back(i); });
-  std::vector<std::size_t> after;  // calls after each repeat
+  std::vector<std::size_t> after;  // number of calls after each repeat
   TimingOptions options;
   options.shortest_s = 0;
   const auto timings = time_interleaved(works, options, [&] { after.push_back(calls.size()); });
@@ -45,20 +45,20 @@ BOOST_AUTO_TEST_CASE(each_repeat_runs_all_tasks_before_the_next) {
     BOOST_TEST(timing.cpu_s.size() == 7U);
     BOOST_TEST(timing.runs_each == 1);
   }
-  // Warm-ups come before the first repeat.
+  // Warm-up calls precede the first repeat.
   BOOST_TEST(after[0] == 3 * 2U + 3U);
 }
 
-BOOST_AUTO_TEST_CASE(a_short_work_is_repeated_until_the_clock_can_tell) {
+BOOST_AUTO_TEST_CASE(short_task_is_repeated_up_to_the_limit) {
   int calls = 0;
   TimingOptions options;
-  options.shortest_s = 1;  // never reached by an empty work: as often as is allowed
+  options.shortest_s = 1;  // an empty task never reaches it, so the number of runs is the maximum
   const auto timings = time_interleaved({[&] { ++calls; }}, options, {});
   BOOST_TEST(timings[0].runs_each == 1000);
   BOOST_TEST(calls == 7 * 1000 + 2);
 }
 
-BOOST_AUTO_TEST_CASE(what_slows_both_works_of_a_repeat_leaves_their_ratio) {
+BOOST_AUTO_TEST_CASE(common_slowdown_does_not_change_the_time_ratio) {
   Timing baseline, timing;
   baseline.cpu_s = {1, 5, 1, 2, 1, 9, 1};
   for (const double t : baseline.cpu_s) timing.cpu_s.push_back(3 * t);
@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(what_slows_both_works_of_a_repeat_leaves_their_ratio) {
   BOOST_TEST(ratio.median == 3);
   BOOST_TEST(ratio.low == 0.1);
   BOOST_TEST(ratio.high == 8);
-  // Of fifteen repeats the two outermost on either side are left out of the interval.
+  // With fifteen repeats, the interval excludes the two outermost values on either side.
   for (int i = 0; i < 8; ++i) baseline.cpu_s.push_back(1), timing.cpu_s.push_back(3);
   BOOST_TEST(relative_time(timing.cpu_s, baseline.cpu_s).low == 3);
   BOOST_TEST(relative_time(timing.cpu_s, baseline.cpu_s).high == 3);

@@ -26,7 +26,7 @@ struct Outcome {
   std::string out, err;
 };
 
-/// The program itself, started in the folder.
+/// Starts the program in the folder.
 Outcome run(const Folder& folder, const std::string& words, const std::string& before = "") {
   const std::string line = "cd '" + folder.path().string() + "' && " + before + " '" +
                            testing::trammel_program() + "' " + words +
@@ -56,7 +56,7 @@ std::size_t lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// The files that the calls of the tables name.
+/// Folder with the files that the calls of the tables name.
 const Folder& files() {
   static const Folder folder;
   static const bool is_written = [] {
@@ -100,7 +100,7 @@ const Folder& files() {
   return folder;
 }
 
-/// A call that is refused: it prints nothing but one line with the message.
+/// Call that is refused with status 2 and one line that contains the message.
 struct Refusal {
   const char *arguments, *message, *before = "";
 };
@@ -154,7 +154,7 @@ const Refusal kRefusals[] = {
     {"effects --repeats 0 --out page", "either cases or --label is required"},
     {"references tabel-2-ansys", "did you mean 'table-2-ansys'?"}};
 
-/// A call that ends with the status, and what it prints in the order of the parts.
+/// Call with its exit status and the expected parts of its output, in any order.
 struct Call {
   const char* arguments;
   int status;
@@ -170,7 +170,7 @@ const std::vector<Call> kCalls = {
     {"--help", 0, {"Usage: trammel"}},
     {"--version", 0, {"0."}},
     {"run --help", 0, {"Usage: trammel run"}},
-    {"claims --help", 0, {"--json"}},  // which computes the full catalogue
+    {"claims --help", 0, {"--json"}},  // the command itself computes the full catalogue
     {"list", 0, {"manipulator-modes"}},
     {"run holds.json", 0, {"pass", "1 check with 1 number: 1 pass"}},
     {"run fails.json", 1, {"fail"}},
@@ -221,7 +221,7 @@ BOOST_DATA_TEST_CASE(call_prints_its_results, kCalls, call) {
   const Outcome outcome = run(files(), call.arguments);
   BOOST_TEST(outcome.status == call.status, outcome.err);
   const bool to_err = std::string(call.stream) == "err";
-  BOOST_TEST(outcome.err.empty() == !to_err, outcome.err);  // a pipe sees no progress bar
+  BOOST_TEST(outcome.err.empty() == !to_err, outcome.err);  // there is no progress bar in a pipe
   BOOST_TEST(!contains(outcome.out, "\r"));
   for (const char* part : call.parts)
     BOOST_TEST(contains(to_err ? outcome.err : outcome.out, part), part << " in " << outcome.out);
@@ -242,28 +242,17 @@ BOOST_AUTO_TEST_CASE(own_robot_is_run_with_a_reference_next_to_it) {
   robot["platform"]["vertices_m"] = {{-0.1, -0.05}, {0.12, -0.06}, {0, 0.11}};
   robot["working_mode"] = {1, -1, 1};
   json["model"]["pose"] = {{"x_m", 0.22}, {"y_m", 0.2}, {"phi_rad", 0.2}};
-  json["checks"]["first"] = {
-      {"quantity", "frequency_Hz"},
-      {"index", 0},
-      {"reference", "measured"},
-      {"reference_index", 0},
-      {"role", "validation"},
-      {"expect", {{"agrees", "a rough bench"}, {"ratio_between", {0.1, 10}}}}};
+  json["checks"]["first"] = Json::parse(R"({
+    "quantity": "frequency_Hz", "index": 0, "reference": "measured", "reference_index": 0,
+    "role": "validation", "expect": {"agrees": "a rough bench", "ratio_between": [0.1, 10]}})");
   (void)folder.write(json);
-  folder.write_reference({{"id", "measured"},
-                          {"title", "Measured"},
-                          {"kind", "paper"},
-                          {"unit", "Hz"},
-                          {"values", {12}},
-                          {"uncertainty", {{"absolute", 1}}},
-                          {"source", "my bench"},
-                          {"place", "run 1"}});
+  folder.write_reference("measured", "Hz", 12, {{"absolute", 1}});
   const Outcome outcome = run(folder, "run robot.json --out here/results");
   BOOST_TEST(outcome.status == 0, outcome.err);
   const Json results = read_json(folder.path() / "here/results/results.json");
   const auto fault = find_schema_fault(results, "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
-  BOOST_TEST(results["citations"][0] == "my bench");
+  BOOST_TEST(results["citations"][0] == "me");
   BOOST_TEST(results["runs"][0]["checks"][0]["verdict"] == "pass");
 }
 
@@ -310,7 +299,7 @@ BOOST_AUTO_TEST_CASE(lock_that_is_a_pipe_and_linked_store_are_refused) {
              "--out out: expected no link named 'store' (--store follows one)\n");
 }
 
-BOOST_AUTO_TEST_CASE(no_text_of_a_case_commands_the_terminal) {
+BOOST_AUTO_TEST_CASE(text_of_a_case_cannot_control_the_terminal) {
   const Folder folder;
   Json json = judged(101);
   json["title"] = "red \x1b[31m";
@@ -386,7 +375,7 @@ BOOST_AUTO_TEST_CASE(drawings_are_written_as_vtk_files) {
   BOOST_TEST(contains(name("poses-1.vtu"), "\n2 0 0\n"));  // node B
 }
 
-BOOST_AUTO_TEST_CASE(report_draws_its_history_and_counts_no_time_twice) {
+BOOST_AUTO_TEST_CASE(report_draws_history_without_counting_time_twice) {
   const Folder folder;
   (void)folder.write(judged(101));
   for (const char* words : {"report cantilever.json --out out --history h.db",
@@ -395,7 +384,7 @@ BOOST_AUTO_TEST_CASE(report_draws_its_history_and_counts_no_time_twice) {
   const Json calls = parse_json(run(folder, "history h.db --json").out, "out")["calls"];
   BOOST_REQUIRE(calls.size() == 2U);
   BOOST_TEST(calls[0]["cpu_s"].get<double>() > 0);
-  BOOST_TEST(calls[1]["cpu_s"].get<double>() == 0);  // the store had the run
+  BOOST_TEST(calls[1]["cpu_s"].get<double>() == 0);  // the run came from the store
   BOOST_TEST(calls[1]["work"] == calls[0]["work"]);
   const std::string page = read_text(folder.path() / "out/environment.html");
   BOOST_TEST(contains(page, "<section id=\"history\">"));
@@ -407,7 +396,7 @@ BOOST_AUTO_TEST_CASE(report_draws_its_history_and_counts_no_time_twice) {
       contains(read_text(folder.path() / "again/environment.html"), "<section id=\"history\">"));
 }
 
-BOOST_AUTO_TEST_CASE(data_folder_can_be_named) {
+BOOST_AUTO_TEST_CASE(data_folder_is_set_by_the_environment) {
   BOOST_TEST(run(files(), "run holds.json", "TRAMMEL_HOME='" TRAMMEL_SOURCE_DIR "'").status == 0);
 }
 
@@ -445,10 +434,8 @@ BOOST_AUTO_TEST_CASE(comparison_is_a_page_of_one_file) {
   const Folder folder;
   Json json = judged(101);
   json["variants"]["soft"]["model"]["materials"]["steel"]["E_Pa"] = 1e11;
-  json["figures"]["twice"] = {{"title", "Tip"},
-                              {"caption", "Tip."},
-                              {"x", "displacement_x_m:B"},
-                              {"y", {"displacement_y_m:B"}}};
+  json["figures"]["twice"] = Json::parse(R"({
+    "title": "Tip", "caption": "Tip.", "x": "displacement_x_m:B", "y": ["displacement_y_m:B"]})");
   (void)folder.write(json);
   const Outcome outcome = run(folder, "compare cantilever.json --html out/page.html");
   BOOST_TEST(outcome.status == 0, outcome.err);
@@ -582,7 +569,7 @@ BOOST_AUTO_TEST_CASE(full_disk_leaves_the_former_report) {
   };
   const auto former = contents();
   std::size_t broken_off = 0;
-  for (const int blocks : {1, 2, 4, 8, 16, 32, 64, 128}) {  // of 512 bytes in one file
+  for (const int blocks : {1, 2, 4, 8, 16, 32, 64, 128}) {  // of 512 bytes per file
     const Outcome full = run(folder, "report cantilever.json --out out",
                              "ulimit -f " + std::to_string(blocks) + " &&");
     if (full.status == 0) continue;

@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_SUITE(interruption)
 using namespace trammel;
 using namespace trammel::testing;
 
-BOOST_AUTO_TEST_CASE(ten_kills_lose_and_double_nothing) {
+BOOST_AUTO_TEST_CASE(ten_kills_lose_and_duplicate_nothing) {
   testing::interrupt_and_resume(10, 1);
 }
 
@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(killed_computation_affects_its_own_run_only) {
     std::ifstream("/proc/" + id + "/task/" + id + "/children") >> child;
   }
   BOOST_REQUIRE(child > 0);
-  kill(child, SIGILL);  // which no sanitizer answers
+  kill(child, SIGILL);  // sanitizers do not handle this signal
   int status = 0;
   waitpid(program, &status, 0);
   BOOST_TEST(WEXITSTATUS(status) == 3);
@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(killed_computation_affects_its_own_run_only) {
   BOOST_TEST(runs[1]["status"] == "solved");
 }
 
-BOOST_AUTO_TEST_CASE(a_signal_while_drawing_or_timing_says_how_to_go_on) {
+BOOST_AUTO_TEST_CASE(interrupted_command_explains_how_to_continue) {
   const Folder folder;
   Json json = testing::cantilever();
   json["sweeps"]["elements"] = {{"pointers", {"/model/elements"}},
@@ -71,14 +71,14 @@ BOOST_AUTO_TEST_CASE(a_signal_while_drawing_or_timing_says_how_to_go_on) {
                              until + "; kill -TERM $!; wait $!";
     return WEXITSTATUS(std::system(line.c_str()));
   };
-  const auto told = [&] { return read_text(folder.path() / "err.txt"); };
+  const auto error_text = [&] { return read_text(folder.path() / "err.txt"); };
   BOOST_TEST(status_of("report cantilever.json", "until test -e drawing; do sleep 0.1; done") ==
              143);
-  BOOST_TEST(told() == "trammel: interrupted; the same command computes the rest\n");
+  BOOST_TEST(error_text() == "trammel: interrupted; the same command computes the rest\n");
   BOOST_TEST(status_of("cost cantilever.json --repeats 10000", "sleep 1") == 143);
-  BOOST_TEST(contains(told(), "with --resume"));
+  BOOST_TEST(contains(error_text(), "with --resume"));
   BOOST_TEST(status_of("effects scene-soft-platform --repeats 1000", "sleep 1") == 143);
-  BOOST_TEST(told() == "trammel: interrupted; the same command starts from the beginning\n");
+  BOOST_TEST(error_text() == "trammel: interrupted; the same command starts from the beginning\n");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

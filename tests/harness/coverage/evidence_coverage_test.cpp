@@ -13,18 +13,11 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Evidence of a feature, from one case with one check on displacement_y_m:B.
+/// Returns the evidence for a feature from one case with one check of displacement_y_m:B.
 std::vector<std::string> evidence(const Json& check, const std::string& feature,
                                   const Json& analysis = {}) {
   const Folder folder;
-  folder.write_reference({{"id", "truth"},
-                          {"title", "Truth"},
-                          {"kind", "paper"},
-                          {"unit", "m"},
-                          {"values", {1}},
-                          {"source", "me"},
-                          {"uncertainty", {{"absolute", 0}}},
-                          {"place", "here"}});
+  folder.write_reference("truth", "m", 1, {{"absolute", 0}});
   Json json = testing::cantilever();
   json["checks"] = {{"c", check}};
   if (!analysis.is_null()) json["analysis"] = analysis;
@@ -69,7 +62,7 @@ BOOST_AUTO_TEST_CASE(check_counts_for_quantity_and_features_of_the_model) {
   BOOST_TEST(evidence(printed_check(), "slider.rail").empty());
 }
 
-BOOST_AUTO_TEST_CASE(bounds_and_discrepancies_are_no_independent_evidence) {
+BOOST_AUTO_TEST_CASE(bounds_and_discrepancies_are_not_independent_evidence) {
   const char* feature = "model.supports";
   BOOST_TEST(evidence({{"quantity", "displacement_y_m:B"},
                        {"role", "verification"},
@@ -88,12 +81,10 @@ BOOST_AUTO_TEST_CASE(bounds_and_discrepancies_are_no_independent_evidence) {
 }
 
 BOOST_AUTO_TEST_CASE(error_of_a_study_counts_as_its_reference) {
-  const Json study = {{"analysis", {{"statics", Json::object()}}},
-                      {"pointers", {"/model/elements"}},
-                      {"values", {1, 2}},
-                      {"quantities",
-                       {{"displacement_y_m:B", {{"reference", "truth"}}},
-                        {"displacement_x_m:B", {{"relative_to", "last"}}}}}};
+  const Json study = Json::parse(R"({
+    "analysis": {"statics": {}}, "pointers": ["/model/elements"], "values": [1, 2],
+    "quantities": {"displacement_y_m:B": {"reference": "truth"},
+                   "displacement_x_m:B": {"relative_to": "last"}}})");
   Json check = {{"quantity", "relative_error:displacement_y_m:B"},
                 {"role", "verification"},
                 {"bound", {{"at_most", 1}, {"why", "w"}}}};
@@ -105,7 +96,7 @@ BOOST_AUTO_TEST_CASE(error_of_a_study_counts_as_its_reference) {
              boost::test_tools::per_element());
 }
 
-BOOST_AUTO_TEST_CASE(what_agrees_with_itself_alone_is_not_verified) {
+BOOST_AUTO_TEST_CASE(self_consistency_alone_is_not_verification) {
   results::CoverageRow row;
   BOOST_TEST(!row.is_verified());
   row.evidence = {"self-consistency"};
@@ -114,7 +105,7 @@ BOOST_AUTO_TEST_CASE(what_agrees_with_itself_alone_is_not_verified) {
   BOOST_TEST(row.is_verified());
 }
 
-BOOST_AUTO_TEST_CASE(a_series_whose_check_fails_has_none) {
+BOOST_AUTO_TEST_CASE(series_with_a_failed_check_is_not_counted) {
   results::Results made;
   results::Run run;
   run.case_id = "a";

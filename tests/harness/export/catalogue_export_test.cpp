@@ -10,12 +10,13 @@
 
 BOOST_AUTO_TEST_SUITE(catalogue_export)
 
-/// Every case of the catalogue with its variants and levels, exported and computed again.
+/// Exports every case of the catalogue with its variants and levels, and computes the exported
+/// cases.
 using namespace trammel;
 using namespace trammel::harness;
 using namespace trammel::testing;
 
-BOOST_AUTO_TEST_CASE(what_is_exported_of_the_catalogue_has_the_same_numbers) {
+BOOST_AUTO_TEST_CASE(exported_catalogue_has_the_same_numbers) {
   std::map<std::string, int> refused;
   int same = 0, close = 0;
   for (const auto& file : Catalogue().runnable_files()) {

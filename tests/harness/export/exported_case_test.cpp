@@ -16,14 +16,15 @@
 
 BOOST_AUTO_TEST_SUITE(exported_case)
 
-/// A resolved case is the same computation, and says all that another code needs.
+/// Tests that an exported case is the same computation and contains everything that another code
+/// needs.
 using namespace trammel;
 using namespace trammel::harness;
 using namespace trammel::testing;
 
 namespace {
 
-/// @param limit  0: every number to the last bit
+/// @param limit  0: all numbers must be bit-identical
 void check_twins(const std::vector<std::string>& names, double limit) {
   for (const std::string& name : names) {
     const Case given = load_named_case(name);
@@ -46,7 +47,7 @@ void require_no_key(const Json& json, const std::set<std::string>& keys) {
   }
 }
 
-/// A Matrix Market file, whole.
+/// Reads a complete Matrix Market file.
 Eigen::MatrixXd read_matrix(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::string head, line;
@@ -78,7 +79,7 @@ BOOST_AUTO_TEST_CASE(plain_models_have_the_same_numbers_to_the_last_bit) {
       0);
 }
 
-// Pins and axial springs; sliders and drives.
+// The cases contain pins and axial springs, or sliders and drives.
 BOOST_AUTO_TEST_CASE(beginning_of_a_motion_is_exported_bit_for_bit) {
   for (const auto& [name, end] :
        {std::pair("iftomm-a03-andrews", 1e-3), std::pair("slider-crank-flexible", 0.02)}) {
@@ -93,15 +94,15 @@ BOOST_AUTO_TEST_CASE(beginning_of_a_motion_is_exported_bit_for_bit) {
   }
 }
 
-// Sections of tapers are written as E and A, whose product is off by a bit; forces on edges are
-// summed at nodes before those of members.
+// Sections of tapers are written as E and A, whose product is wrong in the last bit. Forces on
+// edges are added at nodes before those of members.
 BOOST_AUTO_TEST_CASE(tapers_arcs_and_edges_are_exported_to_round_off) {
   check_twins({"ansys-vm34", "ansys-vm61", "cooks-membrane", "nafems-ring", "tapered-cantilever",
                "vpcs-sdll10"},
               1e-12);
 }
 
-BOOST_AUTO_TEST_CASE(nothing_is_left_to_resolve) {
+BOOST_AUTO_TEST_CASE(exported_case_has_no_unresolved_keys) {
   const std::set<std::string> keys = {"extends", "variants", "manipulator", "pose",        "edges",
                                       "blocks",  "sweeps",   "end_section", "rectangle",   "circle",
                                       "checks",  "effects",  "taper",       "arc_center_m"};
@@ -110,7 +111,7 @@ BOOST_AUTO_TEST_CASE(nothing_is_left_to_resolve) {
     require_no_key(export_case(load_named_case(name), {}), keys);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_asked_is_what_the_exported_case_gives) {
+BOOST_AUTO_TEST_CASE(exported_quantities_are_those_of_the_exported_case) {
   for (const char* name : {"portal-frame", "manipulator-modes", "buckling-portal"}) {
     const ExportTwin twin = export_twin(load_named_case(name), {});
     BOOST_TEST(!twin.json["export"]["quantities"].empty());
@@ -125,16 +126,16 @@ BOOST_AUTO_TEST_CASE(what_is_asked_is_what_the_exported_case_gives) {
   }
 }
 
-// The variant has no check of its own: it was asked for nothing, and the base had nothing to be
-// compared with.
-BOOST_AUTO_TEST_CASE(a_variant_is_asked_for_what_others_compare_with_it) {
+// The variant has no check itself. It once exported no quantities, and the base could not be
+// compared.
+BOOST_AUTO_TEST_CASE(variant_exports_quantities_that_others_compare) {
   const Case given = load_named_case("scene-thick-link-modes");
   const Json asked = export_case(given, {"whole"})["export"]["quantities"];
   BOOST_REQUIRE(asked.size() == 1);
   BOOST_TEST(asked[0]["name"] == "frequency_Hz");
 }
 
-BOOST_AUTO_TEST_CASE(exporting_what_was_exported_changes_nothing) {
+BOOST_AUTO_TEST_CASE(exporting_twice_changes_nothing) {
   const Folder folder;
   for (const char* name : {"manipulator-modes", "iftomm-a03-andrews", "cooks-membrane"}) {
     const Json once = export_case(load_named_case(name), {});
@@ -145,7 +146,7 @@ BOOST_AUTO_TEST_CASE(exporting_what_was_exported_changes_nothing) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_level_of_a_sweep_is_one_case) {
+BOOST_AUTO_TEST_CASE(sweep_level_is_exported_as_one_case) {
   const Case given = load_named_case("beam-cantilever");
   const std::size_t count = given.document.value()["sweeps"]["elements"]["values"].size();
   const Json finest = export_case(given, {"base", "elements", count - 1});
@@ -160,7 +161,7 @@ BOOST_AUTO_TEST_CASE(a_level_of_a_sweep_is_one_case) {
   BOOST_TEST(contains(message({"base", "steps", 0}), "expected the name of a sweep (got 'steps'"));
 }
 
-BOOST_AUTO_TEST_CASE(what_a_case_file_cannot_say_is_refused_by_name) {
+BOOST_AUTO_TEST_CASE(inexpressible_parts_are_refused_by_name) {
   Json robot = manipulator();
   robot["model"]["manipulator"]["joints"]["platform"] = "eq25-mean";
   BOOST_TEST(contains(refusal_of(robot), "no words for its constraint 'eq25'"));
@@ -181,7 +182,7 @@ BOOST_AUTO_TEST_CASE(what_a_case_file_cannot_say_is_refused_by_name) {
   BOOST_TEST(contains(refusal_of(ring), "'reaction_y_N:bottom' is of an edge"));
 }
 
-BOOST_AUTO_TEST_CASE(a_network_on_samples_of_its_own_needs_no_model) {
+BOOST_AUTO_TEST_CASE(network_with_its_own_samples_is_exported_without_model) {
   const ExportTwin twin = export_twin(load_named_case("grnn-example"), {});
   BOOST_TEST(twin.refused == "");
   BOOST_TEST(twin.difference == 0);
@@ -196,7 +197,7 @@ BOOST_AUTO_TEST_CASE(manipulator_on_a_path_is_bodies_joints_and_a_table) {
     return Eigen::Vector2d(mechanism["joints"][joint]["position_m"][0].get<double>(),
                            mechanism["joints"][joint]["position_m"][1].get<double>());
   };
-  for (const auto& [name, body] : mechanism["bodies"].items()) {  // a uniform link's middle
+  for (const auto& [name, body] : mechanism["bodies"].items()) {  // middle of a uniform link
     if (name == "platform") continue;
     const Eigen::Vector2d center(body["center_m"][0].get<double>(),
                                  body["center_m"][1].get<double>());
@@ -209,8 +210,8 @@ BOOST_AUTO_TEST_CASE(manipulator_on_a_path_is_bodies_joints_and_a_table) {
   BOOST_TEST(vibrating.json["export"]["mechanism"]["elastic_model"].contains("members"));
 }
 
-// The cantilever's tip under its force, by the matrices alone: u = T K^-1 f.
-BOOST_AUTO_TEST_CASE(the_matrices_are_those_of_the_case) {
+// The cantilever's tip displacement follows from the matrices alone: u = T K^-1 f.
+BOOST_AUTO_TEST_CASE(exported_matrices_solve_the_case) {
   const Folder folder;
   const Document document = document_of(cantilever());
   write_matrices(document, exported_scene(document), folder.path() / "m");

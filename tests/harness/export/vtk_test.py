@@ -1,5 +1,5 @@
-"""Modes of a case and a motion read by VTK's own readers. Arguments: the program and a folder of its own. Exit
-status 77 where there is no VTK."""
+"""Reads exported modes and a motion with VTK's own readers. Arguments: the program and a separate folder. The exit
+status is 77 if VTK is not installed."""
 import subprocess
 import sys
 import xml.etree.ElementTree
@@ -15,7 +15,7 @@ program, folder = sys.argv[1], Path(sys.argv[2])
 
 
 def grids(case, kind):
-    """Time and grid of each set of a case."""
+    """Yields the time and the grid of each data set of a case."""
     subprocess.run([program, "run", case, "--variant", "base", "--vtk", "--out", folder], stdout=subprocess.DEVNULL)
     name = folder / "vtk" / f"{case}-base-{kind}.pvd"
     for one in xml.etree.ElementTree.parse(name).getroot().findall("Collection/DataSet"):
@@ -32,12 +32,12 @@ for _, grid in modes:
     assert grid.GetNumberOfCells() > 20 and moved.GetNumberOfTuples() == grid.GetNumberOfPoints() > 20
     assert moved.GetName() == "displacement" and moved.GetMaxNorm() > 0
     low, high, *_ = grid.GetBounds()
-    assert 0.3 < high - low < 0.7, grid.GetBounds()  # the base's side is 0.5 m
+    assert 0.3 < high - low < 0.7, grid.GetBounds()  # the side of the base is 0.5 m
 
 motion = list(grids("elastodynamics-circle", "motion"))
 times = [time for time, _ in motion]
 assert len(motion) > 20 and times == sorted(set(times)) and times[0] == 0 and 6.2 < times[-1] < 6.4, times
 largest = [grid.GetPointData().GetVectors().GetMaxNorm() for _, grid in motion]
 assert 1e-3 < max(largest) < 0.05, largest
-centres = {grid.GetPoint(9) for _, grid in motion}
-assert len(centres) == len(motion)  # P goes round
+centers = {grid.GetPoint(9) for _, grid in motion}
+assert len(centers) == len(motion)  # P moves on a circle

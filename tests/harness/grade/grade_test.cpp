@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 const fs::path kSource = TRAMMEL_SOURCE_DIR;
 
-/// The program itself, started in the folder. @returns its exit status
+/// Starts the program in the folder. @returns its exit status
 int run(const Folder& folder, const std::string& words) {
   const std::string line = "cd '" + folder.path().string() + "' && '" + testing::trammel_program() +
                            "' " + words + " >out.txt 2>err.txt </dev/null";
@@ -40,7 +40,7 @@ std::string grade_words(const fs::path& adapter, const std::string& words) {
   return "grade 'python3 " + adapter.string() + "' " + words;
 }
 
-/// The cantilever with a check of its reaction under that name: -100 N.
+/// Returns the cantilever under this id with a check of its reaction, -100 N.
 Json judged(const std::string& id) {
   Json json = testing::cantilever();
   json["id"] = id;
@@ -71,7 +71,7 @@ const std::map<std::string, std::pair<std::string, std::string>> kHostile = {
     {"prints-much", {"agrees", ""}},
     {"prints-for-ever", {"timed out", ""}},
     {"dies", {"crashed", "signal 11"}},
-    {"fails", {"crashed", "exit status 1: the licence has run out"}},
+    {"fails", {"crashed", "exit status 1: the license has expired"}},
     {"says-nothing", {"broken", "expected a file that the adapter writes"}},
     {"links-to-zeros", {"broken", "result.json"}},
     {"makes-a-pipe", {"broken", "result.json"}},
@@ -166,7 +166,7 @@ BOOST_AUTO_TEST_CASE(changed_adapter_is_not_resumed) {
   BOOST_TEST(fs::exists(trace));
 }
 
-BOOST_AUTO_TEST_CASE(several_codes_stand_side_by_side_and_none_is_spared) {
+BOOST_AUTO_TEST_CASE(several_codes_are_compared_in_one_report) {
   const Folder folder;
   for (const char* id : {"is-off", "cannot", "dies"}) (void)folder.write(judged(id));
   const std::string names = "is-off.json cannot.json dies.json";
@@ -193,10 +193,10 @@ BOOST_AUTO_TEST_CASE(order_is_judged_by_the_declared_one) {
   BOOST_TEST(verdict(" 2 2") == "0 pass");
   BOOST_TEST(verdict(" 2 4") == "1 fail");
   BOOST_TEST(verdict(" 2 null") == "0 not-given");
-  BOOST_TEST(verdict(" 2 2 --no-level-converges") != "0 pass");  // numbers of no solution
+  BOOST_TEST(verdict(" 2 2 --no-level-converges") != "0 pass");  // no solution
 }
 
-BOOST_AUTO_TEST_CASE(the_adapter_in_the_documentation_works_as_it_stands) {
+BOOST_AUTO_TEST_CASE(documented_adapter_works_unchanged) {
   const Folder folder;
   const fs::path adapters = kSource / "harness/adapters";
   const std::string page = read_text(adapters / "README.md");
@@ -213,7 +213,7 @@ BOOST_AUTO_TEST_CASE(the_adapter_in_the_documentation_works_as_it_stands) {
         row.case_id << ": " << row.reason);
 }
 
-/// The table of the page that documents adapters: fault, cases that catch it.
+/// Returns the faults in the table of the adapters' README and the cases that detect each of them.
 std::map<std::string, std::set<std::string>> documented_faults() {
   std::map<std::string, std::set<std::string>> faults;
   std::istringstream page(read_text(kSource / "harness/adapters/README.md"));
@@ -230,7 +230,7 @@ std::map<std::string, std::set<std::string>> documented_faults() {
   return faults;
 }
 
-/// Cases that are off, of those named.
+/// Returns those of the named cases that are graded as off.
 std::set<std::string> off_cases(const Folder& folder, const std::string& fault,
                                 const std::set<std::string>& cases, int status) {
   std::string names;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Adapters that do what they should not, each by the name of the case it is given."""
+"""Adapters with forbidden behavior; the id of the case selects the behavior."""
 import json
 import os
 import signal
@@ -22,7 +22,7 @@ def answer(changed=None, **more):
 
 
 def leave_child():
-    """In a session of its own, holding on to the output."""
+    """Starts a child in a separate session that keeps the output open."""
     if os.fork() == 0:
         os.setsid()
         for number in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
@@ -80,7 +80,7 @@ elif mode == "prints-for-ever":
 elif mode == "dies":
     os.kill(os.getpid(), signal.SIGSEGV)
 elif mode == "fails":
-    sys.exit("the licence has run out")
+    sys.exit("the license has expired")
 elif mode == "says-nothing":
     pass
 elif mode == "links-to-zeros":
@@ -97,7 +97,7 @@ elif mode == "cannot-say-why":
     sys.exit(4)
 elif mode == "gives-nothing":
     json.dump({"status": "solved"}, open(result, "w"))
-elif mode == "beam-cantilever":  # its exact frequencies, with an error of order argv[1] in h
+elif mode == "beam-cantilever":  # the exact frequencies with an error of order argv[1] in h
     level = case["export"].get("level")
     h = 1 / (32 if level is None else 2**level)
     roots = (1.875104068711961, 4.694091132974175, 7.854757438237613, 10.995540734875467,

@@ -10,7 +10,7 @@ BOOST_AUTO_TEST_SUITE(case_file)
 using namespace trammel;
 using namespace trammel::testing;
 
-BOOST_AUTO_TEST_CASE(a_variant_is_a_merge_patch) {
+BOOST_AUTO_TEST_CASE(variant_is_a_merge_patch) {
   const Folder folder;
   Json json = testing::cantilever();
   json["variants"]["deep"] = {
@@ -26,12 +26,12 @@ BOOST_AUTO_TEST_CASE(a_variant_is_a_merge_patch) {
   BOOST_TEST((base.at(bar) == Json{{"thickness_m", 0.1}, {"width_m", 0.05}}));
   BOOST_TEST((deep.at(bar) == Json{{"thickness_m", 0.2}, {"width_m", 0.05}}));
   BOOST_TEST(base["model"].contains("loads"));
-  BOOST_TEST(!deep["model"].contains("loads"));  // null removes
+  BOOST_TEST(!deep["model"].contains("loads"));  // null removes the key
   BOOST_TEST(deep["title"] == base["title"]);
   BOOST_TEST(!deep.contains("variants"));
 }
 
-BOOST_AUTO_TEST_CASE(a_bad_variant_is_an_error_where_the_variant_says_it) {
+BOOST_AUTO_TEST_CASE(invalid_variant_is_refused_at_its_place) {
   const Folder folder;
   Json json = testing::cantilever();
   json["variants"]["thin"]["model"]["sections"]["bar"]["rectangle"]["thickness_m"] = -1;
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(a_bad_variant_is_an_error_where_the_variant_says_it) {
   BOOST_TEST(contains(complaint([&] { (void)patched(given, "thn"); }), "did you mean 'thin'?"));
 }
 
-BOOST_AUTO_TEST_CASE(a_case_extends_another_and_keeps_its_own_judgement) {
+BOOST_AUTO_TEST_CASE(extending_case_inherits_model_but_no_checks) {
   const Folder folder;
   Json base = testing::cantilever();
   base["labels"] = {"mine"};
@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(a_case_extends_another_and_keeps_its_own_judgement) {
   BOOST_TEST(patched(given, "v").value()["model"]["elements"] == 2);
 }
 
-BOOST_AUTO_TEST_CASE(an_error_in_what_is_extended_names_that_file) {
+BOOST_AUTO_TEST_CASE(error_in_an_extended_case_names_its_file) {
   const Folder folder;
   Json base = testing::cantilever();
   base["model"]["materials"]["steel"]["E_Pa"] = "stiff";
@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(an_error_in_what_is_extended_names_that_file) {
                  "\"stiff\")");
 }
 
-BOOST_AUTO_TEST_CASE(a_circle_of_extending_cases_is_refused) {
+BOOST_AUTO_TEST_CASE(cyclic_extension_is_refused) {
   const Folder folder;
   (void)folder.write({{"id", "a"}, {"title", "A"}, {"extends", "b"}});
   const Json b = {{"id", "b"}, {"title", "B"}, {"extends", "a"}};
@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(a_circle_of_extending_cases_is_refused) {
                       "/extends: expected a case that does not extend this one"));
 }
 
-BOOST_AUTO_TEST_CASE(what_is_extended_may_be_in_another_folder) {
+BOOST_AUTO_TEST_CASE(extended_case_may_be_in_another_folder) {
   const Folder folder;
   (void)folder.write("sub/cantilever.json", testing::cantilever().dump());
   const Json json = {{"id", "x"}, {"title", "X"}, {"extends", "sub/cantilever.json"}};
@@ -101,7 +101,7 @@ BOOST_AUTO_TEST_CASE(what_is_extended_may_be_in_another_folder) {
                       "/extends: expected a file relative to this one or a case of the catalogue"));
 }
 
-BOOST_AUTO_TEST_CASE(an_indicator_of_the_stress_suite_is_a_check_of_the_case) {
+BOOST_AUTO_TEST_CASE(stress_suite_indicator_must_be_a_check_of_the_case) {
   const Folder folder;
   const auto file =
       folder.write("beam.json", R"({"id": "beam", "title": "t", "analysis": {"modes": {"count": 1}},
@@ -113,14 +113,14 @@ BOOST_AUTO_TEST_CASE(an_indicator_of_the_stress_suite_is_a_check_of_the_case) {
   BOOST_TEST(contains(said, "did you mean 'drift'?"));
 }
 
-BOOST_AUTO_TEST_CASE(a_file_and_its_case_have_one_name) {
+BOOST_AUTO_TEST_CASE(file_name_must_equal_the_case_id) {
   const Folder folder;
   const auto file = folder.write("other.json", testing::cantilever().dump());
   BOOST_TEST(contains(complaint([&] { (void)load_case(file); }),
                       "/id: expected the file's name, 'other' (got 'cantilever')"));
 }
 
-BOOST_AUTO_TEST_CASE(a_sweep_sets_the_places_that_its_pointers_name) {
+BOOST_AUTO_TEST_CASE(sweep_sets_the_values_at_its_pointers) {
   const Folder folder;
   Json json = testing::cantilever();
   json["sweeps"]["length"] = {{"pointers", {"/model/elements", "/model/nodes/B/0"}},
@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(a_sweep_sets_the_places_that_its_pointers_name) {
     const Json& model = found[i].document.value()["model"];
     BOOST_TEST(model["elements"] == std::size_t{1} << i);
     BOOST_TEST(
-        (model["nodes"]["B"] == Json{std::size_t{1} << i, 0}));  // the rest of the array stays
+        (model["nodes"]["B"] == Json{std::size_t{1} << i, 0}));  // the other entry is unchanged
     BOOST_TEST(found[i].parameter == static_cast<double>(std::size_t{1} << i));
   }
 }
@@ -146,7 +146,7 @@ BOOST_AUTO_TEST_CASE(sweep_may_set_a_key_with_a_default) {
   BOOST_TEST(found[2].document.value()["model"]["elements"] == 4);
 }
 
-BOOST_AUTO_TEST_CASE(a_bad_level_is_an_error_at_its_value) {
+BOOST_AUTO_TEST_CASE(invalid_sweep_level_is_refused_at_its_value) {
   const Folder folder;
   Json json = testing::cantilever();
   json["sweeps"]["elements"] = {{"pointers", {"/model/elements"}}, {"values", {1, 2.5}}};
@@ -169,7 +169,7 @@ BOOST_AUTO_TEST_CASE(a_bad_level_is_an_error_at_its_value) {
   BOOST_TEST(contains(fault("both"), "/sweeps/both: expected either 'pointers' or 'patches'"));
 }
 
-BOOST_AUTO_TEST_CASE(variants_do_not_each_keep_the_whole_file) {
+BOOST_AUTO_TEST_CASE(variants_share_the_memory_of_their_file) {
   const Folder folder;
   Json json = testing::cantilever();
   const int count = 300;
@@ -183,7 +183,7 @@ BOOST_AUTO_TEST_CASE(variants_do_not_each_keep_the_whole_file) {
   for (const std::string& variant : given.variants()) documents.push_back(patched(given, variant));
   BOOST_TEST(documents.size() == count + 1U);
   const std::size_t after = used();
-  BOOST_TEST(after < before + 32 * 1024 * 1024);  // all of them of 1.2 MB: 360 MB
+  BOOST_TEST(after < before + 32 * 1024 * 1024);  // 301 copies of 1.2 MB would be 360 MB
 }
 
 BOOST_AUTO_TEST_SUITE_END()

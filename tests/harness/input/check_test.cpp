@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(check_applies_only_to_variants_that_it_names) {
   BOOST_TEST(!applies_to({"soft"}, "base"));
 }
 
-BOOST_AUTO_TEST_CASE(a_quantity_is_not_judged_against_itself) {
+BOOST_AUTO_TEST_CASE(quantity_is_not_judged_against_itself) {
   Json json = testing::cantilever();
   json["variants"]["soft"] = Json::object();
   Json& check = json["checks"]["c"];
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(a_quantity_is_not_judged_against_itself) {
   BOOST_TEST(read_checks(patched(given, "soft"), "soft", given.variants()).size() == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(a_check_that_nothing_could_fail_is_bad_input) {
+BOOST_AUTO_TEST_CASE(check_that_cannot_fail_is_refused) {
   Json json = testing::cantilever();
   Json& check = json["checks"]["c"];
   check = {{"quantity", "frequency_Hz"},
@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(a_check_that_nothing_could_fail_is_bad_input) {
   BOOST_TEST(check_of(json).windows.at(0).high == 1);
 }
 
-BOOST_AUTO_TEST_CASE(half_width_requires_a_plain_value) {
+BOOST_AUTO_TEST_CASE(half_width_requires_stated_values) {
   const Json agrees = {{"agrees", "r"}, {"within", 0.1}};
   const auto with = [](Json expect, const char* key, const Json& value) {
     expect[key] = value;

@@ -20,7 +20,7 @@ Json reference() {
           {"place", "here"}};
 }
 
-/// What is reported of the reference "x" in a family.
+/// Returns the message about the reference "x" of a family.
 std::string fault(const std::string& text) {
   const Folder folder;
   const std::string file = folder.write("references.json", text).string();
@@ -35,7 +35,7 @@ std::string fault(const Json& common, const Json& entry) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_reference_has_the_keys_of_its_family) {
+BOOST_AUTO_TEST_CASE(reference_inherits_common_keys_of_its_family) {
   const Folder folder;
   const Json common = {{"kind", "paper"}, {"source", "me"}, {"unit", "m"}};
   const auto file =
@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(a_reference_has_the_keys_of_its_family) {
   BOOST_TEST(read.uncertainty.at(0) == 1);
 }
 
-BOOST_AUTO_TEST_CASE(a_fault_of_a_family_file_has_its_file_and_pointer) {
+BOOST_AUTO_TEST_CASE(invalid_family_file_is_refused_with_its_pointer) {
   const Json common = {{"kind", "paper"}, {"source", "me"}};
   const auto changed = [&](const char* key, const Json& value) {
     Json entry = reference();
@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(a_fault_of_a_family_file_has_its_file_and_pointer) {
     return fault(common, entry);
   };
   BOOST_TEST(contains(changed("values", {1, "2"}), ": /x/values/1: expected"));
-  BOOST_TEST(contains(changed("colour", "red"), ": /x/colour: "));
+  BOOST_TEST(contains(changed("color", "red"), ": /x/color: "));
   BOOST_TEST(contains(changed("unit", "furlong"), ": /x/unit: expected"));
   BOOST_TEST(contains(changed("uncertainty", {{"relative", -1}}), ": /x/uncertainty/relative"));
   BOOST_TEST(contains(changed("derivation", {{"program", "p"}}), ": /x/derivation: expected"));
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(a_fault_of_a_family_file_has_its_file_and_pointer) {
   BOOST_TEST(contains(fault("[]"), ": /: expected an object"));
 }
 
-BOOST_AUTO_TEST_CASE(a_hash_covers_the_reference_and_what_its_family_states) {
+BOOST_AUTO_TEST_CASE(hash_covers_reference_and_common_keys_of_its_family) {
   const Folder folder;
   const auto hash = [&](const Json& family) {
     const auto file = folder.write("references.json", family.dump());

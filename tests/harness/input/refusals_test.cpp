@@ -1,4 +1,4 @@
-// Inputs that are refused: a change of a valid case, and the pointer and message of the refusal.
+// Invalid inputs: a change of a valid case, and the pointer and message of the refusal.
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>
@@ -13,7 +13,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// The valid cases by name.
+/// Valid cases by name.
 const std::map<std::string, Json>& cases() {
   static const std::map<std::string, Json> all = [] {
     const auto changed = [](Json json, const char* patch) {
@@ -45,7 +45,7 @@ const std::map<std::string, Json>& cases() {
   return all;
 }
 
-/// A merge patch of a valid case, and a part of the message.
+/// Merge patch of a valid case, and a part of the message.
 struct Refusal {
   const char *name, *patch, *message;
 };

@@ -22,7 +22,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// One place of a case with another value, and a part of "pointer: message".
+/// Place of a case with an invalid value, and a part of "pointer: message".
 struct Refusal {
   const char *pointer, *value, *message;
 };
@@ -50,7 +50,7 @@ const Refusal kRefusals[] = {
     {"/model/supports", R"({"P": ["x", "x"]})", "/model/supports/P: expected"},
     {"/model/manipulator/links/mass_kg", "true",
      "/model/manipulator/links/mass_kg: expected a number above 0 or 'from-density' (got true)"},
-    // Inside an alternative the innermost fault is the cause.
+    // Inside an alternative, the innermost fault is the cause.
     {"/model/manipulator/links/proximal_length_m", "[0.2, -0.2, 0.2]",
      "/model/manipulator/links/proximal_length_m/1: expected a number above 0 (got -0.2)"},
     {"/model/manipulator/material", R"({"nu": 0.33, "rho_kg_m3": 2700})",
@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(valid_values_at_the_limits_are_accepted) {
   BOOST_TEST(!find_schema_fault(json, "case").has_value());
 }
 
-BOOST_AUTO_TEST_CASE(every_key_of_the_schemas_says_what_it_is) {
+BOOST_AUTO_TEST_CASE(every_key_of_the_schemas_has_a_description) {
   for (const char* name : {"adapter_result", "case", "cost", "reference", "results"}) {
     const Json text =
         read_json(data_root() / "cases" / "schema" / (std::string(name) + ".schema.json"));
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(every_key_of_the_schemas_says_what_it_is) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_schemas_use_only_what_is_checked) {
+BOOST_AUTO_TEST_CASE(schemas_use_only_implemented_keywords) {
   const std::string checked =
       " type enum minimum maximum exclusiveMinimum minLength pattern minItems maxItems uniqueItems "
       "items required anyOf properties description minProperties maxProperties $ref "
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(the_schemas_use_only_what_is_checked) {
                  key);
       if (key == "pattern") BOOST_TEST(item.value() == "^[A-Za-z0-9][A-Za-z0-9._-]*$");
       const bool used = key == "description" || key == "$ref" || key == "anyOf";
-      BOOST_TEST((!refers || used), key << " beside $ref or anyOf is not checked");
+      BOOST_TEST((!refers || used), key << " next to $ref or anyOf is not checked");
       if (key == "properties" || key == "definitions" || key == "anyOf") {
         for (const Json& inner : item.value()) visit(inner, false);
       } else if (key == "items" || key == "additionalProperties") {
@@ -128,7 +128,7 @@ BOOST_AUTO_TEST_CASE(every_stored_reference_obeys_the_schema) {
     const Json json = read_json(file);
     const auto found = find_schema_fault(json, "reference");
     BOOST_TEST(!found.has_value(), family << (found ? ": " + found->pointer + found->message : ""));
-    // The form in which a reference is found without splitting all files.
+    // Formatted text, in which a reference is found without parsing all files.
     const auto keys = keys_of_blocks(read_file(file).text);
     const bool has_schema = json.contains("$schema");
     BOOST_TEST(keys.size() == json.size() - (has_schema ? 1 : 0), family);

@@ -9,7 +9,8 @@ using namespace trammel::harness;
 
 namespace {
 
-/// v(h) = 10 (1 + a h^p + b h^(p+2)) on h = 1, 1/2 ... with some round-off on top.
+/// Returns the series v(h) = 10 (1 + a h^p + b h^(p+2)) for h = 1, 1/2, ... with alternating
+/// round-off.
 Convergence made_up(double p, double a, double b, std::size_t levels, double roundoff = 1e-15) {
   Convergence series;
   series.theory_order = p;
@@ -26,7 +27,7 @@ Convergence made_up(double p, double a, double b, std::size_t levels, double rou
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(the_order_of_a_power_is_that_power) {
+BOOST_AUTO_TEST_CASE(order_of_a_power_law_is_its_exponent) {
   for (const double p : {1.0, 2.0, 4.0}) {
     Convergence series = made_up(p, 0.1, 0, 6);
     for (const bool known : {false, true}) {
@@ -39,7 +40,7 @@ BOOST_AUTO_TEST_CASE(the_order_of_a_power_is_that_power) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_refinement_by_any_ratio_shows_its_order) {
+BOOST_AUTO_TEST_CASE(order_is_found_for_any_refinement_ratio) {
   Convergence series;
   for (const double n : {4.0, 5.0, 7.0, 12.0}) {
     series.parameter.push_back(n);
@@ -53,7 +54,7 @@ BOOST_AUTO_TEST_CASE(a_refinement_by_any_ratio_shows_its_order) {
   BOOST_TEST(std::abs(found.richardson.value() - 3) < 1e-9);
 }
 
-/// v on h = 1, 1/2, 1/4 ...
+/// Returns a series of values for h = 1, 1/2, 1/4, ...
 Convergence of_values(const std::vector<double>& values) {
   Convergence series = made_up(2, 0, 0, values.size());
   series.values = {values.begin(), values.end()};
@@ -61,7 +62,7 @@ Convergence of_values(const std::vector<double>& values) {
 }
 
 BOOST_AUTO_TEST_CASE(values_that_diverge_are_not_extrapolated) {
-  // As the logarithm of h does, as 1/h does, and to and fro.
+  // The series grow like log h or 1/h, or oscillate.
   for (const auto& values : {std::vector<double>{1, 2, 3, 4, 5}, {1, 2, 4, 8, 16}, {1, 2, 0, 4}}) {
     for (const bool known : {false, true}) {
       Convergence series = of_values(values);
@@ -102,7 +103,7 @@ BOOST_AUTO_TEST_CASE(next_term_limits_the_asymptotic_range) {
   BOOST_TEST(found.in_asymptotic_range[5]);
 }
 
-BOOST_AUTO_TEST_CASE(the_roundoff_floor_is_recognised_as_such) {
+BOOST_AUTO_TEST_CASE(round_off_floor_is_recognized) {
   Convergence series = made_up(4, 0.1, 0, 12, 1e-12);
   series.exact = 10;
   const Convergence found = analyse_convergence(series);
@@ -113,7 +114,7 @@ BOOST_AUTO_TEST_CASE(the_roundoff_floor_is_recognised_as_such) {
   BOOST_TEST(std::abs(found.richardson.value() - 10) < 1e-10);
 }
 
-BOOST_AUTO_TEST_CASE(the_band_holds_the_exact_value_and_is_not_huge) {
+BOOST_AUTO_TEST_CASE(band_contains_the_exact_value_and_is_narrow) {
   for (const double b : {0.5, -0.03, 0.0}) {
     const Convergence series = made_up(4, 0.1, b, 12, 1e-14);
     const Convergence found = analyse_convergence(series);
@@ -128,16 +129,16 @@ BOOST_AUTO_TEST_CASE(the_band_holds_the_exact_value_and_is_not_huge) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(an_order_other_than_theory_gets_the_factor_three) {
+BOOST_AUTO_TEST_CASE(order_other_than_theory_has_safety_factor_3) {
   Convergence series = made_up(2, 0.1, 0, 6);
   series.theory_order = 4;
   const Convergence found = analyse_convergence(series);
   for (std::size_t k = 2; k < 6; ++k) BOOST_TEST(*found.safety_factor[k] == 3);
   series.theory_order.reset();
-  BOOST_TEST(*analyse_convergence(series).safety_factor[5] == 3);  // nothing to be near to
+  BOOST_TEST(*analyse_convergence(series).safety_factor[5] == 3);  // no theoretical order
 }
 
-BOOST_AUTO_TEST_CASE(an_order_is_not_made_up_from_values_that_go_to_and_fro) {
+BOOST_AUTO_TEST_CASE(oscillating_values_have_no_order) {
   Convergence series = made_up(2, 0.1, 0, 5);
   for (std::size_t k = 0; k < 5; ++k) series.values[k] = k % 2 == 0 ? 1.0 : 2.0;
   const Convergence found = analyse_convergence(series);
@@ -158,7 +159,7 @@ BOOST_AUTO_TEST_CASE(missing_levels_are_skipped_at_the_coarse_end_only) {
   BOOST_TEST(found.broken);
 }
 
-BOOST_AUTO_TEST_CASE(too_few_levels_say_nothing) {
+BOOST_AUTO_TEST_CASE(too_few_levels_have_no_order) {
   const Convergence found = analyse_convergence(made_up(4, 0.1, 0, 1));
   BOOST_TEST(!found.richardson.has_value());
   BOOST_TEST(!found.fitted_order.has_value());

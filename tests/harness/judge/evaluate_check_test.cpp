@@ -19,7 +19,7 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Three frequencies, their reference, and one check between them.
+/// Three frequencies, their reference, and one check of them.
 struct Bench {
   std::shared_ptr<Folder> folder = std::make_shared<Folder>();
   Json check = {{"quantity", "frequency_Hz"},
@@ -47,7 +47,7 @@ struct Bench {
     return harness::evaluate_check(checks.at(0),
                                    {document, quantities, {}, references, variant, other_solver});
   }
-  /// The worst verdict, with its message.
+  /// Returns the worst verdict and stores its message.
   std::string verdict() {
     Verdict worst = Verdict::pass;
     for (const CheckResult& one : judge_all()) {
@@ -71,7 +71,7 @@ Bench validation(const char* kind, const Json& window) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(what_agrees_passes_entry_by_entry) {
+BOOST_AUTO_TEST_CASE(agreeing_entries_pass_separately) {
   Bench bench;
   const auto all = bench.judge_all();
   BOOST_REQUIRE(all.size() == 3);
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(verdicts_that_fail_the_gate) {
     BOOST_TEST(!fails_gate(open), to_string(open));
 }
 
-BOOST_AUTO_TEST_CASE(an_absolute_tolerance_is_in_the_unit_of_the_quantity) {
+BOOST_AUTO_TEST_CASE(absolute_tolerance_has_the_unit_of_the_quantity) {
   Bench bench;
   bench.check["tolerance"] = {{"absolute", 0.5}, {"why", "w"}};
   bench.set(2, 30.4);
@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(an_absolute_tolerance_is_in_the_unit_of_the_quantity) {
   BOOST_TEST(bench.verdict() == "fail");
 }
 
-BOOST_AUTO_TEST_CASE(a_number_that_is_not_finite_is_an_error) {
+BOOST_AUTO_TEST_CASE(not_finite_number_is_an_error) {
   for (const double value : {not_a_number, infinity, -infinity}) {
     Bench bench;
     bench.set(0, value);
@@ -146,14 +146,14 @@ BOOST_AUTO_TEST_CASE(value_that_is_no_number_is_named) {
   BOOST_TEST(contains(none.message, "there is no relative comparison"), none.message);
 }
 
-BOOST_AUTO_TEST_CASE(a_missing_quantity_is_an_error_that_names_the_nearest) {
+BOOST_AUTO_TEST_CASE(missing_quantity_is_an_error_with_a_suggestion) {
   Bench bench;
   bench.check["quantity"] = "frequncy_Hz";
   BOOST_TEST(bench.verdict() == "error");
   BOOST_TEST(contains(bench.message, "no quantity 'frequncy_Hz'; did you mean 'frequency_Hz'?"));
 }
 
-BOOST_AUTO_TEST_CASE(a_wrong_length_is_an_error) {
+BOOST_AUTO_TEST_CASE(wrong_length_is_an_error) {
   Bench shorter;
   shorter.quantities["frequency_Hz"].values.pop_back();
   BOOST_TEST(shorter.verdict() == "error");
@@ -166,7 +166,7 @@ BOOST_AUTO_TEST_CASE(a_wrong_length_is_an_error) {
   BOOST_TEST(empty.verdict() == "error");
 }
 
-BOOST_AUTO_TEST_CASE(an_index_outside_of_the_array_is_an_error) {
+BOOST_AUTO_TEST_CASE(index_outside_the_array_is_an_error) {
   Bench bench;
   bench.check["index"] = 3;
   bench.check["reference_index"] = 0;
@@ -177,7 +177,7 @@ BOOST_AUTO_TEST_CASE(an_index_outside_of_the_array_is_an_error) {
   BOOST_TEST(bench.verdict() == "error");
 }
 
-BOOST_AUTO_TEST_CASE(a_wrong_unit_is_an_error) {
+BOOST_AUTO_TEST_CASE(wrong_unit_is_an_error) {
   Bench bench;
   bench.reference["unit"] = "rad/s";
   BOOST_TEST(bench.verdict() == "error");
@@ -197,7 +197,7 @@ BOOST_AUTO_TEST_CASE(reference_less_certain_than_tolerance_is_an_error) {
   BOOST_TEST(bench.verdict() == "pass");
 }
 
-BOOST_AUTO_TEST_CASE(printed_digits_tell_the_uncertainty) {
+BOOST_AUTO_TEST_CASE(printed_digits_determine_the_uncertainty) {
   Bench bench;
   bench.reference.erase("uncertainty");
   bench.reference["printed"] = {"10.00", "20.000", "30"};
@@ -206,7 +206,7 @@ BOOST_AUTO_TEST_CASE(printed_digits_tell_the_uncertainty) {
   BOOST_TEST(bench.verdict() == "pass");
 }
 
-BOOST_AUTO_TEST_CASE(a_bound_looks_at_the_value_alone) {
+BOOST_AUTO_TEST_CASE(bound_judges_the_computed_value_only) {
   Bench bench;
   bench.check.erase("reference");
   bench.check.erase("tolerance");
@@ -221,7 +221,7 @@ BOOST_AUTO_TEST_CASE(a_bound_looks_at_the_value_alone) {
   BOOST_TEST(bench.verdict() == "error");
 }
 
-BOOST_AUTO_TEST_CASE(an_agreement_that_no_longer_holds_fails) {
+BOOST_AUTO_TEST_CASE(lost_agreement_fails) {
   Bench bench = validation("agrees", {-0.01, 0.01});
   BOOST_TEST(bench.verdict() == "pass");
   for (const double value : {9.8, 10.2}) {
@@ -236,7 +236,7 @@ BOOST_AUTO_TEST_CASE(changed_known_discrepancy_fails) {
   bench.quantities["frequency_Hz"].values = {11.5, 23, 34.5};
   BOOST_TEST(bench.verdict() == "pass");
   BOOST_TEST((bench.judge_all()[0].expectation == Expectation::known_discrepancy));
-  for (const double value : {10.0, 13.0}) {  // it agrees now; it is off by more now
+  for (const double value : {10.0, 13.0}) {  // agreement, then a larger difference
     bench.set(0, value);
     BOOST_TEST(bench.verdict() == "fail");
     BOOST_TEST(contains(bench.message, "the difference left its recorded range"));
@@ -245,7 +245,7 @@ BOOST_AUTO_TEST_CASE(changed_known_discrepancy_fails) {
   BOOST_TEST(bench.verdict() == "error");
 }
 
-BOOST_AUTO_TEST_CASE(a_known_discrepancy_may_leave_some_entries_in_agreement) {
+BOOST_AUTO_TEST_CASE(known_discrepancy_may_contain_entries_that_agree) {
   Bench bench = validation("known_discrepancy", {{-0.01, 0.01}, {0.1, 0.2}, {-0.3, -0.2}});
   bench.quantities["frequency_Hz"].values = {10.05, 23, 22};
   const auto all = bench.judge_all();
@@ -254,7 +254,7 @@ BOOST_AUTO_TEST_CASE(a_known_discrepancy_may_leave_some_entries_in_agreement) {
   BOOST_TEST((all[1].expectation == Expectation::known_discrepancy));
 }
 
-BOOST_AUTO_TEST_CASE(windows_are_as_many_as_the_entries) {
+BOOST_AUTO_TEST_CASE(number_of_windows_must_equal_the_entries) {
   Bench bench = validation("agrees", Json::array({-1, 1}));
   bench.check["expect"]["relative_between"] = {{-1, 1}, {-1, 1}, {-1, 1}};
   BOOST_TEST(bench.verdict() == "pass");
@@ -303,14 +303,14 @@ BOOST_AUTO_TEST_CASE(quantities_of_one_run_are_judged_against_each_other) {
   BOOST_TEST(all[0].difference.value() == -1);
   bench.check["against_quantity"] = "other_m";
   BOOST_TEST(bench.verdict() == "error");
-  // Also where the variant itself is named.
+  // The rule also holds if the variant itself is named.
   bench.check["against_quantity"] = "other_Hz";
   bench.check["against_variant"] = "base";
   bench.other = bench.quantities;
   BOOST_TEST(bench.judge_all().size() == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(of_a_long_array_the_worst_entry_is_told) {
+BOOST_AUTO_TEST_CASE(worst_entry_of_a_long_array_is_reported) {
   Bench bench;
   bench.check = {{"quantity", "frequency_Hz"},
                  {"role", "verification"},
@@ -330,7 +330,7 @@ BOOST_AUTO_TEST_CASE(of_a_long_array_the_worst_entry_is_told) {
   BOOST_TEST(all[0].index.value() == 500U);
 }
 
-BOOST_AUTO_TEST_CASE(statistics_say_what_they_are_called) {
+BOOST_AUTO_TEST_CASE(statistics_have_the_named_value) {
   const std::vector<double> values = {3, -4, 1};
   BOOST_TEST(statistic_of("max", values) == 3);
   BOOST_TEST(statistic_of("min", values) == -4);
@@ -346,7 +346,7 @@ BOOST_AUTO_TEST_CASE(statistics_say_what_they_are_called) {
   BOOST_TEST(std::isnan(statistic_of("max", {})));
 }
 
-BOOST_AUTO_TEST_CASE(checks_that_contradict_themselves_are_refused) {
+BOOST_AUTO_TEST_CASE(contradictory_checks_are_refused) {
   const auto fault = [](const char* key, const Json& value, const char* gone = "") {
     Bench bench;
     bench.check.erase(gone);
@@ -384,7 +384,7 @@ BOOST_AUTO_TEST_CASE(negative_control_passes_if_the_fault_is_found) {
       contains(bench.message, "expected 'fail' of entry 1 with 'is outside of' (got 'pass'"));
 }
 
-BOOST_AUTO_TEST_CASE(a_code_that_prints_four_digits_is_judged_by_four) {
+BOOST_AUTO_TEST_CASE(code_printing_four_digits_is_judged_by_four) {
   Bench bench;
   bench.check["tolerance"]["relative"] = 1e-6;
   bench.set(1, 20.004);

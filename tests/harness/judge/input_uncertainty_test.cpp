@@ -13,7 +13,7 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// 3 x - 4 y and x^2 (about x = 1), with x within +-0.1 and y within +-0.2.
+/// Returns 3 x - 4 y and x^2 (about x = 1), with x within +-0.1 and y within +-0.2.
 std::optional<Values> linear_and_square(const Values& d) {
   return Values{3 * d[0] - 4 * d[1], (1 + d[0]) * (1 + d[0])};
 }
@@ -22,7 +22,7 @@ const Values kHalfWidths = {0.1, 0.2};
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_linear_model_adds_its_inputs_in_quadrature) {
+BOOST_AUTO_TEST_CASE(linear_model_has_exact_input_uncertainties) {
   const auto u = uncertainty_by_derivatives(linear_and_square, kHalfWidths);
   BOOST_REQUIRE(u.has_value());
   BOOST_TEST(u->at(0)[0] == 0.3 / std::sqrt(3.0), boost::test_tools::tolerance(1e-12));
@@ -36,7 +36,7 @@ BOOST_AUTO_TEST_CASE(sampling_gives_the_deviation_of_a_uniform_input) {
   BOOST_TEST(u.samples == 400);
   BOOST_TEST(u.failed == 0);
   BOOST_TEST(u.standard[0] == std::hypot(0.3, 0.8) / std::sqrt(3.0),
-             boost::test_tools::tolerance(0.05));  // columns correlate by chance, 1/sqrt(400)
+             boost::test_tools::tolerance(0.05));  // random correlation of columns, 1/sqrt(400)
   // The variance of (1 + d)^2 is 4 h^2 / 3 + 4 h^4 / 45.
   BOOST_TEST(u.standard[1] == std::sqrt(0.04 / 3 + 4e-4 / 45), boost::test_tools::tolerance(1e-2));
 }

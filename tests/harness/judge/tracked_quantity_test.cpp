@@ -8,7 +8,7 @@ BOOST_AUTO_TEST_SUITE(tracked_quantity)
 using namespace trammel;
 using namespace trammel::harness;
 
-BOOST_AUTO_TEST_CASE(each_statistic_of_a_quantity_is_followed_by_itself) {
+BOOST_AUTO_TEST_CASE(each_statistic_of_a_quantity_is_tracked_separately) {
   const testing::Folder folder;
   Json json = testing::cantilever();
   const Json bound = {{"at_least", 0}, {"why", "w"}};
@@ -28,15 +28,12 @@ BOOST_AUTO_TEST_CASE(each_statistic_of_a_quantity_is_followed_by_itself) {
   BOOST_TEST(named_by_checks(document, {}, References()).empty());
 }
 
-BOOST_AUTO_TEST_CASE(what_another_code_gives_is_no_exact_value) {
+BOOST_AUTO_TEST_CASE(result_of_another_code_is_not_an_exact_value) {
   const testing::Folder folder;
-  const Json reference = {{"id", "given"},  {"title", "Given"}, {"kind", "code"},
-                          {"unit", "m"},    {"values", {-1}},   {"uncertainty", {{"absolute", 1}}},
-                          {"source", "me"}, {"place", "here"}};
   Json json = testing::cantilever();
   json["checks"]["c"] = {
       {"quantity", "displacement_y_m:B"}, {"role", "validation"}, {"reference", "given"}};
-  folder.write_reference(reference);
+  folder.write_reference("given", "m", -1, {{"absolute", 1}}, "code");
   const auto tracked = [&] {
     const Document document = patched(testing::read(folder, json), "base");
     const References references;

@@ -1,4 +1,4 @@
-// Series that an order of its own, or none, governs: what the study of a refinement makes of them.
+// Convergence studies of series that another order than the theoretical one governs, or no order.
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <functional>
@@ -24,7 +24,7 @@ Convergence series_of(const std::function<double(double)>& value, std::size_t le
   return series;
 }
 
-/// 10 (1 + a h^4 + b h^2)
+/// Returns the series 10 (1 + a h^4 + b h^2).
 Convergence mixed(double a, double b, std::size_t levels) {
   Convergence series =
       series_of([=](double h) { return 10 * (1 + a * std::pow(h, 4) + b * h * h); }, levels);
@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(unknown_mixture_gets_the_large_factor) {
   BOOST_TEST(large);
 }
 
-BOOST_AUTO_TEST_CASE(a_linear_error_is_no_mixture_of_orders_four_and_two) {
+BOOST_AUTO_TEST_CASE(linear_error_does_not_fit_orders_four_and_two) {
   Convergence series = series_of([](double h) { return 10 * (1 + 0.1 * h); }, 7);
   series.exact = 10;
   series.theory_order = 4;
@@ -90,8 +90,8 @@ BOOST_AUTO_TEST_CASE(two_levels_get_the_order_of_theory_and_the_large_factor) {
              boost::test_tools::tolerance(1e-9));
 }
 
-BOOST_AUTO_TEST_CASE(values_that_turn_back_settle_on_fine_levels) {
-  // h^2 - 0.8 h^3 ... falls and rises again: the coarse end is not monotone.
+BOOST_AUTO_TEST_CASE(nonmonotone_values_converge_on_fine_levels) {
+  // h^2 - 1.3 h^3 first falls and then rises, so the values on coarse levels are not monotone.
   Convergence series =
       series_of([](double h) { return 10 * (1 + 0.1 * h * h - 0.13 * h * h * h); }, 10);
   series.exact = 10;

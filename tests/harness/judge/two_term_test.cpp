@@ -30,7 +30,7 @@ BOOST_AUTO_TEST_CASE(terms_of_opposite_sign_may_cancel_between_two_levels) {
   BOOST_TEST(*fit->coefficients[1] == -0.03, boost::test_tools::tolerance(1e-10));
 }
 
-BOOST_AUTO_TEST_CASE(coarse_levels_that_feel_a_third_term_are_left_out) {
+BOOST_AUTO_TEST_CASE(coarse_levels_with_a_third_term_are_excluded) {
   const auto fit = fit_two_terms(kSizes, errors(0.3, 2e-3, 0.1), kAll, {4, 2}, 0.01);
   BOOST_REQUIRE(fit.has_value());
   BOOST_TEST(!fit->used[0]);
@@ -39,8 +39,8 @@ BOOST_AUTO_TEST_CASE(coarse_levels_that_feel_a_third_term_are_left_out) {
   BOOST_TEST(*fit->coefficients[1] == 2e-3, boost::test_tools::tolerance(0.05));
 }
 
-BOOST_AUTO_TEST_CASE(the_worst_miss_may_lie_on_either_side) {
-  for (const double factor : {0.5, 2.0}) {  // one level off the law, the error too small, too large
+BOOST_AUTO_TEST_CASE(worst_misfit_may_have_either_sign) {
+  for (const double factor : {0.5, 2.0}) {  // the error of one level is too small or too large
     std::vector<double> off = errors(0.3, 2e-3);
     off[2] *= factor;
     const auto fit = fit_two_terms(kSizes, off, kAll, {4, 2}, 10);
@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(two_levels_are_not_enough) {
            .has_value());
 }
 
-BOOST_AUTO_TEST_CASE(the_limit_of_a_two_term_law_is_found_from_three_levels) {
+BOOST_AUTO_TEST_CASE(limit_of_a_two_term_law_needs_three_levels) {
   const auto value = [](double h) { return 7 + 0.3 * std::pow(h, 4) - 0.02 * h * h; };
   const double limit =
       extrapolate_two_terms({0.5, 0.3, 0.1}, {value(0.5), value(0.3), value(0.1)}, {4, 2});

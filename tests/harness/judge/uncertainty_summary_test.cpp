@@ -11,7 +11,7 @@ using namespace trammel::harness;
 
 namespace {
 
-/// A study of values 10 (1 + a h^p) on `levels` halvings, whose bands are then scaled.
+/// Returns a study of the values 10 (1 + 0.1 h^2) on halved sizes, with scaled uncertainty bands.
 Convergence made_up(std::size_t levels, double scale) {
   Convergence series;
   series.theory_order = 2;
@@ -36,7 +36,7 @@ results::UncertaintyCoverage summarise(const std::vector<Convergence>& all) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(bands_of_a_clean_series_hold_and_are_a_quarter_too_wide) {
+BOOST_AUTO_TEST_CASE(bands_of_a_clean_series_hold_with_ratio_1_25) {
   const results::UncertaintyCoverage summary =
       summarise(std::vector<Convergence>(30, made_up(8, 1)));
   BOOST_TEST(summary.levels == 30U * 7U);  // the first level has no band
@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(bands_of_a_clean_series_hold_and_are_a_quarter_too_wide) {
   BOOST_TEST(summary.passes);
 }
 
-BOOST_AUTO_TEST_CASE(bands_that_miss_too_often_fail) {
+BOOST_AUTO_TEST_CASE(bands_that_miss_often_fail) {
   std::vector<Convergence> all(30, made_up(8, 1));
   for (std::size_t i = 0; i < 3; ++i) all[i] = made_up(8, 0.5);
   const results::UncertaintyCoverage summary = summarise(all);
@@ -53,25 +53,25 @@ BOOST_AUTO_TEST_CASE(bands_that_miss_too_often_fail) {
   BOOST_TEST(!summary.passes);
 }
 
-BOOST_AUTO_TEST_CASE(bands_that_are_huge_fail_although_they_never_miss) {
+BOOST_AUTO_TEST_CASE(too_wide_bands_fail_although_they_hold) {
   const results::UncertaintyCoverage summary =
       summarise(std::vector<Convergence>(30, made_up(8, 4)));
   BOOST_TEST(*summary.coverage == 1.0);
   BOOST_TEST(!summary.passes);
 }
 
-BOOST_AUTO_TEST_CASE(a_band_is_of_the_value_and_an_error_of_the_exact_one) {
+BOOST_AUTO_TEST_CASE(band_is_relative_to_value_and_error_to_exact_value) {
   Convergence found = made_up(3, 1);
   found.values = {10, 10, 15};
   found.error = {0, 0, 0.5};
-  found.gci = {NAN, NAN, 0.4};  // 6 beside an error of 5
+  found.gci = {NAN, NAN, 0.4};  // band of 6, error of 5
   BOOST_TEST(summarise({found}).levels == 1U);
   BOOST_TEST(summarise({found}).covered == 1U);
   found.gci[2] = 0.3;
   BOOST_TEST(summarise({found}).covered == 0U);
 }
 
-BOOST_AUTO_TEST_CASE(a_few_levels_decide_nothing) {
+BOOST_AUTO_TEST_CASE(few_levels_do_not_fail_the_coverage) {
   const results::UncertaintyCoverage summary = summarise({made_up(8, 0.5)});
   BOOST_TEST(*summary.coverage < 0.95);
   BOOST_TEST(summary.passes);
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(series_without_an_exact_value_do_not_count) {
   BOOST_TEST(summary.passes);
 }
 
-BOOST_AUTO_TEST_CASE(a_ratio_that_is_not_a_number_fails_closed) {
+BOOST_AUTO_TEST_CASE(coverage_without_any_ratio_fails) {
   Convergence found = made_up(8, 1);
   found.at_roundoff_floor.assign(8, true);  // no level has a ratio
   const results::UncertaintyCoverage summary = summarise(std::vector<Convergence>(30, found));

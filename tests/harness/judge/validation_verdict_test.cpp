@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(uncertainties_add_in_quadrature_and_count_twice) {
              "the difference of 7 Hz is within the validation uncertainty of ±14 Hz");
 }
 
-BOOST_AUTO_TEST_CASE(a_difference_beyond_the_noise_is_given_as_a_range) {
+BOOST_AUTO_TEST_CASE(difference_beyond_uncertainty_is_reported_as_a_range) {
   const auto v = judged({comparison(10.0, 12.0, 0.0, 0.25, 0.0)}).front();
   BOOST_TEST(v.verdict == kModelError);
   BOOST_TEST(v.conclusion == "model error between 1.5 and 2.5 Hz, too low");
@@ -65,7 +65,7 @@ BOOST_AUTO_TEST_CASE(inconsistency_does_not_excuse_a_model_beyond_it) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(values_apart_by_more_than_round_off_are_no_pair) {
+BOOST_AUTO_TEST_CASE(values_differing_beyond_round_off_are_no_pair) {
   const Comparison first = comparison(14.0, 12.768, 0, 0.1, 3e-4);
   const Comparison second = comparison(14.1, 15.115, 0, 0.1, 3e-4);
   for (const auto& v : judged({first, second})) {
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(values_apart_by_more_than_round_off_are_no_pair) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_pair_printed_to_few_digits_may_differ_by_them) {
+BOOST_AUTO_TEST_CASE(pair_printed_with_few_digits_is_judged_separately) {
   const Comparison first = comparison(14.06, 13.0, 0, 0.1, 0.29);
   const Comparison second = comparison(14.06, 13.5, 0, 0.1, 0.29);
   const auto row = judged({first, second});
@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(a_pair_printed_to_few_digits_may_differ_by_them) {
   BOOST_TEST(row[1].verdict == kWithinUncertainty);
 }
 
-BOOST_AUTO_TEST_CASE(nothing_is_claimed_where_a_number_is_missing) {
+BOOST_AUTO_TEST_CASE(missing_number_leaves_the_verdict_undecided) {
   const double missing = std::numeric_limits<double>::quiet_NaN();
   for (const Comparison& c : {comparison(missing, 1, 0, 0, 0), comparison(1, 1, missing, 0, 0),
                               comparison(1, 1, 0, missing, 0)}) {

@@ -10,24 +10,14 @@ using namespace trammel::testing;
 
 namespace {
 
-/// The manipulator of Table 1 with a rigid platform, two poses of which make a path.
+/// Returns the manipulator of Table 1 with a rigid platform and one element per link on a
+/// trajectory.
 Json motion(const Json& trajectory) {
-  Json json = Json::parse(R"({
-    "id": "motion", "title": "A motion",
-    "model": {
-      "manipulator": {
-        "base_side_m": 0.5,
-        "links": {"proximal_length_m": 0.2, "distal_length_m": 0.2, "thickness_m": 0.0015,
-                  "width_m": 0.03, "elements": 1},
-        "platform": {"kind": "rigid", "side_m": 0.2, "thickness_m": 0.0015},
-        "material": {"E_Pa": 6.9e10, "rho_kg_m3": 2700, "nu": 0.33},
-        "joints": {"active": "locked", "elbow": "welded", "platform": "hinged"},
-        "working_mode": [-1, -1, -1]
-      },
-      "loads": {"F": {"node": "P", "force_N": [1, 0]}}
-    },
-    "analysis": {"elastodynamics": {"step_s": 0.001, "initial_state": "quasi-static"}}
-  })");
+  Json json = testing::manipulator();
+  json["model"].erase("pose");
+  json["model"]["manipulator"]["links"]["elements"] = 1;
+  json["model"]["loads"]["P"]["force_N"] = {1, 0};
+  json["analysis"] = {{"elastodynamics", {{"step_s", 0.001}, {"initial_state", "quasi-static"}}}};
   json["model"]["trajectory"] = trajectory;
   return json;
 }
@@ -45,8 +35,9 @@ Json& options(Json& json) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(platform_at_constant_speed_does_not_stand_still) {
-  // without acceleration its path frequency is nothing, and it was once compared with a pose held
+BOOST_AUTO_TEST_CASE(platform_at_constant_speed_is_not_at_rest) {
+  // Without acceleration the path frequency is zero. The motion was once compared with that at a
+  // fixed pose.
   Json json = motion(between("line", 0.01));
   options(json)["step_errors"] = true;
   const AnalysisResult moving = result_of(json);
@@ -58,7 +49,7 @@ BOOST_AUTO_TEST_CASE(platform_at_constant_speed_does_not_stand_still) {
 }
 
 BOOST_AUTO_TEST_CASE(quasi_static_motion_has_no_work_of_its_loads) {
-  // it once gave 0 J, nothing dissipated, and a drift of an energy of which that was a part
+  // The work was once 0 J, and the energy drift included it.
   Json json = motion(between("line", 0.01));
   options(json)["effects"] = {{"elastic_inertia", false}};
   const AnalysisResult result = result_of(json);

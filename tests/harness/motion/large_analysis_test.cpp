@@ -12,7 +12,7 @@ using boost::test_tools::tolerance;
 
 namespace {
 
-/// The paper's manipulator with hinged elbows and a rigid platform, one element a link.
+/// Returns the paper's manipulator with hinged elbows, a rigid platform and one element per link.
 Json hinged_manipulator() {
   return Json::parse(R"({
     "id": "hinged", "title": "Hinged elbows", "extends": "table-1.json",
@@ -22,7 +22,7 @@ Json hinged_manipulator() {
   })");
 }
 
-/// From a pose on, at constant speed for 0.1 s.
+/// Returns the manipulator on a trajectory of 0.1 s, which tracks the joint angles.
 Json tracking(const char* trajectory) {
   Json json = hinged_manipulator();
   json["model"]["pose"] = nullptr;
@@ -38,7 +38,7 @@ constexpr const char* kStraightSpline = R"({"spline": {"points": 2, "step_s": 0.
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(step_that_does_not_converge_is_named) {
+BOOST_AUTO_TEST_CASE(step_that_does_not_converge_is_reported) {
   Json json = testing::slider_crank();
   json["analysis"]["large-motion"]["steps"] = 3;
   const AnalysisResult result = result_of(json);
@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(step_that_does_not_converge_is_named) {
   BOOST_TEST(contains(result.outcome.reason, "step 4 at time 0.03 s"), result.outcome.reason);
 }
 
-// Differences about the first instant looked for poses before the table.
+// Differences about the first instant once required poses before the first knot.
 BOOST_AUTO_TEST_CASE(spline_is_tracked_from_first_to_last_instant) {
   const AnalysisResult spline = result_of(tracking(kStraightSpline));
   BOOST_REQUIRE_MESSAGE(spline.outcome.solved(), spline.outcome.reason);
@@ -69,7 +69,7 @@ BOOST_AUTO_TEST_CASE(node_where_only_hinges_meet_has_no_rotation) {
 
 BOOST_AUTO_TEST_CASE(drive_replaces_the_lock_of_an_actuator) {
   Json json = hinged_manipulator();
-  json["model"]["manipulator"]["material"]["E_Pa"] = 6.9e14;  // the link turns as one
+  json["model"]["manipulator"]["material"]["E_Pa"] = 6.9e14;  // the link is nearly rigid
   const Json law = {{"rest_to_rest", {{"travel", 0.05}, {"duration_s", 0.1}}}};
   json["analysis"]["large-motion"]["drives"] = {
       {"motor", {{"node", "A1"}, {"motion", "rotation"}, {"law", law}}}};
@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(drive_replaces_the_lock_of_an_actuator) {
 
 namespace {
 
-/// A free mass of 1 kg under 2 N times a history.
+/// Returns a free mass of 1 kg under 2 N times a load history.
 Json pushed(const Json& times, const Json& factors) {
   Json json = Json::parse(R"({
     "id": "pushed", "title": "A mass that is pushed",
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(steps_end_only_where_a_load_bends) {
   BOOST_TEST(testing::values(bent, "velocity_x_m_per_s:A").back() == 1, tolerance(1e-12));
 }
 
-// By similarity: the times of a length L go with its root.
+// By similarity, the times are proportional to the square root of the length.
 BOOST_AUTO_TEST_CASE(too_long_steps_are_refused_for_any_length) {
   for (const double length : {1e-3, 1.0, 1e3}) {
     Json json = Json::parse(R"({
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(too_long_steps_are_refused_for_any_length) {
 
 namespace {
 
-/// A rigid crank about O with masses at B and C.
+/// Returns a rigid crank about O with masses at B and C.
 Json crank() {
   return Json::parse(R"({
     "id": "crank", "title": "A rigid crank",
@@ -148,7 +148,7 @@ Json crank() {
 
 }  // namespace
 
-// v_y = -3/4 v_x in B, and C moves along y alone.
+// v_y = -3/4 v_x at B, and C moves along y only.
 BOOST_AUTO_TEST_CASE(suggested_velocity_is_admissible) {
   Json json = crank();
   Json& given = json["analysis"]["large-motion"]["initial_velocities"];

@@ -16,7 +16,7 @@ double last(const AnalysisResult& result, const std::string& name) {
   return values(result, name).back();
 }
 
-/// 1 kg on a spring of 100 N/m along x (w = 10 rad/s) under 1 N.
+/// Returns a mass of 1 kg on a spring of 100 N/m along x (w = 10 rad/s) under 1 N.
 Json oscillator() {
   return Json::parse(R"({
     "id": "oscillator", "title": "A mass on a spring",
@@ -33,12 +33,9 @@ Json oscillator() {
 
 Json harmonic() {
   Json json = oscillator();
-  json["analysis"] = {{"harmonic",
-                       {{"from_Hz", 1},
-                        {"to_Hz", 2},
-                        {"points", 11},
-                        {"damping", {{"modal", {{"ratio", 0.05}, {"modes", 1}}}}},
-                        {"outputs", {"displacement_x_m:P"}}}}};
+  json["analysis"] = Json::parse(
+      R"({"harmonic": {"from_Hz": 1, "to_Hz": 2, "points": 11, "outputs": ["displacement_x_m:P"],
+                       "damping": {"modal": {"ratio": 0.05, "modes": 1}}}})");
   return json;
 }
 
@@ -60,7 +57,7 @@ BOOST_AUTO_TEST_CASE(resonance_without_damping_has_no_peak) {
              tolerance(1e-10));
 }
 
-// At 1, 1.5 and 2 Hz it changes a ten-thousandth, at 10 rad/s everything.
+// At 1, 1.5 and 2 Hz damping changes the response by 1e-4. At resonance, 10 rad/s, it is essential.
 BOOST_AUTO_TEST_CASE(automatic_effects_keep_damping_of_a_response) {
   Json json = harmonic();
   json["analysis"]["harmonic"]["points"] = 3;

@@ -8,7 +8,7 @@
 
 BOOST_AUTO_TEST_SUITE(model_fields)
 
-/// The lists of fields and words, and cases/schema/case.schema.json.
+/// Compares the lists of fields and words with cases/schema/case.schema.json.
 using namespace trammel;
 using namespace trammel::harness;
 
@@ -21,7 +21,7 @@ const Json& schema() {
   return json;
 }
 
-/// The keys of a list of fields.
+/// Collects the keys of a list of fields.
 struct FieldList {
   Names required_keys, keys;
 
@@ -40,7 +40,7 @@ struct FieldList {
   }
 };
 
-/// @param read_alone  keys that are read and never written, and so have no place in the list
+/// @param read_alone  keys that are read but never written, and thus are not in the list
 template <class T>
 void check_fields(const std::string& definition, const Names& read_alone = {}) {
   const Json& rule = schema()["definitions"][definition];

@@ -19,7 +19,7 @@ namespace {
 /// Heads of the names of all quantities, by analysis.
 using Recorded = std::map<std::string, std::set<std::string>>;
 
-/// @returns the quantities, without those that belong to what a study is of
+/// @returns the heads of the quantities, without those that belong to a study itself
 std::set<std::string> heads_of(const Document& document, const Quantities& quantities) {
   const Json& analysis = document.value().at("analysis");
   std::set<std::string> studied, heads;
@@ -42,7 +42,7 @@ void record(const Document& document, Recorded& recorded) {
   recorded[analysis_kind(document)].merge(heads_of(document, result.quantities));
 }
 
-/// Of the catalogue, a few that together give nearly everything.
+/// Cases of the catalogue that together contain nearly all quantities.
 const std::vector<std::pair<const char*, const char*>> kCases = {
     {"cooks-membrane", "base"},
     {"hard-12-grnn", "one-sample"},
@@ -73,14 +73,14 @@ Json with_analysis(Json json, const std::string& analysis) {
   return json;
 }
 
-/// Every output, of a transient or harmonic analysis.
+/// All outputs of a transient or harmonic analysis.
 const std::string kOutputs = R"(["displacement_x_m:B", "displacement_y_m:B", "rotation_rad:B",
   "velocity_x_m_per_s:B", "velocity_y_m_per_s:B", "angular_velocity_rad_per_s:B",
   "acceleration_x_m_per_s2:B", "acceleration_y_m_per_s2:B", "axial_force_N:AB.start",
   "shear_force_N:AB.start", "bending_moment_N_m:AB.start", "bending_stress_Pa:AB.start",
   "stress_Pa:AB"])";
 
-/// What the catalogue does not have.
+/// Returns cases with quantities that the cases above do not have.
 std::vector<Json> further_cases() {
   const Json strip = testing::cantilever();
   Json buckled = strip;

@@ -10,7 +10,7 @@ namespace results = trammel::results;
 
 namespace {
 
-/// A run of one check with two entries, allowed +-1e-9.
+/// Returns a run of one check with two entries and a tolerance of +-1e-9.
 Configuration configuration(const std::string& name, double first, double second,
                             results::Verdict verdict = results::Verdict::pass) {
   results::Run run;
@@ -33,7 +33,7 @@ Configuration configuration(const std::string& name, double first, double second
   return made;
 }
 
-std::string told(const Certification& certificate) {
+std::string flips_of(const Certification& certificate) {
   std::string text;
   for (const VerdictFlip& flip : certificate.flips)
     text += flip.configuration + " " + flip.check + " " + flip.from + " " + flip.to + "; ";
@@ -42,7 +42,7 @@ std::string told(const Certification& certificate) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(digits_that_agree_are_counted_and_the_worst_is_named) {
+BOOST_AUTO_TEST_CASE(agreeing_digits_are_counted_and_the_worst_is_named) {
   const Certification found =
       certify({configuration("here", 2, 2), configuration("there", 2 + 2e-12, 2)});
   BOOST_TEST_REQUIRE(found.rows.size() == 1U);
@@ -69,10 +69,10 @@ BOOST_AUTO_TEST_CASE(different_verdict_and_missing_check_are_reported) {
   short_one.results.runs[0].checks.pop_back();
   const Certification found = certify({configuration("here", 2, 2), short_one});
   BOOST_TEST(found.rows[0].missing == 1U);
-  BOOST_TEST(told(found) ==
+  BOOST_TEST(flips_of(found) ==
              "short beam:base tip[0] pass fail; short beam:base tip[1] pass missing; ");
   const Certification more = certify({short_one, configuration("whole", 2, 2)});
-  BOOST_TEST(told(more) ==
+  BOOST_TEST(flips_of(more) ==
              "whole beam:base tip[0] fail pass; whole beam:base tip[1] missing pass; ");
 }
 
@@ -88,36 +88,36 @@ BOOST_AUTO_TEST_CASE(worst_entry_of_a_bound_may_differ) {
     const Certification found = certify({here, there});
     BOOST_TEST(found.rows[0].checks == 1U);
     BOOST_TEST(found.rows[0].fewest_digits == 16);
-    BOOST_TEST(told(found).empty());
+    BOOST_TEST(flips_of(found).empty());
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_run_that_ends_otherwise_or_is_not_there_is_told) {
+BOOST_AUTO_TEST_CASE(different_status_and_missing_run_are_reported) {
   for (const auto status : {results::Status::not_converged, results::Status::error}) {
     Configuration other = configuration("other", 2, 2);
     other.results.runs[0].status = status;
     other.results.runs[0].checks.clear();
     const Certification found = certify({configuration("here", 2, 2), other});
     BOOST_TEST(found.rows[0].missing == 2U);
-    BOOST_TEST(told(found) == "other beam:base solved " + to_string(status) + "; ");
+    BOOST_TEST(flips_of(found) == "other beam:base solved " + to_string(status) + "; ");
   }
   Configuration late = configuration("late", 2, 2);
   late.results.runs[0].status = results::Status::error;
   late.results.runs[0].reason = "took more than 5 s";
-  BOOST_TEST(told(certify({configuration("here", 2, 2), late})) ==
+  BOOST_TEST(flips_of(certify({configuration("here", 2, 2), late})) ==
              "late beam:base solved error: took more than 5 s; ");
   const Certification none = certify({configuration("here", 2, 2), {"none", {}}});
-  BOOST_TEST(told(none) == "none beam:base solved missing; ");
+  BOOST_TEST(flips_of(none) == "none beam:base solved missing; ");
 }
 
-BOOST_AUTO_TEST_CASE(run_that_ends_nowhere_is_reported_for_each) {
+BOOST_AUTO_TEST_CASE(run_failing_everywhere_is_reported_for_each) {
   Configuration here = configuration("here", 2, 2), there = configuration("there", 2, 2);
   for (Configuration* one : {&here, &there}) one->results.runs[0].status = results::Status::error;
-  BOOST_TEST(told(certify({here, there})) ==
+  BOOST_TEST(flips_of(certify({here, there})) ==
              "here beam:base error error; there beam:base error error; ");
   for (Configuration* one : {&here, &there})
     one->results.runs[0].status = results::Status::singular;
-  BOOST_TEST(told(certify({here, there})).empty());
+  BOOST_TEST(flips_of(certify({here, there})).empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()

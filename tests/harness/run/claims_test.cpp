@@ -17,16 +17,10 @@ namespace {
 
 Document claims_of(const Json& readings, const std::string& expected,
                    const std::string& together = "parts") {
-  const Json json = {{"title", "A paper"},
-                     {"source", "someone-2020"},
-                     {"claims",
-                      {{"1",
-                        {{"claim", "It holds."},
-                         {"place", "Page 1"},
-                         {"interpretations", readings},
-                         {"combine_as", together},
-                         {"expected", expected},
-                         {"conclusion", "So it is."}}}}}};
+  Json json = Json::parse(R"({"title": "A paper", "source": "someone-2020", "claims": {"1": {
+    "claim": "It holds.", "place": "Page 1", "conclusion": "So it is."}}})");
+  json["claims"]["1"].update(
+      {{"interpretations", readings}, {"combine_as", together}, {"expected", expected}});
   Document document;
   document.apply_patch("claims.json", "", json);
   document.validate("claims");
@@ -43,7 +37,7 @@ CheckResult entry(const std::string& name, double computed, double expected) {
   return one;
 }
 
-/// A run of the case "bend" with a check of two entries and a quantity.
+/// Returns a run of the case "bend" with a check of two entries and a quantity.
 Run bend(double first, double second) {
   Run run;
   run.case_id = "bend";
@@ -63,6 +57,10 @@ const Json ratio = {{"description", "tip over target"},
                     {"confirms", {0.9, 1.1}},
                     {"contradicts", {1.5, nullptr}}};
 
+const Json grows = {{"description", "growth"},    {"case", "bend"},
+                    {"quantity", "frequency_Hz"}, {"metric", "steps"},
+                    {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
+
 std::string verdict(const Document& document, const std::vector<Run>& runs) {
   return evaluate_claims(document, runs).claims.at(0).verdict;
 }
@@ -78,14 +76,14 @@ BOOST_AUTO_TEST_CASE(numbers_and_rules_alone_decide_a_claim) {
   BOOST_TEST((verdict(document, {}) == "not measured"));
 }
 
-BOOST_AUTO_TEST_CASE(a_verdict_that_no_longer_follows_is_seen) {
+BOOST_AUTO_TEST_CASE(changed_verdict_of_a_claim_is_detected) {
   const Document document = claims_of({{"r", ratio}}, "confirmed");
   BOOST_TEST(exit_status(evaluate_claims(document, {bend(1, 1)})) == 0);
   BOOST_TEST(exit_status(evaluate_claims(document, {bend(1, 2)})) == 1);
   BOOST_TEST(!evaluate_claims(document, {}).as_recorded);
 }
 
-BOOST_AUTO_TEST_CASE(one_verdict_that_no_longer_follows_spoils_the_set) {
+BOOST_AUTO_TEST_CASE(one_changed_verdict_changes_the_full_set) {
   Json json = claims_of({{"r", ratio}}, "confirmed").value();
   json["claims"]["2"] = json["claims"]["1"];
   json["claims"]["2"]["expected"] = "contradicted";
@@ -93,7 +91,7 @@ BOOST_AUTO_TEST_CASE(one_verdict_that_no_longer_follows_spoils_the_set) {
   BOOST_TEST(!evaluate_claims(document, {bend(1, 1)}).as_recorded);
 }
 
-BOOST_AUTO_TEST_CASE(a_claim_that_misses_a_number_is_not_measured) {
+BOOST_AUTO_TEST_CASE(claim_with_a_missing_number_is_not_measured) {
   const Document document = claims_of({{"r", ratio}}, "confirmed");
   Run broken = bend(1, 1);
   broken.status = results::Status::error;
@@ -110,7 +108,7 @@ BOOST_AUTO_TEST_CASE(a_claim_that_misses_a_number_is_not_measured) {
   BOOST_TEST((verdict(document, {half}) == "not measured"));
 }
 
-BOOST_AUTO_TEST_CASE(what_one_interpretation_misses_no_other_makes_up_for) {
+BOOST_AUTO_TEST_CASE(missing_interpretation_leaves_a_claim_unmeasured) {
   Json other = ratio;
   other["check"] = "tip-y";
   Run half = bend(1, 1);
@@ -119,7 +117,7 @@ BOOST_AUTO_TEST_CASE(what_one_interpretation_misses_no_other_makes_up_for) {
       (verdict(claims_of({{"r", ratio}, {"s", other}}, "contradicted"), {half}) == "not measured"));
 }
 
-BOOST_AUTO_TEST_CASE(a_relative_difference_is_one_of_what_is_expected) {
+BOOST_AUTO_TEST_CASE(relative_metric_refers_to_the_expected_value) {
   Json relative = ratio;
   relative["metric"] = "relative";
   relative["confirms"] = {0.45, 0.55};
@@ -143,7 +141,7 @@ BOOST_AUTO_TEST_CASE(alternatives_that_differ_decide_nothing) {
                  .entries.size() == 3U);
 }
 
-BOOST_AUTO_TEST_CASE(entries_that_count_jointly_confirm_only_together) {
+BOOST_AUTO_TEST_CASE(entries_required_together_confirm_together_only) {
   Json jointly = ratio;
   jointly["require_all_entries"] = true;
   jointly["contradicts"] = "otherwise";
@@ -153,7 +151,7 @@ BOOST_AUTO_TEST_CASE(entries_that_count_jointly_confirm_only_together) {
   BOOST_TEST((verdict(document, {bend(3, 1)}) == "contradicted"));
 }
 
-BOOST_AUTO_TEST_CASE(what_confirms_may_be_all_that_does_not_contradict) {
+BOOST_AUTO_TEST_CASE(otherwise_confirms_all_that_does_not_contradict) {
   Json away = ratio;
   away["confirms"] = "otherwise";
   away["contradicts"] = {-1, 1};
@@ -163,10 +161,7 @@ BOOST_AUTO_TEST_CASE(what_confirms_may_be_all_that_does_not_contradict) {
   BOOST_TEST(!evaluate_claims(document, {bend(0.5, 0.5)}).as_recorded);
 }
 
-BOOST_AUTO_TEST_CASE(steps_of_a_quantity_say_whether_it_grows) {
-  const Json grows = {{"description", "growth"},    {"case", "bend"},
-                      {"quantity", "frequency_Hz"}, {"metric", "steps"},
-                      {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
+BOOST_AUTO_TEST_CASE(steps_of_a_quantity_measure_its_growth) {
   const results::Claims found =
       evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {bend(1, 1)});
   const results::ClaimInterpretation& reading = found.claims[0].interpretations[0];
@@ -177,13 +172,12 @@ BOOST_AUTO_TEST_CASE(steps_of_a_quantity_say_whether_it_grows) {
   BOOST_TEST((reading.verdict == "confirms in part"));
 }
 
-BOOST_AUTO_TEST_CASE(quantity_that_is_no_number_leaves_its_claim_unmeasured) {
-  const Json grows = {{"description", "growth"},    {"case", "bend"},
-                      {"quantity", "frequency_Hz"}, {"metric", "value"},
-                      {"confirms", {0, nullptr}},   {"contradicts", {nullptr, 0}}};
+BOOST_AUTO_TEST_CASE(claim_on_a_nan_quantity_is_not_measured) {
+  Json value = grows;
+  value["metric"] = "value";
   Run run = bend(1, 1);
   run.quantities["frequency_Hz"] = {{1, std::nan(""), 2}, {}};
-  const results::Claims found = evaluate_claims(claims_of({{"g", grows}}, "confirmed"), {run});
+  const results::Claims found = evaluate_claims(claims_of({{"g", value}}, "confirmed"), {run});
   BOOST_TEST((found.claims[0].verdict == "not measured"));
   BOOST_TEST(found.claims[0].interpretations[0].entries.size() == 2U);
   for (const results::ClaimEntry& entry : found.claims[0].interpretations[0].entries) {
@@ -191,7 +185,7 @@ BOOST_AUTO_TEST_CASE(quantity_that_is_no_number_leaves_its_claim_unmeasured) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_rule_that_contradicts_itself_is_refused) {
+BOOST_AUTO_TEST_CASE(contradictory_claim_rule_is_refused) {
   const auto refusal = [](const char* key, const Json& value) {
     Json reading = ratio;
     reading[key] = value;
@@ -207,7 +201,7 @@ BOOST_AUTO_TEST_CASE(a_rule_that_contradicts_itself_is_refused) {
   BOOST_TEST(contains(refusal("metric", "quotient"), "/claims/1/interpretations/r/metric"));
 }
 
-BOOST_AUTO_TEST_CASE(the_catalogue_has_eleven_claims_and_knows_their_cases) {
+BOOST_AUTO_TEST_CASE(eleven_claims_name_existing_cases_and_checks) {
   const Document document = load_claims();
   const results::Claims found = evaluate_claims(document, {});
   BOOST_TEST(found.claims.size() == 11U);
@@ -215,7 +209,7 @@ BOOST_AUTO_TEST_CASE(the_catalogue_has_eleven_claims_and_knows_their_cases) {
     const bool undecidable = !claim.undecidable.empty();
     BOOST_TEST((claim.verdict == (undecidable ? "cannot be decided" : "not measured")));
   }
-  // No reading names a case or a check that is not there.
+  // Every interpretation names an existing case and check.
   const std::vector<Case> catalogue = Catalogue().load();
   for (const auto& [id, claim] : JsonView(document)["claims"].entries()) {
     if (!claim.has("interpretations")) continue;

@@ -12,7 +12,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Results with one run of these quantities.
+/// Returns results with one run of these quantities.
 Side side(const std::string& label, const std::map<std::string, std::vector<double>>& quantities) {
   Side made{label, {}, std::nullopt};
   made.results.cases.emplace_back();
@@ -30,7 +30,7 @@ results::SideComparison compared(const Side& a, const Side& b) {
   return harness::compare_sides({a, b}, false);
 }
 
-/// Modes of two nodes that move along y only.
+/// Returns modes of two nodes that move along y only.
 Side drawn(const std::string& label, const std::vector<double>& frequencies,
            const std::vector<std::pair<double, double>>& shapes) {
   Side made = side(label, {{"frequency_Hz", frequencies}});
@@ -66,24 +66,24 @@ BOOST_AUTO_TEST_CASE(difference_within_stated_round_off_is_no_change) {
   BOOST_TEST(contains(within.conclusion, "Nothing has changed"), within.conclusion);
   a.results.runs[0].checks = {check_of("mass_kg", 1, 1e-7, "discretisation")};
   BOOST_TEST(compared(a, b).changed == 1U);
-  // What calls itself round-off and is as large as an error of a model is none.
+  // A tolerance of 1e-2 is not round-off, whatever its reason states.
   b.results.runs[0].quantities["mass_kg"].values = {1.001};
   a.results.runs[0].checks = {check_of("mass_kg", 1, 1e-2, "round-off")};
   BOOST_TEST(compared(a, b).changed == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(a_change_on_the_second_of_three_sides_is_one) {
+BOOST_AUTO_TEST_CASE(change_on_any_of_three_sides_is_counted) {
   const Side a = side("a", {{"mass_kg", {1.0}}}), b = side("b", {{"mass_kg", {2.0}}}),
              c = side("c", {{"mass_kg", {1.0}}});
   BOOST_TEST(harness::compare_sides({a, b, c}, false).changed == 1U);
   BOOST_TEST(harness::compare_sides({a, c, b}, false).changed == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(the_round_off_of_a_relative_check_is_of_what_it_expects) {
+BOOST_AUTO_TEST_CASE(round_off_of_a_relative_check_scales_with_expected) {
   Side a = side("a", {{"mass_kg", {10.0}}});
   const Side b = side("b", {{"mass_kg", {10 + 5e-8}}});
   a.results.runs[0].checks = {check_of("mass_kg", 10, 1e-8, "round-off of long sums")};
-  BOOST_TEST(compared(a, b).changed == 0U);  // half of the 1e-7 kg that it allows
+  BOOST_TEST(compared(a, b).changed == 0U);  // half of the tolerance, 1e-7 kg
   a.results.runs[0].checks[0].measure = "absolute";
   BOOST_TEST(compared(a, b).changed == 1U);
 }
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(round_off_of_a_refinement_counts) {
   study.roundoff = {1e-9, 1e-8};
   b.results.runs[0].convergence = {study};
   BOOST_TEST(compared(a, b).changed == 0U);
-  // More than a millionth is no round-off, whoever says so.
+  // More than one millionth is not round-off, whatever the study states.
   b.results.runs[0].convergence[0].roundoff = {1e-3, 1e-3};
   BOOST_TEST(compared(a, b).changed == 1U);
   b.results.runs[0].convergence = {study};
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(round_off_of_a_refinement_counts) {
   BOOST_TEST(compared(a, b).changed == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(a_zero_has_no_percent_and_its_round_off_is_no_change) {
+BOOST_AUTO_TEST_CASE(zero_has_no_percent_and_its_round_off_is_no_change) {
   const Side a = side("a", {{"force_N:A", {1e-13}}, {"force_N:B", {100.0}}});
   const Side b = side("b", {{"force_N:A", {-3e-12}}, {"force_N:B", {101.0}}});
   const results::SideComparison found = compared(a, b);
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(modes_are_matched_by_their_drawn_shapes) {
   BOOST_TEST(*modes[1].percent[1] == -40, boost::test_tools::tolerance(1e-9));
 }
 
-BOOST_AUTO_TEST_CASE(two_equal_frequencies_are_one_set_whose_shapes_may_turn) {
+BOOST_AUTO_TEST_CASE(equal_frequencies_are_matched_as_one_set) {
   const double s = std::sqrt(0.5);
   const Side a = drawn("a", {10, 10}, {{1, 0}, {0, 1}});
   const results::SideComparison found = compared(a, drawn("b", {11, 11}, {{s, s}, {s, -s}}));
@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(missing_run_and_other_verdict_are_changes) {
 
 namespace {
 
-/// A side whose checks of one entry each are off by the error, times a factor for each.
+/// Returns a side with one-entry checks whose errors are `error` times a factor.
 Side with_errors(const std::string& label, double error, const std::vector<double>& factors) {
   Side made = side(label, {{"mass_kg", {1.0}}});
   for (const double factor : factors) {

@@ -12,7 +12,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// A call with one check of this value and verdict.
+/// Returns a call with one check of this value and verdict.
 results::Results call(const std::string& commit, double value,
                       results::Verdict verdict = results::Verdict::pass, std::size_t work = 10) {
   results::Results made;
@@ -55,7 +55,7 @@ BOOST_AUTO_TEST_CASE(first_commit_of_a_changed_value_is_named) {
   BOOST_TEST(found.changes[0].verdict == "fail");
 }
 
-BOOST_AUTO_TEST_CASE(round_off_is_no_change_and_what_has_gone_back_is_none) {
+BOOST_AUTO_TEST_CASE(round_off_and_reverted_values_are_no_change) {
   const Folder folder;
   BOOST_TEST(kept(folder, {call("one", 10), call("two", 10 * (1 + 1e-12))}).changes.empty());
   const History back = kept(folder, {call("three", 12, results::Verdict::fail), call("four", 10)});
@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(millionth_of_the_tolerance_is_round_off) {
   BOOST_TEST(kept(other, {tolerated("one", 10), tolerated("two", 10.001)}).changes.size() == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(a_value_that_goes_one_way_in_small_steps_drifts) {
+BOOST_AUTO_TEST_CASE(small_steps_in_one_direction_are_a_drift) {
   const Folder folder, other;
   const History found =
       kept(folder, {call("1", 10), call("2", 10.01), call("3", 10.02), call("4", 10.03)});
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(counted_work_is_compared_exactly) {
   BOOST_TEST(found.changes[0].verdict == "gone");
 }
 
-BOOST_AUTO_TEST_CASE(what_does_not_change_is_not_written_again) {
+BOOST_AUTO_TEST_CASE(unchanged_values_are_not_written_again) {
   const Folder folder;
   results::Results many = call("same", 10);
   std::vector<results::Check>& checks = many.runs[0].checks;
@@ -107,14 +107,14 @@ BOOST_AUTO_TEST_CASE(what_does_not_change_is_not_written_again) {
   BOOST_TEST(std::filesystem::file_size(folder.path() / "history.db") <= before + 8192);
 }
 
-BOOST_AUTO_TEST_CASE(a_file_that_is_no_history_is_left_as_it_is) {
+BOOST_AUTO_TEST_CASE(file_that_is_no_history_is_not_changed) {
   const Folder folder;
   (void)folder.write("history.db", "not a database, but long enough to be read as one");
   BOOST_CHECK_THROW(append_history(folder.path() / "history.db", call("one", 10)), InputError);
   BOOST_CHECK_THROW((void)read_history(folder.path() / "none.db"), InputError);
 }
 
-BOOST_AUTO_TEST_CASE(a_history_of_a_later_format_is_refused_and_not_added_to) {
+BOOST_AUTO_TEST_CASE(history_of_a_later_format_is_refused) {
   const Folder folder;
   const auto file = folder.path() / "history.db";
   (void)kept(folder, {call("one", 10)});

@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(every_item_and_claim_of_the_paper_has_a_row) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_an_item_names_must_be_there) {
+BOOST_AUTO_TEST_CASE(paper_item_must_name_existing_counterparts) {
   const auto shown = [](const Json& counterpart) {
     return fault_of({{"shown_by", {counterpart}}});
   };

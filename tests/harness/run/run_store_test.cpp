@@ -23,16 +23,9 @@ std::vector<fs::path> entries(const fs::path& store) {
   return files;
 }
 
-/// A cantilever and variants of it, one with a reference beside the case.
+/// Returns a cantilever with variants and writes a reference next to the case.
 Json cases(const Folder& folder, double reference_N) {
-  folder.write_reference({{"id", "load"},
-                          {"title", "Load"},
-                          {"kind", "computed"},
-                          {"unit", "N"},
-                          {"values", {reference_N}},
-                          {"uncertainty", {{"absolute", 0}}},
-                          {"source", "me"},
-                          {"place", "here"}});
+  folder.write_reference("load", "N", reference_N, {{"absolute", 0}}, "computed");
   Json json = testing::cantilever();
   json["variants"]["long"]["model"]["nodes"]["B"] = {3, 0};
   json["variants"]["unsupported"]["model"]["supports"] = {{"A", {"x", "y"}}};
@@ -43,7 +36,7 @@ Json cases(const Folder& folder, double reference_N) {
 
 struct Resumed {
   std::string results;
-  std::vector<double> wall_s;  ///< of a run taken from the store as it was when it was computed
+  std::vector<double> wall_s;  ///< a stored run keeps the time of its computation
 };
 
 Resumed run_all(const Folder& folder, const Json& json, bool resume) {
@@ -63,7 +56,7 @@ Resumed run_all(const Folder& folder, const Json& json, bool resume) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_computation_is_kept_bit_for_bit) {
+BOOST_AUTO_TEST_CASE(stored_computation_is_bit_identical) {
   Run computation;
   computation.status = results::Status::solved;
   computation.quantities["q"] = {
@@ -81,7 +74,7 @@ BOOST_AUTO_TEST_CASE(a_computation_is_kept_bit_for_bit) {
               std::isnan(values[3]) && std::isinf(values[4])));
 }
 
-BOOST_AUTO_TEST_CASE(a_resumed_run_gives_the_same_results_times_included) {
+BOOST_AUTO_TEST_CASE(resumed_run_returns_identical_results) {
   const Folder folder;
   const Json json = cases(folder, 100);
   const std::string first = run_all(folder, json, false).results;
@@ -89,7 +82,7 @@ BOOST_AUTO_TEST_CASE(a_resumed_run_gives_the_same_results_times_included) {
   BOOST_TEST(run_all(folder, json, true).results == first);
 }
 
-BOOST_AUTO_TEST_CASE(what_was_under_way_at_an_interruption_is_resumed_last) {
+BOOST_AUTO_TEST_CASE(interrupted_run_is_resumed_last) {
   const Folder folder;
   const Json json = cases(folder, 100);
   const Document base = patched(testing::read(folder, json), kBaseVariant);
@@ -107,7 +100,7 @@ BOOST_AUTO_TEST_CASE(what_was_under_way_at_an_interruption_is_resumed_last) {
     BOOST_TEST((fs::last_write_time(file) <= fs::last_write_time(first)), file);
 }
 
-BOOST_AUTO_TEST_CASE(a_broken_entry_is_computed_again) {
+BOOST_AUTO_TEST_CASE(corrupted_entry_is_computed_again) {
   const Folder folder;
   const Json json = cases(folder, 100);
   const Resumed first = run_all(folder, json, false);
@@ -128,7 +121,7 @@ BOOST_AUTO_TEST_CASE(a_broken_entry_is_computed_again) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_decides_a_run_decides_its_name) {
+BOOST_AUTO_TEST_CASE(name_of_a_run_depends_on_its_inputs) {
   const Folder folder;
   Json json = cases(folder, 100);
   const auto name = [&] { return computation_name(testing::read(folder, json).document, true); };
@@ -139,16 +132,12 @@ BOOST_AUTO_TEST_CASE(what_decides_a_run_decides_its_name) {
   BOOST_TEST(name() != first);
 }
 
-BOOST_AUTO_TEST_CASE(a_case_that_options_try_decides_their_name) {
+BOOST_AUTO_TEST_CASE(changed_tried_case_changes_the_name_of_options) {
   const Folder folder;
   Json tried = testing::cantilever();
   tried["id"] = "tried";
-  const Json options = {
-      {"id", "options"},
-      {"title", "t"},
-      {"analysis",
-       {{"options",
-         {{"cases", {{"tried", Json::object()}}}, {"analyses", {{"statics", Json::object()}}}}}}}};
+  const Json options = Json::parse(R"({"id": "options", "title": "t", "analysis": {
+    "options": {"cases": {"tried": {}}, "analyses": {"statics": {}}}}})");
   const auto name = [&] {
     (void)folder.write(tried);
     return computation_name(load_case(folder.write(options)).document, true);
@@ -158,7 +147,7 @@ BOOST_AUTO_TEST_CASE(a_case_that_options_try_decides_their_name) {
   BOOST_TEST(name() != first);
 }
 
-BOOST_AUTO_TEST_CASE(a_reference_that_changed_or_came_makes_an_entry_stale) {
+BOOST_AUTO_TEST_CASE(changed_or_added_reference_invalidates_an_entry) {
   const Folder folder;
   const std::string place = (folder.path() / "references.json").string() + "#/";
   folder.write_reference({{"id", "r"}, {"values", {1}}});
@@ -176,7 +165,7 @@ BOOST_AUTO_TEST_CASE(a_reference_that_changed_or_came_makes_an_entry_stale) {
   BOOST_TEST(!find_stored(entry, computation));
 }
 
-BOOST_AUTO_TEST_CASE(times_of_another_machine_are_not_taken_over) {
+BOOST_AUTO_TEST_CASE(times_of_another_machine_are_not_reused) {
   const Folder folder;
   Run computation;
   computation.machine = "another";
@@ -215,7 +204,7 @@ BOOST_AUTO_TEST_CASE(unchanged_scenes_of_effects_are_measured_once) {
   BOOST_TEST(measured == 3);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_not_used_for_a_month_is_dropped) {
+BOOST_AUTO_TEST_CASE(entries_unused_for_a_month_are_removed) {
   const Folder folder;
   const auto old = folder.path() / "old.cbor", used = folder.path() / "used.cbor";
   const auto other = folder.write("old.json", "1");

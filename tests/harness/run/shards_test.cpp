@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Four computations, one of them only compared with, and one that ends in an error.
+/// Returns four computations: one is only compared with, and one ends with an error.
 std::vector<Case> cases(const Folder& folder) {
   Json json = testing::cantilever();
   json["variants"]["long"]["model"]["nodes"]["B"] = {3, 0};
@@ -63,7 +63,7 @@ void change(const fs::path& folder, const char* key, const Json& value) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_shard_is_k_of_n) {
+BOOST_AUTO_TEST_CASE(shard_is_read_from_k_of_n) {
   BOOST_TEST(shard_from("2/8").number == 2U);
   BOOST_TEST(shard_from("8/8").count == 8U);
   for (const char* bad : {"", "2", "0/3", "4/3", "1/100001", "-1/3", "1/3 ", "1/", "/3", "a/b"})
@@ -83,10 +83,10 @@ BOOST_AUTO_TEST_CASE(merged_shards_equal_a_run_in_one) {
     if (done_before == 0) done_before = done;
   };
   BOOST_TEST(results_text(run_cases(all, References(), options), all) == whole);
-  BOOST_TEST(done_before == 4U);  // the first told is the one that ends in an error
+  BOOST_TEST(done_before == 4U);  // the first one reported ends with an error
 }
 
-BOOST_AUTO_TEST_CASE(shards_that_are_no_whole_are_refused) {
+BOOST_AUTO_TEST_CASE(incomplete_and_inconsistent_shards_are_refused) {
   const Folder folder;
   const auto folders = computed_shards(folder, cases(folder), 2);
   const fs::path store = folder.path() / "merged";

@@ -1,10 +1,8 @@
 #!/usr/bin/env python3
-"""Shards on a real Slurm: munge, slurmctld and two slurmd on this machine, one of which dies in the middle.
+"""Tests shards with a real Slurm: munge, slurmctld and two slurmd on this machine. One slurmd dies during the run.
 
-Argument: the program. Sends what `trammel slurm` prints, kills a node with all its processes once it has
-computed something, and compares the merged results with those of one call. Exit status 77 where
-Slurm is not installed.
-"""
+Argument: the program. Submits the output of `trammel slurm`, kills a node with all its processes after the first results, and
+compares the merged results with those of one call. The exit status is 77 if Slurm is not installed."""
 import json
 import os
 import pathlib
@@ -42,7 +40,7 @@ PartitionName=all Nodes=n[1-2] Default=YES
 
 
 class Cluster:
-    """Two nodes; all processes of each in a session of its own."""
+    """Two nodes; the daemons run in separate sessions."""
 
     def __init__(self, folder):
         self.folder, self.processes = folder, {}
@@ -66,7 +64,7 @@ class Cluster:
             self.processes[name] = subprocess.Popen(words, stdout=log, stderr=log, start_new_session=True)
 
     def kill(self, name):
-        """The daemon, its step daemons (which have left it) and what they run, all at once."""
+        """Kills the daemon, its step daemons, which have detached, and all their processes at once."""
         if self.processes[name].poll() is not None:
             return
         family = {self.processes[name].pid}
@@ -107,7 +105,7 @@ def wait_for(what, condition, limit_s):
 
 
 def numbers(out):
-    """All but times, date, and how many runs a call found done: of a merge, all."""
+    """Returns the results without times, date and the number of stored runs, which includes all runs after a merge."""
     results = json.loads((out / "results.json").read_text())
     for key in ("date", "stored_runs"):
         results["environment"].pop(key, None)
@@ -121,7 +119,7 @@ def kept(out, shard="*"):
 
 
 def lose_a_node(cluster, out):
-    """Kills the node of a shard under way. @returns the shard's number"""
+    """Kills the node of a running shard. @returns the shard's number"""
     wait_for("first results", lambda: kept(out) >= 2, 120)
     shard, node = said("squeue", "-h", "-r", "-t", "R", "-o", "%K %N").splitlines()[0].split()
     cluster.kill(node)
@@ -149,7 +147,7 @@ def main():
             requeued = lambda: said("squeue", "-h", "-r", "-t", "PD", "-o", "%K %r").split("\n").count(f"{shard} BeginTime")
             wait_for(f"shard {shard} in the queue again", requeued, 60)
             job = said("squeue", "-h", "-r", "-t", "PD", "-o", "%A %K %r").split("\n")
-            for line in job:  # Slurm would wait two minutes
+            for line in job:  # otherwise Slurm waits two minutes
                 if line.endswith(f" {shard} BeginTime"):
                     said("scontrol", "update", f"JobId={line.split()[0]}", "StartTime=now")
             wait_for("an empty queue", lambda: not said("squeue", "-h", "-o", "%i"), 300)

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A cantilever in two meshes, refined, with its drawing, in a store.
+/// Returns stored results of a cantilever with two meshes, a sweep and a drawing.
 results::Results computed(const Folder& folder) {
   Json json = testing::cantilever();
   json["variants"]["two"]["model"]["elements"] = 2;
@@ -32,7 +32,7 @@ results::Results computed(const Folder& folder) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(what_is_read_back_with_its_store_is_what_was_written) {
+BOOST_AUTO_TEST_CASE(results_read_back_with_their_store_are_unchanged) {
   const Folder folder;
   results::Results before = computed(folder);
   const fs::path file = write_results(before, folder.path() / "out");
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(shared_citation_is_stored_once) {
   }
   results.references.back().notes = "A note.";
   Json json = to_json(results);
-  BOOST_TEST(json["citations"] == Json::array({"One book.", ""}));  // and no place
+  BOOST_TEST(json["citations"] == Json::array({"One book.", ""}));  // the places are empty
   BOOST_TEST(json["references"]["b"]["citation"] == 0);
   const results::Results read = results::read_results(json);
   BOOST_TEST(read.references.at(1).citation == "One book.");
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(broken_and_foreign_files_of_a_store_are_missing) {
   BOOST_TEST(load_results(file).missing == "");
 }
 
-BOOST_AUTO_TEST_CASE(a_place_beyond_the_reasons_is_refused) {
+BOOST_AUTO_TEST_CASE(index_beyond_the_reasons_is_refused) {
   const Folder folder;
   const fs::path file = write_results(computed(folder), folder.path() / "out");
   Json json = read_json(file);

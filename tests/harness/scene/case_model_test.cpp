@@ -13,8 +13,7 @@ using namespace trammel::testing;
 namespace {
 
 CaseModel case_model_of(const Json& json) {
-  const Folder folder;
-  return read_case_model(patched(testing::read(folder, json), "base"));
+  return read_case_model(document_of(json));
 }
 
 }  // namespace
@@ -51,7 +50,7 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_planar_model_reaches_the_model) {
   BOOST_TEST((member.ends[1].fixity == EndFixity::sprung && member.ends[1].stiffness == 7));
   BOOST_TEST((member.load == Vector2d(1, -2)));
   BOOST_TEST(built.members.at(0).elements == 4);  // the model's default
-  // Triangles run counterclockwise however they are written.
+  // Triangles are counterclockwise for either order of their nodes.
   BOOST_TEST((built.triangles.at(0).nodes == built.triangles.at(1).nodes));
   BOOST_TEST(built.rigid_bodies.at(0).attached.at(0) == 2);
   BOOST_TEST((built.masses.at(0).mass == 2 && built.masses.at(0).inertia == 3));

@@ -21,7 +21,7 @@ std::vector<Eigen::VectorXd> wave(double periods) {
   return q;
 }
 
-/// The manipulator on a line of 10 mm in 0.1 s, pushed at P.
+/// Returns the manipulator on a line of 10 mm in 0.1 s with a force at P.
 Json on_a_line(const Json& analysis) {
   Json json = testing::manipulator();
   json["model"].erase("pose");
@@ -33,7 +33,7 @@ Json on_a_line(const Json& analysis) {
   return json;
 }
 
-/// The value of a quantity at a moment that is drawn.
+/// Returns the value of a quantity at a drawn moment.
 double at(const AnalysisResult& result, const std::string& name, const results::Pose& moment) {
   const std::vector<double>& time = values(result, "time_s");
   const auto found =
@@ -48,7 +48,7 @@ const std::vector<results::Pose>& moments(const AnalysisResult& result, std::siz
   return result.drawing->poses;
 }
 
-constexpr std::size_t kP = 9;  ///< the platform's centre among the nodes of a manipulator
+constexpr std::size_t kP = 9;  ///< index of the platform's center among the nodes of a manipulator
 
 }  // namespace
 
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(moment_along_a_path_is_drawn_with_its_deflection) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_moment_of_a_large_motion_is_drawn_where_it_is) {
+BOOST_AUTO_TEST_CASE(poses_of_a_large_motion_are_drawn_at_their_positions) {
   const AnalysisResult result = result_of(Json::parse(R"({
     "id": "pendulum", "title": "A pendulum that is turned",
     "model": {

@@ -31,7 +31,7 @@ AnalysisResult of_cantilever(double force_x, double force_y, const char* analysi
 
 }  // namespace
 
-// The tip turns by F L^2 / 2 EI = 2.4e-6 rad a newton.
+// The tip rotates by F L^2 / (2 E I) = 2.4e-6 rad per newton.
 BOOST_AUTO_TEST_CASE(linear_rotation_beyond_its_range_warns) {
   BOOST_TEST(of_cantilever(0, 40000, "statics").warnings.empty());
   const AnalysisResult beyond = of_cantilever(0, 50000, "statics");
@@ -41,7 +41,7 @@ BOOST_AUTO_TEST_CASE(linear_rotation_beyond_its_range_warns) {
   BOOST_TEST(of_cantilever(0, 50000, "large-statics").warnings.empty());
 }
 
-// A strip of 0.2 m ended at -64 m without a word. N / EA = V / EA = 1e-9 a newton.
+// A strip of 0.2 m once ended at -64 m without a warning. N / EA = V / EA = 1e-9 per newton.
 BOOST_AUTO_TEST_CASE(strain_beyond_its_range_warns) {
   for (const char* analysis : {"statics", "large-statics"}) {
     BOOST_TEST(of_cantilever(9e7, 0, analysis).warnings.empty());
@@ -55,9 +55,9 @@ BOOST_AUTO_TEST_CASE(strain_beyond_its_range_warns) {
   }
 }
 
-// Euler's load of the cantilever is pi^2 E I / 4 L^2; at 0.95 of it displacements are some 20 times
-// as large.
-BOOST_AUTO_TEST_CASE(second_order_theory_near_buckling_says_so) {
+// Euler's load of the cantilever is pi^2 E I / (4 L^2). At 0.95 of it, displacements are about 20
+// times those of linear theory.
+BOOST_AUTO_TEST_CASE(second_order_theory_near_buckling_warns) {
   const double critical = std::pow(std::numbers::pi / 4, 2) * 2e11 * 0.05 * 1e-3 / 12;
   for (const auto& [share, across, warned] :
        {std::tuple(0.8, 1e3, false), std::tuple(0.95, 1e3, true), std::tuple(0.99, 1e-4, true)}) {
@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(loads_without_compression_warn_in_buckling) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(what_cannot_vibrate_or_buckle_is_singular_and_says_why) {
+BOOST_AUTO_TEST_CASE(model_that_cannot_vibrate_or_buckle_is_singular) {
   const auto reason = [](const Json& supports, double density, const char* analysis) {
     Json json = testing::cantilever();
     json["model"]["elements"] = 1;
@@ -99,8 +99,8 @@ BOOST_AUTO_TEST_CASE(what_cannot_vibrate_or_buckle_is_singular_and_says_why) {
              "nothing vibrates: no part that can move has a mass");
 }
 
-// A rigid beam on three supports: two bear it.
-BOOST_AUTO_TEST_CASE(reactions_that_equilibrium_does_not_determine_are_told) {
+// A rigid beam on three supports is statically indeterminate.
+BOOST_AUTO_TEST_CASE(indeterminate_reactions_warn) {
   Json json = testing::cantilever();
   BOOST_TEST(result_of(json).warnings.empty());
   json["model"]["members"] = Json::object();
@@ -121,8 +121,8 @@ BOOST_AUTO_TEST_CASE(reactions_that_equilibrium_does_not_determine_are_told) {
   }
 }
 
-// Of a cantilever's fourth mode, a quarter of the beam is more than half a wave long.
-BOOST_AUTO_TEST_CASE(frequencies_of_coarse_meshes_are_solved_with_a_warning) {
+// A quarter of the cantilever is longer than half a wave of its fourth mode.
+BOOST_AUTO_TEST_CASE(frequencies_of_coarse_meshes_have_a_warning) {
   Json json = testing::cantilever();
   json["analysis"] = {{"modes", {{"count", 4}}}};
   json["checks"] = Json::object();
@@ -149,20 +149,17 @@ BOOST_AUTO_TEST_CASE(coarse_meshes_of_tapered_members_warn) {
   }
 }
 
-// One mode has 0.613 of the kinetic energy of a cantilever that moves everywhere alike, so that the
-// norm of what is outside is the root of 0.387, 0.622, on a fine mesh.
-BOOST_AUTO_TEST_CASE(a_velocity_outside_the_reduced_basis_is_told) {
+// The first mode has the share 0.613 of the kinetic energy of a cantilever in uniform translation.
+// The norm of the remainder is sqrt(0.387) = 0.622 on a fine mesh.
+BOOST_AUTO_TEST_CASE(velocity_outside_the_reduced_basis_warns) {
   Json json = testing::cantilever();
   json["model"]["loads"] = Json::object();
   json["model"]["elements"] = 64;
   json["checks"] = Json::object();
-  json["analysis"] = {{"transient",
-                       {{"duration_s", 0.01},
-                        {"step_s", 0.001},
-                        {"method", "modal-superposition"},
-                        {"initial_state", {{"velocity_m_per_s", {0, -1}}}},
-                        {"reduction", {{"modes", 1}}},
-                        {"outputs", {"velocity_y_m_per_s:B"}}}}};
+  json["analysis"] = Json::parse(R"({"transient": {
+    "duration_s": 0.01, "step_s": 0.001, "method": "modal-superposition",
+    "initial_state": {"velocity_m_per_s": [0, -1]}, "reduction": {"modes": 1},
+    "outputs": ["velocity_y_m_per_s:B"]}})");
   BOOST_TEST(warns(result_of(json), "outside the reduced basis is 0.61"));
   json["analysis"]["transient"].erase("reduction");
   BOOST_TEST(!warns(result_of(json), "outside the reduced basis"));
@@ -170,7 +167,7 @@ BOOST_AUTO_TEST_CASE(a_velocity_outside_the_reduced_basis_is_told) {
 
 namespace {
 
-/// The centred platform turns from 0 to an angle in 40 steps.
+/// Returns statics along a path: the centered platform rotates from 0 to an angle in 40 steps.
 AnalysisResult turning_to(double angle, const Json& analysis = {{"statics", Json::object()}}) {
   Json json = Json::parse(R"({
     "id": "across", "title": "Across a singularity", "extends": "table-1.json",
@@ -192,7 +189,7 @@ AnalysisResult turning_to(double angle, const Json& analysis = {{"statics", Json
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_path_has_one_warning_with_its_largest_rotation) {
+BOOST_AUTO_TEST_CASE(path_has_one_warning_with_its_largest_rotation) {
   const AnalysisResult result = turning_to(0.9);
   BOOST_REQUIRE(result.warnings.size() == 2U);
   double largest = 0;
@@ -202,7 +199,7 @@ BOOST_AUTO_TEST_CASE(a_path_has_one_warning_with_its_largest_rotation) {
   BOOST_TEST(result.warnings[0].value >= largest);
 }
 
-// The lines of the distal links meet in P at 0.669 rad, 0.744 of the way.
+// The lines of the distal links intersect in P at 0.669 rad, which is 0.744 of the path.
 BOOST_AUTO_TEST_CASE(path_through_a_parallel_singularity_warns) {
   const AnalysisResult result = turning_to(0.9);
   BOOST_TEST(contains(result.warnings.back().text(),

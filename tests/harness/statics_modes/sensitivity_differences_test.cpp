@@ -9,7 +9,7 @@ BOOST_AUTO_TEST_SUITE(sensitivity_differences)
 using namespace trammel::solver;
 using namespace trammel::harness;
 
-/// A frequency goes with the root of all stiffness, and with one over the root of all inertia.
+/// A frequency is proportional to the root of all stiffness and to the inverse root of all inertia.
 BOOST_AUTO_TEST_CASE(derivatives_add_up_as_dimensions_require) {
   ManipulatorDesign design = coarse_design();
   design.platform.kind = PlatformKind::rigid;
@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(difference_quotients_are_of_first_and_second_order) {
 }
 
 BOOST_AUTO_TEST_CASE(straight_limb_has_infinite_derivatives_by_its_lengths) {
-  // every derivative there was once called infinite, that of E too
+  // All derivatives, also that by E, were once reported as infinite here.
   ManipulatorDesign design = coarse_design();
   const Pose pose{0.25, 0.144, 0};
   const Posture posture = inverse_kinematics(design.geometry, pose);
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(straight_limb_has_infinite_derivatives_by_its_lengths) {
 }
 
 BOOST_AUTO_TEST_CASE(only_the_named_parameter_is_perturbed) {
-  ManipulatorDesign design = coarse_design();  // triangles, no springs
+  ManipulatorDesign design = coarse_design();  // triangular elements, no springs
   for (Vector2d& corner : design.geometry.base) corner += Vector2d(1, 2);
   for (const Kind kind : {Kind::platform_inertia, Kind::active_stiffness, Kind::elbow_stiffness,
                           Kind::platform_joint_stiffness})

@@ -29,7 +29,7 @@ Json study_json() {
   })");
 }
 
-/// The study beside its case.
+/// Loads the study next to its case.
 CostStudy load(const Json& json, SweepExtent sweeping = SweepExtent::full) {
   const Folder folder;
   (void)folder.write(testing::cantilever());
@@ -58,12 +58,12 @@ BOOST_AUTO_TEST_CASE(settings_are_the_patched_case) {
   BOOST_TEST(study.reference_description == "32 elements");
 }
 
-BOOST_AUTO_TEST_CASE(a_null_in_a_patch_takes_away_what_the_case_has) {
+BOOST_AUTO_TEST_CASE(null_in_a_patch_removes_the_key) {
   const CostStudy study = load(study_json());
   BOOST_TEST(!study.settings[0].document.value()["analysis"].contains("statics"));
 }
 
-BOOST_AUTO_TEST_CASE(the_quick_sweep_has_the_quick_values_and_their_baseline) {
+BOOST_AUTO_TEST_CASE(quick_sweep_has_quick_values_and_their_baseline) {
   const CostStudy study = load(study_json(), SweepExtent::quick);
   BOOST_TEST_REQUIRE(study.settings.size() == 2U);
   BOOST_TEST(study.settings[study.baseline].title == "consistent mass, 4 elements");
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(the_quick_sweep_has_the_quick_values_and_their_baseline) {
   BOOST_TEST(contains(fault_of(json, SweepExtent::quick), "/baseline: expected a curve"));
 }
 
-BOOST_AUTO_TEST_CASE(bad_studies_are_answered_with_their_place) {
+BOOST_AUTO_TEST_CASE(invalid_studies_are_refused_with_their_pointer) {
   const auto spoiled = [](const std::string& pointer, const Json& value) {
     Json json = study_json();
     json[JsonPointer(pointer)] = value;
@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(each_output_has_a_scale_and_quantities) {
   spoiled = json;
   spoiled["scale"] = "largest";
   BOOST_TEST(contains(fault_of(spoiled), "/scale: expected it in each of 'outputs'"));
-  // A curve may be silent on the second output, never on the first.
+  // A curve may lack the second output, but not the first.
   spoiled = json;
   spoiled["curves"]["lumped"]["quantities"] = {{"frequency_Hz", {{"index", {0, 1}}}}};
   BOOST_TEST(fault_of(spoiled) == "");
@@ -156,7 +156,7 @@ BOOST_AUTO_TEST_CASE(observed_values_are_chosen_added_and_condensed) {
   BOOST_TEST(contains(said(one), "expected 4 values of pose_x_m (got 3)"));
 }
 
-BOOST_AUTO_TEST_CASE(the_sweeps_of_a_case_are_a_study) {
+BOOST_AUTO_TEST_CASE(sweeps_of_a_case_are_a_cost_study) {
   Json json = testing::cantilever();
   json["analysis"] = {{"modes", {{"count", 2}}}};
   json["sweeps"]["elements"] = {{"pointers", {"/model/elements"}},

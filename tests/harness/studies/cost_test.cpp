@@ -17,8 +17,8 @@ using namespace trammel::testing;
 
 namespace {
 
-/// The refinement of a cantilever's frequencies, against its 16 elements; the pose of the second
-/// curve's support lets it fall over, and the third one asks for more modes than there are.
+/// Returns a study of a cantilever's frequencies with refinement, relative to those of 16 elements.
+/// The second curve requests more modes than its model has.
 Json study_json() {
   return Json::parse(R"({
     "id": "arm", "family": "arms", "title": "A cantilever's first frequencies", "case": "cantilever",
@@ -47,10 +47,10 @@ results::CostStudy measured(const Json& json) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(errors_are_divided_by_what_the_scale_says) {
+BOOST_AUTO_TEST_CASE(errors_are_relative_to_the_chosen_scale) {
   const Observations reference_solution = {{10, 0, -5}}, found = {{11, 1, -5}};
   const results::ErrorNorms entry = error_norms(found, reference_solution, {});
-  BOOST_TEST(*entry.max == 0.1);  // of the true zero: 1 over the largest, 10
+  BOOST_TEST(*entry.max == 0.1);  // expected 0: 1 relative to the largest value, 10
   BOOST_TEST(*entry.mean == 0.2 / 3);
   BOOST_TEST(*entry.rms == std::sqrt(0.02 / 3));
   const results::ErrorNorms largest =
@@ -59,14 +59,14 @@ BOOST_AUTO_TEST_CASE(errors_are_divided_by_what_the_scale_says) {
   const results::ErrorNorms fixed =
       error_norms({{10, 0, -4}}, reference_solution, {Scale::Kind::number, 4});
   BOOST_TEST(*fixed.max == 0.25);
-  // Values that are errors themselves have no truth.
+  // Values that are errors have no reference solution.
   BOOST_TEST(*error_norms({{1e-3, -2e-3}}, {{}}, {}).max == 2e-3);
   BOOST_TEST(std::isnan(*error_norms({{1, std::nan(""), 1}}, {{1, 1, 1}}, {}).max));
   BOOST_CHECK_THROW((void)error_norms({{1, 2}}, {{1}}, {}), std::runtime_error);
   BOOST_CHECK_THROW((void)error_norms({{1}}, {{0}}, {}), std::runtime_error);
 }
 
-BOOST_AUTO_TEST_CASE(every_setting_has_a_standing_and_none_is_dropped) {
+BOOST_AUTO_TEST_CASE(every_setting_is_kept_with_a_status) {
   const results::CostStudy study = measured(study_json());
   BOOST_TEST_REQUIRE(study.settings.size() == 5U);
   for (std::size_t i : {0U, 1U, 2U}) {
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(every_setting_has_a_standing_and_none_is_dropped) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(outputs_are_judged_one_by_one_and_all_at_once) {
+BOOST_AUTO_TEST_CASE(outputs_are_judged_separately_and_together) {
   Json json = study_json();
   json["outputs"] = {{"tones", {{"title", "frequencies"}}},
                      {"size", {{"title", "coordinates"}, {"scale", "largest"}}}};
@@ -102,7 +102,7 @@ BOOST_AUTO_TEST_CASE(outputs_are_judged_one_by_one_and_all_at_once) {
   const std::vector<CostPoint> points = cost_points(study);
   BOOST_TEST(points.size() == 4U);
   const auto all = cost_points(study, std::nullopt), size = cost_points(study, 1);
-  BOOST_TEST_REQUIRE(all.size() == 3U);  // without what does not say how large it is
+  BOOST_TEST_REQUIRE(all.size() == 3U);  // without the setting that lacks the second output
   for (std::size_t i = 0; i < all.size(); ++i)
     BOOST_TEST(all[i].error == std::max(points[i].error, size[i].error));
   results::CostStudy diverged = study;
@@ -119,16 +119,16 @@ BOOST_AUTO_TEST_CASE(outputs_are_judged_one_by_one_and_all_at_once) {
   BOOST_TEST(!study.outputs[1].cheapest[0].setting.has_value());
 }
 
-BOOST_AUTO_TEST_CASE(counters_are_the_work_and_do_not_depend_on_the_machine) {
+BOOST_AUTO_TEST_CASE(counters_measure_work_and_are_reproducible) {
   const results::CostStudy a = measured(study_json()), b = measured(study_json());
   for (std::size_t i = 0; i < a.settings.size(); ++i) {
     BOOST_TEST((a.settings[i].counters == b.settings[i].counters));
   }
-  // Twice the elements, twice the evaluations.
+  // Twice the elements require twice the evaluations.
   BOOST_TEST(a.settings[2].counters.front().second == 2 * a.settings[1].counters.front().second);
 }
 
-BOOST_AUTO_TEST_CASE(a_setting_is_never_dropped_for_its_noise_it_is_tied) {
+BOOST_AUTO_TEST_CASE(noisy_setting_is_kept_as_a_tie) {
   results::CostStudy study = measured(study_json());
   for (std::size_t i : {0U, 1U, 2U}) study.settings[i].time->cpu_s.assign(7, 1.0 + 10.0 * i);
   study.settings[1].time->cpu_s = {11, 1, 11, 300, 11, 11, 11};
@@ -142,7 +142,7 @@ BOOST_AUTO_TEST_CASE(a_setting_is_never_dropped_for_its_noise_it_is_tied) {
   BOOST_TEST(tied_settings(points, 10) == tied, boost::test_tools::per_element());
 }
 
-BOOST_AUTO_TEST_CASE(a_computation_that_takes_too_long_is_ended) {
+BOOST_AUTO_TEST_CASE(computation_beyond_its_time_limit_is_stopped) {
   Json json = study_json();
   json["time_limit_s"] = 1;
   json["curves"]["more"] = {
@@ -155,9 +155,9 @@ BOOST_AUTO_TEST_CASE(a_computation_that_takes_too_long_is_ended) {
   BOOST_TEST(contains(study.settings[4].reason, "1 s of processor time"));
 }
 
-BOOST_AUTO_TEST_CASE(an_error_above_1000_per_cent_is_a_divergence) {
+BOOST_AUTO_TEST_CASE(error_above_1000_percent_is_a_divergence) {
   Json json = study_json();
-  // Each frequency goes with the square root of E.
+  // Each frequency is proportional to the square root of E.
   json["curves"]["more"] = {{"title", "stiff beyond reason"},
                             {"patch", {{"model", {{"materials", {{"steel", {{"E_Pa", 2e15}}}}}}}}}};
   BOOST_TEST((measured(json).settings[4].status == "diverged"));
@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_CASE(an_error_above_1000_per_cent_is_a_divergence) {
 
 BOOST_AUTO_TEST_CASE(exact_setting_that_is_not_the_reference_is_measured) {
   Json json = study_json();
-  // The same frequencies from another document.
+  // The same frequencies follow from another document.
   json["curves"]["more"] = {{"title", "another name"},
                             {"patch", {{"title", "another"}, {"model", {{"elements", 16}}}}}};
   const results::CostStudy study = measured(json);
@@ -174,7 +174,7 @@ BOOST_AUTO_TEST_CASE(exact_setting_that_is_not_the_reference_is_measured) {
   BOOST_TEST(*study.settings[4].errors->max == 0);
 }
 
-BOOST_AUTO_TEST_CASE(without_a_truth_or_a_baseline_nothing_can_be_said) {
+BOOST_AUTO_TEST_CASE(study_requires_a_reference_solution_and_a_baseline) {
   Json json = study_json();
   json["reference_solution"]["patch"]["model"]["supports"] = {{"A", nullptr}};
   json["quantities"]["frequency_Hz"]["index"] = {7};
@@ -184,7 +184,7 @@ BOOST_AUTO_TEST_CASE(without_a_truth_or_a_baseline_nothing_can_be_said) {
   BOOST_TEST(contains(complaint([&] { (void)measured(json); }), "expected a baseline"));
 }
 
-BOOST_AUTO_TEST_CASE(the_results_obey_their_schema_and_give_the_front_back) {
+BOOST_AUTO_TEST_CASE(results_obey_their_schema_and_keep_the_front) {
   const results::CostStudy study = measured(study_json());
   const References references;
   results::Results filled = results_of({}, {}, references);

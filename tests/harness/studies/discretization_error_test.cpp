@@ -13,6 +13,7 @@ using namespace trammel::harness;
 using testing::cantilever;
 using testing::complaint;
 using testing::contains;
+using testing::document_of;
 using testing::Folder;
 
 namespace {
@@ -32,11 +33,6 @@ struct Estimated {
   }
 };
 
-Document document_of(const Json& json) {
-  const Folder folder;
-  return patched(load_case(folder.write(json)), kBaseVariant);
-}
-
 Estimated estimated(const Json& json) {
   const References references;
   const Document document = document_of(json);
@@ -46,7 +42,7 @@ Estimated estimated(const Json& json) {
   return found;
 }
 
-/// A manipulator as a new user writes it, without a mesh.
+/// Returns a manipulator as a new user writes it, without a mesh.
 Json own_manipulator() {
   return Json::parse(R"({
     "id": "own-manipulator", "title": "Own 3-RRR",
@@ -72,11 +68,8 @@ Json with_links(Json json, int elements) {
 
 Json vibrating_cantilever() {
   Json json = cantilever();
-  json["analysis"] = {{"transient",
-                       {{"duration_s", 0.1},
-                        {"step_s", 1e-3},
-                        {"samples", 50},
-                        {"outputs", {"displacement_y_m:B"}}}}};
+  json["analysis"] = Json::parse(R"({"transient": {"duration_s": 0.1, "step_s": 1e-3,
+    "samples": 50, "outputs": ["displacement_y_m:B"]}})");
   return json;
 }
 
@@ -97,7 +90,7 @@ BOOST_AUTO_TEST_CASE(errors_of_modes_hold_the_converged_values) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(the_default_mesh_is_accurate_and_a_coarse_one_warns) {
+BOOST_AUTO_TEST_CASE(default_mesh_is_accurate_and_a_coarse_one_warns) {
   const std::vector<double> converged =
       estimated(with_links(own_manipulator(), 32)).values("frequency_Hz");
   const Estimated by_default = estimated(own_manipulator());
@@ -117,7 +110,7 @@ BOOST_AUTO_TEST_CASE(nodal_values_of_linear_statics_are_exact) {
   BOOST_TEST(*found.of("displacement_y_m:B").relative.front() < 1e-10);
 }
 
-BOOST_AUTO_TEST_CASE(an_odd_mesh_has_a_finer_companion) {
+BOOST_AUTO_TEST_CASE(odd_mesh_has_a_finer_companion) {
   Json json = cantilever();
   json["analysis"] = {{"modes", {{"count", 3}}}};
   json["model"]["elements"] = 3;
@@ -136,7 +129,7 @@ BOOST_AUTO_TEST_CASE(relative_errors_do_not_depend_on_units) {
   Json json = cantilever();
   json["analysis"] = {{"modes", {{"count", 3}}}};
   const Estimated meters = estimated(json);
-  constexpr double kLength = 1e3, kMass = 1e-3;  // millimeters and tonnes; time stays
+  constexpr double kLength = 1e3, kMass = 1e-3;  // millimeters and tonnes, the same unit of time
   Json& model = json["model"];
   model["materials"]["steel"]["E_Pa"] = 2e11 * kMass / kLength;
   model["materials"]["steel"]["rho_kg_m3"] = 7800 * kMass / (kLength * kLength * kLength);
@@ -166,7 +159,7 @@ BOOST_AUTO_TEST_CASE(errors_of_steps_hold_the_motion_without_them) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_search_reaches_its_accuracy_and_states_its_levels) {
+BOOST_AUTO_TEST_CASE(search_reaches_its_accuracy) {
   const References references;
   const std::vector<double> converged =
       estimated(with_links(own_manipulator(), 64)).values("frequency_Hz");
@@ -181,7 +174,7 @@ BOOST_AUTO_TEST_CASE(a_search_reaches_its_accuracy_and_states_its_levels) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_search_refines_mesh_and_step) {
+BOOST_AUTO_TEST_CASE(search_refines_mesh_and_step) {
   const References references;
   const AccuracySearch search =
       search_accuracy(document_of(vibrating_cantilever()), {1e-3, {}, 60}, references);
@@ -189,7 +182,7 @@ BOOST_AUTO_TEST_CASE(a_search_refines_mesh_and_step) {
   BOOST_TEST(search.tried.size() > 3U);
 }
 
-BOOST_AUTO_TEST_CASE(what_a_search_cannot_reach_is_stated) {
+BOOST_AUTO_TEST_CASE(unreachable_accuracy_and_invalid_search_are_reported) {
   const References references;
   const AccuracySearch search =
       search_accuracy(document_of(own_manipulator()), {1e-14, {}, 60}, references);
@@ -223,7 +216,7 @@ BOOST_AUTO_TEST_CASE(defaults_follow_the_analysis_and_the_member) {
   BOOST_TEST(elements_of(document_of(json), "AB") == 3);
 }
 
-BOOST_AUTO_TEST_CASE(numbers_in_a_wrong_unit_are_warned_of) {
+BOOST_AUTO_TEST_CASE(numbers_in_a_wrong_unit_warn) {
   Json json = own_manipulator();
   json["model"]["pose"]["phi_rad"] = 30;
   BOOST_TEST(contains(unit_warnings(document_of(json)).at(0), "/model/pose/phi_rad is 30 rad"));
@@ -237,7 +230,7 @@ BOOST_AUTO_TEST_CASE(numbers_in_a_wrong_unit_are_warned_of) {
   BOOST_TEST(contains(unit_warnings(document_of(json)).at(0), "/model/nodes/C is 1500 m"));
 }
 
-BOOST_AUTO_TEST_CASE(the_catalogue_has_no_numbers_in_a_wrong_unit) {
+BOOST_AUTO_TEST_CASE(catalogue_has_no_numbers_in_a_wrong_unit) {
   for (const Case& given : Catalogue().load())
     for (const std::string& variant : given.variants())
       for (const std::string& warning : unit_warnings(patched(given, variant)))

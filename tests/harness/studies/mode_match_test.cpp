@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(repeated_modes_are_matched_as_a_set) {
   BOOST_TEST(matches[0].overlap == 1, boost::test_tools::tolerance(1e-12));
 }
 
-BOOST_AUTO_TEST_CASE(modes_that_part_look_like_the_set_they_were) {
+BOOST_AUTO_TEST_CASE(separated_modes_match_their_former_set) {
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(5, 3);
   const SampledModes pair = modes({1, 1, 3}, I), parted = modes({1, 1.1, 3}, I);
   const auto apart = match_modes(parted, pair);
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(modes_that_part_look_like_the_set_they_were) {
   BOOST_TEST((together[0].b == std::vector<std::size_t>{0, 1}));
 }
 
-BOOST_AUTO_TEST_CASE(what_looks_like_nothing_stays_alone) {
+BOOST_AUTO_TEST_CASE(orthogonal_modes_have_no_match) {
   const Eigen::MatrixXd I = Eigen::MatrixXd::Identity(5, 5);
   const auto matches = match_modes(modes({1, 2}, I.leftCols(2)), modes({1, 2}, I.rightCols(2)));
   for (const ModeMatch& match : matches) BOOST_TEST(match.b.empty());

@@ -19,14 +19,14 @@ std::vector<std::size_t> settings(const std::vector<CostPoint>& points) {
 
 const std::vector<std::string> titles = {"coarse", "wasteful", "middle", "fine", "finest"};
 
-/// Errors over times: 1 is beaten by 2 in both.
+/// Returns errors and times of five settings. Setting 2 dominates setting 1.
 std::vector<CostPoint> sample() {
   return {{0, 0.02, 1}, {1, 0.02, 5}, {2, 5e-3, 2}, {3, 1e-4, 4}, {4, 1e-7, 16}};
 }
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(what_is_beaten_in_error_and_time_is_not_on_the_front) {
+BOOST_AUTO_TEST_CASE(dominated_setting_is_not_on_the_pareto_front) {
   const std::vector<std::size_t> expected = {0, 2, 3, 4};
   std::vector<CostPoint> points = sample();
   BOOST_TEST(settings(find_pareto_front(points)) == expected, boost::test_tools::per_element());
@@ -35,7 +35,7 @@ BOOST_AUTO_TEST_CASE(what_is_beaten_in_error_and_time_is_not_on_the_front) {
 }
 
 BOOST_AUTO_TEST_CASE(differences_within_the_noise_keep_the_front) {
-  // 0 and 1 compute the same thing, once three per cent slower, once faster.
+  // Settings 0 and 1 compute the same result. The second one is 3 % slower or faster.
   for (const double noise : {0.97, 1.03}) {
     const std::vector<CostPoint> points = {{0, 1e-3, 1}, {1, 1.0000001e-3, noise}, {2, 1e-5, 3}};
     const std::vector<std::size_t> expected = {0, 2};
@@ -44,7 +44,7 @@ BOOST_AUTO_TEST_CASE(differences_within_the_noise_keep_the_front) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(most_accurate_of_equally_quick_settings_is_cheapest) {
+BOOST_AUTO_TEST_CASE(most_accurate_of_equally_fast_settings_is_cheapest) {
   const std::vector<CostPoint> points = {{0, 8e-3, 1}, {1, 1e-4, 1.04}};
   BOOST_TEST(cheapest(points, 0.01)->setting == 1U);
 }
@@ -57,13 +57,13 @@ BOOST_AUTO_TEST_CASE(cheapest_setting_is_within_the_error) {
   BOOST_TEST(!cheapest(sample(), 1e-9).has_value());
 }
 
-BOOST_AUTO_TEST_CASE(the_sentence_names_what_is_enough_and_what_more_takes) {
+BOOST_AUTO_TEST_CASE(conclusion_names_cheapest_and_finest_settings) {
   const std::string words = describe_pareto_front(sample(), titles, 0);
   BOOST_TEST(contains(words, "Within 1 %, 'middle' is cheapest, at 2 times the time of 'coarse'"));
   BOOST_TEST(contains(words, "1e-6 takes 'finest' and 8 times as long"));
 }
 
-BOOST_AUTO_TEST_CASE(sentence_names_all_settings_tied_with_the_cheapest) {
+BOOST_AUTO_TEST_CASE(conclusion_names_all_settings_tied_with_the_cheapest) {
   std::vector<CostPoint> points = {{0, 5e-3, 1, 0.9, 1.3}, {2, 4e-3, 1.4, 1.2, 1.5}, {3, 1e-3, 2}};
   BOOST_TEST(contains(describe_pareto_front(points, titles, 0),
                       "Within 1 %, 'coarse' or 'middle' is cheapest (times that cannot be"));
@@ -71,17 +71,17 @@ BOOST_AUTO_TEST_CASE(sentence_names_all_settings_tied_with_the_cheapest) {
   BOOST_TEST(contains(describe_pareto_front(points, titles, 0), "'coarse' is cheapest;"));
 }
 
-BOOST_AUTO_TEST_CASE(the_sentence_does_not_compare_the_baseline_with_itself) {
+BOOST_AUTO_TEST_CASE(conclusion_never_compares_the_baseline_with_itself) {
   BOOST_TEST(contains(describe_pareto_front({{0, 1e-3, 1}}, titles, 0), "'coarse' is cheapest;"));
   BOOST_TEST(contains(describe_pareto_front({{1, 1e-3, 1.02}}, titles, 0), "as quick as 'coarse'"));
 }
 
-BOOST_AUTO_TEST_CASE(the_sentence_has_no_more_digits_than_were_measured) {
+BOOST_AUTO_TEST_CASE(conclusion_has_no_more_digits_than_measured) {
   const std::string words = describe_pareto_front({{0, 1e-3, 1}, {4, 1e-7, 7917.3}}, titles, 0);
   BOOST_TEST(contains(words, "and 7900 times as long"));
 }
 
-BOOST_AUTO_TEST_CASE(the_sentence_says_what_is_not_reached) {
+BOOST_AUTO_TEST_CASE(conclusion_names_unreached_accuracies) {
   std::vector<CostPoint> points = sample();
   points.pop_back();
   BOOST_TEST(contains(describe_pareto_front(points, titles, 0),
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(fronts_are_compared_by_settings_and_times) {
   BOOST_TEST(*apart.median_difference == 0);
 
   std::vector<CostPoint> other = sample();
-  other[2].time = 10;  // now 3 is as good for 1 %
+  other[2].time = 10;  // setting 3 is now best for 1 %
   const results::Repeatability moved = compare_pareto_fronts(sample(), other);
   BOOST_TEST(moved.on_both_fronts == 3U);
   BOOST_TEST(moved.on_either_front == 4U);

@@ -16,7 +16,7 @@ using namespace trammel::harness;
 
 namespace {
 
-/// Scenes of random_scenes.py.
+/// Returns scenes of random_scenes.py.
 std::vector<Document> random_scenes(int seed, const std::string& options) {
   const trammel::testing::Folder folder;
   const std::string path = folder.path().string();
@@ -73,7 +73,8 @@ BOOST_DATA_TEST_CASE(selection_holds_for_hard_scenes, boost::unit_test::data::ma
   BOOST_TEST(study.within_tolerance());
 }
 
-/// Only large displacement, with thousands of tangents, is worth a motion of the coarse model.
+/// A motion of the coarse model is only worthwhile before large displacement with its many
+/// tangents.
 BOOST_AUTO_TEST_CASE(deciding_costs_less_than_it_saves) {
   for (const int number : {29, 89, 169}) {
     const EffectStudy study = study_of(random_scenes(2, std::to_string(number)).front());

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes random scenes as case files, which `trammel effects` reads, and prints their names.
 
-Each effect lies anywhere from far below the tolerance to far above it. Of ten scenes five are statics, three modes.
+Each effect is between far below and far above the tolerance. Five of ten scenes are statics, and three are modes.
 """
 import argparse
 import contextlib
@@ -20,7 +20,7 @@ POINTS_NEAR, POINTS_OF_CIRCLE = 13, 33
 
 
 class Draw:
-    """Numbers of the 64-bit Mersenne Twister (Nishimura 2000): the same on every machine."""
+    """Random numbers of the 64-bit Mersenne Twister (Nishimura 2000), which are the same on every machine."""
 
     def __init__(self, seed):
         self.state, self.next = [seed & MASK], 312
@@ -58,17 +58,17 @@ def first_omega(thickness, length):
 
 
 class Bar:
-    """A link or a member: its sizes, and what is drawn relative to its bending stiffness E I."""
+    """Link or member: its sizes, and properties that are drawn relative to its bending stiffness E I."""
 
     def __init__(self, draw, length, thickness, width, is_link=False):
-        """The thickness is drawn relative to the length, the width to the thickness or, of a link, to the length."""
+        """Draws the thickness relative to the length, and the width relative to the thickness, or for a link to the length."""
         self.draw, self.length, self.thickness = draw, length, length * draw.logarithmic(*thickness)
         self.width = (length if is_link else self.thickness) * draw.logarithmic(*width)
         self.bending = E * self.width * math.pow(self.thickness, 3) / 12
         self.mass = DENSITY * self.thickness * self.width * length
 
     def joint(self, otherwise):
-        """Returns a joint with a spring, from one that is felt to one that is not, or without one."""
+        """Returns a joint without a spring, or with a spring from soft to practically rigid."""
         if not self.draw.chance(0.4):
             return otherwise
         return {"spring_N_m_per_rad": self.bending / self.length * self.draw.logarithmic(1e-2, 1e6)}
@@ -154,7 +154,7 @@ def portal(modes, draw):
 
 
 def column(modes, draw):
-    """Returns a column or a tie, its head free or guided, up to 0.99 of its buckling load."""
+    """Returns a column or a tie with a free or guided head, with up to 0.99 of its buckling load."""
     length = draw.logarithmic(0.2, 5)
     bar = Bar(draw, length, (0.002, 0.05), (0.5, 5))
     guided = draw.chance(0.3)
@@ -168,7 +168,7 @@ def column(modes, draw):
 
 
 def near_singular(_, draw):
-    """Returns a manipulator on a path to within 0.001 to 0.1 of a singularity: limb stretched out, or distal links meeting in P."""
+    """Returns a manipulator on a path to within 0.001 to 0.1 of a singularity: a stretched limb, or distal links that meet in P."""
     length = draw.uniform(0.18, 0.22)
     bar = Bar(draw, length, (0.004, 0.1), (0.05, 0.3), is_link=True)
     side, near = draw.uniform(0.15, 0.22), draw.logarithmic(1e-3, 0.1)
@@ -182,7 +182,7 @@ def near_singular(_, draw):
 
     force = bar.load()
     model["loads"] = at_platform(draw.direction(force * draw.logarithmic(1e-3, 1)))
-    if draw.chance(0.5):  # out along the first limb and back
+    if draw.chance(0.5):  # outwards along the first limb and back
         radius = (2 * length * (1 - near) + arm - center) / 2
         middle = pose(center + radius, 0)
         circle = {"center_m": [middle["x_m"], middle["y_m"]], "radius_m": radius, "points": POINTS_NEAR,

@@ -17,33 +17,21 @@ using namespace trammel::testing;
 
 namespace {
 
-/// First frequency of a steel cantilever, exact. It goes with depth, sqrt(E) and 1 / length^2.
+/// Exact first frequency of a steel cantilever [Hz]. It is proportional to depth, sqrt(E) and 1 /
+/// length^2.
 const double kExact = 3.5160152685 * std::sqrt(2e11 / 7800 / 12) * 0.1 / 4 / (2 * std::acos(-1.0));
 
-void write_reference(const Folder& folder, const std::string& id, const char* unit, double value,
-                     double uncertainty) {
-  folder.write_reference({{"id", id},
-                          {"title", id},
-                          {"kind", "code"},
-                          {"unit", unit},
-                          {"values", {value}},
-                          {"uncertainty", {{"absolute", uncertainty}}},
-                          {"source", "me"},
-                          {"place", "here"}});
-}
-
-/// Depth 0.1 m within 1 mm, E within 1 %, a nominal length of 2 m within 0.5 m; the printed
-/// frequency is off by `off`.
+/// Returns a beam of depth 0.1 m within 1 mm, E within 1 % and a nominal length of 2 m within 0.5
+/// m. The printed frequency is wrong by the share `off`.
 Json beam(const Folder& folder, double off) {
-  write_reference(folder, "printed", "Hz", kExact * (1 - off), 0.05);
-  write_reference(folder, "other", "Hz", kExact * (1 - off) + 3, 0.05);
-  write_reference(folder, "depth", "m", 0.1, 1e-3);
+  folder.write_reference("printed", "Hz", kExact * (1 - off), {{"absolute", 0.05}}, "code");
+  folder.write_reference("other", "Hz", kExact * (1 - off) + 3, {{"absolute", 0.05}}, "code");
+  folder.write_reference("depth", "m", 0.1, {{"absolute", 1e-3}}, "code");
   Json json = testing::cantilever();
   json["analysis"] = {{"modes", {{"count", 1}}}};
-  json["checks"]["printed"] = {
-      {"quantity", "frequency_Hz"}, {"reference", "printed"}, {"role", "validation"}};
-  json["checks"]["other"] = {
-      {"quantity", "frequency_Hz"}, {"reference", "other"}, {"role", "validation"}};
+  for (const char* name : {"printed", "other"})
+    json["checks"][name] = {
+        {"quantity", "frequency_Hz"}, {"reference", name}, {"role", "validation"}};
   json["uncertainty"] = Json::parse(R"({
     "inputs": {
       "depth": {"pointers": ["/model/sections/bar/rectangle/thickness_m"], "reference": "depth"},
@@ -79,11 +67,11 @@ BOOST_AUTO_TEST_CASE(uncertainties_agree_with_scaling_laws_of_a_beam) {
   BOOST_TEST(entry.dominant_input == "depth");
   BOOST_TEST(*entry.dominant_share == 0.8, boost::test_tools::tolerance(1e-3));
   BOOST_TEST(*entry.u_reference == 0.05 / std::sqrt(3.0), boost::test_tools::tolerance(1e-12));
-  // The spread of two references is shown and has no influence.
+  // The spread of two references is shown, but has no influence.
   BOOST_REQUIRE(entry.spread.size() == 1U);
   BOOST_TEST(*entry.spread[0] == 3, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(*entry.u_val < 0.5);
-  BOOST_TEST(found.uncertainty->inputs.size() == 3U);  // without the one that is no number
+  BOOST_TEST(found.uncertainty->inputs.size() == 3U);  // without the input that is not a number
 }
 
 BOOST_AUTO_TEST_CASE(nominal_lengths_count_in_the_literal_reading_alone) {
@@ -99,7 +87,7 @@ BOOST_AUTO_TEST_CASE(nominal_lengths_count_in_the_literal_reading_alone) {
   BOOST_TEST(*entry.all_inputs.u_val > 10 * *entry.u_val);
 }
 
-BOOST_AUTO_TEST_CASE(u_num_holds_the_error_of_the_mesh_and_is_not_huge) {
+BOOST_AUTO_TEST_CASE(u_num_contains_the_mesh_error_and_is_not_large) {
   const Folder folder;
   const Run found = run(testing::read(folder, beam(folder, 0)));
   const double u = found.uncertainty->comparisons[0].u_num.value();
@@ -136,7 +124,7 @@ BOOST_AUTO_TEST_CASE(uncertainty_does_not_depend_on_jobs) {
   BOOST_TEST(one["runs"][1]["uncertainty"]["comparisons"].size() == 2U);
 }
 
-BOOST_AUTO_TEST_CASE(a_pointer_to_nothing_is_bad_input) {
+BOOST_AUTO_TEST_CASE(pointer_to_a_missing_value_is_refused) {
   const Folder folder;
   Json json = beam(folder, 0);
   json["uncertainty"]["inputs"]["depth"]["pointers"][0] = "/model/sections/beam";
@@ -145,7 +133,7 @@ BOOST_AUTO_TEST_CASE(a_pointer_to_nothing_is_bad_input) {
   BOOST_TEST(testing::contains(found.reason, "/uncertainty/inputs/depth/pointers/0"));
 }
 
-BOOST_AUTO_TEST_CASE(an_input_needs_one_half_width) {
+BOOST_AUTO_TEST_CASE(input_with_two_half_widths_is_refused) {
   const Folder folder;
   Json json = beam(folder, 0);
   json["uncertainty"]["inputs"]["depth"]["half_width"] = 1e-3;
@@ -153,7 +141,7 @@ BOOST_AUTO_TEST_CASE(an_input_needs_one_half_width) {
                                "expected either 'half_width' or 'reference'"));
 }
 
-BOOST_AUTO_TEST_CASE(a_verdict_other_than_the_recorded_one_fails) {
+BOOST_AUTO_TEST_CASE(verdict_other_than_the_recorded_one_fails) {
   const Folder folder;
   Json json = beam(folder, 0);
   Json& expect = json["checks"]["printed"]["expect"];

@@ -1,6 +1,6 @@
 // ctest: labels=verification
-// Programs with a characteristic equation of their own, against values computed elsewhere with 15
-// and more digits, and against the limits that physics knows.
+// Programs with their own characteristic equation, compared with independently computed values of
+// 15 or more digits and with known limits.
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <string>
@@ -16,11 +16,11 @@ using namespace trammel::testing;
 using boost::test_tools::tolerance;
 
 BOOST_AUTO_TEST_CASE(clamped_corner_has_the_known_exponent) {
-  // B. A. Szabo, I. Babuska, Finite Element Analysis, 1991: 0.71117 for a square, nu = 0.3.
+  // Szabo and Babuska (1991), Finite Element Analysis: 0.71117 for a square, nu = 0.3.
   const auto square = run("wedge-exponent", R"({"clamped_side": [0, -1], "free_side": [1, 0],
                                                 "nu": 0.3, "plane": "strain"})");
   BOOST_TEST(std::abs(square.at(0) - 0.71117) < 1e-5);
-  // Without Poisson's ratio there is nothing to hold back, turned and mirrored or not.
+  // For nu = 0 the clamped side does not constrain the field, in any orientation.
   for (const char* plane : {"stress", "strain"}) {
     const std::string arguments =
         R"({"clamped_side": [3, 0], "free_side": [0, 2], "nu": 0, "plane": ")" +

@@ -26,7 +26,7 @@ BOOST_AUTO_TEST_CASE(text_that_is_no_object_of_unique_keys_is_not_split) {
     BOOST_TEST(!json_members(text).has_value(), text);
 }
 
-BOOST_AUTO_TEST_CASE(keys_of_blocks_are_those_of_the_usual_form) {
+BOOST_AUTO_TEST_CASE(keys_of_blocks_are_found_in_formatted_text) {
   const auto keys = keys_of_blocks(
       "{\n  \"$schema\": \"s\",\n  \"common\": {\n    \"x\": {\n    },\n    \"y\": {}\n  },\n"
       "  \"first\": {\n  },\n  \"second\": {}\n}\n");
@@ -34,18 +34,14 @@ BOOST_AUTO_TEST_CASE(keys_of_blocks_are_those_of_the_usual_form) {
   BOOST_TEST(keys_of_blocks("").empty());
 }
 
-BOOST_AUTO_TEST_CASE(keys_of_a_reference_replace_those_of_its_family) {
-  const Json common = {{"unit", "m"},
-                       {"uncertainty", {{"relative", 1}}},
-                       {"derivation", {{"program", "p"}, {"arguments", {{"a", {{"x", 1}}}}}}}};
-  const Json merged =
-      with_common(common, {{"uncertainty", {{"absolute", 2}}},
-                           {"derivation", {{"arguments", {{"a", {{"y", 2}}}, {"b", 3}}}}}});
-  BOOST_TEST(merged ==
-             (Json{{"unit", "m"},
-                   {"uncertainty", {{"absolute", 2}}},
-                   {"derivation",
-                    {{"program", "p"}, {"arguments", {{"a", {{"x", 1}, {"y", 2}}}, {"b", 3}}}}}}));
+BOOST_AUTO_TEST_CASE(keys_of_a_reference_override_those_of_its_family) {
+  const Json common = Json::parse(R"({"unit": "m", "uncertainty": {"relative": 1},
+    "derivation": {"program": "p", "arguments": {"a": {"x": 1}}}})");
+  const Json own = Json::parse(R"({"uncertainty": {"absolute": 2},
+    "derivation": {"arguments": {"a": {"y": 2}, "b": 3}}})");
+  BOOST_TEST(with_common(common, own) ==
+             Json::parse(R"({"unit": "m", "uncertainty": {"absolute": 2},
+    "derivation": {"program": "p", "arguments": {"a": {"x": 1, "y": 2}, "b": 3}}})"));
   BOOST_TEST(with_common(Json(), {{"unit", "m"}}) == (Json{{"unit", "m"}}));
 }
 

@@ -13,7 +13,7 @@ BOOST_AUTO_TEST_CASE(printed_value_is_uncertain_by_half_a_last_unit) {
   BOOST_TEST(half_unit_in_last_place("5") == 0.5);
 }
 
-BOOST_AUTO_TEST_CASE(what_is_no_decimal_number_has_no_last_place) {
+BOOST_AUTO_TEST_CASE(text_that_is_no_decimal_number_is_refused) {
   for (const char* text : {"", "twelve", "0x1p3", "nan", "1.2 mm"}) {
     BOOST_CHECK_THROW(static_cast<void>(half_unit_in_last_place(text)), ReferenceError);
   }

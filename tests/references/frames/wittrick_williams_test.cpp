@@ -16,7 +16,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Eight arms about a common joint, pinned at their tips.
+/// Returns eight arms from a common joint, pinned at their tips.
 Json double_cross() {
   Json model = Json::parse(R"({
     "materials": {"steel": {"E_Pa": 2e11, "rho_kg_m3": 8000}},

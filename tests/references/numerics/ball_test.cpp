@@ -9,16 +9,16 @@ BOOST_AUTO_TEST_SUITE(ball)
 
 using namespace trammel::references;
 
-BOOST_AUTO_TEST_CASE(ball_decides_only_what_holds_for_all_its_numbers) {
+BOOST_AUTO_TEST_CASE(ball_decides_only_relations_true_for_all_its_numbers) {
   const Ball third = Ball(1) / 3, doubtful = Ball(Real(1) / 3);
   BOOST_TEST((third < Ball(1)));
   BOOST_TEST((Ball(1) > doubtful));
   BOOST_TEST((Ball(0) == Ball(0)));
-  BOOST_TEST(!(third - third == Ball(0)));  // not known to be zero
+  BOOST_TEST(!(third - third == Ball(0)));  // not proved to be zero
   BOOST_CHECK_THROW((void)(third < doubtful), DerivationError);
   BOOST_CHECK_THROW((void)static_cast<int>(third), DerivationError);
   BOOST_TEST(static_cast<int>(ceil(third)) == 1);
-  BOOST_CHECK_THROW((void)static_cast<int>(ceil(third * 3)), DerivationError);  // 1 or 2
+  BOOST_CHECK_THROW((void)static_cast<int>(ceil(third * 3)), DerivationError);  // either 1 or 2
 }
 
 BOOST_AUTO_TEST_CASE(unknown_digits_are_refused) {

@@ -15,7 +15,7 @@ double value(const std::string& text) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(the_usual_precedence_holds) {
+BOOST_AUTO_TEST_CASE(operators_have_the_usual_precedence) {
   BOOST_TEST(value("1 + 2*a^2/6 - -1") == 5.0);
   BOOST_TEST(value("2^3^2") == 512.0);
   BOOST_TEST(value("-a^2") == -9.0);
@@ -29,7 +29,7 @@ BOOST_AUTO_TEST_CASE(decimal_numbers_are_read_beyond_a_double) {
   BOOST_TEST(value("sqrt(2)^2 - 2 + sin(pi)") == 0.0, boost::test_tools::tolerance(1e-45));
 }
 
-BOOST_AUTO_TEST_CASE(what_cannot_be_read_is_an_error_with_its_column) {
+BOOST_AUTO_TEST_CASE(invalid_expression_is_refused) {
   for (const char* text : {"1 +", "2 a", "(1", "sin 1", "unknown", "1/0", "", "sqrt(-1)", "1..2"}) {
     BOOST_CHECK_THROW(static_cast<void>(value(text)), DerivationError);
   }

@@ -36,7 +36,7 @@ Outcome run(const std::vector<std::string>& words) {
   return {status, out.str(), err.str()};
 }
 
-/// A file beside the build that is gone when the test ends.
+/// Temporary file that is deleted at the end of the test.
 class ScratchFile {
  public:
   explicit ScratchFile(const std::string& text)
@@ -60,7 +60,7 @@ bool one_line(const std::string& text) {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(a_reference_that_holds_is_printed_beside_what_comes_out) {
+BOOST_AUTO_TEST_CASE(valid_reference_is_printed_with_derived_values) {
   const Outcome outcome = run({roots_place});
   BOOST_TEST(outcome.status == 0);
   BOOST_TEST(outcome.out.find("cantilever-roots [1] by beam-roots") == 0U);
@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(a_reference_that_holds_is_printed_beside_what_comes_out) {
   BOOST_TEST(outcome.out.find("  holds\n") != std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(a_corrupted_reference_is_caught_with_status_1) {
+BOOST_AUTO_TEST_CASE(corrupted_reference_returns_status_1) {
   Json reference = roots();
   reference["values"][2] = reference["values"][2].get<double>() + 1e-9;
   const ScratchFile file(Json{{"cantilever-roots", reference}}.dump());
@@ -79,7 +79,7 @@ BOOST_AUTO_TEST_CASE(a_corrupted_reference_is_caught_with_status_1) {
   BOOST_TEST(outcome.out.find("centroid") != std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(a_digit_that_is_not_proved_is_shown) {
+BOOST_AUTO_TEST_CASE(unproved_digit_is_shown) {
   Json reference = roots();
   const Outcome right = run({roots_place});
   BOOST_TEST(right.out.find("all digits stored are proved") != std::string::npos);
@@ -92,13 +92,13 @@ BOOST_AUTO_TEST_CASE(a_digit_that_is_not_proved_is_shown) {
   BOOST_TEST(wrong.out.find("  value 1: stored " + digits + ", proved ") != std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(a_printed_reference_has_nothing_to_derive) {
+BOOST_AUTO_TEST_CASE(printed_reference_has_no_derivation) {
   const Outcome outcome = run({(values / "paper/table-2.json:table-2-ansys").string()});
   BOOST_TEST(outcome.status == 0);
   BOOST_TEST(outcome.out == "table-2-ansys [Hz]: no derivation\n");
 }
 
-BOOST_AUTO_TEST_CASE(a_program_prints_its_values_with_all_their_digits) {
+BOOST_AUTO_TEST_CASE(program_prints_its_values_with_all_digits) {
   const Outcome outcome =
       run({"--program", "beam-roots", "--arguments", R"({"ends": "pinned-pinned", "count": 1})"});
   BOOST_TEST(outcome.status == 0);
@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(every_program_is_listed) {
     BOOST_TEST(("\n" + outcome.out).find("\n" + name + "\n    ") != std::string::npos, name);
 }
 
-BOOST_AUTO_TEST_CASE(bad_usage_and_bad_input_are_one_line_with_status_2) {
+BOOST_AUTO_TEST_CASE(invalid_usage_and_input_return_status_2_in_one_line) {
   const ScratchFile not_json("{\"id\": ");
   const ScratchFile bad_argument(R"({"x": {"title": "x", "kind": "exact", "unit": "1",
     "values": [1], "source": "x", "place": "x",

@@ -32,7 +32,7 @@ const std::map<std::string, Json>& stored() {
   return all;
 }
 
-/// Every stored reference with what its derivation gives, derived once.
+/// Returns every stored reference with its derived values, computed once.
 const std::map<std::string, Comparison>& comparisons() {
   static const auto all = [] {
     std::map<std::string, Comparison> result;
@@ -43,7 +43,7 @@ const std::map<std::string, Comparison>& comparisons() {
   return all;
 }
 
-/// `value` with its tenth significant digit changed by one.
+/// Returns the value with its tenth significant digit changed by one.
 double with_tenth_digit_changed(double value) {
   return value + std::pow(10.0, std::floor(std::log10(std::abs(value))) - 9);
 }
@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(changed_proved_digit_is_caught) {
   BOOST_CHECK_THROW((void)prove("pendulum", Json::object()), DerivationError);
 }
 
-BOOST_AUTO_TEST_CASE(a_corrupted_length_or_a_not_a_number_never_holds) {
+BOOST_AUTO_TEST_CASE(wrong_length_and_nan_never_agree) {
   Comparison comparison;
   comparison.stored = {1.0, 2.0};
   comparison.uncertainty = {1e-9, 1e-9};
@@ -127,17 +127,11 @@ BOOST_AUTO_TEST_CASE(a_corrupted_length_or_a_not_a_number_never_holds) {
   BOOST_TEST(!comparison.within_uncertainty());
 }
 
-BOOST_AUTO_TEST_CASE(an_error_inside_a_derivation_points_into_the_file) {
-  const Json reference = {
-      {"title", "x"},
-      {"kind", "exact"},
-      {"unit", "1"},
-      {"source", "x"},
-      {"place", "x"},
-      {"values", {1}},
-      {"uncertainty", {{"relative", 0}}},
-      {"derivation",
-       {{"program", "beam-roots"}, {"arguments", {{"ends", "glued"}, {"count", 1}}}}}};
+BOOST_AUTO_TEST_CASE(error_in_a_derivation_has_file_and_pointer) {
+  const Json reference = Json::parse(R"({
+    "title": "x", "kind": "exact", "unit": "1", "source": "x", "place": "x", "values": [1],
+    "uncertainty": {"relative": 0}, "derivation": {
+      "program": "beam-roots", "arguments": {"ends": "glued", "count": 1}}})");
   try {
     static_cast<void>(compare_with_derivation(reference, "x.json", "x"));
     BOOST_TEST(false, "accepted");

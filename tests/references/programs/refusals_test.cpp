@@ -1,4 +1,4 @@
-// Arguments of derivations that are refused, by the place of the fault.
+// Invalid arguments of derivations, and the place that the message must name.
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>

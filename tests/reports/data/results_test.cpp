@@ -16,7 +16,7 @@ using trammel::results::read_results;
 
 namespace {
 
-/// A change of the sample's results.json: a value, or an empty one to remove it.
+/// Change of the sample's results.json: a new value, or an empty text to remove the value.
 struct Refusal {
   const char *pointer, *value, *message;
 };

@@ -25,7 +25,7 @@ constexpr const char* kDrawnSvg = R"(<?xml version="1.0"?>
 <g id="plot_1" ><title>plot_1</title>
 <path stroke='rgb( 31,  95, 168)'  d='M57.75,335.00 L69.04,335.12'/>
 <use xlink:href='#gpPt6' color='black'/>
-<text>335.00 is told</text>
+<text>335.00 is shown</text>
 </g>
 </svg>)";
 
@@ -45,14 +45,14 @@ BOOST_AUTO_TEST_CASE(drawing_becomes_one_element_with_unique_ids) {
   BOOST_TEST(occurrences(tidy, "<g") == 0U);
 }
 
-BOOST_AUTO_TEST_CASE(coordinates_and_colours_are_short_and_texts_untouched) {
+BOOST_AUTO_TEST_CASE(coordinates_and_colors_are_shortened_but_not_texts) {
   const std::string tidy = tidy_svg(kDrawnSvg, "a", "t", "d");
   BOOST_TEST(tidy.find("stroke='#1f5fa8'") != std::string::npos);
   BOOST_TEST(tidy.find("<path stroke='#1f5fa8' d='M57.8,335 69,335.1'/>") != std::string::npos);
-  BOOST_TEST(tidy.find("335.00 is told") != std::string::npos);
+  BOOST_TEST(tidy.find("335.00 is shown") != std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(a_torn_drawing_is_refused) {
+BOOST_AUTO_TEST_CASE(incomplete_drawing_is_refused) {
   BOOST_CHECK_THROW((void)tidy_svg("<svg viewBox=\"0 0 1 1\">", "a", "t", "d"), std::runtime_error);
 }
 

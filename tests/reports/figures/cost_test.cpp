@@ -38,7 +38,7 @@ CostSetting setting_without_result(int elements, const std::string& status,
   return setting;
 }
 
-/// Seven sparse settings, six dense ones and two without a result.
+/// Returns a study of seven sparse settings, six dense ones and two without a result.
 Results cost_results() {
   CostStudy study;
   study.id = "sample-modes";
@@ -63,7 +63,7 @@ Results cost_results() {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(data_contain_all_settings_and_those_without_result) {
+BOOST_AUTO_TEST_CASE(data_contain_settings_with_and_without_result) {
   CostStudy study = cost_results().cost->studies[0];
   const Figure figure = cost_figure(study);
   BOOST_TEST(figure.data.rows.size() == study.settings.size());
@@ -72,7 +72,7 @@ BOOST_AUTO_TEST_CASE(data_contain_all_settings_and_those_without_result) {
   BOOST_TEST(contains(csv, "element_evaluations,factorizations,solves"));
   BOOST_TEST(contains(csv, "\"dense, 64 elements\",dense,64,timed-out"));
   BOOST_TEST(contains(figure.caption, "2 settings without an answer"));
-  // The strip, and a cross in it.
+  // Settings without a result are crosses in a separate strip.
   BOOST_TEST(contains(figure.commands, "no answer"));
   BOOST_TEST(contains(figure.commands, "pt 2"));
   study.settings.resize(7);

@@ -21,7 +21,7 @@ const std::vector<EffectScene> kScenes = {
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(caption_counts_what_is_within_and_minimal) {
+BOOST_AUTO_TEST_CASE(caption_counts_accurate_and_minimal_scenes) {
   const std::vector<Figure> figures = effect_scene_figures(kScenes);
   BOOST_TEST_REQUIRE(figures.size() == 1U);
   BOOST_TEST(contains(figures[0].caption, "2 of 3 scenes stay within"));
@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(caption_counts_what_is_within_and_minimal) {
   BOOST_TEST(effect_scene_figures({}).empty());
 }
 
-BOOST_AUTO_TEST_CASE(a_page_of_scenes_alone_shows_them) {
+BOOST_AUTO_TEST_CASE(page_of_scenes_only_shows_their_effects) {
   Results results;
   results.effect_scenes = kScenes;
   const Workspace folder;

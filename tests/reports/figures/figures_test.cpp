@@ -24,7 +24,7 @@ CaseInfo beam() {
   return info;
 }
 
-/// Errors c n^-order from 1 to 64 elements over a floor of round-off.
+/// Returns a series with errors 0.1 n^-order from 1 to 64 elements, and round-off.
 Convergence sweep(int index, double order) {
   Convergence c;
   c.sweep = "elements";
@@ -90,7 +90,7 @@ BOOST_AUTO_TEST_CASE(caption_of_two_orders_names_their_law) {
   BOOST_TEST(contains(figure[0].caption, "within 4.2\u202f%"));
 }
 
-BOOST_AUTO_TEST_CASE(without_an_asymptotic_range_no_order_is_stated) {
+BOOST_AUTO_TEST_CASE(no_order_is_stated_outside_the_asymptotic_range) {
   Convergence coarse = sweep(0, 4);
   coarse.fitted_order.reset();
   const auto figure = convergence_figures(beam(), run_with({coarse}));
@@ -111,7 +111,7 @@ BOOST_AUTO_TEST_CASE(caption_states_small_numbers_in_their_unit) {
              figure->caption);
 }
 
-BOOST_AUTO_TEST_CASE(a_count_that_is_right_on_every_mesh_makes_no_figure) {
+BOOST_AUTO_TEST_CASE(count_exact_on_every_mesh_has_no_figure) {
   Convergence count = sweep(0, 4);
   for (Number& error : count.error) error = 0;
   BOOST_TEST(convergence_figures(beam(), run_with({count})).empty());
@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(tolerance_caption_names_the_worst_check) {
                       "1 of 3 checks fail or could not be evaluated; the worst is in beyond."));
 }
 
-BOOST_AUTO_TEST_CASE(curves_that_cannot_be_drawn_say_why) {
+BOOST_AUTO_TEST_CASE(undrawable_curves_report_the_reason) {
   Run run = run_with({});
   run.quantities["time_s"].values = {0.0, 1.0};
   run.quantities["force_N:A"].values = {1.0, 2.0};
@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(curves_that_cannot_be_drawn_say_why) {
   BOOST_TEST(contains(problem_of({"force_N:A", "length_m:B"}), "differ in unit"));
 }
 
-BOOST_AUTO_TEST_CASE(a_motion_is_drawn_magnified_and_says_how_large_it_is) {
+BOOST_AUTO_TEST_CASE(magnified_motion_states_its_largest_deflection) {
   Run run = run_with({});
   run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}};
   BOOST_TEST(!motion_figure(beam(), run));
@@ -161,7 +161,7 @@ BOOST_AUTO_TEST_CASE(a_motion_is_drawn_magnified_and_says_how_large_it_is) {
   BOOST_TEST(contains(figure->caption, "3 moments up to 2\u202fs"), figure->caption);
   const auto moving = nlohmann::json::parse(figure->moving);
   BOOST_TEST(moving["times"] == nlohmann::json({0.0, 1.0, 2.0}));
-  // What the free end moves by from one moment to the next, y downwards.
+  // Checks the displacement of the free end between two moments, with y downwards.
   const auto step = [&](const char* set, std::size_t k, double x, double y) {
     const double unit = 5000 / 1.08;
     BOOST_TEST(std::abs(moving[set][k][2].get<double>() - unit * x) <= 1);
@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(rigid_motion_is_drawn_at_few_moments) {
   for (int k = 0; k <= 20; ++k)
     run.drawing->poses.push_back(
         {"", {{0, 0}, {std::cos(0.1 * k), std::sin(0.1 * k)}}, 0.5 * k, {}});
-  run.drawing->poses.push_back(run.drawing->poses.back());  // a moment that is there twice
+  run.drawing->poses.push_back(run.drawing->poses.back());  // a duplicate moment
   const auto figure = motion_figure(beam(), run);
   BOOST_REQUIRE(figure);
   BOOST_TEST(contains(figure->caption, "Drawn: 0, 2.5, 5, 7.5, 10\u202fs"), figure->caption);
@@ -225,7 +225,7 @@ BOOST_AUTO_TEST_CASE(history_caption_states_work_and_time) {
   };
   call("another", 900, 10, 0);
   call("this", 100, 12, 0);
-  call("this", 0, 15, 1);  // some of it came from the store
+  call("this", 0, 15, 1);  // partly from the store
   call("this", 150, 20, 0);
   const Figure figure = history_figure(history);
   BOOST_TEST(
@@ -249,7 +249,7 @@ BOOST_AUTO_TEST_CASE(members_join_to_polylines_and_meshes_to_outlines) {
   Drawing drawing;
   drawing.members = {{0, 1}, {1, 2}, {5, 6}};
   BOOST_TEST(polylines(drawing).size() == 2U);
-  const int n = 5;  // a square of 5 x 5 cells without the middle one, two triangles each
+  const int n = 5;  // a square of 5 x 5 cells without the middle cell, two triangles each
   std::vector<Point> nodes;
   for (int i = 0; i <= n; ++i)
     for (int j = 0; j <= n; ++j) nodes.emplace_back(j, i);
@@ -259,13 +259,13 @@ BOOST_AUTO_TEST_CASE(members_join_to_polylines_and_meshes_to_outlines) {
       if (i == 2 && j == 2) continue;
       const int a = i * (n + 1) + j;
       drawing.triangles.push_back({a, a + 1, a + n + 1});
-      drawing.triangles.push_back({a + 1, a + n + 1, a + n + 2});  // the other way round
+      drawing.triangles.push_back({a + 1, a + n + 1, a + n + 2});  // clockwise
     }
   const auto loops = triangle_edges(drawing);
   BOOST_REQUIRE(loops.size() == 2U);
   for (const auto& loop : loops) BOOST_TEST(loop.front() == loop.back());
   BOOST_TEST(loops[0].size() + loops[1].size() == 4U * n + 1 + 5);
-  // One polygon: 4 + 1 corners of the square, 4 + 1 of the hole, and back to where it began.
+  // One polygon: 4 + 1 corners of the square, 4 + 1 of the hole, and back to the start.
   BOOST_TEST(filled_triangles(drawing, nodes).size() == 11U);
   BOOST_TEST(triangle_edges_inside(drawing).size() == (3U * 48 - 24) / 2);
   BOOST_TEST(triangle_edges_inside(drawing, 20).empty());

@@ -19,7 +19,7 @@ CaseInfo workspace() {
   return info;
 }
 
-/// Values x + 10 y on columns x rows positions, 0.1 m apart.
+/// Returns a field x + 10 y at columns x rows positions, 0.1 m apart.
 Run field(int columns, int rows) {
   std::vector<double> x, y, value;
   for (int j = 0; j < rows; ++j) {
@@ -38,14 +38,17 @@ Run field(int columns, int rows) {
   return run;
 }
 
+PlotRequest request(const char* id, const std::string& value) {
+  PlotRequest made;
+  made.id = made.title = id;
+  made.x = "position_x_m";
+  made.y = {"position_y_m"};
+  made.value = value;
+  return made;
+}
+
 std::optional<Figure> draw(const Run& run, std::string& problem) {
-  PlotRequest request;
-  request.id = "map";
-  request.title = "A map";
-  request.x = "position_x_m";
-  request.y = {"position_y_m"};
-  request.value = "frequency_Hz";
-  return map_figure(workspace(), request, {&run}, problem);
+  return map_figure(workspace(), request("map", "frequency_Hz"), {&run}, problem);
 }
 
 }  // namespace
@@ -62,7 +65,7 @@ BOOST_AUTO_TEST_CASE(map_keeps_every_position_and_explains_its_colors) {
   BOOST_TEST(contains(figure->alt, "The largest magnitude is 5.3 Hz"));
 }
 
-BOOST_AUTO_TEST_CASE(what_is_far_from_zero_is_dark_whatever_its_sign) {
+BOOST_AUTO_TEST_CASE(large_magnitudes_are_dark_for_either_sign) {
   std::string problem;
   Run run = field(14, 5);
   const auto shade_of_lowest = [&] {
@@ -87,14 +90,8 @@ BOOST_AUTO_TEST_CASE(maps_of_one_quantity_have_one_scale) {
   run.quantities.erase("frequency_Hz");
   for (double& number : hot) number += 100;
   CaseInfo info = workspace();
-  for (const char* name : {"cold", "hot"}) {
-    PlotRequest request;
-    request.id = name;
-    request.x = "position_x_m";
-    request.y = {"position_y_m"};
-    request.value = std::string("frequency_Hz:") + name;
-    info.figures.push_back(request);
-  }
+  for (const char* name : {"cold", "hot"})
+    info.figures.push_back(request(name, std::string("frequency_Hz:") + name));
   std::string problem;
   const auto cold = map_figure(info, info.figures[0], {&run}, problem);
   const auto high = map_figure(info, info.figures[1], {&run}, problem);
@@ -118,19 +115,19 @@ BOOST_AUTO_TEST_CASE(positions_without_a_number_stay_blank) {
   BOOST_TEST(problem == "frequency_Hz has no numbers");
 }
 
-BOOST_AUTO_TEST_CASE(a_single_column_has_cells_with_a_width_and_tics_apart) {
-  // tics 0 apart are an error to gnuplot, and took the whole report with them
+BOOST_AUTO_TEST_CASE(map_of_one_row_or_column_has_valid_cells_and_tics) {
+  // Gnuplot refuses a distance of 0 between tics. No report was written.
   std::string problem;
   for (const auto& [columns, rows] : {std::pair{1, 6}, std::pair{6, 1}}) {
     const auto figure = draw(field(columns, rows), problem);
     BOOST_TEST_REQUIRE(figure.has_value(), problem);
     BOOST_TEST(!contains(figure->commands, "set xtics 0\n"));
     BOOST_TEST(!contains(figure->commands, "nan"));
-    BOOST_TEST(contains(figure->commands, "-0.05 0.05"));  // the first cell, 0.1 m wide about 0
+    BOOST_TEST(contains(figure->commands, "-0.05 0.05"));  // the first cell is 0.1 m wide about 0
   }
 }
 
-BOOST_AUTO_TEST_CASE(a_single_position_makes_no_map) {
+BOOST_AUTO_TEST_CASE(single_position_has_no_map) {
   std::string problem;
   BOOST_TEST(!draw(field(1, 1), problem).has_value());
   BOOST_TEST(problem == "frequency_Hz has a single position");

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kPages[] = {"index.html", "families/beam-modes.html",
                                   "cases/beam-pinned-pinned.html", "references.html"};
 
-/// Opens a page of the sample's report at this width and checks what must hold at every width.
+/// Opens a page of the sample's report at this width and checks what must hold at any width.
 void check_at(int width, const std::string& name) {
   const auto page = sample_report() / name;
   const auto figures = static_cast<int>(occurrences(text_of(page), "<svg "));
@@ -40,7 +40,7 @@ BOOST_AUTO_TEST_CASE(report_fits_a_phone_without_scrolling_sideways) {
   for (const char* page : kPages) check_at(400, page);
 }
 
-BOOST_AUTO_TEST_CASE(a_broken_script_would_be_noticed) {
+BOOST_AUTO_TEST_CASE(script_error_is_detected) {
   const Workspace workspace;
   const auto page = workspace.path() / "broken.html";
   std::ofstream(page) << "<html><body><script>nonsense();</script></body></html>";
@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(a_broken_script_would_be_noticed) {
   BOOST_TEST(seen.console.find("CONSOLE") != std::string::npos, seen.console);
 }
 
-BOOST_AUTO_TEST_CASE(wide_block_and_empty_drawing_would_be_noticed) {
+BOOST_AUTO_TEST_CASE(wide_block_and_empty_drawing_are_detected) {
   const Workspace workspace;
   const auto page = workspace.path() / "wide.html";
   std::ofstream(page) << "<html><body><main><p style='width: 900px'>x</p>"

@@ -20,7 +20,7 @@ using trammel::reports::write_report;
 
 namespace {
 
-/// All pages of the sample, one after another.
+/// Returns all pages of the sample as one text.
 const std::string& page() {
   static const std::string text = text_of_pages(sample_report());
   return text;
@@ -30,7 +30,7 @@ bool shows(const std::string& text) {
   return page().find(text) != std::string::npos;
 }
 
-/// The links of the pages that lead to nothing.
+/// Returns the links of the pages without a target.
 std::string dead_links(const std::map<std::string, std::string>& pages, const fs::path& folder) {
   std::string dead;
   for (const auto& [path, text] : pages) {
@@ -59,7 +59,7 @@ std::set<std::string> files_with(const std::string& extension) {
   return names;
 }
 
-/// Hides gnuplot as long as it lives.
+/// Hides gnuplot during its lifetime.
 class WithoutGnuplot {
  public:
   WithoutGnuplot() : search_(std::getenv("PATH")) { setenv("PATH", "/nonexistent", 1); }
@@ -71,7 +71,8 @@ class WithoutGnuplot {
   std::string search_;
 };
 
-/// A title that commands gnuplot to create a file, with all control characters.
+/// Returns a title with commands that would make gnuplot create a file, and with all control
+/// characters.
 std::string commanding_title(const std::string& file) {
   std::string title = "'; system('touch " + file + "'); `touch " + file + "`\n!touch " + file +
                       "\n$(touch " + file + ")|set output @x %d \"";
@@ -149,7 +150,7 @@ BOOST_AUTO_TEST_CASE(pages_load_nothing_else_and_every_link_arrives) {
   BOOST_TEST(dead_links({{"index.html", "<a href=\"cases/none.html\">"}}, sample_report()) != "");
 }
 
-BOOST_AUTO_TEST_CASE(addresses_consist_of_names_alone) {
+BOOST_AUTO_TEST_CASE(addresses_consist_of_names_only) {
   const auto pages = pages_of(sample_report());
   const std::string& beam = pages.at("cases/beam-pinned-pinned.html");
   BOOST_TEST(beam.find(" id=\"check-exact\"") != std::string::npos);
@@ -174,42 +175,30 @@ BOOST_AUTO_TEST_CASE(summary_counts_the_checks_by_verdict) {
   BOOST_TEST(shows("1 check fails, 1 could not be evaluated, 1 run did not end as expected."));
   BOOST_TEST(shows("<p class=\"reason\">the value is not finite"));
   BOOST_TEST(shows("/model/nodes/B: a member of length 0"));
-  // An expected ending is judged like any other check.
+  // An expected status is judged like any other check.
   BOOST_TEST(shows("A free frame has no stiffness"));
   BOOST_TEST(shows("<td class=\"number\">singular</td>"));
 }
 
 BOOST_AUTO_TEST_CASE(claims_are_shown_with_verdict_and_evidence) {
   Results results = sample_of("vpcs-sdll02");
+  const auto claim = [](const char* id, const char* words, const char* verdict,
+                        const char* expected, const char* undecidable,
+                        const std::vector<ClaimInterpretation>& readings) {
+    return Claim{id,          words,   "Abstract", verdict, expected, "This <b>follows</b>.",
+                 undecidable, readings};
+  };
   const ClaimEntry low{"vpcs-sdll02", "base", "exact", 1},
       high{"vpcs-sdll02", "base", "exact", 1.5};
-  const char* conclusion = "This <b>follows</b>.";
-  results.claims = Claims{"Three claims",
-                          false,
-                          {{"3",
-                            "Displacements are small.",
-                            "Abstract",
-                            "contradicted",
-                            "confirmed",
-                            conclusion,
-                            "",
-                            {{"flexible over rigid", "ratio", "1", "contradicts", {low, high}}}},
-                           {"7",
-                            "The sensitivity rises.",
-                            "Abstract",
-                            "not measured",
-                            "not measured",
-                            conclusion,
-                            "",
-                            {{"sensitivity", "relative", "1", "not measured", {}}}},
-                           {"10",
-                            "It matches.",
-                            "Abstract",
-                            "cannot be decided",
-                            "cannot be decided",
-                            conclusion,
-                            "Nothing is published.",
-                            {}}}};
+  const ClaimInterpretation ratio{"flexible over rigid", "ratio", "1", "contradicts", {low, high}},
+      relative{"sensitivity", "relative", "1", "not measured", {}};
+  const char* undecided = "cannot be decided";
+  results.claims =
+      Claims{"Three claims",
+             false,
+             {claim("3", "Displacements are small.", "contradicted", "confirmed", "", {ratio}),
+              claim("7", "The sensitivity rises.", "not measured", "not measured", "", {relative}),
+              claim("10", "It matches.", undecided, undecided, "Nothing is published.", {})}};
   const std::string text = all_pages_of(results);
   for (const char* part : {"3 claims: 1 contradicted, 1 cannot be decided, 1 not measured.",
                            "<strong>× 1 to × 1.5</strong>", "(expected: confirmed)",
@@ -254,7 +243,7 @@ BOOST_AUTO_TEST_CASE(known_discrepancy_is_never_shown_as_a_success) {
   Check known = results.runs[0].checks[0];
   known.name = "printed";
   known.role = "validation";
-  known.reference = "table-1-link-mass";  // of the paper
+  known.reference = "table-1-link-mass";  // a reference of the paper
   known.expectation = Expectation::known_discrepancy;
   known.tolerance = Tolerance{0.004, 0.006};
   results.runs[0].checks = {results.runs[0].checks[0], known};
@@ -265,7 +254,7 @@ BOOST_AUTO_TEST_CASE(known_discrepancy_is_never_shown_as_a_success) {
                            "class=\"mark known-discrepancy\" title=\"known discrepancy"})
     BOOST_TEST(text.find(part) != std::string::npos, part);
   BOOST_TEST(text.find("class=\"banner passes\"") == std::string::npos);
-  // Variants that meet one printed number have one target.
+  // Variants with the same printed number have one target.
   for (const char* variant : {"second", "third"}) {
     results.cases[0].variants.push_back({variant, variant});
     results.runs.push_back(results.runs[0]);
@@ -304,14 +293,14 @@ BOOST_AUTO_TEST_CASE(failed_report_leaves_the_former_one) {
   }
   BOOST_TEST((text_of(out / "index.html") == before));
   BOOST_TEST(count() == files);
-  // A link is not followed out of the folder, but replaced.
+  // A link out of the folder is not followed, but replaced.
   fs::rename(out / "checks", elsewhere);
   fs::create_directory_symlink(elsewhere, out / "checks");
   for (const auto& entry : fs::directory_iterator(elsewhere)) fs::remove(entry);
   write_report(all, out);
   BOOST_TEST(fs::is_empty(elsewhere));
   BOOST_TEST(count() == files);
-  // A file is the user's own.
+  // A file of the user is not replaced.
   fs::remove_all(out / "checks");
   std::ofstream(out / "checks") << "mine";
   BOOST_CHECK_THROW(write_report(all, out), std::system_error);
@@ -339,7 +328,7 @@ BOOST_AUTO_TEST_CASE(stored_runs_keep_drawings_that_did_not_change) {
   BOOST_TEST(text_of(svg).find("torn") == std::string::npos);
 }
 
-BOOST_AUTO_TEST_CASE(similar_names_have_separate_files_and_long_ones_are_cut) {
+BOOST_AUTO_TEST_CASE(similar_names_have_separate_files) {
   std::set<std::string> slugs;
   for (const std::string& name :
        {std::string("a-b"), std::string("a.b"), std::string("A-B"), std::string("a_b"),
@@ -351,7 +340,7 @@ BOOST_AUTO_TEST_CASE(similar_names_have_separate_files_and_long_ones_are_cut) {
   BOOST_TEST(trammel::reports::slug("a-b") == "a-b");
 }
 
-BOOST_AUTO_TEST_CASE(no_text_or_folder_becomes_a_command_of_gnuplot) {
+BOOST_AUTO_TEST_CASE(titles_and_folders_cannot_become_gnuplot_commands) {
   const Workspace workspace;
   Results results = sample_of("beam-pinned-pinned");
   const std::string file = (workspace.path() / "intruder").string();

@@ -1,7 +1,7 @@
-// A report as readers meet it: search, values on hover and by keys, moving modes, reduced motion, no
-// scripts, and what axe-core says of every kind of page. Arguments: the program, a folder of its own,
-// and one for pictures if wanted. puppeteer-core and axe-core come from npm; exit status 77 where they
-// or Chromium cannot be had.
+// Tests a report in a browser: search, values on hover and by keys, moving modes, reduced motion, no
+// scripts, and axe-core on every kind of page. Arguments: the program, a separate folder, and
+// optionally a folder for pictures. puppeteer-core and axe-core are installed from npm. The exit status
+// is 77 if they or Chromium are not available.
 import {execFileSync} from "node:child_process";
 import {existsSync, mkdirSync, readFileSync} from "node:fs";
 import {createRequire} from "node:module";
@@ -108,7 +108,7 @@ const first = await reading();
 await page.keyboard.press("ArrowRight");
 expect("arrow keys read values", first !== "" && await reading() !== first);
 
-// Zoom: by a frame, by keys, and back.
+// Zoom by a frame, by keys, and back.
 const view = () => page.$eval("figure svg[data-axes]", e => e.getAttribute("viewBox").split(" ").map(Number));
 const whole = await view(), at4 = await reading();
 await page.keyboard.press("+");
@@ -153,7 +153,7 @@ await pause(300);
 expect("with reduced motion they are still", await shape(page) === still);
 await page.close();
 
-// A motion along its path.
+// Motion along its path.
 for (const reduced of [false, true]) {
   page = await visit("cases/elastodynamics-circle.html", 1280, {features: reduced ? [["prefers-reduced-motion", "reduce"]] : []});
   const motion = () => page.$eval("figure[id$=-motion] svg.moving", e => e.querySelector("text").textContent + [...e.querySelectorAll("path")].map(p => p.getAttribute("d")).join());
@@ -191,7 +191,7 @@ for (const name of ["index.html", "cases/manipulator-modes.html"]) {
   expect(`${name} says all without scripts`, html.includes("<table") && !/<noscript/.test(html));
 }
 
-// Accessibility, and no page that scrolls sideways.
+// Accessibility, and no horizontal scrolling.
 for (const name of ["index.html", "cases/manipulator-modes.html", "cases/circle-load.html", "cases/elastodynamics-circle.html", "families/manipulator-modes.html", "references.html", "references/manipulator-modes.html"])
   for (const width of [1280, 400])
     for (const scheme of ["light", "dark"]) {

@@ -12,7 +12,7 @@ using trammel::testing::contains;
 
 namespace {
 
-/// Entry by entry against a target of 100 Hz.
+/// Returns one entry of a check against a target of 100 Hz.
 Check compared(const std::string& name, int entry, double difference) {
   Check check;
   check.name = name;
@@ -28,7 +28,7 @@ Check compared(const std::string& name, int entry, double difference) {
   return check;
 }
 
-/// Four variants that miss three modes by 10, 20 and 30 %.
+/// Four variants whose first three modes are wrong by 10, 20 and 30 %.
 struct Sample {
   Results results;
   Family family;
@@ -51,7 +51,7 @@ struct Sample {
     results.cases = {info};
   }
 
-  /// Of the matrix of the check, if there is one.
+  /// Returns the conclusion of the matrix of a check, or an empty text.
   std::string conclusion(const Check& check) {
     family.cases = {&results.cases.front()};
     family.runs.clear();
@@ -76,15 +76,15 @@ BOOST_AUTO_TEST_CASE(unreached_targets_are_named_with_the_nearest) {
 }
 
 BOOST_AUTO_TEST_CASE(shifted_check_has_no_column_in_the_matrix) {
-  // the first mode against the second target: once it stood as the first mode's difference, and the
-  // first target as reached
+  // The check compares mode 1 with target 2. It was once shown as the difference of mode 1, and
+  // target 1 as reached.
   Sample sample;
   for (int entry = 0; entry < 2; ++entry) {
     sample.results.runs[1].checks.push_back(compared("shifted", entry, 0.001));
   }
   const std::string words = sample.conclusion(sample.results.runs[1].checks[0]);
   BOOST_TEST(contains(words, "modes 1 (nearest +10\u202f%), 2 (nearest +20\u202f%), 3"), words);
-  BOOST_TEST(sample.conclusion(sample.results.runs[1].checks[3]) == "");  // one variant: no matrix
+  BOOST_TEST(sample.conclusion(sample.results.runs[1].checks[3]) == "");  // one variant
 }
 
 BOOST_AUTO_TEST_SUITE_END()

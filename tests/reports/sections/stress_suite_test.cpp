@@ -10,7 +10,7 @@ using namespace trammel::results;
 
 namespace {
 
-/// The sample with three of its cases in a stress suite, as the items 1, 3 and 4.
+/// Returns the sample with three of its cases as items 1, 3 and 4 of a stress suite.
 Results with_stress_suite() {
   Results results = sample_results();
   results.cases[2].stress_suite = StressSuiteEntry{1, {"fe-program"}};
@@ -42,7 +42,7 @@ BOOST_AUTO_TEST_CASE(items_are_ordered_with_the_worst_of_each_indicator) {
   BOOST_TEST(occurrences(text, "class=\"mark fails\"") == 1U);
 }
 
-BOOST_AUTO_TEST_CASE(indicator_that_no_run_has_does_not_hold) {
+BOOST_AUTO_TEST_CASE(indicator_without_a_run_fails) {
   Results results = with_stress_suite();
   for (CaseInfo& info : results.cases)
     if (info.stress_suite) info.stress_suite->indicators = {"nowhere"};

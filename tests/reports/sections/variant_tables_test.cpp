@@ -30,7 +30,7 @@ BOOST_AUTO_TEST_CASE(column_shows_its_statistic_or_the_first_entry) {
   BOOST_TEST(cell("frequency_Hz", "median") == "\u22120.5");
 }
 
-BOOST_AUTO_TEST_CASE(what_there_is_not_is_a_dash) {
+BOOST_AUTO_TEST_CASE(missing_quantity_or_statistic_is_a_dash) {
   BOOST_TEST(cell("mass_kg", "") == "\u2013");
   BOOST_TEST(cell("frequency_Hz", "no such") == "\u2013");
 }

@@ -12,7 +12,7 @@ using namespace trammel::results;
 
 namespace {
 
-/// A section of the page, from its id to its end.
+/// Returns the section of a page with this id.
 std::string section(const std::string& page, const std::string& id) {
   const std::size_t from = page.find("<section id=\"" + id + "\">");
   if (from == std::string::npos) return "";

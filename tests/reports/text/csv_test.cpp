@@ -12,7 +12,7 @@ BOOST_AUTO_TEST_CASE(numbers_keep_all_digits_and_texts_are_quoted) {
              "time_s,\"title, free\"\n0.30000000000000004,\"say \"\"no\"\"\"\n,\n");
 }
 
-BOOST_AUTO_TEST_CASE(no_text_is_a_formula_or_commands_a_terminal) {
+BOOST_AUTO_TEST_CASE(text_cannot_become_a_formula_or_control_a_terminal) {
   for (const char* text : {"=1+1", "+1", "@sum", "-cmd", "-(1)"}) {
     const Table table{{"h"}, {{std::string(text)}}};
     BOOST_TEST(to_csv(table) == "h\n'" + std::string(text) + "\n");

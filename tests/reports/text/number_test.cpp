@@ -7,7 +7,7 @@ BOOST_AUTO_TEST_SUITE(number)
 
 using namespace trammel::reports;
 
-BOOST_AUTO_TEST_CASE(digits_are_significant_ones) {
+BOOST_AUTO_TEST_CASE(numbers_have_significant_digits) {
   BOOST_TEST(significant(12.768, 4) == "12.77");
   BOOST_TEST(significant(9.9996, 4) == "10.00");
   BOOST_TEST(significant(0.0234, 3) == "0.0234");
@@ -16,27 +16,27 @@ BOOST_AUTO_TEST_CASE(digits_are_significant_ones) {
   BOOST_TEST(trimmed(-3, 2) == "\u22123");
 }
 
-BOOST_AUTO_TEST_CASE(the_very_small_and_large_are_powers_of_ten) {
+BOOST_AUTO_TEST_CASE(very_small_and_large_numbers_are_powers_of_ten) {
   BOOST_TEST(trimmed(1e-7, 3) == "10⁻⁷");
   BOOST_TEST(trimmed(-1e-7, 3) == "\u221210⁻⁷");
   BOOST_TEST(trimmed(3.456e-9, 2) == "3.5\u202f×\u202f10⁻⁹");
   BOOST_TEST(trimmed(6.9e10, 3) == "6.9\u202f×\u202f10¹⁰");
 }
 
-BOOST_AUTO_TEST_CASE(what_is_no_number_is_said_and_never_dressed_as_one) {
+BOOST_AUTO_TEST_CASE(nan_infinity_and_missing_have_no_digits) {
   BOOST_TEST(trimmed(std::numeric_limits<double>::quiet_NaN(), 3) == "not a number");
   BOOST_TEST(trimmed(std::numeric_limits<double>::infinity(), 3) == "∞");
   BOOST_TEST(or_dash(std::nullopt, 3) == "–");
 }
 
-BOOST_AUTO_TEST_CASE(relative_differences_are_per_cent_unless_small) {
+BOOST_AUTO_TEST_CASE(relative_differences_are_percent_unless_small) {
   BOOST_TEST(relative(0.2611, 3, true) == "+26.1\u202f%");
   BOOST_TEST(relative(-0.2, 3, true) == "\u221220\u202f%");
   BOOST_TEST(relative(2.1e-9, 3, true) == "+2.1\u202f×\u202f10⁻⁹");
   BOOST_TEST(relative(0, 3, true) == "0");
 }
 
-BOOST_AUTO_TEST_CASE(enough_digits_are_shown_to_see_where_two_numbers_part) {
+BOOST_AUTO_TEST_CASE(shown_digits_distinguish_two_numbers) {
   const double target = 3.5160152685, computed = 3.5160179;
   const int digits = distinguishing_digits(target, computed);
   BOOST_TEST(significant(target, digits) != significant(computed, digits));
@@ -44,13 +44,13 @@ BOOST_AUTO_TEST_CASE(enough_digits_are_shown_to_see_where_two_numbers_part) {
   BOOST_TEST(distinguishing_digits(1.0, 1.0 + 1e-15) == 6);
 }
 
-BOOST_AUTO_TEST_CASE(the_shortest_text_reads_back_as_the_same_double) {
+BOOST_AUTO_TEST_CASE(shortest_text_reads_back_as_the_same_double) {
   BOOST_TEST(shortest(0.1) == "0.1");
   for (const double x : {0.1, 1.0 / 3, 0.1 + 0.2, 6.02214076e23, -2.5e-300})
     BOOST_TEST(std::stod(shortest(x)) == x);
 }
 
-BOOST_AUTO_TEST_CASE(durations_are_said_as_people_do) {
+BOOST_AUTO_TEST_CASE(durations_have_readable_units) {
   BOOST_TEST(duration(0.00084) == "840 µs");
   BOOST_TEST(duration(0.0123) == "12.3 ms");
   BOOST_TEST(duration(3.44) == "3.44 s");

@@ -6,7 +6,7 @@ BOOST_AUTO_TEST_SUITE(quantity)
 
 using namespace trammel::reports;
 
-BOOST_AUTO_TEST_CASE(a_name_tells_what_of_what_in_which_unit) {
+BOOST_AUTO_TEST_CASE(quantity_name_is_split_into_label_subject_and_unit) {
   const QuantityLabel moment = parse_quantity("reaction_moment_N_m:A1");
   BOOST_TEST(moment.label == "reaction moment");
   BOOST_TEST(moment.subject == "A1");
@@ -31,7 +31,7 @@ BOOST_AUTO_TEST_CASE(units_are_written_as_in_print) {
   BOOST_TEST(display_unit("1") == "");
 }
 
-BOOST_AUTO_TEST_CASE(values_are_scaled_to_what_people_say) {
+BOOST_AUTO_TEST_CASE(values_are_scaled_to_readable_units) {
   BOOST_TEST(readable_scale("m", 0.0081).unit == "mm");
   BOOST_TEST(readable_scale("m", 0.0081).factor == 1000);
   BOOST_TEST(readable_scale("m", 0.43).unit == "m");

@@ -14,12 +14,12 @@ BOOST_AUTO_TEST_CASE(names_read_as_words) {
              boost::test_tools::per_element());
 }
 
-BOOST_AUTO_TEST_CASE(ends_that_read_alike_are_said_once) {
+BOOST_AUTO_TEST_CASE(range_with_equal_ends_is_one_number) {
   BOOST_TEST(low_to_high("3.9", "4.1") == "3.9 to 4.1");
   BOOST_TEST(low_to_high("4", "4") == "4");
 }
 
-BOOST_AUTO_TEST_CASE(the_first_item_of_a_list_has_no_separator) {
+BOOST_AUTO_TEST_CASE(first_item_of_a_list_has_no_separator) {
   std::string list;
   add_item(list, "a");
   add_item(list, "b");

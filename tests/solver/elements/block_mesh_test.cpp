@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(mesh_is_joined_to_existing_nodes) {
   BOOST_TEST(model.nodes.size() == 3u + 9 - 2);
   BOOST_TEST((std::count(nodes.begin(), nodes.end(), 1) == 1));
   BOOST_TEST((std::count(nodes.begin(), nodes.end(), 2) == 1));
-  // A second plate beside the first shares the three nodes between them.
+  // A second plate next to the first one shares its three nodes.
   for (Vector2d& corner : block.corners) corner.x() += 1;
   append(model, 0, mesh_blocks({block}, false));
   BOOST_TEST(model.nodes.size() == 10u + 9 - 3);
@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(pressure_on_a_curved_side_is_that_on_its_chord) {
   for (const auto& c : system.coordinates.node) {
     sum += Vector2d(system.load[c[0]], system.load[c[1]]);
   }
-  BOOST_TEST(sum.x() == 10e6 * 0.1 * 2.75, tolerance(1e-12));  // for any curve between its ends
+  BOOST_TEST(sum.x() == 10e6 * 0.1 * 2.75, tolerance(1e-12));  // for any curve with these ends
   BOOST_TEST(sum.y() == 10e6 * 0.1 * 3.25, tolerance(1e-12));
 }
 

@@ -26,7 +26,8 @@ Matrix6d world(const Matrix6d& k, double angle) {
   return R.transpose() * k * R;
 }
 
-/// World displacements of a rigid motion: shifts (a, b), rotation w about the first node.
+/// Returns the displacements of a rigid motion: translation (a, b) and rotation w about the first
+/// node.
 Vector6d rigid_motion(double a, double b, double w, double angle) {
   Vector6d u;
   u << a, b, w, a - w * kLength * std::sin(angle), b + w * kLength * std::cos(angle), w;

@@ -13,10 +13,10 @@ using Eigen::Matrix2d;
 namespace {
 
 const Plate kPlate = {"plate", {6.9e10, 2700, 0.33}, 0.0015};
-const Vector2d kBulge(0.08, 0.05);  // of the middle of side 12
+const Vector2d kBulge(0.08, 0.05);  // displacement of the middle of side 12
 const Matrix2d kTurn{{0, -1}, {1, 0}};
 
-/// A triangle of n nodes; side 12 is straight or a parabola.
+/// Triangle of n nodes; side 12 is straight or a parabola.
 template <std::size_t n>
 struct Element {
   TriangleNodes<n> nodes;
@@ -29,7 +29,7 @@ struct Element {
     if (curved) nodes[4] += kBulge;
   }
 
-  /// Nodal values of a displacement field.
+  /// Returns the nodal values of a displacement field.
   template <class Field>
   Eigen::Matrix<double, 2 * n, 1> sample(const Field& field) const {
     Eigen::Matrix<double, 2 * n, 1> u;
@@ -56,7 +56,7 @@ void check_null_space_and_mass(bool curved) {
   for (const auto& u : {along, across, turn}) BOOST_TEST((k * u).norm() < 1e-13 * k.norm());
   const Eigen::SelfAdjointEigenSolver<TriangleMatrix<n>> eigen(k);
   BOOST_TEST(eigen.eigenvalues()[3] > 1e-3 * eigen.eigenvalues()[2 * n - 1]);
-  // A parabola adds two thirds of its chord times its height.
+  // A parabola adds two thirds of chord times height to the area.
   const Vector2d chord = element.nodes[2] - element.nodes[1];
   const double bulge = 2 / 3.0 * std::abs(chord.x() * kBulge.y() - chord.y() * kBulge.x());
   const double area = element.corner_area() + (curved ? bulge : 0);
@@ -76,7 +76,7 @@ void check_null_space_and_mass(bool curved) {
   BOOST_TEST(spin.dot(M * spin) == mass * sides / 36, tolerance(1e-13));
 }
 
-/// Values and gradients of the shape functions at nodes and within.
+/// Checks values and gradients of the shape functions at nodes and at an interior point.
 template <std::size_t n>
 void check_interpolation(bool curved) {
   const Element<n> element(curved);
@@ -134,7 +134,7 @@ BOOST_AUTO_TEST_CASE(quadratic_displacement_has_its_exact_energy) {
   // u = (x^2, 0): exx = 2 x, energy = t E / (1 - nu^2) integral 4 x^2.
   const Element<6> element;
   const auto u = element.sample([](const Vector2d& p) { return Vector2d(p.x() * p.x(), 0); });
-  double mean = 0;  // of x^2: that at the middles of the sides
+  double mean = 0;  // mean of x^2: that at the middles of the sides
   for (std::size_t i = 3; i < 6; ++i) mean += element.nodes[i].x() * element.nodes[i].x() / 3;
   const Material& m = kPlate.material;
   BOOST_TEST(u.dot(element.stiffness() * u) ==

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <cmath>
-#include <functional>
 #include <numeric>
 #include <random>
 
@@ -32,7 +31,7 @@ MatrixXd random_matrix(Index rows, Index cols, unsigned seed) {
   return MatrixXd::NullaryExpr(rows, cols, [&](Index, Index) { return uniform(random); });
 }
 
-/// Eq. 36 and 37 as printed, in extended precision.
+/// Returns the prediction of Eq. 36 and 37 as printed, in extended precision.
 double as_printed(const Grnn& g, const Eigen::RowVectorXd& x, Index output) {
   long double above = 0;
   long double below = 0;
@@ -78,7 +77,7 @@ BOOST_AUTO_TEST_CASE(predictions_are_those_of_the_printed_formula) {
 BOOST_AUTO_TEST_CASE(samples_at_the_same_distance_have_equal_weights) {
   const Grnn between = make_grnn(column({1, 2, 5}), column({10, 20, 90}), 1e-300);
   BOOST_TEST(predict(between, column({1.5}))(0, 0) == 15.0);
-  // A query a rounding away from the middle belongs to one of them, and is never 0/0.
+  // A query one rounding error away from the middle returns either value, but never 0/0.
   const double y =
       predict(make_grnn(column({0.1, 0.2}), column({1, 2}), 1e-300), column({0.15}))(0);
   BOOST_TEST((y == 1.0 || y == 2.0 || y == 1.5));
@@ -134,7 +133,7 @@ BOOST_AUTO_TEST_CASE(split_has_the_requested_size_and_order) {
   const std::vector<bool> first = training_mask(631, 379, Split::first);
   BOOST_TEST(first[378]);
   BOOST_TEST(!first[379]);
-  // Interleaved: 60 % of every part, and never two in a row held out.
+  // Interleaved split: 60 % of every part, and never two successive samples held out.
   const std::vector<bool> spread = training_mask(631, 379, Split::interleaved);
   for (std::size_t i = 0; i + 1 < spread.size(); ++i) BOOST_TEST((spread[i] || spread[i + 1]));
   BOOST_TEST(
@@ -146,7 +145,7 @@ BOOST_AUTO_TEST_CASE(split_has_the_requested_size_and_order) {
 }
 
 BOOST_AUTO_TEST_CASE(search_beats_nearest_neighbor_and_mean) {
-  // A noisy sine: the best smoothing lies between the nearest neighbour and the mean.
+  // Noisy sine: the best smoothing is between the nearest neighbor and the mean.
   const Index n = 200;
   MatrixXd x(n, 1);
   MatrixXd y(n, 1);
@@ -211,24 +210,19 @@ BOOST_AUTO_TEST_CASE(invalid_samples_and_options_are_refused) {
   const double nan = std::nan("");
   const MatrixXd one = column({1});
   const auto network = [&](double sigma) { return make_grnn(one, one, sigma); };
-  const std::vector<std::function<void()>> calls = {
-      [&] { (void)make_grnn(MatrixXd(0, 1), MatrixXd(0, 1), 1); },
-      [&] {
-        (void)make_grnn(column({1, 2}), one, 1);
-      },
-      [&] { (void)make_grnn(column({nan}), one, 1); },
-      [&] { (void)make_grnn(one, column({nan}), 1); },
-      [&] { (void)make_grnn(column({1e200}), one, 1); },
-      [&] { (void)make_grnn(one, one, 1, VectorXd(VectorXd::Zero(1))); },
-      [&] { (void)predict(network(0), one); },
-      [&] { (void)predict(network(nan), one); },
-      [&] { (void)predict(network(1), column({nan})); },
-      [&] { (void)predict(network(1), MatrixXd::Ones(1, 2)); },
-      [&] { (void)cross_validation_error(network(1), VectorXd::Ones(1), {}); },
-      [&] { (void)fold_of_samples(5, {1}); },
-      [&] { (void)fold_of_samples(5, {6}); },
-      [&] { (void)logarithmic_grid(0, 1, 5); }};
-  for (const auto& call : calls) BOOST_CHECK_THROW(call(), ModelError);
+  BOOST_CHECK_THROW((void)make_grnn(MatrixXd(0, 1), MatrixXd(0, 1), 1), ModelError);
+  BOOST_CHECK_THROW((void)make_grnn(column({1, 2}), one, 1), ModelError);
+  BOOST_CHECK_THROW((void)make_grnn(column({nan}), one, 1), ModelError);
+  BOOST_CHECK_THROW((void)make_grnn(one, column({nan}), 1), ModelError);
+  BOOST_CHECK_THROW((void)make_grnn(column({1e200}), one, 1), ModelError);
+  BOOST_CHECK_THROW((void)make_grnn(one, one, 1, VectorXd(VectorXd::Zero(1))), ModelError);
+  for (const double sigma : {0.0, nan})
+    BOOST_CHECK_THROW((void)predict(network(sigma), one), ModelError);
+  BOOST_CHECK_THROW((void)predict(network(1), column({nan})), ModelError);
+  BOOST_CHECK_THROW((void)predict(network(1), MatrixXd::Ones(1, 2)), ModelError);
+  BOOST_CHECK_THROW((void)cross_validation_error(network(1), VectorXd::Ones(1), {}), ModelError);
+  for (const Index folds : {1, 6}) BOOST_CHECK_THROW((void)fold_of_samples(5, {folds}), ModelError);
+  BOOST_CHECK_THROW((void)logarithmic_grid(0, 1, 5), ModelError);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -19,15 +19,12 @@ using boost::test_tools::tolerance;
 enum class Integrator { generalized_alpha, energy_momentum };
 
 TransientOptions options_of(Integrator integrator, double step, double end) {
-  TransientOptions options;
-  options.scheme = generalized_alpha(0.9);
+  TransientOptions options = options_to(end, step, generalized_alpha(0.9));
   options.scheme.conserves_energy = integrator == Integrator::energy_momentum;
-  options.step = step;
-  options.end = end;
   return options;
 }
 
-/// Integrates a system to a time; the summary must say that it went well.
+/// Integrates a motion and requires that it is solved.
 State run(const GeometricallyExactSystem& system, const TransientOptions& options,
           IntegrationSummary* found = nullptr, const Observer& observe = {}) {
   State state;
@@ -37,8 +34,8 @@ State run(const GeometricallyExactSystem& system, const TransientOptions& option
   return state;
 }
 
-/// What the simple pendulum gets wrong after 2 s: place [m], speed [m/s], force at the hinge [N].
-/// The place is that of the elliptic functions; speed and force follow from it by energy.
+/// Errors of the simple pendulum after 2 s: position [m], speed [m/s], force at the hinge [N]. The
+/// exact position is from elliptic functions. Exact speed and force follow from it by energy.
 struct PendulumError {
   double place = 0, speed = 0, pull = 0, gap = 0, gap_rate = 0;
 };
@@ -58,7 +55,7 @@ PendulumError pendulum_error(Integrator integrator, double step) {
           summary.constraints.rate};
 }
 
-/// Total energy after some time of free vibration over what it was, minus 1.
+/// Returns the relative change of the total energy of a free vibration.
 double energy_drift(Integrator integrator, double step, double end) {
   Model model = cantilever(unit_section(1e4), 1, 2);
   model.members[0].load = {0, 0};

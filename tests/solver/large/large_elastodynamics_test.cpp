@@ -15,13 +15,8 @@ namespace {
 
 ElastodynamicsOptions options_of(ElbowKind elbow, double angular_speed, double end, double step) {
   ElastodynamicsOptions options;
-  options.design = table_1_design();
-  options.design.platform.kind = PlatformKind::rigid;
-  for (std::size_t i = 0; i < 3; ++i) {
-    options.design.proximal[i].elements = options.design.distal[i].elements = 2;
-    options.design.elbow[i].kind = elbow;
-    if (elbow == ElbowKind::sprung) options.design.elbow[i].stiffness = 5;
-  }
+  options.design = with_elements(2);
+  options.design.elbow.fill({elbow, elbow == ElbowKind::sprung ? 5.0 : 0.0});
   options.path =
       Circle{.center = {0.25, 0.144}, .radius = 0.01, .angular_speed = angular_speed, .phi = 0};
   options.time.end = end;
@@ -40,7 +35,7 @@ double largest(const Eigen::MatrixX2d& rows) {
 
 BOOST_AUTO_TEST_CASE(large_motion_without_inertia_is_large_statics) {
   for (const ElbowKind elbow : kElbows) {
-    ElastodynamicsOptions options = options_of(elbow, 1e-4, 6e4, 1);  // inertia of 1e-8 of 1 rad/s
+    ElastodynamicsOptions options = options_of(elbow, 1e-4, 6e4, 1);  // 1e-8 of the inertia
     options.wrench = {10, 0, 0};
     options.gravity = {0, -1};
     options.elastic_inertia = false;
@@ -54,7 +49,8 @@ BOOST_AUTO_TEST_CASE(large_motion_without_inertia_is_large_statics) {
   }
 }
 
-/// Small loads move P by some micrometres, angles by less than 1e-4: so far theories differ.
+/// Small loads displace P by a few micrometers and rotate it by less than 1e-4. The theories differ
+/// by these amounts.
 BOOST_AUTO_TEST_CASE(small_motions_are_those_of_linear_theory) {
   for (const ElbowKind elbow : kElbows) {
     for (const bool quasi_static : {true, false}) {
@@ -92,7 +88,7 @@ BOOST_AUTO_TEST_CASE(nominal_inertia_loads_the_equilibria) {
   }
 }
 
-/// The mean of a fast circle under 10 N is that of equilibria, which linear theory misses by 8 %.
+/// The mean motion on a fast circle under 10 N is quasi-static. The error of linear theory is 8 %.
 BOOST_AUTO_TEST_CASE(damping_does_not_act_on_the_nominal_motion) {
   ElastodynamicsOptions options = options_of(ElbowKind::hinged, 1, 6, 5e-3);
   options.wrench = {10, 0, 0};
@@ -108,8 +104,8 @@ BOOST_AUTO_TEST_CASE(damping_does_not_act_on_the_nominal_motion) {
   BOOST_TEST(largest(solve_elastodynamics(options).deflection - still.deflection) > 0.03 * size);
 }
 
-/// Rates of an equilibrium without damping are none of the configuration with it: strains that
-/// turned with the links by the difference, times damping, were forces of their own.
+/// The equilibrium without damping has other rates than the configuration with damping. The strain
+/// rates of the difference were once taken as damping forces.
 BOOST_AUTO_TEST_CASE(strong_damping_starts_as_in_linear_theory) {
   ElastodynamicsOptions options = options_of(ElbowKind::hinged, 5, 0.2, 2e-3);
   options.wrench = {1e-3, 5e-4, 0};
@@ -121,11 +117,11 @@ BOOST_AUTO_TEST_CASE(strong_damping_starts_as_in_linear_theory) {
   BOOST_TEST_REQUIRE(large.outcome.solved(), large.outcome.reason);
   BOOST_TEST((large.state.front().resultant_end - linear.resultant_end).norm() <
              5e-3 * linear.resultant_end.norm());
-  options.wrench = {10, 0, 0};  // Newton's method knew no damping
+  options.wrench = {10, 0, 0};  // Newton's method once omitted the damping
   BOOST_TEST(solve_large_elastodynamics(options).outcome.solved());
 }
 
-/// Steps end where the history bends: a pulse of a fifth of a step went unseen.
+/// Steps end at the breakpoints of the load history. A pulse of a fifth of a step was once missed.
 BOOST_AUTO_TEST_CASE(pulse_within_a_step_is_resolved) {
   ElastodynamicsOptions options = options_of(ElbowKind::welded, 0.01, 0.04, 5e-3);
   options.wrench = {1, 0, 0};
@@ -138,9 +134,9 @@ BOOST_AUTO_TEST_CASE(pulse_within_a_step_is_resolved) {
   BOOST_TEST(largest(large.deflection) == linear, boost::test_tools::tolerance(0.05));
 }
 
-BOOST_AUTO_TEST_CASE(path_out_of_reach_is_named) {
-  // With steps of 1e-2 s the vibration is not resolved, and it depends on rounding whether they
-  // fail before the end of the reach.
+BOOST_AUTO_TEST_CASE(path_out_of_reach_is_reported) {
+  // With steps of 1e-2 s the vibration is not resolved. Round-off then decides if the motion fails
+  // before the end of the reach.
   ElastodynamicsOptions options = options_of(ElbowKind::hinged, 1, 1, 5e-3);
   options.path = Line{{0.25, 0.144, 0}, {0.25, 0.9, 0}, 1};
   options.time.sample_times = {0, 1};

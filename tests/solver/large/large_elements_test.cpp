@@ -55,7 +55,7 @@ LineSpringElement some_spring() {
   return spring;
 }
 
-/// The residual of the constraint rows and its gradient.
+/// Returns the residual of the constraint rows and its gradient.
 template <class Element>
 std::pair<typename Element::Rows, typename Element::Gradient> linearize(
     const Element& element, const typename Element::Coordinates& q) {
@@ -66,8 +66,8 @@ std::pair<typename Element::Rows, typename Element::Gradient> linearize(
 
 constexpr double kStep = 1e-5;
 
-/// Largest difference of the gradient from central differences of the residuals, of the geometric
-/// stiffness from those of the gradient, and of what the discrete gradient promises.
+/// Checks the gradient and the geometric stiffness by central differences, and the defining
+/// property of the discrete gradient.
 template <class Element>
 void check_derivatives(const Element& element) {
   using Coordinates = typename Element::Coordinates;

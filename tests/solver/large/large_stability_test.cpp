@@ -16,14 +16,15 @@ using namespace trammel::testing;
 
 constexpr double kPi = std::numbers::pi;
 
-/// A column along x under a compressive end load of 1, so that load factors are loads.
+/// Returns a column along x under a compressive end load of 1, so that load factors are loads.
 Model column(Index elements) {
   Model model = elastica(elements);
   model.loads = {{1, {-1, 0, 0}}};
   return model;
 }
 
-/// A shallow arch of eight straight pieces on hinges, pushed down at its crown and a little across.
+/// Returns a shallow arch of eight straight pieces on hinges, loaded at its crown with a small
+/// transverse part.
 Model shallow_arch(double across) {
   Model model;
   Section section = unit_section(1e4);
@@ -43,7 +44,8 @@ Model shallow_arch(double across) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(path_does_not_step_over_its_target) {
-  // Newton on the target itself may fail from far away; the step must then be cut, not taken.
+  // Newton's method may fail at the target from a distant state. The step must then be reduced, not
+  // taken.
   const GeometricallyExactSystem system(column(24));
   StaticPathOptions options;
   options.target = kPi * kPi / 2;
@@ -57,14 +59,14 @@ BOOST_AUTO_TEST_CASE(path_does_not_jump_to_a_near_branch) {
   for (const double across : {0.05, 0.01, 0.002}) {
     const GeometricallyExactSystem system(shallow_arch(across));
     StaticPathOptions options;
-    options.first_step = 0.05;
     options.target = 0.8;
+    options.first_step = 0.05;
     const StaticPath path = follow_static_path(system, options);
     BOOST_REQUIRE(path.outcome.solved());
     BOOST_REQUIRE(path.events.size() == 2U);
     BOOST_TEST((path.events[0].kind == PathEvent::Kind::limit_point));
     BOOST_TEST((path.events[1].kind == PathEvent::Kind::limit_point));
-    BOOST_TEST(path.points.back().unstable_directions == 0);  // it hangs
+    BOOST_TEST(path.points.back().unstable_directions == 0);  // the arch hangs
     BOOST_TEST(node_motion(system, path.points.back().state.q)(4, 1) < -10);
   }
 }

@@ -7,6 +7,7 @@
 #include "solver/large/state_results.h"
 #include "solver/large/static_path.h"
 #include "tests/support/solver/large_models.h"
+#include "tests/support/solver/numerics.h"
 
 BOOST_AUTO_TEST_SUITE(motion_residuals)
 
@@ -17,7 +18,7 @@ using namespace trammel::solver::large_motion;
 using namespace trammel::testing;
 using boost::test_tools::tolerance;
 
-/// A mass of 1 kg on a rod of 1 m with a torque that changes with time, damped.
+/// Returns a damped mass of 1 kg on a rod of 1 m under a torque that varies with time.
 GeometricallyExactSystem pendulum() {
   LargeMotionModel large_motion;
   large_motion.torques = {{"motor", 0, [](double t) { return 3 * std::sin(5 * t); }}};
@@ -25,19 +26,15 @@ GeometricallyExactSystem pendulum() {
   return GeometricallyExactSystem(simple_pendulum(), large_motion);
 }
 
-TransientOptions options_to(double end) {
-  TransientOptions options;
-  options.end = end;
-  options.step = 0.01;
-  options.scheme = generalized_alpha(0.9);
-  return options;
+TransientOptions options_for(double end) {
+  return options_to(end, 0.01, generalized_alpha(0.9));
 }
 
-/// The outcome of ten steps whose last state is claimed to be another.
+/// Returns the outcome of ten steps after a change of the last state.
 Outcome outcome_of(const std::function<void(State&)>& change) {
   const GeometricallyExactSystem system = pendulum();
   State state;
-  BOOST_TEST_REQUIRE(integrate(system, state, options_to(0.1)).outcome.solved());
+  BOOST_TEST_REQUIRE(integrate(system, state, options_for(0.1)).outcome.solved());
   change(state);
   VectorXd force = VectorXd::Zero(system.coordinates());
   system.force_residual(state, force);
@@ -59,10 +56,10 @@ BOOST_AUTO_TEST_CASE(wrong_states_of_a_motion_are_refused) {
     BOOST_TEST(!outcome.solved());
     BOOST_TEST(outcome.reason.find(residual) != std::string::npos, outcome.reason);
   };
-  refused([](State& s) { s.a.setZero(); }, "equation of motion");         // no inertia
-  refused([](State& s) { s.t -= 0.01; }, "equation of motion");           // a stale force
-  refused([](State& s) { s.v = -s.v; }, "equation of motion");            // damping of wrong sign
-  refused([](State& s) { s.lambda *= 1 + 1e-3; }, "equation of motion");  // an early stop
+  refused([](State& s) { s.a.setZero(); }, "equation of motion");  // no inertia
+  refused([](State& s) { s.t -= 0.01; }, "equation of motion");    // force of another time
+  refused([](State& s) { s.v = -s.v; }, "equation of motion");     // damping of the wrong sign
+  refused([](State& s) { s.lambda *= 1 + 1e-3; }, "equation of motion");  // early termination
   refused([](State& s) { s.q.array() += 1e-8; }, "constraints");          // drift off the rod
   refused([](State& s) { s.v.array() += 1e-5; }, "constraints");
 }
@@ -70,7 +67,7 @@ BOOST_AUTO_TEST_CASE(wrong_states_of_a_motion_are_refused) {
 BOOST_AUTO_TEST_CASE(integration_reports_its_residuals) {
   const GeometricallyExactSystem system = pendulum();
   State state;
-  const IntegrationSummary summary = integrate(system, state, options_to(1));
+  const IntegrationSummary summary = integrate(system, state, options_for(1));
   BOOST_TEST(summary.outcome.solved(), summary.outcome.reason);
   BOOST_TEST(summary.evidence.largest(Residual::constraints) < 1e-13);
   BOOST_TEST(summary.evidence.largest(Residual::equation_of_motion) < 1e-12);
@@ -93,7 +90,7 @@ BOOST_AUTO_TEST_CASE(energy_balances_with_every_kind_of_work) {
        }}};
   const GeometricallyExactSystem system(model, large_motion);
   State state;
-  TransientOptions options = options_to(1);
+  TransientOptions options = options_for(1);
   options.scheme.conserves_energy = true;
   const IntegrationSummary summary = integrate(system, state, options);
   BOOST_TEST(summary.outcome.solved(), summary.outcome.reason);
@@ -108,7 +105,7 @@ BOOST_AUTO_TEST_CASE(wrong_member_forces_are_out_of_balance) {
   StaticPath path = follow_static_path(system);
   BOOST_TEST(path.outcome.solved(), path.outcome.reason);
   BOOST_TEST(path.evidence.largest(Residual::recovered_forces) < 1e-13);
-  BOOST_TEST(path.evidence.largest(Residual::recovered_forces) > 0);  // rounding: it is taken
+  BOOST_TEST(path.evidence.largest(Residual::recovered_forces) > 0);  // nonzero, so it is computed
   State& state = path.points.back().state;
   const auto residual = [&] {
     MemberBalance balance;

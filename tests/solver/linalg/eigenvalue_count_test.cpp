@@ -24,11 +24,12 @@ BOOST_AUTO_TEST_CASE(missed_and_repeated_modes_are_counted) {
   BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 1, 2, 2, 5}}) == 1);
   BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 2, 2, 5}}, {}, 7) == 0);
   BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{2, 2, 5}}, {}, 7) == 1);
-  // Below the last one found, and beyond one that was not asked for: the gaps decide.
+  // The gaps decide for a limit below the last eigenvalue or above an eigenvalue that was not
+  // requested.
   BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 2, 2, 5}}, {}, 3) == 0);
   BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 2, 2}}, {}, 7) == 0);
   BOOST_TEST(dependent_vectors(B, shapes) == 0);
-  // The lowest is missed, another stands in its place: the number is right.
+  // The lowest eigenvalue is missing and another one is repeated, so the number is correct.
   BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{2, 2, 2, 5}}) == 0);
   shapes.col(0) = 0.6 * shapes.col(1) + 0.8 * shapes.col(2);
   BOOST_TEST(dependent_vectors(B, shapes) == 1);

@@ -31,16 +31,15 @@ BOOST_AUTO_TEST_CASE(dependent_column_has_a_pivot_of_zero) {
   BOOST_TEST(found.x == Eigen::Vector3d(1, 2, 3));
 }
 
-// A bar within a rigid body does not stretch, but rounding of the body's motion stretches it.
+// A bar within a rigid body does not stretch, but round-off of the body's motion stretches it.
 BOOST_AUTO_TEST_CASE(terms_that_cancel_in_a_strain_keep_their_size) {
   Model model;
   model.nodes = {{"A", {0, 0}}, {"B", {3, 4}}};
   model.rigid_bodies = {{"body", 0, {1}}};
-  model.members = {member("AB", 0, 1, unit_section())};
-  model.members[0].ends[0].fixity = model.members[0].ends[1].fixity = EndFixity::hinged;
+  model.members = {hinged("AB", 0, 1, unit_section())};
   const StiffnessFactors K = stiffness_factors(assemble(model));
   BOOST_TEST(Eigen::MatrixXd(K.A).row(0).lpNorm<Eigen::Infinity>() < 1e-15);
-  // Along the bar both ends move by 0.6 x + 0.8 y; a turn moves B by (-4, 3).
+  // Along the bar both ends move by 0.6 x + 0.8 y. A rotation moves B by (-4, 3).
   const Eigen::RowVector3d terms = Eigen::RowVector3d(2 * 0.6, 2 * 0.8, 0.6 * 4 + 0.8 * 3);
   const Eigen::MatrixXd size = K.size;
   BOOST_TEST((size.row(0).head<3>() - terms).lpNorm<Eigen::Infinity>() < 1e-14);

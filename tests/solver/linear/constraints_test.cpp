@@ -14,7 +14,7 @@ using boost::test_tools::tolerance;
 
 namespace {
 
-/// Largest |C T|: every free motion satisfies every row, the dropped ones included.
+/// Returns the largest |C T|. Free motions must satisfy all rows, including the dropped ones.
 double violation(const System& system) {
   double largest = 0;
   for (const ConstraintRow& row : system.constraints.rows) {
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(rigid_body_has_three_motions) {
 
 BOOST_AUTO_TEST_CASE(redundant_constraints_are_dropped) {
   Model model = rigid_triangle();
-  model.rigid_bodies.push_back({"again", 1, {2, 3, 0}});  // the same body told from another node
+  model.rigid_bodies.push_back({"again", 1, {2, 3, 0}});  // the same body from another node
   model.supports = {pin(1), {"", 1, {true, false, false}}};
   const System system = assemble(model);
   BOOST_TEST(system.T.cols() == 1);
@@ -60,13 +60,12 @@ BOOST_AUTO_TEST_CASE(inextensible_parallel_links_leave_one_motion) {
   model.nodes = {{"A", {0, 0}}, {"B", {0.3, 0.7}}, {"C", {2.3, 0.7}},
                  {"D", {2, 0}}, {"E", {1, 0}},     {"F", {1.3, 0.7}}};
   const auto link = [](Index a, Index b) {
-    Member m = member("", a, b, {0, 0, 0, 1, 0, 1, 1});
-    m.ends[0].fixity = m.ends[1].fixity = EndFixity::hinged;
+    Member m = hinged("", a, b, {0, 0, 0, 1, 0, 1, 1});
     m.axially_flexible = false;
     return m;
   };
   model.rigid_bodies = {{"coupler", 1, {2, 5}}};
-  model.members = {link(0, 1), link(3, 2), link(4, 5)};  // the third says nothing new
+  model.members = {link(0, 1), link(3, 2), link(4, 5)};  // the third one is redundant
   model.supports = {pin(0), pin(3), pin(4)};
   const System system = assemble(model);
   BOOST_TEST(system.T.cols() == 1);

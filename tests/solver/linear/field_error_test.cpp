@@ -20,7 +20,7 @@ t::System membrane() {
   return t::assemble(t::mesh_rectangle({0.8, 0.5, 4, false, 0.25}, {"p", kMaterial, 0.02}));
 }
 
-/// u = a x, v = 0, so that sxx = E a / (1 - nu^2), syy = nu sxx.
+/// Field u = a x, v = 0 with sxx = E a / (1 - nu^2), syy = nu sxx.
 t::MembraneFieldPoint stretched(double a, const Vector2d& p) {
   const double sxx = kMaterial.E * a / (1 - kMaterial.nu * kMaterial.nu);
   return {{a * p.x(), 0}, 0.5 * a, {sxx, kMaterial.nu * sxx, 0}};
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(stretch_error_of_1_percent_is_1_percent_in_norms) {
   BOOST_TEST(e.displacement == 0.01, boost::test_tools::tolerance(1e-10));
   BOOST_TEST(e.stress == 0.01, boost::test_tools::tolerance(1e-10));
   BOOST_TEST(e.energy == 0.01, boost::test_tools::tolerance(1e-10));
-  BOOST_TEST(e.rotation == 1.0, boost::test_tools::tolerance(1e-10));  // exact 0.5e-3, found 0
+  BOOST_TEST(e.rotation == 1.0, boost::test_tools::tolerance(1e-10));  // exact 0.5e-3, computed 0
 }
 
 BOOST_AUTO_TEST_CASE(energy_of_an_error_is_that_of_its_stresses) {
@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(error_relative_to_zero_is_not_finite) {
   const t::System system = beam(t::BeamTheory::euler_bernoulli);
   const auto exact = [](const Vector2d& p) { return bent(1e-3, p); };
   const t::BeamErrors e = t::beam_errors(system, nodal_bending(system, 1e-3), exact);
-  BOOST_TEST(!std::isfinite(e.axial_force));  // exact is 0
+  BOOST_TEST(!std::isfinite(e.axial_force));  // the exact value is 0
 }
 
 BOOST_AUTO_TEST_CASE(missing_value_spoils_every_norm) {

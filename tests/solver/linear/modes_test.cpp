@@ -27,25 +27,7 @@ ModalSolution solve(const Model& model, Index count, EigenMethod path = EigenMet
   return solve_modes(assemble(model), {count, path});
 }
 
-double cantilever_error(Index elements, std::size_t mode, MassMatrix mass) {
-  Model model = cantilever(unit_section(1e7), 1, elements, 0.3);
-  model.members[0].mass = mass;
-  const double exact = kCantilever[mode] * kCantilever[mode] / (2 * kPi);
-  return solve(model, 4).frequency[static_cast<Index>(mode)] / exact - 1;
-}
-
 }  // namespace
-
-BOOST_AUTO_TEST_CASE(consistent_mass_error_is_the_fourth_power_over_1440) {
-  for (std::size_t mode = 0; mode < 4; ++mode) {
-    for (const Index elements : {16, 64, 128}) {
-      const double bh = kCantilever[mode] / static_cast<double>(elements);
-      if (bh > 0.5) continue;
-      BOOST_TEST(cantilever_error(elements, mode, MassMatrix::consistent) == std::pow(bh, 4) / 1440,
-                 tolerance(0.03));
-    }
-  }
-}
 
 BOOST_AUTO_TEST_CASE(round_off_estimate_bounds_the_error) {
   for (const Index elements : {256, 512, 1024}) {
@@ -60,20 +42,11 @@ BOOST_AUTO_TEST_CASE(round_off_estimate_bounds_the_error) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(lumped_mass_error_is_of_order_2) {
-  for (std::size_t mode = 0; mode < 3; ++mode) {
-    const double coarse = cantilever_error(16, mode, MassMatrix::lumped);
-    const double fine = cantilever_error(32, mode, MassMatrix::lumped);
-    BOOST_TEST(coarse < 0);  // half an element of mass stands at the tip
-    BOOST_TEST(std::log2(coarse / fine) == 2, tolerance(0.05));
-  }
-}
-
 BOOST_AUTO_TEST_CASE(both_methods_agree_on_repeated_modes_and_cuts) {
   const System system = assemble(pinned_double_cross(8));
   const ModalSolution all = solve_modes(system, {16, EigenMethod::dense});
   for (const EigenMethod path : kPaths) {
-    for (const Index count : {1, 4, 6, 13, 16}) {  // 4, 6, 13: inside a cluster
+    for (const Index count : {1, 4, 6, 13, 16}) {  // 4, 6 and 13 are inside a cluster
       const ModalSolution m = solve_modes(system, {count, path});
       BOOST_REQUIRE(m.outcome.solved());
       BOOST_REQUIRE(m.frequency.size() == count);
@@ -104,7 +77,7 @@ BOOST_AUTO_TEST_CASE(rigid_motions_are_counted_beyond_the_modes_requested) {
   }
 }
 
-/// A body on a massless beam that floats: its three motions carry all the mass there is.
+/// A body floats on a massless beam. Its three rigid motions have all the mass.
 BOOST_AUTO_TEST_CASE(model_with_only_rigid_modes_has_no_vibration) {
   Section section = unit_section();
   section.mass_per_length = 0;

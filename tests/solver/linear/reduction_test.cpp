@@ -14,7 +14,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Two beams at a right angle, clamped at both far ends, loaded at their corner.
+/// Returns two beams at a right angle, clamped at both far ends and loaded at their corner.
 Model angle(Index elements) {
   Model model;
   model.nodes = {{"A", {0, 0}}, {"B", {1, 0}}, {"C", {1, 1.5}}};
@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(truncation_error_is_the_squared_frequency_ratio) {
     const Eigen::VectorXcd whole = answer(full, frequency);
     const double off = (answer(reduced, frequency) - whole).norm() / whole.norm();
     BOOST_TEST(off < ratio * ratio / (1 - ratio * ratio));
-    if (ratio > 0.1) BOOST_TEST(off > 1e-6);  // and they do miss it
+    if (ratio > 0.1) BOOST_TEST(off > 1e-6);  // the truncation has an effect
   }
 }
 

@@ -19,8 +19,8 @@ using boost::test_tools::tolerance;
 
 namespace {
 
-/// Two hinged bars from fixed ends to a joint, EA = 1, under a unit force along y: in extended
-/// precision from the nodes as they are, the displacement of the joint.
+/// Returns the displacement of the joint of two hinged bars, EA = 1, under a unit force along y. It
+/// is computed in extended precision from the rounded positions of the nodes.
 Vector2d joint_of_a_toggle(const Model& model) {
   std::array<std::array<long double, 2>, 2> n{};
   std::array<long double, 2> L{};
@@ -70,17 +70,16 @@ BOOST_AUTO_TEST_CASE(ill_conditioned_model_is_exact_or_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(digits_next_to_a_singularity_are_kept_and_reported) {
-  // The estimate once followed the condition number of K, 1/height^2, and all was refused below
-  // 1e-7, where a toggle as the nodes have it is as certain as eps/height.
-  std::vector<double> beyond;  // digits that are right beyond those told
+  // The estimate once followed the condition number of K, 1/height^2, so all heights below 1e-7
+  // were refused. The displacement for given nodes has a relative error of only eps/height.
+  std::vector<double> beyond;  // correct digits in excess of the estimate
   for (int power = 1; power <= 12; ++power) {
     const double height = std::pow(10.0, -power);
     Model model;
     for (const Vector2d& p : {Vector2d(-1, 0), Vector2d(1.3, 0), Vector2d(0, height)}) {
       model.nodes.push_back({"", Eigen::Rotation2Dd(0.5) * p});
     }
-    model.members = {member("a", 0, 2, unit_section(1)), member("b", 1, 2, unit_section(1))};
-    for (Member& m : model.members) m.ends[0].fixity = m.ends[1].fixity = EndFixity::hinged;
+    model.members = {hinged("a", 0, 2, unit_section(1)), hinged("b", 1, 2, unit_section(1))};
     model.supports = {pin(0), pin(1)};
     model.loads = {{2, {0, 1, 0}}};
     const StaticSolution r = solve_statics(assemble(model));

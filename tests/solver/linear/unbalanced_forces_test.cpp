@@ -27,7 +27,7 @@ struct Solved {
   }
 };
 
-/// The Table 1 manipulator with welded elbows, gravity and a force at P.
+/// Returns the Table 1 manipulator with welded elbows, gravity and a force at P.
 Solved manipulator() {
   Model model = build_manipulator(table_1_design(), centred_pose(0.1));
   model.gravity = {0.5, -9.81};
@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(reported_forces_balance_at_every_node) {
 }
 
 BOOST_AUTO_TEST_CASE(constraint_forces_are_terms_of_their_rows) {
-  // along the girder of a portal nothing but its axial force acts: its rounding was over nothing
+  // Only axial force acts along the girder of a portal. Its round-off was once divided by zero.
   Model model;
   model.nodes = {{"A", {0, 0}},
                  {"B", {0, 10.16}},
@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(constraint_forces_are_terms_of_their_rows) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(wrong_sign_or_place_of_a_force_is_noticed) {
+BOOST_AUTO_TEST_CASE(wrong_sign_or_place_of_a_force_is_detected) {
   for (const Index column : {0, 1, 2}) {
     Solved sign = manipulator();
     sign.solution.resultant_start.col(column) *= -1;

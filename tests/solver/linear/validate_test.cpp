@@ -13,7 +13,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// A model with one part of each kind.
+/// Returns a model with one part of each kind.
 Model sound() {
   Model model = cantilever(unit_section(), 1, 2);
   model.nodes.push_back({"C", {1, 1}});
@@ -40,12 +40,12 @@ std::string complaint(const std::function<void(Model&)>& spoil) {
 
 BOOST_AUTO_TEST_CASE(valid_model_is_accepted) {
   BOOST_TEST(complaint([](Model&) {}) == "no complaint");
-  const auto thin = [](Model& m) { m.nodes[2].position = {0.5, 3e-12}; };  // 1.5e-12 m2
+  const auto thin = [](Model& m) { m.nodes[2].position = {0.5, 3e-12}; };  // area of 1.5e-12 m^2
   BOOST_TEST(complaint(thin) == "no complaint");
 }
 
 BOOST_AUTO_TEST_CASE(middle_node_may_not_fold_its_triangle_at_a_corner) {
-  // Moved along its side and towards the third node, as shares of the ways there.
+  // Moves a middle node along its side and to the third node, as shares of these distances.
   const auto moved = [](std::size_t k, double along, double inwards) {
     return complaint([&](Model& m) {
       const auto corner = [&](std::size_t i) { return m.nodes[i % 3].position; };
@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(middle_node_may_not_fold_its_triangle_at_a_corner) {
       BOOST_TEST(moved(k, sign * 0.26, 0) ==
                  "triangle 0 is folded by the middle nodes of its sides");
     }
-    BOOST_TEST(moved(k, 0, 0.45) == "no complaint");  // det = 1 - 2 inwards on the whole side
+    BOOST_TEST(moved(k, 0, 0.45) == "no complaint");  // det = 1 - 2 inwards on all of the side
     BOOST_TEST(moved(k, 0, 0.55) == "triangle 0 is folded by the middle nodes of its sides");
   }
 }

@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(energy_residual_does_not_depend_on_the_samples) {
   const auto residual = [](int count) {
     RigidManipulator m = rigid_manipulator(table_1_design());
     const auto torque = [&m](double t) {
-      if (t > 0.05) m.gravity = {0, -0.1};  // lifts the whole in no time
+      if (t > 0.05) m.gravity = {0, -0.1};  // jump of potential energy
       return Vector3d(0.1, 0.1, 0.1);
     };
     return solver::forward_dynamics(m, {0, centred_pose()}, torque, times_to(0.1, count))
@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(delayed_torques_are_refused) {
   m.gravity = {0, -9.81};
   const Path circle = Circle{{0.25, 0.144}, 0.01, 1};
   for (const double late : {0.0, 1e-3}) {
-    double last = kNaN;  // the integration asks for a time before its evidence does
+    double last = kNaN;  // the integrator evaluates a time before the evidence does
     const auto torque = [&](double t) {
       const bool first = t != last;
       last = t;
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(delayed_torques_are_refused) {
 BOOST_AUTO_TEST_CASE(step_over_a_parallel_singularity_ends_the_motion) {
   const RigidManipulator m = rigid_manipulator(table_1_design());
   const Circle circle{.center = {0.25, 0.144}, .radius = 0.01, .angular_speed = 1, .phi = 0};
-  const Vector3d load(10, 0, 0);  // under which the posture is unstable: it falls over in a second
+  const Vector3d load(10, 0, 0);  // makes the posture unstable: it collapses within a second
   const auto torque = [&](double t) { return inverse_dynamics(m, at(circle, t), load).torque; };
   const ForwardDynamics f =
       solver::forward_dynamics(m, at(circle, 0), torque, times_to(2, 20), load);

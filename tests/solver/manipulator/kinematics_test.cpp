@@ -35,7 +35,7 @@ BOOST_AUTO_TEST_CASE(loops_close_to_round_off_around_the_circle) {
       const Posture p =
           inverse_kinematics(g, {0.25 + 0.01 * std::cos(t), 0.144 + 0.01 * std::sin(t), 0.1});
       BOOST_TEST_REQUIRE(p.outcome.solved());
-      // 0.8 m of coordinates, each rounded: a few units of 1e-16 m.
+      // Coordinates of 0.8 m have rounding errors of a few 1e-16 m.
       BOOST_TEST(p.closure_error < 1e-15);
       for (std::size_t i = 0; i < 3; ++i) {
         const Vector2d tip =
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(working_mode_mirrors_the_elbow) {
     const Vector2d b = p.B[i] - g.base[i];
     const Vector2d mirrored = 2 * axis.dot(b) * axis - b;
     BOOST_TEST((q.B[i] - g.base[i] - mirrored).norm() < 1e-15);
-    // The elbow bends counterclockwise (positive sine) where the elbow lies on the clockwise side.
+    // The elbow bends counterclockwise (positive sine) if it is on the clockwise side.
     BOOST_TEST(p.elbow_sine[i] == -q.elbow_sine[i]);
     BOOST_TEST((p.elbow_sine[i] > 0) == (g.working_mode[i] == 1));
     BOOST_TEST(std::abs(p.elbow_sine[i] - std::sin(p.passive[i] - p.active[i])) < 1e-14);
@@ -87,8 +87,9 @@ BOOST_AUTO_TEST_CASE(pose_out_of_reach_names_limb_and_distance) {
 }
 
 BOOST_AUTO_TEST_CASE(elbow_angle_keeps_its_digits_near_full_stretch) {
-  // Limb 1 along x with links of 1/2 and a gap h to full stretch: the exact angle at A has
-  // cos = 1 - h, that is 2 asin(sqrt(h / 2)); the acos of a rounded cosine is lost below h ~ 1e-9.
+  // Limb 1 is along x, with links of 1/2 and a gap h to full stretch. The exact angle at A is 2
+  // asin(sqrt(h / 2)), since its cosine is 1 - h. The acos of a rounded cosine is useless below h ~
+  // 1e-9.
   ManipulatorGeometry g = table_1_geometry();
   g.base[0] = {0, 0};
   g.platform[0] = {0, 0};
@@ -160,7 +161,7 @@ BOOST_AUTO_TEST_CASE(holding_torques_do_the_opposite_work_of_the_load) {
       const Vector3d dtheta = (j.parallel * dx).cwiseQuotient(j.serial);
       const double scale = wrench.norm() * dx.norm() / j.parallel_distance;
       BOOST_TEST(std::abs(hold.torque.dot(dtheta) + wrench.dot(dx)) < 1e-14 * scale);
-      // Equilibrium of the platform, cut at C_i: the links pull it along B_i - C_i.
+      // The platform, cut at C_i, is in equilibrium. The links pull it along B_i - C_i.
       Vector3d sum = wrench;
       for (std::size_t i = 0; i < 3; ++i) {
         const Vector2d e = (p.B[i] - p.C[i]).normalized() * hold.tension(static_cast<Index>(i));
@@ -173,7 +174,7 @@ BOOST_AUTO_TEST_CASE(holding_torques_do_the_opposite_work_of_the_load) {
 }
 
 BOOST_AUTO_TEST_CASE(distal_links_through_one_point_hold_no_moment) {
-  // Distal links along the lines from C_i to P: no moment about P can be held.
+  // The distal links are on the lines from C_i to P, so they resist no moment about P.
   ManipulatorGeometry g;
   const double thirds = 2 * kPi / 3;
   for (std::size_t i = 0; i < 3; ++i) {

@@ -1,5 +1,6 @@
 // ctest: labels=manipulator
-// The built manipulator through assembly and solution: mass, limits, symmetry, singular choices.
+// Tests the manipulator model after assembly and solution: mass, limits, symmetry, singular
+// choices.
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -20,7 +21,7 @@ ManipulatorDesign with_platform(PlatformDesign::Kind kind) {
   return design;
 }
 
-/// A pose without symmetry.
+/// Pose without symmetry.
 constexpr Pose kPose{0.26, 0.15, 0.1};
 const Vector3d kForce{10, 4, 0};
 
@@ -30,7 +31,7 @@ StaticSolution solve(const ManipulatorDesign& design, const Pose& pose, const Ve
   return solve_statics(assemble(model));
 }
 
-/// Displacement of P, which is node 9 (A1..A3, B1..B3, C1..C3, P).
+/// Returns the displacement of P, which is node 9 (A1..A3, B1..B3, C1..C3, P).
 Vector2d of_P(const StaticSolution& solution) {
   BOOST_TEST_REQUIRE(solution.outcome.solved(), solution.outcome.reason);
   return solution.displacement.row(9).head<2>().transpose();
@@ -40,7 +41,7 @@ ModalSolution modes(const ManipulatorDesign& design, const Pose& pose, Index cou
   return solve_modes(assemble(build_manipulator(design, pose)), {.count = count});
 }
 
-/// Free coordinates of the velocity field (vx, vy, spin) of a model without supports.
+/// Returns the free coordinates of the velocity field (vx, vy, spin) of a model without supports.
 Eigen::VectorXd rigid_motion(const System& system, const Vector3d& field) {
   Eigen::VectorXd q(system.constraints.free_count);
   Eigen::VectorXd u(system.coordinates.size);
@@ -57,7 +58,7 @@ Eigen::VectorXd rigid_motion(const System& system, const Vector3d& field) {
     }
     if (system.constraints.free[k] >= 0) q(system.constraints.free[k]) = u(i);
   }
-  BOOST_TEST((system.T * q - u).norm() < 1e-12 * u.norm());  // the field obeys every constraint
+  BOOST_TEST((system.T * q - u).norm() < 1e-12 * u.norm());  // the field satisfies every constraint
   return q;
 }
 
@@ -67,7 +68,7 @@ System without_supports(const ManipulatorDesign& design) {
   return assemble(model);
 }
 
-/// Every sensible platform: rigid with each joint, triangles with and without pins.
+/// Returns the valid platforms: rigid with each joint, triangles with and without pins.
 std::vector<ManipulatorDesign> platforms() {
   std::vector<ManipulatorDesign> designs;
   for (const PlatformJointKind kind : {PlatformJointKind::hinged, PlatformJointKind::welded,
@@ -142,7 +143,7 @@ BOOST_AUTO_TEST_CASE(rigid_platform_is_the_limit_of_a_stiff_plate) {
     ManipulatorDesign design = with_platform(PlatformDesign::Kind::triangles);
     design.platform.material.E *= factor;
     const double difference = (of_P(solve(design, kPose, kForce)) - rigid).norm() / rigid.norm();
-    if (last > 0) BOOST_TEST(last / difference == 10, tolerance(1e-2));  // as one over factor
+    if (last > 0) BOOST_TEST(last / difference == 10, tolerance(1e-2));  // order 1 / factor
     if (factor == 100) BOOST_TEST(difference < 1e-6);
     last = difference;
   }
@@ -182,7 +183,7 @@ BOOST_AUTO_TEST_CASE(threefold_pose_repeats_its_frequencies) {
     for (const double phi : {0.0, 0.3}) {
       const ModalSolution m = modes(with_platform(kind), centred_pose(phi), 9);
       BOOST_TEST_REQUIRE(m.outcome.solved(), m.outcome.reason);
-      // Of every three modes two are a pair: displacement along x and y turn into each other.
+      // Two of every three modes are a pair: displacements along x and y are equivalent.
       int pairs = 0;
       for (Index k = 0; k + 1 < m.frequency.size(); ++k) {
         const double gap = m.frequency(k + 1) / m.frequency(k) - 1;

@@ -15,7 +15,7 @@ namespace {
 using namespace trammel::solver;
 using boost::test_tools::tolerance;
 
-/// "A1-B1" or "B1-C1".
+/// Returns "A1-B1" or "B1-C1".
 std::string link_name(char first, char second, std::size_t i) {
   const std::string n = std::to_string(i);
   std::string name(1, first);
@@ -40,7 +40,7 @@ double triangle_area(const Model& model, const Triangle& t) {
   return (u.x() * v.y() - u.y() * v.x()) / 2;
 }
 
-/// Mass, first moment and polar inertia about the origin of the platform.
+/// Mass, first moment and polar inertia of the platform about the origin.
 struct Bulk {
   double mass = 0;
   Vector2d first_moment = Vector2d::Zero();
@@ -66,12 +66,12 @@ Bulk platform_bulk(const Model& model) {
     }
     bulk.mass += m;
     bulk.first_moment += m * sum / 3;
-    bulk.inertia += m * (squares + sum.squaredNorm()) / 12;  // of a uniform triangle, exact
+    bulk.inertia += m * (squares + sum.squaredNorm()) / 12;  // exact for a uniform triangle
   }
   return bulk;
 }
 
-/// The sentence that refuses the design, or empty.
+/// Returns the message that refuses the design, or an empty text.
 std::string refusal(const ManipulatorDesign& design, const Pose& pose = centred_pose()) {
   try {
     (void)build_manipulator(design, pose);
@@ -87,7 +87,7 @@ ManipulatorDesign rigid_design() {
   return design;
 }
 
-/// Unequal everything, P off the centroid.
+/// Returns a design with unequal parts and P off the centroid.
 ManipulatorDesign uneven_design() {
   ManipulatorDesign design = table_1_design();
   design.geometry = uneven_geometry();
@@ -177,7 +177,7 @@ BOOST_AUTO_TEST_CASE(refinement_keeps_mass_and_inertia) {
       const auto count = static_cast<std::size_t>(3 * std::pow(4, level));
       BOOST_TEST(model.triangles.size() == count);
       for (const Triangle& t : model.triangles) BOOST_TEST(triangle_area(model, t) > 0);
-      // Euler's formula for a disc: V - E + F = 1 with E = (3 F + boundary) / 2.
+      // Euler's formula for a disk: V - E + F = 1 with E = (3 F + boundary) / 2.
       const std::size_t boundary = 3 * (std::size_t{1} << static_cast<unsigned>(level));
       const std::size_t plate_nodes = model.nodes.size() - 6;
       BOOST_TEST(plate_nodes + count == 1 + (3 * count + boundary) / 2);
@@ -214,7 +214,8 @@ BOOST_AUTO_TEST_CASE(pin_weights_reproduce_linear_fields) {
 }
 
 BOOST_AUTO_TEST_CASE(second_moments_of_a_pin_are_those_of_its_kernel) {
-  // int r^2 (1 - r^2)^3 dA / int (1 - r^2)^3 dA = 1/5, half of it in x; six nodes hold quadratics
+  // int r^2 (1 - r^2)^3 dA / int (1 - r^2)^3 dA = 1/5, half of it in x. Six nodes represent
+  // quadratics.
   const double radius = 0.02, area = radius * radius;
   const TriangleMesh mesh =
       platform_mesh(uneven_design().geometry.platform, Vector2d::Zero(), 2, true);
@@ -236,7 +237,7 @@ BOOST_AUTO_TEST_CASE(pins_hold_the_plate_by_constraints_only) {
     for (std::size_t k = 0; k < 3; ++k) BOOST_TEST(t.nodes[k] > model.find_node("P"));
     BOOST_TEST(triangle_area(model, t) > 0);
   }
-  // Every constraint holds for a translation and a small rotation of everything.
+  // Every constraint holds for a translation and for a small rotation.
   for (const LinearConstraint& tie : model.constraints) {
     double translation = 0;
     double rotation = 0;
@@ -273,7 +274,7 @@ BOOST_AUTO_TEST_CASE(joint_kinds_become_fixities) {
   BOOST_TEST((fixity("B1-C1", 1) == EndFixity::welded));
   BOOST_TEST((fixity("B2-C2", 1) == EndFixity::hinged));
   BOOST_TEST(member(model, "B3-C3").ends[1].stiffness == 9.0);
-  // The proximal links keep node B's rotation, so that none is left without stiffness.
+  // The proximal links keep the rotation of node B, so that it has stiffness.
   for (const char* name : {"A1-B1", "A2-B2", "A3-B3"})
     BOOST_TEST((fixity(name, 1) == EndFixity::welded));
 }

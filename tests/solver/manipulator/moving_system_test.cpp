@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// A circle whose platform turns as well: every part is in motion.
+/// Returns a circle with a rotating platform, so that every part moves.
 Path waltz() {
   std::vector<double> times;
   std::vector<Pose> poses;
@@ -32,21 +32,17 @@ Path waltz() {
 }
 
 std::vector<ManipulatorDesign> designs() {
-  std::vector<ManipulatorDesign> all(4, table_1_design());
-  for (ManipulatorDesign& design : all) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      design.proximal[i].elements = 2;
-      design.distal[i].elements = 3;
-    }
-  }
+  std::vector<ManipulatorDesign> all(4, with_elements(2, PlatformKind::triangles));
+  for (ManipulatorDesign& design : all)
+    for (LinkDesign& link : design.distal) link.elements = 3;
   all[1].platform.kind = PlatformKind::rigid;
   all[1].platform_joint.fill({PlatformJointKind::welded});
-  all[2].platform.kind = PlatformKind::rigid;  // P off the centre of mass, printed inertias
+  all[2].platform.kind = PlatformKind::rigid;  // P off the center of mass, printed inertias
   for (Vector2d& c : all[2].geometry.platform) c += Vector2d(0.01, -0.005);
   for (std::size_t i = 0; i < 3; ++i) {
     all[2].proximal[i].inertia = all[2].distal[i].inertia = 0.00078;
     all[2].distal[i].theory = BeamTheory::timoshenko;
-    all[2].distal[i].thickness = 0.03;  // so that sections turn with inertia of their own
+    all[2].distal[i].thickness = 0.03;  // for a significant rotary inertia of the sections
   }
   all[2].active.fill({ActiveKind::sprung, 3});
   all[3].platform.kind = PlatformKind::rigid;
@@ -56,7 +52,7 @@ std::vector<ManipulatorDesign> designs() {
   return all;
 }
 
-/// The system of a design on its way along a path.
+/// System of a design that moves along a path.
 struct Walk {
   ManipulatorDesign design;
   Path path;
@@ -98,7 +94,8 @@ BOOST_AUTO_TEST_CASE(moved_system_has_the_matrices_of_a_built_one) {
         BOOST_TEST(difference(walk.moving.load(), built.f) < 1e-12);
         continue;
       }
-      // other coordinates may have been eliminated: compare what does not depend on them
+      // Other coordinates may have been eliminated, so eigenvalues are compared instead of
+      // matrices.
       const VectorXd moved = all_modes(walk.moving.M(), walk.moving.K()).omega;
       const VectorXd there = all_modes(built.M, built.K).omega;
       BOOST_TEST((moved - there).cwiseQuotient(there).cwiseAbs().maxCoeff() < 1e-9);
@@ -107,12 +104,10 @@ BOOST_AUTO_TEST_CASE(moved_system_has_the_matrices_of_a_built_one) {
 }
 
 BOOST_AUTO_TEST_CASE(load_of_inertia_is_that_of_equation_14) {
-  // F = T_s^T (w^2 H7^T - alpha H8^T - H9^T R^T a_A), H7 = int rho (x, 0) N, H8 = int rho (0, x) N,
-  // H9 = int rho N, for every link by itself: clamped at one node, free at the other
-  const double length = 0.2;
-  const double angle = 0.7;
-  const double w = 3;
-  const double alpha = -11;
+  // F = T_s^T (w^2 H7^T - alpha H8^T - H9^T R^T a_A).
+  // H7 = int rho (x, 0) N, H8 = int rho (0, x) N, H9 = int rho N.
+  // The single link is clamped at one node and free at the other.
+  const double length = 0.2, angle = 0.7, w = 3, alpha = -11;
   const Vector2d a_A(0.8, -1.7);
   Model model;
   const Vector2d d(std::cos(angle), std::sin(angle));
@@ -145,7 +140,8 @@ BOOST_AUTO_TEST_CASE(load_of_inertia_is_that_of_equation_14) {
 }
 
 BOOST_AUTO_TEST_CASE(nominal_inertia_carries_the_momentum_of_the_bodies) {
-  // sum of the loads over all nodes = - sum of m a over the bodies, by independent rigid dynamics
+  // The sum of the loads over all nodes is - sum of m a over the bodies, by independent rigid
+  // dynamics.
   for (const ManipulatorDesign& design : designs()) {
     if (design.proximal[0].inertia) continue;
     Walk walk(design, waltz(), 0.1, false);
@@ -174,7 +170,7 @@ BOOST_AUTO_TEST_CASE(common_displacement_has_no_gyroscopic_force) {
   const System& system = walk.moving.start();
   VectorXd u = VectorXd::Zero(system.coordinates.size);
   for (const auto& c : system.coordinates.node) u.segment<2>(c[0]) = Vector2d(0.3, -0.8);
-  // only the supports' rows do not follow; they do not enter the elements that do not touch them
+  // Only the rows of the supports differ. They affect only elements at the supports.
   VectorXd q(walk.moving.K().rows());
   for (std::size_t i = 0; i < system.constraints.free.size(); ++i) {
     if (system.constraints.free[i] >= 0) q[system.constraints.free[i]] = u[static_cast<Index>(i)];
@@ -193,13 +189,13 @@ BOOST_AUTO_TEST_CASE(common_displacement_has_no_gyroscopic_force) {
 }
 
 BOOST_AUTO_TEST_CASE(matrices_of_inextensible_links_grow_linearly) {
-  // by the pattern of the constraints alone each node followed all before it on its link
+  // By the pattern of the constraints alone, each node once depended on all nodes before it on its
+  // link.
   std::vector<double> entries;
   for (const Index elements : {8, 16}) {
-    ManipulatorDesign design = designs()[3];
-    for (std::size_t i = 0; i < 3; ++i) {
-      design.proximal[i].elements = design.distal[i].elements = elements;
-    }
+    ManipulatorDesign design = with_elements(elements);
+    for (auto* links : {&design.proximal, &design.distal})
+      for (LinkDesign& link : *links) link.axially_flexible = false;
     const Walk walk(design, waltz(), 0.1, false);
     entries.push_back(static_cast<double>(walk.moving.K().nonZeros()));
   }
@@ -216,7 +212,7 @@ BOOST_AUTO_TEST_CASE(refused_pose_leaves_no_trace) {
   for (std::size_t member = 0; member < moving.start().model.members.size(); ++member) {
     const auto& ends = moving.start().model.members[member].nodes;
     const Vector2d d = before.node[0].row(ends[1]) - before.node[0].row(ends[0]);
-    for (const double along : {0.0, 0.5}) {  // of x, of y: the other component is no pivot then
+    for (const double along : {0.0, 0.5}) {  // x or y; the other component then is no pivot
       NominalMotion motion = before;
       motion.part[member].angle = along * std::numbers::pi - std::atan2(d.y(), d.x());
       refused += moving.move_to(motion).solved() ? 0 : 1;

@@ -1,4 +1,4 @@
-// Frequencies that follow the pose are those of every pose solved by itself.
+// Frequencies computed along a path are those of every pose solved separately.
 #include "solver/manipulator/pose_modes.h"
 
 #include <boost/test/unit_test.hpp>
@@ -8,7 +8,6 @@
 
 #include "solver/linear/modes.h"
 #include "solver/linear/validate.h"
-#include "solver/manipulator/manipulator.h"
 #include "solver/manipulator/moving_pencil.h"
 #include "tests/support/solver/table_1.h"
 
@@ -27,16 +26,7 @@ std::vector<Pose> circle(Index points, double radius, double phi = 0) {
   return poses;
 }
 
-ManipulatorDesign with_elements(Index elements, PlatformKind platform = PlatformKind::rigid) {
-  ManipulatorDesign design = table_1_design();
-  design.platform.kind = platform;
-  for (auto* links : {&design.proximal, &design.distal}) {
-    for (LinkDesign& link : *links) link.elements = elements;
-  }
-  return design;
-}
-
-/// The worst difference from `solve_modes` at every pose, over what rounding explains.
+/// Returns the largest difference from `solve_modes` at all poses, relative to the round-off.
 double worst_difference(const ManipulatorDesign& design, const std::vector<Pose>& poses,
                         const PoseModes& modes, Effects active = Effects::all()) {
   double worst = 0;
@@ -121,7 +111,7 @@ BOOST_AUTO_TEST_CASE(inactive_effects_are_followed) {
 }
 
 BOOST_AUTO_TEST_CASE(repeated_frequencies_keep_their_copies) {
-  // At the centre the manipulator has a threefold symmetry: pairs of equal frequencies.
+  // In the center the manipulator has a threefold symmetry with pairs of equal frequencies.
   const std::vector<Pose> poses(3, centred_pose());
   const ManipulatorDesign design = with_elements(4);
   for (const Index count : {1, 2, 3, 4, 5, 6}) check("repeated", design, poses, count);
@@ -146,7 +136,7 @@ BOOST_AUTO_TEST_CASE(distant_and_near_singular_poses_are_certified) {
   const PoseModes modes = solve_pose_modes(design, poses, {.count = 4});
   BOOST_TEST(worst_difference(design, poses, modes) < 2);
   BOOST_TEST(modes.by_itself < 10);
-  // Hinged elbows leave a parallel singularity, where a mode has no stiffness but its own.
+  // Hinged elbows allow a parallel singularity, where the stiffness of a mode vanishes.
   ManipulatorDesign hinged = with_elements(1);
   hinged.elbow.fill({ElbowKind::hinged});
   hinged.geometry.base = equilateral_base(0.5);
@@ -155,8 +145,8 @@ BOOST_AUTO_TEST_CASE(distant_and_near_singular_poses_are_certified) {
 }
 
 BOOST_AUTO_TEST_CASE(mode_orthogonal_to_the_previous_pose_is_found) {
-  // Arm 3 holds the platform like the ground, so arms 1 and 2 move without each other. Arm 1 has
-  // the six lowest modes; then arm 2 is stretched, and its heavy distal link swings below them.
+  // Arm 3 holds the platform like the ground, so arms 1 and 2 move independently. Arm 1 has the six
+  // lowest modes. Then arm 2 is stretched, and its heavy distal link vibrates below them.
   ManipulatorDesign design = with_elements(4);
   for (const std::size_t arm : {0, 1}) design.elbow[arm] = {ElbowKind::hinged};
   design.platform_joint[2] = {PlatformJointKind::welded};
@@ -164,11 +154,11 @@ BOOST_AUTO_TEST_CASE(mode_orthogonal_to_the_previous_pose_is_found) {
   design.proximal[1].material.E *= 480;
   design.distal[1].material.E *= 48000;
   design.distal[1].material.rho *= 100;
-  const auto with_reach = [](double reach) {  // of arm 2, towards its upper left
+  const auto with_reach = [](double reach) {  // of arm 2, to its upper left
     const double c = std::numbers::sqrt2 / 2;
     return Pose{0.4 - c * reach, c * reach + 0.1 / std::numbers::sqrt3, 0};
   };
-  std::vector<Pose> poses(63, with_reach(0.37));  // until no vector knows of arm 2
+  std::vector<Pose> poses(63, with_reach(0.37));  // until no vector has a component in arm 2
   poses.push_back(with_reach(0.4 - 5e-7));
   check("one arm alone", design, poses, 1);
 }
@@ -217,10 +207,10 @@ BOOST_AUTO_TEST_CASE(count_below_a_shift_is_that_of_the_full_model) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(number_of_solves_stays_small) {  // counted, so the same on every machine
+BOOST_AUTO_TEST_CASE(number_of_solves_stays_small) {  // the count is the same on every machine
   const PoseModes modes = solve_pose_modes(with_elements(4), circle(640, 0.01), {.count = 3});
   BOOST_TEST(modes.by_itself == 0);
-  BOOST_TEST(modes.counters.solves < 640 * 6 * 6);  // six vectors, six inverse iterations a pose
+  BOOST_TEST(modes.counters.solves < 640 * 6 * 6);  // six vectors, six inverse iterations per pose
   BOOST_TEST(modes.coupling < 1e-12);
 }
 

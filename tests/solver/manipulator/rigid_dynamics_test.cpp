@@ -14,7 +14,7 @@ namespace {
 using namespace trammel::solver;
 using boost::test_tools::tolerance;
 
-/// The point of the uniformly accelerated motion through p at the time s.
+/// Returns the point at time s of the uniformly accelerated motion through p.
 TrajectoryPoint along(const TrajectoryPoint& p, double s) {
   const Vector3d x =
       Vector3d(p.pose.x, p.pose.y, p.pose.phi) + s * p.velocity + s * s / 2 * p.acceleration;
@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(velocities_and_accelerations_are_derivatives) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(map_of_the_actuators_gives_velocities_and_energy) {
+BOOST_AUTO_TEST_CASE(actuator_map_returns_velocities_and_energy) {
   RandomStates random(2);
   for (const RigidManipulator& m : {rigid_manipulator(table_1_design()), uneven_bodies()}) {
     for (int trial = 0; trial < 200; ++trial) {

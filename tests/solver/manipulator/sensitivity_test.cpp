@@ -27,8 +27,9 @@ BOOST_AUTO_TEST_CASE(derivatives_of_single_links_add_up) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(limbs_have_equal_derivatives_at_the_symmetric_pose) {
-  // Three-fold symmetry: pairs of equal frequencies, whose shapes the eigensolver mixes at will.
+BOOST_AUTO_TEST_CASE(limbs_have_equal_derivatives_in_a_symmetric_pose) {
+  // The threefold symmetry has pairs of equal frequencies, whose shapes the eigensolver mixes
+  // arbitrarily.
   for (const double phi : {0.0, 0.3}) {
     std::vector<DesignParameter> parameters;
     for (std::size_t limb = 0; limb < 3; ++limb) parameters.push_back(one_length(limb, true));
@@ -49,7 +50,7 @@ BOOST_AUTO_TEST_CASE(limbs_have_equal_derivatives_at_the_symmetric_pose) {
         BOOST_TEST(std::abs(s.derivative(n, 0) - s.derivative(n, 1)) < 1e-8 * size);
         BOOST_TEST(std::abs(s.derivative(n, 0) - s.derivative(n, 2)) < 1e-8 * size);
       }
-      // one limb splits the pair, all together keep it
+      // One limb separates the pair; all limbs together keep it.
       BOOST_TEST(s.derivative(set.first + 1, 0) - s.derivative(set.first, 0) > 0.01 * size);
       BOOST_TEST(std::abs(s.derivative(set.first + 1, 3) - s.derivative(set.first, 3)) <
                  1e-8 * size);
@@ -86,7 +87,7 @@ BOOST_AUTO_TEST_CASE(straight_limb_has_no_derivative) {
 }
 
 BOOST_AUTO_TEST_CASE(modes_lost_to_round_off_do_not_crash) {
-  // free actuators near a folded limb: eigenvalues without vectors were once read beyond their end
+  // Free actuators near a folded limb: eigenvalues without vectors were once read out of bounds.
   ManipulatorDesign design = coarse_design();
   design.platform.kind = PlatformKind::rigid;
   design.active.fill({ActiveKind::free});
@@ -127,7 +128,7 @@ BOOST_AUTO_TEST_CASE(boundary_of_the_reach_has_a_singular_limb) {
     all += arc.size();
     for (const Vector2d& P : arc) {
       const Vector2d inward = 1e-9 * (Vector2d(0.25, 0.144) - P).normalized();
-      bool found = false;  // on one side of the arc there is a pose, and it is nearly singular
+      bool found = false;  // one side of the arc has a nearly singular pose
       for (const double side : {1.0, -1.0}) {
         const Pose pose{P.x() + side * inward.x(), P.y() + side * inward.y(), 0.2};
         const Posture posture = inverse_kinematics(geometry, pose);
@@ -137,7 +138,7 @@ BOOST_AUTO_TEST_CASE(boundary_of_the_reach_has_a_singular_limb) {
       points += found ? 0 : 1;
     }
   }
-  BOOST_TEST(all > 180U);  // half a turn of the three circles together at least
+  BOOST_TEST(all > 180U);  // at least half a turn of the three circles together
   BOOST_TEST(points == 0U);
 }
 

@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(inactive_effect_has_no_matrix_and_no_evaluation) {
     }
   }
   BOOST_TEST(assemble(model, all.without(Effect::inertia)).M.size() == 0);
-  // Two elements that do not stretch, one spring end that is welded.
+  // Two elements become inextensible, and one spring end becomes welded.
   BOOST_TEST(assemble(model, all.without(Effect::axial_flexibility)).K.rows() ==
              whole.K.rows() - 2);
   BOOST_TEST(assemble(model, all.without(Effect::joint_compliance)).K.rows() == whole.K.rows() - 1);

@@ -7,7 +7,7 @@ BOOST_AUTO_TEST_SUITE(numbers)
 
 using namespace trammel::solver;
 
-BOOST_AUTO_TEST_CASE(maximum_keeps_what_is_not_a_number) {
+BOOST_AUTO_TEST_CASE(maximum_propagates_nan) {
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   const double infinite = std::numeric_limits<double>::infinity();
   BOOST_TEST(nan_max(1, 2) == 2);

@@ -15,7 +15,7 @@ double line_moment(int power) {
   return sum;
 }
 
-/// Mean of L_0^a L_1^b L_2^c over a triangle: 2 a! b! c! / (a + b + c + 2)!.
+/// Returns the mean of L_0^a L_1^b L_2^c over a triangle: 2 a! b! c! / (a + b + c + 2)!.
 double exact_mean(int a, int b, int c) {
   return 2 * std::tgamma(a + 1) * std::tgamma(b + 1) * std::tgamma(c + 1) /
          std::tgamma(a + b + c + 3);

@@ -18,12 +18,13 @@ namespace {
 
 using Big = boost::multiprecision::cpp_bin_float_100;
 
-/// The response by its Taylor series in 100 digits, over pieces short enough to sum.
+/// Returns the response by its Taylor series with 100 digits, in intervals short enough for
+/// convergence.
 ImpulseResponse in_long_digits(double omega, double decay, double t) {
   const int pieces = 1 + static_cast<int>(std::max(omega, decay) * t / 4);
   const Big w2 = Big(omega) * Big(omega);
   const Big dt = Big(t) / pieces;
-  // y = (h1, h, h') and h2, under a unit load
+  // y = (h1, h, h') and h2 under a unit load
   Big y = 0;
   Big v = 0;
   Big sum = 0;
@@ -65,7 +66,8 @@ BOOST_AUTO_TEST_CASE(impulse_response_keeps_its_digits) {
         if (decay * t > 500) continue;
         const ImpulseResponse r = impulse_response(omega, decay, t);
         const ImpulseResponse exact = in_long_digits(omega, decay, t);
-        // against the envelopes of an undamped motion; a phase w t carries its own round-off
+        // Errors are relative to the envelopes of an undamped motion; a phase w t has additional
+        // round-off.
         const double phase = 1 + omega * t;
         const double h_size = std::min(t, 1 / std::max(omega, 1e-300));
         worst = std::max({worst, std::abs(r.h - exact.h) / (h_size * phase),
@@ -90,7 +92,7 @@ BOOST_AUTO_TEST_CASE(modes_are_orthogonal_without_massless_coordinates) {
   BOOST_TEST(
       (stiffness - Eigen::MatrixXd(basis.omega.array().square().matrix().asDiagonal())).norm() <
       1e-12);
-  BOOST_TEST(basis.omega[0] == 0);  // the four move together: K has rows that sum to zero
+  BOOST_TEST(basis.omega[0] == 0);  // uniform motion: the rows of K have zero sums
 }
 
 BOOST_AUTO_TEST_CASE(load_takes_the_value_after_a_jump) {

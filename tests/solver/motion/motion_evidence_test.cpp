@@ -5,6 +5,7 @@
 
 #include "solver/model/numbers.h"
 #include "solver/motion/transient.h"
+#include "tests/support/solver/numerics.h"
 
 BOOST_AUTO_TEST_SUITE(motion_evidence)
 
@@ -20,7 +21,7 @@ SparseMatrix scalar(double value) {
   return A;
 }
 
-/// A damped oscillator of 10 rad/s under a load that goes to and fro.
+/// Returns a damped oscillator of 10 rad/s under an oscillating load.
 EquationOfMotion oscillator() {
   EquationOfMotion equation;
   equation.M = scalar(2), equation.C = scalar(1), equation.K = scalar(200);
@@ -29,15 +30,13 @@ EquationOfMotion oscillator() {
 }
 
 TransientHistory run(const EquationOfMotion& equation, const TimeScheme& scheme = {}) {
-  TransientOptions options;
-  options.end = 2;
-  options.step = 0.02;
-  options.scheme = scheme;
+  TransientOptions options = options_to(2, 0.02, scheme);
   options.v0 = VectorXd::Constant(1, 0.3);
   return solve_transient(equation, options);
 }
 
-/// True where a time is asked for first: the integrator asks before its evidence does.
+/// Returns true for the first evaluation of a time. The integrator evaluates it before its evidence
+/// does.
 struct AskedFirst {
   double last = kNaN;
   bool operator()(double time) {
@@ -47,7 +46,7 @@ struct AskedFirst {
   }
 };
 
-/// The oscillator whose matrices are what `spoil` makes of them when the integrator sees them.
+/// Returns the oscillator with matrices that `spoil` changes for the integrator only.
 template <class Spoil>
 EquationOfMotion seen_wrongly(const Spoil& spoil) {
   EquationOfMotion equation = oscillator();
@@ -69,7 +68,7 @@ BOOST_AUTO_TEST_CASE(every_scheme_keeps_its_balance_of_energy) {
     BOOST_TEST_REQUIRE(h.summary.outcome.solved(), h.summary.outcome.reason);
     BOOST_TEST(h.summary.evidence.largest(Residual::energy) < 1e-13);
     BOOST_TEST(h.summary.evidence.largest(Residual::equation_of_motion) < 1e-14);
-    // It is not the balance of mechanics: that one is off by what the scheme does.
+    // This is not the balance of mechanical energy, in which the error of the scheme remains.
     const double off = std::abs(h.energy.back().total() - h.energy.front().total());
     if (spectral_radius(scheme, 100) < 0.9) BOOST_TEST(off > 1e-6);
   }
@@ -97,8 +96,8 @@ BOOST_AUTO_TEST_CASE(wrong_matrices_are_refused) {
   BOOST_TEST(!run(stiffness).summary.outcome.solved());
 }
 
-/// One step of the free undamped oscillator by average acceleration, its velocity with the factor
-/// gamma on the new acceleration.
+/// Makes one step of the free undamped oscillator by average acceleration. The velocity has the
+/// factor gamma on the new acceleration.
 BOOST_AUTO_TEST_CASE(wrong_newmark_coefficient_is_refused) {
   EquationOfMotion equation;
   equation.M = scalar(1), equation.K = scalar(100);

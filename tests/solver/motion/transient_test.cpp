@@ -17,7 +17,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// A chain of masses between springs, fixed at its first end.
+/// Returns a chain of masses between springs, fixed at its first end.
 EquationOfMotion chain(Index n, double mass, double stiffness) {
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n, n);
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n, n);
@@ -26,16 +26,13 @@ EquationOfMotion chain(Index n, double mass, double stiffness) {
     K(i, i) = i + 1 < n ? 2 * stiffness : stiffness;
     if (i > 0) K(i, i - 1) = K(i - 1, i) = -stiffness;
   }
-  return {.M = sparse(M),
-          .C = {},
-          .K = sparse(K),
-          .load = {},
-          .update = {},
-          .working_motion = {},
-          .breakpoints = {}};
+  EquationOfMotion equation;
+  equation.M = sparse(M);
+  equation.K = sparse(K);
+  return equation;
 }
 
-/// A load of two patterns with slopes that jump and, at 0.3 s, a value that jumps.
+/// Returns a load of two patterns whose slopes jump, and with a jump at 0.3 s.
 PiecewiseLinearLoad rough_load(Index n) {
   PiecewiseLinearLoad load;
   load.pattern = Eigen::MatrixXd::Zero(n, 2);
@@ -46,7 +43,7 @@ PiecewiseLinearLoad rough_load(Index n) {
   return load;
 }
 
-/// Expects the outcome of a motion that stops with a reason that contains a text.
+/// Checks that a motion stopped with a reason that contains a text.
 void check_stopped(const TransientSummary& summary, const std::string& reason) {
   BOOST_TEST((summary.outcome.status == Status::not_converged));
   BOOST_TEST(summary.outcome.reason.find(reason) != std::string::npos, summary.outcome.reason);
@@ -54,8 +51,7 @@ void check_stopped(const TransientSummary& summary, const std::string& reason) {
 
 }  // namespace
 
-// Manufactured solution q = (sin 3t, cos 2t) with matrices that change with time and have skew
-// parts.
+// Manufactured solution q = (sin 3t, cos 2t) with time-dependent matrices that have skew parts.
 BOOST_AUTO_TEST_CASE(schemes_converge_with_their_order) {
   const auto M = [](double t) -> Eigen::Matrix2d {
     return (Eigen::Matrix2d() << 2 + std::sin(t), 0.3, 0.3, 1 + 0.5 * std::cos(t)).finished();
@@ -115,9 +111,7 @@ BOOST_AUTO_TEST_CASE(error_control_holds_its_tolerance_and_counts_its_steps) {
   const PiecewiseLinearLoad load = rough_load(4);
   load.apply_to(equation);
   const ModalBasis basis = all_modes(equation.M, equation.K);
-  TransientOptions options;
-  options.end = 1;
-  options.step = 0.1;
+  TransientOptions options = options_to(1, 0.1);
   options.sample_times = {1};
   const ModalResponse exact = superpose(basis, decay_rates(damping, basis.omega), equation.M, load,
                                         {0, 1}, VectorXd(), VectorXd());
@@ -135,7 +129,8 @@ BOOST_AUTO_TEST_CASE(error_control_holds_its_tolerance_and_counts_its_steps) {
       BOOST_TEST(h.summary.accepted > 0);
       BOOST_TEST(h.summary.rejected > 0);
       BOOST_TEST(h.summary.smallest_step < h.summary.largest_step);
-      // a factorization for each size of step in each segment, not for each change of step
+      // One factorization is required for each size of step in each segment, not for each change of
+      // step.
       BOOST_TEST(h.summary.counters.factorizations < 60);
     }
   }
@@ -144,9 +139,7 @@ BOOST_AUTO_TEST_CASE(error_control_holds_its_tolerance_and_counts_its_steps) {
 BOOST_AUTO_TEST_CASE(unreachable_tolerance_names_the_step) {
   EquationOfMotion equation = chain(2, 1, 100);
   step_load(Eigen::Vector2d(0, 1)).apply_to(equation);
-  TransientOptions options;
-  options.end = 1;
-  options.step = 0.1;
+  TransientOptions options = options_to(1, 0.1);
   options.adaptive = ErrorControl{.relative = 1e-12, .finest_level = 3};
   const TransientHistory h = solve_transient(equation, options);
   check_stopped(h.summary, "step 1 at time 0 s of size 0.0125 s");
@@ -155,11 +148,8 @@ BOOST_AUTO_TEST_CASE(unreachable_tolerance_names_the_step) {
 BOOST_AUTO_TEST_CASE(step_beyond_the_stability_limit_is_refused) {
   const EquationOfMotion equation = chain(8, 1, 100);
   const double fastest = all_modes(equation.M, equation.K).omega.maxCoeff();
-  TransientOptions options;
-  options.end = 1;
-  options.scheme = central_difference();
+  TransientOptions options = options_to(1, 0.95 * 2 / fastest, central_difference());
   options.v0 = VectorXd::Ones(8);
-  options.step = 0.95 * 2 / fastest;
   BOOST_TEST(solve_transient(equation, options).summary.outcome.solved());
   options.step = 1.05 * 2 / fastest;
   const TransientHistory h = solve_transient(equation, options);
@@ -170,9 +160,7 @@ BOOST_AUTO_TEST_CASE(step_beyond_the_stability_limit_is_refused) {
 BOOST_AUTO_TEST_CASE(load_that_is_not_a_number_ends_the_motion) {
   EquationOfMotion equation = chain(2, 1, 100);
   equation.load = [](double t, VectorXd& f) { f.setConstant(t > 0.52 ? std::nan("") : 1.0); };
-  TransientOptions options;
-  options.end = 1;
-  options.step = 0.1;
+  TransientOptions options = options_to(1, 0.1);
   const TransientHistory h = solve_transient(equation, options);
   check_stopped(h.summary, "step 6 at time 0.5 s");
   BOOST_TEST(h.time.size() == 6U);
@@ -193,7 +181,7 @@ BOOST_AUTO_TEST_CASE(ten_thousand_steps_allocate_as_ten, *boost::unit_test::labe
     options.end = end;
     const std::int64_t before = allocations();
     const TransientSummary summary = solve_transient(equation, options, observe);
-    BOOST_TEST(summary.counters.factorizations == 2);  // the mass and the step
+    BOOST_TEST(summary.counters.factorizations == 2);  // of the mass and of the step
     return allocations() - before;
   };
   static_cast<void>(cost(0.01));
@@ -208,16 +196,14 @@ BOOST_AUTO_TEST_CASE(quasi_static_start_ignores_a_later_jump) {
   const double jump = 0.003;
   equation.load = [=](double t, VectorXd& f) { f.setConstant(t < jump ? 2 * t : 50.0); };
   equation.breakpoints = {jump};
-  TransientOptions options;
+  TransientOptions options = options_to(0.02, 0.01);
   options.quasi_static_start = true;
-  options.step = 0.01;
-  options.end = 0.02;
   const TransientHistory h = solve_transient(equation, options);
   BOOST_TEST_REQUIRE(h.summary.outcome.solved());
   BOOST_TEST(h.v(0, 0) == 2 / equation.K.coeff(0, 0), tolerance(1e-10));
 }
 
-/// Stiff and strongly damped masses follow a slow load without vibration from the start.
+/// Stiff and strongly damped masses follow a slow load without an initial vibration.
 BOOST_AUTO_TEST_CASE(quasi_static_start_includes_its_drag) {
   EquationOfMotion equation = chain(3, 1, 1e6);
   equation.C = 0.003 * equation.K;
@@ -226,14 +212,12 @@ BOOST_AUTO_TEST_CASE(quasi_static_start_includes_its_drag) {
     f.setZero();
     f[2] = 10 + std::sin(slow * t);
   };
-  TransientOptions options;
-  options.end = 0.1;
-  options.step = 0.01;
+  TransientOptions options = options_to(0.1, 0.01);
   options.quasi_static_start = true;
   const TransientHistory h = solve_transient(equation, options);
   BOOST_REQUIRE(h.summary.outcome.solved());
   const double of_the_drag =
-      0.003 * slow;  // [N], in each spring; on 1 kg it would be as many m/s^2
+      0.003 * slow;  // [N] in each spring; the same number is the acceleration of 1 kg
   BOOST_TEST(h.a.col(0).cwiseAbs().maxCoeff() < 1e-6 * of_the_drag);
   BOOST_TEST(h.q(2, 0) == 3 * (10 - of_the_drag) / 1e6, tolerance(1e-9));
   BOOST_TEST(h.v(2, 0) == 3 * slow / 1e6, tolerance(1e-6));
@@ -248,19 +232,17 @@ BOOST_AUTO_TEST_CASE(invalid_options_and_equations_are_refused) {
       [](auto&, auto& o) { o.end = -1; },
       [](auto&, auto& o) { o.q0 = VectorXd::Zero(3); },
       [](auto&, auto& o) {
-        o.sample_times = {0.5, 0.2};
+        o.sample_times = std::vector({0.5, 0.2});
       },
       [](auto&, auto& o) {
-        o.sample_times = {0.5, 2};
+        o.sample_times = std::vector({0.5, 2.0});
       },
       [](auto&, auto& o) { o.adaptive = ErrorControl{.relative = 0}; },
       [](auto& e, auto&) { e.C = sparse(Eigen::MatrixXd::Ones(3, 3)); },
       [](auto& e, auto&) { e.update = [](double, auto&, auto&, auto&) {}; }};
   for (const Change& change : changes) {
     EquationOfMotion equation = chain(2, 1, 1);
-    TransientOptions options;
-    options.end = 1;
-    options.step = 0.1;
+    TransientOptions options = options_to(1, 0.1);
     change(equation, options);
     BOOST_CHECK_THROW(static_cast<void>(solve_transient(equation, options)), ModelError);
   }
@@ -268,12 +250,10 @@ BOOST_AUTO_TEST_CASE(invalid_options_and_equations_are_refused) {
 
 BOOST_AUTO_TEST_CASE(decayed_vibration_ends_in_zeros) {
   EquationOfMotion equation = chain(4, 1, 200);
-  TransientOptions options;
-  options.end = 40000;
-  options.step = 1;  // a radius of 0.5 a step: nothing that a double holds after 1075 steps
-  options.scheme = generalized_alpha(0.5);
-  options.v0 = VectorXd::Ones(4);
+  // The amplitude falls by a factor of 0.5 per step and underflows after 1075 steps.
+  TransientOptions options = options_to(40000, 1, generalized_alpha(0.5));
   options.sample_times = {0, 40000};
+  options.v0 = VectorXd::Ones(4);
   const TransientHistory found = solve_transient(equation, options);
   BOOST_TEST(found.summary.outcome.solved(), found.summary.outcome.reason);
   BOOST_TEST(found.q.col(1).norm() < 1e-290);

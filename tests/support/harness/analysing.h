@@ -13,12 +13,6 @@ using namespace references;
 using namespace solver;
 using namespace harness;
 
-/// A case as it stands, without the references that its checks may name.
-inline Document document_of(const Json& json) {
-  const Folder folder;
-  return patched(read(folder, json), "base");
-}
-
 inline AnalysisResult result_of(const Json& json) {
   const References references;
   return analyse(document_of(json), references, {});
@@ -29,7 +23,7 @@ inline const std::vector<double>& values(const AnalysisResult& result, const std
   return result.quantities.at(name).values;
 }
 
-/// The value of a quantity that has one.
+/// Returns the value of a quantity with one value.
 inline double only(const AnalysisResult& result, const std::string& name) {
   BOOST_REQUIRE_MESSAGE(values(result, name).size() == 1, name);
   return values(result, name).front();

@@ -10,20 +10,20 @@
 #include "harness/export/exported_case.h"
 #include "tests/support/harness/support.h"
 
-/// An exported case beside the one that it is from.
+/// An exported case compared with its original.
 namespace trammel::testing {
 
 struct ExportTwin {
   std::string name;
-  std::string refused = {};  ///< the end of the message, after the pointer
-  Json json = {};            ///< of the exported case
+  std::string refused = {};  ///< message after the pointer
+  Json json = {};            ///< the exported case
   AnalysisResult exported = {};
   double difference =
-      0;  ///< the largest over all quantities, relative to the largest of their head
+      0;  ///< largest over all quantities, relative to the largest value with the same head
   std::string worst = {};
 };
 
-/// The case, and each level of its sweeps.
+/// Returns the choices of a case: the variant, and each level of its sweeps.
 inline std::vector<ExportChoice> choices_of(const Case& given, const std::string& variant) {
   std::vector<ExportChoice> choices = {{variant}};
   const Document document = patched(given, variant);
@@ -35,15 +35,16 @@ inline std::vector<ExportChoice> choices_of(const Case& given, const std::string
   return choices;
 }
 
-/// What measures round-off itself, or follows it: the time of the largest among samples that are
-/// equal but for round-off.
+/// Returns true for measures of round-off and for quantities that depend on it. The time of a peak
+/// depends on it if samples are equal up to round-off.
 inline bool is_roundoff(const std::string& name) {
   const auto has = [&](const char* word) { return contains(name, word); };
   return has("roundoff") || has("_residual") || has("energy_drift") || has("newton_") ||
          has("estimated_correct_digits") || has("peak_time_s");
 }
 
-/// Sums over edges and numbers of whole tapered members, which the exported case does not have.
+/// Returns true for sums over edges and for values of tapered members, which an exported case
+/// lacks.
 inline bool is_of_lost_part(const std::string& name, const Json& model) {
   std::string item = name.substr(std::min(name.size(), name.find(':') + 1));
   if (model.contains("edges") && model.at("edges").contains(item)) return true;
@@ -52,7 +53,7 @@ inline bool is_of_lost_part(const std::string& name, const Json& model) {
          model.at("members").at(item).contains("end_section");
 }
 
-/// Components of a vector have one scale.
+/// Returns the scale of a quantity. The components of a vector have the same scale.
 inline double largest_of_head(const Quantities& all, const std::string& name) {
   const auto head = [](const std::string& text) {
     const std::string quantity = text.substr(0, text.find(':'));
@@ -71,7 +72,7 @@ inline double largest_of_head(const Quantities& all, const std::string& name) {
 inline void compare(const Quantities& own, const Json& model, ExportTwin& twin) {
   for (const auto& [name, quantity] : own) {
     if (is_roundoff(name) || is_of_lost_part(name, model)) continue;
-    if (name.rfind("effect_", 0) == 0) continue;  // the exported case has the chosen effects
+    if (name.rfind("effect_", 0) == 0) continue;  // the exported case has the selected effects
     const auto found = twin.exported.quantities.find(name);
     const bool there = found != twin.exported.quantities.end() &&
                        found->second.values.size() == quantity.values.size();
@@ -87,7 +88,7 @@ inline void compare(const Quantities& own, const Json& model, ExportTwin& twin) 
   }
 }
 
-/// Exports it, writes that to a file, and computes both.
+/// Exports a case to a file and computes both.
 inline ExportTwin export_twin(const Case& given, const ExportChoice& choice) {
   ExportTwin twin{given.id() + ":" + choice.variant};
   if (choice.level) twin.name += " " + choice.sweep + " " + std::to_string(*choice.level);

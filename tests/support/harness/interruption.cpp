@@ -32,14 +32,14 @@ pid_t start(const fs::path& file, const fs::path& out) {
   _exit(127);
 }
 
-/// As a shell tells it: 128 and the signal where one ended it.
+/// Returns the exit status as a shell does: 128 plus the signal if a signal ended the process.
 int exit_status(pid_t child) {
   int status = 0;
   waitpid(child, &status, 0);
   return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-/// Computations, without what was judged of them.
+/// Returns the stored computations, without the judged results.
 std::set<fs::path> stored(const fs::path& out) {
   std::set<fs::path> files;
   std::error_code error;
@@ -49,7 +49,7 @@ std::set<fs::path> stored(const fs::path& out) {
   return files;
 }
 
-/// All but times and date.
+/// Returns the results without times and date.
 std::string results(const fs::path& out) {
   Json json = read_json(out / "results.json");
   json["environment"].erase("date");

@@ -2,8 +2,8 @@
 
 namespace trammel::testing {
 
-/// Runs the program, kills it at random times with KILL, INT and TERM, resumes it each time, and
-/// compares with an uninterrupted call.
+/// Kills runs at random times with KILL, INT and TERM, resumes each of them, and compares the
+/// results with those of an uninterrupted run.
 void interrupt_and_resume(int kills, unsigned seed);
 
 }  // namespace trammel::testing

@@ -16,13 +16,13 @@ namespace trammel::testing {
 
 using namespace harness;
 
-/// The program that is tested; the environment names another, that of tests/mutation.
+/// Returns the program under test; the environment may name that of tests/mutation.
 inline std::string trammel_program() {
   const char* other = std::getenv("TRAMMEL_PROGRAM");
   return other != nullptr ? other : TRAMMEL_PROGRAM;
 }
 
-/// A folder of its own that is gone afterwards.
+/// Temporary folder that is deleted at the end of its scope.
 class Folder {
  public:
   Folder() {
@@ -45,11 +45,23 @@ class Folder {
     std::ofstream(path_ / name, std::ios::binary) << text;
     return path_ / name;
   }
-  /// A case under its own name.
+  /// Writes a case under its id.
   [[nodiscard]] std::filesystem::path write(const Json& json) const {
     return write(json.at("id").get<std::string>() + ".json", json.dump(1));
   }
-  /// Adds a reference to those next to the cases.
+  /// Adds a reference with one value to the file next to the cases.
+  void write_reference(const std::string& id, const char* unit, double value,
+                       const Json& uncertainty, const char* kind = "paper") const {
+    write_reference({{"id", id},
+                     {"title", id},
+                     {"kind", kind},
+                     {"unit", unit},
+                     {"source", "me"},
+                     {"values", {value}},
+                     {"uncertainty", uncertainty},
+                     {"place", "here"}});
+  }
+  /// Adds a reference to the file next to the cases.
   void write_reference(Json reference) const {
     const std::filesystem::path file = path_ / "references.json";
     Json family = std::filesystem::exists(file) ? harness::read_json(file) : Json::object();
@@ -63,7 +75,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// What an InputError says; empty when nothing was thrown.
+/// Returns the message of an InputError, or an empty text.
 template <class Work>
 std::string complaint(const Work& work) {
   try {
@@ -78,7 +90,7 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// A steel cantilever of 2 m along x, 0.1 m deep, 0.05 m wide, 100 N across its tip.
+/// Returns a steel cantilever of 2 m along x, 0.1 m deep, 0.05 m wide, with 100 N across its tip.
 inline Json cantilever() {
   return Json::parse(R"({
     "id": "cantilever", "title": "Cantilever with a force at its tip",
@@ -95,20 +107,18 @@ inline Json cantilever() {
   })");
 }
 
-/// The cantilever in ten million steps of time: minutes.
+/// Returns the cantilever in ten million time steps, which take minutes.
 inline Json endless() {
   Json json = cantilever();
   json["id"] = "endless";
   json["model"]["elements"] = 40;
-  json["analysis"] = {{"transient",
-                       {{"duration_s", 1000},
-                        {"step_s", 1e-4},
-                        {"samples", 10},
-                        {"outputs", {"displacement_y_m:B"}}}}};
+  json["analysis"] = Json::parse(R"({"transient": {"duration_s": 1000, "step_s": 1e-4,
+    "samples": 10, "outputs": ["displacement_y_m:B"]}})");
   return json;
 }
 
-/// A quarter of a ring between radii 1 m and 2 m, held on its two straight edges, 0.3 MPa outside.
+/// Returns a quarter ring between radii 1 m and 2 m, held on its straight edges, under 0.3 MPa
+/// outside.
 inline Json quarter_ring() {
   return Json::parse(R"({
     "id": "ring", "title": "A quarter of a ring under pressure",
@@ -129,7 +139,7 @@ inline Json quarter_ring() {
   })");
 }
 
-/// The manipulator of Table 1 at the centre of its base.
+/// Returns the manipulator of Table 1 in the center of its base.
 inline Json manipulator() {
   return Json::parse(R"({
     "id": "robot", "title": "A 3-RRR manipulator",
@@ -152,7 +162,7 @@ inline Json manipulator() {
   })");
 }
 
-/// A crank of 1 m, a rod of 2 m and a slider that it moves along x.
+/// Returns a crank of 1 m, a rod of 2 m and a slider that moves along x.
 inline Json slider_crank() {
   return Json::parse(R"({
     "id": "slider-crank", "title": "A slider-crank",
@@ -176,9 +186,15 @@ inline Json slider_crank() {
   })");
 }
 
-/// A case of that JSON, as if it stood in `folder`.
+/// Writes a case into `folder` and reads it.
 inline Case read(const Folder& folder, const Json& json) {
   return load_case(folder.write(json));
+}
+
+/// Returns the base variant of a case that needs no files next to it.
+inline Document document_of(const Json& json) {
+  const Folder folder;
+  return patched(read(folder, json), kBaseVariant);
 }
 
 }  // namespace trammel::testing

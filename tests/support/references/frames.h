@@ -13,7 +13,7 @@ namespace trammel::testing {
 
 using namespace references;
 
-/// One aluminium beam from A(0, 0) to B(1, 0); `supports` and the rest are merged into the model.
+/// Returns an aluminum beam from A(0, 0) to B(1, 0) with a merge patch of the model.
 inline Json beam_model(const char* patch) {
   Json model = Json::parse(R"({
     "materials": {"aluminium": {"E_Pa": 6.9e10, "rho_kg_m3": 2700, "nu": 0.33}},
@@ -29,7 +29,7 @@ inline std::vector<double> frequencies(const Json& model, int count) {
   return derive("frame-frequencies", {{"model", model}, {"count", count}});
 }
 
-/// The values of a program with arguments as JSON text.
+/// Runs a program with arguments as JSON text. @returns its values
 inline std::vector<double> run(const char* program, const char* arguments) {
   return derive(program, Json::parse(arguments));
 }

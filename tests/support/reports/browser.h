@@ -5,22 +5,23 @@
 
 namespace trammel::testing {
 
-/// What headless Chromium makes of a page: its document after loading, and what it logged.
+/// Result of loading a page in headless Chromium: the document after loading, and the log.
 struct Visit {
   std::string document, console;
 };
 
-/// @throws std::runtime_error if there is no browser or it does not end well.
+/// @throws std::runtime_error if there is no browser or it fails
 [[nodiscard]] Visit visit(const std::filesystem::path& page);
 
-/// Shows a page in a frame of this width, for no window is as narrow as a phone, with all folded
-/// parts open, and measures it: <html> then carries data-width, data-scroll-width, data-figures
-/// (drawings with a size), data-empty (those without) and data-wide (elements that stick out at
-/// the right, named in data-wide-names), data-misplaced (targets that do not stand under their
-/// head).
+/// Loads a page in a frame of this width, because windows cannot be as narrow as a phone. All
+/// folded parts are open. The <html> element then has these attributes:
+///   data-width, data-scroll-width   widths [px].
+///   data-figures, data-empty        drawings with and without a size.
+///   data-wide, data-wide-names      elements that extend beyond the right side.
+///   data-misplaced                  targets that are not aligned with their column header.
 [[nodiscard]] Visit visit_framed(const std::filesystem::path& page, int width);
 
-/// The number under data-<name>; -1 if there is none.
+/// Returns the number in data-<name>, or -1 if it is missing.
 [[nodiscard]] int measured(const Visit& visit, const std::string& name);
 
 }  // namespace trammel::testing

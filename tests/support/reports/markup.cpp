@@ -11,7 +11,7 @@ const std::set<std::string>& void_elements() {
   return names;
 }
 
-/// The end of the tag that opens at `at`: the first > outside of quotes.
+/// Returns the end of the tag that opens at `at`: the first > outside quotes.
 std::size_t tag_end(const std::string& text, std::size_t at) {
   char quote = 0;
   for (; at < text.size(); ++at) {
@@ -31,7 +31,7 @@ std::string near(const std::string& text, std::size_t at) {
   return " near \"" + text.substr(at, 60) + "\"";
 }
 
-/// A & starts an entity.
+/// Returns true if the & at this place starts an entity.
 bool is_entity(const std::string& text, std::size_t at) {
   const std::size_t end = text.find(';', at);
   if (end == std::string::npos || end - at < 2 || end - at > 8) return false;

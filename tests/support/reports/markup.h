@@ -5,18 +5,18 @@
 
 namespace trammel::testing {
 
-/// Walks the tags of HTML or XML. @returns an empty text if every element is closed in order, else
-/// what is wrong. `html`: void elements need no end, script and style hold plain text.
+/// Checks that all elements of HTML or XML are closed in order. @returns an empty text or the fault
+/// @param html  void elements need no end; script and style contain plain text
 [[nodiscard]] std::string markup_fault(const std::string& text, bool html);
 
-/// How often `part` stands in `text`.
+/// Counts the occurrences of `part` in `text`.
 [[nodiscard]] std::size_t occurrences(const std::string& text, const std::string& part);
 
 inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// Values of all attributes of this name.
+/// Returns the values of all attributes with this name.
 [[nodiscard]] std::vector<std::string> attribute_values(const std::string& text,
                                                         const std::string& name);
 

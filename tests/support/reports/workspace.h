@@ -8,7 +8,7 @@
 
 namespace trammel::testing {
 
-/// A folder that is gone at the end of the test.
+/// Temporary folder that is deleted at the end of its scope.
 class Workspace {
  public:
   Workspace();
@@ -24,27 +24,27 @@ class Workspace {
 
 [[nodiscard]] std::string text_of(const std::filesystem::path& file);
 
-/// The pages of a report by their paths below its folder, and all of them as one text.
+/// Returns the pages of a report by their relative paths, or all pages as one text.
 [[nodiscard]] std::map<std::string, std::string> pages_of(const std::filesystem::path& report);
 [[nodiscard]] std::string text_of_pages(const std::filesystem::path& report);
 
-/// Results of a few cases of the catalogue, with one of everything that goes wrong, which the
-/// catalogue does not have: a check that fails, one without a number, one that is not judged and
-/// one that did not run, a singular run and a run with an error. The title of the beam contains
-/// characters that are special in HTML, XML, CSV and gnuplot. The files in results/ are renewed by
+/// Returns results of a few cases of the catalogue with every kind of failure added: a failed
+/// check, a check without a number, a check that is not judged, a check that did not run, a
+/// singular run and a run with an error. The title of the beam contains characters that are special
+/// in HTML, XML, CSV and gnuplot. These commands renew the files in results/:
 ///
 ///     trammel converge beam-pinned-pinned --variant base --json >results/beam.json
 ///     trammel converge vpcs-sdll02 --json >results/benchmark.json
 ///     trammel run manipulator-modes table-1-audit --variant base --json >results/manipulator.json
 [[nodiscard]] results::Results sample_results();
 
-/// The sample with the runs of one case only.
+/// Returns the sample with the runs of one case only.
 [[nodiscard]] results::Results sample_of(const std::string& case_id);
 
-/// The report of the sample, made once for all tests of this program.
+/// Returns the report of the sample, which is made once for all tests of this program.
 [[nodiscard]] const std::filesystem::path& sample_report();
 
-/// The first page of a report of these results, and all its pages as one text.
+/// Returns the first page of a report of these results, or all pages as one text.
 [[nodiscard]] std::string page_of(const results::Results& results);
 [[nodiscard]] std::string all_pages_of(const results::Results& results);
 

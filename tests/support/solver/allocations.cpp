@@ -24,7 +24,7 @@ std::atomic<std::int64_t> count{0};
 }  // namespace
 
 extern "C" {
-// glibc lets a program replace malloc and still reach the original by this name.
+// glibc allows a program to replace malloc and to call the original by this name.
 void* __libc_malloc(std::size_t size);  // NOLINT(bugprone-reserved-identifier)
 void* malloc(std::size_t size) {
   count.fetch_add(1, std::memory_order_relaxed);

@@ -2,6 +2,6 @@
 
 #include <cstdint>
 
-/// How often this program has called malloc (Eigen's storage as well as operator new); -1 under a
-/// sanitizer, which needs malloc for itself.
+/// Returns the number of calls of malloc, including Eigen's storage and operator new. With a
+/// sanitizer, which replaces malloc itself, the number is -1.
 [[nodiscard]] std::int64_t allocations();

@@ -7,7 +7,7 @@
 
 namespace trammel::solver {
 
-/// The manipulator of a motion where it is at one pose of its path, with its load at P and weight.
+/// Returns the manipulator of a motion at one pose of its path, with its load at P and its weight.
 inline Model static_model(const ElastodynamicsOptions& options, const TrajectoryPoint& point) {
   Model model = build_manipulator(options.design, point.pose);
   model.loads.push_back({model.find_node("P"), options.wrench});
@@ -15,8 +15,9 @@ inline Model static_model(const ElastodynamicsOptions& options, const Trajectory
   return model;
 }
 
-/// Displacements, with rotations where every node has one, and rotations of the members' ends
-/// within a share `motion` of their norm, reactions and resultants at these ends within `force`.
+/// Compares displacements, rotations of the members' ends, reactions and resultants. Rotations of
+/// nodes are compared if all nodes have one. Tolerances are relative: `motion` for displacements
+/// and rotations, `force` for reactions and resultants.
 inline void check_equal_statics(const StaticSolution& found, const StaticSolution& expected,
                                 double motion, double force) {
   const auto check = [](const char* what, const auto& value, const auto& truth, double share) {

@@ -11,7 +11,7 @@ namespace trammel::testing {
 
 using namespace solver;
 
-/// Rectangle `depth` x `width` of a material; depth in the plane.
+/// Returns the rectangle `depth` x `width` of a material; the depth is in the plane.
 inline Section rectangle(const Material& material, double depth, double width,
                          double shear_coefficient = 5.0 / 6.0) {
   const double A = depth * width;
@@ -32,6 +32,13 @@ inline Member member(std::string name, Index first, Index second, const Section&
   return m;
 }
 
+/// Returns a member of one element that is hinged at both ends.
+inline Member hinged(std::string name, Index first, Index second, const Section& section) {
+  Member m = member(std::move(name), first, second, section);
+  m.ends[0].fixity = m.ends[1].fixity = EndFixity::hinged;
+  return m;
+}
+
 inline Support clamp(Index node) {
   return {"", node, {true, true, true}};
 }
@@ -42,7 +49,7 @@ inline Support roller(Index node) {
   return {"", node, {false, true, false}};
 }
 
-/// A beam from the origin at an angle [rad], without supports.
+/// Returns a beam from the origin at an angle [rad], without supports.
 inline Model beam(const Section& section, double length, Index elements, double angle = 0) {
   Model model;
   model.nodes = {{"A", {0, 0}}, {"B", {length * std::cos(angle), length * std::sin(angle)}}};
@@ -56,12 +63,12 @@ inline Model cantilever(const Section& section, double length, Index elements, d
   return model;
 }
 
-/// Section with EI = 1, a mass of 1 a metre and a stiff axis.
+/// Returns a section with EI = 1, 1 kg/m and a large axial stiffness.
 inline Section unit_section(double EA = 1e6) {
   return {EA, 1, 0, 1, 0, 1, 1};
 }
 
-/// NAFEMS FV2: eight arms of 5 m from a common centre, their tips pinned.
+/// NAFEMS FV2: eight arms of 5 m from a common center, pinned at their tips.
 inline Model pinned_double_cross(Index elements_an_arm) {
   const double pi = std::acos(-1.0);
   Model model;
@@ -76,7 +83,7 @@ inline Model pinned_double_cross(Index elements_an_arm) {
   return model;
 }
 
-/// Three members of unequal length in line, of slope 3/4, without supports.
+/// Returns three collinear members of unequal length with slope 3/4, without supports.
 inline Model inclined_line(BeamTheory theory) {
   Member part;
   part.section.EA = 1e6;

@@ -13,14 +13,14 @@ using large_motion::GeometricallyExactSystem;
 using large_motion::LargeMotionModel;
 using large_motion::State;
 
-/// EI = 1, inextensible, Euler-Bernoulli: the elastica.
+/// Returns the elastica: EI = 1, inextensible, Euler-Bernoulli.
 inline Model elastica(Index elements, double angle = 0) {
   Model model = cantilever(unit_section(), 1, elements, angle);
   model.members[0].axially_flexible = false;
   return model;
 }
 
-/// IFToMM A01: 1 kg at the end of a massless rod of 1 m, let go where the rod is level.
+/// IFToMM A01: 1 kg at the end of a massless rod of 1 m, released where the rod is level.
 inline Model simple_pendulum() {
   Model model;
   model.nodes = {{"O", {0, 0}}, {"B", {-1, 0}}};

@@ -4,12 +4,13 @@
 #include <cmath>
 
 #include "solver/model/effects.h"
+#include "solver/motion/integrate.h"
 
 /// Small numerical tools that the tests of the solver share.
 namespace trammel::solver {
 
-/// d f / d s at 0 of a function that returns a vector, by central differences extrapolated twice:
-/// error of the order h^6.
+/// Returns d f / d s at 0 of a vector-valued function, by central differences that are extrapolated
+/// twice: the error is of order h^6.
 template <class F>
 auto richardson(const F& f, double h) {
   const auto central = [&](double s) { return ((f(s) - f(-s)) / (2 * s)).eval(); };
@@ -21,9 +22,18 @@ auto richardson(const F& f, double h) {
   return ((16 * e2 - e1) / 15).eval();
 }
 
-/// Order of convergence from the errors at a step and at half of it.
+/// Returns the order of convergence from the errors at a step and at half of it.
 inline double observed_order(double coarse, double fine) {
   return std::log2(coarse / fine);
+}
+
+inline TransientOptions options_to(double end, double step,
+                                   const TimeScheme& scheme = average_acceleration()) {
+  TransientOptions options;
+  options.end = end;
+  options.step = step;
+  options.scheme = scheme;
+  return options;
 }
 
 inline SparseMatrix sparse(const Eigen::MatrixXd& A) {

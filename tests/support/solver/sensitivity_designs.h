@@ -22,14 +22,10 @@ inline DesignParameter one_length(std::size_t limb, bool is_proximal) {
 }
 
 inline ManipulatorDesign coarse_design(Index elements = 2) {
-  ManipulatorDesign design = table_1_design();
-  for (std::size_t i = 0; i < 3; ++i) {
-    design.proximal[i].elements = design.distal[i].elements = elements;
-  }
-  return design;
+  return with_elements(elements, PlatformKind::triangles);
 }
 
-/// A pose well inside the reach, where no limb is nearly straight or folded.
+/// Returns a pose well inside the reach, where no limb is nearly straight or folded.
 inline Pose random_pose(const ManipulatorDesign& design, std::mt19937_64& engine) {
   const auto uniform = [&engine](double low, double high) {
     return low + (high - low) * static_cast<double>(engine() >> 11) * 0x1p-53;
@@ -42,8 +38,8 @@ inline Pose random_pose(const ManipulatorDesign& design, std::mt19937_64& engine
   }
 }
 
-/// The platform on the centroid of the base, turned at random: every frequency of the plane
-/// problem that is not one of the whole repeats, by the three-fold symmetry.
+/// Returns a pose with the platform on the centroid of the base at a random angle. Plane modes then
+/// have repeated frequencies by the threefold symmetry, except those with the full symmetry.
 inline Pose random_centred_pose(std::mt19937_64& engine) {
   return centred_pose(-0.6 + 1.2 * static_cast<double>(engine() >> 11) * 0x1p-53);
 }

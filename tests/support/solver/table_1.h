@@ -19,7 +19,8 @@ inline ManipulatorGeometry table_1_geometry() {
   return g;
 }
 
-/// Not of the paper: unequal links, base and platform, P off the centroid, mixed working modes.
+/// Returns a geometry unlike the paper's: unequal links, base and platform, P off the centroid,
+/// mixed working modes.
 inline ManipulatorGeometry uneven_geometry() {
   ManipulatorGeometry g;
   g.base = {Vector2d{0.02, -0.01}, Vector2d{0.61, 0.03}, Vector2d{0.2, 0.47}};
@@ -30,12 +31,13 @@ inline ManipulatorGeometry uneven_geometry() {
   return g;
 }
 
-/// The centroid of the base.
+/// Returns the pose at the centroid of the base.
 inline Pose centred_pose(double phi = 0) {
   return {0.25, 0.25 / std::numbers::sqrt3, phi};
 }
 
-/// Locked actuators, welded elbows, hinged platform joints; masses from density.
+/// Returns the design of Table 1: locked actuators, welded elbows, hinged platform joints, masses
+/// from density.
 inline ManipulatorDesign table_1_design() {
   const Material al_1060{6.9e10, 2700, 0.33};
   LinkDesign link;
@@ -54,7 +56,18 @@ inline ManipulatorDesign table_1_design() {
   return design;
 }
 
-/// Unequal links with centers of mass off the middle, P off the platform's center of mass.
+/// Returns the design of Table 1 with this number of elements in each link.
+inline ManipulatorDesign with_elements(Index elements,
+                                       PlatformKind platform = PlatformKind::rigid) {
+  ManipulatorDesign design = table_1_design();
+  design.platform.kind = platform;
+  for (auto* links : {&design.proximal, &design.distal})
+    for (LinkDesign& link : *links) link.elements = elements;
+  return design;
+}
+
+/// Returns unequal links with centers of mass off the middle, and P off the platform's center of
+/// mass.
 inline RigidManipulator uneven_bodies() {
   RigidManipulator m;
   m.geometry = uneven_geometry();
