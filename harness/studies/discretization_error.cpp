@@ -174,7 +174,11 @@ class ErrorScales {
   ErrorScales(const Document& document, const AnalysisResult& own)
       : own_(own.quantities), kind_(discretized_analysis(document)) {
     if (!document.value().contains("model")) return;
-    scales_ = change_scales(own_, scales_of(first_model(read_case_model(document))));
+    const ModelScales model = scales_of(first_model(read_case_model(document)));
+    scales_ = change_scales(own_, model);
+    if (!kind_.starts_with("large-") && kind_ != "modes") return;
+    for (const auto& [kind, size] : {std::pair("displacement", model.length), {"rotation", 1.0}})
+      scales_[kind] = std::max(scales_[kind], kPositionRoundoff * size);
   }
 
   /// Returns true for a series over time or a path, and for quantities with too many entries to
@@ -190,7 +194,7 @@ class ErrorScales {
   /// are relative to themselves. Those of rigid motions are relative to a small share of the
   /// highest.
   [[nodiscard]] double of(const std::string& name) const {
-    const std::string kind = change_kind(name);
+    const std::string kind = change_kind(name.starts_with("steady_") ? name.substr(7) : name);
     const double largest = max_abs(own_.at(name).values);
     const auto found = scales_.find(kind);
     if (kind == "frequency" || found == scales_.end())
@@ -204,6 +208,8 @@ class ErrorScales {
   }
 
  private:
+  /// Displacements over the length of the model, and rotations, that are round-off of positions.
+  static constexpr double kPositionRoundoff = 1e-11;
   const Quantities& own_;
   std::string kind_;
   std::map<std::string, double> scales_;

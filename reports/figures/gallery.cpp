@@ -89,19 +89,19 @@ std::map<std::string, std::string> short_titles(const Family& family) {
 }  // namespace
 
 std::string Family::short_title(const CaseInfo& info) const {
-  const std::string& title = info.title;
-  std::size_t same = title.size();
+  const std::string& full = info.title;
+  std::size_t same = full.size();
   for (const CaseInfo* other : cases) {
     if (other == &info) continue;
     std::size_t i = 0;
-    while (i < same && i < other->title.size() && other->title[i] == title[i]) ++i;
+    while (i < same && i < other->title.size() && other->title[i] == full[i]) ++i;
     same = i;
   }
-  if (cases.size() < 2 || same == 0 || same == title.size()) return title;
-  const std::size_t word = title.find_last_of(",:", same - 1);
-  if (word == std::string::npos) return title;
-  const std::size_t from = title.find_first_not_of(" ,:", word);
-  return from == std::string::npos ? title : title.substr(from);
+  if (cases.size() < 2 || same == 0 || same == full.size()) return full;
+  const std::size_t word = full.find_last_of(",:", same - 1);
+  if (word == std::string::npos) return full;
+  const std::size_t from = full.find_first_not_of(" ,:", word);
+  return from == std::string::npos ? full : full.substr(from);
 }
 
 std::vector<const Run*> Family::runs_of(const std::string& case_id) const {

@@ -112,6 +112,9 @@ std::ostream& operator<<(std::ostream& out, const Refusal& refusal) {
 const Refusal kRefusals[] = {
     {"", "expected a command (see trammel --help)"},
     {"rn", "expected a command (got 'rn'); did you mean 'run'?"},
+    {"rn --help", "expected a command (got 'rn'); did you mean 'run'?"},
+    {"help nothing", "expected a command (got 'nothing')"},
+    {"run variants.json:agian", "(got 'agian'); did you mean 'again'?"},
     {"run", "expected a case or a label (see trammel run --help)"},
     {"run --nonsense x", "The following argument was not expected: --nonsense"},
     {"run none.json", "none.json: expected a readable file"},
@@ -120,8 +123,7 @@ const Refusal kRefusals[] = {
     {"run holds.json --jobs 0", "--jobs: expected a number from 1 to 1024 (got 0)"},
     {"run holds.json --variant none", "/variants: expected the name of a variant (got 'none')"},
     {"run holds.json --variant bse", "(got 'bse'); did you mean 'base'?"},
-    {"run holds.json --out holds.json/x",
-     "--out holds.json/x: expected a writable folder"},
+    {"run holds.json --out holds.json/x", "--out holds.json/x: expected a writable folder"},
     {"run holds.json", "TRAMMEL_HOME: expected a folder with cases/schema",
      "TRAMMEL_HOME=/nonexistent"},
     {"run holds.json", "expected a standard output that can be written",
@@ -168,7 +170,13 @@ std::ostream& operator<<(std::ostream& out, const Call& call) {
 
 const std::vector<Call> kCalls = {
     {"--help", 0, {"Usage: trammel"}},
-    {"--version", 0, {"0."}},
+    {"--version", 0, {"trammel 0.", "\ncommit ", "\nEigen "}},
+    {"help run", 0, {"Usage: trammel run"}},
+    {"help verdicts", 0, {"known discrepancy"}},
+    {"list LUMPED", 0, {"lumped"}},
+    {"list -L beam -L frame", 0, {"0 cases"}},
+    {"list --label-any beam --label-any frame", 0, {"beam-cantilever", "portal-frame"}},
+    {"run variants.json:again", 0, {"1 run, 1 check with 1 number: 1 pass"}},
     {"run --help", 0, {"Usage: trammel run"}},
     {"claims --help", 0, {"--json"}},  // the command itself computes the full catalogue
     {"list", 0, {"manipulator-modes"}},

@@ -164,7 +164,7 @@ BOOST_AUTO_TEST_CASE(sweep_level_is_exported_as_one_case) {
 BOOST_AUTO_TEST_CASE(inexpressible_parts_are_refused_by_name) {
   Json robot = manipulator();
   robot["model"]["manipulator"]["joints"]["platform"] = "eq25-mean";
-  BOOST_TEST(contains(refusal_of(robot), "no words for its constraint 'eq25'"));
+  BOOST_TEST(contains(refusal_of(robot), "cannot express its constraint 'eq25'"));
   Json moving = manipulator();
   moving["model"].erase("pose");
   moving["model"]["trajectory"]["circle"] = {

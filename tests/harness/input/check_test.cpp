@@ -88,8 +88,9 @@ BOOST_AUTO_TEST_CASE(quantity_is_not_judged_against_itself) {
            {"against_quantity", "frequency_Hz"},
            {"role", "verification"},
            {"tolerance", {{"absolute", 1}, {"why", "w"}}}};
-  BOOST_TEST(contains(complaint([&] { (void)check_of(json); }),
-                      "/checks/c/against_quantity: expected another quantity"));
+  BOOST_TEST(
+      contains(complaint([&] { (void)check_of(json); }),
+               "/checks/c/against_quantity: expected a quantity other than the checked one"));
   check["against_variant"] = "base";
   const Folder folder;
   const Case given = testing::read(folder, json);

@@ -110,6 +110,16 @@ BOOST_AUTO_TEST_CASE(nodal_values_of_linear_statics_are_exact) {
   BOOST_TEST(*found.of("displacement_y_m:B").relative.front() < 1e-10);
 }
 
+BOOST_AUTO_TEST_CASE(round_off_of_a_straight_member_gives_no_warning) {
+  Json json = cantilever();
+  json["analysis"] = {{"large-statics", Json::object()}};
+  const double length = json["model"]["nodes"]["B"][0], c = std::cos(0.7), s = std::sin(0.7);
+  json["model"]["nodes"]["B"] = {c * length, s * length};
+  json["model"]["loads"] = {{"B", {{"force_N", {-1e-9 * c, -1e-9 * s}}}}};
+  const Estimated found = estimated(json);
+  BOOST_TEST(error_warnings(found.errors, 0.01).empty());
+}
+
 BOOST_AUTO_TEST_CASE(odd_mesh_has_a_finer_companion) {
   Json json = cantilever();
   json["analysis"] = {{"modes", {{"count", 3}}}};

@@ -153,7 +153,7 @@ BOOST_AUTO_TEST_CASE(step_beyond_the_stability_limit_is_refused) {
   BOOST_TEST(solve_transient(equation, options).summary.outcome.solved());
   options.step = 1.05 * 2 / fastest;
   const TransientHistory h = solve_transient(equation, options);
-  check_stopped(h.summary, "take h below");
+  check_stopped(h.summary, "use h below");
   BOOST_TEST(h.summary.accepted == 0);
 }
 
