@@ -1,9 +1,9 @@
 #include <boost/math/quadrature/gauss.hpp>
-#include <boost/numeric/odeint/stepper/extrapolation_stepper.hpp>
 #include <map>
 
 #include "references/manipulator/programs.h"
 #include "references/numerics/dense.h"
+#include "references/numerics/integration.h"
 #include "references/numerics/real.h"
 
 /// Motion of the rigid planar 3-RRR along a path or under constant torques, by name.
@@ -152,14 +152,12 @@ RealVector accelerations(const ManipulatorNumbers& m, const PlanarWrench& wrench
   return solve(A, b, "the posture is singular");
 }
 
-/// Computes the motion under constant torques at each of the times, one step from time to time: the
-/// modified midpoint rule with 2, 4, ... 16 substeps, extrapolated to order 16 (Gragg, Bulirsch and
-/// Stoer).
+/// Computes the motion under constant torques at each of the times, with 16 steps from time to
+/// time.
 std::vector<Motion> driven_motions(const ManipulatorNumbers& m, const PlanarWrench& wrench,
                                    const std::vector<Real>& torque, const Motion& start,
                                    const std::vector<Real>& times) {
   using State = std::array<Real, 6>;  // x, y, phi of the platform and their rates
-  boost::numeric::odeint::extrapolation_stepper<16, State, Real, State, Real> stepper;
   State state;
   for (int c = 0; c < 3; ++c) {
     state[c] = start[c].value;
@@ -172,7 +170,7 @@ std::vector<Motion> driven_motions(const ManipulatorNumbers& m, const PlanarWren
   std::vector<Motion> motions;
   Real time = 0;
   for (const Real& next : times) {
-    if (next > time) stepper.do_step(rate, state, time, Real(next - time));
+    if (next > time) integrate(rate, state, time, next, 16);
     time = next;
     const RealVector a = accelerations(m, wrench, torque, state);
     Motion motion;

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <array>
-#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
 #include "references/manipulator/programs.h"
 #include "references/numerics/dense.h"
+#include "references/numerics/integration.h"
 #include "references/numerics/real.h"
 
 /// Vibration of a planar 3-RRR with links that have mass and very little stiffness, about its
@@ -215,7 +215,6 @@ class Links {
 /// States at the times; of a turn of some 1 rad a dozen steps of order 8 leave 1e-13.
 std::vector<SystemState> states(const Links& links, const std::vector<Real>& times) {
   constexpr int kSteps = 4;  // from time to time
-  boost::numeric::odeint::runge_kutta_fehlberg78<SystemState, Real, SystemState, Real> stepper;
   const auto rate = [&](const SystemState& x, SystemState& dx, const Real& t) {
     const SystemMotion motion = links.solved(x, t);
     for (std::size_t j = 0; j < kCoordinates; ++j) {
@@ -226,8 +225,7 @@ std::vector<SystemState> states(const Links& links, const std::vector<Real>& tim
   SystemState x{};
   std::vector<SystemState> found = {x};
   for (std::size_t k = 1; k < times.size(); ++k) {
-    const Real h = (times[k] - times[k - 1]) / kSteps;
-    for (int i = 0; i < kSteps; ++i) stepper.do_step(rate, x, Real(times[k - 1] + i * h), h);
+    integrate(rate, x, times[k - 1], times[k], kSteps);
     found.push_back(x);
   }
   return found;
