@@ -170,7 +170,7 @@ std::vector<Motion> driven_motions(const ManipulatorNumbers& m, const PlanarWren
   std::vector<Motion> motions;
   Real time = 0;
   for (const Real& next : times) {
-    if (next > time) integrate(rate, state, time, next, 16);
+    if (next > time) integrate(rate, state, time, next, 8);
     time = next;
     const RealVector a = accelerations(m, wrench, torque, state);
     Motion motion;
