@@ -76,19 +76,19 @@ void support_membrane(solver::Model& model, const mms::MembraneProblem& problem)
 
 void load_membrane(solver::System& system, const mms::MembraneProblem& problem) {
   solver::add_body_force(system, [&](const Eigen::Vector2d& p) -> Eigen::Vector2d {
-    const auto state = mms::evaluate<double>(problem, p.x(), p.y());
+    const auto state = mms::evaluate(problem, p.x(), p.y());
     return {state.body_force[0], state.body_force[1]};
   });
   solver::add_edge_traction(
       system, [&](const Eigen::Vector2d& p, const Eigen::Vector2d& n) -> Eigen::Vector2d {
-        const auto s = mms::evaluate<double>(problem, p.x(), p.y()).stress;
+        const auto s = mms::evaluate(problem, p.x(), p.y()).stress;
         return {s[0] * n.x() + s[2] * n.y(), s[2] * n.x() + s[1] * n.y()};
       });
 }
 
 solver::MembraneFieldPoint exact_membrane_field(const mms::MembraneProblem& problem,
                                                 const Eigen::Vector2d& p) {
-  const auto s = mms::evaluate<double>(problem, p.x(), p.y());
+  const auto s = mms::evaluate(problem, p.x(), p.y());
   return {
       {s.displacement[0], s.displacement[1]}, s.rotation, {s.stress[0], s.stress[1], s.stress[2]}};
 }
@@ -99,7 +99,7 @@ Eigen::Vector2d to_world(double along, double across) {
   return along * kBeamAxis + across * Eigen::Vector2d(-kBeamAxis.y(), kBeamAxis.x());
 }
 
-solver::Model beam_model(const BeamTest& test, const mms::BeamState<double>& tip) {
+solver::Model beam_model(const BeamTest& test, const mms::BeamState& tip) {
   const mms::BeamProblem& problem = test.problem;
   solver::Member member;
   member.section = {.EA = problem.EA,
@@ -140,10 +140,10 @@ MembraneTestResult run_membrane_test(const MembraneTest& test) {
 BeamTestResult run_beam_test(const BeamTest& test) {
   const mms::BeamProblem& problem = test.problem;
   const auto state = [&](const Eigen::Vector2d& p) {
-    return mms::evaluate<double>(problem, kBeamAxis.dot(p));
+    return mms::evaluate(problem, kBeamAxis.dot(p));
   };
   solver::System system =
-      solver::assemble(beam_model(test, mms::evaluate<double>(problem, problem.length)));
+      solver::assemble(beam_model(test, mms::evaluate(problem, problem.length)));
   solver::add_line_load(system, [&](const Eigen::Vector2d& p) -> Eigen::Vector3d {
     const auto s = state(p);
     const Eigen::Vector2d force = to_world(s.axial_load, s.transverse_load);

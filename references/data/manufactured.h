@@ -7,8 +7,6 @@
 /// solution of a problem without special symmetry is known. Motion is harmonic, field * cos(omega
 /// t); omega = 0 is statics. Source: P. J. Roache, "Code Verification by the Method of Manufactured
 /// Solutions", J. Fluids Eng. 124(1), 2002, doi:10.1115/1.1436090.
-///
-/// T is double, or std::complex<double> for derivatives by complex step.
 namespace trammel::references::manufactured {
 
 /// Membranes in plane stress on the rectangle 0 <= x <= length, 0 <= y <= height.
@@ -30,17 +28,15 @@ struct MembraneProblem {
   double omega = 0;      ///< [rad/s]
 };
 
-template <typename T>
 struct MembraneState {
-  std::array<T, 2> displacement;  ///< u, v [m]
-  T rotation;                     ///< (dv/dx - du/dy) / 2 [rad]
-  std::array<T, 3> strain;        ///< exx, eyy, gxy [-]
-  std::array<T, 3> stress;        ///< sxx, syy, sxy [Pa]
-  std::array<T, 2> body_force;    ///< -div(stress) - rho omega^2 displacement [N/m^3]
+  std::array<double, 2> displacement;  ///< u, v [m]
+  double rotation;                     ///< (dv/dx - du/dy) / 2 [rad]
+  std::array<double, 3> strain;        ///< exx, eyy, gxy [-]
+  std::array<double, 3> stress;        ///< sxx, syy, sxy [Pa]
+  std::array<double, 2> body_force;    ///< -div(stress) - rho omega^2 displacement [N/m^3]
 };
 
-template <typename T>
-[[nodiscard]] MembraneState<T> evaluate(const MembraneProblem& problem, const T& x, const T& y);
+[[nodiscard]] MembraneState evaluate(const MembraneProblem& problem, double x, double y);
 
 /// Which displacements the ground holds at a point of the outline; the field is zero there.
 [[nodiscard]] std::array<bool, 2> fixed_displacements(const MembraneProblem& problem, double x,
@@ -73,15 +69,13 @@ struct BeamProblem {
 
 /// Axes of the beam: x along it, y to its left. N = EA u', M = EI θ', V = kappa GA (v' - θ), or
 /// -M' without shear.
-template <typename T>
 struct BeamState {
-  T axial, deflection, rotation;               ///< u, v [m], θ [rad]
-  T axial_force, shear_force, bending_moment;  ///< N, V [N], M [N m]
-  T axial_load, transverse_load, moment_load;  ///< n, q [N/m], m [N m/m]:
+  double axial, deflection, rotation;               ///< u, v [m], θ [rad]
+  double axial_force, shear_force, bending_moment;  ///< N, V [N], M [N m]
+  double axial_load, transverse_load, moment_load;  ///< n, q [N/m], m [N m/m]:
   ///< N' + n + rho A omega^2 u = 0, V' + q + rho A omega^2 v = 0, M' + V + m + rho I omega^2 θ = 0
 };
 
-template <typename T>
-[[nodiscard]] BeamState<T> evaluate(const BeamProblem& problem, const T& x);
+[[nodiscard]] BeamState evaluate(const BeamProblem& problem, double x);
 
 }  // namespace trammel::references::manufactured

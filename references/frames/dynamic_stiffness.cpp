@@ -41,22 +41,15 @@ DynamicStiffness<T>::DynamicStiffness(const Frame& frame) {
 template <class T>
 void DynamicStiffness<T>::transform_members(const Frame& frame,
                                             const FrameCoordinates& coordinates) {
-  const RealMatrix& N = coordinates.N();
   for (std::size_t e = 0; e < frame.members.size(); ++e) {
     const MemberAxis axis = member_axis(frame, frame.members[e]);
+    RealMatrix world(6, coordinates.free()), axes = RealMatrix::Identity(6, 6);
     const auto u = coordinates.member_indices(static_cast<int>(e));
-    TransformedMember transformed{MemberData<T>(frame.members[e].section, axis.length), {}};
-    for (std::size_t row = 0; row < 6; ++row) {
-      const int x = u[row < 3 ? 0 : 3];
-      const int y = u[row < 3 ? 1 : 4];
-      for (Eigen::Index q = 0; q < N.cols(); ++q) {
-        const Real value = row % 3 == 0   ? Real(axis.cosine * N(x, q) + axis.sine * N(y, q))
-                           : row % 3 == 1 ? Real(axis.cosine * N(y, q) - axis.sine * N(x, q))
-                                          : N(u[row], q);
-        if (value != 0) transformed.transformation[row].emplace_back(q, static_cast<T>(value));
-      }
-    }
-    members_.push_back(transformed);
+    for (int row = 0; row < 6; ++row) world.row(row) = coordinates.N().row(u[row]);
+    for (const int end : {0, 3})
+      axes.block<2, 2>(end, end) << axis.cosine, axis.sine, -axis.sine, axis.cosine;
+    members_.push_back({MemberData<T>(frame.members[e].section, axis.length),
+                        RealMatrix(axes * world).sparseView().template cast<T>()});
   }
 }
 
@@ -109,17 +102,8 @@ typename DynamicStiffness<T>::Count DynamicStiffness<T>::count(const T& w,
   for (const TransformedMember& member : members_) {
     const MemberStiffness<T> stiffness = member_stiffness(member.data, w2, load_factor);
     count.clamped_below += stiffness.clamped_below;
-    const auto K = member_matrix(stiffness);
-    for (std::size_t a = 0; a < 6; ++a) {
-      for (std::size_t b = 0; b < 6; ++b) {
-        if (K[a][b] == 0) continue;
-        for (const auto& [i, left] : member.transformation[a]) {
-          for (const auto& [j, right] : member.transformation[b]) {
-            if (j <= i) D(i, j) += left * K[a][b] * right;
-          }
-        }
-      }
-    }
+    const Matrix<T> force = member_matrix(stiffness) * member.transformation;
+    D += member.transformation.transpose() * force;
   }
   const auto [negative, log_determinant] = matrix_inertia(D);
   count.below = count.clamped_below + negative;

@@ -1,7 +1,6 @@
 #pragma once
 
-#include <array>
-#include <utility>
+#include <Eigen/SparseCore>
 #include <vector>
 
 #include "references/frames/frame.h"
@@ -33,11 +32,9 @@ class DynamicStiffness {
   [[nodiscard]] Count count(const T& w, const T& load_factor = T(1)) const;
 
  private:
-  /// A row of a member's transformation: its value of q, as (column, factor).
-  using SparseRow = std::vector<std::pair<Eigen::Index, T>>;
   struct TransformedMember {
     MemberData<T> data;
-    std::array<SparseRow, 6> transformation;
+    Eigen::SparseMatrix<T> transformation;  ///< displacements at its ends, in its axes, from q
   };
 
   void transform_members(const Frame& frame, const FrameCoordinates& coordinates);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "references/frames/frame.h"
+#include "references/numerics/dense.h"
 #include "references/numerics/real.h"
 
 /// Exact dynamic stiffness of one uniform member at circular frequency w, and how many of its
@@ -23,17 +24,12 @@
 /// Hyperbolic pairs are divided by cosh(k L/2), so that nothing overflows.
 namespace trammel::references {
 
-/// Symmetric 2 x 2: force and moment at the right end over v and psi there.
-template <class T>
-struct HalfStiffness {
-  T vv, vp, pp;
-};
-
+/// Stiffness of motions even and odd about mid-span: forces (N, V, M) at the right end over the
+/// displacements (u, v, psi) there.
 template <class T>
 struct MemberStiffness {
-  HalfStiffness<T> even, odd;  ///< bending
-  T axial_odd, axial_even;     ///< axial: ends apart by 2 u, both ends by u
-  int clamped_below = 0;       ///< frequencies below w with both ends clamped
+  Eigen::Matrix<T, 3, 3> even = Eigen::Matrix<T, 3, 3>::Zero(), odd = even;
+  int clamped_below = 0;  ///< frequencies below w with both ends clamped
 };
 
 /// What a member is made of, in the number type of the evaluation.
@@ -69,16 +65,6 @@ std::array<T, 2> symmetric_wave_functions(const T& k2, const T& h) {
   return {cos(k * h), sin(k * h) / k};
 }
 
-/// (forces of two solutions) (displacements of two solutions)^-1.
-template <class T>
-HalfStiffness<T> stiffness_from_solutions(const std::array<std::array<T, 2>, 2>& force,
-                                          const std::array<std::array<T, 2>, 2>& motion) {
-  const T det = motion[0][0] * motion[1][1] - motion[0][1] * motion[1][0];
-  return {(force[0][0] * motion[1][1] - force[0][1] * motion[1][0]) / det,
-          (force[0][1] * motion[0][0] - force[0][0] * motion[0][1]) / det,
-          (force[1][1] * motion[0][0] - force[1][0] * motion[0][1]) / det};
-}
-
 /// How many n >= 1 have n pi / L < k.
 template <class T>
 int waves_below(const T& k, const T& length) {
@@ -102,28 +88,29 @@ MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const 
   // `below` always oscillates, `above` only beyond the cut-on of shear waves; neither cancels
   const T below = p >= 0 ? T(-p - root) : T(q / (root - p));
   const T above = p >= 0 ? T(q / below) : T(root - p);
-  std::array<std::array<T, 2>, 2> even_motion, even_force, odd_motion, odd_force;
+  Eigen::Matrix<T, 2, 2> even_motion, even_force, odd_motion, odd_force;  // of two solutions
   for (int i = 0; i < 2; ++i) {
     const T k2 = i == 0 ? above : below;
     const auto [C, S] = symmetric_wave_functions(k2, h);
     const T slope = k2 + g;
     const T shear = -slope * (m.EI * k2 + w2 * m.rotary_inertia) + tension * k2;
-    even_motion[0][i] = C;
-    even_motion[1][i] = slope * S;
-    even_force[0][i] = shear * S;
-    even_force[1][i] = m.EI * slope * C;
-    odd_motion[0][i] = k2 * S;
-    odd_motion[1][i] = slope * C;
-    odd_force[0][i] = shear * C;
-    odd_force[1][i] = m.EI * slope * k2 * S;
+    even_motion(0, i) = C;
+    even_motion(1, i) = slope * S;
+    even_force(0, i) = shear * S;
+    even_force(1, i) = m.EI * slope * C;
+    odd_motion(0, i) = k2 * S;
+    odd_motion(1, i) = slope * C;
+    odd_force(0, i) = shear * C;
+    odd_force(1, i) = m.EI * slope * k2 * S;
   }
-  MemberStiffness<T> result{stiffness_from_solutions(even_force, even_motion),
-                            stiffness_from_solutions(odd_force, odd_motion), T(0), T(0), 0};
+  MemberStiffness<T> result;
+  result.even.template bottomRightCorner<2, 2>() = even_force * even_motion.inverse();
+  result.odd.template bottomRightCorner<2, 2>() = odd_force * odd_motion.inverse();
   // Pinned ends have known frequencies; clamping the two rotations takes away as many as their
   // stiffness has negative eigenvalues.
   int pinned = waves_below(T(sqrt(-below)), m.length);
   if (above < 0) pinned += 1 + waves_below(T(sqrt(-above)), m.length);
-  result.clamped_below = pinned - (result.even.pp < 0 ? 1 : 0) - (result.odd.pp < 0 ? 1 : 0);
+  result.clamped_below = pinned - (result.even(2, 2) < 0 ? 1 : 0) - (result.odd(2, 2) < 0 ? 1 : 0);
   return result;
 }
 
@@ -140,37 +127,27 @@ template <class T>
   const T h = m.length / 2;
   MemberStiffness<T> result = detail::bending_stiffness(m, w2, load_factor);
   if (m.axial_compliance == 0) {
-    result.axial_even = -w2 * m.mass * h;
+    result.even(0, 0) = -w2 * m.mass * h;
     return result;
   }
   const T k = sqrt(w2 * m.mass * m.axial_compliance);
   const T c = cos(k * h);
   const T s = sin(k * h);
-  result.axial_odd = k * c / (s * m.axial_compliance);
-  result.axial_even = -k * s / (c * m.axial_compliance);
+  result.odd(0, 0) = k * c / (s * m.axial_compliance);
+  result.even(0, 0) = -k * s / (c * m.axial_compliance);
   result.clamped_below += detail::waves_below(k, m.length);
   return result;
 }
 
-/// The 6 x 6 of (u1, v1, psi1, u2, v2, psi2) in the member's axes.
+/// Returns the 6 x 6 matrix of (u1, v1, psi1, u2, v2, psi2) in the member's axes. Motions u and v
+/// have the same sign at both ends if they are even, psi the opposite sign.
 template <class T>
-[[nodiscard]] std::array<std::array<T, 6>, 6> member_matrix(const MemberStiffness<T>& s) {
-  std::array<std::array<T, 6>, 6> K{};
-  const auto set = [&K](int i, int j, const T& value) { K[i][j] = K[j][i] = value; };
-  set(0, 0, (s.axial_even + s.axial_odd) / 2);
-  set(3, 3, (s.axial_even + s.axial_odd) / 2);
-  set(0, 3, (s.axial_even - s.axial_odd) / 2);
-  set(1, 1, (s.even.vv + s.odd.vv) / 2);
-  set(4, 4, (s.even.vv + s.odd.vv) / 2);
-  set(1, 4, (s.even.vv - s.odd.vv) / 2);
-  set(2, 2, (s.even.pp + s.odd.pp) / 2);
-  set(5, 5, (s.even.pp + s.odd.pp) / 2);
-  set(2, 5, (s.odd.pp - s.even.pp) / 2);
-  set(4, 5, (s.even.vp + s.odd.vp) / 2);
-  set(1, 2, -(s.even.vp + s.odd.vp) / 2);
-  set(1, 5, (s.even.vp - s.odd.vp) / 2);
-  set(2, 4, (s.odd.vp - s.even.vp) / 2);
-  return K;
+[[nodiscard]] Eigen::Matrix<T, 6, 6> member_matrix(const MemberStiffness<T>& s) {
+  Eigen::Matrix<T, 6, 6> K;
+  K << s.even + s.odd, s.even - s.odd, s.even - s.odd, s.even + s.odd;
+  K.row(2) = -K.row(2);
+  K.col(2) = -K.col(2);
+  return K / T(2);
 }
 
 }  // namespace trammel::references

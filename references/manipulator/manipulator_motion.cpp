@@ -1,8 +1,9 @@
-#include <functional>
+#include <boost/math/quadrature/gauss.hpp>
 #include <map>
 
 #include "references/manipulator/programs.h"
 #include "references/numerics/dense.h"
+#include "references/numerics/integration.h"
 #include "references/numerics/real.h"
 
 /// Motion of the rigid planar 3-RRR along a path or under constant torques, by name.
@@ -133,7 +134,7 @@ class Instant {
 /// Accelerations of the platform under given torques: torques are linear in them, so four inverse
 /// problems tell.
 RealVector accelerations(const ManipulatorNumbers& m, const PlanarWrench& wrench,
-                         const std::vector<Real>& torque, const RealVector& state) {
+                         const std::vector<Real>& torque, const std::array<Real, 6>& state) {
   const auto torques_at = [&](int moving) {
     Motion motion;
     for (int c = 0; c < 3; ++c)
@@ -151,48 +152,25 @@ RealVector accelerations(const ManipulatorNumbers& m, const PlanarWrench& wrench
   return solve(A, b, "the posture is singular");
 }
 
-using Rate = std::function<RealVector(const RealVector&)>;
-
-/// One step by Gragg's modified midpoint rule with 2, 4, ... 16 substeps, extrapolated (Bulirsch
-/// and Stoer): order 16.
-RealVector extrapolated_step(const Rate& rate, const RealVector& y, const Real& h) {
-  const RealVector start = rate(y);
-  std::vector<RealVector> table;
-  for (int j = 1; j <= 8; ++j) {
-    const Real step = h / (2 * j);
-    RealVector before = y, now = y + step * start;
-    for (int k = 1; k < 2 * j; ++k) {
-      const RealVector next = before + Real(2 * step) * rate(now);
-      before = now;
-      now = next;
-    }
-    table.push_back((now + before + step * rate(now)) / Real(2));
-    for (int i = j - 2; i >= 0; --i) {
-      const Real ratio = Real(j * j) / Real((i + 1) * (i + 1));
-      table[i] = table[i + 1] + (table[i + 1] - table[i]) / Real(ratio - 1);
-    }
-  }
-  return table.front();
-}
-
-/// The motion under constant torques at each of the times.
+/// Computes the motion under constant torques at each of the times, with 16 steps from time to
+/// time.
 std::vector<Motion> driven_motions(const ManipulatorNumbers& m, const PlanarWrench& wrench,
                                    const std::vector<Real>& torque, const Motion& start,
                                    const std::vector<Real>& times) {
-  RealVector state(6);
+  using State = std::array<Real, 6>;  // x, y, phi of the platform and their rates
+  State state;
   for (int c = 0; c < 3; ++c) {
     state[c] = start[c].value;
     state[3 + c] = start[c].rate;
   }
-  const Rate rate = [&](const RealVector& y) {
-    RealVector dy(6);
-    dy << y.tail(3), accelerations(m, wrench, torque, y);
-    return dy;
+  const auto rate = [&](const State& y, State& dy, const Real&) {
+    const RealVector a = accelerations(m, wrench, torque, y);
+    dy = {y[3], y[4], y[5], a[0], a[1], a[2]};
   };
   std::vector<Motion> motions;
   Real time = 0;
   for (const Real& next : times) {
-    if (next > time) state = extrapolated_step(rate, state, next - time);
+    if (next > time) integrate(rate, state, time, next, 8);
     time = next;
     const RealVector a = accelerations(m, wrench, torque, state);
     Motion motion;
@@ -202,41 +180,26 @@ std::vector<Motion> driven_motions(const ManipulatorNumbers& m, const PlanarWren
   return motions;
 }
 
-/// Integral of the actuators' |power| over a turn of the circle: constant loads have a potential,
-/// so that it is what kinetic less potential energy rises and falls by between the zeros of power.
+/// Integrates the actuators' |power| over a turn of the circle, between the zeros of the power.
 Real absolute_work(const ManipulatorNumbers& m, const Arguments& trajectory,
                    const PlanarWrench& wrench) {
   const Arguments circle(trajectory["circle"], "/trajectory/circle");
   const Real period = 2 * pi<Real>() / abs(circle.number("angular_speed_rad_s", 1));
-  const auto at = [&](const Real& t) { return Instant(m, platform_motion(trajectory, t), wrench); };
-  const auto power = [&](const Real& t) { return at(t).value("actuator_power_W"); };
-  const auto energy = [&](const Real& t) {
-    const Instant now = at(t);
-    Real weights = 0;
-    for (const char* body : {"A1-B1", "A2-B2", "A3-B3", "B1-C1", "B2-C2", "B3-C3", "platform"}) {
-      const std::string name = body;
-      const std::size_t limb = name == "platform" ? 3 : static_cast<std::size_t>(name[1] - '1');
-      const Real mass = limb == 3        ? m.platform_mass
-                        : name[0] == 'A' ? m.limbs[limb].proximal.mass
-                                         : m.limbs[limb].distal.mass;
-      weights += mass * (m.gravity[0] * now.value("center_x_m:" + name) +
-                         m.gravity[1] * now.value("center_y_m:" + name));
-    }
-    return Real(now.value("kinetic_energy_J") - wrench.x * now.value("motion_x_m") -
-                wrench.y * now.value("motion_y_m") - weights);
+  const auto power = [&](const Real& t) {
+    return Instant(m, platform_motion(trajectory, t), wrench).value("actuator_power_W");
   };
   constexpr int kIntervals = 64;
-  std::vector<Real> energies;
-  Real before = power(0);
+  Real work = 0, from = 0, before = power(from);
   for (int k = 1; k <= kIntervals; ++k) {
-    const Real from = period * (k - 1) / kIntervals, to = period * k / kIntervals;
-    const Real now = power(to);
-    if ((before < 0) != (now < 0)) energies.push_back(energy(refined_root(power, from, to)));
+    const Real to = period * k / kIntervals, now = power(to);
+    const Real zero = (before < 0) != (now < 0) ? refined_root(power, from, to) : to;
+    // Ten points on a 64th of a turn integrate the smooth power to about 30 digits.
+    using Gauss = boost::math::quadrature::gauss<Real, 10>;
+    work += abs(Gauss::integrate(power, from, zero));
+    if (zero < to) work += abs(Gauss::integrate(power, zero, to));
+    from = to;
     before = now;
   }
-  Real work = 0;
-  for (std::size_t i = 0; i < energies.size(); ++i)
-    work += abs(energies[i] - energies[(i + 1) % energies.size()]);
   return work;
 }
 

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <array>
-#include <boost/numeric/odeint/stepper/runge_kutta_fehlberg78.hpp>
 
 #include "references/manipulator/programs.h"
+#include "references/numerics/integration.h"
 #include "references/numerics/real.h"
 
 /// Vibration of the platform of a planar 3-RRR about its motion along a path, on links without mass
@@ -127,13 +127,11 @@ struct History {
 
 void advance(const Platform& platform, const History& history, const Real& from, const Real& to,
              State& x) {
-  boost::numeric::odeint::runge_kutta_fehlberg78<State, Real, State, Real> stepper;
-  const int steps = static_cast<int>(ceil((to - from) * 4000));
-  const Real h = (to - from) / steps, within = (from + to) / 2;
+  const Real within = (from + to) / 2;
   const auto rate = [&](const State& now, State& dx, const Real& t) {
     platform.rate(now, dx, t, history.at(t, within));
   };
-  for (int i = 0; i < steps; ++i) stepper.do_step(rate, x, Real(from + i * h), h);
+  integrate(rate, x, from, to, static_cast<int>(ceil((to - from) * 4000)));
 }
 
 }  // namespace
