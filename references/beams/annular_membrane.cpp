@@ -68,9 +68,7 @@ std::vector<std::pair<int, int>> wanted_modes(const Arguments& arguments) {
 
 }  // namespace
 
-std::vector<double> annular_membrane_program(const Json& json) {
-  const Arguments arguments(
-      json, "", {"inner_radius_m", "outer_radius_m", "E_Pa", "rho_kg_m3", "nu", "modes"});
+std::vector<Real> annular_membrane_program(const Arguments& arguments) {
   const Real e = arguments.positive("E_Pa") / arguments.positive("rho_kg_m3");
   const Real nu = arguments.number("nu");
   const Annulus annulus{arguments.positive("inner_radius_m"), arguments.positive("outer_radius_m"),
@@ -90,7 +88,7 @@ std::vector<double> annular_membrane_program(const Json& json) {
   }
   std::vector<Real> values;
   for (const auto& [n, k] : wanted) values.push_back(roots[n][k - 1] / (2 * pi<Real>()));
-  return to_doubles(values);
+  return values;
 }
 
 }  // namespace trammel::references

@@ -41,8 +41,7 @@ std::vector<Real> beam_roots(const BeamEnds& ends, int count) {
                      Real("0.05"), count);
 }
 
-std::vector<double> beam_modal_mass_program(const Json& json) {
-  const Arguments arguments(json, "", {"count", "tip_mass_ratio"});
+std::vector<Real> beam_modal_mass_program(const Arguments& arguments) {
   const Real mu = arguments.positive("tip_mass_ratio");
   std::vector<Real> shares;
   for (const Real& b : beam_roots({"clamped-free", mu, 0}, arguments.count("count"))) {
@@ -53,26 +52,22 @@ std::vector<double> beam_modal_mass_program(const Json& json) {
                               mu * b * (cos(b) * sech * sech - sin(b) * tanh(b) - cos(b));
     shares.push_back(1 - 4 * (mu / b) * derivative_mu / derivative_b);
   }
-  return to_doubles(shares);
+  return shares;
 }
 
-std::vector<double> beam_roots_program(const Json& json) {
-  const Arguments arguments(json, "", {"ends", "count", "tip_mass_ratio", "tip_inertia_ratio"});
+std::vector<Real> beam_roots_program(const Arguments& arguments) {
   const BeamEnds ends = read_beam_ends(arguments);
-  return to_doubles(beam_roots(ends, arguments.count("count")));
+  return beam_roots(ends, arguments.count("count"));
 }
 
-std::vector<double> beam_frequencies_program(const Json& json) {
-  const Arguments arguments(json, "",
-                            {"ends", "count", "tip_mass_ratio", "tip_inertia_ratio", "length_m",
-                             "E_Pa", "rho_kg_m3", "thickness_m", "width_m"});
+std::vector<Real> beam_frequencies_program(const Arguments& arguments) {
   static_cast<void>(arguments.positive("width_m"));  // cancels from EI / rho A
   const Real length = arguments.positive("length_m");
   const Real thickness = arguments.positive("thickness_m");
   const Real radius_of_gyration = thickness / sqrt(Real(12));
   const Real wave_speed = sqrt(arguments.positive("E_Pa") / arguments.positive("rho_kg_m3"));
   const BeamEnds ends = read_beam_ends(arguments);
-  std::vector<double> frequencies;
+  std::vector<Real> frequencies;
   for (const Real& b : beam_roots(ends, arguments.count("count"))) {
     const Real wave_number = b / length;
     frequencies.push_back(static_cast<double>(wave_number * wave_number * radius_of_gyration *

@@ -34,17 +34,17 @@ struct BeamEnds {
 [[nodiscard]] std::vector<Real> beam_roots(const BeamEnds& ends, int count);
 
 /// Arguments: ends, count, tip_mass_ratio, tip_inertia_ratio. Values: beta L.
-[[nodiscard]] std::vector<double> beam_roots_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> beam_roots_program(const Arguments& arguments);
 
 /// Arguments: as beam-roots, and length_m, E_Pa, rho_kg_m3, thickness_m (in the plane), width_m.
 /// Values: frequencies [Hz].
-[[nodiscard]] std::vector<double> beam_frequencies_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> beam_frequencies_program(const Arguments& arguments);
 
 /// The beam's share of the modal mass of a cantilever with the tip mass mu, one a root b:
 ///   int w^2 dx / (int w^2 dx + mu L w(L)^2) = 1 + 4 (mu / b) db/dmu,
 /// for the frequency falls with the tip mass as the tip mass's share of the kinetic energy
 /// (Rayleigh), and db/dmu follows from the characteristic equation. Arguments: tip_mass_ratio,
 /// count. Values: shares [-].
-[[nodiscard]] std::vector<double> beam_modal_mass_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> beam_modal_mass_program(const Arguments& arguments);
 
 }  // namespace trammel::references

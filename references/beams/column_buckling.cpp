@@ -91,16 +91,14 @@ Complex complex_root(const Follower& load) {
 
 }  // namespace
 
-std::vector<double> becks_column_program(const Json& json) {
-  const Arguments arguments(
-      json, "", {"output", "load", "load_parameter", "EI_N_m2", "length_m", "mass_kg_per_m"});
+std::vector<Real> becks_column_program(const Arguments& arguments) {
   const std::string output =
       arguments.choice("output", "", {"flutter-load", "frequencies", "growth-rate"});
   const bool spread = arguments.choice("load", "tip", {"tip", "spread"}) == "spread";
   const Real EI = arguments.positive("EI_N_m2", 1), L = arguments.positive("length_m", 1),
              mass = arguments.positive("mass_kg_per_m", 1);
   if (output == "flutter-load")
-    return to_doubles({flutter_load(spread) * EI / (spread ? Real(L * L * L) : Real(L * L))});
+    return {flutter_load(spread) * EI / (spread ? Real(L * L * L) : Real(L * L))};
   const Real parameter = arguments.positive("load_parameter");
   const Follower load = spread ? Follower{0, parameter} : Follower{parameter, 0};
   const bool beyond = flutters(load);
@@ -108,17 +106,15 @@ std::vector<double> becks_column_program(const Json& json) {
     arguments.fail("load_parameter",
                    std::string("a load ") + (beyond ? "below" : "above") + " that of flutter");
   const Real rate = sqrt(EI / mass) / (L * L);
-  if (beyond) return to_doubles({Real(abs(complex_root(load).imag()) * rate)});
+  if (beyond) return {Real(abs(complex_root(load).imag()) * rate)};
   std::vector<Real> values =
       first_roots([&load](const Real& W) { return follower_determinant(W, load); }, Real("0.5"),
                   Real("0.1"), 2);
   for (Real& value : values) value *= rate / (2 * pi<Real>());
-  return to_doubles(values);
+  return values;
 }
 
-std::vector<double> column_buckling_program(const Json& json) {
-  const Arguments arguments(json, "",
-                            {"ends", "load", "count", "EI_N_m2", "length_m", "weight_N_per_m"});
+std::vector<Real> column_buckling_program(const Arguments& arguments) {
   const std::string ends = arguments.choice(
       "ends", "", {"clamped-free", "pinned-pinned", "clamped-pinned", "clamped-clamped"});
   const bool weight = arguments.choice("load", "", {"end", "self-weight"}) == "self-weight";
@@ -135,7 +131,7 @@ std::vector<double> column_buckling_program(const Json& json) {
   std::vector<Real> values =
       first_roots(characteristic, Real("0.5"), Real("0.1"), arguments.count("count"));
   for (Real& value : values) value = scale * value * value;
-  return to_doubles(values);
+  return values;
 }
 
 }  // namespace trammel::references

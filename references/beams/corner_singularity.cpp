@@ -9,8 +9,7 @@
 /// displacements and frequencies converge with h^(2 l) where the elements would do better.
 namespace trammel::references {
 
-std::vector<double> wedge_exponent_program(const Json& json) {
-  const Arguments arguments(json, "", {"clamped_side", "free_side", "nu", "plane"});
+std::vector<Real> wedge_exponent_program(const Arguments& arguments) {
   const std::vector<Real> a = arguments.numbers("clamped_side", 2);
   const std::vector<Real> b = arguments.numbers("free_side", 2);
   const Real product = sqrt((a[0] * a[0] + a[1] * a[1]) * (b[0] * b[0] + b[1] * b[1]));
@@ -25,7 +24,7 @@ std::vector<double> wedge_exponent_program(const Json& json) {
     return Real(s * s - (1 + k) * (1 + k) / (4 * k) + l * l * sine * sine / k);
   };
   // A step that does not fall on 1, the root of a corner that is not singular.
-  return to_doubles(first_roots(f, Real("0.1"), Real("0.0013"), 1));
+  return first_roots(f, Real("0.1"), Real("0.0013"), 1);
 }
 
 }  // namespace trammel::references

@@ -115,11 +115,7 @@ double maximizer(std::function<double(double)> f, double lo, double hi, int grid
 
 }  // namespace
 
-std::vector<double> deep_beam_program(const Json& json) {
-  const Arguments arguments(json, "",
-                            {"length_m", "thickness_m", "width_m", "E_Pa", "rho_kg_m3", "nu",
-                             "shear_coefficient", "load_N_per_m", "damping_ratio",
-                             "rayleigh_mass_1_s", "rayleigh_stiffness_s", "response", "outputs"});
+std::vector<Real> deep_beam_program(const Arguments& arguments) {
   const std::vector<Mode> all = modes(arguments);
   const std::string response =
       arguments.choice("response", "", {"static", "harmonic-peak", "step-peak"});
@@ -133,7 +129,7 @@ std::vector<double> deep_beam_program(const Json& json) {
     if (response == "harmonic-peak") return maximizer(history(share), 0.9 * first, 1.1 * first, 40);
     return maximizer(history(share), 0.2 * kPi / first, 1.8 * kPi / first, 400);
   };
-  std::vector<double> values;
+  std::vector<Real> values;
   for (const std::string& output : arguments.texts("outputs")) {
     double Mode::*const share = output == "stress_Pa" ? &Mode::stress : &Mode::displacement;
     if (output == "displacement_m" || output == "stress_Pa") {

@@ -193,12 +193,9 @@ Chain read_chain(const Arguments& arguments) {
 
 }  // namespace
 
-std::vector<double> elastic_chain_program(const Json& json) {
-  const Arguments arguments(json, "",
-                            {"nodes_m", "EI_N_m2", "EA_N", "GA_N", "start", "end", "loads",
-                             "load_factors", "limit_points", "outputs", "steps"});
+std::vector<Real> elastic_chain_program(const Arguments& arguments) {
   const Chain chain = read_chain(arguments);
-  std::vector<double> values;
+  std::vector<Real> values;
   const auto record = [&](const RealVector& unknown) {
     const std::vector<Section> sections = shoot(chain, unknown);
     for (const std::string& name : arguments.texts("outputs"))

@@ -31,26 +31,25 @@ Real load_parameter(const Real& tip_angle) {
 }
 
 /// The columns of the table that are asked for: one with its length, or all of them without.
-std::vector<double> columns(const Arguments& arguments, const std::vector<Real>& table,
-                            const std::array<const char*, 3>& names,
-                            const std::array<bool, 3>& is_length) {
+std::vector<Real> columns(const Arguments& arguments, const std::vector<Real>& table,
+                          const std::array<const char*, 3>& names,
+                          const std::array<bool, 3>& is_length) {
   const std::string output =
       arguments.choice("output", "all", {"all", names[0], names[1], names[2]});
   if (output == "all") {
     if (arguments.has("length_m")) arguments.fail("length_m", "expected an output beside it");
-    return to_doubles(table);
+    return table;
   }
   const auto column = static_cast<std::size_t>(std::ranges::find(names, output) - names.begin());
   const Real unit = is_length.at(column) ? arguments.positive("length_m") : Real(1);
   std::vector<Real> chosen;
   for (std::size_t i = column; i < table.size(); i += 3) chosen.push_back(unit * table[i]);
-  return to_doubles(chosen);
+  return chosen;
 }
 
 }  // namespace
 
-std::vector<double> elastica_tip_force_program(const Json& json) {
-  const Arguments arguments(json, "", {"load_parameter", "output", "length_m"});
+std::vector<Real> elastica_tip_force_program(const Arguments& arguments) {
   std::vector<Real> values;
   for (const Real& load : arguments.numbers("load_parameter")) {
     if (!(load > 0)) arguments.fail("load_parameter", "expected positive numbers");
@@ -65,8 +64,7 @@ std::vector<double> elastica_tip_force_program(const Json& json) {
   return columns(arguments, values, {"transverse", "shortening", "angle"}, {true, true, false});
 }
 
-std::vector<double> elastica_column_program(const Json& json) {
-  const Arguments arguments(json, "", {"tip_angle_deg", "output", "length_m"});
+std::vector<Real> elastica_column_program(const Arguments& arguments) {
   std::vector<Real> values;
   for (const Real& degrees : arguments.numbers("tip_angle_deg")) {
     if (!(degrees > 0 && degrees < 180)) {

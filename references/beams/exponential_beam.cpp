@@ -70,10 +70,7 @@ Real characteristic(const Beam& beam, const Real& w) {
 
 }  // namespace
 
-std::vector<double> exponential_beam_program(const Json& json) {
-  const Arguments arguments(json, "",
-                            {"length_m", "thickness_m", "width_rate_1_m", "E_Pa", "rho_kg_m3",
-                             "count", "beam", "nu", "shear_coefficient"});
+std::vector<Real> exponential_beam_program(const Arguments& arguments) {
   const Real thickness = arguments.positive("thickness_m");
   const Real e = arguments.positive("E_Pa") / arguments.positive("rho_kg_m3");
   Beam beam{arguments.positive("length_m"), arguments.number("width_rate_1_m") / 2,
@@ -86,7 +83,7 @@ std::vector<double> exponential_beam_program(const Json& json) {
   std::vector<Real> values = first_roots([&](const Real& w) { return characteristic(beam, w); },
                                          scale, 2 * scale, arguments.count("count"));
   for (Real& value : values) value /= 2 * pi<Real>();
-  return to_doubles(values);
+  return values;
 }
 
 }  // namespace trammel::references

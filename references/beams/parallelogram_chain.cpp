@@ -11,9 +11,7 @@
 /// s = t sqrt(W^2 + 4 a)/2 give sin(theta/2) = k' sd(s, k), cos(theta/2) = cd(s, k).
 namespace trammel::references {
 
-std::vector<double> parallelogram_chain_program(const Json& json) {
-  const Arguments arguments(
-      json, "", {"loops", "length_m", "gravity_m_s2", "start_speed_m_s", "times_s", "output"});
+std::vector<Real> parallelogram_chain_program(const Arguments& arguments) {
   const Real N = arguments.count("loops");
   const Real length = arguments.positive("length_m");
   const Real a =
@@ -36,7 +34,7 @@ std::vector<double> parallelogram_chain_program(const Json& json) {
     values.push_back(position ? x : Real(y * rate));
     values.push_back(position ? y : Real(-x * rate));
   }
-  return to_doubles(values);
+  return values;
 }
 
 }  // namespace trammel::references

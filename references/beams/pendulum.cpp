@@ -7,16 +7,14 @@
 /// The plane pendulum of any amplitude by Jacobi's elliptic functions.
 namespace trammel::references {
 
-std::vector<double> pendulum_program(const Json& json) {
-  const Arguments arguments(json, "",
-                            {"length_m", "gravity_m_s2", "start_angle_deg", "output", "times_s"});
+std::vector<Real> pendulum_program(const Arguments& arguments) {
   const Real length = arguments.positive("length_m");
   const Real w = sqrt(arguments.positive("gravity_m_s2") / length);
   const Real k = sin(arguments.number("start_angle_deg") * pi<Real>() / 360);
   if (k == 0 || abs(k) >= 1) arguments.fail("start_angle_deg", "expected an angle within +-180");
   const std::string output = arguments.choice("output", "", {"period", "position", "tension"});
   if (output == "period") {
-    return {static_cast<double>(4 * boost::math::ellint_1(k) / w)};
+    return {4 * boost::math::ellint_1(k) / w};
   }
   std::vector<Real> values;
   for (const Real& time : arguments.numbers("times_s")) {
@@ -29,7 +27,7 @@ std::vector<double> pendulum_program(const Json& json) {
     values.push_back(2 * length * half * sqrt(1 - half * half));
     values.push_back(length * (2 * half * half - 1));
   }
-  return to_doubles(values);
+  return values;
 }
 
 }  // namespace trammel::references

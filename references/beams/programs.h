@@ -9,11 +9,11 @@ namespace trammel::references {
 
 /// Arguments: inner_radius_m, outer_radius_m, E_Pa, rho_kg_m3, nu, modes (array of pairs [n, k]:
 /// the k-th elastic frequency with n waves). Values: [Hz].
-[[nodiscard]] std::vector<double> annular_membrane_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> annular_membrane_program(const Arguments& arguments);
 
 /// Arguments: ends, load (end | self-weight), count; EI_N_m2, length_m, weight_N_per_m (1 each
 /// where absent). Values: critical end loads [N], or the critical multiple of the weight.
-[[nodiscard]] std::vector<double> column_buckling_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> column_buckling_program(const Arguments& arguments);
 
 /// A cantilever under an end force P = p EI/L^2 that follows the tip's tangent (Beck), or forces q
 /// EI/L^3 a length that follow the tangent all along (Leipholz); V. V. Bolotin, Nonconservative
@@ -24,11 +24,11 @@ namespace trammel::references {
 /// load_parameter p or q (not for the first), EI_N_m2, length_m, mass_kg_per_m (1 each where
 /// absent). Values: the load [N or N/m], the two lowest frequencies [Hz], or the rate of growth
 /// [1/s].
-[[nodiscard]] std::vector<double> becks_column_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> becks_column_program(const Arguments& arguments);
 
 /// Arguments: clamped_side, free_side (directions [x, y] from the corner), nu,
 /// plane (stress by default, or strain). Value: the smallest l, where it is real.
-[[nodiscard]] std::vector<double> wedge_exponent_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> wedge_exponent_program(const Arguments& arguments);
 
 /// Arguments: length_m, thickness_m (in the plane), width_m, E_Pa, rho_kg_m3, nu,
 /// shear_coefficient, load_N_per_m; damping: damping_ratio (of every mode), or rayleigh_mass_1_s
@@ -36,7 +36,7 @@ namespace trammel::references {
 /// first mode) or step-peak (first maximum after the load is applied at once); outputs: array of
 /// displacement_m (mid-span), stress_Pa (outer fibre at mid-span), frequency_Hz (of the peak
 /// displacement), time_s (the same). Values: one an output.
-[[nodiscard]] std::vector<double> deep_beam_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> deep_beam_program(const Arguments& arguments);
 
 /// Arguments: nodes_m (points [x, y]; the first is held in x and y), EI_N_m2; EA_N, GA_N; start and
 /// end: which of x, y, rotation are held, or free (of the start: rotation, or free to turn); loads
@@ -46,7 +46,7 @@ namespace trammel::references {
 /// displacement_y_m:NODE, rotation_rad:NODE), all of a solution, then of the next; steps per piece
 /// (4).
 /// @throws DerivationError  where Newton's method does not converge.
-[[nodiscard]] std::vector<double> elastic_chain_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> elastic_chain_program(const Arguments& arguments);
 
 /// Transverse load (K. E. Bisshopp, D. C. Drucker, Q. Appl. Math. 3, 1945, 272-275). With the tip
 /// angle phi, k^2 = (1 + sin phi)/2 and sin t = 1/(k sqrt 2),
@@ -54,46 +54,46 @@ namespace trammel::references {
 ///   u/L = 1 - sqrt(2 sin phi / (P L^2/EI)).
 /// Arguments: load_parameter (array of P L^2/EI > 0). Values: v/L, u/L, phi [rad] for each; with
 /// output "transverse", "shortening" (both with length_m) or "angle": v, u [m] or phi alone.
-[[nodiscard]] std::vector<double> elastica_tip_force_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> elastica_tip_force_program(const Arguments& arguments);
 
 /// Axial load beyond buckling (S. P. Timoshenko, J. M. Gere, Theory of Elastic Stability, 2nd ed.,
 /// section 2.7): k = sin(alpha/2), F/Fcr = (2 K(k)/pi)^2, height/L = 2 E(k)/K(k) - 1, lateral/L =
 /// 2 k/K(k), alpha the angle at the tip.
 /// Arguments: tip_angle_deg (array). Values: F/Fcr, lateral displacement/L, axial displacement/L
 /// for each; with output "load", or "lateral" or "axial" with length_m: that alone, in m.
-[[nodiscard]] std::vector<double> elastica_column_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> elastica_column_program(const Arguments& arguments);
 
 /// Arguments: length_m, thickness_m, width_rate_1_m (2 a), E_Pa, rho_kg_m3, count, beam
 /// (euler-bernoulli | timoshenko), nu and shear_coefficient for the latter. Values: [Hz].
-[[nodiscard]] std::vector<double> exponential_beam_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> exponential_beam_program(const Arguments& arguments);
 
 /// Arguments: loops (N), length_m, gravity_m_s2, start_speed_m_s (of the rods' upper ends),
 /// times_s, output (position | velocity). Values: x, y of the first rod's free end from its pivot
 /// [m], or their rates [m/s], for each time.
-[[nodiscard]] std::vector<double> parallelogram_chain_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> parallelogram_chain_program(const Arguments& arguments);
 
 /// Released at rest at the angle a from the lower vertical, counterclockwise positive: with
 /// k = sin(a/2) and w = sqrt(g/l), sin(theta/2) = k cd(w t, k), period 4 K(k)/w.
 /// Arguments: length_m, gravity_m_s2, start_angle_deg, output (period | position |
 /// tension), times_s (for the last two). Values: the period [s], or for each time x and y from the
 /// pivot [m], or the force of the rod on 1 kg, g (3 cos theta - 2 cos a) [N].
-[[nodiscard]] std::vector<double> pendulum_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> pendulum_program(const Arguments& arguments);
 
 /// Arguments: unbalance_m (m e/M), angular_frequency_rad_s (w), speed_rad_s (W) and duration_s (T)
 /// of a' = W (t/T - sin(2 pi t/T)/(2 pi)), times_s, ascending, at most T. Values: x [m] at each.
-[[nodiscard]] std::vector<double> run_up_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> run_up_program(const Arguments& arguments);
 
 /// Arguments: length_m, E_Pa, rho_kg_m3, thickness_m and width_m ([clamped, free end]; the
 /// thickness lies in the plane), count. Values: frequencies [Hz].
 /// @throws DerivationError  where two functions fewer change an eigenvalue by more than 1e-14.
-[[nodiscard]] std::vector<double> tapered_beam_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> tapered_beam_program(const Arguments& arguments);
 
 /// Arguments: eta, hub_ratio, plane (flap | lag), count, axial_ratio (for the Coriolis coupling).
 /// Values: mu.
-[[nodiscard]] std::vector<double> rotating_beam_roots_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> rotating_beam_roots_program(const Arguments& arguments);
 
 /// Arguments: length_m, hub_radius_m, E_Pa, rho_kg_m3, thickness_m (in the direction of bending),
 /// angular_speed_rad_s, plane, count, axial (rigid | flexible). Values: frequencies [Hz].
-[[nodiscard]] std::vector<double> rotating_beam_frequencies_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> rotating_beam_frequencies_program(const Arguments& arguments);
 
 }  // namespace trammel::references

@@ -96,8 +96,7 @@ RotatingBeam read_plane(const Arguments& arguments) {
 
 }  // namespace
 
-std::vector<double> rotating_beam_roots_program(const Json& json) {
-  const Arguments arguments(json, "", {"eta", "hub_ratio", "plane", "count", "axial_ratio"});
+std::vector<Real> rotating_beam_roots_program(const Arguments& arguments) {
   RotatingBeam beam = read_plane(arguments);
   beam.eta = arguments.not_negative("eta", 0);
   beam.hub_ratio = arguments.not_negative("hub_ratio", 0);
@@ -105,13 +104,10 @@ std::vector<double> rotating_beam_roots_program(const Json& json) {
   if (beam.axial_ratio && !beam.in_plane) {
     arguments.fail("axial_ratio", "axial motion couples with bending in the plane alone");
   }
-  return to_doubles(rotating_beam_roots(beam, arguments.count("count")));
+  return rotating_beam_roots(beam, arguments.count("count"));
 }
 
-std::vector<double> rotating_beam_frequencies_program(const Json& json) {
-  const Arguments arguments(json, "",
-                            {"length_m", "hub_radius_m", "E_Pa", "rho_kg_m3", "thickness_m",
-                             "angular_speed_rad_s", "plane", "count", "axial"});
+std::vector<Real> rotating_beam_frequencies_program(const Arguments& arguments) {
   const Real L = arguments.positive("length_m");
   const Real scale = arguments.positive("thickness_m") *
                      sqrt(arguments.positive("E_Pa") / (12 * arguments.positive("rho_kg_m3"))) /
@@ -125,7 +121,7 @@ std::vector<double> rotating_beam_frequencies_program(const Json& json) {
   }
   std::vector<Real> values = rotating_beam_roots(beam, arguments.count("count"));
   for (Real& value : values) value *= scale / (2 * pi<Real>());
-  return to_doubles(values);
+  return values;
 }
 
 }  // namespace trammel::references

@@ -10,9 +10,7 @@
 /// Duhamel's integral twice by parts; here by Gauss' rule of 20 points on panels of 0.01 s.
 namespace trammel::references {
 
-std::vector<double> run_up_program(const Json& json) {
-  const Arguments arguments(
-      json, "", {"unbalance_m", "angular_frequency_rad_s", "speed_rad_s", "duration_s", "times_s"});
+std::vector<Real> run_up_program(const Arguments& arguments) {
   const Real w = arguments.positive("angular_frequency_rad_s"),
              T = arguments.positive("duration_s");
   const Real speed = arguments.positive("speed_rad_s"), turn = 2 * pi<Real>();
@@ -22,7 +20,7 @@ std::vector<double> run_up_program(const Json& json) {
   const auto in_phase = [&](const Real& s) { return Real(cos(angle(s)) * cos(w * s)); };
   const auto out_of_phase = [&](const Real& s) { return Real(cos(angle(s)) * sin(w * s)); };
   using Gauss = boost::math::quadrature::gauss<Real, 20>;
-  std::vector<double> values;
+  std::vector<Real> values;
   Real from = 0, cosine = 0, sine = 0;
   for (const Real& t : arguments.numbers("times_s")) {
     if (t < from || t > T) arguments.fail("times_s", "ascending times within the duration");

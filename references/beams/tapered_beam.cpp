@@ -86,9 +86,7 @@ struct Ritz {
 
 }  // namespace
 
-std::vector<double> tapered_beam_program(const Json& json) {
-  const Arguments arguments(json, "",
-                            {"length_m", "E_Pa", "rho_kg_m3", "thickness_m", "width_m", "count"});
+std::vector<Real> tapered_beam_program(const Arguments& arguments) {
   const std::vector<Real> t = arguments.numbers("thickness_m", 2),
                           b = arguments.numbers("width_m", 2);
   if (!(t[0] > 0 && t[1] > 0)) arguments.fail("thickness_m", "expected two positive numbers");
@@ -108,7 +106,7 @@ std::vector<double> tapered_beam_program(const Json& json) {
     }
     values.push_back(sqrt(square * unit) / (2 * pi<Real>()));
   }
-  return to_doubles(values);
+  return values;
 }
 
 }  // namespace trammel::references

@@ -33,34 +33,45 @@ MemberAxis member_axis(const Frame& frame, const FrameMember& member) {
   return {length, dx / length, dy / length};
 }
 
-CrossSection rectangle(const FrameMaterial& material, const Real& thickness, const Real& width) {
-  CrossSection section;
-  section.material = material;
-  section.area = thickness * width;
-  section.second_moment = section.area * thickness * thickness / 12;
-  section.half_depth = thickness / 2;
+FrameSection elastic_section(const FrameMaterial& material, const Real& area,
+                             const Real& second_moment, const Real& half_depth,
+                             const Real& shear_coefficient) {
+  const Real G = material.E / (2 * (1 + material.nu));
+  FrameSection section;
+  section.axial_compliance = 1 / (material.E * area);
+  section.EI = material.E * second_moment;
+  section.shear_compliance = 1 / (shear_coefficient * G * area);
+  section.mass = material.rho * area;
+  section.rotary_inertia = material.rho * second_moment;
+  section.area = area;
+  if (half_depth > 0) section.modulus = second_moment / half_depth;
   return section;
 }
 
-FrameSection member_section(const CrossSection& data, const Arguments& member) {
-  const FrameMaterial& m = data.material;
-  FrameSection section;
-  if (member.choice("axial", "flexible", {"flexible", "inextensible"}) == "flexible") {
-    section.axial_compliance = 1 / (m.E * data.area);
-  }
-  section.EI = m.E * data.second_moment;
-  section.mass = m.rho * data.area;
-  section.area = data.area;
-  if (data.half_depth > 0) section.modulus = data.second_moment / data.half_depth;
+FrameSection rectangle(const FrameMaterial& material, const Real& thickness, const Real& width,
+                       const Real& shear_coefficient) {
+  const Real area = thickness * width;
+  return elastic_section(material, area, area * thickness * thickness / 12, thickness / 2,
+                         shear_coefficient);
+}
+
+FrameSection member_section(FrameSection section, const Arguments& member) {
+  if (member.choice("axial", "flexible", {"flexible", "inextensible"}) == "inextensible")
+    section.axial_compliance = 0;
   const std::string beam = member.choice("beam", "euler-bernoulli",
                                          {"euler-bernoulli", "rayleigh", "shear", "timoshenko"});
-  if (beam == "shear" || beam == "timoshenko") {
-    const Real G = m.E / (2 * (1 + m.nu));
-    section.shear_compliance = 1 / (data.shear_coefficient * G * data.area);
-  }
-  if (beam == "rayleigh" || beam == "timoshenko")
-    section.rotary_inertia = m.rho * data.second_moment;
+  if (beam == "euler-bernoulli" || beam == "rayleigh") section.shear_compliance = 0;
+  if (beam == "euler-bernoulli" || beam == "shear") section.rotary_inertia = 0;
   return section;
+}
+
+FrameEnd read_end(const Json& value, const Arguments& where, const std::string& key) {
+  if (value == "welded" || value == "locked") return {};
+  if (value == "hinged" || value == "free") return {Fixity::hinged, 0, 0};
+  if (!value.is_object())
+    where.fail(key, R"(expected "welded", "hinged" or {"spring_N_m_per_rad": k})");
+  const Arguments spring(value, where.pointer(key), {"spring_N_m_per_rad"});
+  return {Fixity::sprung, spring.positive("spring_N_m_per_rad"), 0};
 }
 
 }  // namespace trammel::references

@@ -28,23 +28,22 @@ struct FrameMaterial {
   Real nu = 0;   ///< [-]
 };
 
-struct CrossSection {
-  FrameMaterial material;
-  Real area = 0;                         ///< [m^2]
-  Real second_moment = 0;                ///< about the axis of bending [m^4]
-  Real half_depth = 0;                   ///< 0: not known [m]
-  Real shear_coefficient = Real(5) / 6;  ///< [-]
-};
+/// Returns a section with the compliances and inertias of all theories.
+/// @param half_depth  distance of the outermost fiber from the axis; 0 if it is unknown [m].
+[[nodiscard]] FrameSection elastic_section(const FrameMaterial& material, const Real& area,
+                                           const Real& second_moment, const Real& half_depth,
+                                           const Real& shear_coefficient);
 
+/// Returns the section of a rectangle.
 /// @param thickness  in the plane of the frame [m];  @param width  across it [m].
-[[nodiscard]] CrossSection rectangle(const FrameMaterial& material, const Real& thickness,
-                                     const Real& width);
+[[nodiscard]] FrameSection rectangle(const FrameMaterial& material, const Real& thickness,
+                                     const Real& width, const Real& shear_coefficient);
 
-/// The section of a member by its theory: "beam" (euler-bernoulli, by default, shear with
+/// Restricts a section to the theory of a member: "beam" (euler-bernoulli, by default, shear with
 /// 1/(kappa G A), rayleigh with rho I, timoshenko with both) and "axial" (flexible, by default, or
 /// inextensible).
-/// @throws DerivationError  with the JSON pointer, where the member names another theory.
-[[nodiscard]] FrameSection member_section(const CrossSection& section, const Arguments& member);
+/// @throws DerivationError  with the JSON pointer, if the member names another theory.
+[[nodiscard]] FrameSection member_section(FrameSection section, const Arguments& member);
 
 enum class Fixity { welded, hinged, sprung };
 
@@ -93,6 +92,11 @@ struct FrameLoad {
   int node = 0;
   std::array<Real, 3> force{};  ///< Fx, Fy [N], moment [N m]
 };
+
+/// Reads where[key]: "welded" or "locked", "hinged" or "free", or {"spring_N_m_per_rad": k}.
+/// @param value  where[key], or an entry of it
+/// @throws DerivationError  with the JSON pointer, if it is none of these.
+[[nodiscard]] FrameEnd read_end(const Json& value, const Arguments& where, const std::string& key);
 
 /// The rotation of `node`, or (member >= 0) of an end of a member.
 struct FrameRotation {

@@ -43,8 +43,7 @@ Real buckling_scale(const Frame& frame) {
 
 }  // namespace
 
-std::vector<double> frame_buckling_program(const Json& json) {
-  const Arguments arguments(json, "", {"model", "manipulator", "pose", "loads", "count"});
+std::vector<Real> frame_buckling_program(const Arguments& arguments) {
   const Frame frame = with_axial_forces(frame_from_arguments(arguments));
   const DynamicStiffness<double> coarse(frame);
   const DynamicStiffness<Real> fine(frame);
@@ -54,10 +53,10 @@ std::vector<double> frame_buckling_program(const Json& json) {
     throw DerivationError("the frame can move freely");
   }
   const auto scale = static_cast<double>(buckling_scale(frame));
-  return to_doubles(counted_roots(
+  return counted_roots(
       {[&](double factor) { return coarse.count(coarse_w, factor).below; },
        [&](const Real& factor) { return fine.count(w, factor); }, 1e-4 * scale, scale},
-      0, arguments.count("count")));
+      0, arguments.count("count"));
 }
 
 }  // namespace trammel::references

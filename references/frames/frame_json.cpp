@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <map>
 
 #include "references/frames/manipulator_design.h"
@@ -7,15 +8,16 @@ namespace trammel::references {
 
 namespace {
 
-using Sections = std::map<std::string, CrossSection>;
+using Sections = std::map<std::string, FrameSection>;
 
 Arguments object_at(const Arguments& parent, const std::string& key) {
   return {parent.has(key) ? parent[key] : Json::object(), parent.pointer(key)};
 }
 
 /// Returns the objects of parent[key] with their names.
-std::vector<std::pair<std::string, Arguments>> objects_of(
-    const Arguments& parent, const std::string& key, std::initializer_list<const char*> known) {
+std::vector<std::pair<std::string, Arguments>> objects_of(const Arguments& parent,
+                                                          const std::string& key,
+                                                          const std::vector<std::string>& known) {
   const Arguments all = object_at(parent, key);
   std::vector<std::pair<std::string, Arguments>> objects;
   for (const std::string& name : all.keys()) objects.emplace_back(name, all.object(name, known));
@@ -30,24 +32,22 @@ FrameMaterial read_material(const Arguments& materials, const std::string& name,
           material.number("nu", 0)};
 }
 
-CrossSection read_section(const Arguments& materials, const Arguments& section) {
+FrameSection read_section(const Arguments& materials, const Arguments& section) {
   const FrameMaterial material = read_material(materials, section.text("material"), section);
-  CrossSection data{material, 0, 0, 0, 0};
+  const Real shear_coefficient = section.number("shear_coefficient", Real(5) / 6);
   if (section.has("rectangle")) {
     const Arguments r = section.object("rectangle", {"thickness_m", "width_m"});
-    data = rectangle(material, r.positive("thickness_m"), r.positive("width_m"));
-  } else if (section.has("circle")) {
-    const Real diameter = section.object("circle", {"diameter_m"}).positive("diameter_m");
-    data.area = pi<Real>() * diameter * diameter / 4;
-    data.second_moment = data.area * diameter * diameter / 16;
-    data.half_depth = diameter / 2;
-  } else {
-    data.area = section.positive("area_m2");
-    data.second_moment = section.positive("second_moment_m4");
-    data.half_depth = section.number("half_depth_m", 0);
+    return rectangle(material, r.positive("thickness_m"), r.positive("width_m"), shear_coefficient);
   }
-  data.shear_coefficient = section.number("shear_coefficient", Real(5) / 6);
-  return data;
+  if (section.has("circle")) {
+    const Real diameter = section.object("circle", {"diameter_m"}).positive("diameter_m");
+    const Real area = pi<Real>() * diameter * diameter / 4;
+    return elastic_section(material, area, area * diameter * diameter / 16, diameter / 2,
+                           shear_coefficient);
+  }
+  return elastic_section(material, section.positive("area_m2"),
+                         section.positive("second_moment_m4"), section.number("half_depth_m", 0),
+                         shear_coefficient);
 }
 
 Sections read_sections(const Arguments& model) {
@@ -61,31 +61,24 @@ Sections read_sections(const Arguments& model) {
   return result;
 }
 
-int node_named(const Frame& frame, const Json& name, const Arguments& where,
-               const std::string& key) {
-  const int node = name.is_string() ? frame.find_node(name.get<std::string>()) : -1;
-  if (node < 0) where.fail(key, "expected the name of a node");
-  return node;
-}
-
-FrameEnd read_end(const Json& end, const Arguments& member) {
-  if (end == "welded") return {};
-  if (end == "hinged") return {Fixity::hinged, 0, 0};
-  if (!end.is_object()) {
-    member.fail("ends", R"(expected "welded", "hinged" or {"spring_N_m_per_rad": k})");
+/// Returns the nodes that are named at a key, by one name or a list.
+std::vector<int> nodes_at(const Frame& frame, const Arguments& object, const std::string& key) {
+  const Json& names = object[key];
+  std::vector<int> nodes;
+  for (const Json& name : names.is_array() ? names : Json::array({names})) {
+    nodes.push_back(name.is_string() ? frame.find_node(name.get<std::string>()) : -1);
+    if (nodes.back() < 0) object.fail(key, "expected the name of a node");
   }
-  const Arguments spring(end, member.pointer("ends"), {"spring_N_m_per_rad"});
-  return {Fixity::sprung, spring.positive("spring_N_m_per_rad"), 0};
+  return nodes;
 }
 
 FrameMember read_member(const Frame& frame, const Sections& sections, const std::string& name,
                         const Arguments& object) {
   FrameMember member;
   member.name = name;
-  const Json& nodes = object["nodes"];
-  if (!nodes.is_array() || nodes.size() != 2) object.fail("nodes", "expected two names of nodes");
-  for (std::size_t i = 0; i < 2; ++i)
-    member.nodes[i] = node_named(frame, nodes[i], object, "nodes");
+  const std::vector<int> nodes = nodes_at(frame, object, "nodes");
+  if (nodes.size() != 2) object.fail("nodes", "expected two names of nodes");
+  member.nodes = {nodes[0], nodes[1]};
   const auto section = sections.find(object.text("section"));
   if (section == sections.end()) object.fail("section", "expected the name of a section");
   member.section = member_section(section->second, object);
@@ -96,7 +89,7 @@ FrameMember read_member(const Frame& frame, const Sections& sections, const std:
   if (object.has("ends")) {
     const Json& ends = object["ends"];
     if (!ends.is_array() || ends.size() != 2) object.fail("ends", "expected two ends");
-    for (std::size_t i = 0; i < 2; ++i) member.ends[i] = read_end(ends[i], object);
+    for (std::size_t i = 0; i < 2; ++i) member.ends[i] = read_end(ends[i], object, "ends");
   }
   member.load = object.point_or_origin("load_N_per_m");
   return member;
@@ -120,21 +113,17 @@ void read_members(const Arguments& model, Frame& frame) {
 
 void read_bodies(const Arguments& model, Frame& frame) {
   for (const auto& [name, object] : objects_of(model, "rigid_bodies", {"reference", "nodes"})) {
-    FrameBody body;
-    body.reference = node_named(frame, object["reference"], object, "reference");
-    for (const std::string& node : object.texts("nodes")) {
-      body.attached.push_back(node_named(frame, node, object, "nodes"));
-    }
-    frame.bodies.push_back(body);
+    frame.bodies.push_back(
+        {nodes_at(frame, object, "reference")[0], nodes_at(frame, object, "nodes")});
   }
 }
 
 void read_masses(const Arguments& model, Frame& frame) {
   for (const auto& [name, object] :
        objects_of(model, "point_masses", {"node", "mass_kg", "inertia_kg_m2", "offset_m"})) {
-    frame.masses.push_back(
-        {node_named(frame, object["node"], object, "node"), object.not_negative("mass_kg", 0),
-         object.not_negative("inertia_kg_m2", 0), object.point_or_origin("offset_m")});
+    frame.masses.push_back({nodes_at(frame, object, "node")[0], object.not_negative("mass_kg", 0),
+                            object.not_negative("inertia_kg_m2", 0),
+                            object.point_or_origin("offset_m")});
   }
 }
 
@@ -142,11 +131,10 @@ void read_springs(const Arguments& model, Frame& frame) {
   for (const auto& [name, object] : objects_of(
            model, "springs", {"nodes", "stiffness_N_per_m", "rotational_stiffness_N_m_per_rad"})) {
     FrameSpring spring;
-    const std::vector<std::string> nodes = object.texts("nodes");
-    if (nodes.size() > 2) object.fail("nodes", "expected one or two names of nodes");
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      spring.nodes[i] = node_named(frame, nodes[i], object, "nodes");
-    }
+    const std::vector<int> nodes = nodes_at(frame, object, "nodes");
+    if (nodes.empty() || nodes.size() > 2)
+      object.fail("nodes", "expected one or two names of nodes");
+    std::ranges::copy(nodes, spring.nodes.begin());
     const auto k = object.point_or_origin("stiffness_N_per_m");
     spring.stiffness = {k[0], k[1], object.not_negative("rotational_stiffness_N_m_per_rad", 0)};
     frame.springs.push_back(spring);
@@ -156,8 +144,8 @@ void read_springs(const Arguments& model, Frame& frame) {
 void read_supports(const Arguments& model, Frame& frame) {
   const Arguments supports = object_at(model, "supports");
   for (const std::string& name : supports.keys()) {
-    FrameSupport support;
-    support.node = node_named(frame, name, supports, name);
+    FrameSupport support{frame.find_node(name), {}};
+    if (support.node < 0) supports.fail(name, "expected the name of a node");
     for (const std::string& motion : supports.texts(name)) {
       if (motion != "x" && motion != "y" && motion != "rotation")
         supports.fail(name, "expected x, y or rotation");
@@ -170,8 +158,8 @@ void read_supports(const Arguments& model, Frame& frame) {
 void read_loads(const Arguments& model, Frame& frame) {
   for (const auto& [name, object] : objects_of(model, "loads", {"node", "force_N", "moment_N_m"})) {
     const auto force = object.point_or_origin("force_N");
-    frame.loads.push_back({node_named(frame, object["node"], object, "node"),
-                           {force[0], force[1], object.number("moment_N_m", 0)}});
+    frame.loads.push_back(
+        {nodes_at(frame, object, "node")[0], {force[0], force[1], object.number("moment_N_m", 0)}});
   }
 }
 

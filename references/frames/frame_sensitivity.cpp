@@ -19,8 +19,9 @@ Json decimal(double value) {
 
 class Differences {
  public:
-  Differences(const Json& json, const Arguments& arguments)
-      : json_(json), count_(arguments.count("count")) {
+  explicit Differences(const Arguments& arguments)
+      : arguments_(arguments), count_(arguments.count("count")) {
+    const Json& json = arguments.json();
     for (const std::string& text : arguments.texts("pointers")) {
       const Json::json_pointer pointer(text);
       if (!json.contains(pointer) || !json[pointer].is_number()) {
@@ -46,27 +47,22 @@ class Differences {
 
  private:
   [[nodiscard]] std::vector<Real> frequencies(double change) const {
-    Json json = json_;
-    for (const auto& pointer : pointers_) {
-      json[pointer] = decimal(json_[pointer].get<double>() + change);
-    }
-    const Arguments arguments(json, "",
-                              {"model", "manipulator", "pose", "pointers", "step", "count"});
-    return frame_frequencies(frame_from_arguments(arguments), count_).frequencies;
+    Json json = arguments_.json();
+    for (const auto& pointer : pointers_)
+      json[pointer] = decimal(json[pointer].get<double>() + change);
+    return frame_frequencies(frame_from_arguments(Arguments(json, "")), count_).frequencies;
   }
 
-  const Json& json_;
+  const Arguments& arguments_;
   int count_;
   std::vector<Json::json_pointer> pointers_;
 };
 
 }  // namespace
 
-std::vector<double> frame_sensitivity_program(const Json& json) {
-  const Arguments arguments(json, "",
-                            {"model", "manipulator", "pose", "pointers", "step", "count"});
+std::vector<Real> frame_sensitivity_program(const Arguments& arguments) {
   const auto step = static_cast<double>(arguments.positive("step"));
-  const Differences differences(json, arguments);
+  const Differences differences(arguments);
   const std::vector<Real> a = differences.central(step);
   const std::vector<Real> b = differences.central(step / 2);
   const std::vector<Real> c = differences.central(step / 4);
@@ -76,7 +72,7 @@ std::vector<double> frame_sensitivity_program(const Json& json) {
     const Real bc = (4 * c[i] - b[i]) / 3;
     rate.push_back((16 * bc - ab) / 15);
   }
-  return to_doubles(rate);
+  return rate;
 }
 
 }  // namespace trammel::references

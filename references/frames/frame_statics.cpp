@@ -126,14 +126,12 @@ class Outputs {
 
 }  // namespace
 
-std::vector<double> frame_statics_program(const Json& json) {
-  const Arguments arguments(json, "",
-                            {"model", "manipulator", "pose", "loads", "gravity_m_s2", "outputs"});
+std::vector<Real> frame_statics_program(const Arguments& arguments) {
   const Frame frame = frame_from_arguments(arguments);
   const Outputs outputs(frame);
-  std::vector<double> values;
+  std::vector<Real> values;
   for (const std::string& name : arguments.texts("outputs")) {
-    values.push_back(static_cast<double>(outputs.value(name)));
+    values.push_back(outputs.value(name));
   }
   return values;
 }

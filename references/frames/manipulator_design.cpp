@@ -48,10 +48,10 @@ LinkNumbers link(const Arguments& links, const FrameMaterial& material, const st
   result.length =
       links[length].is_array() ? links.numbers(length, 3)[limb] : links.positive(length);
   result.center = result.length / 2;
-  CrossSection section =
-      rectangle(material, links.positive("thickness_m"), links.positive("width_m"));
-  section.shear_coefficient = links.number("shear_coefficient", Real(5) / 6);
-  result.section = member_section(section, links);
+  result.section =
+      member_section(rectangle(material, links.positive("thickness_m"), links.positive("width_m"),
+                               links.number("shear_coefficient", Real(5) / 6)),
+                     links);
   result.mass = given_or(links, "mass_kg", result.section.mass * result.length);
   const Real scale = result.mass / (result.section.mass * result.length);
   result.section.mass *= scale;

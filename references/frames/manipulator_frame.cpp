@@ -4,16 +4,9 @@ namespace trammel::references {
 
 namespace {
 
-/// welded, hinged or sprung; "locked" and "free" are the words for an active joint.
 FrameEnd member_end(const Arguments& joints, const std::string& key) {
-  const Json& value = joints[key];
-  if (value == "welded" || value == "locked") return {};
-  if (value == "hinged" || value == "free" || value == "eq25-mean" || value == "eq25-sum") {
-    return {Fixity::hinged, 0, 0};
-  }
-  if (!value.is_object()) joints.fail(key, "no such joint");
-  const Arguments spring(value, joints.pointer(key), {"spring_N_m_per_rad"});
-  return {Fixity::sprung, spring.positive("spring_N_m_per_rad"), 0};
+  const bool constrained = joints[key] == "eq25-mean" || joints[key] == "eq25-sum";
+  return read_end(constrained ? Json("hinged") : joints[key], joints, key);
 }
 
 /// Eq. 25: the platform's rotation is the mean (or the sum, as printed) of the link-end rotations.

@@ -23,19 +23,19 @@ namespace trammel::references {
 /// Arguments: model (or manipulator and pose), pointers (JSON pointers into the arguments, to equal
 /// numbers that change together), step (in their unit), count. Values: [Hz / unit], ascending in
 /// frequency.
-[[nodiscard]] std::vector<double> frame_sensitivity_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> frame_sensitivity_program(const Arguments& arguments);
 
 /// Arguments: model (or manipulator and pose, with loads), outputs (array of names). Names:
 /// displacement_x_m:NODE, displacement_y_m:NODE, rotation_rad:NODE, end_rotation_rad:MEMBER.start,
 /// reaction_x_N:NODE, reaction_y_N:NODE, reaction_moment_N_m:NODE, axial_force_N:MEMBER.start,
 /// bending_moment_N_m:MEMBER.end. Values: one an output, in the unit that its name ends with.
 /// @throws DerivationError  where a name is none of these, or names no part of the frame.
-[[nodiscard]] std::vector<double> frame_statics_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> frame_statics_program(const Arguments& arguments);
 
 /// Computes the first `count` positive factors of the loads at which the frame buckles: the axial
 /// forces of unit_load_statics times the factor, and the count at vanishing frequency.
 /// Arguments: model (or manipulator, pose and loads), count. Values: factors of the loads.
 /// @throws DerivationError  if an axial force varies along its member.
-[[nodiscard]] std::vector<double> frame_buckling_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> frame_buckling_program(const Arguments& arguments);
 
 }  // namespace trammel::references

@@ -2,7 +2,6 @@
 
 #include <gsl/gsl_integration.h>
 
-#include <functional>
 #include <memory>
 
 #include "references/frames/frame_coordinates.h"
@@ -11,44 +10,32 @@ namespace trammel::references {
 
 namespace {
 
-/// Internal forces along a member under one unit cause.
-struct Diagram {
-  std::function<double(double)> n, v, m;
-};
-
-/// The causes: N, V, M at the start, and the distributed load (last).
-std::array<Diagram, 4> diagrams(double axial_load, double transverse_load) {
-  const auto zero = [](double) { return 0.0; };
-  const auto one = [](double) { return 1.0; };
-  return {Diagram{one, zero, zero}, Diagram{zero, one, [](double x) { return -x; }},
-          Diagram{zero, zero, one},
-          Diagram{[=](double x) { return -axial_load * x; },
-                  [=](double x) { return -transverse_load * x; },
-                  [=](double x) { return transverse_load * x * x / 2; }}};
+/// Internal forces N, V and M at x along a member. The causes are a unit N, V or M at its start,
+/// and its distributed load.
+std::array<double, 3> internal_forces(int cause, const std::array<double, 2>& load, double x) {
+  if (cause == 0) return {1, 0, 0};
+  if (cause == 1) return {0, 1, -x};
+  if (cause == 2) return {0, 0, 1};
+  return {-load[0] * x, -load[1] * x, load[1] * x * x / 2};
 }
 
-double call(double x, void* f) {
-  return (*static_cast<std::function<double(double)>*>(f))(x);
-}
-
-/// Gauss-Legendre with four points: exact for the quartics that occur here.
-double integral(std::function<double(double)> f, double length) {
+/// Integrates the product of two diagrams with four Gauss points, which is exact for the quartics
+/// that occur here.
+double compliance(int a, int b, const FrameSection& section, const std::array<double, 2>& load,
+                  double length) {
   static const std::unique_ptr<gsl_integration_glfixed_table,
                                void (*)(gsl_integration_glfixed_table*)>
       table(gsl_integration_glfixed_table_alloc(4), gsl_integration_glfixed_table_free);
-  gsl_function function{&call, &f};
+  const auto product = [&](double x) {
+    const auto [Na, Va, Ma] = internal_forces(a, load, x);
+    const auto [Nb, Vb, Mb] = internal_forces(b, load, x);
+    return Ma * Mb / static_cast<double>(section.EI) +
+           Na * Nb * static_cast<double>(section.axial_compliance) +
+           Va * Vb * static_cast<double>(section.shear_compliance);
+  };
+  gsl_function function{[](double x, void* f) { return (*static_cast<decltype(&product)>(f))(x); },
+                        const_cast<void*>(static_cast<const void*>(&product))};
   return gsl_integration_glfixed(&function, 0, length, table.get());
-}
-
-double compliance(const Diagram& a, const Diagram& b, const FrameSection& section, double length) {
-  const auto EI = static_cast<double>(section.EI);
-  const auto axial = static_cast<double>(section.axial_compliance);
-  const auto shear = static_cast<double>(section.shear_compliance);
-  return integral(
-      [&](double x) {
-        return a.m(x) * b.m(x) / EI + a.n(x) * b.n(x) * axial + a.v(x) * b.v(x) * shear;
-      },
-      length);
 }
 
 /// Load per unit length in the member's axes, weight included: along it and to its left.
@@ -87,14 +74,14 @@ void add_member(const Frame& frame, int index, const FrameCoordinates& coordinat
   e.p[u[5]] -= load[1] * L * L / 2;
 
   const auto length = static_cast<double>(L);
-  const auto causes = diagrams(static_cast<double>(load[0]), static_cast<double>(load[1]));
+  const std::array<double, 2> q = {static_cast<double>(load[0]), static_cast<double>(load[1])};
   for (int i = 0; i < 3; ++i) {
     const std::size_t row = 3 * static_cast<std::size_t>(index) + i;
     for (int j = 0; j < 3; ++j) {
       e.Phi(row, 3 * static_cast<std::size_t>(index) + j) =
-          compliance(causes[i], causes[j], member.section, length);
+          compliance(i, j, member.section, q, length);
     }
-    e.phi0[row] = compliance(causes[i], causes[3], member.section, length);
+    e.phi0[row] = compliance(i, 3, member.section, q, length);
   }
 }
 

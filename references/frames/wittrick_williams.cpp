@@ -111,16 +111,12 @@ int frequencies_below(const Frame& frame, const Real& frequency) {
   return DynamicStiffness<Real>(frame).count(2 * pi<Real>() * frequency).below;
 }
 
-std::vector<double> frame_frequencies_program(const Json& json) {
-  const Arguments arguments(json, "", {"model", "manipulator", "pose", "count"});
-  return to_doubles(
-      frame_frequencies(frame_from_arguments(arguments), arguments.count("count")).frequencies);
+std::vector<Real> frame_frequencies_program(const Arguments& arguments) {
+  return frame_frequencies(frame_from_arguments(arguments), arguments.count("count")).frequencies;
 }
 
-std::vector<double> frame_count_program(const Json& json) {
-  const Arguments arguments(json, "", {"model", "manipulator", "pose", "below_Hz"});
-  return {static_cast<double>(
-      frequencies_below(frame_from_arguments(arguments), arguments.positive("below_Hz")))};
+std::vector<Real> frame_count_program(const Arguments& arguments) {
+  return {frequencies_below(frame_from_arguments(arguments), arguments.positive("below_Hz"))};
 }
 
 }  // namespace trammel::references

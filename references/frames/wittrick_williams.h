@@ -40,9 +40,9 @@ struct FrameFrequencies {
 [[nodiscard]] int frequencies_below(const Frame& frame, const Real& frequency);
 
 /// Arguments: model (or manipulator and pose), count. Values: elastic frequencies [Hz].
-[[nodiscard]] std::vector<double> frame_frequencies_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> frame_frequencies_program(const Arguments& arguments);
 
 /// Arguments: model (or manipulator and pose), below_Hz. Value: their number, rigid ones included.
-[[nodiscard]] std::vector<double> frame_count_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> frame_count_program(const Arguments& arguments);
 
 }  // namespace trammel::references

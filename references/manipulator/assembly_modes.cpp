@@ -132,13 +132,10 @@ std::vector<Real> all_zeros(const Arguments& arguments, const Limbs& limbs) {
 
 }  // namespace
 
-std::vector<double> assembly_modes_program(const Json& json) {
-  const Arguments arguments(
-      json, "", {"base_m", "platform_m", "proximal_m", "distal_m", "angles_rad", "output"});
+std::vector<Real> assembly_modes_program(const Arguments& arguments) {
   const Limbs limbs = read_limbs(arguments);
   const std::vector<Real> zeros = all_zeros(arguments, limbs);
-  if (arguments.choice("output", "", {"count", "poses"}) == "count")
-    return {static_cast<double>(zeros.size())};
+  if (arguments.choice("output", "", {"count", "poses"}) == "count") return {Real(zeros.size())};
   std::vector<Real> poses;
   for (const Real& phi : zeros) {
     const auto [u, determinant] = meeting(limbs, phi);
@@ -146,7 +143,7 @@ std::vector<double> assembly_modes_program(const Json& json) {
     for (std::size_t k = 0; k < 2; ++k) poses.push_back(first[k] + u[k] / determinant);
     poses.push_back(phi);
   }
-  return to_doubles(poses);
+  return poses;
 }
 
 }  // namespace trammel::references

@@ -205,16 +205,13 @@ Real absolute_work(const ManipulatorNumbers& m, const Arguments& trajectory,
 
 }  // namespace
 
-std::vector<double> manipulator_motion_program(const Json& json) {
-  const Arguments arguments(json, "",
-                            {"manipulator", "trajectory", "times_s", "force_N", "moment_N_m",
-                             "gravity_m_s2", "outputs", "at_rest", "torque_N_m"});
+std::vector<Real> manipulator_motion_program(const Arguments& arguments) {
   const ManipulatorNumbers manipulator = read_planar_manipulator(arguments);
   const PlanarWrench wrench = read_wrench(arguments);
   const Arguments trajectory = read_trajectory(arguments);
   const std::vector<std::string> outputs = arguments.texts("outputs");
   if (outputs.front() == "cycle_absolute_work_J")
-    return to_doubles({absolute_work(manipulator, trajectory, wrench)});
+    return {absolute_work(manipulator, trajectory, wrench)};
   const std::vector<Real> times = arguments.numbers("times_s");
   std::vector<Motion> motions;
   if (arguments.has("torque_N_m")) {
@@ -230,9 +227,8 @@ std::vector<double> manipulator_motion_program(const Json& json) {
     const Instant now(manipulator, motion, wrench);
     for (std::size_t i = 0; i < outputs.size(); ++i) table[i].push_back(now.value(outputs[i]));
   }
-  std::vector<double> values;
-  for (const auto& row : table)
-    for (const double value : to_doubles(row)) values.push_back(value);
+  std::vector<Real> values;
+  for (const auto& row : table) values.insert(values.end(), row.begin(), row.end());
   return values;
 }
 

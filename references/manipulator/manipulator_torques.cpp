@@ -18,9 +18,7 @@ Arguments read_trajectory(const Arguments& arguments) {
   return arguments.object("trajectory", {"circle", "line", "rest_to_rest", "spline"});
 }
 
-std::vector<double> manipulator_torques_program(const Json& json) {
-  const Arguments arguments(
-      json, "", {"manipulator", "trajectory", "times_s", "force_N", "moment_N_m", "gravity_m_s2"});
+std::vector<Real> manipulator_torques_program(const Arguments& arguments) {
   const ManipulatorNumbers manipulator = read_planar_manipulator(arguments);
   const PlanarWrench wrench = read_wrench(arguments);
   const Arguments trajectory = read_trajectory(arguments);
@@ -31,7 +29,7 @@ std::vector<double> manipulator_torques_program(const Json& json) {
         newton_euler_forces(manipulator, platform_motion(trajectory, times[k]), wrench).torque;
     for (std::size_t i = 0; i < 3; ++i) values[i * times.size() + k] = torques[i];
   }
-  return to_doubles(values);
+  return values;
 }
 
 }  // namespace trammel::references

@@ -233,10 +233,7 @@ std::vector<SystemState> states(const Links& links, const std::vector<Real>& tim
 
 }  // namespace
 
-std::vector<double> moving_links_program(const Json& json) {
-  const Arguments arguments(json, "",
-                            {"manipulator", "trajectory", "force_N", "moment_N_m",
-                             "mass_damping_per_s", "times_s", "outputs"});
+std::vector<Real> moving_links_program(const Arguments& arguments) {
   const Links links(arguments);
   const std::vector<Real> times = arguments.numbers("times_s");
   if (!std::ranges::is_sorted(times)) arguments.fail("times_s", "times that ascend");
@@ -246,7 +243,7 @@ std::vector<double> moving_links_program(const Json& json) {
     for (std::size_t k = 0; k < times.size(); ++k)
       values.push_back(links.output(name, state[k], times[k]));
   }
-  return to_doubles(values);
+  return values;
 }
 
 }  // namespace trammel::references

@@ -136,10 +136,7 @@ void advance(const Platform& platform, const History& history, const Real& from,
 
 }  // namespace
 
-std::vector<double> moving_platform_program(const Json& json) {
-  const Arguments arguments(json, "",
-                            {"manipulator", "trajectory", "force_N", "moment_N_m", "load_history",
-                             "rate_terms", "times_s", "output"});
+std::vector<Real> moving_platform_program(const Arguments& arguments) {
   const Platform platform(arguments);
   History history{{Real(0)}, {Real(1)}};
   if (arguments.has("load_history")) {
@@ -162,7 +159,7 @@ std::vector<double> moving_platform_program(const Json& json) {
     now = t;
     values.push_back(platform.output(arguments.text("output"), x, t));
   }
-  return to_doubles(values);
+  return values;
 }
 
 }  // namespace trammel::references

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "references/manipulator/programs.h"
 #include "references/numerics/real.h"
 
@@ -40,10 +42,9 @@ Sample sample_at(const ManipulatorNumbers& manipulator, const Arguments& traject
   Sample sample{{torques.begin(), torques.end()}, std::vector<Real>(6)};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto joints = limb_joints(manipulator.limbs[i], motion);
-    const Jet<Real> x = joints[1][0] - joints[0][0], y = joints[1][1] - joints[0][1];
-    sample.joints[i] = atan2(y.value, x.value);
-    sample.joints[3 + i] =
-        (x.value * y.rate - y.value * x.rate) / (x.value * x.value + y.value * y.value);
+    const Jet<Real> angle = direction(joints[0], joints[1]);
+    sample.joints[i] = angle.value;
+    sample.joints[3 + i] = angle.rate;
   }
   return sample;
 }
@@ -59,9 +60,7 @@ std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
     }
     squared_distance.push_back(sum);
   }
-  Real min_squared_distance = squared_distance.front();
-  for (const Real& d : squared_distance)
-    min_squared_distance = d < min_squared_distance ? d : min_squared_distance;
+  const Real min_squared_distance = *std::ranges::min_element(squared_distance);
   std::vector<Real> estimate(outputs.front().size(), Real(0));
   Real weights = 0;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -75,8 +74,7 @@ std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
 
 }  // namespace
 
-std::vector<double> grnn_program(const Json& json) {
-  const Arguments arguments(json, "", {"inputs", "outputs", "queries", "sigma", "spread"});
+std::vector<Real> grnn_program(const Arguments& arguments) {
   const Rows inputs = read_rows(arguments, "inputs");
   const Rows outputs = read_rows(arguments, "outputs");
   const Real sigma = read_sigma(arguments);
@@ -86,13 +84,10 @@ std::vector<double> grnn_program(const Json& json) {
     if (query.size() != inputs.front().size()) arguments.fail("queries", "as long as the inputs");
     for (const Real& y : nadaraya_watson(inputs, outputs, query, sigma)) values.push_back(y);
   }
-  return to_doubles(values);
+  return values;
 }
 
-std::vector<double> manipulator_grnn_program(const Json& json) {
-  const Arguments arguments(json, "",
-                            {"manipulator", "trajectory", "force_N", "moment_N_m", "gravity_m_s2",
-                             "step_s", "train", "sigma", "queries", "output"});
+std::vector<Real> manipulator_grnn_program(const Arguments& arguments) {
   const ManipulatorNumbers manipulator = read_planar_manipulator(arguments);
   const PlanarWrench wrench = read_wrench(arguments);
   const Arguments trajectory = read_trajectory(arguments);
@@ -112,7 +107,7 @@ std::vector<double> manipulator_grnn_program(const Json& json) {
     const auto found = nadaraya_watson(inputs, outputs, query.torques, arguments.positive("sigma"));
     for (std::size_t j = 0; j < 3; ++j) values[j * queries.size() + q] = found[first + j];
   }
-  return to_doubles(values);
+  return values;
 }
 
 }  // namespace trammel::references

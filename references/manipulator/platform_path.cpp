@@ -111,7 +111,7 @@ Motion on_spline(const Arguments& spline, const Jet<Real>& t) {
 
 Motion platform_motion(const Arguments& trajectory, const Real& time) {
   const Jet<Real> t(time, 1, 0);
-  const auto section = [&](const char* key, std::initializer_list<const char*> known) {
+  const auto section = [&](const char* key, const std::vector<std::string>& known) {
     return Arguments(trajectory[key], trajectory.pointer(key), known);
   };
   if (trajectory.has("circle")) {

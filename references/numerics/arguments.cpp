@@ -7,9 +7,9 @@ namespace trammel::references {
 
 namespace {
 
-std::string joined(std::initializer_list<const char*> choices) {
+std::string joined(const std::vector<std::string>& choices) {
   std::string text;
-  for (const char* name : choices) text += (text.empty() ? "" : ", ") + std::string(name);
+  for (const std::string& name : choices) text += (text.empty() ? "" : ", ") + name;
   return text;
 }
 
@@ -40,8 +40,7 @@ Arguments::Arguments(const Json& object, std::string pointer)
   }
 }
 
-Arguments::Arguments(const Json& object, std::string pointer,
-                     std::initializer_list<const char*> known)
+Arguments::Arguments(const Json& object, std::string pointer, const std::vector<std::string>& known)
     : Arguments(object, std::move(pointer)) {
   for (const auto& item : object_.items()) {
     if (std::ranges::find(known, item.key()) == known.end()) {
@@ -64,8 +63,7 @@ std::vector<std::string> Arguments::keys() const {
   return names;
 }
 
-Arguments Arguments::object(const std::string& key,
-                            std::initializer_list<const char*> known) const {
+Arguments Arguments::object(const std::string& key, const std::vector<std::string>& known) const {
   return {(*this)[key], pointer(key), known};
 }
 
@@ -121,11 +119,10 @@ std::string Arguments::text(const std::string& key) const {
 }
 
 std::string Arguments::choice(const std::string& key, const std::string& default_value,
-                              std::initializer_list<const char*> choices) const {
+                              const std::vector<std::string>& choices) const {
   if (!has(key) && !default_value.empty()) return default_value;
   const Json& value = (*this)[key];
-  const auto* const found =
-      std::ranges::find_if(choices, [&](const char* name) { return value == name; });
+  const auto found = std::ranges::find_if(choices, [&](const auto& name) { return value == name; });
   if (found == choices.end()) fail(key, "expected one of " + joined(choices));
   return *found;
 }

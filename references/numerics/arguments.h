@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
@@ -25,17 +24,18 @@ class Arguments {
  public:
   /// @param pointer  where the object stands, for messages.
   /// @throws DerivationError  where `object` is none, or has a key that is not in `known`.
-  Arguments(const Json& object, std::string pointer, std::initializer_list<const char*> known);
+  Arguments(const Json& object, std::string pointer, const std::vector<std::string>& known);
   /// As above, for an object keyed by names of the user's choice.
   Arguments(const Json& object, std::string pointer);
 
+  [[nodiscard]] const Json& json() const { return object_; }
   [[nodiscard]] bool has(const std::string& key) const { return object_.contains(key); }
   [[nodiscard]] const Json& operator[](const std::string& key) const;
   [[nodiscard]] std::string pointer(const std::string& key) const;
   [[nodiscard]] std::vector<std::string> keys() const;
   /// The object at a key.
   [[nodiscard]] Arguments object(const std::string& key,
-                                 std::initializer_list<const char*> known) const;
+                                 const std::vector<std::string>& known) const;
 
   // Numbers are the decimals that the reader sees: 0.0015 is 15/10000, not the nearest double.
   [[nodiscard]] Real number(const std::string& key) const;
@@ -48,7 +48,7 @@ class Arguments {
   [[nodiscard]] std::string text(const std::string& key) const;
   /// One of `choices`; `default_value` where the key is missing.
   [[nodiscard]] std::string choice(const std::string& key, const std::string& default_value,
-                                   std::initializer_list<const char*> choices) const;
+                                   const std::vector<std::string>& choices) const;
   [[nodiscard]] std::vector<Real> numbers(const std::string& key) const;
   [[nodiscard]] std::vector<Real> numbers(const std::string& key, std::size_t size) const;
   [[nodiscard]] std::array<Real, 2> point(const std::string& key) const;

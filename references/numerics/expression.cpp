@@ -26,7 +26,7 @@ const std::map<std::string, Real (*)(const Real&)>& functions() {
   return table;
 }
 
-/// sum = product (('+'|'-') product)*; product = power (('*'|'/') power)*;
+/// sum = power (operator power)*, where * and / bind closer than + and -;
 /// power = '-' power | primary ('^' power)?;
 /// primary = number | name | function '(' sum ')' | '(' sum ')'.
 class Parser {
@@ -35,7 +35,7 @@ class Parser {
       : text_(text), values_(values) {}
 
   Real parse() {
-    const Real value = sum();
+    const Real value = operation(1);
     if (peek() != '\0') fail("expected an operator");
     return value;
   }
@@ -56,22 +56,17 @@ class Parser {
     return true;
   }
 
-  Real sum() {
-    Real value = product();
-    while (peek() == '+' || peek() == '-') {
-      const bool adds = text_[position_++] == '+';
-      const Real term = product();
-      value += adds ? term : -term;
-    }
-    return value;
-  }
-
-  Real product() {
-    Real value = power();
-    while (peek() == '*' || peek() == '/') {
-      const bool multiplies = text_[position_++] == '*';
-      const Real factor = power();
-      value = multiplies ? value * factor : value / factor;
+  /// Reads operators of a rank and above: 1 for + and -, 2 for * and /.
+  Real operation(int rank) {
+    if (rank > 2) return power();
+    Real value = operation(rank + 1);
+    while (peek() == (rank == 1 ? '+' : '*') || peek() == (rank == 1 ? '-' : '/')) {
+      const char name = text_[position_++];
+      const Real other = operation(rank + 1);
+      value = name == '+'   ? value + other
+              : name == '-' ? value - other
+              : name == '*' ? value * other
+                            : value / other;
     }
     return value;
   }
@@ -84,7 +79,7 @@ class Parser {
 
   Real parenthesised() {
     if (!accept('(')) fail("expected '('");
-    const Real value = sum();
+    const Real value = operation(1);
     if (!accept(')')) fail("expected ')'");
     return value;
   }
@@ -136,17 +131,16 @@ Real evaluate_expression(const std::string& text, const std::map<std::string, Re
   return value;
 }
 
-std::vector<double> formula_program(const Json& json) {
-  const Arguments arguments(json, "", {"formulas", "values"});
+std::vector<Real> formula_program(const Arguments& arguments) {
   std::map<std::string, Real> values;
   if (arguments.has("values")) {
     const Arguments given(arguments["values"], "/values");
     for (const std::string& name : given.keys()) values[name] = given.number(name);
   }
-  std::vector<double> results;
+  std::vector<Real> results;
   for (const std::string& formula : arguments.texts("formulas")) {
     const Real value = evaluate_expression(formula, values);
-    results.push_back(static_cast<double>(value));
+    results.push_back(value);
     values[std::string("v").append(std::to_string(results.size()))] = value;
   }
   return results;

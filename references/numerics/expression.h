@@ -20,6 +20,6 @@ namespace trammel::references {
 
 /// Arguments: formulas (array of texts), values (object of numbers). One value a formula; each
 /// formula may use the results of those before it as v1, v2, ...
-[[nodiscard]] std::vector<double> formula_program(const Json& arguments);
+[[nodiscard]] std::vector<Real> formula_program(const Arguments& arguments);
 
 }  // namespace trammel::references

@@ -29,7 +29,4 @@ template <class T>
 [[nodiscard]] std::vector<Real> first_roots(const std::function<Real(const Real&)>& f,
                                             const Real& start, const Real& step, int count);
 
-/// Rounds each value to the nearest double.
-[[nodiscard]] std::vector<double> to_doubles(const std::vector<Real>& values);
-
 }  // namespace trammel::references

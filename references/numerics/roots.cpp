@@ -36,10 +36,4 @@ std::vector<Real> first_roots(const std::function<Real(const Real&)>& f, const R
   return roots;
 }
 
-std::vector<double> to_doubles(const std::vector<Real>& values) {
-  std::vector<double> result;
-  for (const Real& value : values) result.push_back(static_cast<double>(value));
-  return result;
-}
-
 }  // namespace trammel::references

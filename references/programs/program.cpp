@@ -1,5 +1,7 @@
 #include "references/programs/program.h"
 
+#include <regex>
+
 #include "references/beams/beam_modes.h"
 #include "references/beams/programs.h"
 #include "references/frames/programs.h"
@@ -23,12 +25,28 @@ Json with_value(Json arguments, const std::vector<std::string>& pointers, const 
   return arguments;
 }
 
+/// Names of a program's arguments: the words of its line "arguments:" in programs.txt, without the
+/// remarks in parentheses.
+std::vector<std::string> argument_names(const std::string& program) {
+  static const std::regex remark(R"(\([^()]*\))"), name(R"(\w+)");
+  const std::string label = "    arguments: ", text = "\n" + embedded_text("programs.txt");
+  const std::size_t from = text.find(label, text.find("\n" + program + "\n")) + label.size();
+  const std::string line =
+      std::regex_replace(text.substr(from, text.find('\n', from) - from), remark, "");
+  return {std::sregex_token_iterator(line.begin(), line.end(), name), {}};
+}
+
+const Program& program_of(const std::string& name);
+
+std::vector<Real> run_program(const std::string& program, const Json& arguments) {
+  return program_of(program).run(Arguments(arguments, "", argument_names(program)));
+}
+
 /// Runs another program at each of several values, one after the other: the true values of a
 /// parameter study. Arguments: program, arguments, pointers (JSON pointers into the arguments) and
 /// values, or patches (merge patches of the arguments).
 /// @throws DerivationError  if a pointer leads nowhere.
-std::vector<double> parameter_sweep_program(const Json& json) {
-  const Arguments arguments(json, "", {"program", "arguments", "pointers", "values", "patches"});
+std::vector<Real> parameter_sweep_program(const Arguments& arguments) {
   const std::string program = arguments.text("program");
   std::vector<Json> levels;
   if (arguments.has("patches")) {
@@ -42,9 +60,9 @@ std::vector<double> parameter_sweep_program(const Json& json) {
       levels.push_back(with_value(arguments["arguments"], pointers, value, arguments));
     }
   }
-  std::vector<double> values;
+  std::vector<Real> values;
   for (const Json& level : levels) {
-    const std::vector<double> found = derive(program, level);
+    const std::vector<Real> found = run_program(program, level);
     values.insert(values.end(), found.begin(), found.end());
   }
   return values;
@@ -103,13 +121,16 @@ const Program& program_of(const std::string& name) {
 }  // namespace
 
 std::vector<double> derive(const std::string& program, const Json& arguments) {
-  return program_of(program).run(arguments);
+  const std::vector<Real> values = run_program(program, arguments);
+  std::vector<double> rounded;
+  for (const Real& value : values) rounded.push_back(static_cast<double>(value));
+  return rounded;
 }
 
 std::vector<std::string> prove(const std::string& program, const Json& arguments) {
   const Program& found = program_of(program);
   if (!found.prove) throw DerivationError("the program '" + program + "' proves nothing");
-  return found.prove(arguments);
+  return found.prove(Arguments(arguments, "", argument_names(program)));
 }
 
 }  // namespace trammel::references

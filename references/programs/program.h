@@ -13,10 +13,10 @@
 namespace trammel::references {
 
 struct Program {
-  std::function<std::vector<double>(const Json&)> run;
+  std::function<std::vector<Real>(const Arguments&)> run;
   /// The same as proved enclosures: 30 digits each, the last uncertain by one; empty where there is
   /// no proof.
-  std::function<std::vector<std::string>(const Json&)> prove = {};
+  std::function<std::vector<std::string>(const Arguments&)> prove = {};
 };
 
 /// What each derives, with its equation's source, and what it takes stands in programs.txt.
@@ -27,8 +27,8 @@ struct Program {
 [[nodiscard]] std::vector<double> derive(const std::string& program, const Json& arguments);
 
 /// Prove what the programs frame-frequencies and beam-roots derive.
-[[nodiscard]] std::vector<std::string> prove_frame_frequencies(const Json& arguments);
-[[nodiscard]] std::vector<std::string> prove_beam_roots(const Json& arguments);
+[[nodiscard]] std::vector<std::string> prove_frame_frequencies(const Arguments& arguments);
+[[nodiscard]] std::vector<std::string> prove_beam_roots(const Arguments& arguments);
 
 /// The values that a program proves, 30 digits each.
 /// @throws DerivationError  where it has no proof, and as `derive`.

@@ -95,16 +95,14 @@ Frame unit_beam(const BeamEnds& ends) {
 
 }  // namespace
 
-std::vector<std::string> prove_frame_frequencies(const Json& json) {
-  const Arguments arguments(json, "", {"model", "manipulator", "pose", "count"});
+std::vector<std::string> prove_frame_frequencies(const Arguments& arguments) {
   const Frame frame = frame_from_arguments(arguments);
   const FrameFrequencies found = frame_frequencies(frame, arguments.count("count"));
   const Measure measure{[](const Ball& f) { return 2 * pi<Ball>() * f; }, found.frequencies};
   return Proof(frame, measure, found.rigid_motions).run();
 }
 
-std::vector<std::string> prove_beam_roots(const Json& json) {
-  const Arguments arguments(json, "", {"ends", "count", "tip_mass_ratio", "tip_inertia_ratio"});
+std::vector<std::string> prove_beam_roots(const Arguments& arguments) {
   const Frame frame = unit_beam(read_beam_ends(arguments));
   const FrameFrequencies found = frame_frequencies(frame, arguments.count("count"));
   Measure measure{[](const Ball& b) { return b * b; }, {}};
