@@ -8,7 +8,7 @@
 
 /// Bending vibration of one uniform Euler-Bernoulli beam of length L: roots b = beta L of its
 /// characteristic equation, f = b^2 / (2 pi L^2) sqrt(EI / rho A).
-/// The equations are divided by cosh b, so that nothing overflows (Blevins 1979, Table 8-1):
+/// The equations are divided by cosh b, which avoids overflow (Blevins 1979, Table 8-1).
 ///   clamped-free                      cos b + sech b = 0
 ///   clamped-clamped, free-free        cos b - sech b = 0
 ///   clamped-pinned, pinned-free       sin b - cos b tanh b = 0
@@ -17,7 +17,7 @@
 /// and for clamped-free with a tip mass mu = M/(rho A L) and a tip inertia j = J/(rho A L^3)
 ///   sech b + cos b + mu b (cos b tanh b - sin b) - j b^3 (sin b + cos b tanh b)
 ///     + mu j b^4 (sech b - cos b) = 0.
-/// Rigid motions (b = 0) are left out.
+/// Rigid motions (b = 0) are omitted.
 namespace trammel::references {
 
 struct BeamEnds {
@@ -26,11 +26,11 @@ struct BeamEnds {
   Real tip_inertia_ratio = 0;  ///< j [-]
 };
 
-/// Of the arguments ends, tip_mass_ratio, tip_inertia_ratio. @throws DerivationError
+/// Reads the arguments ends, tip_mass_ratio, tip_inertia_ratio. @throws DerivationError
 [[nodiscard]] BeamEnds read_beam_ends(const Arguments& arguments);
 
 /// The first `count` roots beta L > 0 [-], to 45 digits.
-/// @throws DerivationError  where fewer are found.
+/// @throws DerivationError  if fewer are found.
 [[nodiscard]] std::vector<Real> beam_roots(const BeamEnds& ends, int count);
 
 /// Arguments: ends, count, tip_mass_ratio, tip_inertia_ratio. Values: beta L.

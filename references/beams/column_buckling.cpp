@@ -62,7 +62,7 @@ std::pair<Real, Real> valley(const Follower& load) {
   return {follower_determinant(low, load), low};
 }
 
-/// Whether the two lowest roots have met.
+/// Returns true if the two lowest roots have met.
 bool flutters(const Follower& load) {
   return valley(load).first > 0;
 }

@@ -95,7 +95,8 @@ double step_response_sum(const std::vector<Mode>& modes, double Mode::*share, do
   return sum<double>(modes, share, [t](const Mode& mode) { return step_response(mode, t); });
 }
 
-/// Where f is largest between lo and hi: the best of a grid, refined by Brent's method.
+/// Returns the place of the largest f between lo and hi: the best point of a grid, refined by
+/// Brent's method.
 double maximizer(std::function<double(double)> f, double lo, double hi, int grid) {
   gsl_set_error_handler_off();
   const double step = (hi - lo) / grid;

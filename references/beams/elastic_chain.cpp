@@ -101,7 +101,7 @@ std::vector<Section> shoot(const Chain& chain, const RealVector& unknown) {
   return sections;
 }
 
-/// What is missing at the end: a motion that is held, or a force that nothing takes.
+/// Returns the residuals at the end: prescribed motions and unsupported forces.
 RealVector gap(const Chain& chain, const RealVector& unknown) {
   const Section end = shoot(chain, unknown).back();
   RealVector missing(3);

@@ -38,14 +38,14 @@ namespace trammel::references {
 /// displacement), time_s (the same). Values: one an output.
 [[nodiscard]] std::vector<Real> deep_beam_program(const Arguments& arguments);
 
-/// Arguments: nodes_m (points [x, y]; the first is held in x and y), EI_N_m2; EA_N, GA_N; start and
-/// end: which of x, y, rotation are held, or free (of the start: rotation, or free to turn); loads
-/// (array of [node, Fx, Fy, M], node from 0); load_factors (each found from the one before), or
-/// guesses of limit points, [first angle or moment, Fx, Fy of the first section, load factor], each
-/// polished until the load is stationary; outputs (load_factor, displacement_x_m:NODE,
-/// displacement_y_m:NODE, rotation_rad:NODE), all of a solution, then of the next; steps per piece
-/// (4).
-/// @throws DerivationError  where Newton's method does not converge.
+/// Arguments: nodes_m (points [x, y]; the first is fixed in x and y), EI_N_m2; EA_N, GA_N; start
+/// and end (a list of the fixed motions x, y, rotation, or free; for the start: rotation, or free);
+/// loads (array of [node, Fx, Fy, M], node from 0); load_factors (each is found from the previous
+/// one) or guesses of limit points. A guess is [first angle or moment, Fx, Fy of the first section,
+/// load factor], refined until the load is stationary. Further arguments: outputs (load_factor,
+/// displacement_x_m:NODE, displacement_y_m:NODE, rotation_rad:NODE), all of one solution, then
+/// those of the next one; steps per piece (4).
+/// @throws DerivationError  if Newton's method does not converge.
 [[nodiscard]] std::vector<Real> elastic_chain_program(const Arguments& arguments);
 
 /// Transverse load (K. E. Bisshopp, D. C. Drucker, Q. Appl. Math. 3, 1945, 272-275). With the tip
@@ -85,7 +85,7 @@ namespace trammel::references {
 
 /// Arguments: length_m, E_Pa, rho_kg_m3, thickness_m and width_m ([clamped, free end]; the
 /// thickness lies in the plane), count. Values: frequencies [Hz].
-/// @throws DerivationError  where two functions fewer change an eigenvalue by more than 1e-14.
+/// @throws DerivationError  if two functions fewer change an eigenvalue by more than 1e-14.
 [[nodiscard]] std::vector<Real> tapered_beam_program(const Arguments& arguments);
 
 /// Arguments: eta, hub_ratio, plane (flap | lag), count, axial_ratio (for the Coriolis coupling).

@@ -27,7 +27,7 @@ struct RotatingBeam {
   std::optional<Real> axial_ratio;  ///< s; in the plane only, none: axially rigid
 };
 
-/// What the series of one solution gives at the tip: V'', V''' and U', which must all vanish.
+/// Returns V'', V''' and U' of one solution at the tip, which must all vanish.
 using Tip = std::array<Real, 3>;
 
 /// The solution that starts at the clamped hub with V'' = a, V''' = b, U' = c.

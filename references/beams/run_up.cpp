@@ -5,7 +5,7 @@
 
 /// Run-up of a rotor through the resonance of its carriage (F. M. Lewis, Vibration during
 /// acceleration through a critical speed, Transactions of the ASME 54, 1932, 253-261): an unbalance
-/// m e of the whole mass M on a spring, w^2 = k/M, turned by a given law a(t) from rest, a(0) = 0:
+/// m e of the total mass M on a spring, w^2 = k/M, turned by a given law a(t) from rest, a(0) = 0:
 ///   x = -(m e/M) (cos a(t) - cos w t - w int_0^t cos a(s) sin w(t - s) ds),
 /// Duhamel's integral twice by parts; here by Gauss' rule of 20 points on panels of 0.01 s.
 namespace trammel::references {

@@ -59,7 +59,7 @@ struct Ritz {
     }
   }
 
-  /// How many eigenvalues lie below x: the negative pivots of K - x M.
+  /// Returns the number of eigenvalues below x: the negative pivots of K - x M.
   [[nodiscard]] int count_below(const Real& x) const {
     RealMatrix S = K - x * M;
     int negative = 0;

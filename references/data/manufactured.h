@@ -38,7 +38,7 @@ struct MembraneState {
 
 [[nodiscard]] MembraneState evaluate(const MembraneProblem& problem, double x, double y);
 
-/// Which displacements the ground holds at a point of the outline; the field is zero there.
+/// Returns the displacements that are fixed at a point of the outline; the field is zero there.
 [[nodiscard]] std::array<bool, 2> fixed_displacements(const MembraneProblem& problem, double x,
                                                       double y);
 

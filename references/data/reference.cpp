@@ -88,7 +88,7 @@ std::vector<double> read_uncertainty(const Json& json, const Reference& referenc
   if (reference.printed.empty()) fail(place, "", "'uncertainty', or 'printed' digits that tell it");
   std::vector<double> half_widths;
   for (std::size_t i = 0; i < reference.printed.size(); ++i) {
-    // Where the digits are in another unit or corrected, they say nothing about the value.
+    // Digits in another unit, or corrected ones, give no uncertainty of the value.
     const double read = std::strtod(reference.printed[i].c_str(), nullptr);
     if (std::abs(read - reference.values[i]) > 1e-12 * std::abs(read)) {
       fail(place, "/printed/" + std::to_string(i),

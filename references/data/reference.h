@@ -45,7 +45,7 @@ class ReferenceError : public std::runtime_error {
                                        const std::string& id);
 
 /// Half a unit in the last printed place: "12.768" -> 0.0005, "6.9e10" -> 0.05e10, "12" -> 0.5.
-/// @throws ReferenceError  where the text is not a decimal number.
+/// @throws ReferenceError  if the text is not a decimal number.
 [[nodiscard]] double half_unit_in_last_place(const std::string& printed);
 
 struct Source {

@@ -6,7 +6,7 @@ namespace trammel::references {
 
 namespace {
 
-/// Which nodes have a rotation of their own: those that something rotates with.
+/// Returns the nodes with a rotation: those that something rotates with.
 std::vector<bool> nodes_with_rotation(const Frame& frame) {
   std::vector<bool> has_rotation(frame.nodes.size(), false);
   for (const FrameMember& member : frame.members) {

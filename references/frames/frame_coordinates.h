@@ -7,10 +7,10 @@
 #include "references/frames/frame.h"
 #include "references/numerics/dense.h"
 
-/// The coordinates of a frame: x, y and (where something rotates with it) the rotation of each
-/// node, and a rotation of its own for each hinged or sprung member end. A hinge keeps its own
-/// rotation. Supports, rigid bodies, inextensible members and sums of rotations are equations C u =
-/// 0, solved by elimination with full pivoting: u = N q.
+/// The coordinates of a frame: x, y and (if something rotates with it) the rotation of each node,
+/// and the rotation of each hinged or sprung member end. Supports, rigid bodies, inextensible
+/// members and sums of rotations are equations C u = 0, solved by elimination with full pivoting: u
+/// = N q.
 namespace trammel::references {
 
 /// A spring between two entries of u. Its force is +s on `from` and -s on `to`.
@@ -21,10 +21,9 @@ struct SpringElement {
 
 class FrameCoordinates {
  public:
-  /// @param constrain_inextensible  whether members without axial compliance are constraints
-  ///                                (dynamics) or carry an axial force of their own (statics).
-  /// @throws DerivationError  where a constraint names a rotation that a node does not have, or a
-  ///                          member has no length.
+  /// @param constrain_inextensible  true if members without axial compliance are constraints
+  /// (dynamics), false if their axial force is an unknown (statics).
+  /// @throws DerivationError  if a constraint names a missing rotation, or a member has no length.
   FrameCoordinates(const Frame& frame, bool constrain_inextensible);
 
   [[nodiscard]] int size() const { return size_; }                        ///< of u

@@ -4,7 +4,7 @@
 #include "references/frames/wittrick_williams.h"
 #include "references/numerics/real.h"
 
-/// How the exact natural frequencies of a frame change with its numbers.
+/// Derivatives of the exact natural frequencies of a frame with respect to its numbers.
 namespace trammel::references {
 
 namespace {

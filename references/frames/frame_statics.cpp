@@ -65,7 +65,7 @@ class Outputs {
   }
 
  private:
-  /// Of the forces and moments on nodes.
+  /// Returns a force or moment on a node.
   [[nodiscard]] Real work_of_loads() const {
     Real work = 0;
     for (const FrameLoad& load : frame_.loads)
@@ -104,7 +104,7 @@ class Outputs {
     fail(text, ": there is no such quantity");
   }
 
-  /// |N|/A + |M|/W of a member without a load of its own, whose largest value is at an end.
+  /// |N|/A + |M|/W of a member without a distributed load; the largest value is at an end.
   [[nodiscard]] Real largest_stress(const std::string& text, const Name& name) const {
     const int index = frame_.find_member(name.item);
     if (index < 0) fail(text, ": there is no such member");

@@ -16,12 +16,12 @@ std::array<Point2<Real>, 3> triangle(const Point2<Real>& centre, const Real& sid
   return vertices;
 }
 
-/// Whether a mass or an inertia is a number, not one of the texts "from-density" and "from-mass".
+/// Returns true if a mass or an inertia is a number instead of "from-density" or "from-mass".
 bool is_given(const Arguments& object, const std::string& key) {
   return object.has(key) && object[key] != "from-density" && object[key] != "from-mass";
 }
 
-/// A mass [kg] or an inertia [kg m^2] where it is given, otherwise what the texts stand for.
+/// Returns a given mass [kg] or inertia [kg m^2], or the computed one.
 Real given_or(const Arguments& object, const std::string& key, const Real& computed) {
   return is_given(object, key) ? object.positive(key) : computed;
 }
@@ -84,7 +84,7 @@ void read_platform(const Arguments& manipulator, ManipulatorNumbers& result) {
     result.limbs[i].corner = corners[i];
     for (std::size_t c = 0; c < 2; ++c) center[c] += corners[i][c] / 3;
   }
-  Real squares = 0;  // of the corners' distances from the centre of mass
+  Real squares = 0;  // of the distances of the corners from the center of mass
   for (const auto& corner : corners) {
     const Real x = corner[0] - center[0], y = corner[1] - center[1];
     squares += x * x + y * y;

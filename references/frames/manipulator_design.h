@@ -4,10 +4,10 @@
 
 #include "references/frames/frame.h"
 
-/// What a planar 3-RRR is made of, in the format of the case files' "manipulator": base_side_m or
+/// Data of a planar 3-RRR in the format of "manipulator" in case files: base_side_m or
 /// base_m, links (proximal_length_m and distal_length_m, one or three each; thickness_m, width_m,
-/// mass_kg, inertia_kg_m2, beam, shear_coefficient, axial; proximal and distal with what is
-/// different), platform (side_m or vertices_m, thickness_m, mass_kg, inertia_kg_m2), material,
+/// mass_kg, inertia_kg_m2, beam, shear_coefficient, axial; proximal and distal for differing
+/// values), platform (side_m or vertices_m, thickness_m, mass_kg, inertia_kg_m2), material,
 /// platform_material, joints (one of each kind for all limbs), working_mode.
 namespace trammel::references {
 
@@ -15,7 +15,7 @@ template <class Number>
 using Point2 = std::array<Number, 2>;
 
 /// The intersection of the circles about A and C; mode -1 lies clockwise of the line A C.
-/// @throws DerivationError  where there is none.
+/// @throws DerivationError  if there is none.
 template <class Number>
 [[nodiscard]] Point2<Number> elbow(const Point2<Number>& A, const Point2<Number>& C,
                                    const Real& proximal, const Real& distal, int mode) {

@@ -7,21 +7,21 @@
 #include "references/numerics/dense.h"
 #include "references/numerics/real.h"
 
-/// Exact dynamic stiffness of one uniform member at circular frequency w, and how many of its
-/// natural frequencies with both ends clamped lie below w (Wittrick and Williams 1971; for shear
-/// and rotary inertia Howson and Williams 1973).
+/// Exact dynamic stiffness of one uniform member at circular frequency w, and the number of its
+/// natural frequencies below w with both ends clamped. Sources: Wittrick and Williams 1971; for
+/// shear and rotary inertia, Howson and Williams 1973.
 ///
 /// With g = w^2 rho A / (kappa G A) and r = w^2 rho I / EI (both zero for Euler-Bernoulli) the wave
 /// numbers of deflection v and rotation psi follow from
 ///   k^4 + (g + r - T/EI) k^2 + g r - w^2 rho A / EI = 0,
-/// T the tension of a prestressed Euler-Bernoulli member, which adds T v' to the force V below.
-/// Motions even and odd about mid-span decouple; with C = cos(h) or cosh, S = sin or sinh of k x
-/// over k, x from mid-span,
+/// where T is the tension of a prestressed Euler-Bernoulli member, which adds T v' to the force V
+/// below. Even and odd motions about mid-span decouple. With C = cos(h) or cosh, S = sin or sinh of
+/// k x over k, x from mid-span,
 ///   even: v = C,      psi = (k^2 + g) S,  M = EI (k^2 + g) C,
 ///         V = -(k^2 + g)(EI k^2 + w^2 rho I) S;
 ///   odd:  v = k^2 S,  psi = (k^2 + g) C,  M = EI (k^2 + g) k^2 S,
 ///         V = -(k^2 + g)(EI k^2 + w^2 rho I) C.
-/// Hyperbolic pairs are divided by cosh(k L/2), so that nothing overflows.
+/// Hyperbolic pairs are divided by cosh(k L/2), which avoids overflow.
 namespace trammel::references {
 
 /// Stiffness of motions even and odd about mid-span: forces (N, V, M) at the right end over the
@@ -32,7 +32,7 @@ struct MemberStiffness {
   int clamped_below = 0;  ///< frequencies below w with both ends clamped
 };
 
-/// What a member is made of, in the number type of the evaluation.
+/// Properties of a member in the number type of the evaluation.
 template <class T>
 struct MemberData {
   explicit MemberData(const FrameSection& s, const Real& L)
@@ -65,7 +65,7 @@ std::array<T, 2> symmetric_wave_functions(const T& k2, const T& h) {
   return {cos(k * h), sin(k * h) / k};
 }
 
-/// How many n >= 1 have n pi / L < k.
+/// Returns the number of n >= 1 with n pi / L < k.
 template <class T>
 int waves_below(const T& k, const T& length) {
   using std::ceil;

@@ -6,14 +6,14 @@
 #include "references/frames/frame.h"
 #include "references/numerics/dense.h"
 
-/// Exact statics of a frame by the unit-load (force) method: the unknowns are the internal forces
-/// at each member's start; their compliances are the integrals of unit-load diagrams
+/// Exact statics of a frame by the unit-load (force) method. The unknowns are the internal forces
+/// at the start of each member. Their compliances are integrals of unit-load diagrams
 ///   phi_ij = integral m_i m_j / EI + n_i n_j / EA + v_i v_j / (kappa GA) dx   (GSL quadrature),
-/// and complementary energy is least among all forces in equilibrium (Castigliano, Engesser). The
-/// multipliers of the equations of equilibrium are the displacements. No stiffness matrix occurs.
+/// The complementary energy is minimal among all forces in equilibrium (Castigliano, Engesser). The
+/// multipliers of the equations of equilibrium are the displacements. There is no stiffness matrix.
 ///
 /// Along a member, x from start to end, w to the left: N tension, V = kappa GA (w' - psi) the force
-/// along w on the face towards +x, M = EI psi'; so V' = -q_w and M' = -V.
+/// along w on the face toward +x, M = EI psi'; so V' = -q_w and M' = -V.
 namespace trammel::references {
 
 struct MemberForces {
@@ -26,7 +26,7 @@ struct FrameStatics {
   std::vector<MemberForces> members;
 };
 
-/// @throws DerivationError  where the frame can move freely, or its forces are not determined.
+/// @throws DerivationError  if the frame can move freely, or its forces are not determined.
 [[nodiscard]] FrameStatics unit_load_statics(const Frame& frame);
 
 }  // namespace trammel::references

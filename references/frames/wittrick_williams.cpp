@@ -39,9 +39,9 @@ void confirm_bracket(const CountingFunction& f, int index, Real& lo, Real& hi) {
     hi *= 1 + relative_width;
 }
 
-/// Where the count passes `index`. The m-th root of |det D|, with the sign of the count, crosses
-/// zero there as a simple root does, m the passages that the bracket holds; where a clamped
-/// frequency of a member falls into the bracket, det D has a pole and the count alone is bisected.
+/// Returns the place where the count passes `index`. The m-th root of |det D|, with the sign of the
+/// count, has a simple root there, where m is the number of passages in the bracket. If the bracket
+/// contains a clamped frequency of a member, det D has a pole, and only the count is bisected.
 Real refine_root(const CountingFunction& f, int index, const Real& lo, const Real& hi) {
   const auto at_lo = f.fine(lo);
   const auto at_hi = f.fine(hi);

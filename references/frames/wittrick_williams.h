@@ -9,9 +9,9 @@
 /// Natural frequencies of a frame by the Wittrick-Williams count (`DynamicStiffness`).
 namespace trammel::references {
 
-/// Where a Wittrick-Williams count passes 1, 2, 3, ...: bracketed in double, the bracket confirmed
-/// in extended precision, then refined there. None is missed or doubled, and a repeated one appears
-/// as often as it occurs. (A double alone reaches about 3e-10.)
+/// Returns the places where a Wittrick-Williams count passes 1, 2, 3, ... They are bracketed in
+/// double precision; the bracket is confirmed and refined in extended precision. None is missed,
+/// and a repeated one appears as often as it occurs. Double precision would reach only about 3e-10.
 struct CountingFunction {
   std::function<int(double)> coarse;
   std::function<DynamicStiffness<Real>::Count(const Real&)> fine;
@@ -29,14 +29,14 @@ struct FrameFrequencies {
 };
 
 /// The first `count` elastic natural frequencies, each to 1e-20.
-/// @throws DerivationError  where the frame has no mass or not so many frequencies are found.
+/// @throws DerivationError  if the frame has no mass or fewer frequencies are found.
 [[nodiscard]] FrameFrequencies frame_frequencies(const Frame& frame, int count);
 
 /// The lowest sqrt(EI/rho A)/L^2 of the members: a scale of the frequencies, not a bound [rad/s].
-/// @throws DerivationError  where a member has no mass, or there is none.
+/// @throws DerivationError  if a member has no mass, or there is none.
 [[nodiscard]] Real frequency_scale(const Frame& frame);
 
-/// How many natural frequencies, rigid motions included, lie below `frequency` [Hz].
+/// Returns the number of natural frequencies below `frequency` [Hz], including rigid motions.
 [[nodiscard]] int frequencies_below(const Frame& frame, const Real& frequency);
 
 /// Arguments: model (or manipulator and pose), count. Values: elastic frequencies [Hz].

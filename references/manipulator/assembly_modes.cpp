@@ -89,13 +89,13 @@ struct Search {
     return Q(limbs, Jet<Real>(phi, Real(1), Real(0)));
   }
 
-  /// Where Q is monotonic; a zero at an end belongs to one of the two intervals there.
+  /// Intervals in which Q is monotonic. A zero at an end belongs to one of its two intervals.
   void add_crossing(const Real& from, const Real& to) {
     if ((at(from) < 0) == (at(to) < 0)) return;
     zeros.push_back(refined_root([&](const Real& phi) { return at(phi); }, from, to));
   }
 
-  /// Where Q' is monotonic: on either side of the extremum, if there is one.
+  /// Intervals in which Q' is monotonic: on either side of the extremum, if there is one.
   void add_crossings(const Real& from, const Real& to) {
     if ((jet(from).rate < 0) == (jet(to).rate < 0)) return add_crossing(from, to);
     const Real extremum = refined_root([&](const Real& phi) { return jet(phi).rate; }, from, to);

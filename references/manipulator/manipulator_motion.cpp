@@ -131,8 +131,8 @@ class Instant {
   std::map<std::string, Real> values_;
 };
 
-/// Accelerations of the platform under given torques: torques are linear in them, so four inverse
-/// problems tell.
+/// Returns the accelerations of the platform under given torques. Torques are linear in them, so
+/// four inverse problems suffice.
 RealVector accelerations(const ManipulatorNumbers& m, const PlanarWrench& wrench,
                          const std::vector<Real>& torque, const std::array<Real, 6>& state) {
   const auto torques_at = [&](int moving) {

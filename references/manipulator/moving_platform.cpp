@@ -5,15 +5,16 @@
 #include "references/numerics/integration.h"
 #include "references/numerics/real.h"
 
-/// Vibration of the platform of a planar 3-RRR about its motion along a path, on links without mass
-/// and hinged at both ends of the distal ones: each limb is a bar, elastic along B C,
-///   1/k = l_d/EA + l_p cos^2 b/EA + (l_p^3/(3 EI) + l_p/(kappa G A)) sin^2 b,
-/// b the angle between the links,
-/// and what is left has three coordinates about P, q = (u_x, u_y, theta), in world axes. With the
-/// centre of mass at s from P, e the axis of rotation, and W q = u + theta e x s its displacement,
+/// Vibration of the platform of a planar 3-RRR about its motion along a path, on links without
+/// mass, with distal links hinged at both ends. Each limb is a bar, elastic along B C, with 1/k =
+/// l_d/EA + l_p cos^2 b/EA + (l_p^3/(3 EI) + l_p/(kappa G A)) sin^2 b, where b is the angle between
+/// the links. The platform has three coordinates about P, q = (u_x, u_y, theta), in world axes.
+/// With the center of mass at s from P, e the axis of rotation, and W q = u + theta e x s its
+/// displacement,
 ///   m W^T (W q.. + 2 W. q. + W.. q + r..) + J e (theta.. + phi..) + K(t) q = h(t) F,
-/// r.. the acceleration of the centre of mass in the nominal motion; the paper leaves W. and W..
-/// out (`rate_terms` false). By Fehlberg's method of order 8 in steps of 0.25 ms.
+/// where r.. is the acceleration of the center of mass in the nominal motion. The paper omits W.
+/// and W.. (`rate_terms` false). The equations are integrated by Fehlberg's method of order 8 in
+/// steps of 0.25 ms.
 namespace trammel::references {
 
 namespace {
@@ -75,7 +76,7 @@ class Platform {
       const Real tension = one.stiffness * stretch(one, x);
       for (std::size_t c = 0; c < 3; ++c) f[c] -= tension * one.stretch[c];
     }
-    // M = [m, -m s_y; m, m s_x; J + m s^2]: the moment about the centre of mass turns it.
+    // M = [m, -m s_y; m, m s_x; J + m s^2]: from the moment about the center of mass.
     const Real turn = (f[2] - (s[0] * f[1] - s[1] * f[0])) / J;
     dx = {x[3], x[4], x[5], f[0] / m + s[1] * turn, f[1] / m - s[0] * turn, turn};
   }

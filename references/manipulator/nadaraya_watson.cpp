@@ -6,8 +6,7 @@
 /// The estimator of Nadaraya and Watson (1964), which Specht (1991) calls a general regression
 /// neural network, by its printed formula in extended precision:
 ///   Y(x) = sum_i Y_i exp(-D_i^2 / 2 s^2) / sum_i exp(-D_i^2 / 2 s^2),
-/// numerator and denominator multiplied by exp(min D^2 / 2 s^2), which changes nothing but that
-/// neither underflows.
+/// with numerator and denominator multiplied by exp(min D^2 / 2 s^2) to avoid underflow.
 namespace trammel::references {
 
 namespace {

@@ -24,7 +24,7 @@ PointJet between(const PointJet& from, const PointJet& to, const Real& distance,
 /// distal link on platform, and the torque of the base on the proximal link.
 enum Unknown : int { at_A = 0, at_B = 2, at_C = 4, torque = 6, per_limb = 7 };
 
-/// The three equations of one body: force balance and moments about its centre of mass.
+/// The three equations of one body: force balance, and moments about its center of mass.
 class Body {
  public:
   Body(RealMatrix& A, RealVector& b, std::size_t row, const PointJet& center)

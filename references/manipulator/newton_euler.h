@@ -20,7 +20,7 @@ struct PlanarWrench {
 
 /// A_i, B_i and C_i of a limb.
 /// @param motion  of the platform: x, y of P and its orientation, with their derivatives
-/// @throws DerivationError  where the limb cannot reach.
+/// @throws DerivationError  if the limb cannot reach.
 [[nodiscard]] std::array<Point2<Jet<Real>>, 3> limb_joints(const LimbNumbers& limb,
                                                            const std::array<Jet<Real>, 3>& motion);
 

@@ -22,8 +22,8 @@ class DerivationError : public std::runtime_error {
 /// A JSON object whose keys are all known.
 class Arguments {
  public:
-  /// @param pointer  where the object stands, for messages.
-  /// @throws DerivationError  where `object` is none, or has a key that is not in `known`.
+  /// @param pointer  location of the object, for messages.
+  /// @throws DerivationError  if `object` is no object, or has a key that is not in `known`.
   Arguments(const Json& object, std::string pointer, const std::vector<std::string>& known);
   /// As above, for an object keyed by names of the user's choice.
   Arguments(const Json& object, std::string pointer);

@@ -14,7 +14,7 @@ class Ball {
  public:
   Ball() { arb_init(x_); }
   Ball(int value) : Ball() { arb_set_si(x_, value); }  // NOLINT(google-explicit-constructor)
-  /// What 50 digits stand for: within 1e-45 of them, or an integer where they are one.
+  /// Ball around a number of 50 digits, of radius 1e-45; radius 0 for an integer.
   explicit Ball(const Real& value);
   Ball(const Ball& other) : Ball() { arb_set(x_, other.x_); }
   Ball& operator=(const Ball& other) {
@@ -26,9 +26,9 @@ class Ball {
   /// The middle, as an exact number.
   [[nodiscard]] Ball middle() const;
   /// Rounded to 30 digits, "1.87510406871196116644530824107".
-  /// @throws DerivationError  where the ball is wider than a tenth of the last one.
+  /// @throws DerivationError  if the ball is wider than a tenth of the last one.
   [[nodiscard]] std::string digits() const;
-  /// @throws DerivationError  where the ball holds another number or more than one integer.
+  /// @throws DerivationError  if the ball holds another number or more than one integer.
   explicit operator int() const;
 
   friend Ball operator+(const Ball& a, const Ball& b) { return with(arb_add, a, b); }
@@ -39,12 +39,12 @@ class Ball {
   Ball& operator+=(const Ball& b) { return *this = *this + b; }
   Ball& operator-=(const Ball& b) { return *this = *this - b; }
 
-  // True or false where it is so for all numbers of both balls.
-  /// @throws DerivationError  where it cannot be told.
+  // Returns true or false if that holds for all numbers of both balls.
+  /// @throws DerivationError  if it cannot be decided.
   friend bool operator<(const Ball& a, const Ball& b) { return decide(a, b, arb_lt, arb_ge); }
   friend bool operator>(const Ball& a, const Ball& b) { return decide(a, b, arb_gt, arb_le); }
   friend bool operator>=(const Ball& a, const Ball& b) { return decide(a, b, arb_ge, arb_lt); }
-  /// Whether both are the same exact number.
+  /// Returns true if both are the same exact number.
   friend bool operator==(const Ball& a, const Ball& b) {
     return arb_is_exact(a.x_) != 0 && arb_equal(a.x_, b.x_) != 0;
   }

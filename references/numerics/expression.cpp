@@ -77,7 +77,7 @@ class Parser {
     return accept('^') ? Real(pow(base, power())) : base;
   }
 
-  Real parenthesised() {
+  Real parenthesized() {
     if (!accept('(')) fail("expected '('");
     const Real value = operation(1);
     if (!accept(')')) fail("expected ')'");
@@ -86,7 +86,7 @@ class Parser {
 
   Real primary() {
     const char c = peek();
-    if (c == '(') return parenthesised();
+    if (c == '(') return parenthesized();
     if (std::isdigit(static_cast<unsigned char>(c)) != 0 || c == '.') return number();
     if (std::isalpha(static_cast<unsigned char>(c)) != 0) return identifier();
     fail("expected a number, a name or '('");
@@ -113,7 +113,7 @@ class Parser {
     if (value != values_.end()) return value->second;
     if (name == "pi") return pi<Real>();
     const auto function = functions().find(name);
-    if (function != functions().end()) return function->second(parenthesised());
+    if (function != functions().end()) return function->second(parenthesized());
     position_ = from;
     fail("unknown name '" + name + "'");
   }

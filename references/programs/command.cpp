@@ -47,7 +47,7 @@ void print_values(const Comparison& comparison, std::ostream& out) {
   }
 }
 
-/// Of a proved reference, which values have other digits.
+/// Returns the values of a proved reference whose digits differ.
 void print_proved(const Comparison& comparison, std::ostream& out) {
   const std::vector<std::string>&stored = comparison.printed, &proved = comparison.proved;
   if (stored.empty()) return;

@@ -5,7 +5,7 @@
 
 #include "references/numerics/arguments.h"
 
-/// A stored reference beside what its derivation gives today.
+/// Stored reference and the values of its derivation.
 namespace trammel::references {
 
 struct Comparison {

@@ -19,7 +19,8 @@ struct Program {
   std::function<std::vector<std::string>(const Arguments&)> prove = {};
 };
 
-/// What each derives, with its equation's source, and what it takes stands in programs.txt.
+/// Returns the program of a name. programs.txt lists what each program derives, the source of its
+/// equation and its arguments.
 [[nodiscard]] const std::map<std::string, Program>& programs();
 
 /// The values that a program gives, in SI.
@@ -31,7 +32,7 @@ struct Program {
 [[nodiscard]] std::vector<std::string> prove_beam_roots(const Arguments& arguments);
 
 /// The values that a program proves, 30 digits each.
-/// @throws DerivationError  where it has no proof, and as `derive`.
+/// @throws DerivationError  if it has no proof, and as `derive`.
 [[nodiscard]] std::vector<std::string> prove(const std::string& program, const Json& arguments);
 
 /// @param command_line  the words of it, without the program's name.

@@ -64,11 +64,15 @@ Strings broken_rules(const std::string& text, bool is_document) {
   return rules;
 }
 
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 void join(std::string& text, const std::string& line) {
   text += (text.empty() ? "" : " ") + line;
 }
 
-/// Comments of a source; those of successive lines are one text.
+/// Comments of a source; those of successive lines are one text. Indented formulas end sentences.
 Strings comments(std::istream& in, const std::string& mark) {
   Strings texts(1);
   for (std::string line; std::getline(in, line);) {
@@ -77,7 +81,10 @@ Strings comments(std::istream& in, const std::string& mark) {
         begin != std::string::npos && line.compare(begin, mark.size(), mark) == 0;
     const std::size_t text =
         is_comment ? line.find_first_not_of("/#!< ", begin) : std::string::npos;
-    if (text != std::string::npos)
+    const bool is_formula = text != std::string::npos && text > begin + 4 && contains(line, " = ");
+    if (is_formula)
+      texts.back() += '.';
+    else if (text != std::string::npos)
       join(texts.back(), line.substr(text));
     else if (!texts.back().empty())
       texts.emplace_back();

@@ -148,7 +148,7 @@ def stored_readings(stored):
         for i, name in enumerate(names):
             values = reference(name)["values"][:CANDIDATES]
             numbers[i, :len(values)], numbers[i, THICKNESS] = np.log(values), LOG_THICKNESS
-            spread[i, [*range(len(values)), THICKNESS]] = 2 * HALF_WIDTH * EVEN  # frequencies as bending of links of their own mass
+            spread[i, [*range(len(values)), THICKNESS]] = 2 * HALF_WIDTH * EVEN  # frequencies as bending of links with their mass
         yield Reading(title, [1 / len(names)] * len(names), numbers, spread, stored["noise"])
 
 

@@ -14,7 +14,7 @@ import tempfile
 DEFAULT = {
     "pose": (0.25, 0.5 / math.sqrt(12), 0.0),  # x, y of P [m], orientation [rad]
     "joints": "bbb bbb bbb",  # a limb each: active, elbow, platform joint; b: bonded, h: hinge about z, t: free to tilt about x and y
-    "thickness": 0.0015, "width": 0.03, "length": 0.2, "on_edge": True,  # links [m]; on edge: the width stands along z
+    "thickness": 0.0015, "width": 0.03, "length": 0.2, "on_edge": True,  # links [m]; on edge: the width is along z
     "side": 0.2, "plate_thickness": 0.0015, "plate_level": 0.0,  # [m]; level: of its middle over the links' middle
     "patch": 0.003,  # side of the patch of the plate that a joint holds [m]
     "E": 69e9, "rho": 2700.0, "nu": 0.33,

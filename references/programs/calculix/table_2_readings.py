@@ -65,9 +65,8 @@ FINE = {"along": 18, "across": 3, "plate": 9}
 
 
 # Ranking. r_i = ln(f_i / row_i) of six modes in ascending order. Noise: 2 % in each mode, independently (mesh error of the row and
-# of ours), and a common factor of 1.9 % (the thickness is printed as 0.0015 m: +-0.00005 m, uniform, and frequencies go with it).
-# chi2 = r^T (s^2 I + c^2 1 1^T)^-1 r, and the score is chi2 + k ln 6, k the choices that neither Table 1 nor the words of the
-# paper make: each kind of joint that is not bonded 1, which of the limbs has it 1, a pose off the centre 2, anything else that
+# of ours), and a common factor of 1.9 % (the thickness is printed as 0.0015 m: +-0.00005 m, uniform, and frequencies are proportional to it).
+# chi2 = r^T (s^2 I + c^2 1 1^T)^-1 r, and the score is chi2 + k ln 6, k counts the choices that neither Table 1 nor the text of the paper makes: each kind of joint that is not bonded 1, which of the limbs has it 1, a pose away from the center 2, anything else that
 # departs from Table 1 1. The inverse is by Sherman and Morrison. 12.6 is the 95 % quantile of chi2 with six degrees of freedom.
 def chi2(frequencies, row):
     r = [math.log(f / v) if f > 0 else -10.0 for f, v in zip(frequencies, row)]
