@@ -3,6 +3,8 @@
 #   trammel_PROGRAM   path of the program
 #   trammel_ADAPTERS  folder of trammel_adapter.py, which adapters in Python import
 #
+#   trammel::solver   library of the solver, if Eigen is installed
+#
 #   trammel_add_tests(SOLVER command... [CASES name...] [LABELS label...] [PREFIX prefix] [TIMEOUT s])
 #
 # Adds one ctest test per case: the named cases, and those of the catalogue with one of the labels. Each test
@@ -15,6 +17,11 @@ if(NOT EXISTS ${trammel_PROGRAM})
   set(trammel_FOUND FALSE)
   set(trammel_NOT_FOUND_MESSAGE "${trammel_PROGRAM} does not exist")
   return()
+endif()
+
+find_package(Eigen3 3.4 QUIET NO_MODULE)
+if(Eigen3_FOUND)
+  include(${CMAKE_CURRENT_LIST_DIR}/trammelSolver.cmake)
 endif()
 
 function(trammel_add_tests)
@@ -30,7 +37,7 @@ function(trammel_add_tests)
   endif()
   set(environment "TRAMMEL_HOME=${trammel_DATA}" "PYTHONPATH=${trammel_ADAPTERS}")
   if(arg_LABELS)
-    list(TRANSFORM arg_LABELS PREPEND "-L" OUTPUT_VARIABLE labels)
+    list(TRANSFORM arg_LABELS PREPEND "--label-any=" OUTPUT_VARIABLE labels)
     execute_process(COMMAND ${CMAKE_COMMAND} -E env ${environment} ${trammel_PROGRAM} list ${labels} --json
       OUTPUT_VARIABLE found COMMAND_ERROR_IS_FATAL ANY)
     string(JSON count LENGTH "${found}")

@@ -143,13 +143,15 @@ std::map<std::string, std::set<std::string>> forbidden() {
   return found;
 }
 
-/// Returns the paths of all sources and headers outside tests/ and build folders, relative to the
-/// root.
+/// Returns the paths of all sources and headers outside tests/, docs/ and build folders, relative
+/// to the root.
 std::vector<std::string> code() {
   std::vector<std::string> files;
   for (const auto& top : fs::directory_iterator(kRoot)) {
     const std::string name = top.path().filename().string();
-    if (!top.is_directory() || name[0] == '.' || name == "tests" || name == "build") continue;
+    if (!top.is_directory() || name[0] == '.' || name == "tests" || name == "build" ||
+        name == "docs")
+      continue;
     for (const auto& entry : fs::recursive_directory_iterator(top)) {
       if (is_code(entry.path()))
         files.push_back(fs::relative(entry.path(), kRoot).generic_string());

@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(round_off_of_a_straight_member_gives_no_warning) {
   json["analysis"] = {{"large-statics", Json::object()}};
   const double length = json["model"]["nodes"]["B"][0], c = std::cos(0.7), s = std::sin(0.7);
   json["model"]["nodes"]["B"] = {c * length, s * length};
-  json["model"]["loads"] = {{"B", {{"force_N", {-1e-9 * c, -1e-9 * s}}}}};
+  json["model"]["loads"] = {{"push", {{"node", "B"}, {"force_N", {-1e-9 * c, -1e-9 * s}}}}};
   const Estimated found = estimated(json);
   BOOST_TEST(error_warnings(found.errors, 0.01).empty());
 }
