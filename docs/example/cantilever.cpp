@@ -20,6 +20,7 @@ int main() {
   member.section.EA = E * area;
   member.section.EI = E * second_moment;
   member.section.mass_per_length = rho * area;
+  member.end_section = member.section;  // no taper
   member.elements = 4;
   model.members = {member};
   model.supports = {{"wall", 0, {true, true, true}}};

@@ -29,7 +29,7 @@ class RoundingScope {
   int before_;
 };
 
-StepResult analyse_scene(const AnalysisKind& kind, const JsonView& analysis,
+StepResult analyze_scene(const AnalysisKind& kind, const JsonView& analysis,
                          const CaseModel& case_model, bool draw, Recorder& record) {
   if (case_model.path && !kind.has_own_times) {
     for (const solver::TrajectoryPoint& point : case_model.motion) {
@@ -44,7 +44,7 @@ StepResult analyse_scene(const AnalysisKind& kind, const JsonView& analysis,
   const auto at_step = [&](std::size_t step, bool drawn) {
     return std::get<AnalyseStep*>(kind.of_scene)(analysis, case_model, step, drawn, record);
   };
-  return analyse_steps(case_model, draw, at_step);
+  return analyze_steps(case_model, draw, at_step);
 }
 
 /// Requires a solution, sufficiently small residuals and finite numbers for the status "solved".
@@ -117,7 +117,7 @@ std::string analysis_kind(const Document& document) {
   return document.value().at("analysis").begin().key();
 }
 
-AnalysisResult analyse(const Document& document, const References& references,
+AnalysisResult analyze(const Document& document, const References& references,
                        const AnalysisOptions& options) {
   require_fits(document);
   const AnalysisKind& kind = find_analysis(analysis_kind(document));
@@ -137,7 +137,7 @@ AnalysisResult analyse(const Document& document, const References& references,
     case_model.effects = choice.chosen;
     record_evidence(choice, record);
     AnalysisResult result =
-        result_of(kind, analyse_scene(kind, place, case_model, options.drawing, record), record);
+        result_of(kind, analyze_scene(kind, place, case_model, options.drawing, record), record);
     result.effects = std::move(choice.rows);
     if (result.outcome.solved() && kind.warns_of_crossing)
       warn_of_crossed_singularity(case_model, result.warnings);

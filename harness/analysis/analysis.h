@@ -20,7 +20,7 @@ struct AnalysisResult : StepResult {
 
 /// Runs the analysis of a case.
 /// @throws InputError  if the model is invalid.
-[[nodiscard]] AnalysisResult analyse(const Document& document, const References& references,
+[[nodiscard]] AnalysisResult analyze(const Document& document, const References& references,
                                      const AnalysisOptions& options);
 
 /// Returns the counters with their names, as results store them.

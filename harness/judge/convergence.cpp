@@ -238,7 +238,7 @@ std::optional<double> slope(const std::vector<double>& size, const results::Numb
   return (n * sxy - sx * sy) / spread_of_x;
 }
 
-Convergence analyse_convergence(Convergence series) {
+Convergence analyze_convergence(Convergence series) {
   ConvergenceStudy(series).run();
   return series;
 }

@@ -16,7 +16,7 @@ using results::Convergence;
 /// Completes a series of values by observed orders, asymptotic range, Richardson extrapolation (L.
 /// F. Richardson 1911) and the grid convergence index (P. J. Roache, J. Fluids Eng. 116, 1994; I.
 /// B. Celik et al., J. Fluids Eng. 130, 078001, 2008).
-[[nodiscard]] Convergence analyse_convergence(Convergence series);
+[[nodiscard]] Convergence analyze_convergence(Convergence series);
 
 /// Returns the least-squares slope of log error over log size on the chosen levels; empty for fewer
 /// than two levels.
@@ -41,7 +41,7 @@ inline constexpr std::size_t kMinLevels = 100;
 /// relative to the error. The width matters because an excessively wide band always contains the
 /// exact value. Levels without a band, or with an exact value of 0, are excluded. The median ratio
 /// includes levels with an error above 100 times round-off.
-[[nodiscard]] results::UncertaintyCoverage summarise_numerical_uncertainty(
+[[nodiscard]] results::UncertaintyCoverage summarize_numerical_uncertainty(
     const std::vector<results::Run>& runs);
 
 /// Errors that are the sum of two powers, a h^p + b h^q. Examples are bending elements of order 4

@@ -138,7 +138,7 @@ std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& documen
           track_entry(sweep, place, tracked_quantity, chosen[position], position, element_order);
       // A zero, such as the frequency of a rigid motion, has no relative error.
       if ((series.exact == 0.0 && !series.is_error) || !changes(series)) continue;
-      found.push_back(analyse_convergence(std::move(series)));
+      found.push_back(analyze_convergence(std::move(series)));
     }
   }
   return found;

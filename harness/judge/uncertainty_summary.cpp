@@ -6,7 +6,7 @@
 
 namespace trammel::harness {
 
-results::UncertaintyCoverage summarise_numerical_uncertainty(
+results::UncertaintyCoverage summarize_numerical_uncertainty(
     const std::vector<results::Run>& runs) {
   results::UncertaintyCoverage summary;
   summary.min_levels = kMinLevels;

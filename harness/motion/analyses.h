@@ -10,33 +10,33 @@ namespace trammel::harness {
 
 /// Computes inverse kinematics, distances from singularities and the torques that balance the
 /// loads.
-AnalyseStep analyse_kinematics;
+AnalyseStep analyze_kinematics;
 
 /// Computes the response in time: outputs at sample times, their peaks, energies.
-AnalyseStep analyse_transient;
+AnalyseStep analyze_transient;
 
 /// Computes amplitudes of the steady response over a range of frequencies, and their peaks.
-AnalyseStep analyse_harmonic;
+AnalyseStep analyze_harmonic;
 /// Computes geometrically exact motion in large displacement.
-AnalysePath analyse_large_motion;
+AnalysePath analyze_large_motion;
 
 /// Computes torques, angles, powers and energies of the rigid manipulator along its path.
-AnalysePath analyse_inverse_dynamics;
+AnalysePath analyze_inverse_dynamics;
 
 /// Integrates the motion of the rigid manipulator under constant torques or those of the path's
 /// inverse dynamics.
-AnalysePath analyse_forward_dynamics;
+AnalysePath analyze_forward_dynamics;
 
 /// Computes the elastic vibration about the nominal motion along the path. Records deflection and
 /// error of P, joint rotations, section forces, stresses, reactions, torques compared with those of
 /// rigid links, and energies.
-AnalysePath analyse_elastodynamics;
+AnalysePath analyze_elastodynamics;
 
 /// Evaluates a general regression neural network on samples of the inverse dynamics along the path.
 /// Records smoothing, predictions, errors, skill and times.
-AnalysePath analyse_grnn;
+AnalysePath analyze_grnn;
 /// Evaluates the network on samples of the case, and records predictions at its queries.
-AnalyseCase analyse_grnn_samples;
+AnalyseCase analyze_grnn_samples;
 
 /// Reads the options that the analysis states, independent of the scene and its effects.
 [[nodiscard]] solver::ElastodynamicsOptions read_motion_options(const JsonView& analysis);

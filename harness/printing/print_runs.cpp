@@ -26,7 +26,7 @@ struct CheckSummary {
   std::size_t entries = 0;
 };
 
-std::vector<CheckSummary> summarise_checks(const results::Run& run) {
+std::vector<CheckSummary> summarize_checks(const results::Run& run) {
   std::vector<CheckSummary> summaries;
   const auto rank = [](const results::Check& check) {
     return std::tuple(fails_gate(check.verdict), check.known_discrepancy(), severity(check));
@@ -130,7 +130,7 @@ void print_run(const results::Run& run) {
   if (run.checks.empty()) return print_quantities(run);
   Rows table(check_columns());
   std::string messages;
-  for (const CheckSummary& summary : summarise_checks(run)) {
+  for (const CheckSummary& summary : summarize_checks(run)) {
     const results::Check& check = *summary.worst;
     table.add(check_cells(check, summary.entries > 1));
     const bool is_printed = check.quantity == "status" && !run.reason.empty();
@@ -198,7 +198,7 @@ void print_summary(const results::Results& results) {
   std::size_t checks = 0, entries = 0, comparisons = 0;
   for (const results::Run& run : results.runs) {
     entries += run.checks.size();
-    for (const CheckSummary& summary : summarise_checks(run)) {
+    for (const CheckSummary& summary : summarize_checks(run)) {
       ++checks;
       ++verdicts[verdict_text(*summary.worst)];
     }

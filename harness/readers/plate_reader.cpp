@@ -99,7 +99,7 @@ class Outline {
  private:
   static void check_on_curve(const JsonView& place, const solver::Ellipse& curve,
                              const Eigen::Vector2d& point) {
-    const double radius = (point - curve.centre).cwiseQuotient(curve.semi_axes).norm();
+    const double radius = (point - curve.center).cwiseQuotient(curve.semi_axes).norm();
     if (std::abs(radius - 1) < 1e-6) return;
     throw place.error("expected a node on the edge's curve (got " + describe_point(point) + ", " +
                       shortest(radius) + " times as far from its center)");

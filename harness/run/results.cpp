@@ -100,7 +100,7 @@ results::Results results_of(std::vector<Run> runs, const std::vector<Case>& case
       static_cast<int>(std::ranges::count_if(runs, [](const Run& run) { return run.was_stored; }));
   std::ranges::transform(cases, std::back_inserter(out.cases), case_info);
   for (const auto& [id, cited] : references.used()) out.references.push_back(reference(id, cited));
-  out.uncertainty_coverage = summarise_numerical_uncertainty(runs);
+  out.uncertainty_coverage = summarize_numerical_uncertainty(runs);
   if (out.uncertainty_coverage->levels == 0) out.uncertainty_coverage.reset();
   for (const Run& run : runs) {
     const bool is_known = std::ranges::any_of(

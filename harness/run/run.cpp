@@ -116,7 +116,7 @@ void compute_with_errors(Task& task, const References& references) {
     task.run.errors = std::move(search.errors);
     return record_result(std::move(search.result), task.run);
   }
-  AnalysisResult result = analyse(task.document, references, {task.requested});
+  AnalysisResult result = analyze(task.document, references, {task.requested});
   const bool for_validation = task.studies && task.document.value().contains("uncertainty");
   if (task.requested && (task.errors || for_validation) && result.outcome.solved())
     task.run.errors = estimate_errors(task.document, result, references);
@@ -459,7 +459,7 @@ void require_complete(const std::vector<Run>& runs) {
 }
 
 int exit_status(const std::vector<Run>& runs) {
-  int worst = summarise_numerical_uncertainty(runs).passes ? 0 : 1;
+  int worst = summarize_numerical_uncertainty(runs).passes ? 0 : 1;
   for (const Run& run : runs) {
     if (run.fault == Fault::internal) worst = std::max(worst, 3);
     if (run.fault == Fault::input) worst = std::max(worst, 2);

@@ -6,32 +6,32 @@
 namespace trammel::harness {
 
 /// Computes masses, their centers and moments of inertia, of each part and of the model.
-AnalyseStep analyse_properties;
+AnalyseStep analyze_properties;
 
 /// Computes displacements, end rotations, reactions, section forces, stresses and residuals.
-AnalyseStep analyse_statics;
+AnalyseStep analyze_statics;
 
 /// Computes geometrically exact statics, at each load factor or along the full path.
-AnalyseStep analyse_large_statics;
+AnalyseStep analyze_large_statics;
 
 /// Computes the multiples of all loads together at which the model buckles, and the forces at these
 /// multiples.
-AnalyseStep analyse_buckling;
+AnalyseStep analyze_buckling;
 
 /// Computes natural frequencies, at rest, under the model's loads or in a rotating frame. Along a
 /// path there is one quantity per mode, frequency_Hz:1 ... The modes of a manipulator without other
 /// parts follow its pose (solver/manipulator/pose_modes.h). Any other modes are computed at each
 /// point.
-AnalysePath analyse_modes;
+AnalysePath analyze_modes;
 
 /// Computes derivatives of the natural frequencies with respect to parameters of the manipulator's
 /// design.
-AnalysePath analyse_sensitivity;
+AnalysePath analyze_sensitivity;
 
 /// Computes the first frequency and one derivative over the workspace, at each orientation.
-AnalysePath analyse_sensitivity_map;
+AnalysePath analyze_sensitivity_map;
 
 /// Computes relative error norms of a manufactured solution on one mesh. Needs no scene.
-AnalyseCase analyse_manufactured;
+AnalyseCase analyze_manufactured;
 
 }  // namespace trammel::harness

@@ -247,7 +247,7 @@ StepResult run_beam(const JsonView& place, bool draw, Recorder& record) {
 
 }  // namespace
 
-StepResult analyse_manufactured(const Document& document, const References&, bool draw,
+StepResult analyze_manufactured(const Document& document, const References&, bool draw,
                                 Recorder& record) {
   const JsonView manufactured = JsonView(document)["analysis"]["manufactured"];
   if (manufactured.has("membrane") == manufactured.has("beam")) {

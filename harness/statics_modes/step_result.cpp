@@ -35,13 +35,13 @@ void add_moment(const CaseModel& case_model, std::size_t step, Drawing found,
 
 }  // namespace
 
-StepResult analyse_steps(
+StepResult analyze_steps(
     const CaseModel& case_model, bool draw,
-    const std::function<StepResult(std::size_t step, bool draw)>& analyse_step) {
+    const std::function<StepResult(std::size_t step, bool draw)>& analyze_step) {
   StepResult all;
   const std::size_t stride = std::max<std::size_t>(case_model.steps() / 24, 1);
   for (std::size_t step = 0; step < case_model.steps(); ++step) {
-    StepResult found = analyse_step(step, draw && step % stride == 0);
+    StepResult found = analyze_step(step, draw && step % stride == 0);
     all.counters += found.counters;
     all.evidence.add(found.evidence);
     add_warnings(all.warnings, found.warnings);

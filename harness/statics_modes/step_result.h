@@ -40,9 +40,9 @@ using AnalyseCase = StepResult(const Document& document, const References& refer
                                Recorder& record);
 
 /// Runs the steps along the path in order. Stops at the first step without a solution.
-[[nodiscard]] StepResult analyse_steps(
+[[nodiscard]] StepResult analyze_steps(
     const CaseModel& case_model, bool draw,
-    const std::function<StepResult(std::size_t step, bool draw)>& analyse_step);
+    const std::function<StepResult(std::size_t step, bool draw)>& analyze_step);
 
 inline constexpr solver::Index kMaxDrawnShapes = 12;
 

@@ -147,7 +147,7 @@ class Search {
   bool solve(const Document& document) {
     document.validate("case");
     const double before = watch_.cpu_s();
-    AnalysisResult result = analyse(document, references_, {});
+    AnalysisResult result = analyze(document, references_, {});
     counters_ += result.counters;
     cpu_s_ = watch_.cpu_s() - before;
     reason_ = result.outcome.reason;

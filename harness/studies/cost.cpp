@@ -149,7 +149,7 @@ void time_settings(const CostStudy& study, results::CostStudy& measured, const C
     if (!is_computed(measured.settings[i])) continue;
     chosen.push_back(&measured.settings[i]);
     works.emplace_back([&document = study.settings[i].document, &references] {
-      (void)analyse(document, references, {false});
+      (void)analyze(document, references, {false});
     });
   }
   const auto timings = time_interleaved(works, options.timing, [&] {

@@ -342,7 +342,7 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& o
       try {
         companion->document.validate("case");
         const AnalysisResult other =
-            analyse(companion->document, references, {.drawing = has_shapes(own)});
+            analyze(companion->document, references, {.drawing = has_shapes(own)});
         counters += other.counters;
         if (other.outcome.solved()) bands[source] = error_bands(own, other, source, *companion);
       } catch (const InputError&) {  // fewer modes than the case requests

@@ -58,7 +58,7 @@ class Study {
   EffectRun compute(Effects effects, Effects from = {}) {
     const Document given = with_effects(document_, effects);
     const Stopwatch watch;
-    const AnalysisResult result = analyse(given, references_, {.drawing = false});
+    const AnalysisResult result = analyze(given, references_, {.drawing = false});
     EffectRun run;
     run.effects = effects;
     run.left_out = from.without(effects);
@@ -80,7 +80,7 @@ class Study {
   void compare_meshes() {
     const auto coarser = companion_of(document_, ErrorSource::mesh);
     if (!study_.chosen.outcome.solved() || !coarser || coarser->finer) return;
-    const AnalysisResult result = analyse(with_effects(coarser->document, study_.choice.chosen),
+    const AnalysisResult result = analyze(with_effects(coarser->document, study_.choice.chosen),
                                           references_, {.drawing = false});
     if (result.outcome.solved())
       study_.mesh_change =
@@ -102,7 +102,7 @@ class Study {
     std::vector<std::function<void()>> works;
     for (const EffectRun* run : runs) {
       works.emplace_back([this, document = with_effects(document_, run->effects)] {
-        (void)analyse(document, references_, {.drawing = false});
+        (void)analyze(document, references_, {.drawing = false});
       });
     }
     works.emplace_back(

@@ -34,7 +34,7 @@ std::vector<Sweep> run_sweeps(const Document& document, const References& refere
     check_levels(place, found);
     for (const Level& level : found) {
       sweep.levels.push_back(
-          {level.parameter, analyse(level.document, references, {false}).quantities});
+          {level.parameter, analyze(level.document, references, {false}).quantities});
     }
     sweeps.push_back(std::move(sweep));
   }

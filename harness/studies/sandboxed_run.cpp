@@ -16,7 +16,7 @@ SandboxedRun compute(const Setting& setting, const References& references) {
   run.counters = named_counters({});
   const Stopwatch watch;
   try {
-    const AnalysisResult result = analyse(setting.document, references, {false});
+    const AnalysisResult result = analyze(setting.document, references, {false});
     run.cpu_s = watch.cpu_s();
     run.counters = named_counters(result.counters);
     if (!result.outcome.solved()) {

@@ -147,7 +147,7 @@ class ValidationStudy {
   /// Returns the values of all places with some inputs moved; empty without a solution.
   [[nodiscard]] std::optional<std::vector<double>> values_of(const Document& document) const {
     try {
-      const AnalysisResult result = analyse(document, references_, {false});
+      const AnalysisResult result = analyze(document, references_, {false});
       if (!result.outcome.solved()) return std::nullopt;
       std::vector<double> values;
       for (const Place& place : places_) {

@@ -74,7 +74,7 @@ struct FrameBody {
 struct FrameMass {
   int node = 0;
   Real mass = 0;     ///< [kg]
-  Real inertia = 0;  ///< about the centre of mass [kg m^2]
+  Real inertia = 0;  ///< about the center of mass [kg m^2]
   std::array<Real, 2> offset{};
 };
 

@@ -4,14 +4,14 @@ namespace trammel::references {
 
 namespace {
 
-/// Vertices of an equilateral triangle about `centre`, at 210, 330 and 90 degrees plus `angle`.
-std::array<Point2<Real>, 3> triangle(const Point2<Real>& centre, const Real& side,
+/// Vertices of an equilateral triangle about `center`, at 210, 330 and 90 degrees plus `angle`.
+std::array<Point2<Real>, 3> triangle(const Point2<Real>& center, const Real& side,
                                      const Real& angle) {
   const Real radius = side / sqrt(Real(3));
   std::array<Point2<Real>, 3> vertices;
   for (int i = 0; i < 3; ++i) {
     const Real direction = angle + Real(pi<Real>() * (7 + 4 * i) / 6);
-    vertices[i] = {centre[0] + radius * cos(direction), centre[1] + radius * sin(direction)};
+    vertices[i] = {center[0] + radius * cos(direction), center[1] + radius * sin(direction)};
   }
   return vertices;
 }

@@ -49,7 +49,7 @@ struct LimbNumbers {
 struct ManipulatorNumbers {
   std::array<LimbNumbers, 3> limbs;
   Real platform_mass = 0;
-  Real platform_inertia = 0;     ///< about its centre of mass
+  Real platform_inertia = 0;     ///< about its center of mass
   Point2<Real> platform_center;  ///< of mass, from P, in platform axes
   Point2<Real> gravity = {0, 0};
 };

@@ -67,12 +67,12 @@ class Side {
     if (s == 1) return to_;
     if (!ellipse_) return (1 - s) * from_ + s * to_;
     const double t = start_ + s * turn_;
-    return ellipse_->centre + ellipse_->semi_axes.cwiseProduct(Vector2d(std::cos(t), std::sin(t)));
+    return ellipse_->center + ellipse_->semi_axes.cwiseProduct(Vector2d(std::cos(t), std::sin(t)));
   }
 
  private:
   [[nodiscard]] double angle(const Vector2d& point) const {
-    const Vector2d p = (point - ellipse_->centre).cwiseQuotient(ellipse_->semi_axes);
+    const Vector2d p = (point - ellipse_->center).cwiseQuotient(ellipse_->semi_axes);
     if (!(std::abs(p.norm() - 1) < 1e-6)) {
       throw ModelError("a corner of a mesh block at (" + std::to_string(point.x()) + ", " +
                        std::to_string(point.y()) + ") m does not lie on the ellipse of its side");

@@ -13,12 +13,12 @@ namespace trammel::solver {
 
 /// Ellipse with axes parallel to x and y:
 ///
-///   `x = centre.x + semi_axes.x cos t`,  `y = centre.y + semi_axes.y sin t`.
+///   `x = center.x + semi_axes.x cos t`,  `y = center.y + semi_axes.y sin t`.
 ///
 /// A side on the ellipse follows the shorter arc between its corners, with nodes at equal steps of
 /// t if the grading is 1.
 struct Ellipse {
-  Vector2d centre = Vector2d::Zero();     ///< [m]
+  Vector2d center = Vector2d::Zero();     ///< [m]
   Vector2d semi_axes = Vector2d::Ones();  ///< along x and y [m]
 };
 

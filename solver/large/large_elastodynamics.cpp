@@ -469,7 +469,7 @@ VectorXd nominal_rates(const GeometricallyExactSystem& system, const NominalMoti
     const Vector2d center = node.row(mass.node).head<2>().transpose() +
                             motion.at_node(mass.node).derivative(mass.offset, order);
     for (std::size_t k = 0; k < 2; ++k)
-      rates[system.layout().mass_centre[i][k]] = center[static_cast<Index>(k)];
+      rates[system.layout().mass_center[i][k]] = center[static_cast<Index>(k)];
   }
   return rates;
 }

@@ -130,7 +130,7 @@ struct Layout {
   std::vector<MemberElement> elements;
   std::vector<Index> first_element;  ///< of each member; one past the last at the end
   std::vector<std::array<Index, 2>>
-      mass_centre;             ///< of each point mass with an offset; otherwise those of the node
+      mass_center;             ///< of each point mass with an offset; otherwise those of the node
   std::vector<int> direction;  ///< of each coordinate: 0: x, 1: y, 2: rotation
 
   [[nodiscard]] bool is_rotation(Index coordinate) const {

@@ -129,7 +129,7 @@ class SystemBuilder {
     for (const PointMass& mass : model_.masses) {
       const auto& [x, y, rotation] =
           mass.offset.isZero(0) ? layout_.node[to_size(mass.node)] : add_node();
-      layout_.mass_centre.push_back({x, y});
+      layout_.mass_center.push_back({x, y});
     }
   }
 
@@ -241,9 +241,9 @@ class SystemBuilder {
   void add_masses() {
     for (std::size_t i = 0; i < model_.masses.size(); ++i) {
       const PointMass& mass = model_.masses[i];
-      for (const Index k : layout_.mass_centre[i]) add_inertia(k, mass.mass);
+      for (const Index k : layout_.mass_center[i]) add_inertia(k, mass.mass);
       add_inertia(coordinate(mass.node, 2), mass.inertia);
-      if (!mass.offset.isZero(0)) add_rigid_link(mass.node, layout_.mass_centre[i], mass.offset);
+      if (!mass.offset.isZero(0)) add_rigid_link(mass.node, layout_.mass_center[i], mass.offset);
     }
   }
 
@@ -418,7 +418,7 @@ class SystemBuilder {
     layout_.direction = std::move(direction);
     std::ranges::for_each(layout_.node, renumber_all);
     std::ranges::for_each(layout_.end_rotation, renumber_all);
-    std::ranges::for_each(layout_.mass_centre, renumber_all);
+    std::ranges::for_each(layout_.mass_center, renumber_all);
     for (MemberElement& element : layout_.elements) renumber_all(element.coordinates);
     parts_.for_each_group([&](auto& group) { group.for_each_coordinate(renumber); });
   }

@@ -230,13 +230,13 @@ void build_T(const Elimination& elimination, Constraints& constraints, Index siz
 
 }  // namespace
 
-Constraints build_constraints(const Model& model, const Discretisation& discretisation) {
-  const Coordinates& coordinates = discretisation.coordinates;
+Constraints build_constraints(const Model& model, const Discretisation& discretization) {
+  const Coordinates& coordinates = discretization.coordinates;
   Constraints constraints;
   constraints.rows = support_rows(model, coordinates);
   add_linear_rows(model, coordinates, constraints.rows);
   add_rigid_rows(model, coordinates, constraints.rows);
-  add_inextensible_rows(model, discretisation.mesh, constraints.rows);
+  add_inextensible_rows(model, discretization.mesh, constraints.rows);
   Elimination elimination(coordinates, box_diagonal(model));
   constraints.pivot = elimination.run(constraints.rows);
   build_T(elimination, constraints, coordinates.size);

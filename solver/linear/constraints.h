@@ -40,6 +40,6 @@ struct Constraints {
 /// Builds the constraint rows and T.
 /// @throws ModelError  if a constraint refers to a coordinate that does not exist.
 [[nodiscard]] Constraints build_constraints(const Model& model,
-                                            const Discretisation& discretisation);
+                                            const Discretisation& discretization);
 
 }  // namespace trammel::solver

@@ -140,7 +140,7 @@ Index Coordinates::number(const Model& model, const Coordinate& coordinate) cons
                    " has no rotation: no member end is welded to it and no rigid body holds it");
 }
 
-Discretisation discretise(const Model& model) {
+Discretisation discretize(const Model& model) {
   return Discretiser(model).run();
 }
 

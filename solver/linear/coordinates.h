@@ -65,6 +65,6 @@ struct Discretisation {
 };
 
 /// Divides the members into elements and numbers the coordinates. The model must pass `validate`.
-[[nodiscard]] Discretisation discretise(const Model& model);
+[[nodiscard]] Discretisation discretize(const Model& model);
 
 }  // namespace trammel::solver

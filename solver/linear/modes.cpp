@@ -97,7 +97,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
   if (!state) {
     free = find_zero_energy_modes(system, factorization, counters);
     solution.zero_energy_mode_count = free.count();
-    if (!orthonormalise(system, free.basis)) {
+    if (!orthonormalize(system, free.basis)) {
       solution.outcome = {Status::singular,
                           "a part without mass moves freely: " + describe_mechanism(system, free)};
       return solution;
@@ -149,7 +149,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
 
 }  // namespace
 
-bool orthonormalise(const System& system, MatrixXd& Z) {
+bool orthonormalize(const System& system, MatrixXd& Z) {
   if (Z.cols() == 0) return true;
   const SparseMatrix& M = system.M;
   // Rotary inertia is divided by the square of the model size to be comparable with mass.

@@ -28,7 +28,7 @@ Eigen::Matrix2d distance_projector(RotationAxis axis) {
 
 /// Returns the matrix from (x, y, rotation) of a node to the translation of the center of its point
 /// mass.
-Eigen::Matrix<double, 2, 3> centre_of_mass_interpolation(const PointMass& point_mass) {
+Eigen::Matrix<double, 2, 3> center_of_mass_interpolation(const PointMass& point_mass) {
   Eigen::Matrix<double, 2, 3> B;
   B << Eigen::Matrix2d::Identity(), perpendicular_matrix() * point_mass.offset;
   return B;
@@ -108,7 +108,7 @@ void for_each_rotating_mass(const System& system, RotationAxis axis, Visit&& vis
     visit(coordinates, S, G);
   });
   for (const PointMass& point_mass : model.masses) {
-    const Eigen::Matrix<double, 2, 3> B = centre_of_mass_interpolation(point_mass);
+    const Eigen::Matrix<double, 2, 3> B = center_of_mass_interpolation(point_mass);
     visit(system.coordinates.node[static_cast<std::size_t>(point_mass.node)],
           (point_mass.mass * B.transpose() * P * B).eval(),
           (point_mass.mass * B.transpose() * perpendicular_matrix() * B).eval());
@@ -149,7 +149,7 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
   // rotation.
   VectorXd position = u;
   for (std::size_t node = 0; node < system.coordinates.node.size(); ++node) {
-    const Vector2d arm = system.mesh.positions[node] - frame.centre;
+    const Vector2d arm = system.mesh.positions[node] - frame.center;
     position[system.coordinates.node[node][0]] += arm.x();
     position[system.coordinates.node[node][1]] += arm.y();
   }
@@ -174,7 +174,7 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
   // The interpolation lacks the constant offset.
   for (const PointMass& point_mass : system.model.masses) {
     detail::scatter(system.coordinates.node[to_size(point_mass.node)],
-                    (w2 * point_mass.mass * centre_of_mass_interpolation(point_mass).transpose() *
+                    (w2 * point_mass.mass * center_of_mass_interpolation(point_mass).transpose() *
                      P * point_mass.offset)
                         .eval(),
                     force);
@@ -192,15 +192,15 @@ BodyForces body_forces(const System& system, const RotatingFrame& frame, const V
              Vector2d(u[e.coordinates[3 * end]], u[e.coordinates[3 * end + 1]]);
     };
     const Vector2d middle = (position(0) + position(1)) / 2;
-    body.element[i] += e.section.mass_per_length * w2 * (middle - frame.centre);
+    body.element[i] += e.section.mass_per_length * w2 * (middle - frame.center);
   }
   for (std::size_t i = 0; i < system.model.masses.size(); ++i) {
     const PointMass& point_mass = system.model.masses[i];
     const Vector2d position =
         system.model.nodes[to_size(point_mass.node)].position + point_mass.offset +
-        centre_of_mass_interpolation(point_mass) *
+        center_of_mass_interpolation(point_mass) *
             detail::gather(system.coordinates.node[to_size(point_mass.node)], u);
-    body.point_mass[i] += point_mass.mass * w2 * (position - frame.centre);
+    body.point_mass[i] += point_mass.mass * w2 * (position - frame.center);
   }
   return body;
 }

@@ -33,7 +33,7 @@ enum class RotationAxis { normal, x, y };
 /// Steady rotation of a reference frame.
 struct RotatingFrame {
   double speed = 0;                    ///< W [rad/s]
-  Vector2d centre = Vector2d::Zero();  ///< c, a point on the axis [m]
+  Vector2d center = Vector2d::Zero();  ///< c, a point on the axis [m]
   RotationAxis axis = RotationAxis::normal;
 };
 

@@ -150,10 +150,10 @@ System assemble(const Model& model, Effects active) {
   System system;
   system.model = restrict_effects(model, active);
   validate(system.model);
-  Discretisation discretisation = discretise(system.model);
-  system.constraints = build_constraints(system.model, discretisation);
-  system.mesh = std::move(discretisation.mesh);
-  system.coordinates = std::move(discretisation.coordinates);
+  Discretisation discretization = discretize(system.model);
+  system.constraints = build_constraints(system.model, discretization);
+  system.mesh = std::move(discretization.mesh);
+  system.coordinates = std::move(discretization.coordinates);
   system.springs = spring_elements(system.model, system.coordinates);
   system.T = system.constraints.T;
   const bool has_inertia = active.has(Effect::inertia);

@@ -269,7 +269,7 @@ Model restrict_effects(Model model, Effects active) {
 bool is_axially_overconstrained(const Model& model) {
   Model stiff = restrict_effects(model, Effects::all().without(Effect::axial_flexibility));
   for (Member& member : stiff.members) member.elements = 1;  // interior nodes can follow freely
-  const Constraints constraints = build_constraints(stiff, discretise(stiff));
+  const Constraints constraints = build_constraints(stiff, discretize(stiff));
   for (std::size_t i = 0; i < constraints.rows.size(); ++i) {
     const bool along = constraints.rows[i].source == ConstraintRow::Source::inextensible;
     if (along && constraints.pivot[i] < 0) return true;

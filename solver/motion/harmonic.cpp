@@ -91,7 +91,7 @@ void HarmonicSolver::superpose(Index damped) {
     }
   } else if (free.count() > 0 && free.all_found) {
     modes_.shape = free.basis;
-    if (!orthonormalise(system_, modes_.shape)) {
+    if (!orthonormalize(system_, modes_.shape)) {
       outcome_ = {Status::singular,
                   "a part without mass moves freely: " + describe_mechanism(system_, free)};
       return;

@@ -12,10 +12,10 @@ namespace {
 using Eigen::VectorXd;
 
 /// Returns the displacements of all points for a rotation of the model by 1 rad about the center.
-VectorXd unit_rotation(const System& system, const Vector2d& centre) {
+VectorXd unit_rotation(const System& system, const Vector2d& center) {
   VectorXd rotation = VectorXd::Zero(system.T.rows());
   for (std::size_t i = 0; i < system.coordinates.node.size(); ++i) {
-    const Vector2d arm = system.mesh.positions[i] - centre;
+    const Vector2d arm = system.mesh.positions[i] - center;
     rotation[system.coordinates.node[i][0]] = -arm.y();
     rotation[system.coordinates.node[i][1]] = arm.x();
   }
@@ -51,7 +51,7 @@ Outcome add_rotating_frame_terms(const System& system, const PrescribedRotation&
   if (!system.load.isZero(0)) {
     throw ModelError("expected a model without loads: they would not turn with the axes");
   }
-  const RotatingFrame unit{1, rotation.centre, RotationAxis::normal};
+  const RotatingFrame unit{1, rotation.center, RotationAxis::normal};
   SparseMatrix K_1(system.K.rows(), system.K.cols());
   if (rotation.stiffening) {
     const Outcome statics = unit_stiffening(system, unit, K_1);
@@ -82,7 +82,7 @@ Outcome add_rotating_frame_terms(const System& system, const PrescribedRotation&
   const VectorXd centrifugal =
       system.T.transpose() * centrifugal_forces(system, unit, VectorXd::Zero(system.T.rows()));
   const VectorXd euler =
-      -(system.T.transpose() * inertia_forces(system, unit_rotation(system, rotation.centre)));
+      -(system.T.transpose() * inertia_forces(system, unit_rotation(system, rotation.center)));
   equation.load = [speed = rotation.speed, centrifugal, euler](double time, VectorXd& f) {
     const auto [W, W_dot] = speed(time);
     f = W * W * centrifugal + W_dot * euler;

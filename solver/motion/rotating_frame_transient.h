@@ -14,7 +14,7 @@ namespace trammel::solver {
 struct PrescribedRotation {
   /// Returns W [rad/s] and its rate W. [rad/s^2], counterclockwise.
   std::function<std::array<double, 2>(double time)> speed;
-  Vector2d centre = Vector2d::Zero();  ///< center of rotation [m]
+  Vector2d center = Vector2d::Zero();  ///< center of rotation [m]
   /// true: include K_1, the geometric stiffness of the centrifugal forces at 1 rad/s on the
   /// undeformed frame, from linear statics. Without K_1 the frame loses stiffness with increasing
   /// speed (Kane, Ryan and Banerjee 1987).

@@ -40,7 +40,7 @@ void compute(const Case& given, const std::string& variant, bool all) {
   Run run;
   run.case_id = given.id();
   run.variant = variant;
-  AnalysisResult result = analyse(document, references, {true});
+  AnalysisResult result = analyze(document, references, {true});
   results::ErrorEstimates errors;
   if (all && result.outcome.solved()) errors = estimate_errors(document, result, references);
   record_result(std::move(result), run);
@@ -87,7 +87,7 @@ void take_claims(const fs::path& file) {
     Run run;
     run.case_id = some.id();
     run.variant = kBaseVariant;
-    record_result(analyse(patched(some, kBaseVariant), References(), {false}), run);
+    record_result(analyze(patched(some, kBaseVariant), References(), {false}), run);
     runs.push_back(std::move(run));
   }
   (void)results::to_json(evaluate_claims(claims, runs));

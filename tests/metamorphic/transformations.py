@@ -115,7 +115,7 @@ def move_manipulator(case, point, sign, angle):
         return
     manipulator, path = model["manipulator"], model.get("trajectory", {})
     if "circle" in path and (sign < 0 or angle != 0):
-        raise Skip("a circle starts to the right of its centre")
+        raise Skip("a circle starts to the right of its center")
     manipulator["base_m"] = [point(corner) for corner in base_corners(manipulator)]
     if sign < 0:
         manipulator["platform"]["vertices_m"] = [[x, -y] for x, y in platform_corners(manipulator["platform"])]

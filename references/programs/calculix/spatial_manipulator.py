@@ -110,7 +110,7 @@ def link(deck, name, r, mesh, p, q):
 def plate(deck, r, mesh, corners):
     """Three quadrilaterals from P, two mid-sides and a corner, with a cell of the patch's size in the corner, towards which the
     others shrink to about twice that."""
-    centre, n, t = r["pose"][:2], mesh["plate"], r["plate_thickness"]
+    center, n, t = r["pose"][:2], mesh["plate"], r["plate_thickness"]
     share = r["patch"] / (r["side"] / 2)
     shrink = min(1.0, (2 * share)**(1 / n))  # from one cell to the next
     ends = [sum(shrink**i for i in range(cells)) for cells in range(n + 1)]
@@ -121,7 +121,7 @@ def plate(deck, r, mesh, corners):
 
         def place(a, b, k, before=before, after=after, corner=corner):
             s, u = grid[a], grid[b]
-            x, y = ((1 - s) * (1 - u) * centre[m] + s * (1 - u) * before[m] + s * u * corner[m] + (1 - s) * u * after[m] for m in (0, 1))
+            x, y = ((1 - s) * (1 - u) * center[m] + s * (1 - u) * before[m] + s * u * corner[m] + (1 - s) * u * after[m] for m in (0, 1))
             return x, y, r["plate_level"] + t * (k / 2 - 0.5)
         at = deck.block("PLATE", "plate", (n + 1, n + 1, 1), place)
         cell = [(2 * n + a, 2 * n + b) for a in range(3) for b in range(3) if (a, b) != (1, 1)]

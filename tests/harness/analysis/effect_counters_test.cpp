@@ -28,7 +28,7 @@ Document at_one_point(Document document) {
 }
 
 void check_counters(const Document& document, const References& references) {
-  const AnalysisResult result = analyse(document, references, {false});
+  const AnalysisResult result = analyze(document, references, {false});
   BOOST_TEST(result.effects.size() == kEffectCount);
   for (const Effect effect : Effects::all().list()) {
     if (result.effects[static_cast<std::size_t>(effect)].active) continue;

@@ -142,13 +142,13 @@ BOOST_AUTO_TEST_CASE(scenes_use_only_the_expensive_effects_they_require) {
       {"scene-tightened-strip", "inertia and geometric-stiffening"},
       {"scene-welded-truss", "none"},
   };
-  for (const Case& labelled_case : Catalogue().load({"effects"})) {
-    const Document document = patched(labelled_case, kBaseVariant);
+  for (const Case& labeled_case : Catalogue().load({"effects"})) {
+    const Document document = patched(labeled_case, kBaseVariant);
     const EffectStudy study = study_effects(document, {0.01, 0});
-    BOOST_TEST_CONTEXT(labelled_case.id()) {
+    BOOST_TEST_CONTEXT(labeled_case.id()) {
       BOOST_TEST(study.within_tolerance());
       BOOST_TEST(!study.choice.is_beyond_tier());
-      const auto found = expected.find(labelled_case.id());
+      const auto found = expected.find(labeled_case.id());
       BOOST_REQUIRE(found != expected.end());
       Effects expensive;
       for (const Effect effect : study.choice.chosen.list())

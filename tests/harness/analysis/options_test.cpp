@@ -30,7 +30,7 @@ Quantities tried(const Json& of) {
       {"title", "t"},
       {"analysis", {{"options", {{"cases", {{"pendulum", Json::object()}}}, {"analyses", of}}}}}};
   const References references;
-  return analyse(patched(load_case(folder.write(json)), "base"), references, {false}).quantities;
+  return analyze(patched(load_case(folder.write(json)), "base"), references, {false}).quantities;
 }
 
 double number(const Quantities& quantities, const char* name) {

@@ -29,7 +29,7 @@ Memory memory_of(const std::function<Json()>& make) {
     const Document document = testing::document_of(make());
     const double estimated = estimate_size(document).bytes;
     Run run;
-    record_result(analyse(document, References(), {true}), run);
+    record_result(analyze(document, References(), {true}), run);
     BOOST_REQUIRE(run.is_solved());
     (void)to_bytes(run);
     rusage used{};

@@ -32,7 +32,7 @@ BOOST_AUTO_TEST_CASE(order_of_a_power_law_is_its_exponent) {
     Convergence series = made_up(p, 0.1, 0, 6);
     for (const bool known : {false, true}) {
       if (known) series.exact = 10;
-      const Convergence found = analyse_convergence(series);
+      const Convergence found = analyze_convergence(series);
       BOOST_TEST(std::abs(found.fitted_order.value() - p) < 1e-3);
       BOOST_TEST(std::abs(found.richardson.value() - 10) < 1e-12);
       for (std::size_t k = 2; k < 5; ++k) BOOST_TEST(std::abs(*found.order[k] - p) < 1e-3);
@@ -48,7 +48,7 @@ BOOST_AUTO_TEST_CASE(order_is_found_for_any_refinement_ratio) {
     series.values.push_back(3 + 2 * std::pow(n, -2.5));
     series.roundoff.push_back(1e-15);
   }
-  const Convergence found = analyse_convergence(series);
+  const Convergence found = analyze_convergence(series);
   BOOST_TEST(std::abs(*found.order[2] - 2.5) < 1e-6);
   BOOST_TEST(std::abs(*found.order[3] - 2.5) < 1e-6);
   BOOST_TEST(std::abs(found.richardson.value() - 3) < 1e-9);
@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(values_that_diverge_are_not_extrapolated) {
     for (const bool known : {false, true}) {
       Convergence series = of_values(values);
       if (!known) series.theory_order.reset();
-      const Convergence found = analyse_convergence(series);
+      const Convergence found = analyze_convergence(series);
       BOOST_TEST(!found.richardson.has_value());
       for (std::size_t k = 2; k < values.size(); ++k) {
         BOOST_TEST(std::isnan(*found.gci[k]));
@@ -78,18 +78,18 @@ BOOST_AUTO_TEST_CASE(values_that_diverge_are_not_extrapolated) {
 }
 
 BOOST_AUTO_TEST_CASE(divergence_on_coarse_meshes_is_ignored) {
-  const Convergence found = analyse_convergence(of_values({1, 2, 6, 7, 7.25, 7.3125}));
+  const Convergence found = analyze_convergence(of_values({1, 2, 6, 7, 7.25, 7.3125}));
   BOOST_TEST(std::isnan(*found.gci[2]));
   BOOST_TEST(std::abs(found.richardson.value() - 7.3333333333333333) < 1e-12);
-  const Convergence last = analyse_convergence(of_values({1, 2, 6, 7}));
+  const Convergence last = analyze_convergence(of_values({1, 2, 6, 7}));
   BOOST_TEST(std::abs(last.richardson.value() - 7.3333333333333333) < 1e-12);
 }
 
 BOOST_AUTO_TEST_CASE(slow_convergence_and_noise_of_rounding_do_not_diverge) {
-  const Convergence slow = analyse_convergence(of_values({4, 3, 2.1, 1.29}));  // order 0.15
+  const Convergence slow = analyze_convergence(of_values({4, 3, 2.1, 1.29}));  // order 0.15
   BOOST_TEST(std::isfinite(*slow.gci[3]));
   BOOST_TEST(slow.richardson.has_value());
-  const Convergence noise = analyse_convergence(of_values({3, 3 + 1e-15, 3 - 2e-15, 3 + 8e-15}));
+  const Convergence noise = analyze_convergence(of_values({3, 3 + 1e-15, 3 - 2e-15, 3 + 8e-15}));
   BOOST_TEST(noise.richardson.value() == 3, boost::test_tools::tolerance(1e-13));
   BOOST_TEST(std::isfinite(*noise.gci[3]));
 }
@@ -97,7 +97,7 @@ BOOST_AUTO_TEST_CASE(slow_convergence_and_noise_of_rounding_do_not_diverge) {
 BOOST_AUTO_TEST_CASE(next_term_limits_the_asymptotic_range) {
   Convergence series = made_up(4, 0.1, 0.5, 8);
   series.exact = 10;
-  const Convergence found = analyse_convergence(series);
+  const Convergence found = analyze_convergence(series);
   BOOST_TEST(!found.in_asymptotic_range[1]);
   BOOST_TEST(found.in_asymptotic_range[4]);
   BOOST_TEST(found.in_asymptotic_range[5]);
@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(next_term_limits_the_asymptotic_range) {
 BOOST_AUTO_TEST_CASE(round_off_floor_is_recognized) {
   Convergence series = made_up(4, 0.1, 0, 12, 1e-12);
   series.exact = 10;
-  const Convergence found = analyse_convergence(series);
+  const Convergence found = analyze_convergence(series);
   // 0.1 h^4 is above 100e-12 as long as h > 1/178.
   for (std::size_t k = 0; k < 12; ++k) BOOST_TEST(found.at_roundoff_floor[k] == (k >= 8));
   for (std::size_t k = 8; k < 12; ++k) BOOST_TEST(!found.in_asymptotic_range[k]);
@@ -117,7 +117,7 @@ BOOST_AUTO_TEST_CASE(round_off_floor_is_recognized) {
 BOOST_AUTO_TEST_CASE(band_contains_the_exact_value_and_is_narrow) {
   for (const double b : {0.5, -0.03, 0.0}) {
     const Convergence series = made_up(4, 0.1, b, 12, 1e-14);
-    const Convergence found = analyse_convergence(series);
+    const Convergence found = analyze_convergence(series);
     for (std::size_t k = 1; k < 12; ++k) {
       const double error = std::abs(*series.values[k] - 10) / std::abs(*series.values[k]);
       BOOST_TEST(*found.gci[k] >= error);
@@ -132,16 +132,16 @@ BOOST_AUTO_TEST_CASE(band_contains_the_exact_value_and_is_narrow) {
 BOOST_AUTO_TEST_CASE(order_other_than_theory_has_safety_factor_3) {
   Convergence series = made_up(2, 0.1, 0, 6);
   series.theory_order = 4;
-  const Convergence found = analyse_convergence(series);
+  const Convergence found = analyze_convergence(series);
   for (std::size_t k = 2; k < 6; ++k) BOOST_TEST(*found.safety_factor[k] == 3);
   series.theory_order.reset();
-  BOOST_TEST(*analyse_convergence(series).safety_factor[5] == 3);  // no theoretical order
+  BOOST_TEST(*analyze_convergence(series).safety_factor[5] == 3);  // no theoretical order
 }
 
 BOOST_AUTO_TEST_CASE(oscillating_values_have_no_order) {
   Convergence series = made_up(2, 0.1, 0, 5);
   for (std::size_t k = 0; k < 5; ++k) series.values[k] = k % 2 == 0 ? 1.0 : 2.0;
-  const Convergence found = analyse_convergence(series);
+  const Convergence found = analyze_convergence(series);
   for (const auto order : found.order) BOOST_TEST(std::isnan(*order));
   BOOST_TEST(!found.fitted_order.has_value());
 }
@@ -150,17 +150,17 @@ BOOST_AUTO_TEST_CASE(missing_levels_are_skipped_at_the_coarse_end_only) {
   Convergence series = made_up(4, 0.1, 0, 7);
   series.exact = 10;
   series.values[0] = std::nan("");
-  Convergence found = analyse_convergence(series);
+  Convergence found = analyze_convergence(series);
   BOOST_TEST(!found.broken);
   BOOST_TEST(std::isnan(*found.error[0]));
   BOOST_TEST(std::abs(*found.order[2] - 4) < 1e-3);
   series.values[5] = std::nan("");
-  found = analyse_convergence(series);
+  found = analyze_convergence(series);
   BOOST_TEST(found.broken);
 }
 
 BOOST_AUTO_TEST_CASE(too_few_levels_have_no_order) {
-  const Convergence found = analyse_convergence(made_up(4, 0.1, 0, 1));
+  const Convergence found = analyze_convergence(made_up(4, 0.1, 0, 1));
   BOOST_TEST(!found.richardson.has_value());
   BOOST_TEST(!found.fitted_order.has_value());
 }

@@ -38,7 +38,7 @@ Convergence mixed(double a, double b, std::size_t levels) {
 BOOST_AUTO_TEST_CASE(mixture_of_two_orders_is_fitted_and_extrapolated) {
   Convergence series = mixed(0.5, 2e-3, 7);
   series.lower_order = 2;
-  const Convergence found = analyse_convergence(series);
+  const Convergence found = analyze_convergence(series);
   BOOST_REQUIRE(found.two_term.has_value());
   BOOST_TEST(*found.two_term->coefficients[0] == 0.5, boost::test_tools::tolerance(1e-9));
   BOOST_TEST(*found.two_term->coefficients[1] == 2e-3, boost::test_tools::tolerance(1e-9));
@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(mixture_of_two_orders_is_fitted_and_extrapolated) {
 BOOST_AUTO_TEST_CASE(bands_of_a_known_mixture_hold_with_small_factor) {
   Convergence series = mixed(0.5, 2e-3, 8);
   series.lower_order = 2;
-  const Convergence found = analyse_convergence(series);
+  const Convergence found = analyze_convergence(series);
   for (std::size_t k = 2; k < 8; ++k) {
     BOOST_TEST(*found.safety_factor[k] == 1.25);
     BOOST_TEST(*found.gci[k] >= *found.error[k]);
@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(bands_of_a_known_mixture_hold_with_small_factor) {
 }
 
 BOOST_AUTO_TEST_CASE(unknown_mixture_gets_the_large_factor) {
-  const Convergence found = analyse_convergence(mixed(0.5, 2e-3, 8));
+  const Convergence found = analyze_convergence(mixed(0.5, 2e-3, 8));
   bool large = false;
   for (std::size_t k = 2; k < 8; ++k) {
     large = large || *found.safety_factor[k] == 3;
@@ -73,7 +73,7 @@ BOOST_AUTO_TEST_CASE(linear_error_does_not_fit_orders_four_and_two) {
   series.exact = 10;
   series.theory_order = 4;
   series.lower_order = 2;
-  const Convergence found = analyse_convergence(series);
+  const Convergence found = analyze_convergence(series);
   BOOST_REQUIRE(found.two_term.has_value());
   BOOST_TEST(*found.two_term->max_relative_misfit > kTwoTermTolerance);
   for (std::size_t k = 0; k < 7; ++k) BOOST_TEST(!found.in_asymptotic_range[k]);
@@ -83,7 +83,7 @@ BOOST_AUTO_TEST_CASE(linear_error_does_not_fit_orders_four_and_two) {
 BOOST_AUTO_TEST_CASE(two_levels_get_the_order_of_theory_and_the_large_factor) {
   Convergence series = series_of([](double h) { return 10 * (1 + 0.1 * h * h); }, 2);
   series.theory_order = 2;
-  const Convergence found = analyse_convergence(series);
+  const Convergence found = analyze_convergence(series);
   BOOST_TEST(*found.safety_factor[1] == 3);
   // 3 |v1 - v0| / (2^2 - 1) = |v1 - v0|
   BOOST_TEST(*found.gci[1] * *series.values[1] == *series.values[0] - *series.values[1],
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(nonmonotone_values_converge_on_fine_levels) {
       series_of([](double h) { return 10 * (1 + 0.1 * h * h - 0.13 * h * h * h); }, 10);
   series.exact = 10;
   series.theory_order = 2;
-  const Convergence found = analyse_convergence(series);
+  const Convergence found = analyze_convergence(series);
   BOOST_TEST(*found.safety_factor[2] == 3);
   BOOST_TEST(*found.safety_factor[9] == 1.25);
   BOOST_TEST(std::abs(found.fitted_order.value() - 2) < 0.1);
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(values_that_are_errors_have_the_exact_value_zero) {
   series.exact = 0;
   series.is_error = true;
   series.theory_order = 2;
-  const Convergence found = analyse_convergence(series);
+  const Convergence found = analyze_convergence(series);
   for (std::size_t k = 0; k < 6; ++k) BOOST_TEST(*found.error[k] == *series.values[k]);
   BOOST_TEST(std::abs(found.fitted_order.value() - 2) < 1e-9);
 }

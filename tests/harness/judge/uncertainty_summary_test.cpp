@@ -23,22 +23,22 @@ Convergence made_up(std::size_t levels, double scale) {
     series.values.push_back(10 * (1 + 0.1 * h * h));
     series.roundoff.push_back(1e-16);
   }
-  Convergence found = analyse_convergence(series);
+  Convergence found = analyze_convergence(series);
   for (results::Number& band : found.gci) band = *band * scale;
   return found;
 }
 
-results::UncertaintyCoverage summarise(const std::vector<Convergence>& all) {
+results::UncertaintyCoverage summarize(const std::vector<Convergence>& all) {
   results::Run run;
   run.convergence = all;
-  return summarise_numerical_uncertainty({run});
+  return summarize_numerical_uncertainty({run});
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(bands_of_a_clean_series_hold_with_ratio_1_25) {
   const results::UncertaintyCoverage summary =
-      summarise(std::vector<Convergence>(30, made_up(8, 1)));
+      summarize(std::vector<Convergence>(30, made_up(8, 1)));
   BOOST_TEST(summary.levels == 30U * 7U);  // the first level has no band
   BOOST_TEST(*summary.coverage == 1.0);
   BOOST_TEST(*summary.median_ratio == 1.25, boost::test_tools::tolerance(1e-6));
@@ -48,14 +48,14 @@ BOOST_AUTO_TEST_CASE(bands_of_a_clean_series_hold_with_ratio_1_25) {
 BOOST_AUTO_TEST_CASE(bands_that_miss_often_fail) {
   std::vector<Convergence> all(30, made_up(8, 1));
   for (std::size_t i = 0; i < 3; ++i) all[i] = made_up(8, 0.5);
-  const results::UncertaintyCoverage summary = summarise(all);
+  const results::UncertaintyCoverage summary = summarize(all);
   BOOST_TEST(summary.covered < summary.levels);
   BOOST_TEST(!summary.passes);
 }
 
 BOOST_AUTO_TEST_CASE(too_wide_bands_fail_although_they_hold) {
   const results::UncertaintyCoverage summary =
-      summarise(std::vector<Convergence>(30, made_up(8, 4)));
+      summarize(std::vector<Convergence>(30, made_up(8, 4)));
   BOOST_TEST(*summary.coverage == 1.0);
   BOOST_TEST(!summary.passes);
 }
@@ -65,14 +65,14 @@ BOOST_AUTO_TEST_CASE(band_is_relative_to_value_and_error_to_exact_value) {
   found.values = {10, 10, 15};
   found.error = {0, 0, 0.5};
   found.gci = {NAN, NAN, 0.4};  // band of 6, error of 5
-  BOOST_TEST(summarise({found}).levels == 1U);
-  BOOST_TEST(summarise({found}).covered == 1U);
+  BOOST_TEST(summarize({found}).levels == 1U);
+  BOOST_TEST(summarize({found}).covered == 1U);
   found.gci[2] = 0.3;
-  BOOST_TEST(summarise({found}).covered == 0U);
+  BOOST_TEST(summarize({found}).covered == 0U);
 }
 
 BOOST_AUTO_TEST_CASE(few_levels_do_not_fail_the_coverage) {
-  const results::UncertaintyCoverage summary = summarise({made_up(8, 0.5)});
+  const results::UncertaintyCoverage summary = summarize({made_up(8, 0.5)});
   BOOST_TEST(*summary.coverage < 0.95);
   BOOST_TEST(summary.passes);
 }
@@ -80,7 +80,7 @@ BOOST_AUTO_TEST_CASE(few_levels_do_not_fail_the_coverage) {
 BOOST_AUTO_TEST_CASE(series_without_an_exact_value_do_not_count) {
   Convergence found = made_up(8, 1);
   found.exact.reset();
-  const results::UncertaintyCoverage summary = summarise({found});
+  const results::UncertaintyCoverage summary = summarize({found});
   BOOST_TEST(summary.levels == 0U);
   BOOST_TEST(!summary.coverage.has_value());
   BOOST_TEST(summary.passes);
@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(series_without_an_exact_value_do_not_count) {
 BOOST_AUTO_TEST_CASE(coverage_without_any_ratio_fails) {
   Convergence found = made_up(8, 1);
   found.at_roundoff_floor.assign(8, true);  // no level has a ratio
-  const results::UncertaintyCoverage summary = summarise(std::vector<Convergence>(30, found));
+  const results::UncertaintyCoverage summary = summarize(std::vector<Convergence>(30, found));
   BOOST_TEST(*summary.coverage == 1.0);
   BOOST_TEST(!summary.passes);
 }

@@ -37,7 +37,7 @@ std::set<std::string> heads_of(const Document& document, const Quantities& quant
 
 void record(const Document& document, Recorded& recorded) {
   const References references;
-  const AnalysisResult result = analyse(document, references, {false});
+  const AnalysisResult result = analyze(document, references, {false});
   BOOST_REQUIRE_MESSAGE(result.outcome.solved(), document.value().at("id"));
   recorded[analysis_kind(document)].merge(heads_of(document, result.quantities));
 }

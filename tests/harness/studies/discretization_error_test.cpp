@@ -36,7 +36,7 @@ struct Estimated {
 Estimated estimated(const Json& json) {
   const References references;
   const Document document = document_of(json);
-  Estimated found{analyse(document, references, {}), {}};
+  Estimated found{analyze(document, references, {}), {}};
   BOOST_TEST_REQUIRE(found.result.outcome.solved());
   found.errors = estimate_errors(document, found.result, references);
   return found;

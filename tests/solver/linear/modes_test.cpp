@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(too_many_requested_modes_return_all_modes) {
 }
 
 BOOST_AUTO_TEST_CASE(backward_error_of_modes_finds_a_wrong_mode) {
-  const System system = assemble(build_manipulator(table_1_design(), centred_pose()));
+  const System system = assemble(build_manipulator(table_1_design(), centered_pose()));
   const ModalSolution modes = solve_modes(system, {4});
   VectorXd w2 = (2 * kPi * modes.frequency).cwiseAbs2();
   const auto error_of = [&](Index first, Index count) {

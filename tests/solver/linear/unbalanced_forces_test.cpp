@@ -29,7 +29,7 @@ struct Solved {
 
 /// Returns the Table 1 manipulator with welded elbows, gravity and a force at P.
 Solved manipulator() {
-  Model model = build_manipulator(table_1_design(), centred_pose(0.1));
+  Model model = build_manipulator(table_1_design(), centered_pose(0.1));
   model.gravity = {0.5, -9.81};
   model.loads = {{0, {3, -2, 0}}};
   Solved s{assemble(model), {}, {}};

@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_CASE(torques_of_the_circle_follow_the_circle) {
 BOOST_AUTO_TEST_CASE(motion_without_torque_keeps_its_energy) {
   const RigidManipulator m = rigid_manipulator(table_1_design());
   const auto none = [](double) { return Vector3d(Vector3d::Zero()); };
-  TrajectoryPoint start{0, centred_pose()};
+  TrajectoryPoint start{0, centered_pose()};
   ForwardDynamics f = solver::forward_dynamics(m, start, none, times_to(1, 4));
   BOOST_TEST_REQUIRE(f.outcome.solved());
   BOOST_TEST(distance(f.motion.back().pose, start.pose) == 0.0);
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(energy_residual_does_not_depend_on_the_samples) {
       if (t > 0.05) m.gravity = {0, -0.1};  // jump of potential energy
       return Vector3d(0.1, 0.1, 0.1);
     };
-    return solver::forward_dynamics(m, {0, centred_pose()}, torque, times_to(0.1, count))
+    return solver::forward_dynamics(m, {0, centered_pose()}, torque, times_to(0.1, count))
         .evidence.largest(Residual::energy);
   };
   BOOST_TEST(residual(2) > 1e-3);
@@ -110,7 +110,7 @@ BOOST_AUTO_TEST_CASE(step_over_a_parallel_singularity_ends_the_motion) {
 BOOST_AUTO_TEST_CASE(times_that_do_not_ascend_are_refused) {
   const RigidManipulator m = rigid_manipulator(table_1_design());
   const auto none = [](double) { return Vector3d(Vector3d::Zero()); };
-  const TrajectoryPoint start{0, centred_pose()};
+  const TrajectoryPoint start{0, centered_pose()};
   BOOST_CHECK_THROW((void)solver::forward_dynamics(m, start, none, {0, 1, 0.5}), ModelError);
   BOOST_CHECK_THROW((void)solver::forward_dynamics(m, start, none, {std::nan("")}), ModelError);
   BOOST_CHECK_THROW(

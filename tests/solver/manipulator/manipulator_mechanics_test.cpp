@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(clamps_carry_the_holding_torques) {
 BOOST_AUTO_TEST_CASE(threefold_pose_repeats_its_frequencies) {
   for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
     for (const double phi : {0.0, 0.3}) {
-      const ModalSolution m = modes(with_platform(kind), centred_pose(phi), 9);
+      const ModalSolution m = modes(with_platform(kind), centered_pose(phi), 9);
       BOOST_TEST_REQUIRE(m.outcome.solved(), m.outcome.reason);
       // Two of every three modes are a pair: displacements along x and y are equivalent.
       int pairs = 0;

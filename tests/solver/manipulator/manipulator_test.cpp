@@ -72,7 +72,7 @@ Bulk platform_bulk(const Model& model) {
 }
 
 /// Returns the message that refuses the design, or an empty text.
-std::string refusal(const ManipulatorDesign& design, const Pose& pose = centred_pose()) {
+std::string refusal(const ManipulatorDesign& design, const Pose& pose = centered_pose()) {
   try {
     (void)build_manipulator(design, pose);
   } catch (const ModelError& error) {
@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(nodes_are_those_of_the_kinematics) {
 
 BOOST_AUTO_TEST_CASE(link_section_follows_thickness_width_and_density) {
   const ManipulatorDesign design = table_1_design();
-  const Section s = member(build_manipulator(design, centred_pose()), "A1-B1").section;
+  const Section s = member(build_manipulator(design, centered_pose()), "A1-B1").section;
   BOOST_TEST(s.EA == 6.9e10 * 4.5e-5, tolerance(1e-15));
   BOOST_TEST(s.EI == 6.9e10 * 0.03 * 0.0015 * 0.0015 * 0.0015 / 12, tolerance(1e-15));
   BOOST_TEST(s.kappa_GA == 5.0 / 6 * 6.9e10 / 2.66 * 4.5e-5, tolerance(1e-15));
@@ -167,10 +167,10 @@ BOOST_AUTO_TEST_CASE(printed_platform_inertia_is_about_P) {
 
 BOOST_AUTO_TEST_CASE(refinement_keeps_mass_and_inertia) {
   for (ManipulatorDesign design : {table_1_design(), uneven_design()}) {
-    const Bulk coarse = platform_bulk(build_manipulator(design, centred_pose()));
+    const Bulk coarse = platform_bulk(build_manipulator(design, centered_pose()));
     for (int level = 1; level <= 4; ++level) {
       design.platform.refinements = level;
-      const Model model = build_manipulator(design, centred_pose());
+      const Model model = build_manipulator(design, centered_pose());
       const Bulk fine = platform_bulk(model);
       BOOST_TEST(fine.mass == coarse.mass, tolerance(1e-13));
       BOOST_TEST(fine.inertia == coarse.inertia, tolerance(1e-13));
@@ -187,10 +187,10 @@ BOOST_AUTO_TEST_CASE(refinement_keeps_mass_and_inertia) {
 
 BOOST_AUTO_TEST_CASE(clockwise_platform_is_the_same_plate) {
   ManipulatorDesign design = table_1_design();
-  const Bulk before = platform_bulk(build_manipulator(design, centred_pose()));
+  const Bulk before = platform_bulk(build_manipulator(design, centered_pose()));
   std::swap(design.geometry.platform[0], design.geometry.platform[1]);
   std::swap(design.geometry.base[0], design.geometry.base[1]);
-  const Model model = build_manipulator(design, centred_pose());
+  const Model model = build_manipulator(design, centered_pose());
   for (const Triangle& t : model.triangles) BOOST_TEST(triangle_area(model, t) > 0);
   BOOST_TEST(platform_bulk(model).inertia == before.inertia, tolerance(1e-14));
 }
@@ -231,7 +231,7 @@ BOOST_AUTO_TEST_CASE(pins_hold_the_plate_by_constraints_only) {
   ManipulatorDesign design = table_1_design();
   design.platform.refinements = 3;
   design.platform.pin_radius = 0.01;
-  const Model model = build_manipulator(design, centred_pose(0.2));
+  const Model model = build_manipulator(design, centered_pose(0.2));
   BOOST_TEST(model.constraints.size() == 8U);
   for (const Triangle& t : model.triangles) {
     for (std::size_t k = 0; k < 3; ++k) BOOST_TEST(t.nodes[k] > model.find_node("P"));
@@ -260,7 +260,7 @@ BOOST_AUTO_TEST_CASE(joint_kinds_become_fixities) {
   design.platform_joint = {PlatformJoint{PlatformJointKind::welded},
                            {PlatformJointKind::hinged},
                            {PlatformJointKind::sprung, 9}};
-  const Model model = build_manipulator(design, centred_pose());
+  const Model model = build_manipulator(design, centered_pose());
   const auto fixity = [&](const std::string& name, std::size_t end) {
     return member(model, name).ends[end].fixity;
   };

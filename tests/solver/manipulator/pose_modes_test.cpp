@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(inactive_effects_are_followed) {
 
 BOOST_AUTO_TEST_CASE(repeated_frequencies_keep_their_copies) {
   // In the center the manipulator has a threefold symmetry with pairs of equal frequencies.
-  const std::vector<Pose> poses(3, centred_pose());
+  const std::vector<Pose> poses(3, centered_pose());
   const ManipulatorDesign design = with_elements(4);
   for (const Index count : {1, 2, 3, 4, 5, 6}) check("repeated", design, poses, count);
   const PoseModes modes = solve_pose_modes(design, poses, {.count = 6});
@@ -195,7 +195,7 @@ BOOST_AUTO_TEST_CASE(count_below_a_shift_is_that_of_the_full_model) {
   for (const Index elements : {1, 3, 8}) {
     const ManipulatorDesign design = with_elements(elements);
     const Model model = build_manipulator(design, at);
-    const Pose elsewhere = centred_pose();
+    const Pose elsewhere = centered_pose();
     MovingPencil here(build_manipulator(design, elsewhere), design.geometry, elsewhere);
     BOOST_REQUIRE(here.move_to(inverse_kinematics(design.geometry, at), at).solved());
     const System system = assemble(model);

@@ -35,7 +35,7 @@ BOOST_AUTO_TEST_CASE(limbs_have_equal_derivatives_in_a_symmetric_pose) {
     for (std::size_t limb = 0; limb < 3; ++limb) parameters.push_back(one_length(limb, true));
     parameters.push_back(all(Kind::length));
     const FrequencySensitivity s =
-        frequency_sensitivity(coarse_design(), centred_pose(phi), parameters, 6);
+        frequency_sensitivity(coarse_design(), centered_pose(phi), parameters, 6);
     BOOST_TEST_REQUIRE(s.outcome.solved());
     bool pair = false;
     for (const FrequencySet& set : s.sets) {
@@ -64,11 +64,11 @@ BOOST_AUTO_TEST_CASE(cut_set_keeps_its_lowest_derivative) {
   const ManipulatorDesign design = coarse_design();
   const DesignParameter parameter = one_length(0, true);
   const FrequencySensitivity all_six =
-      frequency_sensitivity(design, centred_pose(), {parameter}, 6);
+      frequency_sensitivity(design, centered_pose(), {parameter}, 6);
   for (const FrequencySet& set : all_six.sets) {
     if (set.count < 2) continue;
     const FrequencySensitivity cut =
-        frequency_sensitivity(design, centred_pose(), {parameter}, set.first + 1);
+        frequency_sensitivity(design, centered_pose(), {parameter}, set.first + 1);
     const double size = all_six.derivative.cwiseAbs().maxCoeff();
     BOOST_TEST(std::abs(cut.derivative(set.first, 0) - all_six.derivative(set.first, 0)) <
                1e-8 * size);

@@ -115,7 +115,7 @@ BOOST_AUTO_TEST_CASE(reciprocity_holds_with_damping) {
 }
 
 BOOST_AUTO_TEST_CASE(damped_thin_links_balance_in_every_row) {
-  Model model = build_manipulator(with_elements(8), centred_pose());
+  Model model = build_manipulator(with_elements(8), centered_pose());
   model.loads.push_back({model.find_node("P"), {10, 0, 0}});
   const System system = assemble(model);
   const HarmonicSolver response(system, {{1, 1e-5}, {}});

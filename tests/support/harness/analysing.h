@@ -15,7 +15,7 @@ using namespace harness;
 
 inline AnalysisResult result_of(const Json& json) {
   const References references;
-  return analyse(document_of(json), references, {});
+  return analyze(document_of(json), references, {});
 }
 
 inline const std::vector<double>& values(const AnalysisResult& result, const std::string& name) {

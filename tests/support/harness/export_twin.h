@@ -102,9 +102,9 @@ inline ExportTwin export_twin(const Case& given, const ExportChoice& choice) {
   const Folder folder;
   const References references;
   const Document document = chosen_document(given, choice);
-  const AnalysisResult own = analyse(document, references, {false});
+  const AnalysisResult own = analyze(document, references, {false});
   const Case written = load_case(folder.write("exported.json", twin.json.dump()));
-  twin.exported = analyse(patched(written, "base"), references, {false});
+  twin.exported = analyze(patched(written, "base"), references, {false});
   if (own.outcome.status != twin.exported.outcome.status) {
     twin.difference = std::numeric_limits<double>::infinity();
     twin.worst = twin.exported.outcome.reason;

@@ -72,7 +72,7 @@ inline Section unit_section(double EA = 1e6) {
 inline Model pinned_double_cross(Index elements_an_arm) {
   const double pi = std::acos(-1.0);
   Model model;
-  model.nodes = {{"centre", {0, 0}}};
+  model.nodes = {{"center", {0, 0}}};
   const Section section = rectangle({200e9, 8000, 0.3}, 0.125, 0.125);
   for (Index k = 0; k < 8; ++k) {
     const double angle = static_cast<double>(k) * pi / 4;

@@ -40,8 +40,8 @@ inline Pose random_pose(const ManipulatorDesign& design, std::mt19937_64& engine
 
 /// Returns a pose with the platform on the centroid of the base at a random angle. Plane modes then
 /// have repeated frequencies by the threefold symmetry, except those with the full symmetry.
-inline Pose random_centred_pose(std::mt19937_64& engine) {
-  return centred_pose(-0.6 + 1.2 * static_cast<double>(engine() >> 11) * 0x1p-53);
+inline Pose random_centered_pose(std::mt19937_64& engine) {
+  return centered_pose(-0.6 + 1.2 * static_cast<double>(engine() >> 11) * 0x1p-53);
 }
 
 }  // namespace trammel::solver

@@ -32,7 +32,7 @@ inline ManipulatorGeometry uneven_geometry() {
 }
 
 /// Returns the pose at the centroid of the base.
-inline Pose centred_pose(double phi = 0) {
+inline Pose centered_pose(double phi = 0) {
   return {0.25, 0.25 / std::numbers::sqrt3, phi};
 }
 

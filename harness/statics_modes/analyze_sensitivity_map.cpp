@@ -88,7 +88,7 @@ void record_rises(const std::vector<Reading>& readings, Recorder& record) {
 
 }  // namespace
 
-StepResult analyse_sensitivity_map(const JsonView& analysis, const CaseModel& case_model, bool,
+StepResult analyze_sensitivity_map(const JsonView& analysis, const CaseModel& case_model, bool,
                                    Recorder& record) {
   if (case_model.path) throw analysis.error("expected a model with a pose, not a trajectory");
   static_cast<void>(

@@ -93,7 +93,7 @@ void record_differences(const CaseModel& case_model, const Named& named,
 
 }  // namespace
 
-StepResult analyse_sensitivity(const JsonView& analysis, const CaseModel& case_model, bool draw,
+StepResult analyze_sensitivity(const JsonView& analysis, const CaseModel& case_model, bool draw,
                                Recorder& record) {
   if (case_model.path) throw analysis.error("expected a model with a pose, not a trajectory");
   static_cast<void>(

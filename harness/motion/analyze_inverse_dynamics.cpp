@@ -70,7 +70,7 @@ void record_turn(const solver::RigidManipulator& manipulator, const CaseModel& c
 
 }  // namespace
 
-StepResult analyse_inverse_dynamics(const JsonView& analysis, const CaseModel& case_model,
+StepResult analyze_inverse_dynamics(const JsonView& analysis, const CaseModel& case_model,
                                     bool draw, Recorder& record) {
   const solver::RigidManipulator manipulator = read_rigid_manipulator(analysis, case_model);
   const bool bodies = analysis.get("bodies", false);

@@ -137,7 +137,7 @@ solver::RotatingOptions read_rotating_options(const JsonView& modes) {
   options.count = modes["count"].get<solver::Index>();
   options.method = read_eigen_method(modes);
   options.frame.axis = rotating.get("axis", solver::RotationAxis::normal);
-  if (rotating.has("center_m")) options.frame.centre = read_point(rotating["center_m"]);
+  if (rotating.has("center_m")) options.frame.center = read_point(rotating["center_m"]);
   options.prestress_at_steady_state =
       rotating.get<std::string>("prestress_configuration", "deformed") == "deformed";
   return options;
@@ -146,7 +146,7 @@ solver::RotatingOptions read_rotating_options(const JsonView& modes) {
 /// Computes modes in a steadily rotating frame (key "rotating") at one speed, or one number per
 /// speed. The outcome is that of the first speed without a steady state.
 /// @param effects  effects that decide about Coriolis forces and stiffening by tension
-StepResult analyse_rotating(const JsonView& modes, const solver::System& system,
+StepResult analyze_rotating(const JsonView& modes, const solver::System& system,
                             solver::Effects effects, bool draw, Recorder& record) {
   const Json& stated = modes["rotating"]["angular_speed_rad_s"].json();
   const bool several = stated.is_array();
@@ -185,14 +185,14 @@ StepResult analyse_rotating(const JsonView& modes, const solver::System& system,
   return result;
 }
 
-StepResult analyse_modes_at(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
+StepResult analyze_modes_at(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
                             bool draw, ShapeTracker* tracker, Recorder& record) {
   if (analysis.has("rotating")) {
     refuse(analysis, "count_below_Hz", "rotating", "it counts the modes of the model at rest");
     refuse(analysis, "reduction", "rotating", "it has no Coriolis forces");
     refuse(analysis, "prestressed", "rotating", "a rotating frame always holds its loads");
     if (case_model.path) throw analysis["rotating"].error("expected a model at one place");
-    return analyse_rotating(analysis, solver::assemble(build_model(case_model, step)),
+    return analyze_rotating(analysis, solver::assemble(build_model(case_model, step)),
                             case_model.effects, draw, record);
   }
   const solver::System system = condensed(
@@ -250,7 +250,7 @@ bool follows_pose(const JsonView& analysis, const CaseModel& case_model) {
          read_modes_options(analysis).method == solver::EigenMethod::automatic;
 }
 
-StepResult analyse_modes_of_poses(const JsonView& analysis, const CaseModel& case_model, bool draw,
+StepResult analyze_modes_of_poses(const JsonView& analysis, const CaseModel& case_model, bool draw,
                                   Recorder& record) {
   std::vector<solver::Pose> poses;
   for (const solver::TrajectoryPoint& point : case_model.motion) poses.push_back(point.pose);
@@ -282,18 +282,18 @@ StepResult analyse_modes_of_poses(const JsonView& analysis, const CaseModel& cas
 
 }  // namespace
 
-StepResult analyse_modes(const JsonView& analysis, const CaseModel& case_model, bool draw,
+StepResult analyze_modes(const JsonView& analysis, const CaseModel& case_model, bool draw,
                          Recorder& record) {
   const bool tracks = analysis.get("track_shapes", false);
   if (tracks) {
     refuse(analysis, "rotating", "track_shapes", "it has a model at one place");
     if (!case_model.path) throw analysis["track_shapes"].error("expected a trajectory");
   } else if (follows_pose(analysis, case_model)) {
-    return analyse_modes_of_poses(analysis, case_model, draw, record);
+    return analyze_modes_of_poses(analysis, case_model, draw, record);
   }
   ShapeTracker tracker;
-  return analyse_steps(case_model, draw, [&](std::size_t step, bool drawn) {
-    return analyse_modes_at(analysis, case_model, step, drawn, tracks ? &tracker : nullptr, record);
+  return analyze_steps(case_model, draw, [&](std::size_t step, bool drawn) {
+    return analyze_modes_at(analysis, case_model, step, drawn, tracks ? &tracker : nullptr, record);
   });
 }
 

@@ -12,7 +12,7 @@ namespace trammel::harness {
 namespace {
 
 /// Solves statics with large displacement, as geometrically exact statics.
-StepResult analyse_exactly(const CaseModel& case_model, std::size_t step, bool draw,
+StepResult analyze_exactly(const CaseModel& case_model, std::size_t step, bool draw,
                            Recorder& record) {
   const solver::Model model = build_bare_model(case_model, step);
   const auto solve = case_model.estimates_large_displacement ? solver::estimate_large_statics
@@ -31,10 +31,10 @@ StepResult analyse_exactly(const CaseModel& case_model, std::size_t step, bool d
 
 }  // namespace
 
-StepResult analyse_statics(const JsonView&, const CaseModel& case_model, std::size_t step,
+StepResult analyze_statics(const JsonView&, const CaseModel& case_model, std::size_t step,
                            bool draw, Recorder& record) {
   if (case_model.effects.has(solver::Effect::large_displacement)) {
-    return analyse_exactly(case_model, step, draw, record);
+    return analyze_exactly(case_model, step, draw, record);
   }
   const solver::System system = solver::assemble(build_model(case_model, step), case_model.effects);
   ModelState solution{solver::solve_statics(

@@ -5,7 +5,7 @@
 
 namespace trammel::harness {
 
-StepResult analyse_kinematics(const JsonView&, const CaseModel& case_model, std::size_t step,
+StepResult analyze_kinematics(const JsonView&, const CaseModel& case_model, std::size_t step,
                               bool draw, Recorder& record) {
   const solver::Pose& pose = case_model.motion[step].pose;
   const solver::ManipulatorGeometry& geometry = case_model.manipulator->geometry;

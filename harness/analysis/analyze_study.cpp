@@ -1,4 +1,4 @@
-#include "harness/analysis/analyse_study.h"
+#include "harness/analysis/analyze_study.h"
 
 #include <cmath>
 #include <limits>
@@ -127,7 +127,7 @@ std::vector<Level> study_levels(const Document& document) {
   return found;
 }
 
-StepResult analyse_study(const Document& document, const References& references, bool draw,
+StepResult analyze_study(const Document& document, const References& references, bool draw,
                          Recorder& record) {
   const JsonView study = JsonView(document)["analysis"]["study"];
   const auto kept_places = study.find("quantities");
@@ -137,7 +137,7 @@ StepResult analyse_study(const Document& document, const References& references,
   std::vector<double> parameter;
   StepResult result;
   for (const Level& level : study_levels(document)) {
-    AnalysisResult found = analyse(level.document, references, {draw && !result.drawing});
+    AnalysisResult found = analyze(level.document, references, {draw && !result.drawing});
     parameter.push_back(level.parameter);
     record.add(study.get<std::string>("parameter", "parameter"), level.parameter);
     record.add("status", status_code(found.outcome.status));

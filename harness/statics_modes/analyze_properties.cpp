@@ -79,7 +79,7 @@ void record_body(const std::string& name, const Body& body, Recorder& record) {
 
 }  // namespace
 
-StepResult analyse_properties(const JsonView&, const CaseModel& case_model, std::size_t step, bool,
+StepResult analyze_properties(const JsonView&, const CaseModel& case_model, std::size_t step, bool,
                               Recorder& record) {
   const solver::Model model = build_model(case_model, step);
   Body total;

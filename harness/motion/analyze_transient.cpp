@@ -129,7 +129,7 @@ solver::PrescribedRotation read_axes(const JsonView& transient) {
     const std::array<double, 3> motion = law(time);
     return std::array<double, 2>{motion[1], motion[2]};
   };
-  if (place.has("center_m")) axes.centre = read_point(place["center_m"]);
+  if (place.has("center_m")) axes.center = read_point(place["center_m"]);
   axes.stiffening = place.get("geometric_stiffening", true);
   return axes;
 }
@@ -369,7 +369,7 @@ void draw_motion(const solver::System& system, const MotionHistory& motion, Draw
 
 }  // namespace
 
-StepResult analyse_transient(const JsonView& analysis, const CaseModel& case_model,
+StepResult analyze_transient(const JsonView& analysis, const CaseModel& case_model,
                              std::size_t step, bool draw, Recorder& record) {
   if (case_model.path) throw analysis.error("expected a model at one place");
   if (analysis.has("reduction") && analysis.has("rotating_frame"))

@@ -208,7 +208,7 @@ void record_summary(const solver::large_motion::IntegrationSummary& summary,
 
 }  // namespace
 
-StepResult analyse_large_motion(const JsonView& analysis, const CaseModel& case_model, bool draw,
+StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_model, bool draw,
                                 Recorder& record) {
   solver::Model model = build_bare_model(case_model, 0);
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;

@@ -193,7 +193,7 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
   return options;
 }
 
-StepResult analyse_elastodynamics(const JsonView& analysis, const CaseModel& case_model, bool draw,
+StepResult analyze_elastodynamics(const JsonView& analysis, const CaseModel& case_model, bool draw,
                                   Recorder& record) {
   const solver::ElastodynamicsOptions options = read_elastodynamics(analysis, case_model);
   const bool large = case_model.effects.has(solver::Effect::large_displacement);

@@ -1,9 +1,9 @@
-#include "harness/analysis/analyse_study.h"
+#include "harness/analysis/analyze_study.h"
 #include "harness/results/result_fields.h"
 
 namespace trammel::harness {
 
-StepResult analyse_comparison(const Document& document, const References& references, bool,
+StepResult analyze_comparison(const Document& document, const References& references, bool,
                               Recorder& record) {
   const JsonView comparison = JsonView(document)["analysis"]["comparison"];
   for (const auto& [name, pair] : comparison.entries()) {
@@ -23,7 +23,7 @@ StepResult analyse_comparison(const Document& document, const References& refere
   return {};
 }
 
-StepResult analyse_model_probabilities(const Document& document, const References& references, bool,
+StepResult analyze_model_probabilities(const Document& document, const References& references, bool,
                                        Recorder& record) {
   const JsonView id = JsonView(document)["analysis"]["model-probabilities"]["reference"];
   const references::Reference& stored = references.get(id);

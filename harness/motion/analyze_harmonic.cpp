@@ -161,7 +161,7 @@ class HarmonicScene {
 
 }  // namespace
 
-StepResult analyse_harmonic(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
+StepResult analyze_harmonic(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
                             bool draw, Recorder& record) {
   const HarmonicScene scene(analysis, case_model, step);
   StepResult result{scene.outcome, {}};

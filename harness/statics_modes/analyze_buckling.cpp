@@ -28,7 +28,7 @@ void record_forces(const JsonView& analysis, const std::string& mode, double fac
 
 }  // namespace
 
-StepResult analyse_buckling(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
+StepResult analyze_buckling(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
                             bool draw, Recorder& record) {
   const solver::System system = solver::assemble(build_model(case_model, step));
   const solver::BucklingSolution buckling =

@@ -195,8 +195,8 @@ struct OutputScales {
       : deviation(outputs.cols()),
         range(outputs.colwise().maxCoeff() - outputs.colwise().minCoeff()) {
     for (solver::Index j = 0; j < outputs.cols(); ++j) {
-      const Eigen::ArrayXd centred = outputs.col(j).array() - outputs.col(j).mean();
-      deviation(j) = std::sqrt(centred.square().mean());
+      const Eigen::ArrayXd centered = outputs.col(j).array() - outputs.col(j).mean();
+      deviation(j) = std::sqrt(centered.square().mean());
       if (range(j) == 0) range(j) = deviation(j) = 1;  // a constant output
     }
   }
@@ -344,7 +344,7 @@ Eigen::MatrixXd spline_over_time(const CaseModel& case_model, const Eigen::Matri
 
 }  // namespace
 
-StepResult analyse_grnn(const JsonView& analysis, const CaseModel& case_model, bool draw,
+StepResult analyze_grnn(const JsonView& analysis, const CaseModel& case_model, bool draw,
                         Recorder& record) {
   const solver::RigidManipulator manipulator = read_rigid_manipulator(analysis, case_model);
   if (!case_model.path) throw analysis.error("expected a model with a trajectory, or samples");
@@ -398,7 +398,7 @@ StepResult analyse_grnn(const JsonView& analysis, const CaseModel& case_model, b
   return result;
 }
 
-StepResult analyse_grnn_samples(const Document& document, const References&, bool,
+StepResult analyze_grnn_samples(const Document& document, const References&, bool,
                                 Recorder& record) {
   const JsonView analysis = JsonView(document)["analysis"]["grnn"];
   if (!analysis.has("samples"))

@@ -86,7 +86,7 @@ void draw_poses(const GeometricallyExactSystem& system, const std::vector<PathPo
 
 }  // namespace
 
-StepResult analyse_large_statics(const JsonView& analysis, const CaseModel& case_model,
+StepResult analyze_large_statics(const JsonView& analysis, const CaseModel& case_model,
                                  std::size_t step, bool draw, Recorder& record) {
   const auto factors = analysis.get("load_factors", std::vector<double>{1.0});
   if (case_model.path && factors.size() > 1) {

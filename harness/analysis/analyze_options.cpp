@@ -5,8 +5,8 @@
 #include <optional>
 #include <set>
 
-#include "harness/analysis/analyse_study.h"
 #include "harness/analysis/analysis.h"
+#include "harness/analysis/analyze_study.h"
 #include "harness/base/statistic.h"
 #include "harness/input/case.h"
 #include "harness/input/catalogue.h"
@@ -137,7 +137,7 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
     ++counts["attempted"];
     try {
       patched.validate("case");
-      AnalysisResult result = analyse(patched, references, {false});
+      AnalysisResult result = analyze(patched, references, {false});
       count(result, options.required_terms, counts);
       if (!options.must_agree) continue;
       if (!first) {
@@ -172,7 +172,7 @@ std::vector<Document> computations_of(const Document& document, const JsonView& 
 
 }  // namespace
 
-StepResult analyse_options(const Document& document, const References& references, bool,
+StepResult analyze_options(const Document& document, const References& references, bool,
                            Recorder& record) {
   const JsonView place = JsonView(document)["analysis"]["options"];
   const std::string here = document.origin(place.pointer()).file;

@@ -40,7 +40,7 @@ void record_energy(const solver::RigidManipulator& m, const solver::ForwardDynam
 
 }  // namespace
 
-StepResult analyse_forward_dynamics(const JsonView& analysis, const CaseModel& case_model,
+StepResult analyze_forward_dynamics(const JsonView& analysis, const CaseModel& case_model,
                                     bool draw, Recorder& record) {
   const solver::RigidManipulator manipulator = read_rigid_manipulator(analysis, case_model);
   if (!case_model.path) throw analysis.error("expected a model with a trajectory");
