@@ -521,6 +521,8 @@ void apply_block(std::string block, Json& example) {
   if (const auto dots = block.find("    ...\n"); dots != std::string::npos) block.erase(dots, 8);
   const Json json = parse_json(block.front() == '{' ? block : "{" + block + "}", "block");
   if (json.contains("id")) example = json;
+  if (json.contains("id") && json["id"] == "my-robot")
+    BOOST_TEST((json == read_json(TRAMMEL_SOURCE_DIR "/docs/example/my-robot.json")));
   if (json.contains("analysis")) example.erase("analysis");
   example.merge_patch(json);
   if (!example["model"].contains("trajectory")) return;
