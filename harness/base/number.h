@@ -29,7 +29,7 @@ class Number {
   }
   void reset() { value_ = kMissing; }
 
-  friend bool operator==(Number a, Number b) { return (a <=> b) == 0; }
+  friend bool operator==(Number a, Number b) { return std::is_eq(a <=> b); }
   /// Missing numbers are equal, and less than all present ones.
   friend std::partial_ordering operator<=>(Number a, Number b) {
     if (a.has_value() && b.has_value()) return *a <=> *b;

@@ -115,6 +115,7 @@ inline constexpr None kKeyMember{};
 #define TRAMMEL_ONE_OPTIONAL(_, none, member) optional(#member, &S::member)
 #define TRAMMEL_ONE_STORED(_, none, member) stored(#member, &S::member)
 #define TRAMMEL_ONE_STORE_ONLY(_, none, member) store_only(#member, &S::member)
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a member cannot be in parentheses
 #define TRAMMEL_KEY(Struct, member) \
   template <>                       \
   inline constexpr auto kKeyMember<Struct> = &Struct::member

@@ -67,7 +67,7 @@ Eigen::Matrix<double, N, 1> gather(const VectorXd& values, const CoordinateIndic
 /// Adds the values of an element to those of its free coordinates.
 template <int N>
 void scatter(const Eigen::Matrix<double, N, 1>& local, const CoordinateIndices<N>& where,
-             Eigen::Ref<VectorXd> values) {
+             Eigen::Ref<VectorXd> values) {  // NOLINT(performance-unnecessary-value-param)
   for (Index i = 0; i < where.size(); ++i) {
     if (where[i] >= 0 && where[i] < values.size()) values[where[i]] += local[i];
   }
