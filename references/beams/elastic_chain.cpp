@@ -5,11 +5,15 @@
 #include "references/numerics/dense.h"
 
 /// Equilibria of a plane chain of straight elastic pieces, welded to each other, at any
-/// displacement, by shooting: Taylor series of degree 30 along the pieces, Newton's method in
-/// extended precision (E. Reissner, On one-dimensional finite-strain beam theory, ZAMP 23, 1972,
-/// 795-804). With the section's angle t, the force F and the moment m of what follows on it,
-///   t' = t0' + m/EI,  r' = (1 + F.a/EA) a + (F.b/GA) b,  m' = -r' x F,
-/// a = (cos t, sin t), b = (-sin t, cos t); no EA: inextensible, no GA: no shear.
+/// displacement. They are found by shooting with Taylor series of degree 30 along the pieces, and
+/// Newton's method in extended precision. Source: E. Reissner, On one-dimensional finite-strain
+/// beam theory, ZAMP 23, 1972, 795-804.
+///
+/// A section has the angle t, and the part that follows exerts the force F and the moment m on it.
+/// Without EA a piece is inextensible, without GA it has no shear. With a = (cos t, sin t) and
+/// b = (-sin t, cos t):
+///
+///   t' = t0' + m/EI,  r' = (1 + F.a/EA) a + (F.b/GA) b,  m' = -r' x F.
 namespace trammel::references {
 
 namespace {
@@ -30,20 +34,16 @@ Real sum_at(const Series& a, const Real& h) {
   return sum;
 }
 
-struct Point {
-  Real x, y;
-};
-
-/// A section of the loaded chain: where it is, its angle, the force and the moment of what follows.
+/// A section of the loaded chain: its place and angle, the force and the moment of the next part.
 struct Section {
   Real x, y, angle, moment, force_x, force_y;
 };
 
 struct Chain {
-  std::vector<Point> nodes;
+  std::vector<std::vector<Real>> nodes;  ///< x, y
   Real EI, axial_compliance, shear_compliance;
-  std::vector<std::array<Real, 4>> loads;  ///< node, Fx, Fy, M
-  std::array<bool, 3> end_held{};          ///< x, y, rotation
+  std::vector<std::vector<Real>> loads;  ///< node, Fx, Fy, M
+  std::array<bool, 3> end_held{};        ///< x, y, rotation
   bool start_turns = false;
   int steps = 8;
 };
@@ -73,30 +73,27 @@ void advance(const Chain& chain, const Real& h, Section& at) {
 
 /// The sections just behind each node, `unknown` as the header has it (with the load factor last).
 std::vector<Section> shoot(const Chain& chain, const RealVector& unknown) {
-  const auto direction = [&](std::size_t piece) {
-    const Point &a = chain.nodes[piece], &b = chain.nodes[piece + 1];
-    return Real(atan2(Real(b.y - a.y), Real(b.x - a.x)));
-  };
-  Section at{chain.nodes[0].x,
-             chain.nodes[0].y,
+  Section at{chain.nodes[0][0],
+             chain.nodes[0][1],
              chain.start_turns ? unknown[0] : Real(0),
              chain.start_turns ? Real(0) : unknown[0],
              unknown[1],
              unknown[2]};
   std::vector<Section> sections;
   for (std::size_t node = 0; node < chain.nodes.size(); ++node) {
-    for (const auto& [where, force_x, force_y, moment] : chain.loads) {
-      if (where != Real(node)) continue;
-      if (node > 0) at.force_x -= unknown[3] * force_x, at.force_y -= unknown[3] * force_y;
-      at.moment -= unknown[3] * moment;
+    for (const std::vector<Real>& load : chain.loads) {
+      if (load[0] != Real(node)) continue;
+      if (node > 0) at.force_x -= unknown[3] * load[1], at.force_y -= unknown[3] * load[2];
+      at.moment -= unknown[3] * load[3];
     }
     sections.push_back(at);
     if (node + 1 == chain.nodes.size()) break;
-    const Point &a = chain.nodes[node], &b = chain.nodes[node + 1];
-    const Real length = sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
-    at.angle += direction(node);
+    const std::vector<Real>&a = chain.nodes[node], &b = chain.nodes[node + 1];
+    const Real x = b[0] - a[0], y = b[1] - a[1];
+    const Real length = sqrt(x * x + y * y), direction = atan2(y, x);
+    at.angle += direction;
     for (int i = 0; i < chain.steps; ++i) advance(chain, length / chain.steps, at);
-    at.angle -= direction(node);
+    at.angle -= direction;
   }
   return sections;
 }
@@ -105,8 +102,8 @@ std::vector<Section> shoot(const Chain& chain, const RealVector& unknown) {
 RealVector gap(const Chain& chain, const RealVector& unknown) {
   const Section end = shoot(chain, unknown).back();
   RealVector missing(3);
-  missing << (chain.end_held[0] ? Real(end.x - chain.nodes.back().x) : end.force_x),
-      (chain.end_held[1] ? Real(end.y - chain.nodes.back().y) : end.force_y),
+  missing << (chain.end_held[0] ? Real(end.x - chain.nodes.back()[0]) : end.force_x),
+      (chain.end_held[1] ? Real(end.y - chain.nodes.back()[1]) : end.force_y),
       (chain.end_held[2] ? end.angle : end.moment);
   return missing;
 }
@@ -124,7 +121,7 @@ RealMatrix jacobian(const F& f, RealVector at, Eigen::Index columns) {
   return J;
 }
 
-/// The gap, and with it the determinant that vanishes where the load is stationary.
+/// Returns the gap, and the determinant that vanishes if the load is stationary.
 RealVector limit_gap(const Chain& chain, const RealVector& unknown) {
   RealVector value(4);
   value << gap(chain, unknown),
@@ -158,8 +155,8 @@ Real output(const Arguments& arguments, const Chain& chain, const std::string& n
   if (node < sections.size()) {
     const Section& at = sections[node];
     const std::string what = name.substr(0, colon);
-    if (what == "displacement_x_m") return at.x - chain.nodes[node].x;
-    if (what == "displacement_y_m") return at.y - chain.nodes[node].y;
+    if (what == "displacement_x_m") return at.x - chain.nodes[node][0];
+    if (what == "displacement_y_m") return at.y - chain.nodes[node][1];
     if (what == "rotation_rad") return at.angle;
   }
   arguments.fail("outputs",
@@ -168,19 +165,11 @@ Real output(const Arguments& arguments, const Chain& chain, const std::string& n
 
 Chain read_chain(const Arguments& arguments) {
   Chain chain;
-  for (const Json& node : arguments["nodes_m"]) {
-    const Arguments point({{"point", node}}, arguments.pointer("nodes_m"), {"point"});
-    const auto [x, y] = point.point("point");
-    chain.nodes.push_back({x, y});
-  }
+  chain.nodes = arguments.rows("nodes_m", 2);
   chain.EI = arguments.positive("EI_N_m2");
   if (arguments.has("EA_N")) chain.axial_compliance = 1 / arguments.positive("EA_N");
   if (arguments.has("GA_N")) chain.shear_compliance = 1 / arguments.positive("GA_N");
-  for (const Json& json : arguments["loads"]) {
-    const Arguments load({{"load", json}}, arguments.pointer("loads"), {"load"});
-    const std::vector<Real> values = load.numbers("load", 4);
-    chain.loads.push_back({values[0], values[1], values[2], values[3]});
-  }
+  chain.loads = arguments.rows("loads", 4);
   const std::vector<std::string> start = arguments.texts("start"), end = arguments.texts("end");
   const auto has = [](const std::vector<std::string>& words, const char* word) {
     return std::ranges::find(words, word) != words.end();
@@ -199,7 +188,7 @@ std::vector<Real> elastic_chain_program(const Arguments& arguments) {
   const auto record = [&](const RealVector& unknown) {
     const std::vector<Section> sections = shoot(chain, unknown);
     for (const std::string& name : arguments.texts("outputs"))
-      values.push_back(static_cast<double>(output(arguments, chain, name, unknown, sections)));
+      values.push_back(output(arguments, chain, name, unknown, sections));
   };
   RealVector unknown = RealVector::Zero(4);
   if (arguments.has("load_factors")) {
@@ -210,10 +199,8 @@ std::vector<Real> elastic_chain_program(const Arguments& arguments) {
       record(unknown);
     }
   } else {
-    for (const Json& guess : arguments["limit_points"]) {
-      const auto start =
-          Arguments({{"guess", guess}}, "/limit_points", {"guess"}).numbers("guess", 4);
-      unknown << start[0], start[1], start[2], start[3];
+    for (const std::vector<Real>& guess : arguments.rows("limit_points", 4)) {
+      unknown << guess[0], guess[1], guess[2], guess[3];
       find_equilibrium(
           arguments, [&](const auto& u) { return limit_gap(chain, u); }, unknown);
       record(unknown);

@@ -4,9 +4,9 @@
 #include "references/beams/programs.h"
 #include "references/numerics/real.h"
 
-/// The plane pendulum of any amplitude by Jacobi's elliptic functions.
 namespace trammel::references {
 
+/// The plane pendulum of any amplitude by Jacobi's elliptic functions.
 std::vector<Real> pendulum_program(const Arguments& arguments) {
   const Real length = arguments.positive("length_m");
   const Real w = sqrt(arguments.positive("gravity_m_s2") / length);
@@ -26,6 +26,42 @@ std::vector<Real> pendulum_program(const Arguments& arguments) {
     }
     values.push_back(2 * length * half * sqrt(1 - half * half));
     values.push_back(length * (2 * half * half - 1));
+  }
+  return values;
+}
+
+/// The chain of N four-bar loops of the IFToMM benchmark A02: 2 N + 1 equal uniform rods of length
+/// l, of which N + 1 rotate about fixed pivots and N link them, all parallelograms. Its only
+/// coordinate theta from the upper vertical obeys
+///
+///   theta'' = a sin theta,  a = (g/l) ((N + 1)/2 + N) / ((N + 1)/3 + N).
+///
+/// It starts from theta = 0 with theta' = W. With k^2 = 4 a/(W^2 + 4 a) and
+/// s = t sqrt(W^2 + 4 a)/2, Jacobi's functions give
+///
+///   sin(theta/2) = k' sd(s, k),  cos(theta/2) = cd(s, k).
+std::vector<Real> parallelogram_chain_program(const Arguments& arguments) {
+  const Real N = arguments.count("loops");
+  const Real length = arguments.positive("length_m");
+  const Real a =
+      arguments.positive("gravity_m_s2") / length * ((N + 1) / 2 + N) / ((N + 1) / 3 + N);
+  const Real W = arguments.positive("start_speed_m_s") / length;
+  const bool position = arguments.choice("output", "", {"position", "velocity"}) == "position";
+  const Real k = sqrt(4 * a / (W * W + 4 * a));
+  const Real complement = W / sqrt(W * W + 4 * a);
+  std::vector<Real> values;
+  for (const Real& time : arguments.numbers("times_s")) {
+    Real cn;
+    Real dn;
+    const Real s = time * sqrt(W * W + 4 * a) / 2;
+    const Real sn = boost::math::jacobi_elliptic(k, s, &cn, &dn);
+    const Real sine = complement * sn / dn;
+    const Real cosine = cn / dn;
+    const Real x = 2 * sine * cosine * length;
+    const Real y = (cosine * cosine - sine * sine) * length;
+    const Real rate = sqrt(W * W + 4 * a * sine * sine);
+    values.push_back(position ? x : Real(y * rate));
+    values.push_back(position ? y : Real(-x * rate));
   }
   return values;
 }

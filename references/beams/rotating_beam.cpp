@@ -7,15 +7,25 @@
 #include "references/numerics/real.h"
 
 /// Bending vibration of a uniform Euler-Bernoulli cantilever on a hub that rotates steadily
-/// (A. D. Wright et al., J. Appl. Mech. 49, 1982, 197-202). With x over L, eta = Omega
-/// sqrt(rho A L^4/EI), hub ratio r = R/L, mu = w sqrt(rho A L^4/EI) and the tension of the
-/// undeformed beam, t = eta^2 ((1 - x^2)/2 + r (1 - x)):
-///   flap (out of the plane of rotation)  V'''' - (t V')' - mu^2 V = 0;
-///   lag (in the plane), axially rigid    V'''' - (t V')' - (mu^2 + eta^2) V = 0;
-///   lag with the Coriolis coupling to axial motion U, s = EA L^2/EI,
-///     V'''' - (t V')' - (mu^2 + eta^2) V - 2 eta mu U = 0,
-///     s U'' + (mu^2 + eta^2) U + 2 eta mu V = 0.
-/// Solved by power series about the hub in extended precision.
+/// (A. D. Wright et al., J. Appl. Mech. 49, 1982, 197-202), by power series about the hub in
+/// extended precision. x is over L, and the hub ratio is r = R/L. The speed, the frequency and the
+/// tension of the undeformed beam are
+///
+///   eta = Omega sqrt(rho A L^4/EI),  mu = w sqrt(rho A L^4/EI),
+///
+///   t = eta^2 ((1 - x^2)/2 + r (1 - x)).
+///
+/// Flap (out of the plane of rotation), and lag (in the plane) of an axially rigid beam:
+///
+///   V'''' - (t V')' - mu^2 V = 0,
+///
+///   V'''' - (t V')' - (mu^2 + eta^2) V = 0.
+///
+/// Lag with the Coriolis coupling to axial motion U, s = EA L^2/EI:
+///
+///   V'''' - (t V')' - (mu^2 + eta^2) V - 2 eta mu U = 0,
+///
+///   s U'' + (mu^2 + eta^2) U + 2 eta mu V = 0.
 namespace trammel::references {
 
 namespace {
@@ -102,7 +112,7 @@ std::vector<Real> rotating_beam_roots_program(const Arguments& arguments) {
   beam.hub_ratio = arguments.not_negative("hub_ratio", 0);
   if (arguments.has("axial_ratio")) beam.axial_ratio = arguments.positive("axial_ratio");
   if (beam.axial_ratio && !beam.in_plane) {
-    arguments.fail("axial_ratio", "axial motion couples with bending in the plane alone");
+    arguments.fail("axial_ratio", "requires bending in the plane of rotation");
   }
   return rotating_beam_roots(beam, arguments.count("count"));
 }

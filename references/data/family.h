@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-/// Family files hold the references of one family of cases, each under its id. What they have in
-/// common is stated once.
+/// Family files hold the references of one family of cases, each under its id. Common keys are
+/// stated once.
 namespace trammel::references {
 
 /// Key of a family file for what its references have in common.
@@ -45,9 +45,9 @@ struct JsonMember {
 /// @throws ReferenceError  if the file is no JSON object of objects, or if it has a key twice.
 [[nodiscard]] std::map<std::string, nlohmann::json> read_family(const std::string& file);
 
-/// The JSON files of all rooms below a folder, each with its name less ".json"; none where there is
-/// no such folder. By readdir, as std::filesystem takes 7,000 instructions a file and a walk comes
-/// before every command.
+/// Returns the JSON files below a folder, each with its name without ".json"; none if there is no
+/// such folder. It uses readdir, because std::filesystem needs 7,000 instructions per file, and
+/// every command starts with this walk.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> json_files(
     const std::string& folder);
 

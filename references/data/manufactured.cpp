@@ -54,12 +54,6 @@ Shape shear_angle(const BeamProblem& problem, double x) {
   return problem.amplitude / (2 * problem.length) * sin(2 * xi);
 }
 
-/// Derivatives of a shape of orders 0 to 4.
-std::array<double, 5> derivatives(const Shape& shape) {
-  return {shape.derivative(0), shape.derivative(1), shape.derivative(2), shape.derivative(3),
-          shape.derivative(4)};
-}
-
 }  // namespace
 
 MembraneState evaluate(const MembraneProblem& problem, double x, double y) {
@@ -89,45 +83,37 @@ std::array<bool, 2> fixed_displacements(const MembraneProblem& problem, double x
   const bool bottom = y < tolerance * problem.height;
   const bool right = x > (1 - tolerance) * problem.length;
   const bool top = y > (1 - tolerance) * problem.height;
-  switch (problem.field) {
-    case MembraneField::clamped: {
-      const bool edge = left || right || bottom || top;
-      return {edge, edge};
-    }
-    case MembraneField::cantilever:
-      return {left, left};
-    case MembraneField::uniform_strain:
-    case MembraneField::linear_strain:
-      break;
-  }
-  return {left, left && bottom};
+  const bool is_on_edge = left || right || bottom || top;
+  if (problem.field == MembraneField::clamped) return {is_on_edge, is_on_edge};
+  return {left, left && (bottom || problem.field == MembraneField::cantilever)};
 }
 
 BeamState evaluate(const BeamProblem& problem, double x) {
-  const auto u = derivatives(axial_shape(problem, x));
-  const auto w = derivatives(bending_shape(problem, x));
+  const Shape u = axial_shape(problem, x);
+  const Shape w = bending_shape(problem, x);
   const double square = problem.omega * problem.omega;
   const double EI = problem.EI;
   BeamState s;
-  s.axial = u[0];
-  s.axial_force = problem.EA * u[1];
-  s.axial_load = -problem.EA * u[2] - problem.mass_per_length * square * u[0];
+  s.axial = u.derivative(0);
+  s.axial_force = problem.EA * u.derivative(1);
+  s.axial_load = -problem.EA * u.derivative(2) - problem.mass_per_length * square * u.derivative(0);
   if (problem.shear == ShearStrain::independent) {
-    const auto g = derivatives(shear_angle(problem, x));
-    s.deflection = w[0];
-    s.rotation = w[1] - g[0];
-    s.bending_moment = EI * (w[2] - g[1]);
-    s.shear_force = problem.kappa_GA * g[0];
-    s.transverse_load = -problem.kappa_GA * g[1];
-    s.moment_load = -EI * (w[3] - g[2]) - s.shear_force;
+    const Shape g = shear_angle(problem, x);
+    s.deflection = w.derivative(0);
+    s.rotation = w.derivative(1) - g.derivative(0);
+    s.bending_moment = EI * (w.derivative(2) - g.derivative(1));
+    s.shear_force = problem.kappa_GA * g.derivative(0);
+    s.transverse_load = -problem.kappa_GA * g.derivative(1);
+    s.moment_load = -EI * (w.derivative(3) - g.derivative(2)) - s.shear_force;
   } else {
     const bool rigid = problem.shear == ShearStrain::none;
     const double clamped = bending_shape(problem, 0).derivative(2);
-    s.deflection = rigid ? w[0] : w[0] - EI / problem.kappa_GA * (w[2] - clamped);
-    s.rotation = w[1];
-    s.bending_moment = EI * w[2];
-    s.shear_force = -EI * w[3];
-    s.transverse_load = EI * w[4];
+    s.deflection = rigid ? w.derivative(0)
+                         : w.derivative(0) - EI / problem.kappa_GA * (w.derivative(2) - clamped);
+    s.rotation = w.derivative(1);
+    s.bending_moment = EI * w.derivative(2);
+    s.shear_force = -EI * w.derivative(3);
+    s.transverse_load = EI * w.derivative(4);
     s.moment_load = 0;
   }
   s.transverse_load -= problem.mass_per_length * square * s.deflection;

@@ -51,7 +51,7 @@ enum class BeamField {
 enum class ShearStrain {
   none,          ///< Euler-Bernoulli: the section stays normal, no rotary inertia
   from_bending,  ///< Timoshenko under transverse load alone (statically no distributed moment)
-  independent,   ///< Timoshenko: a shear angle of its own, held up by a distributed moment
+  independent,   ///< Timoshenko: an independent shear angle, supported by a distributed moment
 };
 
 struct BeamProblem {

@@ -53,20 +53,13 @@ ReferenceKind parse_kind(const std::string& word, const std::string& place) {
 /// One number for all values, or one for each.
 std::vector<double> expand(const Json& stated, const std::string& place, const char* pointer,
                            std::size_t count) {
-  std::vector<double> half_widths;
-  if (stated.is_number()) {
-    half_widths.assign(count, stated.get<double>());
-  } else if (stated.is_array() && stated.size() == count) {
-    for (const Json& number : stated) {
-      if (!number.is_number()) fail(place, pointer, "numbers");
-      half_widths.push_back(number.get<double>());
-    }
-  } else {
-    fail(place, pointer, "a number or " + std::to_string(count) + " of them, one a value");
-  }
-  for (const double value : half_widths)
-    if (!(value >= 0)) fail(place, pointer, "numbers that are not negative");
-  return half_widths;
+  const Json numbers = stated.is_number() ? Json(std::vector<Json>(count, stated)) : stated;
+  const auto is_half_width = [](const Json& number) { return number.is_number() && number >= 0; };
+  if (!numbers.is_array() || numbers.size() != count ||
+      !std::all_of(numbers.begin(), numbers.end(), is_half_width))
+    fail(place, pointer,
+         "a number that is not negative, or " + std::to_string(count) + " of them, one a value");
+  return numbers.get<std::vector<double>>();
 }
 
 std::vector<double> read_uncertainty(const Json& json, const Reference& reference,
@@ -85,14 +78,15 @@ std::vector<double> read_uncertainty(const Json& json, const Reference& referenc
     }
     return half_widths;
   }
-  if (reference.printed.empty()) fail(place, "", "'uncertainty', or 'printed' digits that tell it");
+  if (reference.printed.empty())
+    fail(place, "", "'uncertainty', or 'printed' digits that imply it");
   std::vector<double> half_widths;
   for (std::size_t i = 0; i < reference.printed.size(); ++i) {
     // Digits in another unit, or corrected ones, give no uncertainty of the value.
     const double read = std::strtod(reference.printed[i].c_str(), nullptr);
     if (std::abs(read - reference.values[i]) > 1e-12 * std::abs(read)) {
       fail(place, "/printed/" + std::to_string(i),
-           "the digits of the value, or 'uncertainty' beside them (got '" + reference.printed[i] +
+           "the digits of the value, or 'uncertainty' in addition (got '" + reference.printed[i] +
                "')");
     }
     half_widths.push_back(half_unit_in_last_place(reference.printed[i]));

@@ -19,9 +19,9 @@ struct Reference {
   std::vector<double> values;
   std::vector<double> uncertainty;   ///< absolute half width, one a value, same unit
   std::string source;                ///< key into references/bibliography.json
-  std::string place;                 ///< where in the source: "Table 2, row 1"
-  std::vector<std::string> printed;  ///< as printed, where the source prints them
-  std::string derivation;            ///< program and arguments in words; empty where none
+  std::string place;                 ///< place in the source: "Table 2, row 1"
+  std::vector<std::string> printed;  ///< as printed, if the source prints them
+  std::string derivation;            ///< program and arguments in words; empty if none
   std::vector<std::string> errata;   ///< what is wrong with the source, and how it was shown
   std::string notes;
   /// Probabilities of readings of a model, as JSON text; empty if the values are all.
@@ -50,7 +50,7 @@ class ReferenceError : public std::runtime_error {
 
 struct Source {
   std::string text;  ///< full citation
-  std::string doi;   ///< empty where there is none
+  std::string doi;   ///< empty if there is none
 };
 
 /// Reads a member of a bibliography, {"key": {"text": "...", "doi": "..."}}.

@@ -5,7 +5,6 @@
 
 #include "references/frames/frame.h"
 #include "references/frames/frame_coordinates.h"
-#include "references/frames/member_dynamics.h"
 #include "references/numerics/ball.h"
 #include "references/numerics/dense.h"
 
@@ -15,6 +14,20 @@
 ///   J(w) = J0(w) + s(D(w)),
 /// J0 those of the members with all their ends clamped, s the negative pivots of D.
 namespace trammel::references {
+
+/// Properties of a member in the number type of the evaluation.
+template <class T>
+struct MemberData {
+  explicit MemberData(const FrameSection& s, const Real& L)
+      : length(static_cast<T>(L)),
+        axial_compliance(static_cast<T>(s.axial_compliance)),
+        EI(static_cast<T>(s.EI)),
+        shear_compliance(static_cast<T>(s.shear_compliance)),
+        mass(static_cast<T>(s.mass)),
+        rotary_inertia(static_cast<T>(s.rotary_inertia)),
+        tension(static_cast<T>(s.tension)) {}
+  T length, axial_compliance, EI, shear_compliance, mass, rotary_inertia, tension;
+};
 
 template <class T>
 class DynamicStiffness {

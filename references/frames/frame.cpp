@@ -33,6 +33,12 @@ MemberAxis member_axis(const Frame& frame, const FrameMember& member) {
   return {length, dx / length, dy / length};
 }
 
+FrameMaterial read_material(const Arguments& where, const std::string& key) {
+  const Arguments material = where.object(key, {"E_Pa", "rho_kg_m3", "nu"});
+  return {material.positive("E_Pa"), material.not_negative("rho_kg_m3", 0),
+          material.number("nu", 0)};
+}
+
 FrameSection elastic_section(const FrameMaterial& material, const Real& area,
                              const Real& second_moment, const Real& half_depth,
                              const Real& shear_coefficient) {

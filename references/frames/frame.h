@@ -2,7 +2,6 @@
 
 #include <array>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "references/numerics/arguments.h"
@@ -18,7 +17,7 @@ struct FrameSection {
   Real mass = 0;              ///< rho A [kg/m]
   Real rotary_inertia = 0;    ///< rho I [kg m]; 0: Euler-Bernoulli
   Real area = 0;              ///< [m^2]
-  Real modulus = 0;           ///< I over the distance of the outermost fibre [m^3]
+  Real modulus = 0;           ///< I over the distance of the outermost fiber [m^3]
   Real tension = 0;           ///< axial force in the state about which it vibrates [N]
 };
 
@@ -27,6 +26,9 @@ struct FrameMaterial {
   Real rho = 0;  ///< [kg/m^3]
   Real nu = 0;   ///< [-]
 };
+
+/// Reads where[key]: "E_Pa", "rho_kg_m3" and "nu".
+[[nodiscard]] FrameMaterial read_material(const Arguments& where, const std::string& key);
 
 /// Returns a section with the compliances and inertias of all theories.
 /// @param half_depth  distance of the outermost fiber from the axis; 0 if it is unknown [m].
@@ -98,15 +100,12 @@ struct FrameLoad {
 /// @throws DerivationError  with the JSON pointer, if it is none of these.
 [[nodiscard]] FrameEnd read_end(const Json& value, const Arguments& where, const std::string& key);
 
-/// The rotation of `node`, or (member >= 0) of an end of a member.
-struct FrameRotation {
-  int node = -1;
-  int member = -1;
-  int end = 0;
+/// The rotation of a node is `share` times the sum of the rotations of member ends.
+struct RotationConstraint {
+  int node = 0;
+  Real share = 0;
+  std::vector<std::array<int, 2>> ends;  ///< member, 0 (start) or 1 (end)
 };
-
-/// sum of coefficient * rotation = 0.
-using RotationConstraint = std::vector<std::pair<FrameRotation, Real>>;
 
 struct Frame {
   std::vector<FrameNode> nodes;
@@ -119,8 +118,8 @@ struct Frame {
   std::vector<RotationConstraint> constraints;
   std::array<Real, 2> gravity{};  ///< [m/s^2]
 
-  [[nodiscard]] int find_node(const std::string& name) const;    ///< -1 where there is none
-  [[nodiscard]] int find_member(const std::string& name) const;  ///< -1 where there is none
+  [[nodiscard]] int find_node(const std::string& name) const;    ///< -1 if there is none
+  [[nodiscard]] int find_member(const std::string& name) const;  ///< -1 if there is none
 };
 
 /// Length and direction cosines of a member.
@@ -128,5 +127,10 @@ struct MemberAxis {
   Real length, cosine, sine;
 };
 [[nodiscard]] MemberAxis member_axis(const Frame& frame, const FrameMember& member);
+
+/// The frame of the arguments: "model" (as a case file's), or "manipulator" with "pose" (x_m, y_m,
+/// phi_rad) and "loads".
+/// @throws DerivationError  with the JSON pointer.
+[[nodiscard]] Frame frame_from_arguments(const Arguments& arguments);
 
 }  // namespace trammel::references

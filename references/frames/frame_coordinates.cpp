@@ -1,6 +1,6 @@
 #include "references/frames/frame_coordinates.h"
 
-#include "references/numerics/arguments.h"
+#include <algorithm>
 
 namespace trammel::references {
 
@@ -41,20 +41,13 @@ void FrameCoordinates::number(const Frame& frame) {
     size_ += has_rotation[i] ? 3 : 2;
   }
   for (const FrameMember& member : frame.members) {
-    member_nodes_.push_back(member.nodes);
-    std::array<int, 2> ends{};
+    std::array<int, 6> indices{};
     for (int end = 0; end < 2; ++end) {
-      const bool welded = member.ends[end].fixity == Fixity::welded;
-      ends[end] = welded ? node_[member.nodes[end]][2] : size_++;
+      std::ranges::copy(node_[member.nodes[end]], indices.begin() + 3 * end);
+      if (member.ends[end].fixity != Fixity::welded) indices[3 * end + 2] = size_++;
     }
-    end_.push_back(ends);
+    member_.push_back(indices);
   }
-}
-
-std::array<int, 6> FrameCoordinates::member_indices(int member) const {
-  const auto& a = node_[member_nodes_[member][0]];
-  const auto& b = node_[member_nodes_[member][1]];
-  return {a[0], a[1], end_[member][0], b[0], b[1], end_[member][1]};
 }
 
 std::vector<SpringElement> FrameCoordinates::springs(const Frame& frame) const {
@@ -76,13 +69,6 @@ std::vector<SpringElement> FrameCoordinates::springs(const Frame& frame) const {
     }
   }
   return result;
-}
-
-int FrameCoordinates::rotation_index(const FrameRotation& rotation) const {
-  const int index =
-      rotation.member >= 0 ? end_[rotation.member][rotation.end] : node_[rotation.node][2];
-  if (index < 0) throw DerivationError("a constraint names a rotation that a node does not have");
-  return index;
 }
 
 std::vector<FrameCoordinates::Row> FrameCoordinates::equations(const Frame& frame,
@@ -114,11 +100,9 @@ std::vector<FrameCoordinates::Row> FrameCoordinates::equations(const Frame& fram
         {{a[0], -axis.cosine}, {a[1], -axis.sine}, {b[0], axis.cosine}, {b[1], axis.sine}});
   }
   for (const RotationConstraint& constraint : frame.constraints) {
-    Row row;
-    for (const auto& [rotation, coefficient] : constraint) {
-      row[rotation_index(rotation)] += coefficient;
-    }
-    rows.push_back(row);
+    rows.push_back({{node_[constraint.node][2], Real(-1)}});
+    for (const auto& [member, end] : constraint.ends)
+      rows.back()[end_index(member, end)] += constraint.share;
   }
   return rows;
 }

@@ -23,19 +23,21 @@ class FrameCoordinates {
  public:
   /// @param constrain_inextensible  true if members without axial compliance are constraints
   /// (dynamics), false if their axial force is an unknown (statics).
-  /// @throws DerivationError  if a constraint names a missing rotation, or a member has no length.
+  /// @throws DerivationError  if a member has no length.
   FrameCoordinates(const Frame& frame, bool constrain_inextensible);
 
   [[nodiscard]] int size() const { return size_; }                        ///< of u
   [[nodiscard]] int free() const { return static_cast<int>(N_.cols()); }  ///< of q
   [[nodiscard]] const RealMatrix& N() const { return N_; }                ///< u x q
 
-  /// Index in u of motion 0 (x), 1 (y) or 2 (rotation) of a node; -1 where it has no rotation.
+  /// Index in u of motion 0 (x), 1 (y) or 2 (rotation) of a node; -1 if it has no rotation.
   [[nodiscard]] int node_index(int node, int motion) const { return node_[node][motion]; }
   /// Index in u of the rotation of a member's end.
-  [[nodiscard]] int end_index(int member, int end) const { return end_[member][end]; }
+  [[nodiscard]] int end_index(int member, int end) const { return member_[member][3 * end + 2]; }
   /// Indices in u of x, y, rotation at both ends of a member.
-  [[nodiscard]] std::array<int, 6> member_indices(int member) const;
+  [[nodiscard]] const std::array<int, 6>& member_indices(int member) const {
+    return member_[member];
+  }
   /// Returns the springs between nodes and those of sprung member ends.
   [[nodiscard]] std::vector<SpringElement> springs(const Frame& frame) const;
 
@@ -44,13 +46,11 @@ class FrameCoordinates {
 
   void number(const Frame& frame);
   [[nodiscard]] std::vector<Row> equations(const Frame& frame, bool constrain_inextensible) const;
-  [[nodiscard]] int rotation_index(const FrameRotation& rotation) const;
   void solve(const std::vector<Row>& equations);
 
   int size_ = 0;
   std::vector<std::array<int, 3>> node_;
-  std::vector<std::array<int, 2>> end_;
-  std::vector<std::array<int, 2>> member_nodes_;
+  std::vector<std::array<int, 6>> member_;
   RealMatrix N_;
 };
 

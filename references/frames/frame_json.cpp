@@ -2,7 +2,6 @@
 #include <map>
 
 #include "references/frames/manipulator_design.h"
-#include "references/frames/programs.h"
 
 namespace trammel::references {
 
@@ -24,16 +23,10 @@ std::vector<std::pair<std::string, Arguments>> objects_of(const Arguments& paren
   return objects;
 }
 
-FrameMaterial read_material(const Arguments& materials, const std::string& name,
-                            const Arguments& section) {
-  if (!materials.has(name)) section.fail("material", "there is no material '" + name + "'");
-  const Arguments material = materials.object(name, {"E_Pa", "rho_kg_m3", "nu"});
-  return {material.positive("E_Pa"), material.not_negative("rho_kg_m3", 0),
-          material.number("nu", 0)};
-}
-
 FrameSection read_section(const Arguments& materials, const Arguments& section) {
-  const FrameMaterial material = read_material(materials, section.text("material"), section);
+  const std::string name = section.text("material");
+  if (!materials.has(name)) section.fail("material", "there is no material '" + name + "'");
+  const FrameMaterial material = read_material(materials, name);
   const Real shear_coefficient = section.number("shear_coefficient", Real(5) / 6);
   if (section.has("rectangle")) {
     const Arguments r = section.object("rectangle", {"thickness_m", "width_m"});
@@ -163,8 +156,6 @@ void read_loads(const Arguments& model, Frame& frame) {
   }
 }
 
-}  // namespace
-
 Frame read_frame(const Json& json, const std::string& pointer) {
   const Arguments model(
       json, pointer,
@@ -182,10 +173,12 @@ Frame read_frame(const Json& json, const std::string& pointer) {
   return frame;
 }
 
+}  // namespace
+
 Frame frame_from_arguments(const Arguments& arguments) {
   if (arguments.has("model")) {
     for (const char* key : {"manipulator", "pose", "loads", "gravity_m_s2"}) {
-      if (arguments.has(key)) arguments.fail(key, "does not go with a model");
+      if (arguments.has(key)) arguments.fail(key, "is not allowed together with a model");
     }
     return read_frame(arguments["model"], "/model");
   }

@@ -4,16 +4,12 @@ namespace trammel::references {
 
 namespace {
 
-/// Vertices of an equilateral triangle about `center`, at 210, 330 and 90 degrees plus `angle`.
-std::array<Point2<Real>, 3> triangle(const Point2<Real>& center, const Real& side,
-                                     const Real& angle) {
-  const Real radius = side / sqrt(Real(3));
-  std::array<Point2<Real>, 3> vertices;
-  for (int i = 0; i < 3; ++i) {
-    const Real direction = angle + Real(pi<Real>() * (7 + 4 * i) / 6);
-    vertices[i] = {center[0] + radius * cos(direction), center[1] + radius * sin(direction)};
-  }
-  return vertices;
+/// Returns the vertices of an equilateral triangle about a center, at 210, 330 and 90 degrees.
+std::vector<Point2<Real>> triangle(const Point2<Real>& center, const Real& side) {
+  const Real height = side / (2 * sqrt(Real(3)));  // of the center above the first edge
+  return {{center[0] - side / 2, center[1] - height},
+          {center[0] + side / 2, center[1] - height},
+          {center[0], center[1] + 2 * height}};
 }
 
 /// Returns true if a mass or an inertia is a number instead of "from-density" or "from-mass".
@@ -24,11 +20,6 @@ bool is_given(const Arguments& object, const std::string& key) {
 /// Returns a given mass [kg] or inertia [kg m^2], or the computed one.
 Real given_or(const Arguments& object, const std::string& key, const Real& computed) {
   return is_given(object, key) ? object.positive(key) : computed;
-}
-
-FrameMaterial material(const Arguments& manipulator, const std::string& key) {
-  const Arguments m(manipulator[key], manipulator.pointer(key), {"E_Pa", "rho_kg_m3", "nu"});
-  return {m.positive("E_Pa"), m.positive("rho_kg_m3"), m.number("nu", 0)};
 }
 
 /// All that holds for the links of one kind.
@@ -62,23 +53,12 @@ LinkNumbers link(const Arguments& links, const FrameMaterial& material, const st
   return result;
 }
 
-std::array<Point2<Real>, 3> vertices(const Arguments& object, const std::string& key) {
-  const Json& rows = object[key];
-  if (!rows.is_array() || rows.size() != 3) object.fail(key, "expected three points");
-  std::array<Point2<Real>, 3> points;
-  for (std::size_t i = 0; i < 3; ++i) {
-    points[i] = Arguments({{"at", rows[i]}}, object.pointer(key)).point("at");
-  }
-  return points;
-}
-
 void read_platform(const Arguments& manipulator, ManipulatorNumbers& result) {
   const Arguments platform(
       manipulator["platform"], manipulator.pointer("platform"),
       {"kind", "side_m", "vertices_m", "thickness_m", "mass_kg", "inertia_kg_m2", "refinements"});
-  const auto corners = platform.has("vertices_m")
-                           ? vertices(platform, "vertices_m")
-                           : triangle({0, 0}, platform.positive("side_m"), 0);
+  const auto corners = platform.has("vertices_m") ? platform.points("vertices_m", 3)
+                                                  : triangle({0, 0}, platform.positive("side_m"));
   Point2<Real>& center = result.platform_center;
   for (std::size_t i = 0; i < 3; ++i) {
     result.limbs[i].corner = corners[i];
@@ -93,7 +73,8 @@ void read_platform(const Arguments& manipulator, ManipulatorNumbers& result) {
                         (corners[1][1] - corners[0][1]) * (corners[2][0] - corners[0][0])) /
                     2;
   const Real rho =
-      material(manipulator, manipulator.has("platform_material") ? "platform_material" : "material")
+      read_material(manipulator,
+                    manipulator.has("platform_material") ? "platform_material" : "material")
           .rho;
   const Real mass = given_or(platform, "mass_kg", area * platform.positive("thickness_m") * rho);
   const Real steiner = mass * (center[0] * center[0] + center[1] * center[1]);
@@ -102,21 +83,57 @@ void read_platform(const Arguments& manipulator, ManipulatorNumbers& result) {
       given_or(platform, "inertia_kg_m2", mass * squares / 12 + steiner) - steiner;
 }
 
+FrameEnd member_end(const Arguments& joints, const std::string& key) {
+  const bool constrained = joints[key] == "eq25-mean" || joints[key] == "eq25-sum";
+  return read_end(constrained ? Json("hinged") : joints[key], joints, key);
+}
+
+/// Eq. 25: the platform's rotation is the mean (or the sum, as printed) of the link-end rotations.
+void add_eq25(const Arguments& joints, Frame& frame) {
+  const Json& platform = joints["platform"];
+  if (platform != "eq25-mean" && platform != "eq25-sum") return;
+  const Real share = platform == "eq25-mean" ? Real(1) / 3 : Real(1);
+  frame.constraints.push_back({frame.find_node("P"), share, {}});
+  for (const char* name : {"B1-C1", "B2-C2", "B3-C3"})
+    frame.constraints.back().ends.push_back({frame.find_member(name), 1});
+}
+
+void add_links(const ManipulatorNumbers& numbers, const Arguments& joints, Frame& frame) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::string limb = std::to_string(i + 1);
+    for (const bool proximal : {true, false}) {
+      const LinkNumbers& link = proximal ? numbers.limbs[i].proximal : numbers.limbs[i].distal;
+      FrameMember member;
+      const std::string from = (proximal ? "A" : "B") + limb;
+      const std::string to = (proximal ? "B" : "C") + limb;
+      member.name = from + "-" + to;
+      member.nodes = {frame.find_node(from), frame.find_node(to)};
+      member.section = link.section;
+      if (proximal) {
+        member.ends[0] = member_end(joints, "active");
+        if (joints["elbow"] == "hinged") member.ends[1] = member_end(joints, "elbow");
+      } else {
+        member.ends = {member_end(joints, "elbow"), member_end(joints, "platform")};
+      }
+      if (link.has_inertia)
+        for (FrameEnd& end : member.ends) end.inertia = link.inertia / 2;
+      frame.members.push_back(member);
+    }
+  }
+}
+
 }  // namespace
 
 ManipulatorNumbers read_manipulator_numbers(const Arguments& manipulator) {
   ManipulatorNumbers result;
   read_platform(manipulator, result);
-  const FrameMaterial m = material(manipulator, "material");
+  const FrameMaterial m = read_material(manipulator, "material");
   const Arguments proximal = links_of_kind(manipulator, "proximal");
   const Arguments distal = links_of_kind(manipulator, "distal");
-  std::array<Point2<Real>, 3> base;
-  if (manipulator.has("base_m")) {
-    base = vertices(manipulator, "base_m");
-  } else {
-    const Real side = manipulator.positive("base_side_m");
-    base = triangle({side / 2, side / (2 * sqrt(Real(3)))}, side, 0);
-  }
+  const Real side = manipulator.positive("base_side_m", 1);  // if there are no points
+  const auto base = manipulator.has("base_m")
+                        ? manipulator.points("base_m", 3)
+                        : triangle({side / 2, side / (2 * sqrt(Real(3)))}, side);
   for (std::size_t i = 0; i < 3; ++i) {
     LimbNumbers& limb = result.limbs[i];
     limb.base = base[i];
@@ -135,6 +152,40 @@ Arguments manipulator_arguments(const Arguments& arguments) {
           "/manipulator",
           {"base_side_m", "base_m", "links", "platform", "material", "platform_material", "joints",
            "working_mode"}};
+}
+
+Frame manipulator_frame(const Arguments& manipulator, const Arguments& pose) {
+  if (manipulator["platform"].value("kind", "") != "rigid")
+    manipulator.fail("platform", "expected a platform of the kind rigid");
+  const ManipulatorNumbers numbers = read_manipulator_numbers(manipulator);
+  const Arguments joints(manipulator["joints"], manipulator.pointer("joints"),
+                         {"active", "elbow", "platform"});
+  const Point2<Real> P = {pose.number("x_m"), pose.number("y_m")};
+  const Real phi = pose.number("phi_rad", 0);
+
+  Frame frame;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const LimbNumbers& limb = numbers.limbs[i];
+    const std::string name = std::to_string(i + 1);
+    const Point2<Real> corner = rotated(limb.corner, phi), C = {P[0] + corner[0], P[1] + corner[1]};
+    frame.nodes.push_back({std::string("A").append(name), limb.base});
+    frame.nodes.push_back(
+        {std::string("B").append(name),
+         elbow<Real>(limb.base, C, limb.proximal.length, limb.distal.length, limb.mode)});
+    frame.nodes.push_back({std::string("C").append(name), C});
+  }
+  frame.nodes.push_back({"P", P});
+  add_links(numbers, joints, frame);
+  const int at = frame.find_node("P");
+  frame.masses.push_back(
+      {at, numbers.platform_mass, numbers.platform_inertia, rotated(numbers.platform_center, phi)});
+  frame.bodies.push_back(
+      {at, {frame.find_node("C1"), frame.find_node("C2"), frame.find_node("C3")}});
+  add_eq25(joints, frame);
+  for (const char* base : {"A1", "A2", "A3"}) {
+    frame.supports.push_back({frame.find_node(base), {true, true, true}});
+  }
+  return frame;
 }
 
 }  // namespace trammel::references

@@ -4,15 +4,23 @@
 
 #include "references/frames/frame.h"
 
-/// Data of a planar 3-RRR in the format of "manipulator" in case files: base_side_m or
-/// base_m, links (proximal_length_m and distal_length_m, one or three each; thickness_m, width_m,
-/// mass_kg, inertia_kg_m2, beam, shear_coefficient, axial; proximal and distal for differing
-/// values), platform (side_m or vertices_m, thickness_m, mass_kg, inertia_kg_m2), material,
-/// platform_material, joints (one of each kind for all limbs), working_mode.
+/// Data of a planar 3-RRR in the format of "manipulator" in case files:
+/// base_side_m or base_m.
+/// links: proximal_length_m and distal_length_m (one or three each), thickness_m, width_m, mass_kg,
+/// inertia_kg_m2, beam, shear_coefficient, axial; proximal and distal contain differing values.
+/// platform: side_m or vertices_m, thickness_m, mass_kg, inertia_kg_m2.
+/// material, platform_material, joints (one of each kind for all limbs), working_mode.
 namespace trammel::references {
 
 template <class Number>
 using Point2 = std::array<Number, 2>;
+
+/// Returns a vector rotated by an angle.
+template <class Number>
+[[nodiscard]] Point2<Number> rotated(const Point2<Real>& v, const Number& angle) {
+  const Number c = cos(angle), s = sin(angle);
+  return {c * v[0] - s * v[1], s * v[0] + c * v[1]};
+}
 
 /// The intersection of the circles about A and C; mode -1 lies clockwise of the line A C.
 /// @throws DerivationError  if there is none.
@@ -61,12 +69,13 @@ struct ManipulatorNumbers {
 [[nodiscard]] Arguments manipulator_arguments(const Arguments& arguments);
 
 /// The planar 3-RRR with a rigid platform as a frame, by its own closed-form inverse kinematics:
-/// each B_i is where the circles of radius |A_i B_i| about A_i and |B_i C_i| about C_i meet, on the
-/// side that the working mode names. Nodes A1-A3, B1-B3, C1-C3, P; members A1-B1 ..., B1-C1 ....
+/// each B_i is an intersection of the circles of radius |A_i B_i| about A_i and |B_i C_i| about
+/// C_i, on the side of the working mode. Nodes A1-A3, B1-B3, C1-C3, P; members A1-B1 ..., B1-C1
+/// ....
 ///
 /// The numbers are those of `read_manipulator_numbers`; platform kind "rigid"; joints active locked
 /// / free / spring, elbow and platform welded / hinged / spring, platform also eq25-mean, eq25-sum.
-/// @throws DerivationError  with the JSON pointer, or where a limb cannot reach.
+/// @throws DerivationError  with the JSON pointer, or if a limb cannot reach.
 [[nodiscard]] Frame manipulator_frame(const Arguments& manipulator, const Arguments& pose);
 
 }  // namespace trammel::references

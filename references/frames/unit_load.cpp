@@ -1,42 +1,13 @@
 #include "references/frames/unit_load.h"
 
-#include <gsl/gsl_integration.h>
-
-#include <memory>
+#include <algorithm>
+#include <map>
 
 #include "references/frames/frame_coordinates.h"
 
 namespace trammel::references {
 
 namespace {
-
-/// Internal forces N, V and M at x along a member. The causes are a unit N, V or M at its start,
-/// and its distributed load.
-std::array<double, 3> internal_forces(int cause, const std::array<double, 2>& load, double x) {
-  if (cause == 0) return {1, 0, 0};
-  if (cause == 1) return {0, 1, -x};
-  if (cause == 2) return {0, 0, 1};
-  return {-load[0] * x, -load[1] * x, load[1] * x * x / 2};
-}
-
-/// Integrates the product of two diagrams with four Gauss points, which is exact for the quartics
-/// that occur here.
-double compliance(int a, int b, const FrameSection& section, const std::array<double, 2>& load,
-                  double length) {
-  static const std::unique_ptr<gsl_integration_glfixed_table,
-                               void (*)(gsl_integration_glfixed_table*)>
-      table(gsl_integration_glfixed_table_alloc(4), gsl_integration_glfixed_table_free);
-  const auto product = [&](double x) {
-    const auto [Na, Va, Ma] = internal_forces(a, load, x);
-    const auto [Nb, Vb, Mb] = internal_forces(b, load, x);
-    return Ma * Mb / static_cast<double>(section.EI) +
-           Na * Nb * static_cast<double>(section.axial_compliance) +
-           Va * Vb * static_cast<double>(section.shear_compliance);
-  };
-  gsl_function function{[](double x, void* f) { return (*static_cast<decltype(&product)>(f))(x); },
-                        const_cast<void*>(static_cast<const void*>(&product))};
-  return gsl_integration_glfixed(&function, 0, length, table.get());
-}
 
 /// Load per unit length in the member's axes, weight included: along it and to its left.
 std::array<Real, 2> member_load(const Frame& frame, const FrameMember& member) {
@@ -52,37 +23,47 @@ struct Equations {
   RealVector p, phi0;
 };
 
+/// Integrates the products of two diagrams of a member. Rows: a unit N, V and M at the start.
+/// Columns: the same, and the distributed load. Four Gauss points are exact for these quartics.
+Eigen::Matrix<double, 3, 4> compliances(const FrameSection& section,
+                                        const std::array<Real, 2>& load, const Real& length) {
+  const auto q_u = static_cast<double>(load[0]), q_w = static_cast<double>(load[1]);
+  const auto EI = static_cast<double>(section.EI);
+  const auto axial = static_cast<double>(section.axial_compliance);
+  const auto shear = static_cast<double>(section.shear_compliance);
+  const auto products = [&](double x) -> Eigen::Matrix<double, 3, 4> {
+    const Eigen::RowVector4d N(1, 0, 0, -q_u * x), V(0, 1, 0, -q_w * x);
+    const Eigen::RowVector4d M(0, -x, 1, q_w * x * x / 2);
+    return M.head<3>().transpose() * M / EI + N.head<3>().transpose() * N * axial +
+           V.head<3>().transpose() * V * shear;
+  };
+  constexpr std::array<double, 2> kPoints = {0.33998104358485626, 0.86113631159405257};
+  constexpr std::array<double, 2> kWeights = {0.65214515486254614, 0.34785484513745386};
+  const double half = static_cast<double>(length) / 2;
+  Eigen::Matrix<double, 3, 4> sum = Eigen::Matrix<double, 3, 4>::Zero();
+  for (std::size_t i = 0; i < 2; ++i)
+    sum += kWeights[i] * (products(half + half * kPoints[i]) + products(half - half * kPoints[i]));
+  return half * sum;
+}
+
 void add_member(const Frame& frame, int index, const FrameCoordinates& coordinates, Equations& e) {
   const FrameMember& member = frame.members[index];
   const MemberAxis axis = member_axis(frame, member);
   const auto load = member_load(frame, member);
   const Real L = axis.length;
+  Eigen::Matrix<Real, 3, 3> axes;  // world forces of a unit N, V and M
+  axes << axis.cosine, -axis.sine, 0, axis.sine, axis.cosine, 0, 0, 0, 1;
+  Eigen::Matrix<Real, 6, 3> forces;
+  forces << axes, -axes;
+  forces(5, 1) += L;
+  const RealVector end_load =
+      axes * Eigen::Matrix<Real, 3, 1>(load[0] * L, load[1] * L, -load[1] * L * L / 2);
   const auto u = coordinates.member_indices(index);
-  const std::array<Real, 3> x_of = {axis.cosine, -axis.sine, 0};  // world x of unit N, V, M
-  const std::array<Real, 3> y_of = {axis.sine, axis.cosine, 0};
-  for (int k = 0; k < 3; ++k) {
-    const std::size_t f = 3 * static_cast<std::size_t>(index) + k;
-    e.B(u[0], f) += x_of[k];
-    e.B(u[1], f) += y_of[k];
-    e.B(u[3], f) -= x_of[k];
-    e.B(u[4], f) -= y_of[k];
-    e.B(u[2], f) += k == 2 ? 1 : 0;
-    e.B(u[5], f) -= k == 2 ? Real(1) : k == 1 ? Real(-L) : Real(0);
-  }
-  e.p[u[3]] += (load[0] * x_of[0] + load[1] * x_of[1]) * L;
-  e.p[u[4]] += (load[0] * y_of[0] + load[1] * y_of[1]) * L;
-  e.p[u[5]] -= load[1] * L * L / 2;
-
-  const auto length = static_cast<double>(L);
-  const std::array<double, 2> q = {static_cast<double>(load[0]), static_cast<double>(load[1])};
-  for (int i = 0; i < 3; ++i) {
-    const std::size_t row = 3 * static_cast<std::size_t>(index) + i;
-    for (int j = 0; j < 3; ++j) {
-      e.Phi(row, 3 * static_cast<std::size_t>(index) + j) =
-          compliance(i, j, member.section, q, length);
-    }
-    e.phi0[row] = compliance(i, 3, member.section, q, length);
-  }
+  for (int row = 0; row < 3; ++row) e.p[u[3 + row]] += end_load[row];
+  for (int row = 0; row < 6; ++row) e.B.row(u[row]).segment<3>(3 * index) += forces.row(row);
+  const Eigen::Matrix<double, 3, 4> phi = compliances(member.section, load, L);
+  e.Phi.block<3, 3>(3 * index, 3 * index) = phi.leftCols<3>().cast<Real>();
+  e.phi0.segment<3>(3 * index) = phi.col(3).cast<Real>();
 }
 
 void add_loads(const Frame& frame, const FrameCoordinates& coordinates, Equations& e) {
@@ -137,6 +118,67 @@ RealVector minimize_complementary_energy(const Equations& e, const RealMatrix& N
                Real(1e-35));
 }
 
+using Values = std::map<std::string, Real>;
+
+void add_node_outputs(const Frame& frame, const FrameCoordinates& coordinates,
+                      const FrameStatics& statics, int node, Values& values) {
+  static const char* const displacements[] = {
+      "displacement_x_m:", "displacement_y_m:", "rotation_rad:"};
+  static const char* const reactions[] = {"reaction_x_N:", "reaction_y_N:", "reaction_moment_N_m:"};
+  const std::string& name = frame.nodes[node].name;
+  const bool is_in_body = std::ranges::any_of(frame.bodies, [&](const FrameBody& body) {
+    return body.reference == node || std::ranges::count(body.attached, node) > 0;
+  });
+  for (int motion = 0; motion < 3; ++motion) {
+    const int index = coordinates.node_index(node, motion);
+    if (index < 0) continue;
+    values[displacements[motion] + name] = statics.displacement[index];
+    if (!is_in_body) values[reactions[motion] + name] = -statics.residual_force[index];
+  }
+  const Real x = values[displacements[0] + name], y = values[displacements[1] + name];
+  values["deflection_m:" + name] = sqrt(x * x + y * y);
+}
+
+/// The stress |N|/A + |M|/W is that of a member without a distributed load, whose largest value is
+/// at an end.
+void add_member_outputs(const Frame& frame, const FrameCoordinates& coordinates,
+                        const FrameStatics& statics, int index, Values& values) {
+  const FrameMember& member = frame.members[index];
+  const MemberForces& forces = statics.members[index];
+  const bool has_stress = member.section.modulus > 0 && member.load[0] == 0 && member.load[1] == 0;
+  for (int end = 0; end < 2; ++end) {
+    const std::string name = ":" + member.name + (end == 0 ? ".start" : ".end");
+    values["axial_force_N" + name] = forces.N[end];
+    values["shear_force_N" + name] = forces.V[end];
+    values["bending_moment_N_m" + name] = forces.M[end];
+    values["end_rotation_rad" + name] = statics.displacement[coordinates.end_index(index, end)];
+    if (!has_stress) continue;
+    Real& stress = values["stress_Pa:" + member.name];
+    stress = std::max(stress, Real(abs(forces.N[end]) / member.section.area +
+                                   abs(forces.M[end]) / member.section.modulus));
+  }
+}
+
+/// Returns all outputs by name.
+Values outputs(const Frame& frame) {
+  const FrameCoordinates coordinates(frame, false);
+  const FrameStatics statics = unit_load_statics(frame);
+  Values values;
+  for (std::size_t i = 0; i < frame.nodes.size(); ++i)
+    add_node_outputs(frame, coordinates, statics, static_cast<int>(i), values);
+  for (std::size_t i = 0; i < frame.members.size(); ++i)
+    add_member_outputs(frame, coordinates, statics, static_cast<int>(i), values);
+  Real& work = values["load_work_J"];
+  for (const FrameLoad& load : frame.loads) {
+    for (int motion = 0; motion < 3; ++motion) {
+      const int index = coordinates.node_index(load.node, motion);
+      if (index >= 0) work += load.force[motion] * statics.displacement[index];
+    }
+  }
+  values["strain_energy_J"] = work / 2;
+  return values;
+}
+
 }  // namespace
 
 FrameStatics unit_load_statics(const Frame& frame) {
@@ -158,6 +200,18 @@ FrameStatics unit_load_statics(const Frame& frame) {
         {{N, N - load[0] * L}, {V, V - load[1] * L}, {M, M - V * L + load[1] * L * L / 2}});
   }
   return statics;
+}
+
+std::vector<Real> frame_statics_program(const Arguments& arguments) {
+  const Values values = outputs(frame_from_arguments(arguments));
+  std::vector<Real> result;
+  for (const std::string& name : arguments.texts("outputs")) {
+    const auto value = values.find(name);
+    if (value == values.end())
+      arguments.fail("outputs", "'" + name + "' is no output of this frame");
+    result.push_back(value->second);
+  }
+  return result;
 }
 
 }  // namespace trammel::references

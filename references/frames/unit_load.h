@@ -7,8 +7,10 @@
 #include "references/numerics/dense.h"
 
 /// Exact statics of a frame by the unit-load (force) method. The unknowns are the internal forces
-/// at the start of each member. Their compliances are integrals of unit-load diagrams
-///   phi_ij = integral m_i m_j / EI + n_i n_j / EA + v_i v_j / (kappa GA) dx   (GSL quadrature),
+/// at the start of each member. Their compliances are integrals of unit-load diagrams:
+///
+///   phi_ij = integral m_i m_j / EI + n_i n_j / EA + v_i v_j / (kappa GA) dx.
+///
 /// The complementary energy is minimal among all forces in equilibrium (Castigliano, Engesser). The
 /// multipliers of the equations of equilibrium are the displacements. There is no stiffness matrix.
 ///
@@ -28,5 +30,12 @@ struct FrameStatics {
 
 /// @throws DerivationError  if the frame can move freely, or its forces are not determined.
 [[nodiscard]] FrameStatics unit_load_statics(const Frame& frame);
+
+/// Arguments: model (or manipulator and pose, with loads), outputs (array of names). Names:
+/// displacement_x_m:NODE, displacement_y_m:NODE, rotation_rad:NODE, end_rotation_rad:MEMBER.start,
+/// reaction_x_N:NODE, reaction_y_N:NODE, reaction_moment_N_m:NODE, axial_force_N:MEMBER.start,
+/// bending_moment_N_m:MEMBER.end. Values: one an output, in the unit that its name ends with.
+/// @throws DerivationError  if a name is none of these, or names no part of the frame.
+[[nodiscard]] std::vector<Real> frame_statics_program(const Arguments& arguments);
 
 }  // namespace trammel::references

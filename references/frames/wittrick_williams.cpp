@@ -4,10 +4,10 @@
 #include <boost/math/policies/policy.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cstdint>
+#include <sstream>
 #include <utility>
 
-#include "references/frames/programs.h"
-#include "references/numerics/real.h"
+#include "references/frames/unit_load.h"
 
 namespace trammel::references {
 
@@ -67,6 +67,85 @@ Real counted_root(const CountingFunction& f, int index) {
   return refine_root(f, index, lo, hi);
 }
 
+/// The frame with the axial forces that its loads bring about.
+Frame with_axial_forces(Frame frame) {
+  const FrameStatics statics = unit_load_statics(frame);
+  for (std::size_t i = 0; i < frame.members.size(); ++i) {
+    FrameMember& member = frame.members[i];
+    const auto& N = statics.members[i].N;
+    if (N[0] != N[1]) {
+      throw DerivationError("the axial force varies along member " + member.name);
+    }
+    if (member.section.shear_compliance > 0) {
+      throw DerivationError("buckling requires Euler-Bernoulli members");
+    }
+    member.section.tension = N[0];
+  }
+  return frame;
+}
+
+/// The load at which a pinned member alone would buckle, as a factor: the smallest of them.
+Real buckling_scale(const Frame& frame) {
+  Real scale = 0;
+  for (const FrameMember& member : frame.members) {
+    const Real L = member_axis(frame, member).length;
+    const Real compression = -member.section.tension;
+    if (!(compression > 0)) continue;
+    const Real factor = 10 * member.section.EI / (L * L * compression);
+    scale = scale == 0 ? factor : std::min(scale, factor);
+  }
+  if (scale == 0) throw DerivationError("no member is in compression");
+  return scale;
+}
+
+/// A decimal of twelve digits, so that what is read back is what was meant.
+Json decimal(double value) {
+  std::ostringstream text;
+  text.precision(12);
+  text << value;
+  return Json::parse(text.str());
+}
+
+class Differences {
+ public:
+  explicit Differences(const Arguments& arguments)
+      : arguments_(arguments), count_(arguments.count("count")) {
+    const Json& json = arguments.json();
+    for (const std::string& text : arguments.texts("pointers")) {
+      const Json::json_pointer pointer(text);
+      if (!json.contains(pointer) || !json[pointer].is_number()) {
+        arguments.fail("pointers", "expected pointers to numbers (got " + text + ")");
+      }
+      if (!pointers_.empty() && json[pointer] != json[pointers_.front()]) {
+        arguments.fail("pointers", "expected pointers to equal numbers");
+      }
+      pointers_.push_back(pointer);
+    }
+  }
+
+  [[nodiscard]] std::vector<Real> central(double step) const {
+    const std::vector<Real> above = frequencies(step);
+    const std::vector<Real> below = frequencies(-step);
+    std::vector<Real> rate;
+    for (std::size_t i = 0; i < above.size(); ++i) {
+      rate.push_back((above[i] - below[i]) / (2 * Real(decimal(step).dump())));
+    }
+    return rate;
+  }
+
+ private:
+  [[nodiscard]] std::vector<Real> frequencies(double change) const {
+    Json json = arguments_.json();
+    for (const auto& pointer : pointers_)
+      json[pointer] = decimal(json[pointer].get<double>() + change);
+    return frame_frequencies(frame_from_arguments(Arguments(json, "")), count_).frequencies;
+  }
+
+  const Arguments& arguments_;
+  int count_;
+  std::vector<Json::json_pointer> pointers_;
+};
+
 }  // namespace
 
 std::vector<Real> counted_roots(const CountingFunction& f, int first, int count) {
@@ -117,6 +196,37 @@ std::vector<Real> frame_frequencies_program(const Arguments& arguments) {
 
 std::vector<Real> frame_count_program(const Arguments& arguments) {
   return {frequencies_below(frame_from_arguments(arguments), arguments.positive("below_Hz"))};
+}
+
+std::vector<Real> frame_buckling_program(const Arguments& arguments) {
+  const Frame frame = with_axial_forces(frame_from_arguments(arguments));
+  const DynamicStiffness<double> coarse(frame);
+  const DynamicStiffness<Real> fine(frame);
+  const Real w = frequency_scale(frame) * Real(1e-11);  // its square changes a factor by 1e-22
+  const auto coarse_w = static_cast<double>(frequency_scale(frame)) * 1e-3;
+  if (fine.count(w, Real(1e-6) * buckling_scale(frame)).below > 0) {
+    throw DerivationError("the frame can move freely");
+  }
+  const auto scale = static_cast<double>(buckling_scale(frame));
+  return counted_roots(
+      {[&](double factor) { return coarse.count(coarse_w, factor).below; },
+       [&](const Real& factor) { return fine.count(w, factor); }, 1e-4 * scale, scale},
+      0, arguments.count("count"));
+}
+
+std::vector<Real> frame_sensitivity_program(const Arguments& arguments) {
+  const auto step = static_cast<double>(arguments.positive("step"));
+  const Differences differences(arguments);
+  const std::vector<Real> a = differences.central(step);
+  const std::vector<Real> b = differences.central(step / 2);
+  const std::vector<Real> c = differences.central(step / 4);
+  std::vector<Real> rate;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const Real ab = (4 * b[i] - a[i]) / 3;
+    const Real bc = (4 * c[i] - b[i]) / 3;
+    rate.push_back((16 * bc - ab) / 15);
+  }
+  return rate;
 }
 
 }  // namespace trammel::references

@@ -15,8 +15,8 @@ namespace trammel::references {
 struct CountingFunction {
   std::function<int(double)> coarse;
   std::function<DynamicStiffness<Real>::Count(const Real&)> fine;
-  double lo = 0;  ///< > 0; where the search begins; nothing sought lies below
-  double hi = 0;  ///< where its doubling begins
+  double lo = 0;  ///< > 0; the search begins here; no passage lies below
+  double hi = 0;  ///< its doubling begins here
 };
 
 /// Returns the passages from `first` + 1 to `first` + `count`, each to 1e-20.
@@ -44,5 +44,18 @@ struct FrameFrequencies {
 
 /// Arguments: model (or manipulator and pose), below_Hz. Value: their number, rigid ones included.
 [[nodiscard]] std::vector<Real> frame_count_program(const Arguments& arguments);
+
+/// Central differences of `frame_frequencies`, each good to 1e-20, at step, step / 2 and step / 4,
+/// extrapolated twice: the error is O(step^6) plus 1e-20 over the step. Frequencies that remain
+/// repeated have a common derivative. Arguments: model (or manipulator and pose), pointers (JSON
+/// pointers into the arguments, to equal numbers that change together), step (in their unit),
+/// count. Values: [Hz / unit], ascending in frequency.
+[[nodiscard]] std::vector<Real> frame_sensitivity_program(const Arguments& arguments);
+
+/// Computes the first `count` positive factors of the loads at which the frame buckles: the axial
+/// forces of unit_load_statics times the factor, and the count at vanishing frequency.
+/// Arguments: model (or manipulator, pose and loads), count. Values: factors of the loads.
+/// @throws DerivationError  if an axial force varies along its member.
+[[nodiscard]] std::vector<Real> frame_buckling_program(const Arguments& arguments);
 
 }  // namespace trammel::references

@@ -7,44 +7,41 @@
 
 /// All poses of a planar 3-RRR at given angles of its actuators, and the proof that there are no
 /// more (J.-P. Merlet, Parallel Robots, 2nd ed., 2006, section 4.3). With the elbows B_i, the
-/// platform's joints c_i and D_i = B_i - R(phi) c_i, the platform lies on three circles about D_i;
-/// without their common unknowns a trigonometric polynomial Q(phi) of degree 3 is left, at most six
-/// zeros. By Bernstein the k-th derivative is at most 3^k max|Q|: intervals are halved until each
+/// joints c_i of the platform and D_i = B_i - R(phi) c_i, P is on three circles about D_i.
+/// Eliminating x and y leaves a trigonometric polynomial Q(phi) of degree 3, with at most six
+/// zeros. By Bernstein the k-th derivative is at most 3^k max|Q|. Intervals are halved until each
 /// is shown to have none, one or, on either side of an extremum, two.
 namespace trammel::references {
 
 namespace {
 
 template <class T>
-using Vec = std::array<T, 2>;
-
-template <class T>
-T dot(const Vec<T>& a, const Vec<T>& b) {
+T dot(const Point2<T>& a, const Point2<T>& b) {
   return a[0] * b[0] + a[1] * b[1];
 }
 
 struct Limbs {
-  std::array<Vec<Real>, 3> elbow, joint;
+  std::array<Point2<Real>, 3> elbow;
+  std::vector<Point2<Real>> joint;
   std::vector<Real> distal;
 };
 
-/// D_i of the header.
+/// Returns D_i.
 template <class T>
-Vec<T> center(const Limbs& limbs, std::size_t i, const T& phi) {
-  const T c = cos(phi), s = sin(phi);
-  const T x(limbs.joint[i][0]), y(limbs.joint[i][1]);
-  return {T(limbs.elbow[i][0]) - (c * x - s * y), T(limbs.elbow[i][1]) - (s * x + c * y)};
+Point2<T> center(const Limbs& limbs, std::size_t i, const T& phi) {
+  const Point2<T> joint = rotated(limbs.joint[i], phi);
+  return {T(limbs.elbow[i][0]) - joint[0], T(limbs.elbow[i][1]) - joint[1]};
 }
 
-/// P - D_1 times the determinant, and the determinant: where the lines through the common points of
-/// the circles meet.
+/// Returns (P - D_1) times the determinant, and the determinant, at the intersection of the lines
+/// through the common points of the circles.
 template <class T>
-std::pair<Vec<T>, T> meeting(const Limbs& limbs, const T& phi) {
-  std::array<Vec<T>, 2> a;
+std::pair<Point2<T>, T> meeting(const Limbs& limbs, const T& phi) {
+  std::array<Point2<T>, 2> a;
   std::array<T, 2> b;
-  const Vec<T> first = center(limbs, 0, phi);
+  const Point2<T> first = center(limbs, 0, phi);
   for (std::size_t i = 0; i < 2; ++i) {
-    const Vec<T> other = center(limbs, i + 1, phi);
+    const Point2<T> other = center(limbs, i + 1, phi);
     a[i] = {first[0] - other[0], first[1] - other[1]};
     const Real &l = limbs.distal[0], &m = limbs.distal[i + 1];
     b[i] = (T(Real(m * m - l * l)) - dot(a[i], a[i])) / T(2);
@@ -61,23 +58,19 @@ T Q(const Limbs& limbs, const T& phi) {
 
 Limbs read_limbs(const Arguments& arguments) {
   Limbs limbs;
-  const auto point = [&](const char* key, std::size_t i) {
-    const Json one = {{"point", arguments[key].at(i)}};
-    const auto xy = Arguments(one, arguments.pointer(key), {"point"}).numbers("point", 2);
-    return Vec<Real>{xy[0], xy[1]};
-  };
+  const auto base = arguments.points("base_m", 3);
+  limbs.joint = arguments.points("platform_m", 3);
   limbs.distal = arguments.numbers("distal_m", 3);
   const auto proximal = arguments.numbers("proximal_m", 3);
   const auto angle = arguments.numbers("angles_rad", 3);
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec<Real> base = point("base_m", i);
-    limbs.joint[i] = point("platform_m", i);
-    limbs.elbow[i] = {base[0] + proximal[i] * cos(angle[i]), base[1] + proximal[i] * sin(angle[i])};
+    limbs.elbow[i] = {base[i][0] + proximal[i] * cos(angle[i]),
+                      base[i][1] + proximal[i] * sin(angle[i])};
   }
   return limbs;
 }
 
-/// Bernstein's bounds, |Q'| <= 3 max|Q| and so on, say where Q or Q' is monotonic.
+/// Bernstein's bounds, |Q'| <= 3 max|Q| and so on, show that Q or Q' is monotonic in an interval.
 struct Search {
   const Arguments& arguments;
   const Limbs& limbs;
@@ -139,7 +132,7 @@ std::vector<Real> assembly_modes_program(const Arguments& arguments) {
   std::vector<Real> poses;
   for (const Real& phi : zeros) {
     const auto [u, determinant] = meeting(limbs, phi);
-    const Vec<Real> first = center(limbs, 0, phi);
+    const Point2<Real> first = center(limbs, 0, phi);
     for (std::size_t k = 0; k < 2; ++k) poses.push_back(first[k] + u[k] / determinant);
     poses.push_back(phi);
   }

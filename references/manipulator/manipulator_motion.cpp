@@ -12,7 +12,6 @@ namespace trammel::references {
 namespace {
 
 using Motion = std::array<Jet<Real>, 3>;
-using PointJet = Point2<Jet<Real>>;
 
 /// Everything at one instant, by the name of its quantity.
 class Instant {
@@ -32,12 +31,7 @@ class Instant {
         wrench.x * motion[0].rate + wrench.y * motion[1].rate + wrench.moment * motion[2].rate;
     values_["gravity_power_W"] = 0;
     for (std::size_t i = 0; i < 3; ++i) add_limb(i);
-    const Jet<Real> c = cos(motion[2]), s = sin(motion[2]);
-    const Point2<Real>& center = m_.platform_center;
-    add_body(
-        "platform",
-        {motion[0] + (c * center[0] - s * center[1]), motion[1] + (s * center[0] + c * center[1])},
-        motion[2], m_.platform_mass, m_.platform_inertia);
+    add_body("platform", mass_center(m_, motion), motion[2], m_.platform_mass, m_.platform_inertia);
     add_singularities();
   }
 
@@ -68,21 +62,16 @@ class Instant {
     directions_[i] = {-along[0], -along[1]};
     values_["torque_N_m:A" + n] = values_["holding_torque_N_m:A" + n] = forces_.torque[i];
     values_["actuator_power_W"] += forces_.torque[i] * active.rate;
-    add_link("A" + n + "-B" + n, A, B, active, limb.proximal);
-    add_link("B" + n + "-C" + n, B, C, passive, limb.distal);
+    add_body("A" + n + "-B" + n, mass_center(limb.proximal, A, B), active, limb.proximal.mass,
+             limb.proximal.inertia);
+    add_body("B" + n + "-C" + n, mass_center(limb.distal, B, C), passive, limb.distal.mass,
+             limb.distal.inertia);
   }
 
   void add_angle(const std::string& kind, const std::string& joint, const Jet<Real>& angle) {
     values_[kind + "angle_rad" + joint] = angle.value;
     values_[kind + "velocity_rad_per_s" + joint] = angle.rate;
     values_[kind + "acceleration_rad_per_s2" + joint] = angle.acceleration;
-  }
-
-  void add_link(const std::string& name, const PointJet& from, const PointJet& to,
-                const Jet<Real>& angle, const LinkNumbers& body) {
-    const Real share = body.center / body.length;
-    add_body(name, {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])},
-             angle, body.mass, body.inertia);
   }
 
   void add_body(const std::string& name, const PointJet& center, const Jet<Real>& angle,

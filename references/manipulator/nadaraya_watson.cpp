@@ -5,29 +5,15 @@
 
 /// The estimator of Nadaraya and Watson (1964), which Specht (1991) calls a general regression
 /// neural network, by its printed formula in extended precision:
-///   Y(x) = sum_i Y_i exp(-D_i^2 / 2 s^2) / sum_i exp(-D_i^2 / 2 s^2),
-/// with numerator and denominator multiplied by exp(min D^2 / 2 s^2) to avoid underflow.
+///
+///   Y(x) = sum_i Y_i exp(-D_i^2 / 2 s^2) / sum_i exp(-D_i^2 / 2 s^2).
+///
+/// Numerator and denominator are multiplied by exp(min D^2 / 2 s^2) to avoid underflow.
 namespace trammel::references {
 
 namespace {
 
 using Rows = std::vector<std::vector<Real>>;
-
-Rows read_rows(const Arguments& arguments, const std::string& key) {
-  const Json& list = arguments[key];
-  if (!list.is_array() || list.empty()) arguments.fail(key, "expected rows of numbers");
-  Rows rows;
-  for (const Json& row : list) {
-    rows.push_back(Arguments({{"row", row}}, arguments.pointer(key)).numbers("row"));
-    if (rows.back().size() != rows.front().size()) arguments.fail(key, "rows differ in length");
-  }
-  return rows;
-}
-
-Real read_sigma(const Arguments& arguments) {
-  if (!arguments.has("spread")) return arguments.positive("sigma");
-  return arguments.positive("spread") / (sqrt(Real(2)) * Real("0.8326"));
-}
 
 /// Torques, and angles and velocities of the active joints, at one time.
 struct Sample {
@@ -74,13 +60,14 @@ std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
 }  // namespace
 
 std::vector<Real> grnn_program(const Arguments& arguments) {
-  const Rows inputs = read_rows(arguments, "inputs");
-  const Rows outputs = read_rows(arguments, "outputs");
-  const Real sigma = read_sigma(arguments);
+  const Rows inputs = arguments.rows("inputs");
+  const Rows outputs = arguments.rows("outputs");
+  const Real sigma = arguments.has("spread")
+                         ? Real(arguments.positive("spread") / (sqrt(Real(2)) * Real("0.8326")))
+                         : arguments.positive("sigma");
   if (inputs.size() != outputs.size()) arguments.fail("outputs", "expected one row an input row");
   std::vector<Real> values;
-  for (const auto& query : read_rows(arguments, "queries")) {
-    if (query.size() != inputs.front().size()) arguments.fail("queries", "as long as the inputs");
+  for (const auto& query : arguments.rows("queries", inputs.front().size())) {
     for (const Real& y : nadaraya_watson(inputs, outputs, query, sigma)) values.push_back(y);
   }
   return values;

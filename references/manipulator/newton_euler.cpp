@@ -1,24 +1,11 @@
 #include "references/manipulator/newton_euler.h"
 
+#include "references/manipulator/programs.h"
 #include "references/numerics/dense.h"
 
 namespace trammel::references {
 
 namespace {
-
-using PointJet = Point2<Jet<Real>>;
-
-PointJet rotated(const Point2<Real>& v, const Jet<Real>& angle) {
-  const Jet<Real> c = cos(angle), s = sin(angle);
-  return {c * v[0] - s * v[1], s * v[0] + c * v[1]};
-}
-
-/// The point at `distance` from `from` on the line to `to`, `length` away.
-PointJet between(const PointJet& from, const PointJet& to, const Real& distance,
-                 const Real& length) {
-  const Real share = distance / length;
-  return {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
-}
 
 /// Unknowns: of each limb the forces of base on proximal link, of proximal on distal link, of
 /// distal link on platform, and the torque of the base on the proximal link.
@@ -60,6 +47,17 @@ class Body {
 
 }  // namespace
 
+PointJet mass_center(const LinkNumbers& link, const PointJet& from, const PointJet& to) {
+  const Real share = link.center / link.length;
+  return {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
+}
+
+PointJet mass_center(const ManipulatorNumbers& manipulator,
+                     const std::array<Jet<Real>, 3>& motion) {
+  const PointJet offset = rotated(manipulator.platform_center, motion[2]);
+  return {motion[0] + offset[0], motion[1] + offset[1]};
+}
+
 Jet<Real> direction(const PointJet& from, const PointJet& to) {
   const Jet<Real> x = to[0] - from[0], y = to[1] - from[1];
   const Real r2 = x.value * x.value + y.value * y.value;
@@ -83,22 +81,20 @@ ManipulatorForces newton_euler_forces(const ManipulatorNumbers& m,
                                       const PlanarWrench& wrench) {
   RealMatrix A = RealMatrix::Zero(21, 21);
   RealVector b = RealVector::Zero(21);
-  const PointJet P = {motion[0], motion[1]};
-  const PointJet offset = rotated(m.platform_center, motion[2]);
-  Body platform(A, b, 18, {P[0] + offset[0], P[1] + offset[1]});
+  Body platform(A, b, 18, mass_center(m, motion));
   platform.add_inertia(m.platform_mass, m.platform_inertia, motion[2].acceleration, m.gravity);
-  platform.add_load(wrench, P);
+  platform.add_load(wrench, {motion[0], motion[1]});
   for (std::size_t i = 0; i < 3; ++i) {
     const LimbNumbers& limb = m.limbs[i];
     const auto [base_joint, B, C] = limb_joints(limb, motion);
     const std::size_t first = per_limb * i;
-    Body proximal(A, b, 6 * i, between(base_joint, B, limb.proximal.center, limb.proximal.length));
+    Body proximal(A, b, 6 * i, mass_center(limb.proximal, base_joint, B));
     proximal.add_joint_force(first + at_A, base_joint, 1);
     proximal.add_joint_force(first + at_B, B, -1);
     proximal.add_torque(first + torque);
     proximal.add_inertia(limb.proximal.mass, limb.proximal.inertia,
                          direction(base_joint, B).acceleration, m.gravity);
-    Body distal(A, b, 6 * i + 3, between(B, C, limb.distal.center, limb.distal.length));
+    Body distal(A, b, 6 * i + 3, mass_center(limb.distal, B, C));
     distal.add_joint_force(first + at_B, B, 1);
     distal.add_joint_force(first + at_C, C, -1);
     distal.add_inertia(limb.distal.mass, limb.distal.inertia, direction(B, C).acceleration,
@@ -113,6 +109,35 @@ ManipulatorForces newton_euler_forces(const ManipulatorNumbers& m,
     forces.on_platform[i] = {x[first + at_C], x[first + at_C + 1]};
   }
   return forces;
+}
+
+ManipulatorNumbers read_planar_manipulator(const Arguments& arguments) {
+  ManipulatorNumbers numbers = read_manipulator_numbers(manipulator_arguments(arguments));
+  numbers.gravity = arguments.point_or_origin("gravity_m_s2");
+  return numbers;
+}
+
+PlanarWrench read_wrench(const Arguments& arguments) {
+  const auto force = arguments.point_or_origin("force_N");
+  return {force[0], force[1], arguments.number("moment_N_m", 0)};
+}
+
+Arguments read_trajectory(const Arguments& arguments) {
+  return arguments.object("trajectory", {"circle", "line", "rest_to_rest", "spline"});
+}
+
+std::vector<Real> manipulator_torques_program(const Arguments& arguments) {
+  const ManipulatorNumbers manipulator = read_planar_manipulator(arguments);
+  const PlanarWrench wrench = read_wrench(arguments);
+  const Arguments trajectory = read_trajectory(arguments);
+  const std::vector<Real> times = arguments.numbers("times_s");
+  std::vector<Real> values(3 * times.size());
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const auto torques =
+        newton_euler_forces(manipulator, platform_motion(trajectory, times[k]), wrench).torque;
+    for (std::size_t i = 0; i < 3; ++i) values[i * times.size() + k] = torques[i];
+  }
+  return values;
 }
 
 }  // namespace trammel::references

@@ -15,14 +15,22 @@ struct PlanarWrench {
   Real x = 0, y = 0, moment = 0;  ///< on the platform, at P
 };
 
+using PointJet = Point2<Jet<Real>>;
+
+/// Centers of mass of a link between its joints, and of the platform.
+[[nodiscard]] PointJet mass_center(const LinkNumbers& link, const PointJet& from,
+                                   const PointJet& to);
+[[nodiscard]] PointJet mass_center(const ManipulatorNumbers& manipulator,
+                                   const std::array<Jet<Real>, 3>& motion);
+
 /// Direction of the line from one point to another, with its derivatives.
-[[nodiscard]] Jet<Real> direction(const Point2<Jet<Real>>& from, const Point2<Jet<Real>>& to);
+[[nodiscard]] Jet<Real> direction(const PointJet& from, const PointJet& to);
 
 /// A_i, B_i and C_i of a limb.
 /// @param motion  of the platform: x, y of P and its orientation, with their derivatives
 /// @throws DerivationError  if the limb cannot reach.
-[[nodiscard]] std::array<Point2<Jet<Real>>, 3> limb_joints(const LimbNumbers& limb,
-                                                           const std::array<Jet<Real>, 3>& motion);
+[[nodiscard]] std::array<PointJet, 3> limb_joints(const LimbNumbers& limb,
+                                                  const std::array<Jet<Real>, 3>& motion);
 
 struct ManipulatorForces {
   std::array<Real, 3> torque;               ///< of the base on the proximal links

@@ -18,15 +18,15 @@ namespace trammel::references {
 [[nodiscard]] Arguments read_trajectory(const Arguments& arguments);
 
 /// Returns x, y and orientation of the platform with their derivatives at a time. Paths have the
-/// format of the case files' "trajectory": circle, line, rest_to_rest or spline. Only positions are
-/// written down, and Jet differentiates them.
+/// format of "trajectory" in case files: circle, line, rest_to_rest or spline. Jet differentiates
+/// the positions.
 /// @throws DerivationError  with the JSON pointer.
 [[nodiscard]] std::array<Jet<Real>, 3> platform_motion(const Arguments& trajectory,
                                                        const Real& time);
 
-/// Arguments: manipulator (as a case file's; masses and inertias as numbers, or from density),
-/// trajectory (circle | line | rest_to_rest | spline), times_s, force_N and moment_N_m (on the
-/// platform at P; none by default), gravity_m_s2.
+/// Arguments: manipulator (as in a case file; masses and inertias are numbers, or from density),
+/// trajectory (circle | line | rest_to_rest | spline), times_s.
+/// Further arguments: force_N and moment_N_m (on the platform at P; none by default), gravity_m_s2.
 /// Values: the torque at A1 at every time, then at A2, then at A3 [N m].
 [[nodiscard]] std::vector<Real> manipulator_torques_program(const Arguments& arguments);
 
@@ -65,7 +65,7 @@ namespace trammel::references {
 /// Arguments: manipulator, trajectory, force_N, moment_N_m, gravity_m_s2 as for torques; step_s,
 /// train (points, from the first), sigma [N m], queries (numbers of points), output (angles |
 /// velocities). Torques by Newton and Euler train angles and velocities of the active joints.
-/// Values: what is predicted for A1 at each query, for A2, for A3 [rad or rad/s].
+/// Values: the predictions for A1 at each query, for A2, for A3 [rad or rad/s].
 [[nodiscard]] std::vector<Real> manipulator_grnn_program(const Arguments& arguments);
 
 }  // namespace trammel::references

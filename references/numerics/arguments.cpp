@@ -73,24 +73,17 @@ const Json& Arguments::operator[](const std::string& key) const {
   return *found;
 }
 
-Real Arguments::number(const std::string& key) const {
+Real Arguments::number(const std::string& key, const Default& default_value) const {
+  if (default_value && !has(key)) return *default_value;
   const Json& value = (*this)[key];
   if (!value.is_number()) fail(key, "expected a number");
   return decimal(value);
 }
 
-Real Arguments::number(const std::string& key, const Real& default_value) const {
-  return has(key) ? number(key) : default_value;
-}
-
-Real Arguments::positive(const std::string& key) const {
-  Real value = number(key);
+Real Arguments::positive(const std::string& key, const Default& default_value) const {
+  Real value = number(key, default_value);
   if (!(value > 0)) fail(key, "expected a positive number");
   return value;
-}
-
-Real Arguments::positive(const std::string& key, const Real& default_value) const {
-  return has(key) ? positive(key) : default_value;
 }
 
 Real Arguments::not_negative(const std::string& key, const Real& default_value) const {
@@ -127,13 +120,28 @@ std::string Arguments::choice(const std::string& key, const std::string& default
   return *found;
 }
 
-std::vector<Real> Arguments::numbers(const std::string& key) const {
-  return read_array(*this, key, "numbers", &Json::is_number, decimal);
+std::vector<Real> Arguments::numbers(const std::string& key, std::size_t size) const {
+  std::vector<Real> result = read_array(*this, key, "numbers", &Json::is_number, decimal);
+  if (size > 0 && result.size() != size) fail(key, "expected " + std::to_string(size) + " numbers");
+  return result;
 }
 
-std::vector<Real> Arguments::numbers(const std::string& key, std::size_t size) const {
-  std::vector<Real> result = numbers(key);
-  if (result.size() != size) fail(key, "expected " + std::to_string(size) + " numbers");
+std::vector<std::vector<Real>> Arguments::rows(const std::string& key, std::size_t columns) const {
+  std::vector<std::vector<Real>> result;
+  for (const Json& row : (*this)[key]) {
+    result.push_back(Arguments({{"row", row}}, pointer(key)).numbers("row"));
+    if (columns == 0) columns = result.front().size();
+    if (result.back().size() != columns)
+      fail(key, "expected rows of " + std::to_string(columns) + " numbers");
+  }
+  if (result.empty()) fail(key, "expected rows of numbers");
+  return result;
+}
+
+std::vector<std::array<Real, 2>> Arguments::points(const std::string& key, std::size_t size) const {
+  std::vector<std::array<Real, 2>> result;
+  for (const auto& row : rows(key, 2)) result.push_back({row[0], row[1]});
+  if (result.size() != size) fail(key, "expected " + std::to_string(size) + " points");
   return result;
 }
 

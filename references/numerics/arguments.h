@@ -2,6 +2,7 @@
 
 #include <array>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -22,6 +23,8 @@ class DerivationError : public std::runtime_error {
 /// A JSON object whose keys are all known.
 class Arguments {
  public:
+  using Default = std::optional<Real>;  ///< value of a missing key; none: the key is required
+
   /// @param pointer  location of the object, for messages.
   /// @throws DerivationError  if `object` is no object, or has a key that is not in `known`.
   Arguments(const Json& object, std::string pointer, const std::vector<std::string>& known);
@@ -38,21 +41,24 @@ class Arguments {
                                  const std::vector<std::string>& known) const;
 
   // Numbers are the decimals that the reader sees: 0.0015 is 15/10000, not the nearest double.
-  [[nodiscard]] Real number(const std::string& key) const;
-  [[nodiscard]] Real number(const std::string& key, const Real& default_value) const;
-  [[nodiscard]] Real positive(const std::string& key) const;
-  [[nodiscard]] Real positive(const std::string& key, const Real& default_value) const;
+  [[nodiscard]] Real number(const std::string& key, const Default& default_value = {}) const;
+  [[nodiscard]] Real positive(const std::string& key, const Default& default_value = {}) const;
   [[nodiscard]] Real not_negative(const std::string& key, const Real& default_value) const;
   [[nodiscard]] int count(const std::string& key) const;  ///< 1 ... 1000
   [[nodiscard]] bool flag(const std::string& key, bool default_value) const;
   [[nodiscard]] std::string text(const std::string& key) const;
-  /// One of `choices`; `default_value` where the key is missing.
+  /// Returns one of `choices`, or `default_value` if the key is missing.
   [[nodiscard]] std::string choice(const std::string& key, const std::string& default_value,
                                    const std::vector<std::string>& choices) const;
-  [[nodiscard]] std::vector<Real> numbers(const std::string& key) const;
-  [[nodiscard]] std::vector<Real> numbers(const std::string& key, std::size_t size) const;
+  /// @param size  of the array; 0: any
+  [[nodiscard]] std::vector<Real> numbers(const std::string& key, std::size_t size = 0) const;
+  /// Rows of numbers of equal length. @param columns  their length; 0: that of the first row
+  [[nodiscard]] std::vector<std::vector<Real>> rows(const std::string& key,
+                                                    std::size_t columns = 0) const;
+  [[nodiscard]] std::vector<std::array<Real, 2>> points(const std::string& key,
+                                                        std::size_t size) const;
   [[nodiscard]] std::array<Real, 2> point(const std::string& key) const;
-  /// The origin where the key is missing.
+  /// Returns the origin if the key is missing.
   [[nodiscard]] std::array<Real, 2> point_or_origin(const std::string& key) const;
   [[nodiscard]] std::vector<std::string> texts(const std::string& key) const;
 

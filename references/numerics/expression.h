@@ -7,13 +7,13 @@
 #include "references/numerics/arguments.h"
 #include "references/numerics/real.h"
 
-/// Closed formulas written out in the reference file itself: numbers, names, + - * / ^ (right to
+/// Closed formulas in the text of a reference file: numbers, names, + - * / ^ (right to
 /// left), unary minus, parentheses, pi, and abs, sqrt, exp, log, sin, cos, tan, asin, acos, atan,
 /// sinh, cosh, tanh.
 namespace trammel::references {
 
-/// @param values  values of the names in the text
-/// @throws DerivationError  with the column if the text cannot be read, if a name is unknown, or if
+/// @param values  values of the names in the text.
+/// @throws DerivationError  with the column if the text cannot be read or a name is unknown, and if
 ///                          the value is not finite.
 [[nodiscard]] Real evaluate_expression(const std::string& text,
                                        const std::map<std::string, Real>& values);

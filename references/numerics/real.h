@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -16,6 +18,17 @@ template <class T>
 [[nodiscard]] T pi() {
   static const T value = acos(T(-1));
   return value;
+}
+
+/// Returns C and S = C integrated from 0 to x, with C = cosh(k x) or cos(|k| x) by the sign of k^2.
+/// Both are divided by cosh(k x) if k^2 > 0.
+template <class T>
+[[nodiscard]] std::array<T, 2> wave_functions(const T& k2, const T& x) {
+  using std::cos, std::sin, std::sqrt, std::tanh;
+  if (k2 == 0) return {T(1), x};
+  const T k = sqrt(k2 > 0 ? k2 : T(-k2));
+  if (k2 > 0) return {T(1), tanh(k * x) / k};
+  return {cos(k * x), sin(k * x) / k};
 }
 
 /// Returns the root of `f` between lo and hi, where f changes sign, to 45 digits.

@@ -2,9 +2,8 @@
 
 #include <regex>
 
-#include "references/beams/beam_modes.h"
 #include "references/beams/programs.h"
-#include "references/frames/programs.h"
+#include "references/frames/unit_load.h"
 #include "references/frames/wittrick_williams.h"
 #include "references/manipulator/programs.h"
 #include "references/numerics/expression.h"
@@ -36,7 +35,13 @@ std::vector<std::string> argument_names(const std::string& program) {
   return {std::sregex_token_iterator(line.begin(), line.end(), name), {}};
 }
 
-const Program& program_of(const std::string& name);
+const Program& program_of(const std::string& name) {
+  const auto found = programs().find(name);
+  if (found != programs().end()) return found->second;
+  std::string names;
+  for (const auto& entry : programs()) names += (names.empty() ? "" : ", ") + entry.first;
+  throw DerivationError("no program '" + name + "'; there are " + names);
+}
 
 std::vector<Real> run_program(const std::string& program, const Json& arguments) {
   return program_of(program).run(Arguments(arguments, "", argument_names(program)));
@@ -107,18 +112,6 @@ const std::map<std::string, Program>& programs() {
   };
   return table;
 }
-
-namespace {
-
-const Program& program_of(const std::string& name) {
-  const auto found = programs().find(name);
-  if (found != programs().end()) return found->second;
-  std::string names;
-  for (const auto& entry : programs()) names += (names.empty() ? "" : ", ") + entry.first;
-  throw DerivationError("no program '" + name + "'; there are " + names);
-}
-
-}  // namespace
 
 std::vector<double> derive(const std::string& program, const Json& arguments) {
   const std::vector<Real> values = run_program(program, arguments);

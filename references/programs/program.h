@@ -8,14 +8,14 @@
 
 #include "references/numerics/arguments.h"
 
-/// The programs that derive references again, by the name that a reference file gives in
+/// The programs that derive references again, by their name in the derivation of a reference,
 /// "derivation": {"program": NAME, "arguments": {...}}, and the command trammel_derive.
 namespace trammel::references {
 
 struct Program {
   std::function<std::vector<Real>(const Arguments&)> run;
-  /// The same as proved enclosures: 30 digits each, the last uncertain by one; empty where there is
-  /// no proof.
+  /// The same as proved enclosures: 30 digits each, the last uncertain by one; empty if there is no
+  /// proof.
   std::function<std::vector<std::string>(const Arguments&)> prove = {};
 };
 
@@ -23,21 +23,42 @@ struct Program {
 /// equation and its arguments.
 [[nodiscard]] const std::map<std::string, Program>& programs();
 
-/// The values that a program gives, in SI.
+/// Returns the values of a program, in SI.
 /// @throws DerivationError  unknown program or unusable arguments; the pointer is relative to them.
 [[nodiscard]] std::vector<double> derive(const std::string& program, const Json& arguments);
 
-/// Prove what the programs frame-frequencies and beam-roots derive.
+/// Prove the values of the programs frame-frequencies and beam-roots.
 [[nodiscard]] std::vector<std::string> prove_frame_frequencies(const Arguments& arguments);
 [[nodiscard]] std::vector<std::string> prove_beam_roots(const Arguments& arguments);
 
-/// The values that a program proves, 30 digits each.
+/// Returns the values that a program proves, 30 digits each.
 /// @throws DerivationError  if it has no proof, and as `derive`.
 [[nodiscard]] std::vector<std::string> prove(const std::string& program, const Json& arguments);
 
-/// @param command_line  the words of it, without the program's name.
-/// @returns the exit status: 0 everything holds, 1 a stored value is not what comes out, 2 bad
-///          usage or input (one line on `err`), 3 our own fault.
+struct Comparison {
+  std::string id;
+  std::string program;  ///< empty: the file has no derivation
+  std::string unit;
+  std::vector<double> stored;
+  std::vector<double> uncertainty;           ///< absolute, one a value
+  std::vector<double> derived;               ///< empty if there is no derivation
+  std::vector<std::string> printed, proved;  ///< digits stored and proved again, of kind "proved"
+
+  /// Every derived value lies within the stated uncertainty of the stored one, and proved digits
+  /// are those stored.
+  [[nodiscard]] bool within_uncertainty() const;
+};
+
+/// @param reference  a reference with what its family has in common.
+/// @param file  file in messages.
+/// @throws DerivationError, ReferenceError  with the file and the JSON pointer inside it.
+[[nodiscard]] Comparison compare_with_derivation(const Json& reference, const std::string& file,
+                                                 const std::string& id);
+
+/// @param command_line its words, without the name of the program.
+/// @returns the exit status: 0 everything holds, 1 a derived value differs from the stored one, 2
+/// bad
+///          usage or input (one line on `err`), 3 an internal error.
 [[nodiscard]] int derive_command(const std::vector<std::string>& command_line, std::ostream& out,
                                  std::ostream& err);
 

@@ -1,12 +1,12 @@
-#include "references/beams/beam_modes.h"
-#include "references/frames/programs.h"
+#include "references/beams/programs.h"
 #include "references/frames/wittrick_williams.h"
 #include "references/numerics/ball.h"
 #include "references/programs/program.h"
 
 /// Natural frequencies as proved enclosures: the count of Wittrick and Williams in ball arithmetic
 /// is an integer that no rounding can change, and what lies between two counts that differ by m are
-/// m frequencies. What a proof rests on: the theorem, the formulas of `member_dynamics.h` and Arb.
+/// m frequencies. A proof relies on the theorem, on the formulas of `dynamic_stiffness.cpp` and on
+/// Arb.
 namespace trammel::references {
 namespace {
 

@@ -82,8 +82,8 @@ GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, Index co
                                         EigenMethod method, Counters& counters) {
   constexpr Index kDenseSize = 150;
   const Index n = pencil.K.rows();
-  const auto& [mass_matrix, A, G] = linearize(pencil);
-  const SparseMatrix& mass = mass_matrix;
+  const auto& [mass_matrix, A, gyroscopic_matrix] = linearize(pencil);
+  const SparseMatrix &mass = mass_matrix, &G = gyroscopic_matrix;  // lambdas capture them
   Factorization factorization;
   factorization.compute(A);
   ++counters.factorizations;

@@ -3,9 +3,9 @@
 
     circle.py OUT      writes calculix-circle-* into OUT/references.json
 
-At eight points: displacement of P with a rigid platform, linear (planar_manipulator.py) and large, and with the platform as three
-triangles of its own material, large; the forces on the ground of each. Large ones by large_displacement.py, whose uncertainty, of
-sections that warp at the elbows, is measured here at each point.
+Each of eight points has the displacement of P and the forces on the ground. The platform is rigid, with a linear
+(planar_manipulator.py) and a large displacement, or it consists of three triangles of the platform material, with a large displacement.
+large_displacement.py computes the large ones. Their uncertainty, due to sections that warp at the elbows, is measured at each point.
 """
 import math
 import sys

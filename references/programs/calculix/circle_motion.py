@@ -1,16 +1,19 @@
 #!/usr/bin/env python3
 """Motion of the flexible manipulator of Table 1 along the paper's circle by CalculiX, undamped: elbows and platform on hinges.
 
-    circle_motion.py OUT SPEED...      writes calculix-motion-SPEED into OUT/references.json: how far P is from the path, x and y, at POINTS times
+    circle_motion.py OUT SPEED...      writes calculix-motion-SPEED into OUT/references.json
 
-Actuators turn as they would with rigid links, from rest to full speed within half a lap's time and on along the circle. Links as in
-planar_manipulator.py; a hinge is a node that the middles of two end faces share, and the platform are three triangles of a material
-STIFF times as stiff: equations and rigid bodies do not turn far in ccx 2.20. Geometrically exact (NLGEOM), trapezoidal rule.
+Each value is the distance of P from the path, in x and y, at POINTS times.
 
-In *DYNAMIC ccx 2.20 takes half of the mass of CPS8R, which modes take whole: a link alone whose foot turns is left behind by 6.126e-6 m
-where 12.243e-6 m is exact, and by 12.241e-6 m with twice the density (CPS8, which locks: 12.141e-6 m). Links have twice their density
-here. Velocities at the start move no plane element, hence the path from rest; at 1 rad/s Newton's iteration ends with "solution seems
-to diverge", as forces are too small for its measures.
+The actuators turn as with rigid links, from rest to full speed within the time of half a lap, and then along the circle. Links are as in
+planar_manipulator.py. A hinge is a node that the middles of two end faces share. The platform consists of three triangles of a material
+STIFF times as stiff, because equations and rigid bodies fail for large rotations in ccx 2.20. The analysis is geometrically exact (NLGEOM)
+with the trapezoidal rule.
+
+*DYNAMIC of ccx 2.20 uses half of the mass of CPS8R, while modes use all of it. A single link whose foot turns lags by 6.126e-6 m, but
+12.243e-6 m is exact. With twice the density it lags by 12.241e-6 m (CPS8, which locks: 12.141e-6 m). Therefore links have twice their
+density here. Initial velocities do not move plane elements; therefore the path starts from rest. At 1 rad/s Newton's iteration ends with
+"solution seems to diverge", because the forces are too small for its criteria.
 """
 import math
 import sys
@@ -23,7 +26,7 @@ POINTS, DURATION = 10, 2.5  # the latter in half periods
 
 
 def angle(u):
-    """Of P on the circle at time u pi / speed: from rest to full speed within half a lap's time, all along it at u = 2.5."""
+    """Angle of P on the circle at time u pi / speed: full speed after the time of half a lap (u = 1), a full turn at u = 2.5."""
     v = min(u, 1.0)
     return math.pi * (v**4 * (2.5 - 3 * v + v * v) + max(u - 1.0, 0.0))
 
@@ -63,7 +66,7 @@ def build(along):
 
 
 def motion(speed, along, steps):
-    """What P is away from the circle at POINTS points [m]."""
+    """Distance of P from the circle at POINTS points [m]."""
     lines, feet, p = build(along)
     end = DURATION * math.pi / speed
     first = places(0.0)

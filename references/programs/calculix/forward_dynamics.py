@@ -1,13 +1,15 @@
 #!/usr/bin/env python3
 """Motion of the flexible manipulator of Table 1 under the torques of rigid links, by CalculiX: elbows and platform on hinges, undamped.
 
-    forward_dynamics.py OUT      writes calculix-forward-dynamics into OUT/references.json: how far P is from the path, x and y, at POINTS times
+    forward_dynamics.py OUT      writes calculix-forward-dynamics into OUT/references.json
 
-The manipulator of circle_motion.py goes along a straight line from rest to rest, by 10 u^3 - 15 u^4 + 6 u^5, and is watched for half as long
-again. The feet of the links turn freely about their middles, each under the torque that rigid links need for that, as two forces on the
-edges of the foot, along the link as it stands there: computed first with the angles of rigid links, then with those found (a foot bent by
-0.03 rad would lose 4e-4 of its torque). The torques are those of virtual work, with virtual displacements and accelerations from differences
-of places.
+Each value is the distance of P from the path, in x and y, at POINTS times.
+
+The manipulator of circle_motion.py moves along a straight line from rest to rest, by 10 u^3 - 15 u^4 + 6 u^5. The simulation continues for
+half of that time. The feet of the links turn freely about their middles, each under the torque of rigid links. Two forces on the edges of
+the foot along the link apply that torque. Their directions are first those of rigid links, then those that were computed (a foot bent by
+0.03 rad would lose 4e-4 of its torque). The torques follow from virtual work, with virtual displacements and accelerations from finite
+differences of positions.
 """
 import math
 import sys
@@ -49,7 +51,7 @@ def solved(matrix, right):
 
 
 def torques(t):
-    """Of the three actuators on rigid links [N m]."""
+    """Torques of the three actuators on rigid links [N m]."""
     at = pose(t)
     before, now, after = (bodies(pose(t + s * TICK)) for s in (-1, 0, 1))
     second = [[(a - 2 * b + c) / TICK**2 for a, b, c in zip(*body)] for body in zip(before, now, after)]
@@ -63,7 +65,7 @@ def torques(t):
 
 
 def motion(along, steps, angles=None):
-    """What P is away from the line at POINTS points [m], and the angles of the feet at each step; first under forces along rigid links."""
+    """Distance of P from the line at POINTS points [m], and angles of the feet at each step. Without angles the forces are along rigid links."""
     lines, feet, p = build(along)
     times = [WATCHED * i / steps for i in range(steps + 1)]
     table = [(t, bodies(pose(t)), torques(t)) for t in times]

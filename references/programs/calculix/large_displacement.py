@@ -3,10 +3,10 @@
 
     large_displacement.py OUT      writes calculix-large-POSE-displacement into OUT/references.json
 
-Links as in planar_manipulator.py. Equations and rigid bodies do not turn far in ccx 2.20 (Newton's iteration fails), so that feet
-are held node by node, and elbows and the platform are triangles of a material STIFF times as stiff that share the links' nodes: the
-middles of both end faces are one node, and their outermost nodes keep their angle. A section may warp there, by which P gives
-more: the same mesh in linear statics shows by how much, and that is stored as uncertainty.
+Links are as in planar_manipulator.py. Equations and rigid bodies fail for large rotations in ccx 2.20 (Newton's iteration diverges).
+Therefore feet are fixed node by node, and elbows and platform are triangles of a material STIFF times as stiff that share nodes with
+the links. The middles of both end faces are one node, and their outermost nodes keep their angle. A section may warp there, which
+increases the displacement of P. The stored uncertainty is this increase, measured with the same mesh in linear statics.
 """
 import math
 import sys
@@ -23,7 +23,7 @@ def turns_left(nodes, triangle):
 
 
 def build(pose, flexible=False):
-    """The deck, the node P and the nodes of the three feet; a flexible platform is of its own material and thickness."""
+    """The deck, the node P and the nodes of the three feet. A flexible platform has the material and thickness of Table 1."""
     base, elbows, corners = geometry({**DEFAULT, "pose": POSES[pose]})
     deck, joints, ends, feet, same = Deck(), [], [], [], {}
     for a, b, c in zip(base, elbows, corners):

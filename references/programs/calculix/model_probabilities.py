@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Which model the authors of Table 2 may have run: probabilities of all readings, given each printed row.
+"""Probabilities of all readings of Table 2, given each printed row: the models that its authors may have used.
 
     model_probabilities.py TRAMMEL OUT      writes table-2-models and table-2-models-planar into OUT/references.json
 """
@@ -88,7 +88,7 @@ def node(trammel, model, inputs):
 
 
 class Reading:
-    """What a reading predicts: numbers and their derivatives times standard deviations, in each cell of its unknowns."""
+    """Prediction of a reading: numbers and their derivatives times standard deviations, in each cell of its unknowns."""
 
     def __init__(self, title, weights, numbers, spread, noise=0.0):
         self.title, self.weights, self.numbers, self.spread, self.noise = title, np.array(weights), np.array(numbers), np.array(spread), noise

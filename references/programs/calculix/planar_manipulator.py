@@ -3,13 +3,12 @@
 
     planar_manipulator.py OUT      writes calculix-VARIANT-POSE-frequencies and -displacement into OUT/references.json
 
-Links are plane stress (CPS8R, two elements through the thickness), so that they shear, bend and have rotary inertia as a body of
-that shape, but do not contract sideways: ccx 2.20 makes a solid of a plane-stress element, whose shear out of the plane hinders
-contraction where the width (30 mm) is not small beside the thickness (1.5 mm), and with Poisson's ratio 0.33 links would bend
-as stiffly as in plane strain, 1 / (1 - nu^2). G is E / (2 (1 + 0.33)). The
-platform is rigid, with the masses of an equilateral plate: a twelfth of it in each corner, the rest in P.
-Each value comes from two meshes; their difference, rounded up, is what is stored as uncertainty (at least 2e-6, because ccx
-prints seven digits).
+Links are in plane stress (CPS8R, two elements through the thickness). They shear, bend and have rotary inertia like a body of that
+shape, but do not contract sideways. The reason is that ccx 2.20 makes a solid of a plane-stress element. Its shear out of the plane
+hinders contraction if the width (30 mm) is not small compared with the thickness (1.5 mm). With Poisson's ratio 0.33 links would
+bend as stiffly as in plane strain, 1 / (1 - nu^2). G is E / (2 (1 + 0.33)). The platform is rigid, with the masses of an equilateral
+plate: a twelfth of it in each corner, the rest in P. Each value comes from two meshes. The stored uncertainty is their difference,
+rounded up (at least 2e-6, because ccx prints seven digits).
 """
 import math
 import sys

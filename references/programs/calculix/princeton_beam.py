@@ -3,9 +3,9 @@
 
     princeton_beam.py OUT      writes calculix-princeton-AXIS and -AXIS-without-contraction into OUT/references.json
 
-C3D20R; every motion of the clamped face is held, the load is spread over the end face as the bricks' consistent loads, and the tip is
-the middle of that face. Without Poisson's ratio the clamp holds no contraction back. By default ccx ends Newton's iteration at
-0.5 % of the force, which leaves 0.2 % in the soft way; here at 1e-9.
+The elements are C3D20R. Every motion of the clamped face is fixed, the consistent loads of the bricks spread the load over the end
+face, and the tip is the middle of that face. Without Poisson's ratio the clamp does not prevent contraction. By default ccx ends
+Newton's iteration at 0.5 % of the force, which leaves an error of 0.2 % in the soft direction. Here it ends at 1e-9.
 """
 import math
 import sys

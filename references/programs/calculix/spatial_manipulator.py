@@ -1,8 +1,8 @@
 """Modes of the 3-RRR manipulator of Table 1 in space, by CalculiX: links and platform are solids (C3D20R).
 
-modes(reading) writes a deck, runs ccx and returns natural frequencies [Hz] and which modes stay in the plane. A reading is a dict of what the paper leaves open; DEFAULT holds what Table 1 prints, with all joints bonded.
-A joint is a rigid body of the end faces of the links, and of a square patch in a corner of the plate; a hinge is two such
-bodies that only turn against each other about z.
+modes(reading) writes a deck, runs ccx and returns natural frequencies [Hz] and a mark for modes in the plane. A reading is a dict of
+what the paper leaves open. DEFAULT contains the data of Table 1, with all joints bonded. A joint is a rigid body of the end faces of
+the links and of a square patch in a corner of the plate. A hinge consists of two such bodies that rotate relative to each other about z.
 """
 import json
 import math
@@ -44,7 +44,7 @@ class Deck:
         self.nodes, self.parts, self.elements, self.rest, self.sets = [], {}, [], [], 0
 
     def node(self, place, part=None):
-        """A new node, or the one of this part that stands there already."""
+        """A new node, or the existing one of this part at this place."""
         key = (part, *(round(v, 9) for v in place))
         if part is not None and key in self.parts:
             return self.parts[key]
@@ -108,8 +108,8 @@ def link(deck, name, r, mesh, p, q):
 
 
 def plate(deck, r, mesh, corners):
-    """Three quadrilaterals from P, two mid-sides and a corner, with a cell of the patch's size in the corner, towards which the
-    others shrink to about twice that."""
+    """Three quadrilaterals from P, two mid-sides and a corner. The cell in the corner has the size of the patch, and the others shrink
+    to about twice that toward it."""
     center, n, t = r["pose"][:2], mesh["plate"], r["plate_thickness"]
     share = r["patch"] / (r["side"] / 2)
     shrink = min(1.0, (2 * share)**(1 / n))  # from one cell to the next

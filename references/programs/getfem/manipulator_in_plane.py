@@ -4,10 +4,10 @@ The platform is rigid, or (locked, welded, hinged) a soft plate of three triangl
 
     manipulator_in_plane.py OUT      writes getfem-JOINTS-frequencies and -displacement into OUT/references.json, pose after pose
 
-Links are rectangles in plane stress (FEM_QK) that contract sideways by Poisson's ratio. At a joint the mean displacement
-of the end section and its mean rotation (the first moment of what it moves along the link) are the joint's; sections are free to warp
-and to contract. The platform is rigid. GetFEM assembles stiffness, mass and the weights of end sections; the algebra is scipy's.
-Each value comes from two meshes; their difference, rounded up, is stored as uncertainty (at least 1e-8).
+Links are rectangles in plane stress (FEM_QK) that contract sideways by Poisson's ratio. A joint has the mean displacement and the mean
+rotation of the end section (the first moment of its displacement along the link). Sections are free to warp and to contract. GetFEM
+assembles stiffness, mass and the weights of end sections; scipy solves the equations. Each value comes from two meshes. The stored
+uncertainty is their difference, rounded up (at least 1e-8).
 """
 import math
 import os

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "references/frames/dynamic_stiffness.h"
-#include "references/frames/programs.h"
 #include "tests/support/references/frames.h"
 
 BOOST_AUTO_TEST_SUITE(wittrick_williams)
@@ -36,7 +35,7 @@ Json double_cross() {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(count_steps_by_multiplicity_at_each_frequency) {
-  const Frame frame = read_frame(double_cross(), "");
+  const Frame frame = frame_from_arguments(Arguments({{"model", double_cross()}}, ""));
   const auto found = frame_frequencies(frame, 8);
   BOOST_TEST(found.rigid_motions == 0);
   BOOST_TEST(frequencies_below(frame, found.frequencies[3] * (1 - Real(1e-13))) == 3);

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "references/data/family.h"
-#include "references/programs/derivation_comparison.h"
 #include "references/programs/program.h"
 
 BOOST_AUTO_TEST_SUITE(derivation)

@@ -2,6 +2,7 @@
 #include <gsl/gsl_min.h>
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <complex>
 #include <functional>
@@ -10,9 +11,6 @@
 
 #include "references/beams/programs.h"
 
-/// Forced vibration of a simply supported Timoshenko beam under a load uniform over its span, by
-/// its exact modes w = sin(a x), psi = s cos(a x), a = n pi/L, s = a - rho w_n^2/(kappa G a), both
-/// branches of each odd n (NAFEMS R0016, tests 5H and 5T).
 namespace trammel::references {
 
 namespace {
@@ -20,6 +18,12 @@ namespace {
 constexpr int kMaxWaveNumber = 4001;  // stresses fall off as n^-3
 const double kPi = std::acos(-1.0);
 
+/// Forced vibration of a simply supported Timoshenko beam under a load uniform over its span
+/// (NAFEMS R0016, tests 5H and 5T). Its exact modes are w = sin(a x), psi = s cos(a x), in both
+/// branches of each odd n:
+///
+///   a = n pi/L,  s = a - rho w_n^2/(kappa G a).
+///
 /// One mode: its share of the static answer at mid-span, and how it moves.
 struct Mode {
   double w, damping;            ///< circular frequency [rad/s], damping ratio
@@ -144,6 +148,41 @@ std::vector<Real> deep_beam_program(const Arguments& arguments) {
     } else {
       arguments.fail("outputs", "'" + output + "' is no output of this response");
     }
+  }
+  return values;
+}
+
+/// Run-up of a rotor through the resonance of its carriage (F. M. Lewis, Vibration during
+/// acceleration through a critical speed, Transactions of the ASME 54, 1932, 253-261). The
+/// unbalance is m e of the total mass M on a spring, w^2 = k/M. A given law a(t) turns the rotor
+/// from rest, a(0) = 0. Integrating Duhamel's integral twice by parts gives
+///
+///   x = -(m e/M) (cos a(t) - cos w t - w int_0^t cos a(s) sin w(t - s) ds).
+///
+/// Gauss' rule of 20 points on panels of 0.01 s computes the integral.
+std::vector<Real> run_up_program(const Arguments& arguments) {
+  const Real w = arguments.positive("angular_frequency_rad_s"),
+             T = arguments.positive("duration_s");
+  const Real speed = arguments.positive("speed_rad_s"), turn = 2 * pi<Real>();
+  const auto angle = [&](const Real& t) {
+    return Real(speed * (t * t / (2 * T) + T / (turn * turn) * (cos(turn * t / T) - 1)));
+  };
+  const auto in_phase = [&](const Real& s) { return Real(cos(angle(s)) * cos(w * s)); };
+  const auto out_of_phase = [&](const Real& s) { return Real(cos(angle(s)) * sin(w * s)); };
+  using Gauss = boost::math::quadrature::gauss<Real, 20>;
+  std::vector<Real> values;
+  Real from = 0, cosine = 0, sine = 0;
+  for (const Real& t : arguments.numbers("times_s")) {
+    if (t < from || t > T) arguments.fail("times_s", "ascending times within the duration");
+    while (from < t) {
+      const Real to = std::min(t, Real(from + Real(1) / 100));
+      cosine += Gauss::integrate(in_phase, from, to);
+      sine += Gauss::integrate(out_of_phase, from, to);
+      from = to;
+    }
+    const Real integral = sin(w * t) * cosine - cos(w * t) * sine;
+    values.push_back(static_cast<double>(-arguments.positive("unbalance_m") *
+                                         (cos(angle(t)) - cos(w * t) - w * integral)));
   }
   return values;
 }

@@ -1,19 +1,26 @@
+#include <algorithm>
 #include <array>
 #include <boost/math/special_functions/bessel.hpp>
+#include <boost/math/special_functions/ellint_1.hpp>
+#include <boost/math/special_functions/ellint_2.hpp>
+#include <boost/math/tools/minima.hpp>
 #include <boost/multiprecision/cpp_complex.hpp>
 
 #include "references/beams/programs.h"
 #include "references/numerics/real.h"
 
-/// Elastic buckling of one uniform column (S. P. Timoshenko, J. M. Gere, Theory of Elastic
-/// Stability, 2nd ed., chapter 2). End loads P = x^2 EI/L^2 with
-///   clamped-free cos x = 0, pinned-pinned sin x = 0, clamped-pinned tan x = x,
-///   clamped-clamped sin(x/2) (tan(x/2) - x/2) = 0;
-/// own weight q L = (9/4) j^2 EI/L^2, clamped-free, J_{-1/3}(j) = 0.
 namespace trammel::references {
 
 namespace {
 
+/// Elastic buckling of one uniform column (S. P. Timoshenko, J. M. Gere, Theory of Elastic
+/// Stability, 2nd ed., chapter 2). End loads are P = x^2 EI/L^2, where x depends on the ends:
+///
+///   clamped-free cos x = 0, pinned-pinned sin x = 0, clamped-pinned tan x = x,
+///
+///   clamped-clamped sin(x/2) (tan(x/2) - x/2) = 0.
+///
+/// The weight of a clamped-free column is q L = (9/4) j^2 EI/L^2 with J_{-1/3}(j) = 0.
 Real end_load_function(const std::string& ends, const Real& x) {
   if (ends == "clamped-free") return cos(x);
   if (ends == "pinned-pinned") return sin(x);
@@ -30,8 +37,10 @@ struct Follower {
   Real p, q;
 };
 
-/// Characteristic function for real or complex W: with x from the tip, w'''' + (p + q x) w'' = W^2
-/// w by power series, w'' = w''' = 0 at x = 0; the determinant of w = w' = 0 at x = 1.
+/// Characteristic function for real or complex W: the determinant of w = w' = 0 at x = 1. A power
+/// series with x from the tip and w'' = w''' = 0 at x = 0 solves
+///
+///   w'''' + (p + q x) w'' = W^2 w.
 template <class T>
 T follower_determinant(const T& W, const Follower& load) {
   std::array<T, 2> value, slope;
@@ -50,28 +59,21 @@ T follower_determinant(const T& W, const Follower& load) {
   return value[0] * slope[1] - value[1] * slope[0];
 }
 
-/// Its least value between the two lowest roots, and where: 0 where they meet.
+/// Returns the minimum between the two lowest roots and its place. The minimum is 0 if they meet.
 std::pair<Real, Real> valley(const Follower& load) {
-  Real low = 3, high = 24;
-  while (high - low > Real(1e-24)) {  // ternary search; the valley is flat to half the digits
-    const Real third = (high - low) / 3;
-    const bool left = follower_determinant(Real(low + third), load) <
-                      follower_determinant(Real(high - third), load);
-    (left ? high : low) = left ? high - third : low + third;
-  }
-  return {follower_determinant(low, load), low};
-}
-
-/// Returns true if the two lowest roots have met.
-bool flutters(const Follower& load) {
-  return valley(load).first > 0;
+  const auto determinant = [&](const Real& W) { return follower_determinant(W, load); };
+  constexpr int kBits = 80;  // the valley is flat to half the digits
+  const auto [W, least] =
+      boost::math::tools::brent_find_minima(determinant, Real(3), Real(24), kBits);
+  return {least, W};
 }
 
 Real flutter_load(bool spread) {
   Real low = spread ? 39 : 19, high = low + 2;
   while (high - low > Real(1e-20)) {
     const Real middle = (low + high) / 2;
-    (flutters(spread ? Follower{0, middle} : Follower{middle, 0}) ? high : low) = middle;
+    const bool flutters = valley(spread ? Follower{0, middle} : Follower{middle, 0}).first > 0;
+    (flutters ? high : low) = middle;
   }
   return low;
 }
@@ -89,6 +91,43 @@ Complex complex_root(const Follower& load) {
   return W;
 }
 
+/// Exact large deflections of an inextensible cantilever of length L under a dead load at its tip,
+/// by elliptic integrals.
+using boost::math::ellint_1;
+using boost::math::ellint_2;
+
+struct Modulus {
+  Real k, amplitude;
+};
+
+Modulus modulus(const Real& tip_angle) {
+  const Real k = sqrt((1 + sin(tip_angle)) / 2);
+  return {k, asin(1 / (k * sqrt(Real(2))))};
+}
+
+Real load_parameter(const Real& tip_angle) {
+  const auto [k, t] = modulus(tip_angle);
+  const Real root = ellint_1(k) - ellint_1(k, t);
+  return root * root;
+}
+
+/// The columns of the table that are asked for: one with its length, or all of them without.
+std::vector<Real> columns(const Arguments& arguments, const std::vector<Real>& table,
+                          const std::array<const char*, 3>& names,
+                          const std::array<bool, 3>& is_length) {
+  const std::string output =
+      arguments.choice("output", "all", {"all", names[0], names[1], names[2]});
+  if (output == "all") {
+    if (arguments.has("length_m")) arguments.fail("length_m", "requires an output");
+    return table;
+  }
+  const auto column = static_cast<std::size_t>(std::ranges::find(names, output) - names.begin());
+  const Real unit = is_length.at(column) ? arguments.positive("length_m") : Real(1);
+  std::vector<Real> chosen;
+  for (std::size_t i = column; i < table.size(); i += 3) chosen.push_back(unit * table[i]);
+  return chosen;
+}
+
 }  // namespace
 
 std::vector<Real> becks_column_program(const Arguments& arguments) {
@@ -101,7 +140,7 @@ std::vector<Real> becks_column_program(const Arguments& arguments) {
     return {flutter_load(spread) * EI / (spread ? Real(L * L * L) : Real(L * L))};
   const Real parameter = arguments.positive("load_parameter");
   const Follower load = spread ? Follower{0, parameter} : Follower{parameter, 0};
-  const bool beyond = flutters(load);
+  const bool beyond = valley(load).first > 0;  // the two lowest roots have met
   if (beyond != (output == "growth-rate"))
     arguments.fail("load_parameter",
                    std::string("a load ") + (beyond ? "below" : "above") + " that of flutter");
@@ -119,7 +158,7 @@ std::vector<Real> column_buckling_program(const Arguments& arguments) {
       "ends", "", {"clamped-free", "pinned-pinned", "clamped-pinned", "clamped-clamped"});
   const bool weight = arguments.choice("load", "", {"end", "self-weight"}) == "self-weight";
   if (weight && ends != "clamped-free") {
-    arguments.fail("ends", "only a clamped-free column under its own weight is known here");
+    arguments.fail("ends", "self-weight requires a clamped-free column");
   }
   const Real L = arguments.positive("length_m", 1), EI = arguments.positive("EI_N_m2", 1);
   const Real scale = weight
@@ -132,6 +171,36 @@ std::vector<Real> column_buckling_program(const Arguments& arguments) {
       first_roots(characteristic, Real("0.5"), Real("0.1"), arguments.count("count"));
   for (Real& value : values) value = scale * value * value;
   return values;
+}
+
+std::vector<Real> elastica_tip_force_program(const Arguments& arguments) {
+  std::vector<Real> values;
+  for (const Real& load : arguments.numbers("load_parameter")) {
+    if (!(load > 0)) arguments.fail("load_parameter", "expected positive numbers");
+    const Real right = pi<Real>() / 2 * (1 - Real(1e-20));
+    const Real angle = refined_root([&](const Real& phi) { return load_parameter(phi) - load; },
+                                    Real(1e-20), right);
+    const auto [k, t] = modulus(angle);
+    values.push_back(1 - 2 * (ellint_2(k) - ellint_2(k, t)) / sqrt(load));
+    values.push_back(1 - sqrt(2 * sin(angle) / load));
+    values.push_back(angle);
+  }
+  return columns(arguments, values, {"transverse", "shortening", "angle"}, {true, true, false});
+}
+
+std::vector<Real> elastica_column_program(const Arguments& arguments) {
+  std::vector<Real> values;
+  for (const Real& degrees : arguments.numbers("tip_angle_deg")) {
+    if (!(degrees > 0 && degrees < 180)) {
+      arguments.fail("tip_angle_deg", "expected angles between 0 and 180");
+    }
+    const Real k = sin(degrees * pi<Real>() / 360);
+    const Real K = ellint_1(k);
+    values.push_back(4 * K * K / (pi<Real>() * pi<Real>()));
+    values.push_back(2 * k / K);
+    values.push_back(2 * ellint_2(k) / K - 2);
+  }
+  return columns(arguments, values, {"load", "lateral", "axial"}, {false, true, true});
 }
 
 }  // namespace trammel::references

@@ -4,28 +4,150 @@
 #include "references/manipulator/programs.h"
 #include "references/numerics/dense.h"
 #include "references/numerics/integration.h"
-#include "references/numerics/real.h"
+
+namespace trammel::references {
+
+namespace {
+
+/// Vibration of the platform of a planar 3-RRR about its motion along a path, on links without
+/// mass, with distal links hinged at both ends. Each limb is a bar, elastic along B C. With the
+/// angle b between the links:
+///
+///   1/k = l_d/EA + l_p cos^2 b/EA + (l_p^3/(3 EI) + l_p/(kappa G A)) sin^2 b.
+///
+/// The platform has three coordinates about P, q = (u_x, u_y, theta), in world axes. With the
+/// center of mass at s from P, e the axis of rotation, and W q = u + theta e x s its displacement:
+///
+///   m W^T (W q.. + 2 W. q. + W.. q + r..) + J e (theta.. + phi..) + K(t) q = h(t) F.
+///
+/// The acceleration of the center of mass in the nominal motion is r... The paper omits W. and W..
+/// (`rate_terms` false). The equations are integrated by Fehlberg's method of order 8 in steps of
+/// 0.25 ms.
+using State = std::array<Real, 6>;  // u_x, u_y, theta and their rates
+using Three = std::array<Real, 3>;
+
+/// A limb at one pose: what q stretches it by, its stiffness, the lever of its tension about A.
+struct Limb {
+  Three stretch;
+  Real stiffness, lever;
+};
+
+class Platform {
+ public:
+  explicit Platform(const Arguments& arguments)
+      : numbers_(read_planar_manipulator(arguments)),
+        trajectory_(read_trajectory(arguments)),
+        wrench_(read_wrench(arguments)),
+        rates_(arguments.flag("rate_terms", false)) {}
+
+  [[nodiscard]] Limb limb(std::size_t i, const Real& t) const {
+    const auto pose = platform_motion(trajectory_, t);
+    const LimbNumbers& numbers = numbers_.limbs[i];
+    const Point2<Real> arm = rotated(numbers.corner, pose[2].value);
+    const Point2<Real> C = {pose[0].value + arm[0], pose[1].value + arm[1]};
+    const Real l = numbers.proximal.length, d = numbers.distal.length;
+    const Point2<Real> B = elbow(numbers.base, C, l, d, numbers.mode);
+    const Point2<Real> along = {(C[0] - B[0]) / d, (C[1] - B[1]) / d};
+    const Point2<Real> link = {B[0] - numbers.base[0], B[1] - numbers.base[1]};
+    const Real cosine = (link[0] * along[0] + link[1] * along[1]) / l;
+    const Real lever = link[0] * along[1] - link[1] * along[0];
+    const FrameSection &p = numbers.proximal.section, &q = numbers.distal.section;
+    const Real compliance = d * q.axial_compliance + l * cosine * cosine * p.axial_compliance +
+                            lever * lever * (l / (3 * p.EI) + p.shear_compliance / l);
+    return {{along[0], along[1], arm[0] * along[1] - arm[1] * along[0]}, 1 / compliance, lever};
+  }
+
+  /// @param factor  on the wrench at t
+  void rate(const State& x, State& dx, const Real& t, const Real& factor) const {
+    const auto pose = platform_motion(trajectory_, t);
+    const Real m = numbers_.platform_mass, J = numbers_.platform_inertia;
+    const PointJet arm = rotated(numbers_.platform_center, pose[2]);
+    const Point2<Real> s = {arm[0].value, arm[1].value};
+    const Jet<Real> theta = rates_ ? Jet<Real>(x[2], x[5], 0) : Jet<Real>();
+    const Real fx = -m * (pose[0] + arm[0] - arm[1] * theta).acceleration;
+    const Real fy = -m * (pose[1] + arm[1] + arm[0] * theta).acceleration;
+    Three f = {fx + factor * wrench_.x, fy + factor * wrench_.y,
+               s[0] * fy - s[1] * fx - J * pose[2].acceleration + factor * wrench_.moment};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Limb one = limb(i, t);
+      const Real tension = one.stiffness * stretch(one, x);
+      for (std::size_t c = 0; c < 3; ++c) f[c] -= tension * one.stretch[c];
+    }
+    // M = [m, -m s_y; m, m s_x; J + m s^2]: from the moment about the center of mass.
+    const Real turn = (f[2] - (s[0] * f[1] - s[1] * f[0])) / J;
+    dx = {x[3], x[4], x[5], f[0] / m + s[1] * turn, f[1] / m - s[0] * turn, turn};
+  }
+
+  [[nodiscard]] static Real stretch(const Limb& limb, const State& x) {
+    return limb.stretch[0] * x[0] + limb.stretch[1] * x[1] + limb.stretch[2] * x[2];
+  }
+
+  [[nodiscard]] Real output(const std::string& name, const State& x, const Real& t) const {
+    if (name == "displacement_x_m") return x[0];
+    if (name == "displacement_y_m") return x[1];
+    if (name == "platform_rotation_rad") return x[2];
+    if (name == "kinetic_energy_J") {
+      const Point2<Real> s =
+          rotated(numbers_.platform_center, platform_motion(trajectory_, t)[2].value);
+      const Real u = x[3] - s[1] * x[5], v = x[4] + s[0] * x[5];
+      return (numbers_.platform_mass * (u * u + v * v) + numbers_.platform_inertia * x[5] * x[5]) /
+             2;
+    }
+    const Limb one = limb(static_cast<std::size_t>(name.back() - '1'), t);
+    const Real tension = one.stiffness * stretch(one, x);
+    return name[0] == 't' ? Real(-tension * one.lever) : tension;
+  }
+
+ private:
+  ManipulatorNumbers numbers_;
+  Arguments trajectory_;
+  PlanarWrench wrench_;
+  bool rates_;
+};
+
+struct History {
+  std::vector<Real> time, factor;
+
+  /// By the straight line on which the factor lies at `within`.
+  [[nodiscard]] Real at(const Real& t, const Real& within) const {
+    const auto next = std::ranges::upper_bound(time, within);
+    if (next == time.begin()) return factor.front();
+    if (next == time.end()) return factor.back();
+    const auto k = static_cast<std::size_t>(next - time.begin());
+    return factor[k - 1] +
+           (factor[k] - factor[k - 1]) * (t - time[k - 1]) / (time[k] - time[k - 1]);
+  }
+};
+
+void advance(const Platform& platform, const History& history, const Real& from, const Real& to,
+             State& x) {
+  const Real within = (from + to) / 2;
+  const auto rate = [&](const State& now, State& dx, const Real& t) {
+    platform.rate(now, dx, t, history.at(t, within));
+  };
+  integrate(rate, x, from, to, static_cast<int>(ceil((to - from) * 4000)));
+}
 
 /// Vibration of a planar 3-RRR with links that have mass and very little stiffness, about its
 /// motion along a path. Each link is one cubic element of a Timoshenko beam, hinged at its elbow
 /// and at the platform. In the axes of the link, which turn with it, the nodal displacements d give
 /// the point
-///   p(s, t) = p_nominal(s, t) + R(t) N(s) d(t),
-/// and Jet differentiates p twice by time. The virtual work of the inertia forces is
+///
+///   p(s, t) = p_nominal(s, t) + R(t) N(s) d(t).
+///
+/// Jet differentiates p twice by time. The virtual work of the inertia forces is
+///
 ///   int N^T diag(rho A, rho A, rho I) (R^T p'', theta'') ds.
+///
 /// The damping forces are b M times the velocities of the displacements in world axes. Fehlberg's
 /// method of order 8 integrates the equations.
-namespace trammel::references {
-
-namespace {
-
+///
 /// u_x, u_y, theta of P; then for each limb u_x, u_y of B and the rotations of the proximal link's
 /// end, of the distal link's start and of its end.
 constexpr std::size_t kCoordinates = 18, kOfPlatform = 3, kOfLimb = 5;
 using Coordinates = Eigen::Matrix<Real, kCoordinates, 1>;
 using SystemState = std::array<Real, 2 * kCoordinates>;
 using SystemMotion = std::array<Jet<Real>, kCoordinates>;
-using PointJet = Point2<Jet<Real>>;
 using Six = Eigen::Matrix<Real, 6, 1>;
 
 /// A displacement whose acceleration contains the damping force per mass.
@@ -187,11 +309,9 @@ class Links {
     return r;
   }
 
-  /// As in moving_platform.cpp: a mass at s from P.
+  /// Equation of motion of `Platform`, with damping: a mass at s from P.
   [[nodiscard]] Coordinates platform_residual(const Nominal& now, const SystemMotion& q) const {
-    const Jet<Real> c = cos(now.pose[2]), n = sin(now.pose[2]);
-    const Point2<Real>& center = numbers_.platform_center;
-    const PointJet s = {c * center[0] - n * center[1], n * center[0] + c * center[1]};
+    const PointJet s = rotated(numbers_.platform_center, now.pose[2]);
     const Jet<Real> turn = damped(q[2], damping_);
     const PointJet mass = {now.pose[0] + s[0] + damped(q[0], damping_) - turn * s[1],
                            now.pose[1] + s[1] + damped(q[1], damping_) + turn * s[0]};
@@ -232,6 +352,32 @@ std::vector<SystemState> states(const Links& links, const std::vector<Real>& tim
 }
 
 }  // namespace
+
+std::vector<Real> moving_platform_program(const Arguments& arguments) {
+  const Platform platform(arguments);
+  History history{{Real(0)}, {Real(1)}};
+  if (arguments.has("load_history")) {
+    const Arguments given(arguments["load_history"], "/load_history", {"time_s", "factor"});
+    history.time = given.numbers("time_s");
+    history.factor = given.numbers("factor", history.time.size());
+  }
+  const std::vector<Real> times = arguments.numbers("times_s");
+  if (!std::ranges::is_sorted(times)) arguments.fail("times_s", "times that ascend");
+  State x{};
+  Real now = times.front();
+  std::vector<Real> values;
+  for (const Real& t : times) {
+    for (const Real& corner : history.time) {
+      if (!(corner > now && corner < t)) continue;
+      advance(platform, history, now, corner, x);
+      now = corner;
+    }
+    if (t > now) advance(platform, history, now, t, x);
+    now = t;
+    values.push_back(platform.output(arguments.text("output"), x, t));
+  }
+  return values;
+}
 
 std::vector<Real> moving_links_program(const Arguments& arguments) {
   const Links links(arguments);

@@ -7,14 +7,6 @@
 #include "references/numerics/dense.h"
 #include "references/numerics/real.h"
 
-/// In-plane vibration of a free annular plate in plane stress, n waves around. With a = w/c_p,
-/// c_p^2 = E/(rho (1 - nu^2)), b = w/c_s, c_s^2 = G/rho, the potentials phi and psi are J_n and Y_n
-/// of a r and b r, and
-///   u_r = phi' + n psi/r,  u_t = -n phi/r - psi',
-///   s_r ~ phi'' + nu (phi'/r - n^2 phi/r^2) + (1 - nu) n (psi/r)',
-///   t_rt ~ -2 n (phi/r)' - (psi'' - psi'/r + n^2 psi/r^2)
-/// vanish at both radii (A. E. H. Love, A Treatise on the Mathematical Theory of Elasticity, 4th
-/// ed., chapter XXII). For n = 0 radial and torsional motions are found in one list.
 namespace trammel::references {
 
 namespace {
@@ -31,6 +23,18 @@ std::array<Real, 3> radial(bool second_kind, int n, const Real& k, const Real& r
   return {value, k * slope, k * k * ((n * n / (x * x) - 1) * value - slope / x)};
 }
 
+/// In-plane vibration of a free annular plate in plane stress, n waves around (A. E. H. Love, A
+/// Treatise on the Mathematical Theory of Elasticity, 4th ed., chapter XXII). The potentials phi
+/// and psi are J_n and Y_n of a r and b r. For n = 0 radial and torsional motions are found in one
+/// list. With a = w/c_p, c_p^2 = E/(rho (1 - nu^2)), b = w/c_s and c_s^2 = G/rho:
+///
+///   u_r = phi' + n psi/r,  u_t = -n phi/r - psi'.
+///
+/// The stresses vanish at both radii:
+///
+///   s_r ~ phi'' + nu (phi'/r - n^2 phi/r^2) + (1 - nu) n (psi/r)'.
+///
+///   t_rt ~ -2 n (phi/r)' - (psi'' - psi'/r + n^2 psi/r^2).
 struct Annulus {
   Real inner, outer, c_p, c_s, nu;
 };
@@ -78,7 +82,7 @@ std::vector<Real> annular_membrane_program(const Arguments& arguments) {
   }
   const auto wanted = wanted_modes(arguments);
   const Real step = annulus.c_s / annulus.outer / 50;
-  std::map<int, int> counts;  // waves -> how many frequencies
+  std::map<int, int> counts;  // waves -> number of frequencies
   for (const auto& [n, k] : wanted) counts[n] = std::max(counts[n], k);
   std::map<int, std::vector<Real>> roots;
   for (const auto& [n, count] : counts) {
@@ -89,6 +93,32 @@ std::vector<Real> annular_membrane_program(const Arguments& arguments) {
   std::vector<Real> values;
   for (const auto& [n, k] : wanted) values.push_back(roots[n][k - 1] / (2 * pi<Real>()));
   return values;
+}
+
+/// The corner of a plate between a clamped and a free side, where displacements grow like r^l:
+///
+///   sin^2(l w) = (1 + k)^2/(4 k) - l^2 sin^2(w)/k.
+///
+/// The angle between the sides is w; k = (3 - nu)/(1 + nu) in plane stress, 3 - 4 nu in plane
+/// strain. On even meshes energies, displacements and frequencies converge with h^(2 l) if the
+/// elements are of a higher order. Source: M. L. Williams, Stress singularities resulting from
+/// various boundary conditions in angular corners of plates in extension, J. Appl. Mech. 19, 1952.
+std::vector<Real> wedge_exponent_program(const Arguments& arguments) {
+  const std::vector<Real> a = arguments.numbers("clamped_side", 2);
+  const std::vector<Real> b = arguments.numbers("free_side", 2);
+  const Real product = sqrt((a[0] * a[0] + a[1] * a[1]) * (b[0] * b[0] + b[1] * b[1]));
+  if (product == 0) arguments.fail("clamped_side", "expected two sides that have a direction");
+  const Real angle = acos(Real((a[0] * b[0] + a[1] * b[1]) / product));
+  const Real nu = arguments.number("nu");
+  const bool stress = arguments.choice("plane", "stress", {"stress", "strain"}) == "stress";
+  const Real k = stress ? Real((3 - nu) / (1 + nu)) : Real(3 - 4 * nu);
+  const Real sine = sin(angle);
+  const auto f = [&](const Real& l) {
+    const Real s = sin(l * angle);
+    return Real(s * s - (1 + k) * (1 + k) / (4 * k) + l * l * sine * sine / k);
+  };
+  // A step that does not fall on 1, the root of a corner that is not singular.
+  return first_roots(f, Real("0.1"), Real("0.0013"), 1);
 }
 
 }  // namespace trammel::references
