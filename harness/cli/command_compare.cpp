@@ -9,7 +9,6 @@
 
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
-#include "harness/base/processes.h"
 #include "harness/base/rows.h"
 #include "harness/base/text.h"
 #include "harness/cli/commands.h"

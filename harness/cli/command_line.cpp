@@ -1,7 +1,5 @@
 #include "harness/cli/command_line.h"
 
-#include <fmt/format.h>
-
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
@@ -220,8 +218,7 @@ constexpr CommandEntry kCommands[] = {
 /// Returns version, commit and libraries, one per line.
 std::string version_text() {
   const Json all = environment();
-  std::string text =
-      fmt::format("trammel {}\ncommit {}", TRAMMEL_VERSION, all["commit"].get<std::string>());
+  std::string text = "trammel " TRAMMEL_VERSION "\ncommit " + all["commit"].get<std::string>();
   for (const auto& [name, version] : all["libraries"].items())
     text += "\n" + name + " " + version.get<std::string>();
   return text;

@@ -239,17 +239,6 @@ std::vector<Level> levels(const Document& variant, const JsonView& sweep) {
 
 namespace {
 
-void warn_of_degrees(const Json& json, const std::string& at, std::vector<std::string>& warnings) {
-  for (const auto& [name, value] : json.items()) {
-    const std::string place = at + "/" + name;
-    if (value.is_structured()) warn_of_degrees(value, place, warnings);
-    const bool is_angle = name.ends_with("_rad") && !name.ends_with("per_rad");
-    if (is_angle && value.is_number() && std::abs(value.get<double>()) > 2 * std::numbers::pi)
-      warnings.push_back(place + " is " + shortest(value.get<double>()) +
-                         " rad, more than a turn; is it in degrees?");
-  }
-}
-
 using Lengths = std::set<std::pair<double, std::string>>;  // lengths [m] with their pointers
 
 /// Warns about the largest length if it is more than a hundred times the next one.
@@ -267,7 +256,13 @@ void warn_of_millimeters(const Lengths& lengths, std::vector<std::string>& warni
 std::vector<std::string> unit_warnings(const Document& document) {
   std::vector<std::string> warnings;
   const Json model = document.value().value("model", Json::object());
-  warn_of_degrees(model, "/model", warnings);
+  const Json parts = model.flatten();
+  for (const auto& [place, value] : parts.items()) {
+    const bool is_angle = place.ends_with("_rad") && !place.ends_with("per_rad");
+    if (is_angle && value.is_number() && std::abs(value.get<double>()) > 2 * std::numbers::pi)
+      warnings.push_back("/model" + place + " is " + shortest(value.get<double>()) +
+                         " rad, more than a turn; is it in degrees?");
+  }
   Lengths nodes, links;
   const Json members = model.value("members", Json::object());
   const Json points = model.value("nodes", Json::object());
@@ -288,6 +283,9 @@ std::vector<std::string> unit_warnings(const Document& document) {
       links.emplace(length.get<double>(), "/model" + place.to_string());
   }
   warn_of_millimeters(links, warnings);
+  const Json depth = model.value(JsonPointer("/manipulator/links/thickness_m"), Json());
+  if (depth.is_number() && !links.empty() && depth.get<double>() > links.begin()->first)
+    warnings.push_back("/model/manipulator/links/thickness_m exceeds a length; in millimeters?");
   return warnings;
 }
 

@@ -114,6 +114,8 @@ std::vector<Case> Catalogue::load(const std::vector<std::string>& labels,
       if (!known.contains(label))
         throw InputError(
             unknown_name("a label of the catalogue", label, {known.begin(), known.end()}));
+  if (chosen.empty() && !known.empty())
+    throw InputError("expected labels that a case of the catalogue has together");
   return chosen;
 }
 

@@ -31,7 +31,7 @@ class Catalogue {
                                                      const std::filesystem::path& from) const;
 
   /// Returns the cases that have all `labels` and at least one of `any_labels`, if there are any.
-  /// @throws InputError  for a label that no case has.
+  /// @throws InputError  for a label that no case has, or if no case is selected.
   [[nodiscard]] std::vector<Case> load(const std::vector<std::string>& labels = {},
                                        const std::vector<std::string>& any_labels = {}) const;
 

@@ -84,12 +84,11 @@ std::string error_text(const results::Run& run, const std::string& quantity) {
 
 /// Prints all values of short quantities and the range of others.
 void print_quantities(const results::Run& run) {
-  constexpr std::size_t kMostRows = 30, kMostValues = 6;
+  constexpr std::size_t kMostValues = 6;
   Rows table({"quantity", "entries", {"values", "", 8}, {"discretization"}});
-  std::size_t rows = 0;
   for (const auto& [name, quantity] : run.quantities) {
     const std::vector<double>& values = quantity.values;
-    if (values.empty() || is_diagnostic(name) || ++rows > kMostRows) continue;
+    if (values.empty() || is_diagnostic(name)) continue;
     Json cells = Json::array();
     for (const double value : values) cells.push_back(number_or_null(value));
     if (values.size() > kMostValues) {
@@ -99,7 +98,6 @@ void print_quantities(const results::Run& run) {
     table.add({name, values.size(), cells, error_text(run, name)});
   }
   if (!table.empty()) table.print(std::cout, "  ");
-  if (rows > kMostRows) std::cout << "  and " << rows - kMostRows << " more in results.json\n";
 }
 
 }  // namespace
@@ -215,6 +213,8 @@ void print_summary(const results::Results& results) {
                            verdicts["known discrepancy"], verdicts["fail"]);
   for (const char* rare : {"error", "not-run", "recorded"})
     if (verdicts[rare] > 0) std::cout << ", " << verdicts[rare] << ' ' << rare;
+  const auto bad = std::ranges::count(results.runs, results::Status::error, &results::Run::status);
+  if (bad > 0) std::cout << "; " << bad << " with bad input";
   std::cout << '\n';
   print_numerical_uncertainty(results);
   if (comparisons == 0) return;

@@ -56,6 +56,7 @@ inline constexpr std::array kWords<NodeMotion> = {"x", "y", "rotation"};
 /// Node indices that a case states as names of nodes.
 template <class Indices>
 struct NodeNames {
+  explicit NodeNames(Indices& all) : indices(all) {}
   Indices& indices;
 };
 

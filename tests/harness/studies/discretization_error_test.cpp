@@ -234,6 +234,10 @@ BOOST_AUTO_TEST_CASE(numbers_in_a_wrong_unit_warn) {
   json["model"]["manipulator"]["links"]["distal_length_m"] = 300;
   BOOST_TEST(contains(unit_warnings(document_of(json)).at(0),
                       "/model/manipulator/links/distal_length_m is 300 m"));
+  json = own_manipulator();
+  json["model"]["manipulator"]["links"]["thickness_m"] = 3;
+  BOOST_TEST(
+      contains(unit_warnings(document_of(json)).at(0), "links/thickness_m exceeds a length"));
   json = cantilever();
   json["model"]["nodes"]["C"] = {1500, 0};
   json["model"]["members"]["BC"] = {{"nodes", {"B", "C"}}, {"section", "bar"}};
