@@ -120,7 +120,12 @@ std::vector<Family> plan_families(const Results& results) {
     if (runs.empty()) continue;
     Family& family = harness::find_or_add(
         families, [&](const Family& known) { return known.id == info.family; },
-        Family{info.family, capitalized(spaced(info.family)), {}, {}, {}, {}});
+        Family{info.family,
+               info.family.empty() ? "Own cases" : capitalized(spaced(info.family)),
+               {},
+               {},
+               {},
+               {}});
     family.cases.push_back(&info);
     family.runs.insert(family.runs.end(), runs.begin(), runs.end());
     family.galleries[info.id] = gallery_of(info, results, runs);

@@ -225,11 +225,12 @@ Data tile(const std::string& number, const std::string& title, const std::string
 Data tiles_of(const Results& results) {
   Data tiles = list();
   const RoleCount solver = count_role(results, "verification");
-  tiles.push_back(tile(std::to_string(solver.passing) + " of " + std::to_string(solver.all),
-                       "Solver verification",
-                       "checks against exact values, other codes and theory pass.",
-                       results.claims ? "orders.html" : "index.html#trust",
-                       solver.passing == solver.all ? CheckStatus::passes : CheckStatus::fails));
+  if (solver.all > 0)
+    tiles.push_back(tile(std::to_string(solver.passing) + " of " + std::to_string(solver.all),
+                         "Solver verification",
+                         "checks against exact values, other codes and theory pass.",
+                         results.claims ? "orders.html" : "index.html#trust",
+                         solver.passing == solver.all ? CheckStatus::passes : CheckStatus::fails));
   if (results.claims) {
     const auto count_of = [&](const std::string& verdict) {
       return std::to_string(std::ranges::count(results.claims->claims, verdict, &Claim::verdict));
