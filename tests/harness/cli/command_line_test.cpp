@@ -523,6 +523,7 @@ void apply_block(std::string block, Json& example, const Folder& folder) {
   if (json.front().contains("uncertainty")) {
     (void)folder.write("references.json", json.dump());
     example["checks"]["reaction"] = {{"quantity", "displacement_y_m:B"},
+                                     {"variants", {"base"}},
                                      {"role", "verification"},
                                      {"reference", json.items().begin().key()},
                                      {"tolerance", {{"relative", 0.1}, {"why", "gauge"}}}};
