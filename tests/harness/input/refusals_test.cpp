@@ -302,7 +302,7 @@ void check(const Refusal& refusal) {
 
 BOOST_AUTO_TEST_CASE(unchanged_cases_are_accepted) {
   for (const auto& [name, json] : cases())
-    BOOST_TEST(testing::complaint([&] { (void)testing::result_of(json); }) == "", name);
+    BOOST_TEST(testing::complaint([&json = json] { (void)testing::result_of(json); }) == "", name);
 }
 
 BOOST_DATA_TEST_CASE(invalid_model_is_refused, kModels, refusal) {

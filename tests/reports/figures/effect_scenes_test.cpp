@@ -1,4 +1,5 @@
 #include <boost/test/unit_test.hpp>
+#include <nlohmann/json.hpp>
 
 #include "reports/figures/figures.h"
 #include "reports/page/report.h"
