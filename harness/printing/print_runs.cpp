@@ -214,7 +214,7 @@ void print_summary(const results::Results& results) {
   for (const char* rare : {"error", "not-run", "recorded"})
     if (verdicts[rare] > 0) std::cout << ", " << verdicts[rare] << ' ' << rare;
   const auto bad = std::ranges::count(results.runs, results::Status::error, &results::Run::status);
-  if (bad > 0) std::cout << "; " << bad << " with bad input";
+  if (bad > 0) std::cout << "; " << bad << " with status error";
   std::cout << '\n';
   print_numerical_uncertainty(results);
   if (comparisons == 0) return;

@@ -220,7 +220,7 @@ std::vector<HistoryChange> changes_since(std::int64_t since,
     changes.push_back({row.name, row.before->verdict, row.after->verdict, row.before->value,
                        row.after->value, call.commit, call.date});
   }
-  std::stable_partition(changes.begin(), changes.end(), std::mem_fn(&HistoryChange::of_verdict));
+  std::stable_partition(changes.begin(), changes.end(), [](auto& c) { return c.of_verdict(); });
   return changes;
 }
 

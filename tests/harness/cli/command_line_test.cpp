@@ -268,6 +268,8 @@ BOOST_AUTO_TEST_CASE(own_robot_is_run_with_a_reference_next_to_it) {
 BOOST_AUTO_TEST_CASE(invalid_file_loses_no_results_of_others) {
   const Outcome outcome = run(files(), "run holds.json broken.json --out mixed");
   BOOST_TEST(outcome.status == 2);
+  BOOST_TEST(contains(outcome.out, "2 runs, 1 check with 1 number: 1 pass"), outcome.out);
+  BOOST_TEST(contains(outcome.out, "; 1 with status error"));
   BOOST_TEST(contains(outcome.err, "broken.json: line 1, column 8: expected JSON"));
   const Json results = read_json(files().path() / "mixed/results.json");
   BOOST_TEST(results["runs"].size() == 2U);
