@@ -47,11 +47,6 @@ Section section_at(const Member& member, double at) {
   return mixed(first, second, [at](double a, double b, int) { return (1 - at) * a + at * b; });
 }
 
-Matrix6d frame_stiffness(const Section& section, BeamTheory theory, double length) {
-  const FrameDeformation B = frame_deformation_matrix<double>(Vector2d::UnitX(), length);
-  return B.transpose() * frame_rigidity(section, theory, length).asDiagonal() * B;
-}
-
 Matrix6d bar_mass(const Section& section, MassMatrix mass, double length) {
   const double m = section.mass_per_length * length;
   const bool lumped = mass == MassMatrix::lumped;

@@ -84,14 +84,6 @@ template <Real T>
   return {section.EA / length, section.EI / length, 3.0 * section.EI / (length * (1.0 + phi))};
 }
 
-/// Returns the stiffness in element axes, 6 x 6.
-/// @param section  cross-section of the element.
-/// @param theory  beam theory.
-/// @param length  L > 0 [m].
-///
-/// Source: paper Eq. (7); Przemieniecki (1968) with shear.
-[[nodiscard]] Matrix6d frame_stiffness(const Section& section, BeamTheory theory, double length);
-
 /// Returns the interpolation at the fraction 0 <= xi <= 1 of the length, 3 x 6. The rows are the
 /// axial displacement, the transverse displacement and the rotation of the section. The columns are
 /// the degrees of freedom in element axes.

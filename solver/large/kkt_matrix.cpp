@@ -151,8 +151,7 @@ void KktMatrix::term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const {
 }
 
 Index KktMatrix::negative_pivots() const {
-  if (factors_->use_lu) return -1;
-  return factors_->ldlt.negative_pivots() - constraints_;
+  return factors_->use_lu ? -1 : factors_->ldlt.negative_pivots() - constraints_;
 }
 
 }  // namespace trammel::solver::large_motion

@@ -1,5 +1,7 @@
 #include "solver/linalg/factorization.h"
 
+#include <unsupported/Eigen/src/IterativeSolvers/Scaling.h>
+
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 #include <algorithm>
@@ -9,6 +11,7 @@
 #include <limits>
 #include <mutex>
 #include <numeric>
+#include <unsupported/Eigen/IterativeSolvers>
 #include <vector>
 
 // must follow <iostream>
@@ -216,14 +219,13 @@ VectorXd Factorization::solve_half(const VectorXd& b) const {
 }
 
 VectorXd Factorization::solve_half_transposed(const VectorXd& y) const {
-  VectorXd x = ldlt_.solve_half_transposed(y);
-  x.array() *= scaling_.array();
-  return x;
+  return scaling_.cwiseProduct(ldlt_.solve_half_transposed(y));
 }
 
 template <class Scalar>
 struct SparseLu<Scalar>::Factors {
   Eigen::SparseLU<Eigen::SparseMatrix<Scalar>, Eigen::COLAMDOrdering<int>> lu;
+  Eigen::IterScaling<Eigen::SparseMatrix<Scalar>> scaling;
   bool analyzed = false;
 };
 
@@ -232,16 +234,22 @@ SparseLu<Scalar>::SparseLu() : factors_(new Factors, [](Factors* factors) { dele
 
 template <class Scalar>
 bool SparseLu<Scalar>::factorize(const Eigen::SparseMatrix<Scalar>& A) {
-  if (!Eigen::Map<const Vector>(A.valuePtr(), A.nonZeros()).allFinite()) return false;
-  if (!factors_->analyzed) factors_->lu.analyzePattern(A);
+  if (A.rows() == 0) return true;
+  // Without scaling, the units of length and force would decide which rows are exchanged.
+  Eigen::SparseMatrix<Scalar> scaled = A;
+  factors_->scaling.computeRef(scaled);
+  if (!Eigen::Map<const Vector>(scaled.valuePtr(), scaled.nonZeros()).allFinite()) return false;
+  if (!factors_->analyzed) factors_->lu.analyzePattern(scaled);
   factors_->analyzed = true;
-  factors_->lu.factorize(A);
+  factors_->lu.factorize(scaled);
   return factors_->lu.info() == Eigen::Success;
 }
 
 template <class Scalar>
 typename SparseLu<Scalar>::Vector SparseLu<Scalar>::solve(const Vector& b) const {
-  return factors_->lu.solve(b);
+  if (b.size() == 0) return b;
+  const Vector y = factors_->lu.solve(Vector(factors_->scaling.LeftScaling().cwiseProduct(b)));
+  return factors_->scaling.RightScaling().cwiseProduct(y);
 }
 
 template class SparseLu<double>;

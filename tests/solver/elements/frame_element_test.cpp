@@ -17,6 +17,12 @@ const Section kSection = rectangle({2e11, 7800, 0.3}, 0.2, 0.1);
 constexpr double kLength = 1.3;
 const auto kTheories = {BeamTheory::euler_bernoulli, BeamTheory::timoshenko};
 
+/// Returns the stiffness in element axes.
+Matrix6d frame_stiffness(const Section& section, BeamTheory theory, double length) {
+  const FrameDeformation B = frame_deformation_matrix<double>(Eigen::Vector2d::UnitX(), length);
+  return B.transpose() * frame_rigidity(section, theory, length).asDiagonal() * B;
+}
+
 double largest_difference(const Matrix6d& a, const Matrix6d& b) {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
 }

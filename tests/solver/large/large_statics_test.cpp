@@ -109,6 +109,21 @@ BOOST_AUTO_TEST_CASE(newton_corrections_shrink_quadratically) {
   BOOST_TEST(pairs >= 1);
 }
 
+// Statics finds a straight column under a follower load stable (M. Beck, ZAMP 3, 1952).
+BOOST_AUTO_TEST_CASE(follower_load_converges_in_any_unit_and_direction) {
+  for (const double stiffness : {1e-10, 1e5, 1e20}) {
+    for (const double angle : {0.1, 0.36, 1.4}) {
+      Model model = elastica(16, angle);
+      model.members[0].section.EI = stiffness;
+      LargeMotionModel follower;
+      const Vector2d force = -24 * stiffness * Vector2d(std::cos(angle), std::sin(angle));
+      follower.follower_loads = {{1, {force.x(), force.y(), 0}}};
+      const StaticPath path = follow_static_path(GeometricallyExactSystem(model, follower));
+      BOOST_TEST(path.outcome.solved(), path.outcome.reason);
+    }
+  }
+}
+
 BOOST_AUTO_TEST_CASE(section_forces_balance_the_loads_in_the_bent_shape) {
   Model model = elastica(12);
   model.members[0].axially_flexible = true;
