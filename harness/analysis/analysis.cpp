@@ -61,8 +61,9 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   const double of_load =
       result.evidence.has(Residual::load) ? result.evidence.largest(Residual::load) : 0;
   if (of_load > solver::kLoadWarning) {
-    result.warnings.push_back({"the residual over the loads", of_load, "",
-                               "the model is ill-conditioned and its forces have few digits"});
+    result.warnings.push_back(
+        {"the residual over the loads", of_load, "",
+         "the model is ill-conditioned, so that round-off dominates its forces"});
   }
   return result;
 }
@@ -128,9 +129,8 @@ AnalysisResult analyze(const Document& document, const References& references,
   }
   const JsonView place = JsonView(document)["analysis"][kind.name];
   CaseModel case_model = read_case_model(document);
-  if (kind.needs_manipulator && !case_model.manipulator) {
-    throw place.error("expected a model with a manipulator");
-  }
+  if (kind.needs_manipulator && !case_model.manipulator)
+    throw place.error("this analysis requires a model with 'manipulator'");
   return with_model_errors(document, [&] {
     const RoundingScope scope;
     EffectChoice choice = choose_effects(document, case_model);
@@ -144,7 +144,7 @@ AnalysisResult analyze(const Document& document, const References& references,
     if (choice.is_beyond_tier()) {
       result.warnings.push_back(
           {"the change by large displacement", *choice.automatic->beyond_tier, "",
-           "more than the tolerance; fixed steps and driven actuators would permit it"});
+           "more than the tolerance; fixed steps and driven actuators would allow this effect"});
     }
     return result;
   });

@@ -10,7 +10,7 @@ StepResult analyze_comparison(const Document& document, const References& refere
     const references::Reference& minuend = references.get(pair["compared"]);
     const references::Reference& subtrahend = references.get(pair["baseline"]);
     if (minuend.unit != subtrahend.unit || minuend.values.size() != subtrahend.values.size()) {
-      throw pair.error("expected two references of one unit and length (got " +
+      throw pair.error("expected two references with equal units and numbers of values (got " +
                        std::to_string(minuend.values.size()) + " in " + minuend.unit + ", " +
                        std::to_string(subtrahend.values.size()) + " in " + subtrahend.unit + ")");
     }

@@ -184,7 +184,8 @@ StepResult analyze_options(const Document& document, const References& reference
     std::set<std::string> seen;
     for (const std::string& variant : tried.variants()) {
       const Document whole = patched(tried, variant);
-      if (analysis_kind(whole) == "options") throw choice.error("expected a case of another kind");
+      if (analysis_kind(whole) == "options")
+        throw choice.error("expected a case with an analysis other than 'options'");
       for (const Document& added : computations_of(whole, choice)) {
         run_combinations(added, place, references, seen, own);
       }

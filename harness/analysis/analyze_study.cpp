@@ -38,7 +38,7 @@ KeptQuantity number_of(const Quantities& quantities, const std::string& name,
   if (found == quantities.end()) {
     std::string some;
     for (const auto& item : quantities) some += (some.empty() ? "" : ", ") + item.first;
-    throw keep.error("expected the name of a quantity of the analysis, one of " + some);
+    throw keep.error("the analysis does not compute this quantity; expected one of " + some);
   }
   const std::vector<double>& values = found->second.values;
   const std::vector<double>& roundoff = found->second.roundoff;
@@ -48,8 +48,8 @@ KeptQuantity number_of(const Quantities& quantities, const std::string& name,
   }
   const auto index = keep.get<std::size_t>("index", 0);
   if (!keep.has("index") && values.size() != 1) {
-    throw keep.error("expected 'index' or 'statistic' for a quantity of " +
-                     std::to_string(values.size()) + " numbers");
+    throw keep.error("the quantity has " + std::to_string(values.size()) +
+                     " numbers; expected 'index' or 'statistic'");
   }
   if (index >= values.size()) return {};
   return {values[index], index < roundoff.size() ? roundoff[index] : -1};
@@ -99,7 +99,7 @@ void record_errors(const std::string& name, const std::vector<KeptQuantity>& kep
 /// Returns a level for each point of the model's trajectory. Its parameter is the time.
 std::vector<Level> trajectory_levels(const Document& document, const JsonView& study) {
   const CaseModel case_model = read_case_model(document);
-  if (!case_model.path) throw study["trajectory"].error("expected a model with a trajectory");
+  if (!case_model.path) throw study["trajectory"].error("this key requires /model/trajectory");
   const Origin written = document.origin("/model/trajectory");
   std::vector<Level> found;
   for (const solver::TrajectoryPoint& point : case_model.motion) {
@@ -117,10 +117,10 @@ std::vector<Level> trajectory_levels(const Document& document, const JsonView& s
 std::vector<Level> study_levels(const Document& document) {
   const JsonView study = JsonView(document)["analysis"]["study"];
   if (study["analysis"].has("study"))
-    throw study["analysis"].error("expected another analysis than a study");
+    throw study["analysis"].error("a study cannot contain a study; expected another analysis");
   const bool along = study.get("trajectory", false);
   if (along == study.has("values")) {
-    throw study.error("expected either 'values' or 'trajectory'");
+    throw study.error("expected exactly one of 'values' and 'trajectory'");
   }
   std::vector<Level> found = along ? trajectory_levels(document, study) : levels(document, study);
   for (Level& level : found) level.document = with_inner_analysis(std::move(level.document));

@@ -71,8 +71,7 @@ Effects read_names(const JsonView& names, const EffectScope& scope, const Effect
   for (const auto& [number, place] : names.entries()) {
     const auto effect = solver::effect_named(place.get<std::string>());
     if (!scope.applicable.has(*effect)) {
-      throw place.error("expected an effect that the scene admits (got '" +
-                        std::string(solver::name_of(*effect)) +
+      throw place.error("this effect is not applicable ('" + std::string(solver::name_of(*effect)) +
                         "': " + describe_missing(*effect, scope, rules) + ")");
     }
     chosen = chosen.with(*effect);
@@ -88,7 +87,7 @@ Effects read_names(const JsonView& names, const EffectScope& scope, const Effect
   }
   if (!(scope.completed(chosen) == chosen)) {
     throw names.error(
-        "expected 'gyroscopic' with 'large-displacement' and 'inertia', which contain it");
+        "'large-displacement' with 'inertia' requires 'gyroscopic', which they include");
   }
   return chosen;
 }
@@ -143,7 +142,7 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
 
 }  // namespace
 
-bool knows_effects(const Document& document) {
+bool supports_effects(const Document& document) {
   return effects_of(document) != nullptr;
 }
 
@@ -161,9 +160,10 @@ EffectScope effect_scope(const Document& document, const CaseModel& case_model) 
 
 EffectChoice choose_effects(const Document& document, const CaseModel& case_model) {
   const auto requested = JsonView(document).find("effects");
-  if (!knows_effects(document)) {
+  if (!supports_effects(document)) {
     if (requested)
-      throw requested->error("expected an analysis with effects: " + analyses_with_effects());
+      throw requested->error("this analysis does not support 'effects'; expected " +
+                             analyses_with_effects());
     return {};
   }
   const EffectRules& rules = *effects_of(document);
@@ -177,7 +177,7 @@ EffectChoice choose_effects(const Document& document, const CaseModel& case_mode
   for (const EffectKey& effect_key : effects_of(document)->keys(analysis_place(document))) {
     const auto specified = find_key(document, effect_key);
     if (!specified) continue;
-    throw specified->error("expected 'effects' alone to say it: " +
+    throw specified->error("'effects' excludes this key, which specifies the same effect: " +
                            std::string(solver::name_of(effect_key.effect)));
   }
   if (requested->json().is_object()) {

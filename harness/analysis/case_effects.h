@@ -26,7 +26,7 @@ struct EffectChoice {
 };
 
 /// Returns true if the case's analysis supports the selection of effects.
-[[nodiscard]] bool knows_effects(const Document& document);
+[[nodiscard]] bool supports_effects(const Document& document);
 
 /// Returns the effects that apply to the complete scene, and those that its analysis requires.
 [[nodiscard]] EffectScope effect_scope(const Document& document, const CaseModel& case_model);

@@ -23,7 +23,7 @@ std::vector<solver::Index*> element_counts(CaseModel& scene) {
 
 }  // namespace
 
-CaseModel coarsened(CaseModel scene, solver::Index elements) {
+CaseModel coarsen_scene(CaseModel scene, solver::Index elements) {
   scene.estimates_large_displacement = true;
   for (solver::Index* count : element_counts(scene)) *count = std::min(*count, elements);
   if (!scene.manipulator || scene.manipulator->platform.pin_radius > 0) return scene;

@@ -13,7 +13,7 @@
 namespace trammel::harness {
 
 /// Returns the scene with at most `elements` elements per member and three triangles in a platform.
-[[nodiscard]] CaseModel coarsened(CaseModel scene, solver::Index elements);
+[[nodiscard]] CaseModel coarsen_scene(CaseModel scene, solver::Index elements);
 
 /// Returns the number of unknowns of a model before constraints.
 [[nodiscard]] double unknowns_of(const solver::Model& model);
@@ -30,7 +30,7 @@ class CoarseScene {
               solver::Index elements)
       : kind_(kind),
         analysis_(analysis),
-        scene_(coarsened(scene, elements)),
+        scene_(coarsen_scene(scene, elements)),
         model_(first_model(scene_)),
         size_(scales_of(model_)) {}
 

@@ -32,7 +32,7 @@ std::vector<double> magnitudes(const Quantities& all, const std::string& name) {
 
 }  // namespace
 
-std::string change_kind(const std::string& quantity) {
+std::string quantity_group(const std::string& quantity) {
   static const std::vector<std::pair<std::string, std::string>> kinds = {
       {"displacement_", "displacement"},
       {"rotation_rad", "rotation"},
@@ -64,7 +64,7 @@ std::map<std::string, double> change_scales(const Quantities& full, const ModelS
   constexpr double kRoundoff = 1e-7;
   std::map<std::string, double> scale;
   for (const auto& [name, quantity] : full) {
-    const std::string kind = change_kind(name);
+    const std::string kind = quantity_group(name);
     if (!kind.empty()) scale[kind] = std::max(scale[kind], max_abs(magnitudes(full, name)));
   }
   const auto floor = [&](const char* kind, double size) {
@@ -136,7 +136,7 @@ Changes changes_between(const Quantities& full, const Quantities& other, const M
   Changes changes;
   for (const auto& [kind, by] : scale) changes[kind] = {};
   for (const auto& [name, quantity] : full) {
-    const std::string kind = change_kind(name);
+    const std::string kind = quantity_group(name);
     if (kind.empty()) continue;
     const auto found = other.find(name);
     LargestDifference& largest = changes[kind];

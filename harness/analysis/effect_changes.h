@@ -37,6 +37,6 @@ using Changes = std::map<std::string, LargestDifference>;
 [[nodiscard]] LargestDifference max_change(const Changes& changes);
 
 /// Returns the kind that a quantity is compared within; empty if it is not compared.
-[[nodiscard]] std::string change_kind(const std::string& quantity);
+[[nodiscard]] std::string quantity_group(const std::string& quantity);
 
 }  // namespace trammel::harness

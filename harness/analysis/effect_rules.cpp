@@ -21,11 +21,11 @@ struct EffectWords {
   std::array<const char*, 4> missing;
 };
 
-constexpr const char* kAtRest = "nothing moves in statics";
+constexpr const char* kAtRest = "statics has no motion";
 constexpr const char* kNoRotary = "the sections have no rotary inertia ('beam')";
 constexpr const char* kNoMass = "no member has a mass";
-constexpr const char* kNotTurning = "the frame does not turn";
-constexpr const char* kNotTurningInPlane = "no frame turns about an axis normal to the plane";
+constexpr const char* kNotTurning = "the frame does not rotate";
+constexpr const char* kNotTurningInPlane = "no frame rotates about an axis normal to the plane";
 constexpr const char* kNoDamping = "there is no 'damping'";
 constexpr const char* kLarge = "it belongs to the analysis 'large-motion'";
 
@@ -36,9 +36,9 @@ constexpr std::array<const char*, 4> all(const char* text) {
 const EffectWords& words_of(Effect effect) {
   static const std::array<EffectWords, solver::kEffectCount> table = {{
       /* axial flexibility */
-      {"(k r)^2, k = n pi / L", all("no member both bends and stretches ('axial')")},
+      {"(k r)^2, k = n pi / L", all("no member has both bending and axial flexibility ('axial')")},
       /* shear */
-      {"E I k^2 / (kappa G A), k = n pi / L", all("the members do not shear ('beam')")},
+      {"E I k^2 / (kappa G A), k = n pi / L", all("members have no shear strain ('beam')")},
       /* rotary inertia */
       {"(k r)^2, k = n pi / L", {kAtRest, kNoRotary, kNoRotary, kNoRotary}},
       /* platform flexibility */
@@ -48,7 +48,7 @@ const EffectWords& words_of(Effect effect) {
       /* link mass */
       {"", {"no member has a weight", kNoMass, kNoMass, kNoMass}},
       /* gravity */
-      {"", all("nothing has a weight ('gravity_m_s2')")},
+      {"", all("no part has a weight ('gravity_m_s2')")},
       /* inertia */
       {"(speed of the path over the first frequency)^2",
        {kAtRest, kNotTurning, kNotTurning, kNotTurning}},
@@ -61,7 +61,7 @@ const EffectWords& words_of(Effect effect) {
       {"loads over the buckling load of a hinged member",
        {kLarge, "there are no loads", "large displacement includes it", kLarge}},
       /* large displacement */
-      {"", {kLarge, "modes are small motions", "", kLarge}},
+      {"", {kLarge, "modes describe small motions only", "", kLarge}},
   }};
   return table[static_cast<std::size_t>(effect)];
 }
@@ -219,9 +219,9 @@ const char* describe_number(Effect effect) {
 }
 
 const char* describe_required(Effect effect) {
-  if (effect == Effect::damping) return "required: damping alone limits a resonance";
+  if (effect == Effect::damping) return "required: only damping limits a resonance";
   return effect == Effect::axial_flexibility
-             ? "required: constraints that turn with the links would cost more"
+             ? "required: inextensible links would increase the computing time"
              : "required by this analysis";
 }
 

@@ -178,7 +178,7 @@ class Selector {
     double shortest = kInfinite, displacement = 0;
     Deflection size;
     for (const auto& [name, quantity] : quantities) {
-      const std::string kind = change_kind(name);
+      const std::string kind = quantity_group(name);
       double& largest = kind == "rotation" ? size.rotation : displacement;
       if (kind == "rotation" || kind == "displacement")
         largest = std::max(largest, max_abs(quantity.values));
@@ -201,7 +201,7 @@ class Selector {
   static std::set<std::size_t> extremes(const Quantities& quantities) {
     std::map<std::string, std::pair<double, std::size_t>> largest;
     for (const auto& [name, quantity] : quantities) {
-      const std::string kind = change_kind(name);
+      const std::string kind = quantity_group(name);
       if (kind != "displacement" && kind != "force") continue;
       auto& extreme = largest.try_emplace(kind, 0.0, 0).first->second;
       for (std::size_t i = 0; i < quantity.values.size(); ++i)
@@ -238,7 +238,7 @@ class Selector {
           "automatic effects require a constant load; a pulse may fall between the times at which "
           "they are measured");
     }
-    CaseModel coarse = coarsened(scene_, 1);
+    CaseModel coarse = coarsen_scene(scene_, 1);
     coarse.effects = scope_.without(scope_.applicable, Effect::large_displacement);
     coarse_model_ = build_model(coarse, 0);
     options_ = read_elastodynamics(analysis_, coarse);
@@ -250,7 +250,7 @@ class Selector {
     if (!modes.outcome.solved()) return {};
     const auto first = std::ranges::find_if(modes.frequency, [](double f) { return f > 0; });
     if (first == modes.frequency.end()) {
-      selection_.outcome = {solver::Status::singular, "nothing vibrates"};
+      selection_.outcome = {solver::Status::singular, "the model cannot vibrate"};
       return {};
     }
     const double omega = 2 * std::numbers::pi * *first;

@@ -81,20 +81,20 @@ const std::vector<AnalysisKind>& analysis_kinds() {
        .of_scene = analyze_grnn,
        .needs_manipulator = true,
        .of_case = analyze_grnn_samples,
-       .without_model = "none: samples are given",
+       .without_model = "none: the case contains samples",
        .warns_of_crossing = true},
       {.name = "manufactured",
        .of_case = analyze_manufactured,
-       .without_model = "made by the analysis: a mesh, and the loads of a closed form",
+       .without_model = "created by the analysis: mesh and loads of a closed-form solution",
        .evidence = {Residual::equilibrium}},
       {.name = "comparison",
        .of_case = analyze_comparison,
-       .without_model = "no model: references against each other"},
+       .without_model = "none: comparison of references"},
       {.name = "model-probabilities",
        .of_case = analyze_model_probabilities,
-       .without_model = "no model: stored probabilities of readings"},
-      {.name = "study", .of_case = analyze_study, .without_model = "made by the analysis"},
-      {.name = "options", .of_case = analyze_options, .without_model = "those of other cases"}};
+       .without_model = "none: stored probabilities of readings"},
+      {.name = "study", .of_case = analyze_study, .without_model = "created by the analysis"},
+      {.name = "options", .of_case = analyze_options, .without_model = "models of other cases"}};
   return kinds;
 }
 

@@ -17,8 +17,8 @@ bool holds_the_data(const fs::path& folder) {
 fs::path find_data_root() {
   if (const char* set = std::getenv("TRAMMEL_HOME"); set != nullptr && *set != '\0') {
     if (holds_the_data(set)) return fs::absolute(set);
-    throw InputError("TRAMMEL_HOME: expected a folder with cases/schema (got '" + std::string(set) +
-                     "')");
+    throw InputError("TRAMMEL_HOME: expected a folder that contains cases/schema (got '" +
+                     std::string(set) + "')");
   }
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
@@ -27,9 +27,8 @@ fs::path find_data_root() {
   for (const fs::path& place : places) {
     if (holds_the_data(place)) return place;
   }
-  throw InputError(
-      "TRAMMEL_HOME: expected the folder with cases/ and references/ (it is not set, and " +
-      places.front().string() + " is gone)");
+  throw InputError("TRAMMEL_HOME: not set; expected the folder of cases/ and references/ (" +
+                   places.front().string() + " does not exist)");
 }
 
 }  // namespace

@@ -29,7 +29,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
     const std::string mantissa = token.substr(0, token.find_first_of("eE"));
     if (value == 0 && mantissa.find_first_of("123456789") != std::string::npos) {
       throw InputError(name_, here(),
-                       "expected 0 or a number that a double does not round to 0 (got '" +
+                       "expected 0 or a number that is not rounded to 0 as a double (got '" +
                            printable(token, 30) + "')");
     }
     return add(value);
@@ -61,7 +61,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
     const std::string head = "parse error at ";
     const std::size_t place = what.find(head);
     if (place == std::string::npos) {  // out of range: a number
-      throw InputError(name_, here(), "expected a number that a double can hold" + got);
+      throw InputError(name_, here(), "expected a number within the range of a double" + got);
     }
     const std::size_t start = place + head.size();  // "line 1, column 5: ..."
     throw InputError(
@@ -145,7 +145,7 @@ Json parse_json(const std::string& text, const std::string& name) {
   Json::sax_parse(text, &reader);
   // The parser would stop at a null character.
   if (const std::size_t at = text.find('\0'); at != std::string::npos)
-    throw InputError(name + ": expected the end of the JSON (got '\\u0000' at byte " +
+    throw InputError(name + ": expected no null character (got '\\u0000' at byte " +
                      std::to_string(at + 1) + ")");
   return reader.take();
 }
@@ -233,7 +233,7 @@ bool is_written_in_place(std::filesystem::path file) {
 
 }  // namespace
 
-std::string pretty(const Json& json, std::size_t deepest) {
+std::string format_json(const Json& json, std::size_t deepest) {
   std::string text;
   put(json, 0, deepest, text);
   return text + "\n";
@@ -251,7 +251,7 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
   if (out && !in_place) std::filesystem::rename(part, file, error);
   if (out && !error) return;
   if (!in_place) std::filesystem::remove(part, ignored);
-  throw InputError(file.string() + ": expected a place that can be written");
+  throw InputError(file.string() + ": cannot be written; expected a writable file or folder");
 }
 
 }  // namespace trammel::harness

@@ -24,7 +24,7 @@ namespace trammel::harness {
 
 /// Formats JSON for people and for diffs: objects over several lines, flat arrays on one line.
 /// @param deepest  deeper values are on one line, and so are objects one level above them
-[[nodiscard]] std::string pretty(const Json& json, std::size_t deepest = 1000);
+[[nodiscard]] std::string format_json(const Json& json, std::size_t deepest = 1000);
 
 /// Writes the complete file or nothing: into a temporary file in the same folder, which is then
 /// renamed. Pipes and devices are written directly.

@@ -196,7 +196,7 @@ ProcessOutcome outcome_of(Child& child) {
     outcome.text = std::move(child.text);
     if (status == 0) return outcome;
     if (status == kOutOfMemory)
-      return without_answer(Termination::out_of_memory, "more memory than is available");
+      return without_answer(Termination::out_of_memory, "the available memory is exhausted");
     return without_answer(Termination::crashed,
                           fmt::format("the computation ended with status {}", status));
   }
@@ -255,7 +255,7 @@ class ProcessPool {
     sigaddset(&asked, SIGINT);
     sigaddset(&asked, SIGTERM);
     signals_ = signalfd(-1, &asked, SFD_CLOEXEC);
-    if (signals_ < 0) throw std::runtime_error("no descriptor for signals");
+    if (signals_ < 0) throw std::runtime_error("no file descriptor for signals");
     sigprocmask(SIG_BLOCK, &asked, &before_);
   }
   ~ProcessPool() {
@@ -316,7 +316,7 @@ class ProcessPool {
 /// Line printed by the signal handler, which may only write and exit.
 std::array<char, 200> last_line{};
 
-extern "C" void say_and_end(int signal) {
+extern "C" void print_and_end(int signal) {
   (void)!write(STDERR_FILENO, last_line.data(), std::strlen(last_line.data()));
   _exit(128 + signal);
 }
@@ -337,7 +337,7 @@ void end_on_signals(const std::string& line) {
   last_line.fill(0);
   line.copy(last_line.data(), last_line.size() - 1);
   for (const int signal : {SIGINT, SIGTERM})
-    if (std::signal(signal, say_and_end) == SIG_IGN) std::signal(signal, SIG_IGN);
+    if (std::signal(signal, print_and_end) == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 std::size_t memory_limit_bytes() {

@@ -33,7 +33,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
+std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
   if (word.size() > 200) return {};
   // Common words for a key with a different spelling.
   if ((word == "entries" || word == "entry") && contains(candidates, std::string("index")))
@@ -54,7 +54,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
 }
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& candidates) {
-  const std::string best = nearest(word, candidates);
+  const std::string best = nearest_word(word, candidates);
   return best.empty() ? "" : "; did you mean '" + best + "'?";
 }
 

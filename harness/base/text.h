@@ -9,8 +9,8 @@
 namespace trammel::harness {
 
 /// Returns the candidate closest to a misspelled word; empty if none is close.
-[[nodiscard]] std::string nearest(const std::string& word,
-                                  const std::vector<std::string>& candidates);
+[[nodiscard]] std::string nearest_word(const std::string& word,
+                                       const std::vector<std::string>& candidates);
 
 /// Returns "; did you mean 'x'?", or an empty string if no candidate is close.
 [[nodiscard]] std::string did_you_mean(const std::string& word,

@@ -51,7 +51,7 @@ double quantile(std::vector<double> values, double share) {
   return std::lerp(values[below], values[above], at - static_cast<double>(below));
 }
 
-std::vector<std::size_t> shuffled(std::size_t n, std::uint64_t& state) {
+std::vector<std::size_t> shuffle_indices(std::size_t n, std::uint64_t& state) {
   // Fisher-Yates shuffle; std::shuffle differs between libraries.
   std::mt19937_64 engine(state);
   std::vector<std::size_t> order(n);
@@ -84,7 +84,7 @@ std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& w
   }
   std::uint64_t state = options.seed;
   for (int repeat = 0; repeat < options.repeats; ++repeat) {
-    for (const std::size_t i : shuffled(works.size(), state)) {
+    for (const std::size_t i : shuffle_indices(works.size(), state)) {
       const Elapsed elapsed = measure(works[i], timings[i].runs_each);
       timings[i].cpu_s.push_back(elapsed.cpu_s);
       wall[i].push_back(elapsed.wall_s);

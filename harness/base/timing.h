@@ -61,6 +61,6 @@ struct EvaluationTime {
 [[nodiscard]] double quantile(std::vector<double> values, double share);
 
 /// Returns a permutation of 0 ... n - 1 that is the same on every machine.
-[[nodiscard]] std::vector<std::size_t> shuffled(std::size_t n, std::uint64_t& state);
+[[nodiscard]] std::vector<std::size_t> shuffle_indices(std::size_t n, std::uint64_t& state);
 
 }  // namespace trammel::harness

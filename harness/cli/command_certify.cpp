@@ -44,7 +44,7 @@ std::vector<Configuration> computed(const std::vector<Case>& cases, const Comman
     options.memory_bytes = given.memory_bytes;
     set_solver_rounding(mode);
     const std::vector<Run> runs =
-        run_shown(cases, references, options, std::string("runs rounded ") + name);
+        run_with_progress(cases, references, options, std::string("runs rounded ") + name);
     set_solver_rounding(FE_TONEAREST);
     configurations.push_back({name, results_of(runs, cases, references)});
   }
@@ -83,7 +83,7 @@ void require_same_cases(const std::vector<Case>& cases, const std::filesystem::p
     const auto then = std::ranges::find(stored.cases, one.id(), &results::CaseInfo::id);
     if (then != stored.cases.end() && then->hash != case_hash(one))
       throw InputError(file.string(), "/cases/" + one.id() + "/hash",
-                       "expected results of the case as it is now; run it again");
+                       "the results belong to another version of this case; compute them again");
   }
 }
 
@@ -102,10 +102,10 @@ int certify_command(const CommandOptions& options, const Renderers& /*renderers*
   const Certification certificate = certify(configurations);
   const bool any = std::ranges::any_of(certificate.rows,
                                        [](const ConfigurationRow& row) { return row.checks > 0; });
-  if (!any) throw InputError("expected cases with checks");
+  if (!any) throw InputError("no selected case has a check");
   const Json json = results::to_json(certificate);
   if (options.json) {
-    std::cout << pretty(json, 2);
+    std::cout << format_json(json, 2);
   } else {
     print_certificate(json);
   }

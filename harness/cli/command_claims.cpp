@@ -58,9 +58,9 @@ int claims_command(const CommandOptions& options, const Renderers& /*renderers*/
   RunOptions run_options;
   run_options.jobs = options.jobs;
   const results::Claims claims = evaluate_claims(
-      document, run_shown(cases_of(document, Catalogue().load()), references, run_options));
+      document, run_with_progress(cases_of(document, Catalogue().load()), references, run_options));
   if (options.json) {
-    std::cout << pretty(results::to_json(claims));
+    std::cout << format_json(results::to_json(claims));
   } else {
     std::cout << claims.title << "\n\n";
     std::ranges::for_each(claims.claims, print_claim);
@@ -74,7 +74,7 @@ int paper_command(const CommandOptions& options, const Renderers& /*renderers*/)
   shown.items = load_paper_items(claim_set, Catalogue());
   if (!options.word.empty()) judge_paper_items(read_summary(options.word), shown.items);
   if (options.json) {
-    std::cout << pretty(results::to_json(shown).at("items"));
+    std::cout << format_json(results::to_json(shown).at("items"));
   } else {
     for (const results::PaperItem& item : shown.items)
       print_item(item, claim_set.value().at("claims"));

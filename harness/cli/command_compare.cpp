@@ -37,7 +37,7 @@ Side side_of(const Case& given, const std::string& variant) {
   options.variant = variant;
   options.memory_bytes = memory_limit_bytes();
   options.studies = false;
-  const std::vector<Run> runs = run_shown({given}, references, options);
+  const std::vector<Run> runs = run_with_progress({given}, references, options);
   require_solved(runs.front());
   return {given.id() + ":" + variant, results_of(runs, {given}, references),
           patched(given, variant)};
@@ -46,7 +46,7 @@ Side side_of(const Case& given, const std::string& variant) {
 std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
   std::vector<Side> sides;
   for (const std::string& name : names) {
-    const auto [file, chosen] = parted(name);
+    const auto [file, chosen] = split_case_name(name);
     const Case given = load_named_case(file);
     std::vector<std::string> variants = {chosen.empty() ? kBaseVariant : chosen};
     if (names.size() == 1 && chosen.empty()) variants = given.variants();
@@ -61,15 +61,16 @@ std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
       const std::string own = analysis_kind(*sides.back().document),
                         first = analysis_kind(*sides.front().document);
       if (own != first)
-        throw InputError("expected variants of one kind of analysis (got " + first + " and " + own +
+        throw InputError("expected variants with the same analysis (got " + first + " and " + own +
                          ")");
     }
   }
-  if (sides.size() < 2) throw InputError("expected two sides (got one: it has no variants)");
+  if (sides.size() < 2)
+    throw InputError("expected at least two variants or cases (got one case without variants)");
   std::set<std::string> cases;
-  for (const Side& side : sides) cases.insert(parted(side.label).first);
+  for (const Side& side : sides) cases.insert(split_case_name(side.label).first);
   if (cases.size() == 1)
-    for (Side& side : sides) side.label = parted(side.label).second;
+    for (Side& side : sides) side.label = split_case_name(side.label).second;
   return sides;
 }
 
@@ -87,10 +88,10 @@ std::vector<Side> sides_of(const std::vector<std::string>& names) {
   }
   if (sides.empty()) return sides_of_cases(names);
   if (!others.empty()) {
-    (void)load_named_case(parted(others.front()).first);  // reports its error
-    throw InputError("expected either variants or results (got both)");
+    (void)load_named_case(split_case_name(others.front()).first);  // reports its error
+    throw InputError("expected either cases or results files (got both)");
   }
-  if (sides.size() < 2) throw InputError("expected two results (got one)");
+  if (sides.size() < 2) throw InputError("expected at least two results files (got one)");
   return sides;
 }
 
@@ -117,11 +118,11 @@ void print_modes(const ComparedRun& run, const SideComparison& comparison) {
       Json frequencies = Json::array({number_or_null(modes.values[s])});
       if (modes.last[s]) frequencies.push_back(*modes.last[s]);
       table.add({s == 0 ? Json(modes.modes[0]) : Json(), comparison.sides[s].label,
-                 modes.modes[s].empty() ? Json("no mode looks alike") : Json(modes.modes[s]),
+                 modes.modes[s].empty() ? Json("no mode of similar shape") : Json(modes.modes[s]),
                  frequencies, number_or_null(modes.percent[s]), number_or_null(modes.alike[s])});
     }
   table.print(std::cout);
-  std::cout << "alike: 1 for the same shape (modal assurance criterion; of repeated modes the\n"
+  std::cout << "alike: 1 for the same shape (modal assurance criterion; for repeated modes, the\n"
                "subspaces are compared)\n";
 }
 
@@ -240,7 +241,7 @@ int compare_command(const CommandOptions& options, const Renderers& renderers) {
   for (const Side& side : sides) costs.push_back(side.results.cost);
   const SideComparison comparison = compare_sides(std::move(sides), !options.html.empty());
   if (options.json) {
-    std::cout << pretty(to_json(comparison));
+    std::cout << format_json(to_json(comparison));
   } else if (options.csv) {
     std::cout << csv(comparison);
   } else {

@@ -38,10 +38,11 @@ std::string conclusion(const Convergence& found) {
   if (found.richardson) {
     parts.push_back("extrapolated " + shortest(*found.richardson));
     if (found.exact)
-      parts.push_back(fmt::format(
-          "off by {:.2g}", std::abs(*found.richardson - *found.exact) / std::abs(*found.exact)));
+      parts.push_back(
+          fmt::format("with a relative error of {:.2g}",
+                      std::abs(*found.richardson - *found.exact) / std::abs(*found.exact)));
   } else if (found.values.size() > 2) {
-    parts.emplace_back("no value that it converges to");
+    parts.emplace_back("the values do not converge");
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -71,9 +72,8 @@ void print(const Convergence& found) {
 
 int converge_command(const CommandOptions& options, const Renderers& /*renderers*/) {
   const Case given = load_named_case(options.word);
-  if (!given.document.value().contains("sweeps")) {
+  if (!given.document.value().contains("sweeps"))
     throw given.document.error("", "expected 'sweeps', which define the refinement");
-  }
   if (!options.variant.empty()) (void)patched(given, options.variant);
   const References references;
   const std::vector<Run> runs =
@@ -91,7 +91,7 @@ int converge_command(const CommandOptions& options, const Renderers& /*renderers
   const int status = exit_status(runs) == 3 ? 3 : 0;
   const results::Results results = results_of(runs, {given}, references);
   if (options.json) {
-    std::cout << pretty(to_json(results), kLineDepth);
+    std::cout << format_json(to_json(results), kLineDepth);
     return status;
   }
   print_numerical_uncertainty(results);

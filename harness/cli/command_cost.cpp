@@ -73,9 +73,8 @@ std::vector<CostStudy> read_studies(const CommandOptions& options, SweepExtent e
     const std::string variant = options.variant.empty() ? kBaseVariant : options.variant;
     studies.push_back(cost_study_of_sweeps(load_case(file), variant, options.sweeps, references));
   }
-  if (!any_case && (!options.sweeps.empty() || !options.variant.empty())) {
-    throw InputError("--sweep and --variant: a case is required");
-  }
+  if (!any_case && (!options.sweeps.empty() || !options.variant.empty()))
+    throw InputError("--sweep and --variant apply to cases only; expected the name of a case");
   if (!options.words.empty()) return studies;
   for (const fs::path& file : cost_study_files()) add(file);
   return studies;
@@ -115,7 +114,7 @@ void add_cheapest(const results::CostStudy& study, const results::CostOutput& ou
       table.add({target, output.title, setting.title, number_or_null(output.errors[*best.setting]),
                  number_or_null(setting.relative)});
     } else {
-      table.add({target, output.title, "none of these"});
+      table.add({target, output.title, "no setting"});
     }
     for (const std::size_t tied : best.tied)
       table.add({"", "", "or " + study.settings[tied].title});
@@ -153,10 +152,10 @@ results::CostStudy choose_setting(const CommandOptions& options, const CostOptio
   const AccuracyRequest request{options.accuracy, options.quantities, options.time_limit_s};
   const AccuracySearch search = search_accuracy(patched(given, variant), request, references);
   results::CostStudy measured =
-      measure_or_find(cost_study_of_search(given, variant, search, request), cost_options,
-                      references, store_folder(options.out, options.store), options.resume);
+      cached_cost_study(cost_study_of_search(given, variant, search, request), cost_options,
+                        references, store_folder(options.out, options.store), options.resume);
   if (options.json) {
-    std::cout << pretty(results::to_json(search.errors));
+    std::cout << format_json(results::to_json(search.errors));
   } else {
     print(measured);
     print_search(search.errors);
@@ -198,8 +197,9 @@ int cost_command(const CommandOptions& options, const Renderers& renderers) {
     {
       Progress progress("measurements");
       cost_options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
-      measured.push_back(measure_or_find(study, cost_options, references,
-                                         store_folder(options.out, options.store), options.resume));
+      measured.push_back(cached_cost_study(study, cost_options, references,
+                                           store_folder(options.out, options.store),
+                                           options.resume));
     }
     if (!options.json) print(measured.back());
   }
@@ -222,8 +222,8 @@ std::vector<std::function<void()>> quick_cost_work(const References& references,
   std::vector<std::function<void()>> work;
   for (const fs::path& file : cost_study_files())
     work.emplace_back([file, &references, store, resume] {
-      (void)measure_or_find(load_cost_study(file, SweepExtent::quick, references), {}, references,
-                            store, resume);
+      (void)cached_cost_study(load_cost_study(file, SweepExtent::quick, references), {}, references,
+                              store, resume);
     });
   return work;
 }
@@ -234,8 +234,8 @@ results::CostStudies quick_cost(const References& references, const fs::path& st
   const CostOptions options;
   for (const fs::path& file : cost_study_files()) {
     try {
-      measured.push_back(measure_or_find(load_cost_study(file, SweepExtent::quick, references),
-                                         options, references, store, resume));
+      measured.push_back(cached_cost_study(load_cost_study(file, SweepExtent::quick, references),
+                                           options, references, store, resume));
     } catch (const InputError& error) {
       error_messages.emplace_back(error.what());
     }

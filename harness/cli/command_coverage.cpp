@@ -45,7 +45,7 @@ int coverage_command(const CommandOptions& options, const Renderers& /*renderers
     count_series(results, rows);
   }
   if (options.json) {
-    std::cout << pretty(results::to_json(rows));
+    std::cout << format_json(results::to_json(rows));
   } else {
     for (const char* group : {"key", "pair", "quantity"}) print_group(rows, group, options.gaps);
   }

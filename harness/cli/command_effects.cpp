@@ -127,8 +127,8 @@ void print_study(const EffectStudy& study) {
 }
 
 [[noreturn]] void refuse_unsolved(const std::string& id, const EffectStudy& study) {
-  throw InputError(id + ": a solution with all effects is required (" + study.full.outcome.reason +
-                   ")");
+  throw InputError(id + ": the model with all effects has no solution (" +
+                   study.full.outcome.reason + ")");
 }
 
 /// Writes results.json and the page of these scenes.
@@ -155,7 +155,7 @@ std::vector<EffectCase> effect_cases(const std::vector<std::string>& labels,
   std::vector<EffectCase> cases;
   for (const Case& given : Catalogue().load(labels)) {
     Document document = patched(given, variant);
-    if (knows_effects(document)) cases.push_back({given.id(), std::move(document)});
+    if (supports_effects(document)) cases.push_back({given.id(), std::move(document)});
   }
   return cases;
 }
@@ -170,7 +170,7 @@ std::vector<EffectCase> selected_cases(const CommandOptions& options) {
     cases.push_back({given.id(), patched(given, variant)});
   }
   if (options.words.empty()) cases = effect_cases(options.labels, variant);
-  if (cases.empty()) throw InputError("no case with these labels has an analysis with effects");
+  if (cases.empty()) throw InputError("no case with these labels supports effects");
   return cases;
 }
 
@@ -178,7 +178,7 @@ int print_one(const EffectCase& scene, const CommandOptions& options) {
   const EffectStudy study = study_effects(scene.document, {options.tolerance, options.repeats});
   if (options.json) {
     if (!study.full.outcome.solved()) refuse_unsolved(scene.id, study);
-    std::cout << pretty(study_json(scene.id, analysis_kind(scene.document), study), 2);
+    std::cout << format_json(study_json(scene.id, analysis_kind(scene.document), study), 2);
     return holds(study) ? 0 : 1;
   }
   std::cout << scene.id << ": " << scene.document.value().at("title").get<std::string>() << '\n';
@@ -197,7 +197,7 @@ EffectScenes scenes_of(const EffectCase& given, const std::filesystem::path& sto
       scenes.push_back(scene_of(given.id, analysis_kind(given.document), study));
     return scenes;
   };
-  return scenes_or_find(given.document, measure, store, resume);
+  return cached_scenes(given.document, measure, store, resume);
 }
 
 }  // namespace
@@ -224,7 +224,7 @@ int effects_command(const CommandOptions& options, const Renderers& renderers) {
   progress.reset();
   if (!options.out.empty()) write_scenes(std::move(scenes), options, renderers);
   if (options.json) {
-    std::cout << pretty(json, 3);
+    std::cout << format_json(json, 3);
   } else {
     Rows(kSceneColumns, json).print(std::cout);
     std::cout << "work: selection and chosen set, relative to the full model; mesh: from half the "

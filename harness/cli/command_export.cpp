@@ -43,7 +43,7 @@ int export_command(const CommandOptions& options, const Renderers& /*renderers*/
     write_matrices(document, exported_scene(document), options.matrices);
     if (options.out.empty()) return 0;
   }
-  const std::string text = pretty(export_case(given, choice));
+  const std::string text = format_json(export_case(given, choice));
   if (options.out.empty()) {
     std::cout << text;
   } else {
@@ -65,11 +65,12 @@ int solve_command(const CommandOptions& options, const Renderers& /*renderers*/)
     for (const std::string& warning : run.warnings)
       std::cerr << "trammel: " << given.id() << ": warning: " << warning << '\n';
   }
-  write_file(options.out, pretty({{"status", to_string(run.status)},
-                                  {"reason", run.reason},
-                                  {"quantities", quantities_json(given, run.quantities)},
-                                  {"solver", {{"name", "trammel"}, {"version", TRAMMEL_VERSION}}},
-                                  {"cost", {{"seconds", run.cost.wall_s}}}}));
+  write_file(options.out,
+             format_json({{"status", to_string(run.status)},
+                          {"reason", run.reason},
+                          {"quantities", quantities_json(given, run.quantities)},
+                          {"solver", {{"name", "trammel"}, {"version", TRAMMEL_VERSION}}},
+                          {"cost", {{"seconds", run.cost.wall_s}}}}));
   return 0;
 }
 

@@ -66,7 +66,7 @@ void print_grades(const std::vector<results::Run>& runs) {
         run.cost.wall_s};
     const bool is_judged = grade == Grade::agrees || grade == Grade::off;
     const std::vector<Json> cells =
-        is_judged ? check_cells(*results::telling_check(run))
+        is_judged ? check_cells(*results::decisive_check(run))
                   : std::vector<Json>{"", printable(reason_of(run, grade), 160)};
     row.insert(row.end(), cells.begin(), cells.end());
     table.add(std::move(row));

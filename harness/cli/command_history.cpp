@@ -58,7 +58,7 @@ int history_command(const CommandOptions& options, const Renderers& /*renderers*
   const History history = read_history(options.word);
   const Json json = results::to_json(history);
   if (options.json) {
-    std::cout << pretty(json, 3);
+    std::cout << format_json(json, 3);
   } else {
     print_history(json);
   }

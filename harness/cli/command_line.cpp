@@ -187,8 +187,7 @@ constexpr CommandEntry kCommands[] = {
     {"references", references_command, "names --csv --json"},
     {"run", run_command,
      "cases --label --label-any --variant --jobs --out --resume --store --max-memory --history "
-     "--shard "
-     "--json --vtk --errors --no-errors --warn-above --accuracy --quantity"},
+     "--shard --json --vtk --errors --no-errors --warn-above --accuracy --quantity"},
     {"compare", compare_command, "sides! --csv --json --html --gate"},
     {"converge", converge_command, "case! --variant --jobs --json"},
     {"cost", cost_command,
@@ -207,8 +206,7 @@ constexpr CommandEntry kCommands[] = {
     {"solve", solve_command, "case! result!", ""},
     {"grade", grade_command,
      "adapter! cases --label --label-any --variant --jobs --out --resume --store --json "
-     "--max-memory "
-     "--max-time --max-disk",
+     "--max-memory --max-time --max-disk",
      "trammel-grade"},
     {"merge", merge_command, "shards! --jobs --out --max-memory --json"},
     {"slurm", slurm_command, "--shards! cases --label --label-any --variant --jobs --time --out"},

@@ -101,7 +101,7 @@ void print_reference(const CitedReference& cited) {
 
 void describe_effects(const Case& given) {
   const Document base = patched(given, kBaseVariant);
-  if (!knows_effects(base)) return;
+  if (!supports_effects(base)) return;
   const EffectChoice choice =
       with_model_errors(base, [&] { return choose_effects(base, read_case_model(base)); });
   print_effects(choice);
@@ -234,7 +234,7 @@ int list_command(const CommandOptions& options, const Renderers& /*renderers*/) 
     rows.add({given.id(), given.title(), given.document.value().value("family", ""), given.labels(),
               analysis_kind(given.document), given.variants(), given.file.string()});
   if (options.json) {
-    std::cout << pretty(rows.json());
+    std::cout << format_json(rows.json());
   } else {
     Rows({{"id", "case"}, {"analysis"}, {"variants", "", 0}, {"labels"}, {"title"}}, rows.json())
         .print(std::cout);
@@ -248,7 +248,7 @@ int describe_command(const CommandOptions& options, const Renderers& /*renderers
   if (options.json) {
     Json document = given.document.value();
     document["file"] = given.file.string();
-    std::cout << pretty(document);
+    std::cout << format_json(document);
     return 0;
   }
   const Document base = patched(given, kBaseVariant);
@@ -280,7 +280,7 @@ int quantities_command(const CommandOptions& options, const Renderers& /*rendere
   const Rows rows =
       options.word.empty() ? analysis_rows() : quantity_rows(load_named_case(options.word));
   if (options.json) {
-    std::cout << pretty(rows.json(), 1);
+    std::cout << format_json(rows.json(), 1);
   } else {
     rows.print(std::cout);
   }
@@ -303,7 +303,7 @@ int references_command(const CommandOptions& options, const Renderers& /*rendere
   if (options.csv) {
     std::cout << value_rows(all).csv();
   } else if (options.json) {
-    std::cout << pretty(references_json(all));
+    std::cout << format_json(references_json(all));
   } else if (!names.empty()) {
     std::ranges::for_each(all, print_values);
   } else {

@@ -117,7 +117,7 @@ Selection select(const CommandOptions& options) {
   std::vector<std::filesystem::path> files;
   std::map<std::filesystem::path, std::vector<std::string>> chosen;
   for (const std::string& word : options.words) {
-    const auto [name, variant] = parted(word);
+    const auto [name, variant] = split_case_name(word);
     const std::filesystem::path file = catalogue.find_case(name);
     if (variant.empty() || !chosen.contains(file)) files.push_back(file);
     if (!variant.empty()) chosen[file].push_back(variant);
@@ -204,7 +204,7 @@ int report_results(const CommandOptions& options, const Renderers& renderers) {
 Json selection_of(const CommandOptions& options) {
   Json cases = Json::array();
   for (const std::string& word : options.words) {
-    const auto [name, variant] = parted(word);
+    const auto [name, variant] = split_case_name(word);
     const bool is_file = std::filesystem::exists(name);
     cases.push_back((is_file ? std::filesystem::absolute(name).string() : name) +
                     (variant.empty() ? "" : ":" + variant));
@@ -217,7 +217,7 @@ Json selection_of(const CommandOptions& options) {
 
 /// Computes a part of the selection without judging it.
 int compute_shard(const CommandOptions& options) {
-  const Shard shard = shard_from(options.shard);
+  const Shard shard = parse_shard(options.shard);
   const Selection selection = select(options);
   const OutputLock lock(options.out);
   end_on_signals(kInterrupted);
@@ -264,7 +264,7 @@ int add_studies(results::Results& results, const std::vector<Case>& cases,
 
 }  // namespace
 
-std::pair<std::string, std::string> parted(const std::string& name) {
+std::pair<std::string, std::string> split_case_name(const std::string& name) {
   const auto colon = name.rfind(':');
   const bool is_split = colon != std::string::npos && colon > 0 &&
                         name.find('/', colon) == std::string::npos &&

@@ -80,7 +80,7 @@ Command export_command, solve_command, grade_command;
 
 /// Splits "portal-frame:lumped" into a case and its variant, "" without one. A colon in the name of
 /// a folder or of an existing file does not separate a variant.
-[[nodiscard]] std::pair<std::string, std::string> parted(const std::string& name);
+[[nodiscard]] std::pair<std::string, std::string> split_case_name(const std::string& name);
 
 /// Returns the results file for a name: the file itself, or results.json in the folder.
 [[nodiscard]] std::filesystem::path results_path(const std::string& name);

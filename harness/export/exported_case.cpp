@@ -44,12 +44,12 @@ void require_exportable(const Document& document) {
                                 "large-motion", "harmonic", "transient"};
   const JsonView place = analysis_place(document);
   if (!contains(kinds, analysis_kind(document)))
-    throw place.error(analysis_kind(document) + " is not exported");
+    throw place.error("the analysis " + analysis_kind(document) + " cannot be exported");
   const JsonView root(document);
   if (root.has("model") && root["model"].has("trajectory"))
-    throw root["model"]["trajectory"].error("expected one pose: a trajectory is not exported");
+    throw root["model"]["trajectory"].error("a trajectory cannot be exported; expected 'pose'");
   if (place.has("track"))
-    throw place["track"].error("expected drives with laws: a tracked path is not exported");
+    throw place["track"].error("'track' cannot be exported; expected 'drives'");
 }
 
 /// Expresses the chosen effects by keys of the analysis.
@@ -60,8 +60,8 @@ Json stated_analysis(const Document& document, solver::Effects chosen) {
   const bool kept = !place.has("rotating") || chosen.has(Effect::geometric_stiffening);
   if (chosen.has(Effect::large_displacement) || !kept) {
     throw JsonView(document)["effects"].error(
-        "expected effects that its keys can express: large displacement, and a rotating "
-        "frame without geometric stiffening, are not exported");
+        "large displacement, and a rotating frame without geometric stiffening, cannot be "
+        "exported, because no key of the analysis expresses them");
   }
   if (!chosen.has(Effect::damping))
     for (const char* key : {"damping", "mass_damping_per_s", "strain_rate_damping_s"})
@@ -132,9 +132,9 @@ Json asked_quantities(const Document& document, const std::vector<Check>& checks
       if (!seen.insert(name).second) continue;
       const std::size_t colon = name.find(':');
       if (colon != std::string::npos && lost.count(name.substr(colon + 1)) > 0) {
-        throw document.error(check.pointer,
-                             "expected quantities of what the exported model has: '" + name +
-                                 "' is of an edge or a tapered member");
+        throw document.error(
+            check.pointer, "the exported model does not contain the part of the quantity '" + name +
+                               "', which is an edge or a tapered member");
       }
       const auto* known = results::find_quantity_definition(name, analysis_kind(document));
       asked.push_back({{"name", name},
@@ -226,7 +226,7 @@ Document chosen_document(const Case& given, const ExportChoice& choice) {
   const std::string name = choice.sweep.empty() && names.size() == 1 ? names[0] : choice.sweep;
   if (!contains(names, name)) {
     throw document.error("/sweeps", "expected the name of a sweep (got '" + printable(name) +
-                                        "'; it has " +
+                                        "'; the case has " +
                                         (names.empty() ? "none" : join(names, "and")) + ")");
   }
   std::vector<Level> all = levels(document, name);

@@ -205,7 +205,7 @@ class Parts {
   void add(std::string name, Json part) {
     if (name.empty()) name = kind_ + ("-" + std::to_string(json_.size() + 1));
     solver::require(names_.insert(name).second,
-                    std::string("two of its ") + kind_ + " have the name '" + name + "'");
+                    std::string("two ") + kind_ + " have the name '" + name + "'");
     json_.get_ref<Json::object_t&>().emplace_back(std::move(name), std::move(part));
   }
   void put_into(Json& model) {

@@ -49,7 +49,7 @@ bool ended_without_answer(const ProcessOutcome& outcome, const ProgramLimits& li
       return true;
     case Ending::disk_full:
       end_as(run, Status::crashed,
-             "more than " + std::to_string(limits.disk_bytes >> 20) + " MiB on disk");
+             "more than " + std::to_string(limits.disk_bytes >> 20) + " MiB of files");
       return true;
     case Ending::not_started:
       end_as(run, Status::error, std::string("not started: ") + std::strerror(outcome.status));
@@ -82,7 +82,7 @@ void call(const Adapter& adapter, const fs::path& folder, const Json& json, Run&
   std::error_code error;
   fs::remove_all(folder, error);
   fs::create_directories(folder);
-  write_file(folder / "case.json", pretty(json));
+  write_file(folder / "case.json", format_json(json));
   std::vector<std::string> words = adapter.words;
   words.push_back((folder / "case.json").string());
   words.push_back((folder / "result.json").string());
@@ -143,7 +143,7 @@ std::vector<std::string> adapter_words(const std::string& command) {
     std::istringstream text(command);
     for (std::string word; text >> word;) words.push_back(word);
   }
-  if (words.empty()) throw InputError("ADAPTER: expected a program");
+  if (words.empty()) throw InputError("ADAPTER: the command is empty; expected a program");
   if (words.front().find('/') == std::string::npos && !fs::is_regular_file(words.front())) {
     const char* path = std::getenv("PATH");
     std::istringstream folders(path == nullptr ? "" : path);
@@ -157,11 +157,11 @@ std::vector<std::string> adapter_words(const std::string& command) {
     if (fs::is_regular_file(word)) {
       word = fs::absolute(word).lexically_normal().string();
     } else if (fs::path(word).extension() == ".py") {
-      throw InputError("ADAPTER: expected a file (got " + quoted(printable(word)) + ")");
+      throw InputError("ADAPTER: expected an existing file (got " + quoted(printable(word)) + ")");
     }
   }
   if (!fs::is_regular_file(words.front()) || access(words.front().c_str(), X_OK) != 0)
-    throw InputError("ADAPTER: expected a program that can be executed (got " +
+    throw InputError("ADAPTER: expected an executable program (got " +
                      quoted(printable(words.front())) + ")");
   return words;
 }
@@ -228,8 +228,9 @@ void read_adapter_answer(const std::filesystem::path& file, const Json& asked, R
   const std::string name = file.filename().string();
   std::error_code error;
   const auto bytes = std::filesystem::file_size(file, error);
-  if (error) throw InputError(name, "", "expected a file that the adapter writes (got none)");
-  if (bytes > kMaxAnswerBytes) throw InputError(name, "", "expected at most 64 MiB");
+  if (error) throw InputError(name, "", "the adapter has not written this file");
+  if (bytes > kMaxAnswerBytes)
+    throw InputError(name, "", "the file is too large; expected at most 64 MiB");
   const Json json = parse_json(read_text(file), name);
   if (const auto fault = find_schema_fault(json, "adapter_result"))
     throw InputError(name, fault->pointer, fault->message);
@@ -250,8 +251,8 @@ void read_adapter_answer(const std::filesystem::path& file, const Json& asked, R
   const Json quantities = json.value("quantities", Json::object());
   for (const auto& item : quantities.items()) {
     const std::string pointer = (JsonPointer("/quantities") / item.key()).to_string();
-    const InputError unknown(name, pointer,
-                             "expected a quantity of trammel" + did_you_mean(item.key(), known));
+    const InputError unknown(
+        name, pointer, "trammel has no quantity of this name" + did_you_mean(item.key(), known));
     run.quantities[item.key()] =
         read_quantity(item.value(), asked_quantity(asked, item.key(), unknown), name, pointer);
   }

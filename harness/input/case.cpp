@@ -46,7 +46,9 @@ void apply_with_bases(Document& document, const fs::path& file, const Catalogue&
     }
     const fs::path base = catalogue.find_base_case(extends->get<std::string>(), file);
     if (contains(seen, fs::weakly_canonical(base))) {
-      throw InputError(file.string(), "/extends", "expected a case that does not extend this one");
+      throw InputError(
+          file.string(), "/extends",
+          "the case extends itself, directly or through others; expected another case");
     }
     apply_with_bases(document, base, catalogue, seen);
   }
@@ -63,7 +65,7 @@ void check_names(const Case& given) {
   }
   for (const auto& [name, variant] : root.entries("variants")) {
     if (name == kBaseVariant) {
-      throw variant.error("expected another name: 'base' is the case itself");
+      throw variant.error("the name 'base' is reserved for the case itself");
     }
   }
 }
@@ -139,7 +141,7 @@ std::vector<std::string> Case::variants() const {
 }
 
 std::string Case::variant_title(const std::string& variant) const {
-  if (variant == kBaseVariant) return "As the case has it";
+  if (variant == kBaseVariant) return "Case without patches";
   return document.value().at("variants").at(variant).value("title", variant);
 }
 
@@ -212,10 +214,10 @@ std::vector<Level> levels(const Document& variant, const JsonView& sweep) {
   const JsonView values = sweep["values"];
   const bool by_patches = sweep.has("patches");
   if (by_patches == sweep.has("pointers")) {
-    throw sweep.error("expected either 'pointers' or 'patches'");
+    throw sweep.error("expected exactly one of 'pointers' and 'patches'");
   }
   if (by_patches && sweep["patches"].size() != values.size()) {
-    throw sweep["patches"].error("expected a patch for each of the " +
+    throw sweep["patches"].error("expected one patch for each of the " +
                                  std::to_string(values.size()) + " values (got " +
                                  std::to_string(sweep["patches"].size()) + ")");
   }

@@ -41,7 +41,7 @@ Catalogue::Catalogue(const fs::path& folder) : files_(references::json_files(fol
       files_, [](const auto& a, const auto& b) { return a.first == b.first; });
   if (twice == files_.end()) return;
   throw InputError(twice[1].second, "/id",
-                   "expected a name that no other case has (got that of " + twice->second + ")");
+                   "expected a unique name of the case (another one is " + twice->second + ")");
 }
 
 bool Catalogue::has_analysis(const fs::path& file, int depth) const {
@@ -115,7 +115,7 @@ std::vector<Case> Catalogue::load(const std::vector<std::string>& labels,
         throw InputError(
             unknown_name("a label of the catalogue", label, {known.begin(), known.end()}));
   if (chosen.empty() && !known.empty())
-    throw InputError("expected labels that a case of the catalogue has together");
+    throw InputError("no case of the catalogue has this combination of labels");
   return chosen;
 }
 

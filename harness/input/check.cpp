@@ -33,8 +33,8 @@ std::string exactly_one(const JsonView& place, const std::vector<std::string>& k
   if (count == 1) return found;
   std::vector<std::string> quoted;
   for (const std::string& key : keys) quoted.push_back("'" + key + "'");
-  throw place.error("expected exactly one of " + join(quoted, "and") + " (got " +
-                    std::to_string(count) + ")");
+  throw place.error("expected exactly one of the keys " + join(quoted, "and") + " (got " +
+                    std::to_string(count) + " of them)");
 }
 
 void read_tolerance(const JsonView& place, Check& check) {
@@ -48,12 +48,12 @@ void read_tolerance(const JsonView& place, Check& check) {
 
 void read_bound(const JsonView& place, Check& check) {
   if (!place.has("at_most") && !place.has("at_least")) {
-    throw place.error("expected 'at_most', 'at_least' or both");
+    throw place.error("a bound requires 'at_most', 'at_least' or both");
   }
   check.measure = Measure::value;
   check.windows = {{place.get("at_least", -kUnlimited), place.get("at_most", kUnlimited)}};
   if (check.windows[0].low > check.windows[0].high) {
-    throw place.error("expected 'at_least' not above 'at_most'");
+    throw place.error("'at_least' is larger than 'at_most'");
   }
   check.why = place.text("why");
 }
@@ -76,7 +76,7 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
   const Json& sweep = sweeps.at(order.sweep);
   const Json own = followed(sweep, quantity);
   if (!sweep.contains("theory_order") && !own.contains("theory_order")) {
-    throw place["sweep"].error("expected a sweep with 'theory_order'");
+    throw place["sweep"].error("an 'order' check requires a sweep that states 'theory_order'");
   }
   order.of_errors = own.value("is_error", false);
   if (exactly_one(place, {"within", "two_term_within"}) == "within") {
@@ -84,7 +84,7 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
   } else {
     order.two_term_within = place.number("two_term_within");
     if (!sweep.contains("lower_order")) {
-      throw place["sweep"].error("expected a sweep with 'lower_order'");
+      throw place["sweep"].error("'two_term_within' requires a sweep that states 'lower_order'");
     }
   }
   order.meshes = place.get("min_meshes", std::size_t{3});
@@ -166,26 +166,26 @@ void require_target(const JsonView& place, const Check& check) {
   const int targets = (check.reference.empty() ? 0 : 1) +
                       (check.against_variant.empty() && check.against_quantity.empty() ? 0 : 1);
   if (targets > 1) {
-    throw place.error("expected either 'reference' or 'against_variant', 'against_quantity'");
+    throw place.error("'reference' excludes 'against_variant' and 'against_quantity'");
   }
   if (check.against_quantity == check.quantity && check.against_variant.empty())
-    throw place["against_quantity"].error("expected a quantity other than the checked one");
+    throw place["against_quantity"].error(
+        "a quantity cannot be compared with itself; expected another quantity");
   if (!check.reference_index.empty() && check.reference.empty()) {
     throw place["reference_index"].error("'reference_index' requires 'reference'");
   }
   const bool of_errors = check.order && check.order->of_errors;
   const bool needs = !of_errors && (check.order || check.measure != Measure::value);
   if (needs && targets == 0) {
-    throw place.error(
-        "expected 'reference', 'against_variant' or 'against_quantity' to compare with");
+    throw place.error("this check requires 'reference', 'against_variant' or 'against_quantity'");
   }
   if (!needs && targets > 0) {
-    throw place.error("expected nothing to compare with: " +
-                      std::string(of_errors ? "the quantity is an error already"
-                                            : "a bound applies to the value alone"));
+    throw place.error("expected no 'reference', 'against_variant' or 'against_quantity': " +
+                      std::string(of_errors ? "the quantity is itself an error"
+                                            : "a bound limits the value itself"));
   }
   if (check.order && !of_errors && check.reference.empty()) {
-    throw place.error("expected 'reference' with the exact values for 'order'");
+    throw place.error("'order' requires 'reference' with the exact values");
   }
 }
 
@@ -195,15 +195,15 @@ void read_criterion(const JsonView& place, const Document& document, Check& chec
     for (const char* key : {"tolerance", "bound", "order"}) {
       if (place.has(key)) {
         throw place[key].error(
-            "expected 'expect': a validation gates through a recorded "
-            "expectation only");
+            "a check of role validation does not use this key; expected 'expect', "
+            "which records its expected result");
       }
     }
     check.expectation = Expectation::none;
     if (place.has("expect")) read_expectation(place["expect"], check);
     return;
   }
-  if (place.has("expect")) throw place["expect"].error("expected only in a validation");
+  if (place.has("expect")) throw place["expect"].error("'expect' requires the role validation");
   const std::string key = exactly_one(place, {"tolerance", "bound", "order"});
   if (key == "tolerance") read_tolerance(place[key], check);
   if (key == "bound") read_bound(place[key], check);
@@ -251,7 +251,7 @@ bool applies(const JsonView& place, const std::string& variant,
     if (place.text("against_variant") == variant &&
         place.get("against_quantity", quantity) == quantity) {
       if (variants.size() == 1)
-        throw place["against_variant"].error("expected a case with other variants to compare");
+        throw place["against_variant"].error("the case has no other variant to compare with");
       return false;
     }
   }
@@ -272,7 +272,7 @@ Window read_window(const JsonView& place) {
   };
   const Window window{limit(0, -kUnlimited), limit(1, kUnlimited)};
   if (place[0].json().is_null() && place[1].json().is_null())
-    throw place.error("expected a limit on one side at least");
+    throw place.error("expected at least one limit that is a number (got two nulls)");
   if (window.low > window.high) {
     throw place.error("expected the lower limit first (got " + shortest(window.low) + ", " +
                       shortest(window.high) + ")");

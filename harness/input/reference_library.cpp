@@ -45,7 +45,7 @@ std::pair<std::string, std::string> parts_of(const std::string& place) {
 
 InputError not_unique(const std::string& file, const std::string& id, const std::string& other) {
   return {file, "/" + id,
-          "expected an id that no other reference has (got that of one in " + other + ")"};
+          "two references have this id; expected a unique id (the other one is in " + other + ")"};
 }
 
 }  // namespace
@@ -119,7 +119,7 @@ std::string References::find_in_catalogue(const std::string& id) const {
 
 CitedReference References::read(const std::string& place) const {
   const auto [file, id] = parts_of(place);
-  if (!has(file, id)) throw InputError(file, "/" + id, "expected a reference");
+  if (!has(file, id)) throw InputError(file, "/" + id, "the file has no reference with this id");
   const auto common = find_member(members(file), references::kCommon);
   std::string text = "{";
   if (common) text.append("\"common\":").append(*common).append(1, ',');
@@ -166,8 +166,8 @@ std::string References::find(const std::string& name, const std::string& case_fi
   if (!own.empty()) looked_for.push_back(own);
   looked_for.push_back(stored().string());
   for (const auto& item : catalogue()) names.push_back(item.first);
-  throw id.error("expected the name of a reference (got '" + printable(name) + "', looked for in " +
-                 join(looked_for, "and") + ")" + did_you_mean(name, names));
+  throw id.error("expected the name of a reference (got '" + printable(name) +
+                 "', which is not in " + join(looked_for, "or") + ")" + did_you_mean(name, names));
 }
 
 const references::Reference& References::add(const std::string& place) const {

@@ -43,8 +43,8 @@ bool is_whole(const Json& value) {
 
 /// Returns true if a value has one of the types of a rule.
 bool has_type(const Json& value, const SchemaRule& rule) {
-  return keyword(rule, "type") == nullptr || wants(rule, value.type_name()) ||
-         (is_whole(value) && wants(rule, "integer"));
+  return keyword(rule, "type") == nullptr || allows_type(rule, value.type_name()) ||
+         (is_whole(value) && allows_type(rule, "integer"));
 }
 
 /// Returns true if a value satisfies one keyword, except its type and the rules of nested values.
@@ -174,7 +174,7 @@ std::optional<SchemaFault> find_schema_fault(const Json& document, const std::st
   const SchemaRule& root = load_schema(schema);
   Checker checker(root);
   if (checker.check(root, document)) return std::nullopt;
-  return explain(root, checker.deepest());
+  return describe_violation(root, checker.deepest());
 }
 
 }  // namespace trammel::harness

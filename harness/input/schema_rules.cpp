@@ -40,7 +40,7 @@ const SchemaRule& resolved(const SchemaRule& root, const SchemaRule& rule) {
   return resolved(root, *Pointer(reference->GetString(), reference->GetStringLength()).Get(root));
 }
 
-bool wants(const SchemaRule& rule, const char* type) {
+bool allows_type(const SchemaRule& rule, const char* type) {
   const SchemaRule* stated = keyword(rule, "type");
   if (stated == nullptr) return false;
   const auto is_type = [&](const SchemaRule& value) { return value == type; };
@@ -119,13 +119,13 @@ std::string describe_rule(const SchemaRule& root, const SchemaRule& rule) {
     for (const SchemaRule& choice : choices->GetArray()) values.push_back(describe_choice(choice));
     return join(values, "or");
   }
-  const char* or_null = wants(rule, "null") ? " or null" : "";
-  if (wants(rule, "integer")) return "a whole number" + limits(rule);
-  if (wants(rule, "number")) return "a number" + limits(rule) + or_null;
-  if (wants(rule, "array")) return describe_array(root, rule);
-  if (wants(rule, "boolean")) return "true or false";
-  if (wants(rule, "object")) return std::string("an object") + or_null;
-  if (!wants(rule, "string")) return "something else";
+  const char* or_null = allows_type(rule, "null") ? " or null" : "";
+  if (allows_type(rule, "integer")) return "a whole number" + limits(rule);
+  if (allows_type(rule, "number")) return "a number" + limits(rule) + or_null;
+  if (allows_type(rule, "array")) return describe_array(root, rule);
+  if (allows_type(rule, "boolean")) return "true or false";
+  if (allows_type(rule, "object")) return std::string("an object") + or_null;
+  if (!allows_type(rule, "string")) return "something else";
   const bool has_pattern = keyword(rule, "pattern") != nullptr;
   return has_pattern ? "a name of letters, digits, '-', '_' and '.'" : "text";
 }
@@ -192,8 +192,7 @@ SchemaFault explain_object(const Json& object, std::vector<std::string> path, co
     path.push_back(item.key());
     const std::string guess = did_you_mean(item.key(), allowed);
     return {pointer_to(path),
-            "expected no key of that name" +
-                (guess.empty() ? " (known here: " + all_quoted(allowed, "and") + ")" : guess)};
+            "unknown key" + (guess.empty() ? "; expected " + all_quoted(allowed, "or") : guess)};
   }
   std::string wanted = "another object";
   for (const SchemaRule* rule : rules) {
@@ -228,7 +227,7 @@ SchemaFault explain_value(const SchemaRule& root, const BrokenRules& broken) {
       }
     }
     if (broken.value->is_array() && keyword(*rule, "uniqueItems") != nullptr) {
-      suffix = ", none twice";
+      suffix = " without duplicates";
     }
   }
   if (broken.value->is_string()) suffix = did_you_mean(broken.value->get<std::string>(), choices);
@@ -238,10 +237,10 @@ SchemaFault explain_value(const SchemaRule& root, const BrokenRules& broken) {
 
 }  // namespace
 
-SchemaFault explain(const SchemaRule& schema, const BrokenRules& broken) {
+SchemaFault describe_violation(const SchemaRule& schema, const BrokenRules& broken) {
   Rules of_objects;
   std::ranges::copy_if(broken.rules, std::back_inserter(of_objects),
-                       [](const SchemaRule* rule) { return wants(*rule, "object"); });
+                       [](const SchemaRule* rule) { return allows_type(*rule, "object"); });
   if (!broken.value->is_object() || of_objects.empty()) return explain_value(schema, broken);
   return explain_object(*broken.value, broken.path, of_objects);
 }

@@ -50,7 +50,7 @@ using SchemaDocument = rapidjson::GenericDocument<rapidjson::UTF8<>, SchemaPool,
 [[nodiscard]] const SchemaRule& resolved(const SchemaRule& root, const SchemaRule& rule);
 
 /// Returns true if "type" is, or includes, the given type.
-[[nodiscard]] bool wants(const SchemaRule& rule, const char* type);
+[[nodiscard]] bool allows_type(const SchemaRule& rule, const char* type);
 
 /// A value and the rules that it violates; for anyOf, the rules of all alternatives.
 struct BrokenRules {
@@ -61,7 +61,7 @@ struct BrokenRules {
 
 /// Describes what the schema expects.
 /// @param schema  root of the schema document
-[[nodiscard]] SchemaFault explain(const SchemaRule& schema, const BrokenRules& broken);
+[[nodiscard]] SchemaFault describe_violation(const SchemaRule& schema, const BrokenRules& broken);
 
 [[nodiscard]] inline std::string text_of(const SchemaRule& value) {
   return {value.GetString(), value.GetStringLength()};

@@ -70,7 +70,7 @@ class ConvergenceStudy {
     measure_errors();
     find_range();
     if (!series_.lower_order)
-      series_.fitted_order = slope(h_, {error_.begin(), error_.end()}, in_range_);
+      series_.fitted_order = log_log_slope(h_, {error_.begin(), error_.end()}, in_range_);
     spread(series_.error, error_);
     spread(series_.order, order_);
     spread(series_.gci, gci_);
@@ -225,8 +225,8 @@ class ConvergenceStudy {
 
 }  // namespace
 
-std::optional<double> slope(const std::vector<double>& size, const results::Numbers& error,
-                            const std::vector<bool>& chosen) {
+std::optional<double> log_log_slope(const std::vector<double>& size, const results::Numbers& error,
+                                    const std::vector<bool>& chosen) {
   double n = 0, sx = 0, sy = 0, sxx = 0, sxy = 0;
   for (std::size_t k = 0; k < chosen.size(); ++k) {
     if (!chosen[k]) continue;

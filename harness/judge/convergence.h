@@ -20,9 +20,9 @@ using results::Convergence;
 
 /// Returns the least-squares slope of log error over log size on the chosen levels; empty for fewer
 /// than two levels.
-[[nodiscard]] std::optional<double> slope(const std::vector<double>& size,
-                                          const results::Numbers& error,
-                                          const std::vector<bool>& chosen);
+[[nodiscard]] std::optional<double> log_log_slope(const std::vector<double>& size,
+                                                  const results::Numbers& error,
+                                                  const std::vector<bool>& chosen);
 
 /// Largest relative misfit of the two-term law on the levels that it is fitted to.
 inline constexpr double kTwoTermTolerance = 0.05;

@@ -58,10 +58,9 @@ std::vector<double> pick(const std::vector<double>& values, const std::vector<st
   if (index.empty()) return values;
   std::vector<double> picked;
   for (const std::size_t i : index) {
-    if (i >= values.size()) {
-      throw NotComparable{
-          fmt::format("index {} is outside of {}, which has {} entries", i, source, values.size())};
-    }
+    if (i >= values.size())
+      throw NotComparable{fmt::format("there is no index {} in {}, which has {} entries", i, source,
+                                      values.size())};
     picked.push_back(values[i]);
   }
   return picked;
@@ -76,10 +75,9 @@ struct ComparedValues {
 
 void require_unit(const std::string& quantity, const std::string& unit, const std::string& whose) {
   const std::string unit_found = unit_of(quantity);
-  if (unit_found != unit) {
+  if (unit_found != unit)
     throw NotComparable{
-        fmt::format("the unit of {} is {}, that of {} is {}", quantity, unit_found, whose, unit)};
-  }
+        fmt::format("units differ: {} is in {}, {} is in {}", quantity, unit_found, whose, unit)};
 }
 
 void pair_with_reference(const Check& check, const CheckContext& context, ComparedValues& pairs) {
@@ -96,7 +94,8 @@ void pair_with_run(const Check& check, const CheckContext& context, ComparedValu
   if (!check.against_variant.empty()) {
     other = context.variant(check.against_variant);
     where = " in variant '" + check.against_variant + "'";
-    if (other == nullptr) throw NotComparable{"no solution" + where + " to compare with", true};
+    if (other == nullptr)
+      throw NotComparable{"there is no solution" + where + " for the comparison", true};
   }
   const std::string name = check.against_quantity.empty() ? check.quantity : check.against_quantity;
   require_unit(check.quantity, unit_of(name), name);
@@ -116,14 +115,12 @@ ComparedValues collect(const Check& check, const CheckContext& context) {
   if (!check.against_variant.empty() || !check.against_quantity.empty()) {
     pair_with_run(check, context, pairs);
   }
-  if (check.has_target() && pairs.expected.size() != pairs.computed.size()) {
+  if (check.has_target() && pairs.expected.size() != pairs.computed.size())
     throw NotComparable{fmt::format("the lengths differ: {} computed, {} expected",
                                     pairs.computed.size(), pairs.expected.size())};
-  }
-  if (check.windows.size() > 1 && check.windows.size() != pairs.computed.size()) {
+  if (check.windows.size() > 1 && check.windows.size() != pairs.computed.size())
     throw NotComparable{fmt::format("the lengths differ: {} computed, {} windows",
                                     pairs.computed.size(), check.windows.size())};
-  }
   return pairs;
 }
 
@@ -131,7 +128,7 @@ std::string outside(const Check& check, double value, const Window& window) {
   const std::string where = fmt::format("{} is outside of [{}, {}]", shortest(value),
                                         shortest(window.low), shortest(window.high));
   if (check.expectation == Expectation::known_discrepancy) {
-    return "the difference left its recorded range: " + where;
+    return "the difference is no longer in its recorded range: " + where;
   }
   if (check.role == Role::validation) return "no longer agrees within the recorded range: " + where;
   return where;
@@ -162,8 +159,8 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
   const double value =
       check.measure == Measure::value ? *entry.computed : *results::difference_of(entry);
   if (!std::isfinite(value)) {
-    entry.message = "there is no " + std::string(to_string(check.measure)) +
-                    " comparison with an expected value of " + shortest(expected);
+    entry.message = "the measure " + std::string(to_string(check.measure)) +
+                    " is undefined for an expected value of " + shortest(expected);
     return;
   }
   if (check.measure != Measure::value) entry.difference = value;
@@ -180,7 +177,7 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
   const double scale = check.measure == Measure::relative ? std::abs(expected) : 1;
   if (check.role == Role::verification && check.symmetric && uncertainty > window->high * scale) {
     entry.message = "the uncertainty of the reference is +-" + shortest(uncertainty) +
-                    ", which is more than the tolerance";
+                    ", which exceeds the tolerance";
     return;
   }
   const bool holds = window->contains(value);
@@ -251,7 +248,8 @@ CheckResult judge_control(const Check& check, const std::vector<CheckResult>& en
 
 std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& context) {
   if (check.negative_control && context.other_solver != nullptr) {
-    CheckResult control = failed_check_result(check, "a test of the judgment itself");
+    CheckResult control =
+        failed_check_result(check, "this check tests only trammel's own judgment");
     control.verdict = Verdict::not_given;
     return {control};
   }

@@ -60,12 +60,12 @@ class OrderCheckEvaluator {
   /// Reports the reason if the levels are insufficient for a judgment.
   bool lacks_asymptotic_range(CheckResult& check_result) const {
     if (found_.broken) {
-      check_result.message = "a refined level has no finite value";
+      check_result.message = "a level after the first finite one has no finite value";
     } else if (!found_.exact) {
-      check_result.message = "there is no exact value for the errors";
+      check_result.message = "errors require an exact value, which is missing";
     } else if (meshes_ < criterion_.meshes) {
-      check_result.message =
-          fmt::format("only {} meshes qualify, {} are needed", meshes_, criterion_.meshes);
+      check_result.message = fmt::format("only {} meshes qualify for the order, {} are required",
+                                         meshes_, criterion_.meshes);
       if (is_other_solver_) check_result.verdict = Verdict::not_given;
     } else {
       return false;
@@ -112,17 +112,18 @@ class OrderCheckEvaluator {
     check_result.expected = found_.theory_order;
     if (lacks_asymptotic_range(check_result)) return check_result;
     const double theory = *found_.theory_order;
-    const std::optional<double> fitted = slope(found_.size, found_.error, qualifies_);
+    const std::optional<double> fitted = log_log_slope(found_.size, found_.error, qualifies_);
     if (!fitted) {
-      check_result.message = "fewer than two meshes qualify";
+      check_result.message = "an order requires two qualifying meshes, but fewer qualify";
       return check_result;
     }
     check_result.computed = *fitted;
     const double farthest = worst(
         theory, [&](std::size_t k) { return k > 0 && qualifies_[k - 1] ? *found_.order[k] : kNaN; },
         check_result);
-    check_result.message = fmt::format("{} meshes qualify; between two of them at worst {}",
-                                       meshes_, shortest(farthest));
+    check_result.message =
+        fmt::format("{} meshes qualify; the worst order between two of them is {}", meshes_,
+                    shortest(farthest));
     conclude(check_result, *check_result.computed - theory, criterion_.within);
     return check_result;
   }
@@ -134,7 +135,7 @@ class OrderCheckEvaluator {
     check_result.expected = 0;
     if (lacks_asymptotic_range(check_result)) return check_result;
     if (!found_.two_term) {
-      check_result.message = "no two-term law could be fitted";
+      check_result.message = "the two-term error law could not be fitted";
       return check_result;
     }
     const double a = *found_.two_term->coefficients[0], b = *found_.two_term->coefficients[1];
@@ -168,7 +169,7 @@ class OrderCheckEvaluator {
     check_result.expected = found_.exact;
     if (lacks_asymptotic_range(check_result)) return check_result;
     if (!found_.richardson) {
-      check_result.message = "there is no extrapolated value";
+      check_result.message = "the values have no extrapolated limit";
       return check_result;
     }
     check_result.computed = *found_.richardson;
@@ -193,7 +194,7 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
   const OrderCriterion& criterion = *check.order;
   const bool is_other_solver = context.other_solver != nullptr;
   if (is_other_solver && !context.other_solver->element_order) {
-    CheckResult unknown = failed_check_result(check, "the adapter declares no element_order");
+    CheckResult unknown = failed_check_result(check, "the adapter does not state 'element_order'");
     unknown.verdict = Verdict::not_given;
     return {unknown};
   }
@@ -211,7 +212,7 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
         series.exact != entry_of(find_reference(context, check.pointer + "/reference"),
                                  check.reference_index, position)) {
       all.push_back(failed_check_result(
-          check, fmt::format("the refinement's errors are taken against {}, not against {}",
+          check, fmt::format("the sweep computes errors against {}, the check against {}",
                              series.reference.empty() ? "no reference" : series.reference,
                              check.reference)));
       all.back().index = series.index;
@@ -235,8 +236,8 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
   const std::size_t wanted = std::max<std::size_t>(1, check.index.size());
   if (position < wanted) {
     all.push_back(failed_check_result(
-        check, fmt::format("the sweep '{}' tracks {} entries of {}, {} are judged", criterion.sweep,
-                           position, check.quantity, wanted)));
+        check, fmt::format("the sweep '{}' records {} entries of {}, the check judges {}",
+                           criterion.sweep, position, check.quantity, wanted)));
   }
   std::ranges::stable_sort(
       all, [](const CheckResult& a, const CheckResult& b) { return a.name < b.name; });

@@ -126,8 +126,8 @@ std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& documen
                                      TrackedQuantities tracked, results::Number element_order) {
   const JsonView place = JsonView(document)["sweeps"][sweep.name];
   std::vector<TrackedQuantity> tracked_quantities =
-      place.has("quantities") ? named_by_sweep(place["quantities"], references)
-                              : named_by_checks(document, checks, references);
+      place.has("quantities") ? quantities_of_sweep(place["quantities"], references)
+                              : quantities_of_checks(document, checks, references);
   if (tracked == TrackedQuantities::all) add_everything_else(sweep, tracked_quantities);
   std::vector<Convergence> found;
   for (const TrackedQuantity& tracked_quantity : tracked_quantities) {
@@ -150,8 +150,8 @@ bool is_exact(const references::Reference& reference) {
          reference.kind == references::ReferenceKind::computed;
 }
 
-std::vector<TrackedQuantity> named_by_sweep(const JsonView& quantities,
-                                            const References& references) {
+std::vector<TrackedQuantity> quantities_of_sweep(const JsonView& quantities,
+                                                 const References& references) {
   std::vector<TrackedQuantity> tracked_quantities;
   for (const auto& [name, entry] : quantities.entries()) {
     TrackedQuantity tracked_quantity{name, entry.get<std::string>("statistic", ""),
@@ -164,9 +164,9 @@ std::vector<TrackedQuantity> named_by_sweep(const JsonView& quantities,
   return tracked_quantities;
 }
 
-std::vector<TrackedQuantity> named_by_checks(const Document& document,
-                                             const std::vector<Check>& checks,
-                                             const References& references) {
+std::vector<TrackedQuantity> quantities_of_checks(const Document& document,
+                                                  const std::vector<Check>& checks,
+                                                  const References& references) {
   std::vector<TrackedQuantity> tracked_quantities;
   if (checks.empty()) return tracked_quantities;
   const JsonView places = JsonView(document)["checks"];

@@ -45,13 +45,13 @@ struct TrackedQuantity {
 };
 
 /// Returns the quantities named by the "quantities" of a sweep.
-[[nodiscard]] std::vector<TrackedQuantity> named_by_sweep(const JsonView& quantities,
-                                                          const References& references);
+[[nodiscard]] std::vector<TrackedQuantity> quantities_of_sweep(const JsonView& quantities,
+                                                               const References& references);
 
 /// Returns the quantities of the checks, each once. A check with exact values precedes one without.
-[[nodiscard]] std::vector<TrackedQuantity> named_by_checks(const Document& document,
-                                                           const std::vector<Check>& checks,
-                                                           const References& references);
+[[nodiscard]] std::vector<TrackedQuantity> quantities_of_checks(const Document& document,
+                                                                const std::vector<Check>& checks,
+                                                                const References& references);
 
 /// Returns true if a reference can measure the discretization error: its kind is exact or computed.
 [[nodiscard]] bool is_exact(const references::Reference& reference);

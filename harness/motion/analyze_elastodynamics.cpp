@@ -154,10 +154,10 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
                                                   const CaseModel& case_model) {
   // The restrictions of rigid-link dynamics apply here, too.
   static_cast<void>(read_rigid_manipulator(analysis, case_model));
-  if (!case_model.path) throw analysis.error("expected a trajectory: a pose alone has no time");
-  if (!loads_at_P_only(case_model)) {
-    throw analysis.error("expected loads at P only: loads elsewhere would turn with the platform");
-  }
+  if (!case_model.path)
+    throw analysis.error("elastodynamics requires a model with 'trajectory' (got 'pose')");
+  if (!loads_at_P_only(case_model))
+    throw analysis.error("elastodynamics supports only loads at P (got a load at C1, C2 or C3)");
   solver::ElastodynamicsOptions options = read_motion_options(analysis);
   const solver::Effects effects = case_model.effects;
   options.design = solver::restrict_effects(*case_model.manipulator, effects);
@@ -171,23 +171,20 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
   options.gyroscopic = effects.has(solver::Effect::gyroscopic);
   if (const auto approximations = analysis.find("effects")) {
     const bool rates = approximations->get("transformation_rate_terms", false);
-    if (rates && !approximations->get("elastic_inertia", true)) {
+    if (rates && !approximations->get("elastic_inertia", true))
       throw(*approximations)["transformation_rate_terms"].error(
-          "expected elastic inertia with it: these terms are a part of it");
-    }
+          "these terms are a part of the elastic inertia, and require 'elastic_inertia': true");
   }
-  if (options.modal_superposition && !solver::stands_still(options.path)) {
+  if (options.modal_superposition && !solver::stands_still(options.path))
     throw analysis["modal_superposition"].error(
-        "expected a platform at rest: modes are superposed where M and K are constant");
-  }
+        "modal superposition requires constant M and K, and thus a platform at rest");
   for (const solver::TrajectoryPoint& point : case_model.motion) {
     options.time.sample_times.push_back(point.time);
   }
   options.time.start = options.time.sample_times.front();
   options.time.end = options.time.sample_times.back();
-  if (!(options.time.end > options.time.start)) {
-    throw analysis.error("expected a trajectory of at least two points");
-  }
+  if (!(options.time.end > options.time.start))
+    throw analysis.error("the trajectory requires at least two points (got one)");
   if (options.elastic_inertia)
     require_step_count(analysis["step_s"], options.time.end - options.time.start);
   return options;

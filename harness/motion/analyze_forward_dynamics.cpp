@@ -43,10 +43,10 @@ void record_energy(const solver::RigidManipulator& m, const solver::ForwardDynam
 StepResult analyze_forward_dynamics(const JsonView& analysis, const CaseModel& case_model,
                                     bool draw, Recorder& record) {
   const solver::RigidManipulator manipulator = read_rigid_manipulator(analysis, case_model);
-  if (!case_model.path) throw analysis.error("expected a model with a trajectory");
-  if (!loads_at_P_only(case_model)) {
-    throw analysis.error("expected loads at P alone: at a corner their moment changes as it turns");
-  }
+  if (!case_model.path)
+    throw analysis.error("forward dynamics requires a model with 'trajectory' (got 'pose')");
+  if (!loads_at_P_only(case_model))
+    throw analysis.error("forward dynamics supports only loads at P (got a load at C1, C2 or C3)");
   const Eigen::Vector3d wrench = wrench_on_platform(case_model, case_model.motion.front().pose);
   const bool given = analysis.has("torque_N_m");
   Eigen::Vector3d constant = Eigen::Vector3d::Zero();

@@ -57,9 +57,8 @@ Eigen::MatrixXd read_rows(const JsonView& rows) {
                          static_cast<solver::Index>(columns));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Json& row = rows.json()[i];  // avoids a JsonView per row, of up to 100,000 rows
-    if (row.size() != columns) {
+    if (row.size() != columns)
       throw rows[i].error("expected " + std::to_string(columns) + " numbers as in the first row");
-    }
     for (std::size_t j = 0; j < columns; ++j) {
       matrix(static_cast<solver::Index>(i), static_cast<solver::Index>(j)) = row[j].get<double>();
     }
@@ -71,10 +70,9 @@ Eigen::MatrixXd read_rows(const JsonView& rows) {
 /// @throws InputError  if rows differ in length, or inputs and outputs differ in number.
 GrnnSamples read_samples(const JsonView& samples) {
   GrnnSamples read{read_rows(samples["inputs"]), read_rows(samples["outputs"]), {}};
-  if (read.inputs.rows() != read.outputs.rows()) {
-    throw samples["outputs"].error("expected as many rows as inputs have, " +
+  if (read.inputs.rows() != read.outputs.rows())
+    throw samples["outputs"].error("expected one row per row of 'inputs', " +
                                    std::to_string(read.inputs.rows()));
-  }
   for (solver::Index j = 0; j < read.outputs.cols(); ++j) {
     read.columns.push_back({"", "", std::to_string(j + 1)});
   }
@@ -138,7 +136,9 @@ void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamp
         const bool on_time =
             k < outputs.rows() &&
             std::abs(now.t - case_model.motion[solver::to_size(k)].time) < options.step / 2;
-        if (!on_time) throw place.error("expected a path with points evenly spaced in time");
+        if (!on_time)
+          throw place.error(
+              "flexible links require points of the trajectory at equal time intervals");
         const Eigen::MatrixX3d q = node_motion(system, now.q), v = node_motion(system, now.v);
         outputs.row(k++) << start + q.col(2).head<3>().transpose(), v.col(2).head<3>().transpose();
       }).outcome;
@@ -146,9 +146,8 @@ void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamp
 
 /// Sets the smoothing: the given value, or the one with the least error of cross-validation.
 void choose_sigma(const JsonView& analysis, solver::Grnn& network, Recorder& record) {
-  if (analysis.has("sigma") == analysis.has("spread") && analysis.has("sigma")) {
-    throw analysis.error("expected either 'sigma' or 'spread' (got both)");
-  }
+  if (analysis.has("sigma") == analysis.has("spread") && analysis.has("sigma"))
+    throw analysis.error("expected at most one of 'sigma' and 'spread' (got both)");
   if (analysis.has("sigma")) {
     network.sigma = analysis.number("sigma");
   } else if (analysis.has("spread")) {
@@ -347,7 +346,7 @@ Eigen::MatrixXd spline_over_time(const CaseModel& case_model, const Eigen::Matri
 StepResult analyze_grnn(const JsonView& analysis, const CaseModel& case_model, bool draw,
                         Recorder& record) {
   const solver::RigidManipulator manipulator = read_rigid_manipulator(analysis, case_model);
-  if (!case_model.path) throw analysis.error("expected a model with a trajectory, or samples");
+  if (!case_model.path) throw analysis.error("expected a model with 'trajectory', or 'samples'");
   StepResult result;
   PathSamples path = samples_of_path(manipulator, case_model);
   const auto flexible = analysis.find("flexible_links");
@@ -357,10 +356,9 @@ StepResult analyze_grnn(const JsonView& analysis, const CaseModel& case_model, b
   const GrnnSamples& samples = path.samples;
   const solver::Index count = samples.inputs.rows();
   const solver::Index train = analysis.get<solver::Index>("train", count);
-  if (train > count) {
-    throw analysis["train"].error("expected no more samples than the path has points, " +
+  if (train > count)
+    throw analysis["train"].error("expected at most the number of points of the trajectory, " +
                                   std::to_string(count));
-  }
   const std::vector<bool> trains =
       solver::training_mask(count, train, analysis.get("split", solver::Split::first),
                             analysis.get<std::uint64_t>("seed", 1));
@@ -370,7 +368,8 @@ StepResult analyze_grnn(const JsonView& analysis, const CaseModel& case_model, b
   Eigen::MatrixXd predicted;
   if (spline) {
     constexpr solver::Index kFewest = 4;
-    if (train < kFewest) throw analysis["train"].error("expected at least 4 points for a spline");
+    if (train < kFewest)
+      throw analysis["train"].error("a spline requires at least 4 training points");
     predicted = spline_over_time(case_model, samples.outputs, parts.training);
   } else {
     network = solver::make_grnn(rows(samples.inputs, parts.training),
@@ -402,13 +401,12 @@ StepResult analyze_grnn_samples(const Document& document, const References&, boo
                                 Recorder& record) {
   const JsonView analysis = JsonView(document)["analysis"]["grnn"];
   if (!analysis.has("samples"))
-    throw analysis.error("expected a model with a trajectory, or samples");
+    throw analysis.error("expected 'samples', or a model with 'trajectory'");
   const GrnnSamples samples = read_samples(analysis["samples"]);
   const Eigen::MatrixXd queries = read_rows(analysis["queries"]);
-  if (queries.cols() != samples.inputs.cols()) {
-    throw analysis["queries"].error("expected rows as long as the inputs', " +
+  if (queries.cols() != samples.inputs.cols())
+    throw analysis["queries"].error("expected rows of the same length as those of the inputs, " +
                                     std::to_string(samples.inputs.cols()));
-  }
   try {
     solver::Grnn network = solver::make_grnn(samples.inputs, samples.outputs, 1,
                                              analysis.get("scaling", solver::InputScaling::none));

@@ -37,7 +37,7 @@ struct OutputSelection {
 solver::Index find_turning_node(const JsonView& name, const GeometricallyExactSystem& system) {
   const solver::Index node = find_node(name, system.model());
   if (system.layout().node[solver::to_size(node)][2] < 0)
-    throw name.error("expected a node that has a rotation: only hinges meet there");
+    throw name.error("expected a node with a rotation (only hinges meet at this node)");
   return node;
 }
 
@@ -72,7 +72,8 @@ solver::TransientOptions read_large_motion_options(const JsonView& analysis) {
   if (analysis.get<std::string>("integrator", "generalized-alpha") == "energy-momentum") {
     options.scheme.conserves_energy = true;
     if (analysis.has("spectral_radius"))
-      throw analysis["spectral_radius"].error("expected it with 'generalized-alpha' only");
+      throw analysis["spectral_radius"].error(
+          "this key requires the integrator 'generalized-alpha'");
   }
   options.end = analysis.number("end_time_s");
   options.step = analysis.number("step_s");
@@ -164,7 +165,8 @@ void require_path_to_the_end(const JsonView& analysis, const solver::Path& path)
   try {
     (void)solver::at(path, analysis.number("end_time_s"));
   } catch (const solver::ModelError& error) {
-    throw analysis["end_time_s"].error(std::string("expected a time on the path: ") + error.what());
+    throw analysis["end_time_s"].error(
+        std::string("the trajectory does not last until this time: ") + error.what());
   }
 }
 
@@ -225,11 +227,10 @@ StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_
                  case_model, model, large_motion);
     require_path_to_the_end(analysis, *case_model.path);
     for (const char* key : {"extrapolated", "initial_velocities"}) {
-      if (analysis.has(key)) throw analysis[key].error("expected it without 'track'");
+      if (analysis.has(key)) throw analysis[key].error("not allowed with 'track'");
     }
-    if (analysis.get<std::string>("integrator", "generalized-alpha") != "generalized-alpha") {
-      throw analysis["integrator"].error("expected generalized-alpha with 'track'");
-    }
+    if (analysis.get<std::string>("integrator", "generalized-alpha") != "generalized-alpha")
+      throw analysis["integrator"].error("'track' requires the integrator 'generalized-alpha'");
   }
   release_driven_actuators(analysis, case_model, large_motion, model);
   const GeometricallyExactSystem system(model, large_motion);

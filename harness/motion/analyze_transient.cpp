@@ -121,7 +121,7 @@ std::vector<double> sample_times(const JsonView& transient) {
 /// Reads the rotating axes in which the motion is described.
 solver::PrescribedRotation read_axes(const JsonView& transient) {
   for (const char* key : {"load_history", "initial_state"}) {
-    if (transient.has(key)) throw transient[key].error("expected it without 'rotating_frame'");
+    if (transient.has(key)) throw transient[key].error("not allowed with 'rotating_frame'");
   }
   const JsonView place = transient["rotating_frame"];
   solver::PrescribedRotation axes;
@@ -237,12 +237,10 @@ class Motion {
   }
 
   void superpose_modes() {
-    if (transient_.has("error_control")) {
-      throw transient_["error_control"].error("expected it without 'modal-superposition'");
-    }
-    if (transient_.has("rotating_frame")) {
-      throw transient_["rotating_frame"].error("expected it without 'modal-superposition'");
-    }
+    if (transient_.has("error_control"))
+      throw transient_["error_control"].error("not allowed with 'modal-superposition'");
+    if (transient_.has("rotating_frame"))
+      throw transient_["rotating_frame"].error("not allowed with 'modal-superposition'");
     const solver::ModalBasis basis = solver::all_modes(system_.M, system_.K);
     history_.outcome = basis.outcome;
     if (!basis.outcome.solved()) return;
@@ -351,10 +349,11 @@ void record_peaks(const MotionHistory& motion, const std::vector<Output>& output
 void warn_of_basis(double missing, std::vector<Warning>& warnings) {
   constexpr double kNoticed = 0.01;
   if (!(missing > kNoticed)) return;
-  add_warning(warnings,
-              {"the part of the initial velocity outside the reduced basis", missing, "",
-               "relative to the initial velocity, in the norm of kinetic energy; a larger "
-               "'reduction' represents more of it"});
+  add_warning(
+      warnings,
+      {"the part of the initial velocity that the reduced basis cannot represent", missing, "",
+       "relative to the initial velocity, in the norm of kinetic energy; a larger "
+       "'reduction' represents more of it"});
 }
 
 void draw_motion(const solver::System& system, const MotionHistory& motion, Drawing& drawing) {
@@ -371,9 +370,9 @@ void draw_motion(const solver::System& system, const MotionHistory& motion, Draw
 
 StepResult analyze_transient(const JsonView& analysis, const CaseModel& case_model,
                              std::size_t step, bool draw, Recorder& record) {
-  if (case_model.path) throw analysis.error("expected a model at one place");
+  if (case_model.path) throw analysis.error("expected 'pose' (got 'trajectory')");
   if (analysis.has("reduction") && analysis.has("rotating_frame"))
-    throw analysis["reduction"].error("expected it without 'rotating_frame'");
+    throw analysis["reduction"].error("not allowed with 'rotating_frame'");
   solver::System assembled = solver::assemble(build_model(case_model, step), case_model.effects);
   std::optional<solver::System> full;
   if (analysis.has("reduction")) full = assembled;
@@ -381,11 +380,10 @@ StepResult analyze_transient(const JsonView& analysis, const CaseModel& case_mod
   if (!outcome.solved()) return {outcome, system.counters};
   const std::vector<Output> outputs = read_outputs(analysis["outputs"], system.model);
   const bool with_forces = needs_forces(outputs);
-  if (with_forces && analysis.has("rotating_frame")) {
+  if (with_forces && analysis.has("rotating_frame"))
     throw analysis["outputs"].error(
-        "expected only motions with 'rotating_frame': the effects of the frame on the inside of "
-        "members are not recovered");
-  }
+        "with 'rotating_frame', expected only displacements, velocities and accelerations: "
+        "section forces and stresses are not computed");
   const MotionHistory motion = compute_motion(analysis, system, case_model.effects);
   StepResult result{motion.outcome, motion.counters, motion.evidence};
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());

@@ -150,9 +150,8 @@ void print_search(const results::ErrorEstimates& errors) {
 
 void print_validation(const results::Run& run) {
   if (!run.uncertainty) return;
-  std::cout << "  validation (ASME V&V 20), standard uncertainties in the quantity's unit; inputs "
-               "by derivatives and by "
-            << run.uncertainty->samples << " samples\n";
+  std::cout << "  validation (ASME V&V 20): standard uncertainties in the unit of the quantity; "
+            << "inputs by derivatives and by " << run.uncertainty->samples << " samples\n";
   Rows table({"reference",
               {"index", "entry"},
               {"simulation", "S"},

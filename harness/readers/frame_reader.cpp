@@ -125,7 +125,7 @@ void require_others(const JsonView& place, const solver::RigidBody& body) {
   const auto same = std::ranges::find(body.attached, body.reference);
   if (same == body.attached.end()) return;
   throw place["nodes"][static_cast<std::size_t>(same - body.attached.begin())].error(
-      "expected a node other than the reference");
+      "the reference node of a rigid body cannot be among its 'nodes'");
 }
 
 void add_pin(const JsonView& place, const Pin& pin, solver::Model& model) {
@@ -134,21 +134,22 @@ void add_pin(const JsonView& place, const Pin& pin, solver::Model& model) {
                            .norm();
   constexpr double kRoundoff = 1e-12;  // of computed coordinates, relative to the model's size
   if (apart > kRoundoff * solver::box_diagonal(model)) {
-    throw place["nodes"].error("expected two nodes at the same position (got " + shortest(apart) +
-                               " m between them)");
+    throw place["nodes"].error("the nodes of a pin require the same position (got a distance of " +
+                               shortest(apart) + " m)");
   }
   solver::add_pin(model, pin.name, pin.nodes);
 }
 
 void require_force(const JsonView& load) {
   if (!load.has("force_N") && !load.has("moment_N_m"))
-    throw load.error("the load is empty; expected 'force_N' or 'moment_N_m'");
+    throw load.error("the load is empty; expected 'force_N', 'moment_N_m' or both");
 }
 
 /// Supports every node on an edge, except motions that are already supported.
 void support_edge(const JsonView& place, const solver::Support& all, const Edge& edge,
                   solver::Model& model) {
-  if (all.fixed[2]) throw place.error("expected x and y alone: a plate's nodes have no rotation");
+  if (all.fixed[2])
+    throw place.error("an edge cannot support 'rotation', because the nodes of plates have none");
   for (const solver::Index node : nodes_of(edge)) {
     solver::Support support{all.name, node, all.fixed};
     for (const solver::Support& other : model.supports) {
@@ -207,7 +208,7 @@ SymbolTable read_symbols(const JsonView& model, solver::Model& structure) {
     if (name.empty()) throw place.error("the name of the node is empty; expected a name");
     structure.nodes.push_back({name, read_point(place)});
     if (!add(structure.nodes.size() - 1)) {
-      throw place.error("expected another name: the manipulator has a node of that name");
+      throw place.error("the manipulator already has a node of this name; expected another name");
     }
   }
   symbols.node.erase("");
@@ -229,15 +230,14 @@ solver::large_motion::LargeMotionModel read_joint_elements(const JsonView& model
   joints.sliders = read_parts<Slider>(model, "sliders", symbols,
                                       [](const JsonView& place, const Slider& slider) {
                                         if (slider.rail == slider.node)
-                                          throw place["rail"].error("expected another node");
+                                          throw place["rail"].error("'rail' and 'node' are equal");
                                       });
   joints.line_springs = read_parts<LineSpring>(model, "axial_springs", symbols);
-  joints.follower_loads = read_parts<FollowerLoad>(model, "follower_loads", symbols,
-                                                   [](const JsonView& place, const FollowerLoad&) {
-                                                     if (!place.has("node"))
-                                                       throw place.error("expected 'node'");
-                                                     require_force(place);
-                                                   });
+  joints.follower_loads = read_parts<FollowerLoad>(
+      model, "follower_loads", symbols, [](const JsonView& place, const FollowerLoad&) {
+        if (!place.has("node")) throw place.error("the load requires 'node'");
+        require_force(place);
+      });
   return joints;
 }
 
@@ -278,9 +278,9 @@ class ChainPath {
     const Eigen::Vector2d a = start - *center_;
     const Eigen::Vector2d b = end - *center_;
     if (!(std::abs(a.norm() - b.norm()) <= 1e-9 * a.norm())) {
-      throw solver::ModelError("expected a center at equal distances from both nodes (got " +
-                               std::to_string(a.norm()) + " m and " + std::to_string(b.norm()) +
-                               " m)");
+      throw solver::ModelError(
+          "the center of an arc requires equal distances from both nodes (got " +
+          std::to_string(a.norm()) + " m and " + std::to_string(b.norm()) + " m)");
     }
     radius_ = a.norm();
     angle_ = std::atan2(a.y(), a.x());

@@ -10,7 +10,7 @@ namespace {
 bool has_first(const JsonView& place, const char* first, const char* second) {
   if (place.has(first) == place.has(second)) {
     throw place.error(std::string("expected either '") + first + "' or '" + second + "' (got " +
-                      (place.has(first) ? "both; null removes one)" : "none)"));
+                      (place.has(first) ? "both; the value null removes a key)" : "none)"));
   }
   return place.has(first);
 }

@@ -37,11 +37,12 @@ solver::TimeScheme scheme_of(const std::string& name, const JsonView& numbers) {
 }
 
 std::size_t count_of(const JsonView& modal, std::optional<solver::Index> known) {
-  if (!modal.has("modes")) throw modal.error("expected the key 'modes': how many have the ratio");
+  if (!modal.has("modes"))
+    throw modal.error("a single 'ratio' requires 'modes', the number of modes");
   const JsonView stated = modal["modes"];
   if (!stated.json().is_string()) return stated.get<std::size_t>();
   if (known) return static_cast<std::size_t>(*known);
-  throw stated.error("expected a number: all modes are known with 'modal-superposition' only");
+  throw stated.error("'all' requires the method 'modal-superposition'; expected a number of modes");
 }
 
 }  // namespace
@@ -62,7 +63,8 @@ solver::TimeScheme read_time_scheme(const JsonView& scheme) {
 void require_step_count(const JsonView& step, double duration) {
   const double steps = std::ceil(duration / step.get<double>() * (1 - 1e-12));
   if (steps <= 1e7) return;
-  throw step.error("expected at most ten million steps (got " + rounded(steps, 3) + ")");
+  throw step.error("the step is too small; expected at most ten million steps (got " +
+                   rounded(steps, 3) + ")");
 }
 
 solver::RayleighDamping read_rayleigh(const std::optional<JsonView>& damping) {
@@ -75,13 +77,14 @@ solver::LoadHistory read_load_history(const JsonView& analysis) {
   if (!history) return {};
   const auto time = (*history)["time_s"].get<std::vector<double>>();
   const auto factor = (*history)["factor"].get<std::vector<double>>();
-  if (factor.size() != time.size()) {
+  if (factor.size() != time.size())
     throw(*history)["factor"].error("expected " + std::to_string(time.size()) +
                                     " numbers, one for each time (got " +
                                     std::to_string(factor.size()) + ")");
-  }
   for (std::size_t i = 1; i < time.size(); ++i) {
-    if (time[i] < time[i - 1]) throw(*history)["time_s"][i].error("expected ascending times");
+    if (time[i] < time[i - 1])
+      throw(*history)["time_s"][i].error(
+          "this time is less than the previous one; expected ascending times");
   }
   return {time, factor};
 }
@@ -111,14 +114,13 @@ solver::HarmonicDamping read_damping(const JsonView& analysis, std::optional<sol
   if (!ratio.json().is_array()) {
     read.modal_ratio.assign(count_of(*modal, modes), ratio.get<double>());
   } else if (modal->has("modes")) {
-    throw(*modal)["modes"].error("'modes' requires a single ratio (got a ratio for each mode)");
+    throw(*modal)["modes"].error("'modes' requires a single 'ratio' (got one for each mode)");
   } else {
     read.modal_ratio = ratio.get<std::vector<double>>();
   }
-  if (modes && std::ssize(read.modal_ratio) > *modes) {
-    throw modal->error("expected at most " + std::to_string(*modes) + " modes (got " +
+  if (modes && std::ssize(read.modal_ratio) > *modes)
+    throw modal->error("expected at most " + std::to_string(*modes) + " damping ratios (got " +
                        std::to_string(read.modal_ratio.size()) + ")");
-  }
   return read;
 }
 
@@ -130,7 +132,8 @@ solver::DesignParameter read_design_parameter(const JsonView& parameter) {
   solver::DesignParameter read{.kind = parameter["property"].get<Kind>()};
   if (read.kind > Kind::poisson_ratio) {
     for (const char* key : {"links", "platform"})
-      if (parameter.has(key)) throw parameter[key].error("expected only with a property of links");
+      if (parameter.has(key))
+        throw parameter[key].error("this property does not refer to links or to the platform");
     return read;
   }
   read.platform = parameter.get("platform", false);
@@ -144,16 +147,14 @@ solver::DesignParameter read_design_parameter(const JsonView& parameter) {
     }
   }
   const bool platform_has = read.kind != Kind::length && read.kind != Kind::width;
-  if (read.platform && !platform_has) {
+  if (read.platform && !platform_has)
     throw parameter["platform"].error(
-        "expected the thickness, E, density or Poisson's ratio of the platform");
-  }
+        "'platform' requires the property thickness, E, density or Poisson's ratio");
   const auto any = [](const std::array<bool, 3>& selected) {
     return std::ranges::count(selected, true) > 0;
   };
-  if (!any(read.proximal) && !any(read.distal) && !read.platform) {
-    throw parameter.error("expected a link, or the platform");
-  }
+  if (!any(read.proximal) && !any(read.distal) && !read.platform)
+    throw parameter.error("the parameter selects neither a link nor the platform");
   return read;
 }
 
@@ -259,11 +260,11 @@ void read_history(const JsonView& analysis, const solver::Model& built,
     large_motion.load_history = [law](double t) { return law(t)[0]; };
   }
   if (const auto stated = analysis.find("load_history")) {
-    if (analysis.has("load_ramp_s")) throw stated->error("expected it without 'load_ramp_s'");
+    if (analysis.has("load_ramp_s")) throw stated->error("not allowed with 'load_ramp_s'");
     const solver::LoadHistory history = read_load_history(analysis);
     for (std::size_t i = 1; i < history.time.size(); ++i) {
       if (history.time[i] > history.time[i - 1]) continue;
-      throw(*stated)["time_s"][i].error("expected a continuous function (no jump within a step)");
+      throw(*stated)["time_s"][i].error("the factor jumps; expected a continuous function");
     }
     large_motion.load_history = [history](double t) { return history.at(t); };
     large_motion.load_breakpoints = history.bends();

@@ -34,9 +34,9 @@ double twice_area(const solver::Model& structure, const solver::Triangle& triang
 
 solver::Triangle read_triangle(const JsonView& place, const SymbolTable& symbols,
                                const solver::Model& structure, solver::Index plate) {
-  if (place.size() != 3 && place.size() != 6) {
-    throw place.error("expected 3 or 6 names (got " + std::to_string(place.size()) + ")");
-  }
+  if (place.size() != 3 && place.size() != 6)
+    throw place.error("a triangle requires 3 or 6 names of nodes (got " +
+                      std::to_string(place.size()) + ")");
   solver::Triangle triangle;
   triangle.plate = plate;
   for (std::size_t i = 0; i < place.size(); ++i) triangle.nodes[i] = symbols.find_node(place[i]);
@@ -51,9 +51,8 @@ solver::Triangle read_triangle(const JsonView& place, const SymbolTable& symbols
 
 /// Reads the curve of an edge; empty for a straight edge.
 std::optional<solver::Ellipse> read_curve(const JsonView& edge) {
-  if (edge.has("ellipse") && edge.has("circle")) {
+  if (edge.has("ellipse") && edge.has("circle"))
     throw edge.error("expected at most one of 'ellipse' and 'circle'");
-  }
   if (const auto circle = edge.find("circle")) {
     const double radius = circle->number("radius_m");
     return solver::Ellipse{read_point((*circle)["center_m"]), {radius, radius}};
@@ -68,9 +67,8 @@ class Outline {
  public:
   Outline(const JsonView& model, const SymbolTable& symbols, const solver::Model& structure) {
     for (const auto& [name, place] : model.entries("edges")) {
-      if (symbols.node.count(name) > 0) {
-        throw place.error("expected another name: there is a node of that name");
-      }
+      if (symbols.node.count(name) > 0)
+        throw place.error("a node has the same name as this edge; expected another name");
       std::vector<solver::Index>& corners = corners_[name];
       const std::optional<solver::Ellipse> curve = read_curve(place);
       for (const auto& entry : place["nodes"].entries()) {
@@ -78,12 +76,11 @@ class Outline {
         if (curve) check_on_curve(entry.second, *curve, position(structure, corners.back()));
         if (corners.size() < 2) continue;
         const Ends ends = ends_of(corners.end()[-2], corners.back());
-        if (ends.first == ends.second) {
-          throw entry.second.error("expected another node than the one before it");
-        }
-        if (!curve_.emplace(ends, curve).second) {
-          throw entry.second.error("expected a piece that belongs to no other edge");
-        }
+        if (ends.first == ends.second)
+          throw entry.second.error("this node equals the previous one; expected another node");
+        if (!curve_.emplace(ends, curve).second)
+          throw entry.second.error(
+              "the side from the previous node to this one already belongs to an edge");
       }
     }
   }
@@ -101,8 +98,8 @@ class Outline {
                              const Eigen::Vector2d& point) {
     const double radius = (point - curve.center).cwiseQuotient(curve.semi_axes).norm();
     if (std::abs(radius - 1) < 1e-6) return;
-    throw place.error("expected a node on the edge's curve (got " + describe_point(point) + ", " +
-                      shortest(radius) + " times as far from its center)");
+    throw place.error("expected a node on the curve of the edge (got " + describe_point(point) +
+                      ", " + shortest(radius) + " of the distance from its center to the curve)");
   }
 
   std::map<std::string, std::vector<solver::Index>> corners_;
@@ -119,11 +116,10 @@ class Sides {
     if (!there.empty()) {
       const std::vector<solver::Index> back(there.front().nodes.rbegin(),
                                             there.front().nodes.rend());
-      if (there.size() > 1 || back != piece.nodes) {
+      if (there.size() > 1 || back != piece.nodes)
         throw block.error(
-            "expected the same mesh on both sides of a side that two blocks share "
-            "(their cells, grading or elements differ, or they overlap)");
-      }
+            "two blocks with a common side require the same nodes on it (their cells, "
+            "grading or elements differ, or the blocks overlap)");
     }
     there.push_back(std::move(piece));
   }
@@ -149,9 +145,9 @@ solver::Block read_block(const JsonView& place, const SymbolTable& symbols, cons
     const Eigen::Vector2d& here = block.corners[i];
     const double turn =
         solver::cross(block.corners[(i + 1) % 4] - here, block.corners[(i + 3) % 4] - here);
-    if (!(turn > 0)) {
-      throw place["corners"].error("expected a convex quadrilateral, counterclockwise");
-    }
+    if (!(turn > 0))
+      throw place["corners"].error(
+          "expected the corners of a convex quadrilateral in counterclockwise order");
     block.sides[i] = outline.curve(corners[i], corners[(i + 1) % 4]);
     if (i > 1) continue;
     block.cells[i] = divisions * (place.has("cells") ? place["cells"][i].get<solver::Index>() : 1);
@@ -186,9 +182,8 @@ void mesh_plate(const JsonView& place, const SymbolTable& symbols, const Outline
 
 void read_plate(const std::string& name, const JsonView& place, const SymbolTable& symbols,
                 const Outline& outline, solver::Model& structure, Sides& sides) {
-  if (place.has("triangles") == place.has("blocks")) {
+  if (place.has("triangles") == place.has("blocks"))
     throw place.error("expected exactly one of 'triangles' and 'blocks'");
-  }
   const auto plate = static_cast<solver::Index>(structure.plates.size());
   structure.plates.push_back(read_part<solver::Plate>(place, &symbols));
   structure.plates.back().name = name;
@@ -206,9 +201,9 @@ Edge find_edge(const JsonView& place, const std::vector<solver::Index>& corners,
   Edge edge;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
     const std::vector<Edge::Piece>* found = sides.find(corners[i], corners[i + 1]);
-    if (found == nullptr) {
-      throw place["nodes"][i + 1].error("expected the other end of a block's side");
-    }
+    if (found == nullptr)
+      throw place["nodes"][i + 1].error(
+          "no side of a block connects the previous node with this one");
     edge.pieces.push_back(found->front());
     // In the interior, where the normal is ambiguous.
     if (found->size() > 1) edge.pieces.back().plate = -1;
@@ -246,9 +241,9 @@ void read_edge_load(const JsonView& place, const SymbolTable& symbols, solver::M
   reader.optional("traction_Pa", load.traction);
   reader.optional("normal_Pa", load.normal);
   for (const Edge::Piece& piece : edge.pieces) {
-    if (piece.plate < 0) {
-      throw place["edge"].error("expected an edge with a plate on one side (it has two)");
-    }
+    if (piece.plate < 0)
+      throw place["edge"].error(
+          "a loaded edge requires a plate on one side only (got plates on both sides)");
     load.plate = piece.plate;
     const std::size_t step = piece.six_nodes ? 2 : 1;
     for (std::size_t i = 0; i + step < piece.nodes.size(); i += step) {
@@ -287,7 +282,9 @@ void check_meshed_nodes(const JsonView& model, std::size_t first, const solver::
       if (held[k]) nearest = std::min(nearest, (structure.nodes[k].position - here).norm());
     }
     throw model["nodes"][structure.nodes[i].name].error(
-        "expected the position of a mesh node (got " + describe_point(here) + ", the nearest is " +
+        "the node " + describe_point(here) +
+        " is connected to nothing; expected the position of "
+        "a mesh node (the nearest one is " +
         shortest(nearest) + " m away)");
   }
 }

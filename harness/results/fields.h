@@ -194,13 +194,13 @@ bool is_left_out(const UsualField<Struct, Member>& field, const std::type_identi
 }
 
 template <class Struct, class Member>
-void give_absent(const Field<Struct, Member>& field, const Place& place,
-                 std::type_identity_t<Struct>&) {
+void set_absent(const Field<Struct, Member>& field, const Place& place,
+                std::type_identity_t<Struct>&) {
   if (field.presence == Presence::required) place.fail("a value, found nothing");
 }
 template <class Struct, class Member>
-void give_absent(const UsualField<Struct, Member>& field, const Place&,
-                 std::type_identity_t<Struct>& value) {
+void set_absent(const UsualField<Struct, Member>& field, const Place&,
+                std::type_identity_t<Struct>& value) {
   value.*field.member = field.usual(value);
 }
 
@@ -225,7 +225,7 @@ void object_from_json(const Json& json, const Place& place, T& value) {
     const Place member_place{&place, field.key};
     const auto found = json.find(field.key);
     if (found != json.end()) return from_json(*found, member_place, value.*field.member);
-    give_absent(field, member_place, value);
+    set_absent(field, member_place, value);
   };
   std::apply([&](const auto&... fields) { (read(fields), ...); }, kFields<T>);
 }

@@ -45,7 +45,7 @@ double tolerance_share(const Check& check) {
   return check.verdict == Verdict::fail ? infinity : 0;
 }
 
-const Check* telling_check(const Run& run) {
+const Check* decisive_check(const Run& run) {
   const Check* telling = nullptr;
   const auto rank = [](const Check& check) {
     return std::pair(check.verdict == Verdict::fail, tolerance_share(check));

@@ -34,7 +34,7 @@ inline constexpr std::array<Grade, 10> kAllGrades = {
 
 /// Returns the most informative check: a failing one, else the judged check that uses most of its
 /// tolerance. Null if no check has a difference.
-[[nodiscard]] const Check* telling_check(const Run& run);
+[[nodiscard]] const Check* decisive_check(const Run& run);
 
 /// Returns the fraction of the tolerance used by a check's difference; 0 without a difference.
 [[nodiscard]] double tolerance_share(const Check& check);

@@ -55,7 +55,7 @@ void compare(const Entries& first, const Configuration& other, Certification& re
   std::vector<double> digits;
   // State of the run that the following checks belong to.
   bool is_known = false, ends_equally = false;
-  for (const DiffRow& row : diff(first, entries)) {
+  for (const DiffRow& row : pair_entries(first, entries)) {
     bool flipped = false;
     if (row.is_run()) {
       is_known = row.before != nullptr;

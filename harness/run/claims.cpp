@@ -64,12 +64,12 @@ Rule read_rule(const JsonView& interpretation) {
   };
   read("confirms", rule.confirms, kConfirms);
   read("contradicts", rule.contradicts, kContradicts);
-  if (!rule.confirms && !rule.contradicts) {
-    throw interpretation.error("expected a window in 'confirms' or 'contradicts'");
-  }
+  if (!rule.confirms && !rule.contradicts)
+    throw interpretation.error(
+        "an interpretation requires a range of values, 'confirms' or 'contradicts'");
   if (rule.confirms && rule.contradicts && rule.confirms->low < rule.contradicts->high &&
       rule.contradicts->low < rule.confirms->high) {
-    throw interpretation.error("expected disjoint windows");
+    throw interpretation.error("the ranges 'confirms' and 'contradicts' overlap");
   }
   return rule;
 }
@@ -127,10 +127,9 @@ void add_quantity(const JsonView& interpretation, const Run& run, Interpretation
   const std::vector<double>& all = quantity->second.values;
   if (interpretation.has("index")) {
     for (const auto i : interpretation["index"].get<std::vector<std::size_t>>()) {
-      if (i >= all.size()) {
-        throw interpretation["index"].error("expected entries that " + name + " has, which are " +
-                                            std::to_string(all.size()));
-      }
+      if (i >= all.size())
+        throw interpretation["index"].error("an index is too large; the number of entries of " +
+                                            name + " is " + std::to_string(all.size()));
       values.push_back(all[i]);
     }
   } else {
@@ -183,9 +182,8 @@ Interpretation evaluate_interpretation(const JsonView& interpretation,
   found.description = interpretation.text("description");
   found.metric = interpretation.text("metric");
   const bool by_check = interpretation.has("check") || interpretation.has("reference");
-  if (by_check == interpretation.has("quantity")) {
-    throw interpretation.error("expected either a 'check' or 'reference', or a 'quantity'");
-  }
+  if (by_check == interpretation.has("quantity"))
+    throw interpretation.error("expected either 'quantity', or 'check' or 'reference'");
   if (by_check ? found.metric == "steps" || interpretation.has("statistic")
                : found.metric != "value" && found.metric != "steps") {
     throw interpretation["metric"].error(
@@ -226,9 +224,8 @@ results::Claim evaluate_claim(const std::string& id, const JsonView& claim,
                        "",
                        {}};
   std::ranges::replace(found.expected, '-', ' ');
-  if (claim.has("interpretations") == claim.has("undecidable")) {
-    throw claim.error("expected either 'interpretations' or 'undecidable'");
-  }
+  if (claim.has("interpretations") == claim.has("undecidable"))
+    throw claim.error("expected exactly one of 'interpretations' and 'undecidable'");
   if (claim.has("undecidable")) {
     found.undecidable = claim.text("undecidable");
     found.verdict = kCannotBeDecided;
@@ -274,7 +271,7 @@ void complete_counterpart(const JsonView& place, const Catalogue& catalogue,
   if (!counterpart.quantity.empty() &&
       results::find_quantity_definition(counterpart.quantity, analysis_kind(shown.document)) ==
           nullptr)
-    throw place["quantity"].error("expected a quantity of the case's analysis");
+    throw place["quantity"].error("the analysis of the case does not compute this quantity");
 }
 
 PaperItem read_item(const std::string& id, const JsonView& place, const Json& claims,
@@ -286,7 +283,7 @@ PaperItem read_item(const std::string& id, const JsonView& place, const Json& cl
     complete_counterpart(place["shown_by"][i], catalogue, item.shown_by[i]);
   for (const auto& entry : place.entries("claims")) require_member(entry.second, claims, "claim");
   if (item.shown_by.empty() && item.claims.empty() && item.reason.empty())
-    throw place.error("expected 'shown_by', 'claims' or 'reason'");
+    throw place.error("an item requires 'shown_by', 'claims' or 'reason'");
   return item;
 }
 

@@ -280,7 +280,7 @@ void add_verdicts(const Runs& runs, const std::vector<std::string>& labels, Comp
     Entries other;
     add_entries(*runs[s], found.name, other);
     std::set<std::string> checks;
-    for (const DiffRow& row : diff(first, other)) {
+    for (const DiffRow& row : pair_entries(first, other)) {
       if (!row.in_both() || row.before->verdict == row.after->verdict) continue;
       const std::string check = row.is_run() ? "" : row.after->check->name;
       if (!row.is_run() && (checks.size() >= 3 || !checks.insert(check).second)) continue;
@@ -449,7 +449,7 @@ std::map<std::string, Runs> runs_by_name(std::vector<Side>& sides) {
 std::size_t load_series(std::vector<results::Run>& runs, const std::vector<Side>& sides) {
   std::size_t lost = 0;
   for (std::size_t s = 0; s < runs.size(); ++s)
-    if (!runs[s].stored.empty() && !take_stored(runs[s], sides[s].results.store)) ++lost;
+    if (!runs[s].stored.empty() && !load_stored_data(runs[s], sides[s].results.store)) ++lost;
   if (lost > 0)
     for (results::Run& run : runs)
       std::erase_if(run.quantities, [](const auto& q) {

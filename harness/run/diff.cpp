@@ -60,7 +60,7 @@ Entries entries_of(const results::Results& results) {
   return entries;
 }
 
-std::vector<DiffRow> diff(const Entries& before, const Entries& after) {
+std::vector<DiffRow> pair_entries(const Entries& before, const Entries& after) {
   std::map<std::string, DiffRow> rows;
   for (const auto& [name, entry] : before) rows[name] = {name, &entry, nullptr};
   for (const auto& [name, entry] : after) {

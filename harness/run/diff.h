@@ -45,7 +45,7 @@ struct DiffRow {
 };
 
 /// Returns all entries of both results by name. A run precedes its checks.
-[[nodiscard]] std::vector<DiffRow> diff(const Entries& before, const Entries& after);
+[[nodiscard]] std::vector<DiffRow> pair_entries(const Entries& before, const Entries& after);
 
 /// One side of a comparison: results of runs.
 struct Side {

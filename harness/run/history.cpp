@@ -71,13 +71,14 @@ class Database {
     const Json format = query("PRAGMA user_version").front().front();
     const bool is_empty = query("SELECT count(*) FROM sqlite_master").front().front() == 0;
     if (format != kFormat && (format != 0 || !is_empty))
-      throw InputError(fmt::format("{}: expected a history of format {}", file_, kFormat));
+      throw InputError(fmt::format(
+          "{}: the file has another version; expected a history of version {}", file_, kFormat));
     return format != 0;
   }
 
  private:
   [[noreturn]] void fail(const std::string& reason) const {
-    throw InputError(file_ + ": expected a history (" + reason + ")");
+    throw InputError(file_ + ": expected a history written by trammel (" + reason + ")");
   }
   int check(int status) const {
     if (status != SQLITE_OK && status != SQLITE_ROW && status != SQLITE_DONE)
@@ -174,7 +175,7 @@ void write_entries(Database& database, const results::Results& results, std::int
     database.query(sql, values);
   };
   const Entries before = entries_at(entry_courses(database), call), now = entries_of(results);
-  for (const DiffRow& row : diff(before, now)) {
+  for (const DiffRow& row : pair_entries(before, now)) {
     const std::string run = row.name.substr(0, row.name.find(' '));
     if (now.count(run) == 0 || row.name == run) continue;
     const Entry gone{"gone", std::nullopt, 0};
@@ -209,7 +210,7 @@ std::vector<HistoryChange> changes_since(std::int64_t since,
                                          const std::vector<HistoryCall>& calls) {
   std::vector<HistoryChange> changes;
   const Entries before = entries_at(courses, since), now = entries_at(courses, calls.back().id);
-  for (const DiffRow& row : diff(before, now)) {
+  for (const DiffRow& row : pair_entries(before, now)) {
     if (!row.in_both() || !row.after->differs(*row.before)) continue;
     std::int64_t first = 0;  // first call of the current uninterrupted difference; 0: none yet
     for (const auto& [call, entry] : courses.at(row.name)) {
@@ -265,7 +266,7 @@ void append_history(const fs::path& file, const results::Results& results) {
 History read_history(const fs::path& file) {
   Database database(file, false);
   if (!database.has_tables())
-    throw InputError(file.string() + ": expected a history (found an empty file)");
+    throw InputError(file.string() + ": the file is empty; expected a history written by trammel");
   History history;
   history.calls = calls_of(database);
   for (std::size_t i = 0; i + 1 < history.calls.size(); ++i)

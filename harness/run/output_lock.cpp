@@ -63,12 +63,12 @@ void OutputLock::acquire() {
         continue;
       }
       throw InputError("--out " + folder_.string() +
-                       ": expected a folder that no other call writes (" +
-                       (holder.empty() ? "another" : holder) + " does)");
+                       ": another call of trammel writes to this folder (" +
+                       (holder.empty() ? "process unknown" : holder) + ")");
     }
     if (fstat(descriptor_, &mine) == 0 && !S_ISREG(mine.st_mode)) {
       close(descriptor_);
-      throw InputError("--out " + folder_.string() + ": expected a file in the place of its lock");
+      throw InputError("--out " + folder_.string() + ": .trammel-lock is not a regular file");
     }
     // The previous holder may have removed the file after it was opened here.
     if (fstat(descriptor_, &mine) == 0 && lstat(file_.c_str(), &there) == 0 &&

@@ -185,13 +185,13 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
       task.run = run_from(outcome.text);
       break;
     case Termination::timed_out:
-      expected("/timeout_s", "a computation within timeout_s");
+      expected("/timeout_s", "a computation that ends within timeout_s");
       break;
     case Termination::out_of_memory:
       expected(estimate_size(task.document).cause, "a model that fits into memory");
       break;
     case Termination::not_started:
-      expected("", "a system that has room for its process");
+      expected("", "a system that can start another process");
       break;
     case Termination::disk_full:  // a limit of other programs only
     case Termination::crashed:
@@ -229,7 +229,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
   }
   std::error_code error;
   if (!options.store.empty()) std::filesystem::create_directories(options.store, error);
-  if (!options.store.empty()) drop_unused(options.store);
+  if (!options.store.empty()) remove_unused_files(options.store);
   if (options.resume)
     std::ranges::stable_sort(open, [](const auto& a, const auto& b) {
       return unfinished_starts(a.second) < unfinished_starts(b.second);
@@ -250,7 +250,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
                           [&](std::size_t i, const ProcessOutcome& outcome) {
                             const auto& [task, file] = open[i];
                             mark_ended(*task, outcome, options);
-                            if (!file.empty()) forget_starts(file);
+                            if (!file.empty()) clear_starts(file);
                             if (!file.empty() && !has_broken(task->run)) {
                               write_file(file, outcome.text);
                               task->run.stored = file.filename().string();
@@ -272,7 +272,7 @@ bool evaluate_status_check(const Task& task, Run& run) {
   check_result.unit = "1";
   check_result.role = to_string(Role::verification);
   check_result.measure = "status";
-  check_result.why = "the case expects it to be " + expected;
+  check_result.why = "the case expects the status " + expected;
   check_result.verdict = status == expected ? Verdict::pass : Verdict::fail;
   check_result.message = status + (run.reason.empty() ? "" : ": " + run.reason);
   run.checks.push_back(std::move(check_result));
@@ -288,7 +288,7 @@ void evaluate_validation_verdicts(const Check& check, Run& run) {
   result.measure = "validation";
   result.reference.clear();
   result.expectation = Expectation::none;
-  result.why = "the case records the verdicts of these validation comparisons";
+  result.why = "the case records these verdicts in 'validation_verdicts'";
   std::vector<std::string> found;
   for (const results::Comparison& entry :
        run.uncertainty.value_or(results::Uncertainty()).comparisons)
@@ -392,8 +392,8 @@ std::vector<Run> run_cases(const std::vector<Case>& cases, const References& ref
   return runs;
 }
 
-std::vector<Run> run_shown(const std::vector<Case>& cases, const References& references,
-                           RunOptions options, const std::string& items) {
+std::vector<Run> run_with_progress(const std::vector<Case>& cases, const References& references,
+                                   RunOptions options, const std::string& items) {
   Progress progress(items);
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   std::vector<Run> runs = run_cases(cases, references, options);

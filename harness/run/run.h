@@ -64,9 +64,9 @@ struct RunOptions {
 /// Runs the cases as `run_cases` does and shows the progress on standard error.
 /// @param items  name of the counted items, in the plural.
 /// @throws Interrupted  if a signal was received.
-[[nodiscard]] std::vector<Run> run_shown(const std::vector<Case>& cases,
-                                         const References& references, RunOptions options,
-                                         const std::string& items = "runs");
+[[nodiscard]] std::vector<Run> run_with_progress(const std::vector<Case>& cases,
+                                                 const References& references, RunOptions options,
+                                                 const std::string& items = "runs");
 
 /// Computations of a shard, including those required only by the checks of other runs.
 struct ShardRuns {

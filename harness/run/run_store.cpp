@@ -199,22 +199,22 @@ void mark_started(const std::filesystem::path& file) {
   std::ofstream(started(file), std::ios::app) << '.';
 }
 
-void forget_starts(const std::filesystem::path& file) {
+void clear_starts(const std::filesystem::path& file) {
   std::error_code error;
   std::filesystem::remove(started(file), error);
 }
 
-results::CostStudy measure_or_find(const CostStudy& study, const CostOptions& options,
-                                   const References& references, const std::filesystem::path& store,
-                                   bool resume) {
+results::CostStudy cached_cost_study(const CostStudy& study, const CostOptions& options,
+                                     const References& references,
+                                     const std::filesystem::path& store, bool resume) {
   return find_or_compute<results::CostStudy>(
       store, name_of(study, options.timing), resume,
       [&](const results::CostStudy& kept) { return stand(kept.references, references); },
-      [&] { return measure(study, options, references); });
+      [&] { return measure_study(study, options, references); });
 }
 
-SandboxedRun run_or_find(const Setting& setting, int time_limit_s, const References& references,
-                         const std::filesystem::path& store, bool resume) {
+SandboxedRun cached_solution(const Setting& setting, int time_limit_s, const References& references,
+                             const std::filesystem::path& store, bool resume) {
   Json all = Json::array({"setting"});
   add_setting(setting, all);
   return find_or_compute<SandboxedRun>(
@@ -223,14 +223,14 @@ SandboxedRun run_or_find(const Setting& setting, int time_limit_s, const Referen
       [&] { return run_sandboxed(setting, time_limit_s, references); });
 }
 
-EffectScenes scenes_or_find(const Document& document, const std::function<EffectScenes()>& measure,
-                            const std::filesystem::path& store, bool resume) {
+EffectScenes cached_scenes(const Document& document, const std::function<EffectScenes()>& measure,
+                           const std::filesystem::path& store, bool resume) {
   return find_or_compute<EffectScenes>(
       store, name_of("effects " + machine_name() + text_of(document.value())), resume,
       [](const EffectScenes&) { return true; }, measure);
 }
 
-void drop_unused(const std::filesystem::path& store) {
+void remove_unused_files(const std::filesystem::path& store) {
   std::error_code error;
   const auto oldest = std::filesystem::file_time_type::clock::now() - std::chrono::days(30);
   for (const auto& entry : std::filesystem::directory_iterator(store, error))

@@ -37,29 +37,30 @@ namespace trammel::harness {
 /// Returns the number of calls that started the computation of that file but were interrupted.
 [[nodiscard]] std::size_t unfinished_starts(const std::filesystem::path& file);
 void mark_started(const std::filesystem::path& file);
-void forget_starts(const std::filesystem::path& file);
+void clear_starts(const std::filesystem::path& file);
 
 /// Measures a study, or reads it from the store. A stored study must have the same settings,
 /// program, options, machine and current references.
-[[nodiscard]] results::CostStudy measure_or_find(const CostStudy& study, const CostOptions& options,
-                                                 const References& references,
-                                                 const std::filesystem::path& store, bool resume);
+[[nodiscard]] results::CostStudy cached_cost_study(const CostStudy& study,
+                                                   const CostOptions& options,
+                                                   const References& references,
+                                                   const std::filesystem::path& store, bool resume);
 
 /// Runs a setting as `run_sandboxed` does, or reads the solution of the same setting by the same
 /// program from the store.
-[[nodiscard]] SandboxedRun run_or_find(const Setting& setting, int time_limit_s,
-                                       const References& references,
-                                       const std::filesystem::path& store, bool resume);
+[[nodiscard]] SandboxedRun cached_solution(const Setting& setting, int time_limit_s,
+                                           const References& references,
+                                           const std::filesystem::path& store, bool resume);
 
 /// Returns the result of `measure` for a case's scene, or the stored result of the same case by the
 /// same program on this machine.
 using EffectScenes = std::vector<results::EffectScene>;
-[[nodiscard]] EffectScenes scenes_or_find(const Document& document,
-                                          const std::function<EffectScenes()>& measure,
-                                          const std::filesystem::path& store, bool resume);
+[[nodiscard]] EffectScenes cached_scenes(const Document& document,
+                                         const std::function<EffectScenes()>& measure,
+                                         const std::filesystem::path& store, bool resume);
 
 /// Removes files that no call has written or read for 30 days.
-void drop_unused(const std::filesystem::path& store);
+void remove_unused_files(const std::filesystem::path& store);
 
 /// Returns the identity of the machine, for time measurements.
 [[nodiscard]] std::string machine_name();

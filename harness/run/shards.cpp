@@ -23,7 +23,7 @@ std::size_t number_from(const char* begin, const char* end) {
 Json read_shard(const fs::path& folder) {
   const fs::path file = folder / kShardFile;
   if (!fs::exists(file))
-    throw InputError(folder.string() + ": expected the folder of a shard that is done (no " +
+    throw InputError(folder.string() + ": expected the folder of a finished shard (no " +
                      kShardFile + ")");
   Json shard = read_json(file);
   const auto expect = [&](const char* key, bool holds, const std::string& what) {
@@ -36,7 +36,7 @@ Json read_shard(const fs::path& folder) {
   for (const char* key : {"shard", "of", "in_all"}) expect(key, whole(key), "a positive number");
   expect("computations", shard.contains("computations") && shard["computations"].is_array(),
          "the names of computations");
-  expect("selection", shard.contains("selection"), "what was selected");
+  expect("selection", shard.contains("selection"), "the selection of cases");
   expect("program", shard.value("program", "") == program_hash(),
          "this program, " + environment()["commit"].get<std::string>() + " (got " +
              shard.value("commit", "another one") + ")");
@@ -53,7 +53,7 @@ std::map<std::size_t, fs::path> require_all(const std::vector<fs::path>& folders
     for (const char* key : {"of", "in_all", "selection"})
       if (shard[key] != first[key])
         throw InputError((folder / kShardFile).string(), std::string("/") + key,
-                         "expected what " + folders.front().string() + " has");
+                         "expected the same value as in " + folders.front().string());
     const auto [place, fresh] = places.emplace(shard["shard"].get<std::size_t>(), folder);
     if (!fresh)
       throw InputError((folder / kShardFile).string(), "/shard",
@@ -69,7 +69,7 @@ std::map<std::size_t, fs::path> require_all(const std::vector<fs::path>& folders
 
 }  // namespace
 
-Shard shard_from(const std::string& text) {
+Shard parse_shard(const std::string& text) {
   const std::size_t slash = text.find('/');
   Shard shard;
   if (slash != std::string::npos) {
@@ -86,13 +86,13 @@ Shard shard_from(const std::string& text) {
 
 void write_shard(const fs::path& folder, const Shard& shard, const Json& selection,
                  const ShardRuns& done) {
-  write_file(folder / kShardFile, pretty({{"shard", shard.number},
-                                          {"of", shard.count},
-                                          {"in_all", done.in_all},
-                                          {"program", program_hash()},
-                                          {"commit", environment()["commit"]},
-                                          {"selection", selection},
-                                          {"computations", done.names}}));
+  write_file(folder / kShardFile, format_json({{"shard", shard.number},
+                                               {"of", shard.count},
+                                               {"in_all", done.in_all},
+                                               {"program", program_hash()},
+                                               {"commit", environment()["commit"]},
+                                               {"selection", selection},
+                                               {"computations", done.names}}));
 }
 
 Json merge_shards(const std::vector<fs::path>& folders, const fs::path& store) {

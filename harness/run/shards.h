@@ -14,7 +14,7 @@ namespace trammel::harness {
 
 /// Parses "2/8", the second of eight shards.
 /// @throws InputError  if the text is not a shard.
-[[nodiscard]] Shard shard_from(const std::string& text);
+[[nodiscard]] Shard parse_shard(const std::string& text);
 
 /// Says in `folder` that a shard of the selection is done: what it has computed is in `store`.
 void write_shard(const std::filesystem::path& folder, const Shard& shard, const Json& selection,

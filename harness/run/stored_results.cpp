@@ -40,7 +40,7 @@ fs::path write_results(const results::Results& results, const fs::path& folder) 
   if (!results.store.empty())
     json["store"] = fs::proximate(results.store, place_of(folder)).string();
   fs::path file = folder / "results.json";
-  write_file(file, pretty(json, kLineDepth));
+  write_file(file, format_json(json, kLineDepth));
   return file;
 }
 
@@ -61,7 +61,7 @@ results::Results read_summary(const fs::path& file, Json json) {
   }
 }
 
-bool take_stored(Run& run, const fs::path& store) {
+bool load_stored_data(Run& run, const fs::path& store) {
   try {
     Run found = run_from(read_text(store / run.stored));
     const bool same = std::ranges::all_of(run.quantities, [&](const auto& own) {
@@ -88,11 +88,11 @@ results::Results load_results(const fs::path& file) {
   if (results.store.empty()) return results;
   std::size_t missing = 0;
   for (Run& run : results.runs)
-    if (!run.stored.empty() && !take_stored(run, results.store)) ++missing;
+    if (!run.stored.empty() && !load_stored_data(run, results.store)) ++missing;
   if (missing > 0)
     results.missing =
         std::to_string(missing) + " of " + std::to_string(results.runs.size()) +
-        " runs are without series, drawings and studies: expected them in the store " +
+        " runs have no series, drawings and studies, which are missing from the store " +
         results.store;
   results::complete(results);
   return results;

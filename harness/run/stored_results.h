@@ -28,7 +28,7 @@ std::filesystem::path write_results(const results::Results& results,
 
 /// Adds the series, drawing and studies of a run from the store.
 /// @returns whether the store contains them
-[[nodiscard]] bool take_stored(results::Run& run, const std::filesystem::path& store);
+[[nodiscard]] bool load_stored_data(results::Run& run, const std::filesystem::path& store);
 
 /// Reads a results file and the stored data of its runs. Without its store, a copy of the file is
 /// complete except for these data, and `missing` reports it.

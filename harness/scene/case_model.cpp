@@ -36,9 +36,9 @@ class PartNames {
   void claim(const std::string& name, const JsonView& place) {
     const auto [other, is_new] = pointers_.emplace(name, place.pointer());
     if (is_new) return;
-    throw place.error("two parts are called '" + printable(name) +
-                      "' in quantities; expected different names; the other part is " +
-                      other->second);
+    throw place.error("two parts have the name '" + printable(name) +
+                      "' in quantities; expected different names (the other part is " +
+                      other->second + ")");
   }
 
  private:
@@ -72,25 +72,23 @@ void check_part_names(const JsonView& model, const solver::Model& bare) {
 
 CaseModel read_case_model(const Document& document) {
   const JsonView root(document);
-  if (!root.has("model")) throw root.error("expected the key 'model' for this analysis");
+  if (!root.has("model")) throw root.error("this analysis requires the key 'model'");
   const JsonView model = root["model"];
   CaseModel case_model;
   if (model.has("manipulator")) {
-    if (model.has("elements") && !model.has("members")) {
+    if (model.has("elements") && !model.has("members"))
       throw model["elements"].error(
-          "expected 'elements' in /model/manipulator/links for the links of a manipulator");
-    }
+          "the model has no 'members'; the elements of links are set in /model/manipulator/links");
     case_model.manipulator = read_manipulator(model["manipulator"]);
     PlatformMotion motion = read_platform_motion(model, case_model.manipulator->geometry);
     case_model.path = std::move(motion.path);
     case_model.motion = std::move(motion.points);
   } else {
     for (const char* key : {"pose", "trajectory"}) {
-      if (model.has(key)) throw model[key].error("expected it with a manipulator");
+      if (model.has(key)) throw model[key].error("this key requires 'manipulator'");
     }
-    if (!model.has("nodes") || model["nodes"].size() == 0) {
-      throw model.error("expected a manipulator or nodes");
-    }
+    if (!model.has("nodes") || model["nodes"].size() == 0)
+      throw model.error("the model is empty; expected 'manipulator' or 'nodes'");
   }
   with_model_errors(document, [&] {
     const solver::Model bare =
@@ -111,9 +109,9 @@ solver::Model build_model(const CaseModel& case_model, std::size_t step) {
     solver::add_linear_slider(model, slider);
   const bool only_large = !case_model.joint_elements.line_springs.empty() ||
                           !case_model.joint_elements.follower_loads.empty();
-  if (only_large) {
-    throw solver::ModelError("line springs and follower loads need large-statics or large-motion");
-  }
+  if (only_large)
+    throw solver::ModelError(
+        "line springs and follower loads require large-statics or large-motion");
   return model;
 }
 
@@ -146,7 +144,7 @@ solver::Model build_bare_model(const CaseModel& case_model, std::size_t step) {
 }
 
 InputError model_error(const Document& document, const solver::ModelError& error) {
-  const std::string text = error.what(), message = "expected a valid model: " + text;
+  const std::string text = error.what(), message = "the model is invalid: " + text;
   const JsonView model = JsonView(document)["model"];
   const JsonView analysis = JsonView(document)["analysis"].entries().front().second;
   for (const auto& [kind, parts] : {std::pair("drive", analysis.entries("drives")),

@@ -171,7 +171,7 @@ Output read_output(const JsonView& place, const Model& model) {
   }
   if (output.observable == nullptr)
     throw place.error(
-        "expected a quantity with the part that it is of, as displacement_y_m:A (got '" +
+        "expected a quantity and the name of a part, such as displacement_y_m:A (got '" +
         printable(output.name) + "')" + did_you_mean(head, heads));
   if (output.observable->of != Of::member_end) {
     output.part = find_part(place, model, output.observable->of, part);
@@ -180,7 +180,7 @@ Output read_output(const JsonView& place, const Model& model) {
   const std::size_t dot = part.rfind('.');
   const std::string end = dot == std::string::npos ? "" : part.substr(dot + 1);
   if (end != "start" && end != "end")
-    throw place.error("expected an end of the member, as '" + printable(part) + ".start'");
+    throw place.error("expected an end of the member, such as '" + printable(part) + ".start'");
   output.part = find_part(place, model, Of::member, part.substr(0, dot));
   output.part.end = end == "start" ? 0 : 1;
   const solver::Member& member = model.members[solver::to_size(output.part.items.front())];
@@ -188,8 +188,8 @@ Output read_output(const JsonView& place, const Model& model) {
       member.section.section_modulus > 0 && member.end_section.section_modulus > 0;
   if (output.observable->value == bending_stress && !has_depth)
     throw place.error(
-        "expected a member whose sections have a depth: a shape, or 'half_depth_m' "
-        "with 'area_m2'");
+        "bending stress requires a section with a depth: 'rectangle', 'circle' or "
+        "'half_depth_m'");
   return output;
 }
 

@@ -13,22 +13,22 @@ constexpr solver::Index first_C = 6, P = 9;  // nodes A1..A3, B1..B3, C1..C3, P 
 
 solver::RigidManipulator read_rigid_manipulator(const JsonView& analysis,
                                                 const CaseModel& case_model) {
-  if (!case_model.manipulator) throw analysis.error("expected a model with a manipulator");
+  if (!case_model.manipulator)
+    throw analysis.error("this analysis requires a model with 'manipulator'");
   const JsonView model = JsonView(analysis.document())["model"];
   for (const char* kind :
        {"members", "plates", "rigid_bodies", "point_masses", "springs", "supports"}) {
     const auto parts = model.find(kind);
     if (!parts || parts->size() == 0) continue;
-    throw parts->error(
-        "expected a manipulator without other parts: rigid dynamics does not support "
-        "them");
+    throw parts->error("this analysis supports a manipulator without other parts only");
   }
   if (const auto loads = model.find("loads")) {
     const auto names = loads->entries();
     for (std::size_t i = 0; i < names.size(); ++i) {
       const solver::Index node = case_model.structure.loads[i].node;
       if (node >= first_C && node <= P) continue;
-      throw names[i].second["node"].error("expected a load on the platform: P, C1, C2 or C3");
+      throw names[i].second["node"].error(
+          "a load requires a node of the platform: P, C1, C2 or C3");
     }
   }
   solver::RigidManipulator manipulator = solver::rigid_manipulator(*case_model.manipulator);

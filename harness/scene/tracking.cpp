@@ -15,11 +15,11 @@ namespace {
 void require_joints(const JsonView& place, const solver::ManipulatorDesign& design) {
   for (std::size_t i = 0; i < 3; ++i) {
     if (design.active[i].kind != solver::ActiveKind::locked) {
-      throw place.error("expected locked actuators: they are driven");
+      throw place.error("tracking requires 'locked' active joints, which it then drives");
     }
     if (design.elbow[i].kind != solver::ElbowKind::hinged ||
         design.platform_joint[i].kind != solver::PlatformJointKind::hinged) {
-      throw place.error("expected hinged elbows and platform joints: others hinder the motion");
+      throw place.error("tracking requires hinged elbow joints and platform joints");
     }
   }
 }
@@ -57,7 +57,7 @@ void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& cas
                   const solver::Model& model,
                   solver::large_motion::LargeMotionModel& large_motion) {
   if (!case_model.manipulator || !case_model.path) {
-    throw place.error("expected a manipulator with a trajectory");
+    throw place.error("tracking requires a manipulator with 'trajectory'");
   }
   require_joints(place, *case_model.manipulator);
   const bool torques = tracking == Tracking::torques;
@@ -103,7 +103,7 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
     const auto limb = solver::to_size(drive.node);
     if (case_model.manipulator->active[limb].kind == solver::ActiveKind::free) {
       throw analysis["drives"][drive.name].error(
-          "expected an actuator that is locked or sprung: the link turns freely about a free one");
+          "a free active joint cannot be driven; expected a locked joint or a spring");
     }
     model.supports[limb].fixed[2] = false;
   }

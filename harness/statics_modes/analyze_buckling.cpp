@@ -37,7 +37,8 @@ StepResult analyze_buckling(const JsonView& analysis, const CaseModel& case_mode
   if (draw) result.drawing = draw_model(system, case_model.manipulator.has_value());
   if (!buckling.outcome.solved()) return result;
   if (system.K.rows() == 0) {
-    result.outcome = {solver::Status::singular, "nothing buckles: everything is held"};
+    result.outcome = {solver::Status::singular,
+                      "the model cannot buckle: every motion is restrained"};
     return result;
   }
   for (solver::Index i = 0; i < buckling.load_factor.size(); ++i) {
@@ -51,11 +52,12 @@ StepResult analyze_buckling(const JsonView& analysis, const CaseModel& case_mode
     }
   }
   if (buckling.load_factor.size() == 0)
-    result.warnings.push_back({"the number of load factors", 0, "",
-                               buckling.checked_factor > 0
-                                   ? "K + factor K_G is positive definite up to a factor of " +
-                                         rounded(buckling.checked_factor, 3)
-                                   : "the loads change no stiffness, or there are none"});
+    result.warnings.push_back(
+        {"the number of load factors", 0, "",
+         buckling.checked_factor > 0
+             ? "K + factor K_G is positive definite up to a factor of " +
+                   rounded(buckling.checked_factor, 3)
+             : "the model has no loads, or they do not change its stiffness"});
   warn_of_taper(system.model, result.warnings);
   record.add("degrees_of_freedom", system.K.rows());
   return result;

@@ -90,11 +90,11 @@ StepResult analyze_large_statics(const JsonView& analysis, const CaseModel& case
                                  std::size_t step, bool draw, Recorder& record) {
   const auto factors = analysis.get("load_factors", std::vector<double>{1.0});
   if (case_model.path && factors.size() > 1) {
-    throw analysis["load_factors"].error("expected one load factor along a trajectory");
+    throw analysis["load_factors"].error("a model with 'trajectory' requires a single load factor");
   }
   solver::large_motion::StaticPathOptions options = read_large_statics_options(analysis);
   if (options.keep_points && (case_model.path || factors.size() > 1)) {
-    throw analysis["whole_path"].error("expected it with one pose and one load factor");
+    throw analysis["whole_path"].error("'whole_path' requires one pose and one load factor");
   }
   // Small vibration reports a free part as a mode of 0 Hz; otherwise its position is undetermined.
   options.keep_free_parts = analysis.get("vibration_modes", solver::Index{0}) > 0;

@@ -27,19 +27,19 @@ solver::ModesOptions read_modes_options(const JsonView& analysis) {
 /// Rejects a key that is incompatible with modes about a loaded or rotating state.
 void refuse(const JsonView& analysis, const char* key, const char* beside, const char* reason) {
   if (!analysis.has(key) || analysis[key].json() == false) return;
-  throw analysis[key].error(std::string("expected it without '") + beside + "': " + reason);
+  throw analysis[key].error(std::string("not allowed with '") + beside + "': " + reason);
 }
 
 /// Returns the system in the coordinates that the analysis requests.
 solver::System condensed(const JsonView& analysis, const CaseModel& case_model,
                          solver::System system) {
   if (!analysis.has("reduction")) return system;
-  refuse(analysis, "count_below_Hz", "reduction", "it counts the modes of the full model");
-  if (case_model.effects.has(solver::Effect::geometric_stiffening)) {
-    throw analysis["reduction"].error("expected it without geometric stiffening ('prestressed')");
-  }
+  refuse(analysis, "count_below_Hz", "reduction", "the count includes all modes of the full model");
+  if (case_model.effects.has(solver::Effect::geometric_stiffening))
+    throw analysis["reduction"].error("not allowed with geometric stiffening ('prestressed')");
   if (analysis["reduction"].has("modes"))
-    throw analysis["reduction"].error("expected 'fixed_interface_modes', which modes require");
+    throw analysis["reduction"].error(
+        "this analysis requires a reduction by 'fixed_interface_modes' (got 'modes')");
   // Loads do not affect these modes.
   return solver::reduce_members(
       system, analysis["reduction"].get<solver::Index>("fixed_interface_modes", 0));
@@ -51,7 +51,7 @@ solver::ModalSolution modes_of(const JsonView& analysis, const CaseModel& case_m
   if (!case_model.effects.has(solver::Effect::geometric_stiffening))
     return solver::solve_modes(system, options);
   refuse(analysis, "count_below_Hz", analysis.has("prestressed") ? "prestressed" : "effects",
-         "it counts the modes of the unloaded model");
+         "the count refers to the unloaded model");
   return solver::solve_prestressed_modes(system, options);
 }
 
@@ -188,10 +188,10 @@ StepResult analyze_rotating(const JsonView& modes, const solver::System& system,
 StepResult analyze_modes_at(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
                             bool draw, ShapeTracker* tracker, Recorder& record) {
   if (analysis.has("rotating")) {
-    refuse(analysis, "count_below_Hz", "rotating", "it counts the modes of the model at rest");
-    refuse(analysis, "reduction", "rotating", "it has no Coriolis forces");
-    refuse(analysis, "prestressed", "rotating", "a rotating frame always holds its loads");
-    if (case_model.path) throw analysis["rotating"].error("expected a model at one place");
+    refuse(analysis, "count_below_Hz", "rotating", "the count refers to the model at rest");
+    refuse(analysis, "reduction", "rotating", "the reduced model has no Coriolis forces");
+    refuse(analysis, "prestressed", "rotating", "a rotating frame always includes loads");
+    if (case_model.path) throw analysis["rotating"].error("'rotating' requires one 'pose'");
     return analyze_rotating(analysis, solver::assemble(build_model(case_model, step)),
                             case_model.effects, draw, record);
   }
@@ -202,9 +202,9 @@ StepResult analyze_modes_at(const JsonView& analysis, const CaseModel& case_mode
   if (draw) result.drawing = draw_modes(case_model, system, modes);
   if (!modes.outcome.solved()) return result;
   if (modes.frequency.size() == 0) {
-    result.outcome = {solver::Status::singular,
-                      system.K.rows() == 0 ? "nothing vibrates: everything is held"
-                                           : "nothing vibrates: no part that can move has a mass"};
+    result.outcome = {solver::Status::singular, system.K.rows() == 0
+                                                    ? "no vibration: every motion is restrained"
+                                                    : "no vibration: no movable part has a mass"};
     return result;
   }
   record_modes(modes.frequency, modes.roundoff, case_model.path.has_value(), record);
@@ -286,8 +286,8 @@ StepResult analyze_modes(const JsonView& analysis, const CaseModel& case_model, 
                          Recorder& record) {
   const bool tracks = analysis.get("track_shapes", false);
   if (tracks) {
-    refuse(analysis, "rotating", "track_shapes", "it has a model at one place");
-    if (!case_model.path) throw analysis["track_shapes"].error("expected a trajectory");
+    refuse(analysis, "rotating", "track_shapes", "a rotating frame requires one 'pose'");
+    if (!case_model.path) throw analysis["track_shapes"].error("requires a trajectory");
   } else if (follows_pose(analysis, case_model)) {
     return analyze_modes_of_poses(analysis, case_model, draw, record);
   }

@@ -21,7 +21,8 @@ std::vector<Named> read_parameters(const JsonView& analysis, const CaseModel& ca
   for (const auto& [name, place] : analysis["parameters"].entries()) {
     read.push_back({name, read_design_parameter(place)});
     if (!(parameter_value(*case_model.manipulator, read.back().parameter) > 0))
-      throw place["property"].error("expected a property that the manipulator has");
+      throw place["property"].error(
+          "the manipulator does not have this property; expected another one");
   }
   return read;
 }
@@ -66,7 +67,7 @@ solver::FrequencySensitivity derive(const JsonView& analysis, const CaseModel& c
     all.derivative.col(static_cast<solver::Index>(p)) = one.derivative;
     if (exactly && !one.derivative.allFinite())
       all.outcome = {solver::Status::singular,
-                     "a limb is straight or folded: no step leaves it in reach"};
+                     "a limb is straight or folded, so that every step leaves its reach"};
   }
   return all;
 }
@@ -95,7 +96,7 @@ void record_differences(const CaseModel& case_model, const Named& named,
 
 StepResult analyze_sensitivity(const JsonView& analysis, const CaseModel& case_model, bool draw,
                                Recorder& record) {
-  if (case_model.path) throw analysis.error("expected a model with a pose, not a trajectory");
+  if (case_model.path) throw analysis.error("this analysis requires one 'pose' (got 'trajectory')");
   static_cast<void>(
       read_rigid_manipulator(analysis, case_model));  // rejects parts other than the manipulator
   const std::vector<Named> named = read_parameters(analysis, case_model);

@@ -90,7 +90,7 @@ void record_rises(const std::vector<Reading>& readings, Recorder& record) {
 
 StepResult analyze_sensitivity_map(const JsonView& analysis, const CaseModel& case_model, bool,
                                    Recorder& record) {
-  if (case_model.path) throw analysis.error("expected a model with a pose, not a trajectory");
+  if (case_model.path) throw analysis.error("this analysis requires one 'pose' (got 'trajectory')");
   static_cast<void>(
       read_rigid_manipulator(analysis, case_model));  // rejects parts other than the manipulator
   const solver::ManipulatorDesign& design = *case_model.manipulator;
@@ -98,7 +98,8 @@ StepResult analyze_sensitivity_map(const JsonView& analysis, const CaseModel& ca
   if (const auto given = analysis.find("parameter")) {
     parameter = read_design_parameter(*given);
     if (!(parameter_value(design, parameter) > 0))
-      throw(*given)["property"].error("expected a property that the manipulator has");
+      throw(*given)["property"].error(
+          "the manipulator does not have this property; expected another one");
     if (!solver::is_seeded(parameter.kind))
       throw(*given)["property"].error("expected a length, thickness, width, E or density");
   }
@@ -122,7 +123,7 @@ StepResult analyze_sensitivity_map(const JsonView& analysis, const CaseModel& ca
     result.outcome = at_center.outcome;
     result.evidence.add(at_center.evidence);
     if (!result.outcome.solved()) {
-      result.outcome.reason.insert(0, "at the center, " + item + ": ");
+      result.outcome.reason.insert(0, "at the central position, " + item + ": ");
       return result;
     }
     reading.center_frequency = at_center.frequency;

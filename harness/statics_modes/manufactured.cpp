@@ -55,11 +55,12 @@ ManufacturedSolution solve(solver::System system, double omega) {
         omega == 0 ? stiffness : dynamic, factorization, system.f, solution.counters);
     solution.q = refined.x;
     if (!refined.converged()) {
-      solution.outcome = {solver::Status::singular, "round-off leaves no correct digits"};
+      solution.outcome = {solver::Status::singular, "round-off error leaves no correct digit"};
     }
     judge(system, omega, solution);
   } else {
-    solution.outcome = {solver::Status::singular, "the model is free, or at a resonance"};
+    solution.outcome = {solver::Status::singular,
+                        "the matrix is singular: the model is unsupported or at a resonance"};
   }
   solution.system = std::move(system);
   return solution;
@@ -250,9 +251,8 @@ StepResult run_beam(const JsonView& place, bool draw, Recorder& record) {
 StepResult analyze_manufactured(const Document& document, const References&, bool draw,
                                 Recorder& record) {
   const JsonView manufactured = JsonView(document)["analysis"]["manufactured"];
-  if (manufactured.has("membrane") == manufactured.has("beam")) {
-    throw manufactured.error("expected either 'membrane' or 'beam'");
-  }
+  if (manufactured.has("membrane") == manufactured.has("beam"))
+    throw manufactured.error("expected exactly one of 'membrane' and 'beam'");
   try {
     return manufactured.has("membrane") ? run_membrane(manufactured, draw, record)
                                         : run_beam(manufactured, draw, record);

@@ -84,9 +84,10 @@ void warn_of_strain(const solver::Model& model, const solver::StaticSolution& so
   }
   for (const auto& [name, strain] : {std::pair("extension", extension), std::pair("shear", shear)})
     if (strain > kMaxStrain)
-      add_warning(warnings, {std::string("the largest ") + name + " of a member", strain, "",
-                             "the section's law holds up to " + rounded(kMaxStrain) +
-                                 ", where the measures of strain differ by 5 %"});
+      add_warning(warnings,
+                  {std::string("the largest ") + name + " of a member", strain, "",
+                   "the linear elastic law of sections holds up to " + rounded(kMaxStrain) +
+                       ", where engineering, logarithmic and Green strain differ by 5 %"});
 }
 
 void warn_of_amplification(const solver::StaticSolution& solution, std::vector<Warning>& warnings) {
@@ -137,17 +138,16 @@ void warn_of_redundancy(const solver::System& system, std::vector<Warning>& warn
 void warn_of_redundancy(Eigen::Index redundant, std::vector<Warning>& warnings) {
   if (redundant == 0) return;
   add_warning(warnings, {"the number of redundant constraints", static_cast<double>(redundant), "",
-                         "equilibrium does not determine the forces among them: the reported "
-                         "forces are one admissible set"});
+                         "equilibrium alone does not determine their forces: the reported "
+                         "forces are one of many solutions"});
 }
 
 void warn_of_roundoff(double of_frequency, std::vector<Warning>& warnings) {
   constexpr double kNoticed = 1e-3;
   if (!(of_frequency > kNoticed)) return;
-  add_warning(warnings,
-              {"the relative round-off error of a frequency", of_frequency, "",
-               "stiff parts leave few digits of a soft motion; 'axial': 'inextensible' or "
-               "rigid bodies leave more"});
+  add_warning(warnings, {"the relative round-off error of a frequency", of_frequency, "",
+                         "very different stiffnesses cause this error; 'axial': 'inextensible' or "
+                         "rigid bodies in place of stiff parts reduce it"});
 }
 
 }  // namespace trammel::harness

@@ -105,7 +105,7 @@ class Search {
 
   void coarsen() {
     if (!has(ErrorSource::mesh) && !has(ErrorSource::step))
-      throw current_.error("/analysis", "expected a case with a mesh or a step to vary");
+      throw current_.error("/analysis", "the case has no mesh or step to be refined");
     for (auto patch = mesh_patch(current_, Refine::coarser); patch;
          patch = mesh_patch(current_, Refine::coarser))
       current_.apply_patch("coarser mesh", "", *patch);
@@ -172,7 +172,8 @@ class Search {
         if (const auto finer = companion_of(current_, source, Refine::finer))
           current_ = finer->document;
     }
-    throw current_.error("/analysis", "expected a case that is solved: " + reason_);
+    throw current_.error("/analysis",
+                         "the case has no solution for any of the meshes and steps: " + reason_);
   }
 
   void choose_quantities() {
@@ -184,7 +185,7 @@ class Search {
     for (const std::string& asked : request_.quantities) {
       if (std::ranges::any_of(names, [&](const auto& name) { return is_asked(name, {asked}); }))
         continue;
-      throw current_.error("/analysis", "expected a quantity of the case (got '" +
+      throw current_.error("/analysis", "the case does not compute the requested quantity (got '" +
                                             printable(asked) + "')" + did_you_mean(asked, names));
     }
     asked_ = request_.quantities.empty() ? kUsual : request_.quantities;
@@ -220,7 +221,7 @@ class Search {
     const auto finer = companion_of(current_, source, Refine::finer);
     const double before = error_by(source);
     if (++refinements_ > 2 * kMaxRefinements || !finer) {
-      found_.errors.reason = "the finest mesh and step that are tried do not reach the request";
+      found_.errors.reason = "the finest permitted mesh and step do not reach this accuracy";
       return false;
     }
     const AnalysisResult coarse = found_.result;
@@ -238,7 +239,8 @@ class Search {
     found_.errors.search.push_back({setting_of(current_), error(), cpu_s_});
     stalled_ = error_by(source) > 0.7 * before ? stalled_ + 1 : 0;
     if (stalled_ < 3) return true;
-    found_.errors.reason = "the estimate no longer falls, as by round-off or a singularity";
+    found_.errors.reason =
+        "refinement no longer reduces the estimated error, due to round-off or a singularity";
     return false;
   }
 

@@ -26,17 +26,18 @@ double divisor(double reference_solution, double largest, const Scale& scale) {
 std::vector<double> relative_errors(const std::vector<double>& found,
                                     const std::vector<double>& reference_solution,
                                     const Scale& scale, double largest_of_all) {
-  if (found.size() != reference_solution.size()) {
+  if (found.size() != reference_solution.size())
     throw std::runtime_error("expected " + std::to_string(reference_solution.size()) +
-                             " values, as the reference solution has (got " +
+                             " values, the number of the reference solution (got " +
                              std::to_string(found.size()) + ")");
-  }
   const double largest =
       scale.kind == Scale::Kind::largest ? largest_of_all : max_abs(reference_solution);
   std::vector<double> errors;
   for (std::size_t i = 0; i < found.size(); ++i) {
     const double by = divisor(reference_solution[i], largest, scale);
-    if (!(by > 0)) throw std::runtime_error("expected true values other than zero");
+    if (!(by > 0))
+      throw std::runtime_error(
+          "an error relative to zero is undefined; expected true values other than zero");
     errors.push_back((found[i] - reference_solution[i]) / by);
   }
   return errors;
@@ -76,7 +77,7 @@ std::vector<std::optional<ErrorNorms>> output_errors(const CostStudy& study, con
 }
 
 InputError cannot(const Setting& setting, const std::string& what, const std::string& reason) {
-  return setting.document.error("", "expected " + what + " that can be computed: " + reason);
+  return setting.document.error("", what + " cannot be computed: " + reason);
 }
 
 Observations compute_reference_solution(const CostStudy& study, const References& references,
@@ -188,7 +189,7 @@ results::CostStudy describe(const CostStudy& study) {
   if (study.outputs.size() == 1) return out;
   for (const StudyOutput& output : study.outputs)
     out.outputs.push_back({output.title, output.scale_description, {}, {}});
-  out.outputs.push_back({"all at once", "", {}, {}});
+  out.outputs.push_back({"all outputs together", "", {}, {}});
   return out;
 }
 
@@ -235,8 +236,8 @@ std::vector<CostPoint> cost_points(const results::CostStudy& study,
   return points;
 }
 
-results::CostStudy measure(const CostStudy& study, const CostOptions& options,
-                           const References& references) {
+results::CostStudy measure_study(const CostStudy& study, const CostOptions& options,
+                                 const References& references) {
   const Stopwatch watch;
   results::CostStudy measured = describe(study);
   const auto repeats = static_cast<std::size_t>(options.timing.repeats);

@@ -37,8 +37,8 @@ struct CostOptions {
 
 /// Measures a study.
 /// @throws InputError  if the reference solution or the baseline cannot be computed.
-[[nodiscard]] results::CostStudy measure(const CostStudy& study, const CostOptions& options,
-                                         const References& references);
+[[nodiscard]] results::CostStudy measure_study(const CostStudy& study, const CostOptions& options,
+                                               const References& references);
 
 /// Derives times relative to the baseline, the Pareto front and the conclusion from errors and
 /// times.

@@ -29,7 +29,7 @@ std::vector<double> exact_values(const JsonView& place, const std::string& quant
   std::vector<double> values;
   for (const std::size_t i : chosen) {
     if (i >= reference.values.size()) {
-      throw place["reference_index"].error("expected numbers below " +
+      throw place["reference_index"].error("expected indices below " +
                                            std::to_string(reference.values.size()));
     }
     values.push_back(reference.values[i]);
@@ -47,7 +47,7 @@ std::size_t output_number(const JsonView& study, const JsonView& place) {
       ++number;
     }
   }
-  throw place["output"].error("expected one of the study's 'outputs'");
+  throw place["output"].error("expected one of the 'outputs' of the study");
 }
 
 std::vector<ObservedQuantity> read_observed(const JsonView& study, const JsonView& quantities,
@@ -121,7 +121,7 @@ void check_quick(const JsonView& curve) {
   const auto values = curve["values"].get<std::vector<double>>();
   for (const auto& entry : curve["quick_values"].entries()) {
     if (!contains(values, entry.second.get<double>())) {
-      throw entry.second.error("expected one of the curve's values");
+      throw entry.second.error("expected one of the 'values' of this curve");
     }
   }
 }
@@ -139,7 +139,7 @@ std::vector<Setting> read_curve(const JsonView& study, const std::string& name,
   std::vector<Setting> settings;
   if (!curve.has("values")) {
     if (curve.has("pointers") || curve.has("patches"))
-      throw curve.error("expected 'values' with the pointers or patches");
+      throw curve.error("'pointers' and 'patches' require 'values'");
     const bool left_out = extent == SweepExtent::quick && curve.has("quick_values");
     if (left_out) return {};
     setting.document = start;
@@ -164,7 +164,7 @@ std::size_t find_baseline(const JsonView& place, const std::vector<Setting>& set
     return setting.curve == place.text("curve") && same_value;
   });
   if (found == settings.end()) {
-    throw place.error("expected a curve and one of its values, also of 'quick_values'");
+    throw place.error("no setting has this curve and value (see 'quick_values')");
   }
   return static_cast<std::size_t>(found - settings.begin());
 }
@@ -178,7 +178,7 @@ std::pair<Scale, std::string> read_scale(const JsonView& output) {
             "relative to " + shortest(number) + ", " + place->text("why")};
   }
   if (place && place->json() == "largest")
-    return {{Scale::Kind::largest, 0}, "relative to the largest true value of all"};
+    return {{Scale::Kind::largest, 0}, "relative to the largest of all true values"};
   return {{}, "relative to each true value"};
 }
 
@@ -190,7 +190,7 @@ void check_scale(const Scale& scale, std::size_t output, const JsonView& study) 
     if (output_number(study, place) != output) continue;
     if (unit.empty()) unit = unit_of(name);
     if (unit_of(name) != unit)
-      throw place.error("expected quantities of one unit, because of 'scale'");
+      throw place.error("a common 'scale' requires quantities of one unit");
   }
 }
 
@@ -202,7 +202,7 @@ std::vector<StudyOutput> read_outputs(const JsonView& study) {
   };
   const auto several = study.find("outputs");
   if (!several) return {read(study, 0, "")};
-  if (study.has("scale")) throw study["scale"].error("expected it in each of 'outputs'");
+  if (study.has("scale")) throw study["scale"].error("each of 'outputs' requires its scale");
   std::vector<StudyOutput> outputs;
   for (const auto& entry : several->entries())
     outputs.push_back(read(entry.second, outputs.size(), entry.second.text("title")));
@@ -225,7 +225,7 @@ void read_reference_solution(const JsonView& root, CostStudy& study, const Refer
       wanted, [](const ObservedQuantity& entry) { return entry.needs_reference_solution(); });
   if (needed != root.has("reference_solution")) {
     throw root.error(needed ? "expected 'reference_solution', or a reference for each quantity"
-                            : "expected either 'reference_solution' or references, not both");
+                            : "'reference_solution' excludes references of quantities");
   }
   if (!needed) {
     const std::string named = references_of(root["quantities"]);
@@ -283,7 +283,8 @@ const std::vector<double>& values_of(const Quantities& quantities, const std::st
 
 }  // namespace
 
-Observations observe(const Quantities& quantities, const std::vector<ObservedQuantity>& observed) {
+Observations extract_observations(const Quantities& quantities,
+                                  const std::vector<ObservedQuantity>& observed) {
   Observations all;
   for (const ObservedQuantity& entry : observed) {
     std::vector<double> values = values_of(quantities, entry.quantity);

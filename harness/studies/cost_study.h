@@ -36,8 +36,8 @@ using Observations = std::vector<std::vector<double>>;
 /// Extracts the observed quantities.
 /// @throws std::runtime_error  with the name of a quantity that is missing. Also throws for a
 ///     number of entries other than the index or the exact values require.
-[[nodiscard]] Observations observe(const Quantities& quantities,
-                                   const std::vector<ObservedQuantity>& observed);
+[[nodiscard]] Observations extract_observations(const Quantities& quantities,
+                                                const std::vector<ObservedQuantity>& observed);
 
 /// One way of computing: a case or variant with all patches applied.
 struct Setting {

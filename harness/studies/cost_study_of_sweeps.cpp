@@ -94,12 +94,11 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
   const JsonView first = root["sweeps"][wanted.front()];
   std::vector<ObservedQuantity> observed = observed_quantities(
       first.has("quantities")
-          ? named_by_sweep(first["quantities"], references)
-          : named_by_checks(document, comparisons(document, variant, given.variants()),
-                            references));
-  if (observed.empty()) {
-    throw first.error("expected 'quantities' or checks to measure");
-  }
+          ? quantities_of_sweep(first["quantities"], references)
+          : quantities_of_checks(document, comparisons(document, variant, given.variants()),
+                                 references));
+  if (observed.empty())
+    throw first.error("the sweep has no 'quantities', and no check compares one with a reference");
   const bool exact = keep_exact(observed);
   study.reference_description = "the exact values of " + quantities_of(observed);
   for (const std::string& name : wanted) {

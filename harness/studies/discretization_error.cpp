@@ -187,14 +187,14 @@ class ErrorScales {
     const std::size_t size = own_.at(name).values.size();
     const auto time = own_.find("time_s");
     const bool is_series = time != own_.end() && time->second.values.size() == size && size > 1;
-    return change_kind(name) != "frequency" && (size > kMaxEntries || is_series);
+    return quantity_group(name) != "frequency" && (size > kMaxEntries || is_series);
   }
   /// Returns the scale of a quantity's error: the largest value of its kind over the structure. For
   /// a curve, the scale is at least its largest value. Frequencies, load factors and other numbers
   /// are relative to themselves. Those of rigid motions are relative to a small share of the
   /// highest.
   [[nodiscard]] double of(const std::string& name) const {
-    const std::string kind = change_kind(name.starts_with("steady_") ? name.substr(7) : name);
+    const std::string kind = quantity_group(name.starts_with("steady_") ? name.substr(7) : name);
     const double largest = max_abs(own_.at(name).values);
     const auto found = scales_.find(kind);
     if (kind == "frequency" || found == scales_.end())
@@ -360,7 +360,7 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& o
     }
   }
   if (bands.empty() && found.reason.empty() && !is_exact(document))
-    found.reason = "the analysis has neither mesh nor steps";
+    found.reason = "the analysis has neither a mesh nor steps";
   if (bands.empty() && found.reason.empty()) {  // the computation is its own companion
     found.companions = "none: springs, bars and rigid bodies have no mesh";
     bands[ErrorSource::mesh] = error_bands(own, own, ErrorSource::mesh, {document, false, 2, ""});

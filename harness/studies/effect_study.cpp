@@ -131,8 +131,8 @@ bool EffectStudy::is_minimal() const {
 }
 
 EffectStudy study_effects(const Document& document, const EffectStudyOptions& options) {
-  if (!knows_effects(document)) {
-    throw JsonView(document)["analysis"].error("expected an analysis that has effects: " +
+  if (!supports_effects(document)) {
+    throw JsonView(document)["analysis"].error("this analysis does not support effects; expected " +
                                                analyses_with_effects());
   }
   require_fits(document);

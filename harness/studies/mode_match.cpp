@@ -50,7 +50,7 @@ void sample_members(const solver::System& system, const Eigen::VectorXd& u, Plac
 
 std::pair<std::vector<double>, Places> solve_and_sample(const Document& document) {
   const JsonView analysis = JsonView(document)["analysis"];
-  if (!analysis.has("modes")) throw analysis.error("expected 'modes', to match modes by shape");
+  if (!analysis.has("modes")) throw analysis.error("mode shapes require the analysis 'modes'");
   CaseModel case_model = read_case_model(document);
   case_model.effects = choose_effects(document, case_model).chosen;
   const solver::System system = solver::assemble(build_model(case_model, 0), case_model.effects);
@@ -59,7 +59,7 @@ std::pair<std::vector<double>, Places> solve_and_sample(const Document& document
       std::min(system.K.rows(), analysis["modes"]["count"].get<solver::Index>() + kExtraModes);
   const solver::ModalSolution modes = solver::solve_modes(system, options);
   if (!modes.outcome.solved())
-    throw analysis.error("expected modes (" + modes.outcome.reason + ")");
+    throw analysis.error("the modes could not be computed: " + modes.outcome.reason);
   std::pair<std::vector<double>, Places> seen;
   for (solver::Index i = 0; i < modes.frequency.size(); ++i) {
     seen.first.push_back(modes.frequency[i]);

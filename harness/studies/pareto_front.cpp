@@ -40,15 +40,15 @@ std::string alternatives(std::size_t setting, const std::vector<std::size_t>& ti
 /// @param best  the most accurate point
 std::string describe_finest(const CostPoint& first, const std::optional<CostPoint>& fine,
                             const CostPoint& best, const std::vector<std::string>& titles) {
-  if (fine && fine->setting == first.setting) return ", and it reaches 1e-6 at no further cost.";
+  if (fine && fine->setting == first.setting) return ", and its error is at most 1e-6 as well.";
   if (fine) {
-    return fmt::format("; 1e-6 takes '{}' and {} times as long.", titles[fine->setting],
-                       times(fine->time / first.time));
+    return fmt::format("; an error of 1e-6 requires '{}' and {} times this time.",
+                       titles[fine->setting], times(fine->time / first.time));
   }
   if (best.setting == first.setting) {
-    return fmt::format("; no setting is more accurate than its {}.", error_text(best.error));
+    return fmt::format("; its error, {}, is the smallest of all settings.", error_text(best.error));
   }
-  return fmt::format("; no setting reaches 1e-6, the best is '{}', off by {}, {} times as long.",
+  return fmt::format("; the smallest error is that of '{}', {}, which takes {} times as long.",
                      titles[best.setting], error_text(best.error), times(best.time / first.time));
 }
 
@@ -140,18 +140,18 @@ std::string describe_pareto_front(const std::vector<CostPoint>& points,
   const CostPoint& best = front.back();
   const auto first = cheapest(points, 0.01);
   if (!first) {
-    return fmt::format("No setting comes within 1 %: the best, '{}', is off by {}.",
+    return fmt::format("All errors exceed 1 %: the smallest is that of '{}', {}.",
                        titles[best.setting], error_text(best.error));
   }
   const std::vector<std::size_t> tied = tied_settings(points, 0.01);
-  std::string text =
-      fmt::format("Within 1 %, {} is cheapest{}", alternatives(first->setting, tied, titles),
-                  tied.empty() ? "" : " (times that are indistinguishable)");
+  std::string text = fmt::format("For an error of at most 1 %, {} is the fastest setting{}",
+                                 alternatives(first->setting, tied, titles),
+                                 tied.empty() ? "" : " (their times do not differ significantly)");
   const bool as_quick = std::abs(std::log(first->time)) <= std::log1p(kParetoTolerance);
   if (as_quick && first->setting != baseline)
-    text += fmt::format(", as quick as '{}'", titles[baseline]);
+    text += fmt::format(", taking as long as '{}'", titles[baseline]);
   if (!as_quick)
-    text += fmt::format(", at {} times the time of '{}'", times(first->time), titles[baseline]);
+    text += fmt::format(", taking {} times as long as '{}'", times(first->time), titles[baseline]);
   return text + describe_finest(*first, cheapest(points, 1e-6), best, titles);
 }
 

@@ -23,7 +23,7 @@ SandboxedRun compute(const Setting& setting, const References& references) {
       run.reason = result.outcome.reason.empty() ? "no solution" : result.outcome.reason;
       return run;
     }
-    run.values = observe(result.quantities, setting.observed);
+    run.values = extract_observations(result.quantities, setting.observed);
     for (const auto& [name, quantity] : result.quantities)
       if (setting.observed.empty()) run.quantities[name] = quantity.values;
     run.termination = SandboxedRun::Termination::solved;

@@ -80,7 +80,7 @@ std::vector<UncertainInput> read_inputs(const JsonView& place, const References&
     input.name = name;
     input.nominal = entry.get("nominal", false);
     if (entry.has("half_width") == entry.has("reference")) {
-      throw entry.error("expected either 'half_width' or 'reference'");
+      throw entry.error("expected exactly one of 'half_width' and 'reference'");
     }
     if (entry.has("reference")) {
       const references::Reference& reference = references.get(entry["reference"]);
@@ -202,7 +202,7 @@ class ValidationStudy {
     const Variation all = vary(true);
     const auto found = uncertainty_by_derivatives(all.response, all.half_widths);
     if (!found)
-      throw stated_["inputs"].error("expected inputs about which the model can be solved");
+      throw stated_["inputs"].error("the model has no solution near the values of these inputs");
     for (std::size_t i = 0; i < places_.size(); ++i) {
       Comparison& entry = study_.comparisons[i];
       double square = 0, literal = 0, largest = 0;

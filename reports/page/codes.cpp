@@ -80,7 +80,7 @@ const Check* shown_check(const Row& row) {
                       tolerance_share(check));
   };
   for (const Run* run : row.runs) {
-    const Check* check = run == nullptr ? nullptr : telling_check(*run);
+    const Check* check = run == nullptr ? nullptr : decisive_check(*run);
     if (check != nullptr && (shown == nullptr || rank(*check) > rank(*shown))) shown = check;
   }
   return shown;
@@ -96,7 +96,7 @@ std::pair<const char*, const char*> mark(Grade grade) {
 std::string status_text(const Run& run, Grade grade, const Check* here) {
   if (grade != Grade::off) return to_string(grade);
   if (here != nullptr && here->verdict == Verdict::fail) return "off by";
-  const Check* check = telling_check(run);
+  const Check* check = decisive_check(run);
   return check == nullptr ? "off" : "off in " + check_title(*check);
 }
 

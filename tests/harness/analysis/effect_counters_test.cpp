@@ -44,10 +44,10 @@ BOOST_AUTO_TEST_CASE(inactive_effects_are_never_evaluated) {
   const References references;
   std::size_t runs = 0;
   for (const Case& given : Catalogue().load()) {
-    if (!knows_effects(given.document)) continue;
+    if (!supports_effects(given.document)) continue;
     for (const std::string& variant : given.variants()) {
       const Document document = at_one_point(patched(given, variant));
-      if (!knows_effects(document)) continue;
+      if (!supports_effects(document)) continue;
       // Long motions without inactive effects would take minutes and test nothing.
       const std::string kind = analysis_kind(document);
       const bool moves = kind == "transient" || kind == "harmonic" || kind == "large-motion";

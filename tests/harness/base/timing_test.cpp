@@ -17,10 +17,10 @@ BOOST_AUTO_TEST_CASE(quantiles_lie_between_the_sorted_values) {
 
 BOOST_AUTO_TEST_CASE(shuffled_order_is_reproducible_for_a_seed) {
   std::uint64_t a = 1, b = 1, c = 2;
-  const auto first = shuffled(20, a), second = shuffled(20, a);
+  const auto first = shuffle_indices(20, a), second = shuffle_indices(20, a);
   BOOST_TEST((first != second));
-  BOOST_TEST((first == shuffled(20, b)));
-  BOOST_TEST((first != shuffled(20, c)));
+  BOOST_TEST((first == shuffle_indices(20, b)));
+  BOOST_TEST((first != shuffle_indices(20, c)));
   auto sorted = first;
   std::sort(sorted.begin(), sorted.end());
   for (std::size_t i = 0; i < sorted.size(); ++i) BOOST_TEST(sorted[i] == i);

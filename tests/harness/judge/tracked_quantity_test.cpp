@@ -23,9 +23,9 @@ BOOST_AUTO_TEST_CASE(each_statistic_of_a_quantity_is_tracked_separately) {
   add_check("whole", "");
   const Document document = patched(testing::read(folder, json), "base");
   const std::vector<TrackedQuantity> tracked =
-      named_by_checks(document, read_checks(document, "base", {"base"}), References());
+      quantities_of_checks(document, read_checks(document, "base", {"base"}), References());
   BOOST_TEST(tracked.size() == 3U);
-  BOOST_TEST(named_by_checks(document, {}, References()).empty());
+  BOOST_TEST(quantities_of_checks(document, {}, References()).empty());
 }
 
 BOOST_AUTO_TEST_CASE(result_of_another_code_is_not_an_exact_value) {
@@ -38,7 +38,7 @@ BOOST_AUTO_TEST_CASE(result_of_another_code_is_not_an_exact_value) {
     const Document document = patched(testing::read(folder, json), "base");
     const References references;
     const auto found =
-        named_by_checks(document, read_checks(document, "base", {"base"}), references);
+        quantities_of_checks(document, read_checks(document, "base", {"base"}), references);
     return found.at(0).reference != nullptr;
   };
   BOOST_TEST(!tracked());

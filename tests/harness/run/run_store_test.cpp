@@ -190,7 +190,7 @@ BOOST_AUTO_TEST_CASE(unchanged_scenes_of_effects_are_measured_once) {
   Json json = testing::cantilever();
   const auto scenes = [&](bool resume) {
     const Case given = testing::read(folder, json);
-    return scenes_or_find(given.document, measure, folder.path() / "store", resume);
+    return cached_scenes(given.document, measure, folder.path() / "store", resume);
   };
   (void)scenes(true);
   const EffectScenes again = scenes(true);
@@ -215,7 +215,7 @@ BOOST_AUTO_TEST_CASE(entries_unused_for_a_month_are_removed) {
         file, std::filesystem::file_time_type::clock::now() - std::chrono::days(31));
   }
   BOOST_TEST(find_stored(used, computation));
-  drop_unused(folder.path());
+  remove_unused_files(folder.path());
   BOOST_TEST(!std::filesystem::exists(old));
   BOOST_TEST(std::filesystem::exists(used));
   BOOST_TEST(std::filesystem::exists(other));

@@ -64,10 +64,10 @@ void change(const fs::path& folder, const char* key, const Json& value) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(shard_is_read_from_k_of_n) {
-  BOOST_TEST(shard_from("2/8").number == 2U);
-  BOOST_TEST(shard_from("8/8").count == 8U);
+  BOOST_TEST(parse_shard("2/8").number == 2U);
+  BOOST_TEST(parse_shard("8/8").count == 8U);
   for (const char* bad : {"", "2", "0/3", "4/3", "1/100001", "-1/3", "1/3 ", "1/", "/3", "a/b"})
-    BOOST_TEST(contains(complaint([&] { (void)shard_from(bad); }), "expected K/N"), bad);
+    BOOST_TEST(contains(complaint([&] { (void)parse_shard(bad); }), "expected K/N"), bad);
 }
 
 BOOST_AUTO_TEST_CASE(merged_shards_equal_a_run_in_one) {

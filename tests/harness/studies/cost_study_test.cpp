@@ -133,17 +133,17 @@ BOOST_AUTO_TEST_CASE(observed_values_are_chosen_added_and_condensed) {
   ObservedQuantity one;
   one.quantity = "displacement_x_m:P";
   one.addend = "pose_x_m";
-  BOOST_TEST(observe(quantities, {one})[0] == (std::vector<double>{1.1, 2.2, 2.4}),
+  BOOST_TEST(extract_observations(quantities, {one})[0] == (std::vector<double>{1.1, 2.2, 2.4}),
              boost::test_tools::per_element());
   one.index = {0, 2};
-  BOOST_TEST(observe(quantities, {one})[0] == (std::vector<double>{1.1, 2.4}),
+  BOOST_TEST(extract_observations(quantities, {one})[0] == (std::vector<double>{1.1, 2.4}),
              boost::test_tools::per_element());
   one.addend = "";
   one.statistic = "max_abs";
-  BOOST_TEST(observe(quantities, {one})[0][0] == 0.6);
+  BOOST_TEST(extract_observations(quantities, {one})[0][0] == 0.6);
   const auto said = [&](const ObservedQuantity& observed) {
     try {
-      (void)observe(quantities, {observed});
+      (void)extract_observations(quantities, {observed});
     } catch (const std::runtime_error& error) {
       return std::string(error.what());
     }

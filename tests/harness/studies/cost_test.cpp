@@ -41,8 +41,8 @@ results::CostStudy measured(const Json& json) {
   const References references;
   CostOptions options;
   options.timing.shortest_s = 0;
-  return measure(load_cost_study(folder.write(json), SweepExtent::full, references), options,
-                 references);
+  return measure_study(load_cost_study(folder.write(json), SweepExtent::full, references), options,
+                       references);
 }
 
 }  // namespace
