@@ -59,8 +59,8 @@ std::vector<double> pick(const std::vector<double>& values, const std::vector<st
   std::vector<double> picked;
   for (const std::size_t i : index) {
     if (i >= values.size())
-      throw NotComparable{fmt::format("there is no index {} in {}, which has {} entries", i, source,
-                                      values.size())};
+      throw NotComparable{
+          fmt::format("index {} is outside of {}, which has {} entries", i, source, values.size())};
     picked.push_back(values[i]);
   }
   return picked;
@@ -76,8 +76,8 @@ struct ComparedValues {
 void require_unit(const std::string& quantity, const std::string& unit, const std::string& whose) {
   const std::string unit_found = unit_of(quantity);
   if (unit_found != unit)
-    throw NotComparable{
-        fmt::format("units differ: {} is in {}, {} is in {}", quantity, unit_found, whose, unit)};
+    throw NotComparable{fmt::format("units differ: the unit of {} is {}, that of {} is {}",
+                                    quantity, unit_found, whose, unit)};
 }
 
 void pair_with_reference(const Check& check, const CheckContext& context, ComparedValues& pairs) {
@@ -94,8 +94,7 @@ void pair_with_run(const Check& check, const CheckContext& context, ComparedValu
   if (!check.against_variant.empty()) {
     other = context.variant(check.against_variant);
     where = " in variant '" + check.against_variant + "'";
-    if (other == nullptr)
-      throw NotComparable{"there is no solution" + where + " for the comparison", true};
+    if (other == nullptr) throw NotComparable{"no solution" + where + " to compare with", true};
   }
   const std::string name = check.against_quantity.empty() ? check.quantity : check.against_quantity;
   require_unit(check.quantity, unit_of(name), name);
@@ -128,7 +127,7 @@ std::string outside(const Check& check, double value, const Window& window) {
   const std::string where = fmt::format("{} is outside of [{}, {}]", shortest(value),
                                         shortest(window.low), shortest(window.high));
   if (check.expectation == Expectation::known_discrepancy) {
-    return "the difference is no longer in its recorded range: " + where;
+    return "the difference left its recorded range: " + where;
   }
   if (check.role == Role::validation) return "no longer agrees within the recorded range: " + where;
   return where;
@@ -177,7 +176,7 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
   const double scale = check.measure == Measure::relative ? std::abs(expected) : 1;
   if (check.role == Role::verification && check.symmetric && uncertainty > window->high * scale) {
     entry.message = "the uncertainty of the reference is +-" + shortest(uncertainty) +
-                    ", which exceeds the tolerance";
+                    ", which is more than the tolerance";
     return;
   }
   const bool holds = window->contains(value);

@@ -60,7 +60,7 @@ class OrderCheckEvaluator {
   /// Reports the reason if the levels are insufficient for a judgment.
   bool lacks_asymptotic_range(CheckResult& check_result) const {
     if (found_.broken) {
-      check_result.message = "a level after the first finite one has no finite value";
+      check_result.message = "a refined level has no finite value";
     } else if (!found_.exact) {
       check_result.message = "errors require an exact value, which is missing";
     } else if (meshes_ < criterion_.meshes) {
@@ -114,7 +114,7 @@ class OrderCheckEvaluator {
     const double theory = *found_.theory_order;
     const std::optional<double> fitted = log_log_slope(found_.size, found_.error, qualifies_);
     if (!fitted) {
-      check_result.message = "an order requires two qualifying meshes, but fewer qualify";
+      check_result.message = "fewer than two meshes qualify";
       return check_result;
     }
     check_result.computed = *fitted;
@@ -212,7 +212,7 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
         series.exact != entry_of(find_reference(context, check.pointer + "/reference"),
                                  check.reference_index, position)) {
       all.push_back(failed_check_result(
-          check, fmt::format("the sweep computes errors against {}, the check against {}",
+          check, fmt::format("the refinement's errors are taken against {}, not against {}",
                              series.reference.empty() ? "no reference" : series.reference,
                              check.reference)));
       all.back().index = series.index;
@@ -236,7 +236,7 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
   const std::size_t wanted = std::max<std::size_t>(1, check.index.size());
   if (position < wanted) {
     all.push_back(failed_check_result(
-        check, fmt::format("the sweep '{}' records {} entries of {}, the check judges {}",
+        check, fmt::format("the sweep '{}' records {} entries of {}, {} are judged",
                            criterion.sweep, position, check.quantity, wanted)));
   }
   std::ranges::stable_sort(

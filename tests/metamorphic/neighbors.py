@@ -302,7 +302,7 @@ def collisions():
     ):
         model = {"materials": STEEL, "sections": BAR, "nodes": nodes, "members": members, "supports": held} | other
         yield Neighbor(
-            "names that collide", ", ".join(members), model, {"statics": {}}, "refusal", "two parts are called"
+            "names that collide", ", ".join(members), model, {"statics": {}}, "refusal", "two parts have the name"
         )
 
 

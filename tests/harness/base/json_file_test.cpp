@@ -42,13 +42,13 @@ BOOST_AUTO_TEST_CASE(duplicate_key_is_refused_with_its_pointer) {
 
 BOOST_AUTO_TEST_CASE(number_beyond_the_range_of_double_is_refused) {
   BOOST_TEST(fault(R"({"a": [1, 1e999]})") ==
-             "x.json: /a/1: expected a number that a double can hold (got '1e999')");
+             "x.json: /a/1: expected a number within the range of a double (got '1e999')");
 }
 
 BOOST_AUTO_TEST_CASE(number_that_underflows_to_zero_is_refused) {
   for (const std::string number : {"1e-400", "-1e-400", "0.001e-330", "2E-324", "1.0e-9999"}) {
     BOOST_TEST(fault(R"({"a": [1, )" + number + "]}") ==
-               "x.json: /a/1: expected 0 or a number that a double does not round to 0 (got '" +
+               "x.json: /a/1: expected 0 or a number that is not rounded to 0 as a double (got '" +
                    number + "')");
   }
   for (const std::string number : {"0", "0.0", "-0.0", "0e-400", "5e-324", "1e-300"})
@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(written_json_reads_back_bit_identical) {
 BOOST_AUTO_TEST_CASE(text_after_a_null_character_is_refused) {
   const std::string text("{}\0 and more", 12);
   BOOST_CHECK_EXCEPTION((void)parse_json(text, "a.json"), InputError, [](const InputError& error) {
-    return testing::contains(error.what(), "a.json: expected the end of the JSON (got '\\u0000'");
+    return testing::contains(error.what(), "a.json: expected no null character (got '\\u0000'");
   });
 }
 

@@ -125,36 +125,36 @@ const Refusal kRefusals[] = {
     {"run holds.json --variant none", "/variants: expected the name of a variant (got 'none')"},
     {"run holds.json --variant bse", "(got 'bse'); did you mean 'base'?"},
     {"run holds.json --out holds.json/x", "--out holds.json/x: expected a writable folder"},
-    {"run holds.json", "TRAMMEL_HOME: expected a folder with cases/schema",
+    {"run holds.json", "TRAMMEL_HOME: expected a folder that contains cases/schema",
      "TRAMMEL_HOME=/nonexistent"},
     {"run holds.json", "expected a standard output that can be written",
      "sh -c 'exec \"$@\" >&-' sh"},
     {"run invalid.json", "invalid.json: /model/elements: expected a whole number at least 1"},
     {"effects refused.json", "refused.json: /model/manipulator: "},
     {"quantities refused.json", "refused.json: /model/manipulator: "},
-    {"list -L beam -L hard -L grnn", "expected labels that a case of the catalogue has together"},
+    {"list -L beam -L hard -L grnn", "no case of the catalogue has this combination of labels"},
     {"list -L nolabel", "expected a label of the catalogue (got 'nolabel')"},
     {"describe", "case is required (see trammel describe --help)"},
     {"describe twofold.json",
      "/checks/c/tolerance: expected exactly one of 'absolute' or 'relative'"},
     {"compare a", "expected a case of the catalogue or a file (got 'a')"},
-    {"compare results", "expected two results (got one)"},
-    {"compare holds.json:base", "expected two sides (got one: it has no variants)"},
+    {"compare results", "expected at least two results files (got one)"},
+    {"compare holds.json:base", "expected at least two variants or cases (got one"},
     {"compare results none.json", "none.json: expected a readable file"},
-    {"compare results other.json", "other.json: /a: expected no key of that name"},
-    {"compare results holds.json", "expected either variants or results (got both)"},
+    {"compare results other.json", "other.json: /a: unknown key"},
+    {"compare results holds.json", "expected either cases or results files (got both)"},
     {"converge holds.json", "holds.json: /: expected 'sweeps', which define the refinement"},
     {"cost mods",
      "expected a family or study of cases/cost, a case or a file (got 'mods'); did "
      "you mean 'modes'?"},
     {"cost unjudged.json", "unjudged.json: /: expected 'sweeps', which define the refinement"},
     {"cost unjudged.json --sweep none", "unjudged.json: /: expected 'sweeps'"},
-    {"cost modes --sweep elements", "--sweep and --variant: a case is required"},
+    {"cost modes --sweep elements", "--sweep and --variant apply to cases only"},
     {"cost modes --repeats 6", "--repeats requires at least 7 measurements (got 6)"},
     {"cost modes --out page", "PATH: expected a folder with gnuplot", "PATH=/nonexistent"},
     {"report holds.json --out page", "PATH: expected a folder with gnuplot", "PATH=/nonexistent"},
-    {"certify unjudged.json", "expected cases with checks"},
-    {"paper other.json", "other.json: /a: expected no key of that name"},
+    {"certify unjudged.json", "no selected case has a check"},
+    {"paper other.json", "other.json: /a: unknown key"},
     {"effects --repeats 0 --out page", "either cases or --label is required"},
     {"references tabel-2-ansys", "did you mean 'table-2-ansys'?"}};
 
@@ -188,7 +188,7 @@ const std::vector<Call> kCalls = {
     {"run modes.json", 1, {"(known here: degrees_of_freedom,"}},
     {"run lost.json",
      2,
-     {"expected the name of a reference", "looked for in", "references/values"},
+     {"expected the name of a reference", "which is not in", "references/values"},
      "err"},
     {"run refused.json", 2, {"refused.json: /model/manipulator: "}, "err"},
     {"run drive.json", 2, {": /analysis/large-motion/drives/motor: "}, "err"},
@@ -287,8 +287,8 @@ BOOST_AUTO_TEST_CASE(second_call_into_one_folder_is_refused) {
     const Outcome second = run(folder, words, held);
     BOOST_TEST(second.status == 2, words);
     BOOST_TEST(contains(second.err,
-                        "--out out: expected a folder that no other call writes "
-                        "(process 4711 does)"),
+                        "--out out: another call of trammel writes to this folder "
+                        "(process 4711)"),
                second.err);
   }
   BOOST_TEST(run(folder, "run cantilever.json --out out").status == 0);
@@ -305,7 +305,7 @@ BOOST_AUTO_TEST_CASE(lock_that_is_a_pipe_and_linked_store_are_refused) {
     return run(folder, "run cantilever.json --out out", before + " && timeout 20").err;
   };
   BOOST_TEST(message("mkdir out && mkfifo out/.trammel-lock") ==
-             "--out out: expected a file in the place of its lock\n");
+             "--out out: .trammel-lock is not a regular file\n");
   BOOST_TEST(message("rm out/.trammel-lock && mkdir mine && ln -s ../mine out/store") ==
              "--out out: expected no link named 'store' (--store follows one)\n");
 }
@@ -477,7 +477,8 @@ BOOST_AUTO_TEST_CASE(case_is_certified_over_ways_of_rounding) {
   const Outcome stale = run(folder, "certify cantilever-tip-force --results other");
   BOOST_TEST(stale.status == 2);
   BOOST_TEST(contains(stale.err,
-                      "other/results.json: /cases/cantilever-tip-force/hash: expected results of"),
+                      "other/results.json: /cases/cantilever-tip-force/hash: the results belong to "
+                      "another version"),
              stale.err);
 }
 

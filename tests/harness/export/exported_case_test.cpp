@@ -169,17 +169,17 @@ BOOST_AUTO_TEST_CASE(inexpressible_parts_are_refused_by_name) {
   moving["model"].erase("pose");
   moving["model"]["trajectory"]["circle"] = {
       {"center_m", {0.25, 0.144}}, {"radius_m", 0.02}, {"points", 3}, {"step_s", 0.1}};
-  BOOST_TEST(contains(refusal_of(moving), "/model/trajectory: expected one pose"));
+  BOOST_TEST(contains(refusal_of(moving), "/model/trajectory: a trajectory cannot be exported"));
   moving["analysis"] = {{"grnn", {{"sigma", 1}}}};
-  BOOST_TEST(contains(refusal_of(moving), "/analysis/grnn: grnn is not exported"));
+  BOOST_TEST(contains(refusal_of(moving), "/analysis/grnn: the analysis grnn cannot be exported"));
   Json properties = cantilever();
   properties["analysis"] = {{"properties", Json::object()}};
-  BOOST_TEST(contains(refusal_of(properties), "/analysis/properties: properties is not exported"));
+  BOOST_TEST(contains(refusal_of(properties), "the analysis properties cannot be exported"));
   Json ring = quarter_ring();
   ring["checks"]["sum"] = {{"quantity", "reaction_y_N:bottom"},
                            {"role", "regression"},
                            {"bound", {{"at_least", 0}, {"why", "it presses"}}}};
-  BOOST_TEST(contains(refusal_of(ring), "'reaction_y_N:bottom' is of an edge"));
+  BOOST_TEST(contains(refusal_of(ring), "'reaction_y_N:bottom', which is an edge"));
 }
 
 BOOST_AUTO_TEST_CASE(network_with_its_own_samples_is_exported_without_model) {

@@ -33,7 +33,7 @@ std::ostream& operator<<(std::ostream& out, const Refusal& refusal) {
 
 const Refusal kRefusals[] = {
     {"/model/manipulator/material/E_pa", "1",
-     "/model/manipulator/material/E_pa: expected no key of that name; did you mean 'E_Pa'?"},
+     "/model/manipulator/material/E_pa: unknown key; did you mean 'E_Pa'?"},
     {"/modle", "{}", "did you mean 'model'?"},
     {"/model/manipulator/links/thicknes_m", "1", "did you mean 'thickness_m'?"},
     {"/model/manipulator/qqqq", "1", "known here: 'base_m'"},

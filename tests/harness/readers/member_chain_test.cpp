@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(parts_with_one_name_are_refused_with_their_pointer) {
                                       {"section", json["model"]["members"]["AB"]["section"]}};
     const auto read = [&] { return read_case_model(document_of(json)); };
     BOOST_TEST(contains(complaint(read), "/model/members/"), name);
-    BOOST_TEST(contains(complaint(read), "two parts are called"), name);
+    BOOST_TEST(contains(complaint(read), "two parts have the name"), name);
   }
 }
 

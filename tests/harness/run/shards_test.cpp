@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(incomplete_and_inconsistent_shards_are_refused) {
   BOOST_TEST(said(folders) == "");
   BOOST_TEST(contains(said({folders[0]}), "missing: 2"));
   BOOST_TEST(contains(said({folders[0], folders[0], folders[1]}), "each shard once"));
-  BOOST_TEST(contains(said({folders[0], folder.path()}), "that is done"));
+  BOOST_TEST(contains(said({folders[0], folder.path()}), "of a finished shard"));
   const std::string second = read_text(folders[1] / kShardFile);
   const auto said_with = [&](const char* key, const Json& value) {
     change(folders[1], key, value);
@@ -105,8 +105,8 @@ BOOST_AUTO_TEST_CASE(incomplete_and_inconsistent_shards_are_refused) {
     return line;
   };
   BOOST_TEST(contains(said_with("program", "another"), "expected this program"));
-  BOOST_TEST(contains(said_with("of", 3), "/of: expected what"));
-  BOOST_TEST(contains(said_with("selection", "all"), "/selection: expected what"));
+  BOOST_TEST(contains(said_with("of", 3), "/of: expected the same value"));
+  BOOST_TEST(contains(said_with("selection", "all"), "/selection: expected the same value"));
   BOOST_TEST(contains(said_with("shard", 0), "/shard: expected a positive number"));
   BOOST_TEST(contains(said_with("computations", Json::array()), "in all shards (got"));
   const Json names = read_json(folders[0] / kShardFile)["computations"];

@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(copy_without_its_store_reports_what_is_missing) {
   fs::create_directories(folder.path() / "copy");
   fs::copy(file, folder.path() / "copy");
   const results::Results copy = load_results(folder.path() / "copy/results.json");
-  BOOST_TEST(contains(copy.missing, "2 of 2 runs are without series"), copy.missing);
+  BOOST_TEST(contains(copy.missing, "2 of 2 runs have no series"), copy.missing);
   BOOST_TEST(copy.runs[0].checks.at(0).why == "it is short");
   BOOST_TEST(copy.runs[0].quantity("displacement_y_m:B") != nullptr);
 }

@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(quick_sweep_has_quick_values_and_their_baseline) {
   Json json = study_json();
   json["baseline"]["value"] = 8;
   BOOST_TEST(fault_of(json) == "");
-  BOOST_TEST(contains(fault_of(json, SweepExtent::quick), "/baseline: expected a curve"));
+  BOOST_TEST(contains(fault_of(json, SweepExtent::quick), "/baseline: no setting has this curve"));
 }
 
 BOOST_AUTO_TEST_CASE(invalid_studies_are_refused_with_their_pointer) {
@@ -89,10 +89,10 @@ BOOST_AUTO_TEST_CASE(invalid_studies_are_refused_with_their_pointer) {
   BOOST_TEST(contains(spoiled("/curves/consistent/quick_values/0", 3),
                       "/curves/consistent/quick_values/0"));
   BOOST_TEST(contains(spoiled("/curves/lumped/patches", Json::parse("[{}]")),
-                      "expected either 'pointers' or 'patches'"));
+                      "expected exactly one of 'pointers' and 'patches'"));
   BOOST_TEST(contains(spoiled("/baseline/curve", "none"), "/baseline"));
   BOOST_TEST(contains(spoiled("/quantities/frequency_Hz/reference", "cantilever-frequencies"),
-                      "expected either 'reference_solution' or references"));
+                      "'reference_solution' excludes references"));
   BOOST_TEST(contains(spoiled("/patch/model", {{"elemnts", 3}}), "elemnts"));
   Json json = study_json();
   json.erase("reference_solution");
@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(each_output_has_a_scale_and_quantities) {
   BOOST_TEST(contains(fault_of(spoiled), "/quantities/degrees_of_freedom/output: expected one of"));
   spoiled = json;
   spoiled["scale"] = "largest";
-  BOOST_TEST(contains(fault_of(spoiled), "/scale: expected it in each of 'outputs'"));
+  BOOST_TEST(contains(fault_of(spoiled), "/scale: each of 'outputs' requires its scale"));
   // A curve may lack the second output, but not the first.
   spoiled = json;
   spoiled["curves"]["lumped"]["quantities"] = {{"frequency_Hz", {{"index", {0, 1}}}}};
