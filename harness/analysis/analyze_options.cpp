@@ -143,7 +143,7 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
       if (!first) {
         first = std::move(result);
       } else if (result.outcome.status != first->outcome.status) {
-        // finite, because infinite numbers are not recorded
+        // largest finite number, because infinite numbers are not recorded
         disagree(std::numeric_limits<double>::max(), counts);
       } else {
         disagree(max_relative_difference(first->quantities, result.quantities), counts);

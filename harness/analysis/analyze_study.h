@@ -5,7 +5,7 @@
 
 namespace trammel::harness {
 
-/// Runs another analysis at each value of a parameter. Every kept quantity has one number per
+/// Runs another analysis at each value of a parameter. Every recorded quantity has one number per
 /// value.
 AnalyseCase analyze_study;
 

@@ -48,7 +48,7 @@ const char* describe_missing(Effect effect, const EffectScope& scope, const Effe
 }
 
 /// Builds one row per effect.
-/// @param reason  reason of the effects that are neither missing nor required
+/// @param reason  reason for the state of effects that are applicable but not required
 std::vector<results::EffectRow> effect_rows(const EffectScope& scope, Effects chosen,
                                             const EffectRules& rules, const std::string& reason) {
   std::vector<results::EffectRow> rows;

@@ -10,7 +10,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns the y component that belongs to an x component; null for any other quantity.
+/// Returns the y component of a vector, given the name of its x component; else null.
 const Quantity* second_component(const Quantities& all, const std::string& name) {
   const std::size_t place = name.find("_x_");
   if (place == std::string::npos) return nullptr;

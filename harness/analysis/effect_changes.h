@@ -12,8 +12,8 @@ namespace trammel::harness {
 /// Returns the distance between the end nodes of a member [m].
 [[nodiscard]] double member_length(const solver::Model& model, const solver::Member& member);
 
-/// Scales of the quantities of a model. They bound the round-off error of a kind whose observed
-/// values are all round-off. Zero if unknown.
+/// Magnitudes that loads and stiffness of a model imply. They bound the round-off error of a group
+/// of quantities whose values are all zero up to round-off. Zero if unknown.
 struct ModelScales {
   double length = 0;        ///< diameter of the nodes about their mean, independent of the axes [m]
   double force = 0;         ///< sum of the magnitudes of all loads, moments over the length [N]
@@ -22,8 +22,8 @@ struct ModelScales {
 };
 [[nodiscard]] ModelScales scales_of(const solver::Model& model);
 
-/// Returns the scale of the changes of each kind: its largest value, but at least the round-off
-/// error that forces and displacements of the model cause in it.
+/// Returns the scale of the changes of each group of quantities: its largest value, but at least
+/// the round-off error that forces and displacements of the model cause.
 [[nodiscard]] std::map<std::string, double> change_scales(const Quantities& full,
                                                           const ModelScales& model);
 /// Largest change of each kind of quantity. "displacement", "rotation", "force", "moment" and
@@ -36,7 +36,8 @@ using Changes = std::map<std::string, LargestDifference>;
                                       const ModelScales& model);
 [[nodiscard]] LargestDifference max_change(const Changes& changes);
 
-/// Returns the kind that a quantity is compared within; empty if it is not compared.
+/// Returns the group of quantities that share a scale with this quantity, such as "displacement" or
+/// "force"; empty if changes of the quantity are not compared.
 [[nodiscard]] std::string quantity_group(const std::string& quantity);
 
 }  // namespace trammel::harness

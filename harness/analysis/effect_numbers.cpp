@@ -69,7 +69,8 @@ ResponseScale response_scale(const std::string& analysis_name, const JsonView& a
 }
 
 EffectNumbers effect_numbers(const solver::Model& model, const ResponseScale& scale) {
-  /// Ratios of changes to these numbers, which cover nearly all random scenes of the tests.
+  /// Ratios of the change of the results to the dimensionless numbers of platform and joints. They
+  /// bound the changes of nearly all random scenes of the tests.
   constexpr double kOfPlatform = 17, kOfJoint = 3;
   /// A cantilever buckles at a quarter of pi^2 E I / L^2. The relative change of a frequency is
   /// half that of the stiffness.

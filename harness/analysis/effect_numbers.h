@@ -14,7 +14,7 @@ struct ResponseScale {
   double half_waves = 1;  ///< per member
   /// Phase angle of the vibration over which a relative change of a frequency accumulates [rad].
   double phase = 1;
-  double platform = 1;         ///< the same for a change by the platform
+  double platform = 1;         ///< phase angle for a change of the platform's stiffness [rad]
   bool loads_stiffen = false;  ///< true if the axial forces of loads change the stiffness
 };
 

@@ -38,7 +38,7 @@ struct EffectScope {
 struct EffectRules {
   std::vector<EffectKey> (*keys)(const JsonView& analysis);
   EffectScope (*scope)(const JsonView& analysis, const solver::Model& model);
-  std::size_t column;  ///< in the table of reasons
+  std::size_t column;  ///< column of the analysis in the table of reasons for absent effects
 
   /// Reason for the absence of an effect in a scene.
   [[nodiscard]] const char* describe_missing(solver::Effect effect) const;

@@ -25,8 +25,8 @@ using solver::Effects;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Safety factors for changes that a coarse model measures: shares of the remaining tolerance that
-/// they may reach. The second applies near the buckling load, where a coarse mesh is less accurate.
+/// Largest fraction of the remaining tolerance that a change measured on a coarse model may use.
+/// The second applies near the buckling load, where a coarse mesh is less accurate.
 constexpr double kForCoarseModel = 0.95, kForSecondOrder = 0.8;
 
 class Selector {
@@ -68,8 +68,8 @@ class Selector {
     return selection_.chosen.has(effect) && !scope_.required.has(effect);
   }
 
-  /// Removes an effect if `change` from `full` is within the given share of the remaining
-  /// tolerance.
+  /// Removes an effect from the set `full` if the resulting `change` is at most the given share of
+  /// the remaining tolerance.
   bool try_without(Effect effect, Effects full, double change, double share, bool is_measured) {
     EffectEvidence& evidence = selection_.of(effect);
     evidence.is_measured = is_measured;
@@ -288,7 +288,7 @@ class Selector {
   /// Selects inertia by the frequency of the path, and large displacement by equilibria of the
   /// coarse model at the extremes of the motion.
   void select_in_motion() {
-    /// Change above which the numbers of linear theory are meaningless.
+    /// Relative change by large displacement above which linear theory is meaningless.
     constexpr double kLost = 0.5;
     CoarseScene coarse(kind_, analysis_, scene_, 1);
     select_inertia(coarse);
@@ -302,7 +302,7 @@ class Selector {
         selection_.chosen = scope_.applicable;
       }
     }
-    // With large displacement, these terms have no additional cost.
+    // With large displacement, gyroscopic terms have no additional cost.
     if (!selection_.chosen.has(Effect::large_displacement) &&
         selection_.chosen.has(Effect::inertia)) {
       measure_without(coarse, Effect::gyroscopic);

@@ -35,7 +35,7 @@ struct EffectSelection {
   double change = 0;  ///< from all effects to the chosen set: sum of measurements and bounds
   /// Relative change by large displacement if the analysis cannot compute that effect.
   std::optional<double> beyond_tier;
-  double work = 0;  ///< of the selection, see `work_of` of coarse_scene.h
+  double work = 0;  ///< work of the selection, as defined by `work_of` in coarse_scene.h
 
   [[nodiscard]] EffectEvidence& of(solver::Effect effect) {
     return evidence[static_cast<std::size_t>(effect)];

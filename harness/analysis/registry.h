@@ -24,7 +24,8 @@ struct AnalysisKind {
   std::vector<solver::Residual> evidence = {};
   /// Warns if a path crosses a parallel singularity between two of its points.
   bool warns_of_crossing = false;
-  /// True if the times of the results are not those of the points of the path.
+  /// True if the analysis determines the times of its results, so that these are not the times of
+  /// the points of the path.
   bool has_own_times = false;
 
   [[nodiscard]] bool needs_model(const Document& document) const;

@@ -11,7 +11,8 @@
 namespace trammel::harness {
 namespace {
 
-/// Reads the build id from the notes of the first object, which is the program itself.
+/// Reads the build id from the ELF notes of the first loaded object, which is the program itself.
+/// This is a callback of dl_iterate_phdr.
 int take_build_id(dl_phdr_info* object, std::size_t, void* build_id) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const ElfW(Phdr)& part = object->dlpi_phdr[i];

@@ -14,7 +14,8 @@ bool contains(const Range& range, const Value& value) {
   return std::ranges::find(range, value) != std::ranges::end(range);
 }
 
-/// Returns the first item that satisfies `is`. If there is none, appends `fresh` and returns it.
+/// Returns the first item that satisfies the predicate `is`. If there is none, appends `fresh` and
+/// returns it.
 template <typename Item, typename Is>
 Item& find_or_add(std::vector<Item>& items, Is is, Item fresh) {
   const auto found = std::ranges::find_if(items, std::move(is));

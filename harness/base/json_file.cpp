@@ -47,7 +47,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
       throw InputError(name_, (pointer() / name).to_string(),
                        "expected every key once (got '" + printable(name) + "' twice)");
     }
-    // operator[] would search all keys again.
+    // operator[] would search all keys again, which is_known has already done.
     auto& container = static_cast<Json::object_t::Container&>(members);
     make_room(container);
     member_ = &container.emplace_back(name, nullptr).second;

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-/// Functions and programs in separate processes. A crash, an endless loop or excessive memory use
-/// affects only one of them.
+/// Runs functions and programs in separate processes, so that a crash, an endless loop or excessive
+/// memory use of one of them does not affect the others.
 namespace trammel::harness {
 
 struct ProcessTask {
@@ -27,13 +27,13 @@ struct ProcessOutcome {
 };
 
 struct ProcessOptions {
-  unsigned at_once = 1;
+  unsigned at_once = 1;  ///< maximum number of simultaneous processes
   /// Address space of each process; 0: no limit, as always under sanitizers.
   std::size_t memory_bytes = 0;
   std::function<void()> waiting = {};  ///< called about once a second while processes run
 };
 
-/// Sets the exit status and the line on standard error for an allocation failure that nobody
+/// Sets the exit status and the line on standard error for an allocation failure that no code
 /// catches. JSON allocates in a destructor, which cannot throw.
 void end_without_memory(int status, const char* line);
 
@@ -50,8 +50,8 @@ void end_without_memory(int status, const char* line);
     const std::vector<ProcessTask>& tasks, const ProcessOptions& options,
     const std::function<void(std::size_t task, const ProcessOutcome& outcome)>& ended);
 
-/// Runs one function.
-/// @throws Interrupted  if SIGINT or SIGTERM came
+/// Runs one function in a separate process with these limits.
+/// @throws Interrupted  if SIGINT or SIGTERM was received.
 [[nodiscard]] ProcessOutcome run_limited(const ProcessTask& task, const ProcessOptions& options);
 
 /// Limits of a program that is not part of trammel.

@@ -6,8 +6,8 @@
 
 namespace trammel::harness {
 
-/// Numbers under one name. The name ends with the unit, followed by a colon and the part that it
-/// belongs to: displacement_x_m:P.
+/// Numbers recorded under one name. The name ends with the unit, a colon and the part of the model
+/// to which the numbers belong: displacement_x_m:P.
 struct Quantity {
   std::vector<double> values;
   /// Relative round-off error of each value; empty if it is unknown.
@@ -16,7 +16,7 @@ struct Quantity {
 
 using Quantities = std::map<std::string, Quantity>;
 
-/// Name of a quantity, without the part it belongs to, and its unit: "reaction_moment_N_m:A1" is
+/// Name of a quantity without its part of the model, and its unit: "reaction_moment_N_m:A1" is
 /// "reaction_moment" in "N m". The unit of a dimensionless quantity is "1".
 struct NameAndUnit {
   std::string name, unit;

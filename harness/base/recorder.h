@@ -14,7 +14,7 @@ namespace trammel::harness {
 /// Collects quantities. Each call appends one number, so that a path yields one number per point.
 class Recorder {
  public:
-  /// @param item  the part that the number belongs to, written after the colon; empty: none
+  /// @param item  part of the model, written after the colon of the name; empty: none
   void add(const std::string& name, const std::string& item, double value, double roundoff = -1) {
     Quantity& quantity = quantity_of(name, item);
     quantity.values.push_back(value);
@@ -31,8 +31,8 @@ class Recorder {
     auto value = std::begin(values);
     for (const auto& item : items) add(name, item, *value++);
   }
-  /// Records that the analysis has no number here, such as a gap between curves or a study level
-  /// without solution. It is written as null. Only a check that requires it fails.
+  /// Records a missing number, such as a gap between curves or a study level without solution. It
+  /// is written as null. A check fails only if it requires this number.
   void add_gap(const std::string& name, const std::string& item) {
     quantity_of(name, item).values.push_back(std::numeric_limits<double>::quiet_NaN());
   }
@@ -40,7 +40,8 @@ class Recorder {
   void add_or_gap(const std::string& name, const std::string& item, double value) {
     std::isnan(value) ? add_gap(name, item) : add(name, item, value);
   }
-  /// Returns the first quantity with a non-finite number that is not a gap; empty if there is none.
+  /// Returns the name of the first quantity with a non-finite number that is not a gap; empty if
+  /// there is none.
   [[nodiscard]] const std::string& not_finite() const { return not_finite_; }
   [[nodiscard]] Quantities take_quantities() { return std::move(quantities_); }
 

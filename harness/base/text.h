@@ -12,7 +12,7 @@ namespace trammel::harness {
 [[nodiscard]] std::string nearest_word(const std::string& word,
                                        const std::vector<std::string>& candidates);
 
-/// Returns "; did you mean 'x'?", or an empty string if no candidate is close.
+/// Returns "; did you mean 'x'?" with the closest candidate, or an empty string if none is close.
 [[nodiscard]] std::string did_you_mean(const std::string& word,
                                        const std::vector<std::string>& candidates);
 

@@ -10,8 +10,9 @@ namespace trammel::harness {
 
 struct TimingOptions {
   int repeats = 7;         ///< minimum number for meaningful quartiles
-  std::uint64_t seed = 1;  ///< of the random order
-  /// A measurement repeats the computation until it lasts at least this long [s]; the mean counts.
+  std::uint64_t seed = 1;  ///< seed of the random order of measurements
+  /// Minimum duration of a measurement [s]. A shorter computation is repeated within the
+  /// measurement, which returns the mean time.
   double shortest_s = 2e-3;
 };
 
@@ -33,7 +34,7 @@ struct RelativeTime {
 
 /// Compares times repeat by repeat, because both times of a repeat were measured under the same
 /// machine load.
-/// @param first, step  repeats that count: all, or every second one from `first`
+/// @param first, step  selects the repeats first, first + step, ...; by default all repeats
 [[nodiscard]] RelativeTime relative_time(const std::vector<double>& times,
                                          const std::vector<double>& baseline, std::size_t first = 0,
                                          std::size_t step = 1);
@@ -45,7 +46,7 @@ struct RelativeTime {
                                                    const TimingOptions& options,
                                                    const std::function<void()>& done);
 
-/// Measured time of one evaluation. It is never judged.
+/// Measured time of one evaluation of a function. No check judges it.
 struct EvaluationTime {
   std::string name;             ///< words joined by '_'
   double wall_s = 0;            ///< time of one evaluation [s]
@@ -57,10 +58,12 @@ struct EvaluationTime {
 [[nodiscard]] EvaluationTime time_evaluation(const std::string& name, std::size_t evaluations,
                                              const std::function<void()>& round);
 
-/// Interpolates linearly between the sorted values; share 0.5 is the median.
+/// Returns the quantile of the values by linear interpolation between the sorted values.
+/// @param share  fraction of the values below the quantile: 0.5 for the median
 [[nodiscard]] double quantile(std::vector<double> values, double share);
 
-/// Returns a permutation of 0 ... n - 1 that is the same on every machine.
+/// Returns a random permutation of 0 ... n - 1 that is the same on every machine.
+/// @param state  state of the random generator, which is advanced
 [[nodiscard]] std::vector<std::size_t> shuffle_indices(std::size_t n, std::uint64_t& state);
 
 }  // namespace trammel::harness

@@ -33,7 +33,7 @@ class Descendants {
   Descendants& operator=(const Descendants&) = delete;
 };
 
-/// Returns true for cases that test the judging itself and are not informative about a code.
+/// Returns true for cases that test only the judging of results, and therefore no other code.
 bool is_control(const Case& one) {
   const std::vector<std::string> labels = one.labels();
   return contains(labels, "control");

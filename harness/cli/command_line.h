@@ -12,7 +12,7 @@ struct SideComparison;
 
 namespace trammel::harness {
 
-/// Functions that the harness cannot implement itself: rendering results as a page or a JUnit file.
+/// Functions of the reports that the harness calls: they render results as a page or a JUnit file.
 struct Renderers {
   std::function<std::filesystem::path(const results::Results& results,
                                       const std::filesystem::path& folder)>
@@ -38,7 +38,8 @@ void require_drawing(const Renderers& renderers);
 
 /// Runs the program.
 /// @param arguments  the command line without the program's name.
-/// @returns 0 if every gate holds, 1 if a check failed, 2 for bad usage or input, 3 for an internal
+/// @returns 0 if every check passes, 1 if a check failed, 2 for bad usage or input, 3 for an
+/// internal
 ///   error.
 /// @throws std::bad_alloc  if memory is exhausted.
 [[nodiscard]] int run_command_line(const std::vector<std::string>& arguments,

@@ -31,7 +31,7 @@ bool is_catalogue(const CommandOptions& options) {
   return options.words.empty() && options.labels.empty() && options.any_labels.empty();
 }
 
-/// Cases to run, and the runs of those that could not even be read.
+/// Cases to run, and failed runs for case files that cannot be read.
 struct Selection {
   std::vector<Case> cases;
   std::vector<Run> broken;
@@ -136,7 +136,7 @@ Selection select(const CommandOptions& options) {
   return selection;
 }
 
-/// Runs work in separate processes. The work leaves its results in the store.
+/// Runs each function in a separate process. The functions write their results into the store.
 /// @returns whether all of it was completed
 bool do_in_processes(const std::vector<std::function<void()>>& work, unsigned jobs,
                      const std::string& items) {

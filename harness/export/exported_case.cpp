@@ -34,7 +34,7 @@ bool is_of_mechanism(const std::string& kind) {
          kind == "elastodynamics";
 }
 
-/// Returns true for a network on given samples, which has no model to resolve.
+/// Returns true for a network whose samples are in the case, so that it has no model to export.
 bool is_of_samples(const Document& document) {
   return analysis_kind(document) == "grnn" && analysis_place(document).has("samples");
 }
@@ -52,7 +52,7 @@ void require_exportable(const Document& document) {
     throw place["track"].error("'track' cannot be exported; expected 'drives'");
 }
 
-/// Expresses the chosen effects by keys of the analysis.
+/// Returns the analysis with keys that switch the chosen effects on or off.
 Json stated_analysis(const Document& document, solver::Effects chosen) {
   Json analysis = document.value().at("analysis");
   if (!document.value().contains("effects")) return analysis;

@@ -18,8 +18,8 @@ namespace {
 using solver::Index;
 using solver::Model;
 
-/// Returns a quotient and its two adjacent doubles. They include every x with x * divisor ==
-/// product.
+/// Returns a quotient and its two adjacent doubles. These include every double x for which
+/// x * divisor == product in floating-point arithmetic.
 std::array<double, 3> quotients(double product, double divisor) {
   const double x = product / divisor, beyond = std::numeric_limits<double>::infinity();
   return {x, std::nextafter(x, 0), std::nextafter(x, beyond)};

@@ -10,7 +10,8 @@
 /// Writes files for VTK and ParaView.
 namespace trammel::harness {
 
-/// Cell of a grid. Types are VTK's numbers: 3 line, 5 triangle, 7 polygon, 22 six-node triangle.
+/// Cell of a grid. The type is a number of VTK: 3 line, 5 triangle, 7 polygon, 22 six-node
+/// triangle.
 struct VtkCell {
   std::vector<std::size_t> nodes;
   int type = 0;

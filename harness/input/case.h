@@ -15,7 +15,7 @@ class Catalogue;
 struct Case {
   std::filesystem::path file;
   Document document;
-  std::vector<std::string> chosen_variants = {};  ///< that are to be run; empty: all
+  std::vector<std::string> chosen_variants = {};  ///< variants to run; empty: all
 
   [[nodiscard]] std::string id() const { return document.value().at("id").get<std::string>(); }
   [[nodiscard]] std::string title() const {
@@ -39,12 +39,12 @@ inline constexpr const char* kBaseVariant = "base";
 /// @throws InputError  for an unknown name, or if the patched case violates the schema.
 [[nodiscard]] Document patched(const Case& given, const std::string& variant);
 
-/// Returns warnings about numbers with a probable wrong unit: angles above 2 pi in a key "..._rad",
-/// and coordinates or lengths more than a hundred times all others of their kind. Each warning
-/// names the pointer and the likely unit.
+/// Returns warnings about numbers that probably have a wrong unit: angles above 2 pi in a key
+/// "..._rad", and coordinates or lengths more than a hundred times all others of their kind. Each
+/// warning names the pointer and the likely unit.
 [[nodiscard]] std::vector<std::string> unit_warnings(const Document& document);
 
-/// @param pointer  a place that contains a JSON pointer
+/// @param pointer  value of the document that is a JSON pointer
 /// @throws InputError  if the pointer does not lead to a value of the document.
 void require_pointer(const Document& document, const JsonView& pointer);
 
@@ -60,7 +60,7 @@ struct Level {
 /// @param variant  result of `patched`
 /// @throws InputError  if a pointer does not exist or a patched level violates the schema.
 [[nodiscard]] std::vector<Level> levels(const Document& variant, const std::string& sweep);
-/// Returns the levels of any place with values, and with pointers or patches.
+/// Returns the levels of a sweep or study, which has "values", and "pointers" or "patches".
 [[nodiscard]] std::vector<Level> levels(const Document& variant, const JsonView& sweep);
 
 }  // namespace trammel::harness

@@ -21,7 +21,7 @@ class Catalogue {
   /// exists only to be extended.
   [[nodiscard]] std::vector<std::filesystem::path> runnable_files() const;
 
-  /// Returns the file of a catalogue name or path.
+  /// Returns the file of a case, given its name in the catalogue or its path.
   /// @throws InputError  with the nearest name, if there is none.
   [[nodiscard]] std::filesystem::path find_case(const std::string& name_or_file) const;
 
@@ -40,10 +40,10 @@ class Catalogue {
   [[nodiscard]] std::vector<std::string> names() const;
   [[nodiscard]] bool has_analysis(const std::filesystem::path& file, int depth = 0) const;
 
-  std::vector<std::pair<std::string, std::string>> files_;  ///< by id, which is the file's name
+  std::vector<std::pair<std::string, std::string>> files_;  ///< pairs of id and path, sorted by id
 };
 
-/// Loads the case of a catalogue name or path.
+/// Loads a case, given its name in the catalogue or its path.
 /// @throws InputError  as Catalogue::find_case and load_case.
 [[nodiscard]] Case load_named_case(const std::string& name_or_file);
 

@@ -14,13 +14,13 @@ enum class Role { verification, validation, regression };
 template <>
 inline constexpr std::array kWords<Role> = {"verification", "validation", "regression"};
 
-/// Compared measure of a computed value: relative difference from the expected value, absolute
-/// difference, ratio, or the value itself.
+/// Number that a check limits: relative or absolute difference of the computed from the expected
+/// value, ratio of both values, or the computed value itself.
 enum class Measure { relative, absolute, ratio, value };
 
 using results::Expectation;
 
-/// Allowed interval of the measure; an open end is infinite.
+/// Interval in which the measure of a check must be; an open end is infinite.
 struct Window {
   double low = 0, high = 0;
   [[nodiscard]] bool contains(double value) const { return low <= value && value <= high; }
@@ -32,12 +32,14 @@ struct Window {
 
 /// Requirements for the observed order of convergence.
 struct OrderCriterion {
+  /// Condition for a fine mesh: wave number times element length is at most `at_most`.
   struct WaveNumber {
     std::string reference;
     std::vector<std::size_t> index;
     double at_most = 0;
     std::string pointer;
   };
+  /// Predicted leading term of the relative error, as in the key "leading_term" of the schema.
   struct LeadingTerm {
     double coefficient = 0, within = 0;
     std::string share;  ///< share of the leading term, a reference; empty: 1
@@ -46,7 +48,7 @@ struct OrderCriterion {
   std::string sweep;
   double within = 0;  ///< tolerance of the order; not used with `two_term_within`
   std::optional<double> two_term_within;  ///< tolerance of the two-term law, instead of `within`
-  std::size_t meshes = 3;
+  std::size_t meshes = 3;                 ///< required number of qualifying meshes
   bool of_errors = false;  ///< the quantity is itself an error and needs no reference
   std::optional<WaveNumber> wave_number;
   std::optional<LeadingTerm> leading_term;
@@ -55,9 +57,9 @@ struct OrderCriterion {
 
 /// Required outcome of a check that is wrong on purpose.
 struct NegativeControl {
-  std::string verdict;               ///< of its worst entry: "fail" or "error"
-  std::string message;               ///< required part of its message
-  std::optional<std::size_t> index;  ///< of the worst entry, if it is checked
+  std::string verdict;               ///< required verdict of the worst entry: "fail" or "error"
+  std::string message;               ///< required part of the message of the worst entry
+  std::optional<std::size_t> index;  ///< required index of the worst entry; empty: any
 };
 
 struct Check {
@@ -71,10 +73,11 @@ struct Check {
   std::string why;
   std::optional<OrderCriterion> order;
   std::optional<NegativeControl> negative_control;
-  /// After ASME V&V 20, per entry; empty: not recorded.
+  /// Recorded verdicts of the ASME V&V 20 comparisons, one per entry; empty: not recorded.
   std::vector<std::string> validation_verdicts;
-  std::string pointer;  ///< its place in the case
+  std::string pointer;  ///< JSON pointer of the check in the case
 
+  /// Returns true if the check compares with a reference, a variant or another quantity.
   [[nodiscard]] bool has_target() const {
     return !reference.empty() || !against_variant.empty() || !against_quantity.empty();
   }

@@ -10,7 +10,7 @@
 
 namespace trammel::harness {
 
-/// File and pointer at which a value was written.
+/// File and JSON pointer at which the user wrote a value.
 struct Origin {
   std::string file, pointer;
   /// `pointer` leads to the value of a sweep that replaces the value at this place.

@@ -14,8 +14,8 @@ namespace trammel::harness {
 template <class Enum>
 inline constexpr std::array<const char*, 0> kWords{};
 
-/// A place in a document that satisfies its schema. It reads values and reports errors with file
-/// and pointer.
+/// View of one value in a document that satisfies its schema. It reads the value and its members,
+/// and reports errors with file and JSON pointer.
 class JsonView {
  public:
   explicit JsonView(const Document& document) : document_(&document), json_(&document.value()) {}

@@ -112,7 +112,7 @@ std::string References::find_in_catalogue(const std::string& id) const {
     found = file;
   }
   if (found != nullptr && has(*found, id)) return place_of(*found, id);
-  const auto places = catalogue();  // in case the file has another form
+  const auto places = catalogue();  // finds references in files of unusual format, too
   const auto place = places.find(id);
   return place == places.end() ? "" : place->second;
 }

@@ -21,10 +21,10 @@ struct CitedReference {
 };
 
 /// References by id, each read once: from references.json next to the case file, else from the
-/// catalogue. A place is the file of a reference and its JSON pointer: "FILE#/ID".
+/// catalogue. The place of a reference is its file and its JSON pointer: "FILE#/ID".
 class References {
  public:
-  /// @param id  a place that contains the id
+  /// @param id  value of a document that is the id of a reference
   /// @throws InputError  if the reference is missing, is defined in two files, or is malformed.
   [[nodiscard]] const references::Reference& get(const JsonView& id) const;
 

@@ -48,7 +48,7 @@ double order_of_errors(double coarse, double fine, double h_coarse, double h_fin
   return std::log(coarse / fine) / std::log(h_coarse / h_fine);
 }
 
-/// Analysis of the levels that have a value.
+/// Analyzes the convergence of the levels that have a value.
 class ConvergenceStudy {
  public:
   explicit ConvergenceStudy(Convergence& series) : series_(series) {
@@ -129,7 +129,7 @@ class ConvergenceStudy {
     const double lowest = series_.lower_order.value_or(*series_.theory_order);
     // Two levels have no observed order; Roache's factor for the theoretical order applies.
     if (k == 1) return {extrapolated(k, lowest), 3};
-    // The values oscillate.
+    // The values oscillate, so that they have no observed order.
     if (std::isnan(seen)) return {extrapolated(k, std::min(1.0, lowest)), 3};
     if (is_theoretical_order(seen) && series_.lower_order) {
       const double value =

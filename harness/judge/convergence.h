@@ -27,14 +27,18 @@ using results::Convergence;
 /// Largest relative misfit of the two-term law on the levels that it is fitted to.
 inline constexpr double kTwoTermTolerance = 0.05;
 
-/// Minimum ratio of an error to its round-off error that is informative about the discretization.
+/// Minimum ratio of an error to its round-off error. Below it, round-off error hides the
+/// discretization error.
 inline constexpr double kRoundoffMargin = 100;
 
-/// Required hit rate, because the bands claim a coverage of about 95 %.
+/// Required fraction of levels whose band contains the exact value (hit rate). The bands claim a
+/// coverage of about 95 %.
 inline constexpr double kMinHitRate = 0.95;
-/// Limit of the median ratio: Roache's larger factor, as if no observed order were close to theory.
+/// Limit of the median ratio of band width to error. It is Roache's larger safety factor, which
+/// applies if no observed order is close to theory.
 inline constexpr double kMaxMedianRatio = 3;
-/// Minimum number of levels. With fewer levels a single miss would decide, and nothing is judged.
+/// Minimum number of levels for a judgment of the bands. With fewer levels, a single band without
+/// the exact value would decide the result.
 inline constexpr std::size_t kMinLevels = 100;
 
 /// Compares the bands of numerical uncertainty with exact values: the hit rate, and the width
@@ -53,8 +57,8 @@ struct TwoTermOrders {
 };
 
 /// Fits the law by least squares of the relative residuals over the usable levels. Coarse levels
-/// with further error terms are removed one by one until the others are met within `within`. At
-/// least one level more than coefficients remains.
+/// with further error terms are removed one by one until the law fits the others within `within`.
+/// At least one level more than coefficients remains.
 /// @param error   signed, one per level, coarse to fine.
 /// @param usable  false if an error is missing or dominated by round-off.
 /// @return empty for fewer than three usable levels

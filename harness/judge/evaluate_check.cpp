@@ -12,7 +12,7 @@
 namespace trammel::harness {
 namespace {
 
-/// For more entries, only the worst one is reported.
+/// Maximum number of entries that are reported singly. For more, only the worst is reported.
 constexpr std::size_t kMaxEntries = 16;
 
 /// Reason why a check cannot be judged.

@@ -33,9 +33,10 @@ struct CheckContext {
 /// Creates a judgment with the check's name, role and reasons. Its verdict is an error until it is
 /// set.
 [[nodiscard]] CheckResult start_check_result(const Check& check);
+/// Creates a judgment with the verdict error and this message.
 [[nodiscard]] CheckResult failed_check_result(const Check& check, const std::string& message);
 
-/// Returns the reference named at a pointer of the document: the check's own, or a nested one.
+/// Returns the reference whose id is at this pointer of the document.
 [[nodiscard]] const references::Reference& find_reference(const CheckContext& context,
                                                           const std::string& pointer);
 

@@ -11,7 +11,7 @@
 namespace trammel::harness {
 namespace {
 
-/// One entry of the quantity, with its theoretical properties.
+/// Refinement of one entry of the quantity, with the constants of its theoretical error.
 struct Entry {
   const Convergence& found;
   double wave_number = kNaN;  ///< multiplied by the length of the swept member
@@ -36,7 +36,8 @@ class OrderCheckEvaluator {
     meshes_ = static_cast<std::size_t>(std::ranges::count(qualifies_, true));
   }
 
-  /// Constants of trammel's elements do not apply to other solvers.
+  /// Judges the requested criteria. For another solver it judges only the order, because the other
+  /// criteria contain constants of trammel's elements.
   [[nodiscard]] std::vector<CheckResult> run() const {
     if (is_other_solver_) {
       CheckResult check_result = order();

@@ -18,7 +18,8 @@ double uniform(std::mt19937_64& generator) {
   return static_cast<double>(generator() >> 11) * 0x1p-53;
 }
 
-/// Returns points x inputs in [-1, 1]. Each column is a permutation of `count` equal cells.
+/// Returns samples in [-1, 1], with a row per sample and a column per input. In each column, each
+/// of `count` equal cells of the range contains one sample.
 std::vector<std::vector<double>> latin_hypercube(std::size_t count, std::size_t inputs,
                                                  std::uint64_t seed) {
   std::mt19937_64 generator(seed);

@@ -27,6 +27,7 @@ enum class TrackedQuantities {
 /// Removes quantities that are not tracked as `named`.
 void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Check>& checks);
 
+/// Returns the convergence study of each tracked entry of a sweep.
 /// @param element_order  order of another solver, which replaces the orders of the sweep
 [[nodiscard]] std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& document,
                                                    const std::vector<Check>& checks,
@@ -34,7 +35,7 @@ void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Ch
                                                    TrackedQuantities tracked,
                                                    results::Number element_order = {});
 
-/// A quantity tracked by a refinement, with the place of its exact values.
+/// A quantity whose convergence along a sweep is studied, with the reference of its exact values.
 
 struct TrackedQuantity {
   std::string quantity, statistic;

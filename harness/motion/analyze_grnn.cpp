@@ -30,7 +30,7 @@ inline constexpr std::array kWords<solver::Split> = {"first", "interleaved", "sh
 namespace {
 
 struct GrnnOutput {
-  std::string quantity;  ///< angle, velocity; empty for samples without a meaning
+  std::string quantity;  ///< angle or velocity; empty for the samples of a case
   std::string unit;      ///< suffix of the quantity's name, such as "_rad"; empty if it has no unit
   std::string item;      ///< A1, ... or the number of the column
 };

@@ -89,8 +89,10 @@ solver::TransientOptions read_large_motion_options(const JsonView& analysis) {
   return options;
 }
 
-/// Returns displacements R^T (arm + moved) - arm relative to a moving and rotating node `eye`. The
-/// row of that node is NaN.
+/// Returns the displacement of each node relative to a moving and rotating node `eye`:
+///   relative = R^T (arm + moved) - arm
+/// R is the rotation of `eye`, `arm` the initial vector from `eye` to the node, and `moved` the
+/// difference of their displacements. The row of `eye` is NaN.
 Eigen::MatrixX3d observed_from(solver::Index eye, const solver::Model& model,
                                const Eigen::MatrixX3d& motion) {
   Eigen::MatrixX3d relative = motion.rowwise() - motion.row(eye);
@@ -170,7 +172,7 @@ void require_path_to_the_end(const JsonView& analysis, const solver::Path& path)
   }
 }
 
-/// Records the distance of P from its position on the rigid twin.
+/// Records the distance of P from its position on the same manipulator with rigid links.
 void record_deflection(const GeometricallyExactSystem& system, const State& state,
                        const solver::Path& path, Recorder& record) {
   const solver::Index p = system.model().find_node("P");
@@ -185,8 +187,8 @@ void record_deflection(const GeometricallyExactSystem& system, const State& stat
   record.add("deflection_m", "P", std::hypot(now.x() - pose.x, now.y() - pose.y));
 }
 
-/// Integrates from the model's initial state, or with the initial velocities of the tracked rigid
-/// twin.
+/// Integrates from the model's initial state. If a path is tracked, the initial velocities are
+/// those of the manipulator with rigid links.
 solver::large_motion::IntegrationSummary integrate_motion(
     const GeometricallyExactSystem& system, const CaseModel& case_model, bool tracking,
     const solver::TransientOptions& options, bool extrapolated,

@@ -41,7 +41,7 @@ struct MotionHistory {
   /// stiffness-proportional damping. Otherwise empty.
   Eigen::MatrixXd followed_factor;
   Eigen::MatrixXd q, v, a;         ///< free coordinate x time
-  solver::ViscousDamping damping;  ///< damping that the motion has
+  solver::ViscousDamping damping;  ///< damping of the motion
   std::int64_t steps = 0;          ///< of the integrator; 0 for modal superposition
 };
 
@@ -206,7 +206,7 @@ class Motion {
     return damped_ ? read_damping(transient_, modes) : solver::HarmonicDamping();
   }
 
-  /// Returns false if the damped modes are not found.
+  /// Adds the damping to the equation. Returns false if the modes for modal damping are not found.
   bool damp(solver::EquationOfMotion& equation) {
     solver::HarmonicDamping damping = stated_damping();
     if (damping.modal_ratio.empty()) {
@@ -222,7 +222,8 @@ class Motion {
     return true;
   }
 
-  /// @param omega, shape  modes, at least those that are damped
+  /// Adds the damping to the equation.
+  /// @param omega, shape  modes, at least those with a damping ratio
   void damp(const solver::HarmonicDamping& damping, const Eigen::VectorXd& omega,
             const Eigen::MatrixXd& shape, solver::EquationOfMotion& equation) {
     equation.C = solver::damping_matrix(damping.rayleigh, system_.M, system_.K);

@@ -8,10 +8,10 @@
 namespace trammel::harness {
 namespace {
 
-// Per element of an arc: chords change frequencies by 0.1 %.
+// Angle of an arc per element [deg]. Straight chords of this angle change frequencies by 0.1 %.
 constexpr double kDegreesOfElement = 7.5;
 constexpr double kToleranceRatio = 10;
-constexpr solver::Index kMaxSamples = 50000;  // half of the limit of a case
+constexpr solver::Index kMaxSamples = 50000;  // half of the largest number in the schema
 
 const Json* find(const Json& document, const std::string& pointer) {
   const JsonPointer at(pointer);
@@ -29,22 +29,22 @@ double angle_of_arc(const Json& model, const Json& member) {
   return turn > 0 ? turn : turn + 2 * std::numbers::pi;
 }
 
-/// Returns whether a member cannot be divided: nodes inside it would move sideways freely.
+/// Returns true for a bar, which cannot be divided: nodes inside it would move sideways freely.
 bool is_bar(const Json& model, const Json& member) {
   const Json* section = find(model, "/sections/" + member.value("section", ""));
   return section != nullptr && section->value("second_moment_m4", 1.0) == 0 &&
          !member.contains("restrained_motions");
 }
 
-/// Returns twice or half a count; empty if an odd count would be halved.
+/// Returns twice or half a number of elements; empty if an odd number would be halved.
 std::optional<solver::Index> refined(solver::Index count, Refine refine) {
   if (refine == Refine::finer) return 2 * count;
   if (count % 2 != 0) return std::nullopt;
   return count / 2;
 }
 
-/// Writes twice or half a count to a place of a patch.
-/// @returns whether the count could be refined or coarsened
+/// Writes twice or half a number of elements into a patch.
+/// @returns false if an odd number would be halved
 bool put(Json& place, solver::Index count, Refine refine) {
   const auto found = refined(count, refine);
   if (found) place = *found;

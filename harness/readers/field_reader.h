@@ -37,7 +37,7 @@ template <class T>
 struct Edge {
   struct Piece {
     solver::Index plate = -1;  ///< the only plate at this side; -1: the side is in the interior
-    /// Including midside nodes; the plate is to the left of the path.
+    /// Nodes in order, including midside nodes. The plate is to the left of this sequence.
     std::vector<solver::Index> nodes;
     bool six_nodes = false;
   };

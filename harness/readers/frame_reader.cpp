@@ -13,7 +13,7 @@
 namespace trammel::harness {
 namespace {
 
-/// A, I and c from one of the three definitions of a cross-section.
+/// Area A [m^2], second moment of area I [m^4] and half depth c [m] of a cross-section.
 struct Shape {
   double area = 0, second_moment = 0, half_depth = 0;
 };

@@ -6,7 +6,7 @@ namespace trammel::harness {
 namespace {
 
 /// Requires exactly one of two alternative keys.
-/// @returns whether it is the first
+/// @returns true if the first key is present
 bool has_first(const JsonView& place, const char* first, const char* second) {
   if (place.has(first) == place.has(second)) {
     throw place.error(std::string("expected either '") + first + "' or '" + second + "' (got " +

@@ -12,7 +12,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Two corners, in ascending order.
+/// Indices of the two end nodes of a side, in ascending order.
 using Ends = std::pair<solver::Index, solver::Index>;
 Ends ends_of(solver::Index a, solver::Index b) {
   return std::minmax(a, b);
@@ -62,7 +62,7 @@ std::optional<solver::Ellipse> read_curve(const JsonView& edge) {
   return solver::Ellipse{read_point((*ellipse)["center_m"]), read_point((*ellipse)["semi_axes_m"])};
 }
 
-/// Edges as stated in the case: corners, and a curve for each pair of adjacent corners.
+/// Edges of a case: their corner nodes, and the curve between each pair of adjacent corners.
 class Outline {
  public:
   Outline(const JsonView& model, const SymbolTable& symbols, const solver::Model& structure) {
@@ -109,7 +109,7 @@ class Outline {
 /// Sides of the blocks of all plates, by their corners.
 class Sides {
  public:
-  /// @param piece  its nodes have the plate to the left of the path
+  /// @param piece  side of the block; the plate is to the left of its sequence of nodes
   void add(const JsonView& block, Edge::Piece piece) {
     const Ends ends = ends_of(piece.nodes.front(), piece.nodes.back());
     std::vector<Edge::Piece>& there = sides_[ends];
@@ -205,7 +205,7 @@ Edge find_edge(const JsonView& place, const std::vector<solver::Index>& corners,
       throw place["nodes"][i + 1].error(
           "no side of a block connects the previous node with this one");
     edge.pieces.push_back(found->front());
-    // In the interior, where the normal is ambiguous.
+    // A side between two blocks has no outward normal, so that no plate is stored.
     if (found->size() > 1) edge.pieces.back().plate = -1;
   }
   return edge;

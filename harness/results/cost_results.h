@@ -50,8 +50,8 @@ struct CostSetting {
 
   /// Returns true if the setting has an error and a time that are used.
   [[nodiscard]] bool measured() const { return status == "measured"; }
-  /// Returns true if the setting belongs to the strip at the edge: it failed, diverged or timed
-  /// out.
+  /// Returns true if the setting failed, diverged or timed out. The figure shows such settings in a
+  /// strip at its edge.
   [[nodiscard]] bool without_result() const {
     return status == "failed" || status == "diverged" || status == "timed-out";
   }

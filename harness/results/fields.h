@@ -232,12 +232,13 @@ void object_from_json(const Json& json, const Place& place, T& value) {
 
 constexpr std::size_t kBytes = sizeof(double);
 
-/// Returns the bits of the number two places earlier; in pairs, it is the same coordinate.
+/// Returns the bits of the number two positions earlier. In a list of pairs (x, y), this is the
+/// same coordinate of the previous pair.
 inline std::uint64_t bits_before(const double* numbers, std::size_t i) {
   return i < 2 ? 0 : std::bit_cast<std::uint64_t>(numbers[i - 2]);
 }
 
-/// Returns the differences of the bits of each number from the number two places earlier. The
+/// Returns the differences of the bits of each number from the number two positions earlier. The
 /// lowest bytes of all differences come first, because runs of similar bytes compress best.
 template <class Entry>
 Json packed(const std::vector<Entry>& values) {

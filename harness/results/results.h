@@ -145,7 +145,7 @@ struct EffectScene {
   double change = 0;     ///< from all effects to the chosen ones, maximum over all kinds [-]
   bool minimal = false;  ///< no chosen effect can be omitted
   double whole_s = 0, chosen_s = 0, deciding_s = 0;  ///< processor time [s]
-  /// Counted work of the selection and of the chosen effects, relative to all effects.
+  /// Counted work of the selection and of the chosen effects, relative to that of all effects.
   double work_ratio = 0;
   double deciding_work_ratio = 0;  ///< counted work of the selection alone
   Number mesh_change;              ///< from half the elements to all elements [-]

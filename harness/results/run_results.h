@@ -19,7 +19,7 @@ using harness::Number;
 using harness::Numbers;
 
 /// recorded: a validation without an expectation. not_given: another solver does not compute the
-/// quantity. Neither gates.
+/// quantity. These two never fail a run.
 enum class Verdict { pass, fail, error, not_run, recorded, not_given };
 enum class Expectation { agrees, known_discrepancy, none };
 /// Status of a run. The last four apply only to other solvers.
@@ -114,8 +114,8 @@ struct Sweep {
 /// An input known to a limited number of digits, as stated by the case.
 struct UncertainInput {
   std::string name, why;
-  std::vector<std::string> pointers;  ///< places in the case that contain it and change together
-  Number half_width;                  ///< in the unit of the places
+  std::vector<std::string> pointers;  ///< JSON pointers to its values, which change together
+  Number half_width;                  ///< in the unit of these values
   bool nominal = false;               ///< a round design value, uncertain only in `all_inputs`
 };
 
@@ -124,7 +124,7 @@ struct ValidationVerdict {
   Number u_input, u_input_sampled;  ///< by derivatives, and by sampling
   Number u_val;                     ///< sqrt(u_num^2 + u_input^2 + u_reference^2)
   Numbers interval;                 ///< of the model error at about 95 %: E -+ 2 u_val
-  std::string verdict;              ///< a verdict of judge/validation_verdict.h
+  std::string verdict;              ///< one of the words of judge/input_uncertainty.h
   std::string conclusion;
 };
 
@@ -298,7 +298,7 @@ struct Run {
 
   // Only in the store. Sweeps are removed after they have been judged.
   std::vector<Sweep> sweeps;
-  std::map<std::string, std::string> references;  ///< hashes by requested place
+  std::map<std::string, std::string> references;  ///< hashes by the place of a reference
   std::string machine;                            ///< machine of the time measurements
   SolverIdentity solver;                          ///< other than trammel
 
@@ -313,7 +313,7 @@ struct Run {
   [[nodiscard]] const std::vector<double>* quantity(const std::string& name) const;
 };
 
-/// Returns the difference of a check of `computed` against `expected`; missing for others.
+/// Returns the difference of `computed` from `expected`; missing if a check does not compare.
 [[nodiscard]] Number difference_of(const Check& check);
 [[nodiscard]] std::string to_string(Verdict verdict);
 [[nodiscard]] std::string to_string(Status status);

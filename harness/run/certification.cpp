@@ -11,7 +11,7 @@ namespace trammel::harness {
 namespace {
 
 constexpr double kAllDigits = 16;
-constexpr double kClear = 10;  ///< minimum ratio of a tolerance to the noise
+constexpr double kClear = 10;  ///< ratio of tolerance to noise below which a tolerance is tight
 
 /// Returns whether the solver has determined the state of the system.
 bool has_answer(const results::Run& run) {
@@ -53,7 +53,7 @@ void compare(const Entries& first, const Configuration& other, Certification& re
   ConfigurationRow total{other.name, 0, 0, kAllDigits, kAllDigits, {}};
   const Entries entries = entries_of(other.results);
   std::vector<double> digits;
-  // State of the run that the following checks belong to.
+  // State of the current run, to which the following checks belong.
   bool is_known = false, ends_equally = false;
   for (const DiffRow& row : pair_entries(first, entries)) {
     bool flipped = false;
@@ -61,7 +61,7 @@ void compare(const Entries& first, const Configuration& other, Certification& re
       is_known = row.before != nullptr;
       ends_equally = row.in_both() && row.before->verdict == row.after->verdict;
       flipped = is_known && (!ends_equally || !has_answer(*row.after->run));
-    } else if (is_known && !row.in_both()) {  // counted only, if the run ends differently
+    } else if (is_known && !row.in_both()) {  // only counted if the run ends differently
       ++total.missing;
       flipped = ends_equally;
     } else if (is_known) {

@@ -42,7 +42,7 @@ struct Interpretation : results::ClaimInterpretation {
 struct Rule {
   std::optional<Window> confirms, contradicts;
   std::string otherwise = kInconclusive;
-  bool jointly = false;  ///< the entries of one check count as one
+  bool jointly = false;  ///< all entries of a check together have one verdict
 
   [[nodiscard]] std::string verdict_of_value(double value) const {
     if (confirms && confirms->contains(value)) return kConfirms;

@@ -70,7 +70,7 @@ double stated_roundoff(const results::Run& run, const std::string& name, std::si
   return stated;
 }
 
-/// Orders runs and numbers by what changes most.
+/// Orders runs and numbers by their change, largest first.
 constexpr auto changed_more = [](const auto& a, const auto& b) {
   return std::pair(a.changed, a.share) > std::pair(b.changed, b.share);
 };
@@ -81,7 +81,7 @@ double distance(const Number& a, const Number& b) {
   return a || b ? std::numeric_limits<double>::infinity() : 0;
 }
 
-/// Computes changes and percentages of values whose `noise` is set.
+/// Sets the change and the percentages of a number whose values and `noise` are set.
 /// @param scale  largest value of the series
 void judge(ComparedValue& value, double scale) {
   const Number first = value.values.front();

@@ -8,8 +8,8 @@
 #include "harness/results/results.h"
 #include "harness/results/side_comparison.h"
 
-/// Comparison of the judgments in two results. `compare`, `certify` and `history` select from its
-/// rows.
+/// Compares the judgments in two results. The commands `compare`, `certify` and `history` show
+/// selected rows.
 namespace trammel::harness {
 
 /// A run, or an entry of one of its checks.
@@ -35,7 +35,7 @@ void add_entries(const results::Run& run, const std::string& name, Entries& entr
 /// Returns "case:variant".
 [[nodiscard]] std::string name_of(const results::Run& run);
 
-/// An entry of two results; null if one of them lacks it.
+/// The same entry in two results; null in a result without this entry.
 struct DiffRow {
   std::string name;
   const Entry *before = nullptr, *after = nullptr;

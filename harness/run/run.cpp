@@ -40,7 +40,7 @@ struct Task {
   Run run;
 };
 
-/// Returns true if the solver ended without an answer. A later call may succeed.
+/// Returns true if the run ended without an answer, as by a crash. A later call may succeed.
 bool has_broken(const Run& run) {
   return run.status == Status::error || run.status == Status::crashed ||
          run.status == Status::timed_out;

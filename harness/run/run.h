@@ -16,7 +16,7 @@ namespace trammel::harness {
 
 using results::Run;
 
-/// Another solver that replaces trammel.
+/// Another solver that computes the cases in place of trammel.
 struct OtherSolver {
   /// Computes a case or variant in a separate process.
   std::function<void(const Case& owner, const std::string& variant, const Document& document,
@@ -26,10 +26,11 @@ struct OtherSolver {
   unsigned time_limit_s = 0;  ///< processor time
 };
 
-/// Cases with estimated discretization errors: those outside the catalogue, all, or none.
+/// Selects the cases whose discretization errors are estimated: those outside the catalogue, all,
+/// or none.
 enum class ErrorWish { own_cases, all, none };
 
-/// One of `count` parts of a long call.
+/// Number of a shard, which is one of `count` separately computed parts of a long call.
 struct Shard {
   std::size_t number = 1, count = 1;
 };

@@ -16,7 +16,8 @@ namespace trammel::harness {
 /// @throws InputError  if the text is not a shard.
 [[nodiscard]] Shard parse_shard(const std::string& text);
 
-/// Says in `folder` that a shard of the selection is done: what it has computed is in `store`.
+/// Writes the file of a finished shard into `folder`: its number, the selection of cases, and the
+/// names of its computations, which are in the store.
 void write_shard(const std::filesystem::path& folder, const Shard& shard, const Json& selection,
                  const ShardRuns& done);
 

@@ -45,7 +45,7 @@ class PartNames {
   std::map<std::string, std::string> pointers_;
 };
 
-/// @param bare  the manipulator without other parts
+/// @param bare  model of the manipulator alone, without the other parts of the case
 void check_part_names(const JsonView& model, const solver::Model& bare) {
   PartNames names;
   names.claim("total", model);  // the sum over all parts

@@ -10,8 +10,8 @@ namespace {
 
 constexpr std::size_t kMaxNodesWithMidpoints = 1500;
 constexpr std::size_t kPointsPerMember = 12;
-constexpr std::size_t kMaxMovedNodes = 6000;  ///< of all moments together
-constexpr double kShownShare = 0.8;           ///< of the range of the coordinates
+constexpr std::size_t kMaxMovedNodes = 6000;  ///< maximum number of nodes over all moments
+constexpr double kShownShare = 0.8;           ///< required fraction of the range of the coordinates
 
 /// Returns the number of pieces in which an element is drawn.
 std::size_t pieces(const solver::System& system, const solver::FrameElement& element) {
@@ -93,7 +93,7 @@ void draw_rigid_bodies(const solver::Model& model, const DrawnNodes& drawn, Draw
   }
 }
 
-/// Draws one joint per node. If a node has several kinds, the most specific one is drawn.
+/// Draws one joint symbol per node. If a node has several joints, the most specific is drawn.
 void draw_joints(const solver::Model& model, bool is_manipulator, const DrawnNodes& drawn,
                  Drawing& drawing) {
   std::vector<std::string> kind(model.nodes.size());

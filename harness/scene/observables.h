@@ -42,7 +42,7 @@ struct Observable {
 class StateRecorder {
  public:
   /// @param nodes    nodes to record; null: all
-  /// @param without  names of rows that are omitted
+  /// @param without  names of observables that are not recorded
   StateRecorder(const solver::Model& model, const std::string& analysis,
                 const std::vector<std::string>& without = {},
                 const std::vector<solver::Index>* nodes = nullptr);

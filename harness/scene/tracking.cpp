@@ -24,8 +24,8 @@ void require_joints(const JsonView& place, const solver::ManipulatorDesign& desi
   }
 }
 
-/// Returns the rigid motion with the load that the actuator torques balance. Outside the path, it
-/// returns the nearest end point.
+/// Returns the motion of the manipulator with rigid links, and the actuator torques that balance
+/// inertia and loads. Before and after the path, it returns the state at the nearest end.
 solver::large_motion::RigidMotion loaded_motion(const solver::RigidManipulator& rigid,
                                                 const CaseModel& case_model,
                                                 const std::function<double(double)>& load_history) {
@@ -38,7 +38,7 @@ solver::large_motion::RigidMotion loaded_motion(const solver::RigidManipulator& 
   });
 }
 
-/// Returns the initial velocities of the rigid twin.
+/// Returns the initial velocities of the same manipulator with rigid links (its rigid twin).
 solver::large_motion::PrescribedVelocities tracking_start(
     const CaseModel& case_model, const solver::large_motion::GeometricallyExactSystem& system) {
   const solver::TrajectoryPoint start = solver::at(*case_model.path, 0);

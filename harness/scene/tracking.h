@@ -6,8 +6,9 @@
 #include "solver/large/geometrically_exact_system.h"
 #include "solver/large/integrate_large_motion.h"
 
-/// Makes the manipulator in large motion follow a path. Its actuators move like those of its rigid
-/// twin, or apply the torques that the rigid twin needs.
+/// Makes the manipulator in large motion follow a path. Its rigid twin is the same manipulator with
+/// rigid links, which follows the path exactly. The actuators rotate like those of the rigid twin,
+/// or apply the torques that the rigid twin requires.
 namespace trammel::harness {
 
 /// Data taken from the rigid twin: the angles of its actuators, or the torques of its inverse

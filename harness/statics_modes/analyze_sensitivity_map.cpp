@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Results for one orientation, for each interpretation of "the sensitivity".
+/// Results for one orientation. The paper's "sensitivity" may be that at the center, the mean or
+/// the largest one.
 struct Reading {
   double center_frequency = kNaN,
          center = kNaN;                       ///< at the position that counts as the center

@@ -58,7 +58,7 @@ void grow(std::array<Vector2d, 3>& triangle, const Vector2d& about, double chang
 
 constexpr int kRows = 7;
 constexpr double kRatio = 1.6;
-/// Additional modes, so that a set of equal frequencies is complete.
+/// Number of additional modes, so that the last set of equal frequencies is complete.
 constexpr Index kExtraModes = 3;
 /// Largest step, as a share of the distance to the nearest other frequency.
 constexpr double kShareOfGap = 0.1;

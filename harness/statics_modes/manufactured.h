@@ -14,7 +14,7 @@ struct MembraneTest {
   double thickness = 0;     ///< [m]
   solver::Index cells = 1;  ///< along each side
   bool six_nodes = false;
-  double distortion = 0;  ///< of the mesh, relative to the size of a cell
+  double distortion = 0;  ///< displacement of inner mesh nodes, relative to the size of a cell
 };
 
 /// Discrete model and its solution. The vector q is empty without a solution.
@@ -39,7 +39,7 @@ struct BeamTest {
   /// Exact solution along the direction (4, 3) / 5, which excites all coordinates.
   references::manufactured::BeamProblem problem;
   solver::Index cells = 1;
-  double distortion = 0;  ///< of the mesh, relative to the size of a cell
+  double distortion = 0;  ///< displacement of inner mesh nodes, relative to the size of a cell
 };
 
 struct BeamTestResult {

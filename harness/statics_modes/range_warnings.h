@@ -27,7 +27,7 @@ inline constexpr double kMaxStrain = 0.1;
 /// @param rotation  [rad]
 void warn_of_rotation(double rotation, std::vector<Warning>& warnings);
 
-/// Warns of |N| / EA at the ends of the members.
+/// Warns if an axial or shear strain at the ends of the members exceeds `kMaxStrain`.
 void warn_of_strain(const solver::Model& model, const solver::StaticSolution& solution,
                     std::vector<Warning>& warnings);
 

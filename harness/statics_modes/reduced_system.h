@@ -8,6 +8,7 @@
 
 namespace trammel::harness {
 
+/// Selects whether the weight of the parts acts in addition to the loads.
 enum class Weight : std::uint8_t { acts, left_out };
 
 /// System in the coordinates that an analysis requests.

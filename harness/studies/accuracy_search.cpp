@@ -21,7 +21,7 @@ bool is_asked(const std::string& name, const std::vector<std::string>& names) {
   });
 }
 
-/// Patch that records the same times with every step.
+/// Returns a patch that requests the same recorded times for every time step.
 Json fixed_outputs(const Document& document) {
   const std::string kind = discretized_analysis(document), place = analysis_pointer(document);
   const Json& analysis = document.value().at(JsonPointer(place));

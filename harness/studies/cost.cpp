@@ -16,7 +16,7 @@ namespace {
 using results::CostSetting;
 using results::ErrorNorms;
 
-/// Returns the divisor of the error of an entry.
+/// Returns the number by which the error of an entry is divided.
 double divisor(double reference_solution, double largest, const Scale& scale) {
   if (scale.kind == Scale::Kind::number) return scale.number;
   const bool by_entry = scale.kind == Scale::Kind::entry && reference_solution != 0;

@@ -39,7 +39,7 @@ using Observations = std::vector<std::vector<double>>;
 [[nodiscard]] Observations extract_observations(const Quantities& quantities,
                                                 const std::vector<ObservedQuantity>& observed);
 
-/// One way of computing: a case or variant with all patches applied.
+/// One setting of a computation: a case or variant with the patches of a point on a curve.
 struct Setting {
   std::string curve, curve_title;  ///< curve of the setting in the figure
   std::string title;               ///< title with the value: "consistent mass, 4 elements a link"

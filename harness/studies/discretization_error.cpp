@@ -190,9 +190,9 @@ class ErrorScales {
     return quantity_group(name) != "frequency" && (size > kMaxEntries || is_series);
   }
   /// Returns the scale of a quantity's error: the largest value of its kind over the structure. For
-  /// a curve, the scale is at least its largest value. Frequencies, load factors and other numbers
-  /// are relative to themselves. Those of rigid motions are relative to a small share of the
-  /// highest.
+  /// a curve, the scale is at least its largest value. Errors of frequencies, load factors and
+  /// other numbers are relative to each number. Frequencies of rigid motions are relative to a
+  /// small fraction of the highest frequency.
   [[nodiscard]] double of(const std::string& name) const {
     const std::string kind = quantity_group(name.starts_with("steady_") ? name.substr(7) : name);
     const double largest = max_abs(own_.at(name).values);
@@ -208,7 +208,8 @@ class ErrorScales {
   }
 
  private:
-  /// Displacements over the length of the model, and rotations, that are round-off of positions.
+  /// Round-off error of displacements that are differences of positions, over the length of the
+  /// model, and of rotations.
   static constexpr double kPositionRoundoff = 1e-11;
   const Quantities& own_;
   std::string kind_;

@@ -14,10 +14,10 @@
 namespace trammel::harness {
 namespace {
 
-using Places =
-    std::map<std::string, std::vector<Eigen::Vector2d>>;  ///< place -> displacement of each mode
+using Places = std::map<std::string, std::vector<Eigen::Vector2d>>;  ///< name of a point ->
+                                                                     ///< displacement of each mode
 
-/// Additional modes, so that a set at the end is complete.
+/// Number of additional modes, so that the last set of repeated frequencies is complete.
 constexpr solver::Index kExtraModes = 4;
 constexpr int kStations = 8;
 /// Relative distance below which frequencies form one set.

@@ -8,10 +8,10 @@
 /// Matches the modes of two models by their shapes, not by their numbers.
 namespace trammel::harness {
 
-/// Modes sampled at the places that two models have in common.
+/// Modes sampled at the points that two models have in common.
 struct SampledModes {
   std::vector<double> frequency;  ///< ascending [Hz]
-  Eigen::MatrixXd shape;          ///< displacement at common places x mode
+  Eigen::MatrixXd shape;          ///< displacement at common points x mode
 };
 
 /// Samples the modes of both cases at nodes with the same names and at stations along members with

@@ -22,8 +22,9 @@ struct CostPoint {
 inline constexpr double kMinError = std::numeric_limits<double>::epsilon();
 
 /// Relative difference below which times and errors count as equal. The median of seven repeats has
-/// no better resolution, and a smaller gain of accuracy is useless. Of equal settings the more
-/// accurate one counts. Of equally accurate settings the first one of the study counts.
+/// no better resolution, and a smaller gain of accuracy is useless. Of settings with equal times,
+/// the front contains the more accurate one. Of settings that are equal in both, it contains the
+/// first one of the study.
 inline constexpr double kParetoTolerance = 0.05;
 
 /// Returns true if a point belongs to the setting.

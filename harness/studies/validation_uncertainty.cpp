@@ -20,7 +20,7 @@ using results::UncertainInput;
 /// 1.15).
 constexpr double kGciToStandard = 1.15;
 
-/// Value of the run that is compared with a value of a reference.
+/// Entry of a quantity of the run that is compared with an entry of a reference.
 struct Place {
   const Check* check = nullptr;
   std::size_t index = 0, reference_index = 0;
@@ -180,7 +180,7 @@ class ValidationStudy {
     Response response;
   };
 
-  /// @param literal  also varies the inputs that have a nominal value
+  /// @param literal  also varies nominal inputs, as if their printed digits were uncertain
   [[nodiscard]] Variation vary(bool literal) const {
     Variation found;
     for (const UncertainInput& input : study_.inputs) {
