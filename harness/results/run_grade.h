@@ -8,8 +8,9 @@
 /// Grade of a run in one word, for the comparison of codes.
 namespace trammel::results {
 
-/// broken: an answer that cannot be judged. not_exported: the protocol does not support the case.
-/// not_judged: no check gates.
+/// off: a check fails. broken: the answer cannot be judged. cannot: the code does not support the
+/// case. not_exported: the protocol does not support the case. not_given: the code does not compute
+/// the quantities. not_judged: no check passes or fails.
 enum class Grade {
   agrees,
   off,

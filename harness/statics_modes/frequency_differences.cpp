@@ -60,7 +60,8 @@ constexpr int kRows = 7;
 constexpr double kRatio = 1.6;
 /// Number of additional modes, so that the last set of equal frequencies is complete.
 constexpr Index kExtraModes = 3;
-/// Largest step, as a share of the distance to the nearest other frequency.
+/// Largest change of a frequency by a step, as a fraction of the distance to the nearest other
+/// frequency.
 constexpr double kShareOfGap = 0.1;
 
 class Differences {
