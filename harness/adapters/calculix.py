@@ -28,11 +28,11 @@ import subprocess
 from trammel_adapter import Cannot, main
 
 
-SHEAR_RIGID = (8, 300, 1e5)  # limits of G / E without shear in the theory: least, most under axial loads, most
+SHEAR_RIGID = (8, 300, 1e5)  # G / E for theories without shear strain: lower limit, upper limit under axial loads, upper limit
 THIN, SLENDER = 3, 0.009  # factor of thinness of an inextensible strip, and slenderness below which it is not thinned
-CORE, NO_ROTARY = 0.02, ("euler-bernoulli", "shear")  # in modes, theories whose mass is in a core of that share of the depth
+CORE, NO_ROTARY = 0.02, ("euler-bernoulli", "shear")  # in modes, these have their mass in a core of this fraction of the depth
 CORE_STIFFNESS = 1e-6  # stiffness of the core relative to the strip
-STIFF = 1e5  # factor of the axial stiffness of an inextensible U1
+STIFF = 1e5  # factor of the axial stiffness of an inextensible beam element U1
 ALONG = {"CPS8R": 2, "CPS8": 4}  # elements of a strip for each element of the case
 DIGITS = 7  # significant digits that ccx prints
 MODES = 20  # number of modes for motion in time
@@ -159,7 +159,7 @@ def unrounded(name, u, nodes):
     at, found = 0, {}
     while at < len(data):
         (length,) = struct.unpack_from("<i", data, at)
-        for size in (4, 7):  # numbers per node: one more than its degrees of freedom
+        for size in (4, 7):  # numbers per node in the restart file: one more than its degrees of freedom
             if not found and length % (8 * size) == 0 and length >= 8 * size * max(nodes):
                 v = {n: struct.unpack_from(f"<{size - 1}d", data, at + 12 + 8 * size * (n - 1)) for n in nodes}
                 if all(abs(a - b) <= 1e-6 * abs(a) for n in nodes for a, b in zip(u[n], v[n])):
@@ -227,7 +227,7 @@ def middle(row):
 def refuse(model, keys):
     for key in keys:
         if model.get(key):
-            raise Cannot(f"no {key}")
+            raise Cannot(f"{key} is not supported")
 
 
 class Frame:
@@ -560,7 +560,7 @@ def transient(case, options):
     integrated by the trapezoidal rule."""
     refuse(options, ["rotating_frame", "error_control"])
     if options.get("initial_state", "at-rest") != "at-rest" or options.get("damping", {}).keys() - {"rayleigh"}:
-        raise Cannot("that initial state or damping")
+        raise Cannot("this initial state or damping of a motion in time")
     frame, end = Frame(case, "CPS8R", core=True), options["duration_s"]
     samples = options.get("samples") or round(end / options["step_s"])
     inner = max(1, math.ceil(end / samples / options["step_s"] - 1e-6))
@@ -575,7 +575,7 @@ def transient(case, options):
     wanted = {name: where for name, where in wanted.items() if any(name in asked for asked in case.asked)}
     nodes = sorted({str(motion[0]) for _, motion in wanted.values()})
     if not nodes:
-        raise Cannot("the requested quantities of that motion")
+        raise Cannot("the requested quantities of a motion in time")
     rayleigh = options.get("damping", {}).get("rayleigh", {})
     damped = ["*MODAL DAMPING,RAYLEIGH", card(1, MODES, *(float(rayleigh.get(key, 0)) for key in ("mass_per_s", "stiffness_s")))]
     if rayleigh and not modal or any(any(m.load) for m in frame.members):

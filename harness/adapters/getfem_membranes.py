@@ -39,7 +39,7 @@ class Membrane:
             self.M += scipy.sparse.csc_matrix(([mass["mass_kg"]] * 2, (at, at)), (size, size))
         taken = {(n, t) for n, directions in self.model.get("supports", {}).items() for t in directions}
         if any(n not in self.index or t == "rotation" for n, t in taken):
-            raise Cannot("supports other than x and y of nodes")
+            raise Cannot("supports other than of x and y at nodes")
         held = {2 * self.index[n] + "xy".index(t) for n, t in taken}
         used = {2 * self.index[n] + k for p in self.model["plates"].values() for t in p["triangles"] for n in t for k in (0, 1)}
         self.free = numpy.array(sorted(used - held))
@@ -48,7 +48,7 @@ class Membrane:
         triangles = plate.get("triangles") or []
         sizes = {len(t) for t in triangles}
         if len(sizes) != 1:
-            raise Cannot("plates other than of triangles of one kind")
+            raise Cannot("plates without triangles, or with different types of triangles")
         n = sizes.pop()
         degree = 1 if n == 3 else 2
         material = self.model["materials"][plate["material"]]

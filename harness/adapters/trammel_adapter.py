@@ -72,24 +72,24 @@ class Case(dict):
         """Raises Cannot for any other kind of analysis, part of the model or option.
         Options that are false and the choice of eigensolver are ignored."""
         if self.kind not in kinds:
-            raise Cannot("no analysis '%s'" % self.kind)
+            raise Cannot("analysis '%s' is not supported" % self.kind)
         for key in self.model:
             if key not in parts:
-                raise Cannot("no %s" % key)
+                raise Cannot("%s are not supported" % key)
         for key, value in self.options.items():
             if key not in options and key != "eigensolver" and value is not False:
-                raise Cannot("no option '%s'" % key)
+                raise Cannot("option '%s' is not supported" % key)
 
     def members(self):
         """Returns all frame members with the properties of their sections."""
         found = []
         for name, member in self.model.get("members", {}).items():
             for key in member.keys() - KEYS_OF_MEMBERS:
-                raise Cannot("no %s of a member" % key)
+                raise Cannot("'%s' of a member is not supported" % key)
             section = self.model["sections"][member["section"]]
             material = self.model["materials"][section["material"]]
             if any(member.get("end_inertia_kg_m2", ())):
-                raise Cannot("no inertia at a member's end")
+                raise Cannot("inertia at the end of a member is not supported")
             ends = tuple(end if isinstance(end, str) else end["spring_N_m_per_rad"]
                          for end in member.get("ends", ("welded", "welded")))
             E, nu = material["E_Pa"], material.get("nu", 0.3)

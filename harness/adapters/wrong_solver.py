@@ -90,7 +90,7 @@ class Frame:
             (xa, ya), (xb, yb) = at[m.nodes[0]], at[m.nodes[1]]
             length = math.hypot(xb - xa, yb - ya)
             if m.inextensible and xa != xb and ya != yb:
-                raise Cannot("inextensible members only along the axes")
+                raise Cannot("inextensible members that are not along a world axis")
             way = [self.names[m.nodes[0]]] + nodes + [self.names[m.nodes[1]]]
             for e in range(n):
                 dofs = way[e] + way[e + 1]
@@ -138,7 +138,7 @@ class Frame:
                     K[i][j] = K[i].get(j, 0.0) + sign * k
         for point in self.case.model.get("point_masses", {}).values():
             if any(point.get("offset_m", ())):
-                raise Cannot("no eccentric masses")
+                raise Cannot("point masses with an offset")
             for dof, value in zip(self.names[point["node"]], [point["mass_kg"]] * 2
                                   + [point.get("inertia_kg_m2", 0.0)]):
                 M[dof][dof] = M[dof].get(dof, 0.0) + value

@@ -14,7 +14,7 @@ def solve(case):
     (xa, ya), (xb, yb) = case.model["nodes"][held], case.model["nodes"][tip]
     clamped = case.model["supports"] == {held: ["x", "y", "rotation"]}
     if not clamped or load["node"] != tip or ya != yb or m.beam != "euler-bernoulli":
-        raise Cannot("not a slender cantilever along x")
+        raise Cannot("models other than a slender cantilever along x")
     L, P, M0 = xb - xa, load.get("force_N", [0, 0])[1], load.get("moment_N_m", 0)
     found = {
         "displacement_y_m:" + tip: P * L**3 / (3 * m.E * m.I) + M0 * L**2 / (2 * m.E * m.I),
