@@ -76,6 +76,9 @@ void add(Counts& counts, const Run& run);
 /// Returns a difference in the measure of the check: "+26 %", "−3 × 10⁻⁸ N", "× 1.02".
 [[nodiscard]] std::string difference_text(const Check& check, double difference);
 
+/// Returns the comparison of a check with its validation uncertainty; null if there is none.
+[[nodiscard]] const Comparison* find_comparison(const Run& run, const Check& check);
+
 /// Returns the title of the check, or its name if it has none.
 [[nodiscard]] std::string check_title(const Check& check);
 

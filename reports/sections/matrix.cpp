@@ -45,15 +45,6 @@ bool belongs(const Check& check) {
          check.verdict != Verdict::not_run;
 }
 
-const Comparison* find_comparison(const Run& run, const Check& check) {
-  if (!run.uncertainty) return nullptr;
-  for (const Comparison& c : run.uncertainty->comparisons)
-    if (c.check == check.name && c.quantity == check.quantity &&
-        c.index == check.index.value_or(0) && c.u_val)
-      return &c;
-  return nullptr;
-}
-
 std::vector<MatrixSubject> subjects(const Family& family) {
   std::vector<MatrixSubject> out;
   for (const Run* run : family.runs) {

@@ -77,6 +77,10 @@ struct StudyFigures {
 /// Verdict, failures and counts of all checks.
 [[nodiscard]] Data summary_section(const Results& results, const std::vector<Family>& families);
 
+/// One sheet for an audit: verdict, counts, the largest known discrepancies with their validation
+/// uncertainty, and the number of the others for each reason.
+[[nodiscard]] Data audit_section(const Results& results, const std::vector<Family>& families);
+
 /// Known discrepancies by family, with their reasons.
 [[nodiscard]] Data known_section(const Results& results, const std::vector<Family>& families);
 

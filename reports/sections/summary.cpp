@@ -1,4 +1,8 @@
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -121,20 +125,50 @@ Targets targets_of(const Results& results) {
 /// Known discrepancies of a case with the same name.
 struct KnownDiscrepancy {
   const CaseInfo* info;
+  const Run* run;        ///< of the largest difference
   const Check* largest;  ///< with the largest difference
   std::size_t entries = 0;
   std::set<std::string> reasons = {};
 };
 
-Data known_data(const KnownDiscrepancy& known, const Family& family, const Results& results) {
+std::vector<KnownDiscrepancy> known_discrepancies(const Family& family, const Results& results) {
+  std::vector<KnownDiscrepancy> known;
+  for (const Run* run : family.runs) {
+    for (const Check& check : run->checks) {
+      if (check_status(check) != CheckStatus::known_discrepancy) continue;
+      const CaseInfo& info = results.case_info(run->case_id);
+      const auto same = [&](const KnownDiscrepancy& other) {
+        return other.info == &info && other.largest->name == check.name;
+      };
+      KnownDiscrepancy& found = harness::find_or_add(known, same, {&info, run, &check});
+      if (worse(check, *found.largest)) {
+        found.run = run;
+        found.largest = &check;
+      }
+      found.reasons.insert(check.why);
+      ++found.entries;
+    }
+  }
+  return known;
+}
+
+/// Returns "± 3.2 %": the expanded validation uncertainty of a check relative to its target.
+std::string uncertainty_text(const Run& run, const Check& check) {
+  const Comparison* found = find_comparison(run, check);
+  if (!found || !check.expected) return "–";
+  return "± " + relative(2 * *found->u_val / std::abs(*check.expected), 2, false);
+}
+
+Data known_data(const KnownDiscrepancy& known, const std::string& title, const Results& results) {
   const Check& check = *known.largest;
   const Reference* reference = results.reference(check.reference);
   return object(
-      {{"case_title", family.short_title(*known.info)},
+      {{"case_title", title},
        {"case_link", case_link(known.info->id)},
        {"what", check.title.empty() && reference ? reference->title : check_title(check)},
        {"reference_link", reference ? reference_link(reference->id) : ""},
        {"difference", check.difference ? difference_text(check, *check.difference) : ""},
+       {"uncertainty", uncertainty_text(*known.run, check)},
        {"extent", count(known.entries, "entry", "entries")},
        {"reason", check.why},
        {"further_reasons", known.reasons.size() > 1
@@ -146,33 +180,38 @@ Data known_data(const KnownDiscrepancy& known, const Family& family, const Resul
 Data known_by_family(const Results& results, const std::vector<Family>& families) {
   Data out = list();
   for (const Family& family : families) {
-    std::vector<KnownDiscrepancy> known;
     Targets targets;
     std::size_t entries = 0;
-    for (const Run* run : family.runs) {
-      for (const Check& check : run->checks) {
-        if (check_status(check) != CheckStatus::known_discrepancy) continue;
-        const CaseInfo& info = results.case_info(run->case_id);
-        const auto same = [&](const KnownDiscrepancy& other) {
-          return other.info == &info && other.largest->name == check.name;
-        };
-        KnownDiscrepancy& found = harness::find_or_add(known, same, {&info, &check});
-        if (worse(check, *found.largest)) found.largest = &check;
-        found.reasons.insert(check.why);
-        ++found.entries;
-        ++entries;
-        targets.add(*run, check, results);
-      }
-    }
-    if (known.empty()) continue;
-    const auto entry = [&](const KnownDiscrepancy& discrepancy) {
-      return known_data(discrepancy, family, results);
+    for (const Run* run : family.runs)
+      for (const Check& check : run->checks)
+        if (check_status(check) == CheckStatus::known_discrepancy) {
+          targets.add(*run, check, results);
+          ++entries;
+        }
+    if (entries == 0) continue;
+    const auto entry = [&](const KnownDiscrepancy& known) {
+      return known_data(known, family.short_title(*known.info), results);
     };
     out.push_back(object({{"family_title", family.title},
                           {"extent", targets.text() + " in " + count(entries, "entry", "entries")},
-                          {"known", list_of(known, entry)}}));
+                          {"known", list_of(known_discrepancies(family, results), entry)}}));
   }
   return out;
+}
+
+/// Returns the most frequent reasons with their numbers of entries, and the sum of the others.
+Data reasons_of(const std::vector<KnownDiscrepancy>& known) {
+  constexpr std::ptrdiff_t kShown = 5;
+  std::map<std::string, std::size_t> entries;
+  for (const KnownDiscrepancy& one : known) entries[one.largest->why] += one.entries;
+  std::vector<std::pair<std::string, std::size_t>> sorted(entries.begin(), entries.end());
+  std::ranges::stable_sort(sorted, std::greater(), &std::pair<std::string, std::size_t>::second);
+  std::size_t others = 0;
+  for (; std::ssize(sorted) > kShown; sorted.pop_back()) others += sorted.back().second;
+  if (others > 0) sorted.emplace_back("other reasons", others);
+  return list_of(sorted, [](const auto& reason) {
+    return object({{"reason", reason.first}, {"n", std::to_string(reason.second)}});
+  });
 }
 
 std::string verdict_text(const Counts& counts, std::size_t unexpected_endings) {
@@ -313,6 +352,24 @@ Data known_section(const Results& results, const std::vector<Family>& families) 
   return object({{"has_rows", known.is_non_empty_list()},
                  {"words", targets_of(results).text()},
                  {"known_families", known}});
+}
+
+Data audit_section(const Results& results, const std::vector<Family>& families) {
+  constexpr std::size_t kShown = 10;
+  std::vector<KnownDiscrepancy> known;
+  for (const Family& family : families)
+    std::ranges::copy(known_discrepancies(family, results), std::back_inserter(known));
+  std::ranges::stable_sort(known, std::greater(), [](const KnownDiscrepancy& one) {
+    return one.largest->measure == "relative" ? size_of_difference(*one.largest) : 0;
+  });
+  const auto rest = known.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, known.size()));
+  const auto row = [&](const KnownDiscrepancy& one) {
+    return known_data(one, one.info->title, results);
+  };
+  return object({{"summary", summary_section(results, families)},
+                 {"has_known", !known.empty()},
+                 {"largest", list_of(std::vector(known.begin(), rest), row)},
+                 {"rest", reasons_of({rest, known.end()})}});
 }
 
 Data summary_section(const Results& results, const std::vector<Family>& families) {
