@@ -120,7 +120,7 @@ std::size_t total(const Counts& counts) {
 }
 
 void add(Counts& counts, const Run& run) {
-  for (const Check& check : run.checks) ++counts[check_status(check)];
+  for (const CheckGroup& group : group_checks(run)) ++counts[check_status(group.worst())];
 }
 
 bool all_checks_pass(const Counts& counts) {

@@ -62,7 +62,7 @@ struct CheckGroup {
 using Counts = std::map<CheckStatus, std::size_t>;
 [[nodiscard]] std::size_t count_of(const Counts& counts, CheckStatus status);
 [[nodiscard]] std::size_t total(const Counts& counts);
-/// Adds the checks of a run.
+/// Adds the checks of a run. A check counts once, by its worst number.
 void add(Counts& counts, const Run& run);
 [[nodiscard]] bool all_checks_pass(const Counts& counts);
 

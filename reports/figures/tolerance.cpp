@@ -82,9 +82,9 @@ std::string conclusion(const std::vector<ToleranceRow>& rows) {
     }
   }
   if (beyond > 0)
-    return std::to_string(beyond) + " of " + count(n, "check") +
+    return std::to_string(beyond) + " of " + count(n, "number") +
            " fail or could not be evaluated; the worst is in " + worst->label + ".";
-  return (n == 1 ? "The check passes" : "All " + count(n, "check") + " pass") +
+  return (n == 1 ? "The number passes" : "All " + count(n, "number") + " pass") +
          "; the one nearest to its limit uses " + trimmed(100 * worst->worst, 2) +
          "\u202f% of its tolerance (" + worst->label + ").";
 }

@@ -26,8 +26,8 @@ constexpr std::array<std::pair<const char*, const char*>, 4> kRoles = {{
 Counts counts_of(const Results& results, const std::string& role) {
   Counts counts;
   for (const Run& run : results.runs)
-    for (const Check& check : run.checks)
-      if (role == "all" || check.role == role) ++counts[check_status(check)];
+    for (const CheckGroup& group : group_checks(run))
+      if (role == "all" || group.front().role == role) ++counts[check_status(group.worst())];
   return counts;
 }
 
@@ -231,28 +231,12 @@ std::string verdict_text(const Counts& counts, std::size_t unexpected_endings) {
 
 std::string overview_text(const Results& results, const std::vector<Family>& families,
                           const Counts& counts) {
-  std::size_t cases = 0, checks = 0;
+  std::size_t cases = 0, numbers = 0;
   for (const Family& family : families) cases += family.cases.size();
-  for (const Run& run : results.runs) checks += group_checks(run).size();
+  for (const Run& run : results.runs) numbers += run.checks.size();
   return count(cases, "case") + " in " + count(families.size(), "family", "families") + ", " +
-         count(results.runs.size(), "run") + ", " + count(checks, "check") + " of " +
-         count(total(counts), "number") + ":";
-}
-
-/// Checks of one role. A check counts once, by its worst entry.
-struct RoleCount {
-  std::size_t passing = 0, all = 0;
-};
-
-RoleCount count_role(const Results& results, const std::string& role) {
-  RoleCount found;
-  for (const Run& run : results.runs)
-    for (const CheckGroup& group : group_checks(run)) {
-      if (group.front().role != role) continue;
-      ++found.all;
-      if (check_status(group.worst()) == CheckStatus::passes) ++found.passing;
-    }
-  return found;
+         count(results.runs.size(), "run") + ", " + count(total(counts), "check") + " of " +
+         count(numbers, "number") + ":";
 }
 
 Data tile(const std::string& number, const std::string& title, const std::string& words,
@@ -263,13 +247,14 @@ Data tile(const std::string& number, const std::string& title, const std::string
 
 Data tiles_of(const Results& results) {
   Data tiles = list();
-  const RoleCount solver = count_role(results, "verification");
-  if (solver.all > 0)
-    tiles.push_back(tile(std::to_string(solver.passing) + " of " + std::to_string(solver.all),
+  const Counts solver = counts_of(results, "verification");
+  const std::size_t passing = count_of(solver, CheckStatus::passes);
+  if (total(solver) > 0)
+    tiles.push_back(tile(std::to_string(passing) + " of " + std::to_string(total(solver)),
                          "Solver verification",
                          "checks against exact values, other codes and theory pass.",
                          results.claims ? "orders.html" : "index.html#trust",
-                         solver.passing == solver.all ? CheckStatus::passes : CheckStatus::fails));
+                         passing == total(solver) ? CheckStatus::passes : CheckStatus::fails));
   if (results.claims) {
     const auto count_of = [&](const std::string& verdict) {
       return std::to_string(std::ranges::count(results.claims->claims, verdict, &Claim::verdict));

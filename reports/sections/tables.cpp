@@ -176,7 +176,7 @@ Data case_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
                                      : worst_table(info, runs, {results, true})},
                         {"has_folded", !few}});
   if (few) return tables;
-  std::string title = "All " + count(checks, "check");
+  std::string title = "All " + count(checks, "number");
   if (runs.size() > 1) title += " of " + count(runs.size(), "variant");
   set(tables, {{"folded_title", title}, {"folded_runs", full_table(info, runs, {results})}});
   return tables;

@@ -122,12 +122,12 @@ BOOST_AUTO_TEST_CASE(tolerance_caption_names_the_worst_check) {
   run.checks = {judged("far", 1e-6, 1e-3), judged("near", -9e-4, 1e-3)};
   auto figure = tolerance_figure("beams", {{"beam", "A beam"}}, {&run});
   BOOST_TEST_REQUIRE(figure.has_value());
-  BOOST_TEST(contains(figure->caption, "All 2 checks pass"));
+  BOOST_TEST(contains(figure->caption, "All 2 numbers pass"));
   BOOST_TEST(contains(figure->caption, "uses 90\u202f% of its tolerance (near)"));
   run.checks.push_back(judged("beyond", 2e-3, 1e-3));
   figure = tolerance_figure("beams", {{"beam", "A beam"}}, {&run});
   BOOST_TEST(contains(figure->caption,
-                      "1 of 3 checks fail or could not be evaluated; the worst is in beyond."));
+                      "1 of 3 numbers fail or could not be evaluated; the worst is in beyond."));
 }
 
 BOOST_AUTO_TEST_CASE(undrawable_curves_report_the_reason) {
