@@ -111,7 +111,7 @@ Real load_parameter(const Real& tip_angle) {
   return root * root;
 }
 
-/// The columns of the table that are asked for: one with its length, or all of them without.
+/// Returns the requested columns of the table: all, dimensionless, or one, with lengths in m.
 std::vector<Real> columns(const Arguments& arguments, const std::vector<Real>& table,
                           const std::array<const char*, 3>& names,
                           const std::array<bool, 3>& is_length) {
@@ -142,8 +142,8 @@ std::vector<Real> becks_column_program(const Arguments& arguments) {
   const Follower load = spread ? Follower{0, parameter} : Follower{parameter, 0};
   const bool beyond = valley(load).first > 0;  // the two lowest roots have met
   if (beyond != (output == "growth-rate"))
-    arguments.fail("load_parameter",
-                   std::string("a load ") + (beyond ? "below" : "above") + " that of flutter");
+    arguments.fail("load_parameter", std::string("expected a load ") +
+                                         (beyond ? "below" : "above") + " that of flutter");
   const Real rate = sqrt(EI / mass) / (L * L);
   if (beyond) return {Real(abs(complex_root(load).imag()) * rate)};
   std::vector<Real> values =

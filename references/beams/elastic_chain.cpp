@@ -34,7 +34,7 @@ Real sum_at(const Series& a, const Real& h) {
   return sum;
 }
 
-/// A section of the loaded chain: its place and angle, the force and the moment of the next part.
+/// Section of the loaded chain: position, angle, and the force and moment of the next part.
 struct Section {
   Real x, y, angle, moment, force_x, force_y;
 };
@@ -143,7 +143,7 @@ void find_equilibrium(const Arguments& arguments, const F& f, RealVector& unknow
         (correction.array().abs() / (1 + unknown.head(value.size()).array().abs())).maxCoeff();
     if (size < Real(1e-25)) return;
   }
-  arguments.fail("nodes_m", "an equilibrium that Newton's method finds");
+  arguments.fail("nodes_m", "expected an equilibrium that Newton's method finds");
 }
 
 Real output(const Arguments& arguments, const Chain& chain, const std::string& name,
@@ -159,8 +159,9 @@ Real output(const Arguments& arguments, const Chain& chain, const std::string& n
     if (what == "displacement_y_m") return at.y - chain.nodes[node][1];
     if (what == "rotation_rad") return at.angle;
   }
-  arguments.fail("outputs",
-                 "load_factor, displacement_x_m:NODE, displacement_y_m:NODE or rotation_rad:NODE");
+  arguments.fail(
+      "outputs",
+      "expected load_factor, displacement_x_m:NODE, displacement_y_m:NODE or rotation_rad:NODE");
 }
 
 Chain read_chain(const Arguments& arguments) {

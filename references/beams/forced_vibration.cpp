@@ -146,7 +146,7 @@ std::vector<Real> deep_beam_program(const Arguments& arguments) {
     } else if (output == "time_s" && response == "step-peak") {
       values.push_back(peak_at(share));
     } else {
-      arguments.fail("outputs", "'" + output + "' is no output of this response");
+      arguments.fail("outputs", "'" + output + "' is not an output of this response");
     }
   }
   return values;
@@ -173,7 +173,8 @@ std::vector<Real> run_up_program(const Arguments& arguments) {
   std::vector<Real> values;
   Real from = 0, cosine = 0, sine = 0;
   for (const Real& t : arguments.numbers("times_s")) {
-    if (t < from || t > T) arguments.fail("times_s", "ascending times within the duration");
+    if (t < from || t > T)
+      arguments.fail("times_s", "expected ascending times within the duration");
     while (from < t) {
       const Real to = std::min(t, Real(from + Real(1) / 100));
       cosine += Gauss::integrate(in_phase, from, to);

@@ -85,7 +85,7 @@ bool less(const JsonMember& a, const JsonMember& b) {
 
 constexpr std::string_view kEnding = ".json";
 
-/// @param see  is given a folder and the name of each JSON file in it.
+/// @param see  receives a folder and the name of each JSON file in it.
 template <typename See>
 void walk(const std::string& folder, const See& see) {
   const std::unique_ptr<DIR, int (*)(DIR*)> open(opendir(folder.c_str()), closedir);

@@ -45,7 +45,7 @@ struct MembraneState {
 /// Beams along 0 <= x <= length, clamped at x = 0 and loaded at the far end by (N, V, M) there.
 enum class BeamField {
   smooth,  ///< exponential and trigonometric
-  cubic,   ///< needs no transverse load: what the interpolation of a prismatic element holds
+  cubic,   ///< requires no transverse load; prismatic elements represent it exactly
 };
 
 enum class ShearStrain {

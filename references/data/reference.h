@@ -17,12 +17,12 @@ struct Reference {
   ReferenceKind kind = ReferenceKind::exact;
   std::string unit;  ///< "Hz", "m", "1", ...
   std::vector<double> values;
-  std::vector<double> uncertainty;   ///< absolute half width, one a value, same unit
+  std::vector<double> uncertainty;   ///< absolute half width, one per value, same unit
   std::string source;                ///< key into references/bibliography.json
   std::string place;                 ///< place in the source: "Table 2, row 1"
   std::vector<std::string> printed;  ///< as printed, if the source prints them
   std::string derivation;            ///< program and arguments in words; empty if none
-  std::vector<std::string> errata;   ///< what is wrong with the source, and how it was shown
+  std::vector<std::string> errata;   ///< errors of the source, with evidence
   std::string notes;
   /// Probabilities of readings of a model, as JSON text; empty if the values are all.
   std::string probabilities;

@@ -6,7 +6,7 @@ namespace trammel::references {
 
 namespace {
 
-/// Returns the nodes with a rotation: those that something rotates with.
+/// Returns the nodes that have a rotation, because a part of the frame rotates with them.
 std::vector<bool> nodes_with_rotation(const Frame& frame) {
   std::vector<bool> has_rotation(frame.nodes.size(), false);
   for (const FrameMember& member : frame.members) {

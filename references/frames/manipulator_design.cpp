@@ -22,7 +22,7 @@ Real given_or(const Arguments& object, const std::string& key, const Real& compu
   return is_given(object, key) ? object.positive(key) : computed;
 }
 
-/// All that holds for the links of one kind.
+/// Data of the links of one kind.
 Arguments links_of_kind(const Arguments& manipulator, const char* kind) {
   Json links = manipulator["links"];
   if (links.contains(kind)) links.merge_patch(Json(links[kind]));

@@ -208,7 +208,7 @@ std::vector<Real> frame_statics_program(const Arguments& arguments) {
   for (const std::string& name : arguments.texts("outputs")) {
     const auto value = values.find(name);
     if (value == values.end())
-      arguments.fail("outputs", "'" + name + "' is no output of this frame");
+      arguments.fail("outputs", "'" + name + "' is not an output of this frame");
     result.push_back(value->second);
   }
   return result;

@@ -67,7 +67,7 @@ Real counted_root(const CountingFunction& f, int index) {
   return refine_root(f, index, lo, hi);
 }
 
-/// The frame with the axial forces that its loads bring about.
+/// Returns the frame with the axial forces due to its loads.
 Frame with_axial_forces(Frame frame) {
   const FrameStatics statics = unit_load_statics(frame);
   for (std::size_t i = 0; i < frame.members.size(); ++i) {
@@ -84,7 +84,8 @@ Frame with_axial_forces(Frame frame) {
   return frame;
 }
 
-/// The load at which a pinned member alone would buckle, as a factor: the smallest of them.
+/// Returns approximately (10 for pi^2) the smallest load factor at which a member with pinned ends
+/// buckles.
 Real buckling_scale(const Frame& frame) {
   Real scale = 0;
   for (const FrameMember& member : frame.members) {
@@ -98,7 +99,7 @@ Real buckling_scale(const Frame& frame) {
   return scale;
 }
 
-/// A decimal of twelve digits, so that what is read back is what was meant.
+/// Returns a decimal of twelve digits, so that reading it restores the intended number.
 Json decimal(double value) {
   std::ostringstream text;
   text.precision(12);

@@ -93,7 +93,7 @@ struct Search {
     if ((jet(from).rate < 0) == (jet(to).rate < 0)) return add_crossing(from, to);
     const Real extremum = refined_root([&](const Real& phi) { return jet(phi).rate; }, from, to);
     if (abs(at(extremum)) < Real(1e-40) * largest)
-      arguments.fail("angles_rad", "angles at which no two poses are the same");
+      arguments.fail("angles_rad", "expected angles at which all poses differ");
     add_crossing(from, extremum);
     add_crossing(extremum, to);
   }
@@ -106,7 +106,8 @@ struct Search {
     if (abs(q.value) > abs(q.rate) * h + bend * h * h / 2) return;
     if (abs(q.rate) > bend * h) return add_crossing(from, to);
     if (abs(q.acceleration) > 27 * largest * h) return add_crossings(from, to);
-    if (h < Real(1e-12)) arguments.fail("angles_rad", "angles at which no three poses meet");
+    if (h < Real(1e-12))
+      arguments.fail("angles_rad", "expected angles at which no three poses meet");
     find(from, middle);
     find(middle, to);
   }

@@ -13,7 +13,7 @@ namespace {
 
 using Motion = std::array<Jet<Real>, 3>;
 
-/// Everything at one instant, by the name of its quantity.
+/// Quantities of the motion at one instant, by name.
 class Instant {
  public:
   Instant(const ManipulatorNumbers& manipulator, const Motion& motion, const PlanarWrench& wrench)
@@ -37,8 +37,7 @@ class Instant {
 
   [[nodiscard]] Real value(const std::string& name) const {
     const auto found = values_.find(name);
-    if (found == values_.end())
-      throw DerivationError("/outputs: '" + name + "': there is no such quantity");
+    if (found == values_.end()) throw DerivationError("/outputs: '" + name + "': no such quantity");
     return abs(found->second) < Real("1e-40") ? Real(0) : found->second;  // round-off alone
   }
 

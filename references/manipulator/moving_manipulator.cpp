@@ -362,7 +362,7 @@ std::vector<Real> moving_platform_program(const Arguments& arguments) {
     history.factor = given.numbers("factor", history.time.size());
   }
   const std::vector<Real> times = arguments.numbers("times_s");
-  if (!std::ranges::is_sorted(times)) arguments.fail("times_s", "times that ascend");
+  if (!std::ranges::is_sorted(times)) arguments.fail("times_s", "expected ascending times");
   State x{};
   Real now = times.front();
   std::vector<Real> values;
@@ -382,7 +382,7 @@ std::vector<Real> moving_platform_program(const Arguments& arguments) {
 std::vector<Real> moving_links_program(const Arguments& arguments) {
   const Links links(arguments);
   const std::vector<Real> times = arguments.numbers("times_s");
-  if (!std::ranges::is_sorted(times)) arguments.fail("times_s", "times that ascend");
+  if (!std::ranges::is_sorted(times)) arguments.fail("times_s", "expected ascending times");
   const std::vector<SystemState> state = states(links, times);
   std::vector<Real> values;
   for (const std::string& name : arguments.texts("outputs")) {

@@ -5,7 +5,7 @@
 #include "references/manipulator/newton_euler.h"
 #include "references/numerics/arguments.h"
 
-/// Programs that derive motions of the planar 3-RRR, and estimates of them.
+/// Programs that derive motions of the planar 3-RRR, and estimates of these motions.
 namespace trammel::references {
 
 /// Reads "manipulator", as in a case file, and "gravity_m_s2".

@@ -88,7 +88,7 @@ Real Arguments::positive(const std::string& key, const Default& default_value) c
 
 Real Arguments::not_negative(const std::string& key, const Real& default_value) const {
   Real value = number(key, default_value);
-  if (value < 0) fail(key, "expected a number that is not negative");
+  if (value < 0) fail(key, "expected a number of at least 0");
   return value;
 }
 

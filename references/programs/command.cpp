@@ -46,7 +46,7 @@ void print_values(const Comparison& comparison, std::ostream& out) {
   }
 }
 
-/// Returns the values of a proved reference whose digits differ.
+/// Prints the values of a proved reference whose digits differ.
 void print_proved(const Comparison& comparison, std::ostream& out) {
   const std::vector<std::string>&stored = comparison.printed, &proved = comparison.proved;
   if (stored.empty()) return;

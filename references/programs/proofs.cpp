@@ -4,8 +4,8 @@
 #include "references/programs/program.h"
 
 /// Natural frequencies as proved enclosures: the count of Wittrick and Williams in ball arithmetic
-/// is an integer that no rounding can change, and what lies between two counts that differ by m are
-/// m frequencies. A proof relies on the theorem, on the formulas of `dynamic_stiffness.cpp` and on
+/// is an integer that no rounding can change. If two counts differ by m, then m frequencies lie
+/// between them. A proof relies on the theorem, on the formulas of `dynamic_stiffness.cpp` and on
 /// Arb.
 namespace trammel::references {
 namespace {
