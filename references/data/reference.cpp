@@ -58,7 +58,7 @@ std::vector<double> expand(const Json& stated, const std::string& place, const c
   if (!numbers.is_array() || numbers.size() != count ||
       !std::all_of(numbers.begin(), numbers.end(), is_half_width))
     fail(place, pointer,
-         "a number that is not negative, or " + std::to_string(count) + " of them, one a value");
+         "a number of at least 0, or " + std::to_string(count) + " of them, one per value");
   return numbers.get<std::vector<double>>();
 }
 
