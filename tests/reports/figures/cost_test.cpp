@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(data_contain_settings_with_and_without_result) {
   BOOST_TEST(contains(csv, "error_max,error_rms,error_mean"));
   BOOST_TEST(contains(csv, "element_evaluations,factorizations,solves"));
   BOOST_TEST(contains(csv, "\"dense, 64 elements\",dense,64,timed-out"));
-  BOOST_TEST(contains(figure.caption, "2 settings without an answer"));
+  BOOST_TEST(contains(figure.caption, "2 settings without a result"));
   // Settings without a result are crosses in a separate strip.
   BOOST_TEST(contains(figure.commands, "no answer"));
   BOOST_TEST(contains(figure.commands, "pt 2"));
