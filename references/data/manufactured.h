@@ -2,7 +2,7 @@
 
 #include <array>
 
-/// Manufactured solutions: smooth fields in closed form, and the loads that hold them up. A field
+/// Manufactured solutions: smooth fields in closed form, and the loads that balance them. A field
 /// is chosen first; strain, stress and load follow from it by differentiation, so that the exact
 /// solution of a problem without special symmetry is known. Motion is harmonic, field * cos(omega
 /// t); omega = 0 is statics. Source: P. J. Roache, "Code Verification by the Method of Manufactured

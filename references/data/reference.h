@@ -24,13 +24,14 @@ struct Reference {
   std::string derivation;            ///< program and arguments in words; empty if none
   std::vector<std::string> errata;   ///< errors of the source, with evidence
   std::string notes;
-  /// Probabilities of readings of a model, as JSON text; empty if the values are all.
+  /// Probabilities of readings (interpretations of a published model), as JSON text; empty: none.
   std::string probabilities;
 };
 
 [[nodiscard]] const char* to_string(ReferenceKind kind);
 
-/// Bad input: one line with file, JSON pointer (or byte offset) and what was expected.
+/// Invalid reference file. The message is one line with file, JSON pointer (or byte offset) and the
+/// expected content.
 class ReferenceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -55,7 +56,7 @@ struct Source {
 
 /// Reads a member of a bibliography, {"key": {"text": "...", "doi": "..."}}.
 /// @param place  "file: /key" in messages
-/// @throws ReferenceError  if the member is no source.
+/// @throws ReferenceError  if the member has no 'text' or 'doi'.
 [[nodiscard]] Source read_source(std::string_view json, const std::string& place);
 
 }  // namespace trammel::references

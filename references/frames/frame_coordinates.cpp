@@ -113,7 +113,7 @@ void FrameCoordinates::solve(const std::vector<Row>& equations) {
     for (const auto& [column, coefficient] : equations[i]) C(i, column) = coefficient;
   }
   Eigen::FullPivLU<RealMatrix> lu(C);
-  lu.setThreshold(Real(1e-30));  // equations may repeat each other
+  lu.setThreshold(Real(1e-30));  // equations may be linearly dependent
   N_ = lu.dimensionOfKernel() > 0 ? RealMatrix(lu.kernel()) : RealMatrix(size_, 0);
   N_ = (N_.array().abs() < Real(1e-40)).select(Real(0), N_);
 }

@@ -34,7 +34,7 @@ Sample sample_at(const ManipulatorNumbers& manipulator, const Arguments& traject
   return sample;
 }
 
-/// @param inputs, outputs  one row a sample
+/// @param inputs, outputs  one row per sample
 std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
                                   const std::vector<Real>& query, const Real& sigma) {
   std::vector<Real> squared_distance;

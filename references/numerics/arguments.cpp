@@ -107,7 +107,7 @@ bool Arguments::flag(const std::string& key, bool default_value) const {
 }
 
 std::string Arguments::text(const std::string& key) const {
-  if (!(*this)[key].is_string()) fail(key, "expected a text");
+  if (!(*this)[key].is_string()) fail(key, "expected a string");
   return (*this)[key].get<std::string>();
 }
 

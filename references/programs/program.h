@@ -8,8 +8,8 @@
 
 #include "references/numerics/arguments.h"
 
-/// The programs that derive references again, by their name in the derivation of a reference,
-/// "derivation": {"program": NAME, "arguments": {...}}, and the command trammel_derive.
+/// Programs that derive references again, and the command trammel_derive. A reference states its
+/// program and arguments as "derivation": {"program": NAME, "arguments": {...}}.
 namespace trammel::references {
 
 struct Program {
