@@ -74,9 +74,9 @@ Real flutter_load(bool spread) {
   Real low = spread ? 39 : 19, high = low + 2;
   while (high - low > Real(1e-20)) {
     const Real middle = (low + high) / 2;
-    const bool flutters =
+    const bool flutter =
         first_minimum(spread ? Follower{0, middle} : Follower{middle, 0}).first > 0;
-    (flutters ? high : low) = middle;
+    (flutter ? high : low) = middle;
   }
   return low;
 }

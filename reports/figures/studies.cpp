@@ -24,8 +24,8 @@ Table table_of(const std::vector<EffectScene>& scenes) {
   return table;
 }
 
-/// Reports how many scenes stay within their tolerance, in how many the selection is minimal, and
-/// the time of selecting effects and running, divided by the time of running with all effects.
+/// Reports how many scenes stay within their tolerance, and in how many the selection is minimal.
+/// Reports the time of selecting effects and running over the time of running with all effects.
 std::string conclusion(const std::vector<EffectScene>& scenes) {
   std::size_t within = 0, minimal = 0;
   double all_effects_s = 0, selected_s = 0;
