@@ -62,7 +62,7 @@ T follower_determinant(const T& W, const Follower& load) {
 
 /// Returns the minimum of the characteristic function between its two lowest roots, and the W at
 /// which it occurs. The minimum is 0 if the roots meet, and positive beyond the flutter load.
-std::pair<Real, Real> first_minimum(const Follower& load) {
+std::pair<Real, Real> lowest_value(const Follower& load) {
   const auto determinant = [&](const Real& W) { return follower_determinant(W, load); };
   constexpr int kBits = 80;  // rounding limits the position of a minimum to half of the digits
   const auto [W, least] =
@@ -74,8 +74,7 @@ Real flutter_load(bool spread) {
   Real low = spread ? 39 : 19, high = low + 2;
   while (high - low > Real(1e-20)) {
     const Real middle = (low + high) / 2;
-    const bool flutter =
-        first_minimum(spread ? Follower{0, middle} : Follower{middle, 0}).first > 0;
+    const bool flutter = lowest_value(spread ? Follower{0, middle} : Follower{middle, 0}).first > 0;
     (flutter ? high : low) = middle;
   }
   return low;
@@ -83,7 +82,7 @@ Real flutter_load(bool spread) {
 
 /// Returns the complex root beyond the flutter load, by Newton's method from the minimum.
 Complex complex_root(const Follower& load) {
-  Complex W(first_minimum(load).second, Real(1));
+  Complex W(lowest_value(load).second, Real(1));
   const Complex step(Real(1e-20));
   for (int i = 0; i < 20; ++i) {
     const Complex slope = (follower_determinant(Complex(W + step), load) -
@@ -143,7 +142,7 @@ std::vector<Real> becks_column_program(const Arguments& arguments) {
     return {flutter_load(spread) * EI / (spread ? Real(L * L * L) : Real(L * L))};
   const Real parameter = arguments.positive("load_parameter");
   const Follower load = spread ? Follower{0, parameter} : Follower{parameter, 0};
-  const bool beyond = first_minimum(load).first > 0;  // the two lowest roots are complex
+  const bool beyond = lowest_value(load).first > 0;  // the two lowest roots are complex
   if (beyond != (output == "growth-rate"))
     arguments.fail("load_parameter", std::string("expected a load ") +
                                          (beyond ? "below" : "above") + " the flutter load");
