@@ -23,8 +23,7 @@ auto one_of(Random& random, const List& list) {
   return list[below(random, list.size())];
 }
 
-/// Returns a name related to a document: a key, a word, a pointer to a value, or a word after a
-/// colon.
+/// Returns a name from a document: a key, a word, a pointer to a value, or a word after a colon.
 std::string any_word(Random& random, const Json& document) {
   static const Json odd =
       Json::parse(R"(["", " ", "x", "..", "/", "~", "-1", "0", "base", "a:b", ":", "../x", "=1+1",
@@ -96,7 +95,8 @@ void erase(Json& json, const JsonPointer& at) {
   around.is_array() ? around.erase(std::stoul(at.back())) : (void)around.erase(at.back());
 }
 
-/// Damages the text itself. @returns a description of the change
+/// Changes characters of the text, regardless of its structure.
+/// @returns a description of the change
 std::string disturb_text(Random& random, std::string& text) {
   const std::size_t at = below(random, text.size());
   static const std::vector<std::string> pieces = [] {
@@ -258,7 +258,7 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
                                                Json::object(), Json::array({1, 2})});
       note("retyped");
       break;
-    case 5: {  // adds a key that the rule has, or one that it does not have
+    case 5: {  // adds a key that the rule allows, or a key that it does not allow
       const Json properties = rule.empty() ? json : rule.value("properties", Json::object());
       const std::string key =
           properties.empty() || below(random, 6) == 0
@@ -275,7 +275,7 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
       note("added '" + key + "' to");
       break;
     }
-    default: {  // copies the value at such a place of another file
+    default: {  // copies the value at the same pointer of another file
       const Origin& other = origins_.at(kind)[below(random, origins_.at(kind).size())];
       std::vector<const Place*> alike;
       for (const Place& candidate : other.places)
@@ -284,7 +284,7 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
       note("taken from " + other.name);
     }
   }
-  // The surrounding value must obey its rule, too.
+  // The object or array that contains the changed value must also obey its rule.
   if (!place.is_certain || json.contains("extends")) return;
   const Json found = json.value(at, Json());
   const bool erased = !json.contains(at);

@@ -5,8 +5,8 @@
 
 #include "harness/base/json.h"
 
-/// Second reader of cases/schema. It decides which values the rules forbid, independently of the
-/// reader under test.
+/// Second reader of the schemas in cases/schema. It determines the values that the rules forbid,
+/// independently of the reader under test.
 namespace trammel::fuzz {
 
 using harness::Json;

@@ -7,7 +7,8 @@
 
 #include "tests/fuzz/mutator.h"
 
-/// Code under test: everything that the program does with an input file, in this process.
+/// Code under test: reads an input file and computes and judges it as the program does, in this
+/// process.
 namespace trammel::fuzz {
 
 enum class Outcome { unfinished, valid, refused, no_memory, crash, hang, stopped, internal, wrong };
@@ -26,9 +27,10 @@ struct Verdict {
 /// Returns results of a few small cases to start from.
 [[nodiscard]] harness::Json sample_results();
 
+/// Reads an input, and computes and judges it if it is a case.
 /// @param folder     folder for the input file
-/// @param computing  called after reading
-[[nodiscard]] Verdict take(const Input& input, const std::filesystem::path& folder,
-                           const std::function<void()>& computing);
+/// @param computing  called after reading, before the computation
+[[nodiscard]] Verdict test_input(const Input& input, const std::filesystem::path& folder,
+                                 const std::function<void()>& computing);
 
 }  // namespace trammel::fuzz

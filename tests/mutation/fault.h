@@ -1,6 +1,6 @@
 #pragma once
 
-// Header that mutate.py includes before every source. The environment activates one of the faults.
+// Header that mutate.py includes before every source. An environment variable activates one fault.
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -39,7 +39,7 @@ inline bool fault(int number) {
   return number == mutation::active;
 }
 
-/// Returns a coefficient; with the fault, 1 + error times the coefficient. Integers become real
+/// Returns a coefficient, multiplied by 1 + error if the fault is active. Integers become real
 /// numbers.
 template <class T>
 auto scaled(int number, const T& x) {

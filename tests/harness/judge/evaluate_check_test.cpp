@@ -19,7 +19,7 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Three frequencies, their reference, and one check of them.
+/// A run with three frequencies, their reference, and one check of the frequencies.
 struct Bench {
   std::shared_ptr<Folder> folder = std::make_shared<Folder>();
   Json check = {{"quantity", "frequency_Hz"},
