@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(caption_of_two_orders_names_their_law) {
   mixed.lower_order = 1.354;
   mixed.two_term = TwoTermLaw{{}, 0.042, {}};
   const auto figure = convergence_figures(beam(), run_with({mixed}));
-  BOOST_TEST(contains(figure[0].caption, "the law a h^4 + b h^1.35 of the size h"));
+  BOOST_TEST(contains(figure[0].caption, "the law a h^4 + b h^1.35, with the mesh or step size h"));
   BOOST_TEST(contains(figure[0].caption, "within 4.2\u202f%"));
 }
 
