@@ -78,7 +78,7 @@ namespace trammel::references {
 [[nodiscard]] std::vector<Real> elastica_column_program(const Arguments& arguments);
 
 /// Arguments: length_m, thickness_m, width_rate_1_m (2 a), E_Pa, rho_kg_m3, count, beam
-/// (euler-bernoulli | timoshenko), nu and shear_coefficient for the latter. Values: [Hz].
+/// (euler-bernoulli | timoshenko), nu and shear_coefficient for timoshenko. Values: [Hz].
 [[nodiscard]] std::vector<Real> exponential_beam_program(const Arguments& arguments);
 
 /// Arguments: loops (N), length_m, gravity_m_s2, start_speed_m_s (of the rods' upper ends),

@@ -45,7 +45,8 @@ class ReferenceError : public std::runtime_error {
 [[nodiscard]] Reference read_reference(const nlohmann::json& json, const std::string& file,
                                        const std::string& id);
 
-/// Half a unit in the last printed place: "12.768" -> 0.0005, "6.9e10" -> 0.05e10, "12" -> 0.5.
+/// Returns half a unit of the last printed digit: "12.768" -> 0.0005, "6.9e10" -> 0.05e10,
+/// "12" -> 0.5.
 /// @throws ReferenceError  if the text is not a decimal number.
 [[nodiscard]] double half_unit_in_last_place(const std::string& printed);
 

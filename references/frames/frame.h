@@ -101,7 +101,7 @@ struct FrameLoad {
 /// @throws DerivationError  with the JSON pointer, if the value is none of these.
 [[nodiscard]] FrameEnd read_end(const Json& value, const Arguments& where, const std::string& key);
 
-/// The rotation of a node is `share` times the sum of the rotations of member ends.
+/// Constraint of a node: its rotation is `share` times the sum of the rotations of member ends.
 struct RotationConstraint {
   int node = 0;
   Real share = 0;

@@ -9,7 +9,8 @@
 /// links: proximal_length_m and distal_length_m (one or three each), thickness_m, width_m, mass_kg,
 /// inertia_kg_m2, beam, shear_coefficient, axial; proximal and distal contain differing values.
 /// platform: side_m or vertices_m, thickness_m, mass_kg, inertia_kg_m2.
-/// material, platform_material, joints (one of each kind for all limbs), working_mode.
+/// material, platform_material, joints (active, elbow and platform, equal in all limbs),
+/// working_mode.
 namespace trammel::references {
 
 template <class Number>

@@ -40,7 +40,8 @@ class PlotScript {
   /// Adds an entry of the key without a curve.
   void key_entry(const std::string& style, const std::string& title);
 
-  /// Adds a text. @param place  coordinates and options of gnuplot: "graph 0.1,0.2 left"
+  /// Adds a text.
+  /// @param place  position and options of gnuplot: "graph 0.1,0.2 left"
   void label(const std::string& text, const std::string& place);
 
   /// Draws the curves that were added since the last call, at least one.

@@ -57,7 +57,7 @@ std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string
   return rows;
 }
 
-/// Returns the points of the checks for which `belongs` holds.
+/// Returns the points of the checks for which `belongs` returns true.
 template <typename Belongs>
 PlotScript::Rows points(const std::vector<ToleranceRow>& rows, Belongs belongs) {
   PlotScript::Rows out;

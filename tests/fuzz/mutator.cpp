@@ -176,7 +176,7 @@ Mutator::Mutator(const std::vector<Json>& results) {
     if (entry.path().extension() == ".json")
       add("reference", entry.path().stem(), harness::read_json(entry.path()));
   for (const Json& json : results) add("results", "results", json);
-  // Directories are listed in different orders on different systems.
+  // Sorting makes the inputs independent of the order in which a system lists directories.
   for (auto& [kind, origins] : origins_)
     std::stable_sort(origins.begin(), origins.end(),
                      [](const Origin& a, const Origin& b) { return a.name < b.name; });
@@ -223,7 +223,7 @@ Json Mutator::generate(Random& random, const Schema& schema, const Json& rule, c
   return object;
 }
 
-/// Changes the document at a random place.
+/// Changes the document at a random pointer.
 void Mutator::change(Random& random, const std::string& kind, Json& json, Input& input) const {
   const Schema& schema = schemas_.at(kind);
   const auto places = schema.places(json);
@@ -240,7 +240,7 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
       erase(json, at);
       break;
     case 1:
-      note("made anew");
+      note("generated again");
       value = generate(random, schema, rule, json, 0);
       break;
     case 2:
@@ -275,13 +275,13 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
       note("added '" + key + "' to");
       break;
     }
-    default: {  // copies the value at the same pointer of another file
+    default: {  // copies a value with the same rules from another file
       const Origin& other = origins_.at(kind)[below(random, origins_.at(kind).size())];
       std::vector<const Place*> alike;
       for (const Place& candidate : other.places)
         if (!candidate.rules.empty() && candidate.rules == place.rules) alike.push_back(&candidate);
       if (!alike.empty()) value = other.json.at(one_of(random, alike)->at);
-      note("taken from " + other.name);
+      note("copied from " + other.name + " to");
     }
   }
   // The object or array that contains the changed value must also obey its rule.

@@ -14,8 +14,8 @@ namespace trammel::fuzz {
 enum class Outcome { unfinished, valid, refused, no_memory, crash, hang, stopped, internal, wrong };
 inline constexpr std::size_t kOutcomes = 9;
 /// Returns the name of an outcome. hang: time limit exceeded while reading. stopped: time limit
-/// exceeded while computing, which a case may require. internal: an exception that no input may
-/// cause. wrong: invalid input was accepted, or refused without a line that names a place.
+/// exceeded while computing, which is permitted. internal: an exception that no input may cause.
+/// wrong: invalid input was accepted, or refused without a position in the file.
 [[nodiscard]] const char* to_string(Outcome outcome);
 [[nodiscard]] bool is_finding(Outcome outcome);
 

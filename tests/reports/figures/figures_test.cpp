@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(rigid_motion_is_drawn_at_few_instants) {
   for (int k = 0; k <= 20; ++k)
     run.drawing->poses.push_back(
         {"", {{0, 0}, {std::cos(0.1 * k), std::sin(0.1 * k)}}, 0.5 * k, {}});
-  run.drawing->poses.push_back(run.drawing->poses.back());  // a duplicate moment
+  run.drawing->poses.push_back(run.drawing->poses.back());  // a duplicate instant
   const auto figure = motion_figure(beam(), run);
   BOOST_REQUIRE(figure);
   BOOST_TEST(contains(figure->caption, "Drawn: 0, 2.5, 5, 7.5, 10\u202fs"), figure->caption);
