@@ -29,7 +29,7 @@ constexpr std::array<Outcome, 5> kOutcomes = {{
     {CheckStatus::not_given, "skipped", "not-run"},
 }};
 
-/// Number of test cases, and of those with each element.
+/// Number of test cases, their time, and the number of test cases with each outcome element.
 struct Tally {
   std::size_t tests = 0;
   double time_s = 0;

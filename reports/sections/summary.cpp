@@ -18,7 +18,7 @@ namespace {
 constexpr std::array<std::pair<const char*, const char*>, 4> kRoles = {{
     {"verification", "against exact or independent reference solutions"},
     {"validation", "against the published results under examination"},
-    {"regression", "against our own earlier results"},
+    {"regression", "against earlier results of this solver"},
     {"all", ""},
 }};
 
@@ -91,7 +91,8 @@ Data failures(const Results& results, std::size_t& unexpected_endings) {
   return out;
 }
 
-/// Targets of known discrepancies. A target counts once for all variants that are compared with it.
+/// Published numbers and statements with a known discrepancy. A number counts once, even if several
+/// variants are compared with it.
 struct Targets {
   std::set<std::tuple<std::string, double, int>>
       printed;  ///< reference, value, entry of repeated values
@@ -122,7 +123,7 @@ Targets targets_of(const Results& results) {
   return targets;
 }
 
-/// Known discrepancies of a case with the same name.
+/// Known discrepancies of all entries of one check in all variants of a case.
 struct KnownDiscrepancy {
   const CaseInfo* info;
   const Run* run;        ///< of the largest difference
@@ -276,7 +277,8 @@ Data tiles_of(const Results& results) {
 
 /// Returns the case that compares most printed numbers with computed ones and their validation
 /// uncertainty, and its figures.
-std::pair<const CaseInfo*, const Gallery*> find_answer(const std::vector<Family>& families) {
+std::pair<const CaseInfo*, const Gallery*> find_main_comparison(
+    const std::vector<Family>& families) {
   std::pair<const CaseInfo*, const Gallery*> found{nullptr, nullptr};
   std::size_t most = 0;
   for (const Family& family : families)
@@ -301,10 +303,10 @@ void add_figure(const Figure& figure, const std::string& link, Data& figures) {
   figures.push_back(data);
 }
 
-/// Returns figures of the manipulator, of its printed and computed frequencies, and of its modes.
-Data answer_of(const std::vector<Family>& families) {
+/// Returns figures of the manipulator, its printed and computed frequencies, and its modes.
+Data manipulator_figures(const std::vector<Family>& families) {
   Data figures = list();
-  const auto [info, gallery] = find_answer(families);
+  const auto [info, gallery] = find_main_comparison(families);
   if (info == nullptr) return figures;
   for (const char* end : {"-mechanism", "-agreement", "-shapes"}) {
     const auto figure = std::ranges::find_if(
@@ -314,8 +316,8 @@ Data answer_of(const std::vector<Family>& families) {
   return figures;
 }
 
-/// Returns a figure each of cost, stability and effects.
-Data questions_of(const std::vector<Family>& families, const StudyFigures& studies) {
+/// Returns one figure each of computing cost, of numerical stability and of the selected effects.
+Data study_figures(const std::vector<Family>& families, const StudyFigures& studies) {
   Data figures = list();
   const auto modes = std::ranges::find(studies.cost, "cost-modes-elements", &Figure::id);
   if (modes != studies.cost.end()) add_figure(*modes, "cost.html", figures);
@@ -378,7 +380,7 @@ Data summary_section(const Results& results, const std::vector<Family>& families
 
 Data front_section(const Results& results, const std::vector<Family>& families,
                    const StudyFigures& studies) {
-  const Data answer = answer_of(families), questions = questions_of(families, studies);
+  const Data answer = manipulator_figures(families), questions = study_figures(families, studies);
   return object({{"tiles", tiles_of(results)},
                  {"has_answer", answer.is_non_empty_list()},
                  {"answer", answer},

@@ -107,7 +107,7 @@ def against_calculix(program, folder, elements):
 
 
 def pendulum(program, folder, rods):
-    """Compares two elements of degree 3 with rigid rods; the mesh's error is relative to 6 elements."""
+    """Compares two elements of degree 3 with a chain of rigid rods. The mesh error is relative to a mesh of 6 elements."""
     seen = {"role": "verification", "bound": {"at_least": -2, "why": "to be read"}}
     strip = {"material": "steel", "rectangle": {"thickness_m": 0.002, "width_m": 0.02}}
 

@@ -460,7 +460,7 @@ BOOST_AUTO_TEST_CASE(comparison_is_a_page_of_one_file) {
   BOOST_TEST(std::distance(begin(files), end(files)) == 1);
 }
 
-BOOST_AUTO_TEST_CASE(case_is_certified_over_ways_of_rounding) {
+BOOST_AUTO_TEST_CASE(case_is_certified_over_rounding_modes) {
   const Folder folder;
   const Outcome outcome = run(folder, "certify cantilever-tip-force");
   BOOST_TEST(outcome.status == 0, outcome.err);

@@ -13,7 +13,8 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// Returns 3 x - 4 y and x^2 (about x = 1), with x within +-0.1 and y within +-0.2.
+/// Returns the outputs 3 x - 4 y and x^2 of a model, about x = 1. The inputs x and y have the half
+/// widths 0.1 and 0.2.
 std::optional<Values> linear_and_square(const Values& d) {
   return Values{3 * d[0] - 4 * d[1], (1 + d[0]) * (1 + d[0])};
 }

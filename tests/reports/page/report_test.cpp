@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(claims_are_shown_with_verdict_and_evidence) {
   const std::string text = all_pages_of(results);
   for (const char* part : {"3 claims: 1 contradicted, 1 cannot be decided, 1 not measured.",
                            "<strong>× 1 to × 1.5</strong>", "(expected: confirmed)",
-                           "No case of these results measures it.", "Nothing is published.",
+                           "No case of these results measures this claim.", "Nothing is published.",
                            "This &lt;b&gt;follows&lt;/b&gt;.", "<li><a href=\"paper.html\">"})
     BOOST_TEST(text.find(part) != std::string::npos, part);
   BOOST_TEST(occurrences(text, "(expected:") == 1U);
