@@ -81,9 +81,8 @@ using Polynomial = std::vector<Real>;
 
 Polynomial operator*(const Polynomial& a, const Polynomial& b) {
   Polynomial c(a.size() + b.size() - 1, Real(0));
-  for (std::size_t i = 0; i < a.size(); ++i) {
+  for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t j = 0; j < b.size(); ++j) c[i + j] += a[i] * b[j];
-  }
   return c;
 }
 

@@ -159,9 +159,8 @@ std::vector<Real> column_buckling_program(const Arguments& arguments) {
   const std::string ends = arguments.choice(
       "ends", "", {"clamped-free", "pinned-pinned", "clamped-pinned", "clamped-clamped"});
   const bool weight = arguments.choice("load", "", {"end", "self-weight"}) == "self-weight";
-  if (weight && ends != "clamped-free") {
+  if (weight && ends != "clamped-free")
     arguments.fail("ends", "self-weight requires a clamped-free column");
-  }
   const Real L = arguments.positive("length_m", 1), EI = arguments.positive("EI_N_m2", 1);
   const Real scale = weight
                          ? Real(9 * EI / (4 * L * L * L * arguments.positive("weight_N_per_m", 1)))
@@ -193,9 +192,8 @@ std::vector<Real> elastica_tip_force_program(const Arguments& arguments) {
 std::vector<Real> elastica_column_program(const Arguments& arguments) {
   std::vector<Real> values;
   for (const Real& degrees : arguments.numbers("tip_angle_deg")) {
-    if (!(degrees > 0 && degrees < 180)) {
+    if (!(degrees > 0 && degrees < 180))
       arguments.fail("tip_angle_deg", "expected angles between 0 and 180");
-    }
     const Real k = sin(degrees * pi<Real>() / 360);
     const Real K = ellint_1(k);
     values.push_back(4 * K * K / (pi<Real>() * pi<Real>()));

@@ -312,9 +312,8 @@ Input Mutator::make(std::uint32_t seed, std::uint32_t number, const std::string&
   constexpr std::size_t kMostChanges = 3;
   const std::size_t changes =
       below(random, 20) == 0 ? 0 : 1 + below(random, 2) * below(random, kMostChanges);
-  for (std::size_t i = 0; i < changes; ++i) {
+  for (std::size_t i = 0; i < changes; ++i)
     change(random, input.kind, json, input);
-  }
   if (changes > 1) input.is_invalid = false;  // a second change may repair the first
   if (as_variant) {
     Json patch = merge_patch(origin.json, json);

@@ -174,9 +174,8 @@ BOOST_AUTO_TEST_CASE(variants_share_the_memory_of_their_file) {
   const Folder folder;
   Json json = testing::cantilever();
   const int count = 300;
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < count; ++i)
     json["variants"]["v" + std::to_string(i)]["title"] = std::string(4000, 't');
-  }
   const Case given = testing::read(folder, json);
   const auto used = [] { return mallinfo2().uordblks; };
   const std::size_t before = used();

@@ -45,9 +45,8 @@ BOOST_AUTO_TEST_CASE(sampling_gives_the_deviation_of_a_uniform_input) {
 BOOST_AUTO_TEST_CASE(each_part_of_each_range_is_visited_once) {
   std::vector<std::set<int>> visited(2);
   const auto record = [&](const Values& d) -> std::optional<Values> {
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < 2; ++k)
       visited[k].insert(static_cast<int>(std::floor((d[k] / kHalfWidths[k] + 1) * 25)));
-    }
     return Values{0.0};
   };
   (void)uncertainty_by_sampling(record, kHalfWidths, 50, 7);
