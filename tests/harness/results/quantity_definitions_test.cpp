@@ -163,9 +163,8 @@ BOOST_AUTO_TEST_CASE(quantities_are_defined_once_and_with_a_meaning) {
   std::set<std::pair<std::string, std::string>> seen;
   for (const results::QuantityDefinition& one : results::quantity_definitions()) {
     BOOST_TEST(!one.meaning.empty(), one.name);
-    for (const std::string& analysis : one.analyses) {
+    for (const std::string& analysis : one.analyses)
       BOOST_TEST(seen.emplace(analysis, one.head()).second, analysis << " " << one.name);
-    }
   }
 }
 
