@@ -129,6 +129,7 @@ const std::vector<Option>& all_options() {
       {"--json", &Options::json,
        "Print JSON; commands that run cases or studies print results.json"},
       {"--csv", &Options::csv, "Print CSV with a row for each number"},
+      {"-q,--quiet", &Options::quiet, "Print only runs that fail, and the summary"},
       {"--vtk", &Options::vtk,
        "Also write shapes, poses and motions to OUT/vtk for ParaView, as PVD and VTU files"},
       {"--html", &Options::html, "Also write a page with overlaid curves to this file"},
@@ -187,7 +188,7 @@ constexpr CommandEntry kCommands[] = {
     {"references", references_command, "names --csv --json"},
     {"run", run_command,
      "cases --label --label-any --variant --jobs --out --resume --store --max-memory --history "
-     "--shard --json --vtk --errors --no-errors --warn-above --accuracy --quantity"},
+     "--shard --json --quiet --vtk --errors --no-errors --warn-above --accuracy --quantity"},
     {"compare", compare_command, "sides! --csv --json --html --gate"},
     {"converge", converge_command, "case! --variant --jobs --json"},
     {"cost", cost_command,

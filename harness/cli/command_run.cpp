@@ -77,7 +77,9 @@ void require_variants(const std::vector<Case>& cases, const std::string& variant
 
 RunOptions run_options(const CommandOptions& given, Progress& progress) {
   RunOptions options{given.variant, given.jobs, TrackedQuantities::named, {}};
-  options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
+  options.progress = [&](std::size_t done, std::size_t all) {
+    if (!given.quiet) progress.show(done, all);
+  };
   options.store = store_folder(given.out, given.store);
   options.resume = given.resume;
   options.any_machine = given.any_machine;
@@ -305,7 +307,9 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
     std::cout << read_text(file);
   } else {
     for (const Run& run : runs)
-      if (run.fault == results::Fault::none && run.interrupted_by == 0) print_run(run);
+      if (run.fault == results::Fault::none && run.interrupted_by == 0 &&
+          (!options.quiet || fails_gate(run)))
+        print_run(run);
     if (runs.size() == 1) print_validation(runs.front());
     print_summary(results);
     std::cout << "results in " << file.string() << std::endl;

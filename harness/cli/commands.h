@@ -31,6 +31,7 @@ struct CommandOptions {
   bool any_machine = false;  ///< with --resume: also reuses times of another machine
   std::size_t memory_bytes = memory_limit_bytes();  ///< memory limit of one run; 0: none
   bool json = false, csv = false;
+  bool quiet = false;  ///< prints only runs that fail, and the summary
 
   std::string shard;    ///< for `run`: "K/N"
   std::string history;  ///< SQLite file to which the call is added; empty: none

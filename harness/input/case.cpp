@@ -56,13 +56,8 @@ void apply_with_bases(Document& document, const fs::path& file, const Catalogue&
   document.apply_patch(file.string(), "", outermost ? json : inherited(json));
 }
 
-void check_names(const Case& given) {
+void check_variant_names(const Case& given) {
   const JsonView root(given.document);
-  const std::string stem = given.file.stem().string();
-  if (given.id() != stem && !root.has("export")) {  // which may be in a file of any name
-    throw root["id"].error("expected the file's name, '" + printable(stem) + "' (got '" +
-                           printable(given.id()) + "')");
-  }
   for (const auto& [name, variant] : root.entries("variants")) {
     if (name == kBaseVariant) {
       throw variant.error("the name 'base' is reserved for the case itself");
@@ -154,7 +149,7 @@ Case load_case(const fs::path& file, const Catalogue& catalogue) {
   loaded.file = file;
   apply_with_bases(loaded.document, file, catalogue, {});
   loaded.document.validate("case");
-  check_names(loaded);
+  check_variant_names(loaded);
   check_indicators(loaded);
   return loaded;
 }

@@ -185,8 +185,7 @@ class Search {
     for (const std::string& asked : request_.quantities) {
       if (std::ranges::any_of(names, [&](const auto& name) { return is_asked(name, {asked}); }))
         continue;
-      throw current_.error("/analysis", "the case does not compute the requested quantity (got '" +
-                                            printable(asked) + "')" + did_you_mean(asked, names));
+      throw InputError("--quantity: " + unknown_name("a quantity of the case", asked, names));
     }
     asked_ = request_.quantities.empty() ? kUsual : request_.quantities;
     if (std::ranges::none_of(names, [&](const auto& name) { return is_asked(name, asked_); }))

@@ -314,9 +314,6 @@ CostStudy load_cost_study(const fs::path& file, SweepExtent extent, const Refere
   const Document document = Document::from_json(file.string(), read_json(file));
   document.validate("cost");
   const JsonView root(document);
-  if (root.text("id") != file.stem().string()) {
-    throw root["id"].error("expected the file's name, '" + printable(file.stem().string()) + "'");
-  }
   CostStudy study;
   study.id = root.text("id");
   study.family = root.text("family");

@@ -31,7 +31,7 @@ struct Beam {
   Real L, a, r2, e, kG;  ///< kG = 0: Euler-Bernoulli
 };
 
-/// Both values of P, the smaller first.
+/// Returns both values of P, the smaller one first.
 std::array<Real, 2> exponents(const Beam& beam, const Real& w2) {
   if (beam.kG == 0) {
     const Real P = sqrt(w2 / (beam.e * beam.r2));
@@ -81,9 +81,8 @@ using Polynomial = std::vector<Real>;
 
 Polynomial operator*(const Polynomial& a, const Polynomial& b) {
   Polynomial c(a.size() + b.size() - 1, Real(0));
-  for (std::size_t i = 0; i < a.size(); ++i) {
+  for (std::size_t i = 0; i < a.size(); ++i)
     for (std::size_t j = 0; j < b.size(); ++j) c[i + j] += a[i] * b[j];
-  }
   return c;
 }
 
@@ -94,14 +93,14 @@ Polynomial derivative(const Polynomial& p) {
   return d;
 }
 
-/// Over 0 <= s <= 1.
+/// Returns the integral over 0 <= s <= 1.
 Real integral(const Polynomial& p) {
   Real sum = 0;
   for (std::size_t k = 0; k < p.size(); k += 2) sum += p[k] / Real(k + 1);
   return sum;
 }
 
-/// 1 at s = 0, `ratio` at s = 1.
+/// Returns the linear function that is 1 at s = 0 and `ratio` at s = 1.
 Polynomial line(const Real& ratio) {
   return {(1 + ratio) / 2, (ratio - 1) / 2};
 }
@@ -139,7 +138,7 @@ BeamEnds read_beam_ends(const Arguments& arguments) {
   ends.tip_inertia_ratio = arguments.not_negative("tip_inertia_ratio", 0);
   if (ends.kind != "clamped-free") {
     for (const char* key : {"tip_mass_ratio", "tip_inertia_ratio"}) {
-      if (arguments.has(key)) arguments.fail(key, "only a clamped-free beam carries a tip mass");
+      if (arguments.has(key)) arguments.fail(key, "requires a clamped-free beam");
     }
   }
   return ends;

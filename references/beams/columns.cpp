@@ -32,7 +32,8 @@ using Complex = boost::multiprecision::number<
     boost::multiprecision::complex_adaptor<boost::multiprecision::cpp_bin_float_50::backend_type>,
     boost::multiprecision::et_off>;
 
-/// A cantilever under a force p at its tip and q spread over it, both along its tangent.
+/// Follower loads of a cantilever, both along its tangent: a force p at its tip and a load q per
+/// length.
 struct Follower {
   Real p, q;
 };
@@ -59,10 +60,11 @@ T follower_determinant(const T& W, const Follower& load) {
   return value[0] * slope[1] - value[1] * slope[0];
 }
 
-/// Returns the minimum between the two lowest roots and its place. The minimum is 0 if they meet.
-std::pair<Real, Real> valley(const Follower& load) {
+/// Returns the minimum of the characteristic function between its two lowest roots, and the W at
+/// which it occurs. The minimum is 0 if the roots meet, and positive beyond the flutter load.
+std::pair<Real, Real> lowest_value(const Follower& load) {
   const auto determinant = [&](const Real& W) { return follower_determinant(W, load); };
-  constexpr int kBits = 80;  // the valley is flat to half the digits
+  constexpr int kBits = 80;  // rounding limits the position of a minimum to half of the digits
   const auto [W, least] =
       boost::math::tools::brent_find_minima(determinant, Real(3), Real(24), kBits);
   return {least, W};
@@ -72,15 +74,15 @@ Real flutter_load(bool spread) {
   Real low = spread ? 39 : 19, high = low + 2;
   while (high - low > Real(1e-20)) {
     const Real middle = (low + high) / 2;
-    const bool flutters = valley(spread ? Follower{0, middle} : Follower{middle, 0}).first > 0;
-    (flutters ? high : low) = middle;
+    const bool flutter = lowest_value(spread ? Follower{0, middle} : Follower{middle, 0}).first > 0;
+    (flutter ? high : low) = middle;
   }
   return low;
 }
 
-/// The complex root beyond the flutter load, by Newton's method from the valley.
+/// Returns the complex root beyond the flutter load, by Newton's method from the minimum.
 Complex complex_root(const Follower& load) {
-  Complex W(valley(load).second, Real(1));
+  Complex W(lowest_value(load).second, Real(1));
   const Complex step(Real(1e-20));
   for (int i = 0; i < 20; ++i) {
     const Complex slope = (follower_determinant(Complex(W + step), load) -
@@ -111,7 +113,7 @@ Real load_parameter(const Real& tip_angle) {
   return root * root;
 }
 
-/// The columns of the table that are asked for: one with its length, or all of them without.
+/// Returns the requested columns of the table: all, dimensionless, or one, with lengths in m.
 std::vector<Real> columns(const Arguments& arguments, const std::vector<Real>& table,
                           const std::array<const char*, 3>& names,
                           const std::array<bool, 3>& is_length) {
@@ -140,10 +142,10 @@ std::vector<Real> becks_column_program(const Arguments& arguments) {
     return {flutter_load(spread) * EI / (spread ? Real(L * L * L) : Real(L * L))};
   const Real parameter = arguments.positive("load_parameter");
   const Follower load = spread ? Follower{0, parameter} : Follower{parameter, 0};
-  const bool beyond = valley(load).first > 0;  // the two lowest roots have met
+  const bool beyond = lowest_value(load).first > 0;  // the two lowest roots are complex
   if (beyond != (output == "growth-rate"))
-    arguments.fail("load_parameter",
-                   std::string("a load ") + (beyond ? "below" : "above") + " that of flutter");
+    arguments.fail("load_parameter", std::string("expected a load ") +
+                                         (beyond ? "below" : "above") + " the flutter load");
   const Real rate = sqrt(EI / mass) / (L * L);
   if (beyond) return {Real(abs(complex_root(load).imag()) * rate)};
   std::vector<Real> values =
@@ -157,9 +159,8 @@ std::vector<Real> column_buckling_program(const Arguments& arguments) {
   const std::string ends = arguments.choice(
       "ends", "", {"clamped-free", "pinned-pinned", "clamped-pinned", "clamped-clamped"});
   const bool weight = arguments.choice("load", "", {"end", "self-weight"}) == "self-weight";
-  if (weight && ends != "clamped-free") {
+  if (weight && ends != "clamped-free")
     arguments.fail("ends", "self-weight requires a clamped-free column");
-  }
   const Real L = arguments.positive("length_m", 1), EI = arguments.positive("EI_N_m2", 1);
   const Real scale = weight
                          ? Real(9 * EI / (4 * L * L * L * arguments.positive("weight_N_per_m", 1)))
@@ -191,9 +192,8 @@ std::vector<Real> elastica_tip_force_program(const Arguments& arguments) {
 std::vector<Real> elastica_column_program(const Arguments& arguments) {
   std::vector<Real> values;
   for (const Real& degrees : arguments.numbers("tip_angle_deg")) {
-    if (!(degrees > 0 && degrees < 180)) {
+    if (!(degrees > 0 && degrees < 180))
       arguments.fail("tip_angle_deg", "expected angles between 0 and 180");
-    }
     const Real k = sin(degrees * pi<Real>() / 360);
     const Real K = ellint_1(k);
     values.push_back(4 * K * K / (pi<Real>() * pi<Real>()));

@@ -21,7 +21,7 @@ namespace {
 constexpr std::size_t kDegree = 30;
 using Series = std::array<Real, kDegree + 1>;
 
-/// The n-th coefficient of a product.
+/// Returns the n-th coefficient of the product of two power series.
 Real term(const Series& a, const Series& b, std::size_t n) {
   Real sum = 0;
   for (std::size_t i = 0; i <= n; ++i) sum += a[i] * b[n - i];
@@ -34,7 +34,8 @@ Real sum_at(const Series& a, const Real& h) {
   return sum;
 }
 
-/// A section of the loaded chain: its place and angle, the force and the moment of the next part.
+/// Section of the loaded chain: its position and angle, and the force and moment that the next part
+/// of the chain exerts on it.
 struct Section {
   Real x, y, angle, moment, force_x, force_y;
 };
@@ -48,7 +49,7 @@ struct Chain {
   int steps = 8;
 };
 
-/// One step of length h along a piece.
+/// Advances a section by the length h along a piece.
 void advance(const Chain& chain, const Real& h, Section& at) {
   Series x{}, y{}, angle{}, moment{}, c{}, s{}, tangential{}, normal{}, turn{};
   x[0] = at.x, y[0] = at.y, angle[0] = at.angle, moment[0] = at.moment;
@@ -71,7 +72,8 @@ void advance(const Chain& chain, const Real& h, Section& at) {
   at.angle = sum_at(angle, h), at.moment = sum_at(moment, h);
 }
 
-/// The sections just behind each node, `unknown` as the header has it (with the load factor last).
+/// Returns the section after each node by integration from the start.
+/// @param unknown  angle or moment, Fx and Fy of the first section, then the load factor
 std::vector<Section> shoot(const Chain& chain, const RealVector& unknown) {
   Section at{chain.nodes[0][0],
              chain.nodes[0][1],
@@ -98,8 +100,9 @@ std::vector<Section> shoot(const Chain& chain, const RealVector& unknown) {
   return sections;
 }
 
-/// Returns the residuals at the end: prescribed motions and unsupported forces.
-RealVector gap(const Chain& chain, const RealVector& unknown) {
+/// Returns the residuals at the end of the chain: for x, y and rotation, the displacement if it is
+/// fixed, and otherwise the force or moment.
+RealVector end_residual(const Chain& chain, const RealVector& unknown) {
   const Section end = shoot(chain, unknown).back();
   RealVector missing(3);
   missing << (chain.end_held[0] ? Real(end.x - chain.nodes.back()[0]) : end.force_x),
@@ -121,15 +124,16 @@ RealMatrix jacobian(const F& f, RealVector at, Eigen::Index columns) {
   return J;
 }
 
-/// Returns the gap, and the determinant that vanishes if the load is stationary.
-RealVector limit_gap(const Chain& chain, const RealVector& unknown) {
+/// Returns the residuals at the end, and the determinant of their Jacobian. The determinant
+/// vanishes at a limit point, where the load is stationary.
+RealVector limit_point_residual(const Chain& chain, const RealVector& unknown) {
   RealVector value(4);
-  value << gap(chain, unknown),
-      jacobian([&](const auto& u) { return gap(chain, u); }, unknown, 3).determinant();
+  value << end_residual(chain, unknown),
+      jacobian([&](const auto& u) { return end_residual(chain, u); }, unknown, 3).determinant();
   return value;
 }
 
-/// Newton's method on the first unknowns, as many as there are equations.
+/// Solves f = 0 by Newton's method for the first n unknowns, with n the number of equations.
 template <class F>
 void find_equilibrium(const Arguments& arguments, const F& f, RealVector& unknown) {
   for (int iteration = 0; iteration < 40; ++iteration) {
@@ -143,7 +147,7 @@ void find_equilibrium(const Arguments& arguments, const F& f, RealVector& unknow
         (correction.array().abs() / (1 + unknown.head(value.size()).array().abs())).maxCoeff();
     if (size < Real(1e-25)) return;
   }
-  arguments.fail("nodes_m", "an equilibrium that Newton's method finds");
+  arguments.fail("nodes_m", "expected an equilibrium that Newton's method finds");
 }
 
 Real output(const Arguments& arguments, const Chain& chain, const std::string& name,
@@ -159,8 +163,9 @@ Real output(const Arguments& arguments, const Chain& chain, const std::string& n
     if (what == "displacement_y_m") return at.y - chain.nodes[node][1];
     if (what == "rotation_rad") return at.angle;
   }
-  arguments.fail("outputs",
-                 "load_factor, displacement_x_m:NODE, displacement_y_m:NODE or rotation_rad:NODE");
+  arguments.fail(
+      "outputs",
+      "expected load_factor, displacement_x_m:NODE, displacement_y_m:NODE or rotation_rad:NODE");
 }
 
 Chain read_chain(const Arguments& arguments) {
@@ -195,14 +200,14 @@ std::vector<Real> elastic_chain_program(const Arguments& arguments) {
     for (const Real& factor : arguments.numbers("load_factors")) {
       unknown[3] = factor;
       find_equilibrium(
-          arguments, [&](const auto& u) { return gap(chain, u); }, unknown);
+          arguments, [&](const auto& u) { return end_residual(chain, u); }, unknown);
       record(unknown);
     }
   } else {
     for (const std::vector<Real>& guess : arguments.rows("limit_points", 4)) {
       unknown << guess[0], guess[1], guess[2], guess[3];
       find_equilibrium(
-          arguments, [&](const auto& u) { return limit_gap(chain, u); }, unknown);
+          arguments, [&](const auto& u) { return limit_point_residual(chain, u); }, unknown);
       record(unknown);
     }
   }

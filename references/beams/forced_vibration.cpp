@@ -15,7 +15,7 @@ namespace trammel::references {
 
 namespace {
 
-constexpr int kMaxWaveNumber = 4001;  // stresses fall off as n^-3
+constexpr int kMaxWaveNumber = 4001;  // modal stresses decrease as n^-3
 const double kPi = std::acos(-1.0);
 
 /// Forced vibration of a simply supported Timoshenko beam under a load uniform over its span
@@ -24,10 +24,10 @@ const double kPi = std::acos(-1.0);
 ///
 ///   a = n pi/L,  s = a - rho w_n^2/(kappa G a).
 ///
-/// One mode: its share of the static answer at mid-span, and how it moves.
+/// Mode with its contributions to the static displacement and stress at mid-span.
 struct Mode {
   double w, damping;            ///< circular frequency [rad/s], damping ratio
-  double displacement, stress;  ///< static share [m], [Pa]
+  double displacement, stress;  ///< static contributions [m], [Pa]
 };
 
 std::vector<Mode> modes(const Arguments& arguments) {
@@ -67,7 +67,8 @@ std::vector<Mode> modes(const Arguments& arguments) {
   return result;
 }
 
-/// Sum over the modes, smallest first.
+/// Returns the sum of share * f(mode) over all modes. It adds the highest modes first, because
+/// their contributions are the smallest.
 template <class T>
 T sum(const std::vector<Mode>& modes, double Mode::*share, const std::function<T(const Mode&)>& f) {
   T total = 0;
@@ -82,7 +83,12 @@ double amplitude(const std::vector<Mode>& modes, double Mode::*share, double w) 
   }));
 }
 
-/// 1 - exp(-d w t)(cos(v t) + d w/v sin(v t)), v = w sqrt(1 - d^2), and its overdamped twin.
+/// Returns the response of a mode to a unit step, relative to its static displacement. With the
+/// damping ratio d and v = w sqrt(1 - d^2), it is
+///
+///   y = 1 - exp(-d w t)(cos(v t) + d w/v sin(v t)).
+///
+/// For d > 1, the overdamped solution replaces it.
 double step_response(const Mode& mode, double t) {
   const double d = mode.damping;
   if (d < 1) {
@@ -99,7 +105,7 @@ double step_response_sum(const std::vector<Mode>& modes, double Mode::*share, do
   return sum<double>(modes, share, [t](const Mode& mode) { return step_response(mode, t); });
 }
 
-/// Returns the place of the largest f between lo and hi: the best point of a grid, refined by
+/// Returns the x between lo and hi at which f(x) is largest: the best point of a grid, refined by
 /// Brent's method.
 double maximizer(std::function<double(double)> f, double lo, double hi, int grid) {
   gsl_set_error_handler_off();
@@ -113,7 +119,7 @@ double maximizer(std::function<double(double)> f, double lo, double hi, int grid
       [](double x, void* g) { return -(*static_cast<std::function<double(double)>*>(g))(x); }, &f};
   const double at = lo + static_cast<double>(best) * step;
   if (gsl_min_fminimizer_set(minimizer.get(), &function, at, at - step, at + step) != GSL_SUCCESS)
-    throw DerivationError("no maximum was found");
+    throw DerivationError("no maximum of the response was found");
   for (int i = 0; i < 60; ++i) gsl_min_fminimizer_iterate(minimizer.get());
   return gsl_min_fminimizer_x_minimum(minimizer.get());
 }
@@ -146,7 +152,7 @@ std::vector<Real> deep_beam_program(const Arguments& arguments) {
     } else if (output == "time_s" && response == "step-peak") {
       values.push_back(peak_at(share));
     } else {
-      arguments.fail("outputs", "'" + output + "' is no output of this response");
+      arguments.fail("outputs", "'" + output + "' is not an output of this response");
     }
   }
   return values;
@@ -173,7 +179,8 @@ std::vector<Real> run_up_program(const Arguments& arguments) {
   std::vector<Real> values;
   Real from = 0, cosine = 0, sine = 0;
   for (const Real& t : arguments.numbers("times_s")) {
-    if (t < from || t > T) arguments.fail("times_s", "ascending times within the duration");
+    if (t < from || t > T)
+      arguments.fail("times_s", "expected ascending times within the duration");
     while (from < t) {
       const Real to = std::min(t, Real(from + Real(1) / 100));
       cosine += Gauss::integrate(in_phase, from, to);

@@ -15,7 +15,7 @@ Real bessel(bool second_kind, int n, const Real& x) {
   return second_kind ? boost::math::cyl_neumann(n, x) : boost::math::cyl_bessel_j(n, x);
 }
 
-/// Z(k r), and its first two derivatives by r.
+/// Bessel function Z(k r) and its first two derivatives with respect to r.
 std::array<Real, 3> radial(bool second_kind, int n, const Real& k, const Real& r) {
   const Real x = k * r;
   const Real value = bessel(second_kind, n, x);
@@ -57,13 +57,13 @@ Real characteristic(const Annulus& annulus, int n, const Real& w) {
   return m.determinant();
 }
 
-/// Pairs of waves n and number k >= 1 of the frequency.
+/// Returns pairs of the number n of waves around the plate and the index k >= 1 of the frequency.
 std::vector<std::pair<int, int>> wanted_modes(const Arguments& arguments) {
   std::vector<std::pair<int, int>> wanted;
   for (const Json& mode : arguments["modes"]) {
     if (!mode.is_array() || mode.size() != 2 || !mode[0].is_number_unsigned() ||
         !mode[1].is_number_unsigned() || mode[1] < 1) {
-      arguments.fail("modes", "expected pairs of waves and a number from 1");
+      arguments.fail("modes", "expected pairs of a number of waves and an index from 1");
     }
     wanted.emplace_back(mode[0].get<int>(), mode[1].get<int>());
   }
@@ -117,7 +117,7 @@ std::vector<Real> wedge_exponent_program(const Arguments& arguments) {
     const Real s = sin(l * angle);
     return Real(s * s - (1 + k) * (1 + k) / (4 * k) + l * l * sine * sine / k);
   };
-  // A step that does not fall on 1, the root of a corner that is not singular.
+  // The step avoids l = 1, which is a root for a corner without a singularity.
   return first_roots(f, Real("0.1"), Real("0.0013"), 1);
 }
 

@@ -17,7 +17,7 @@ namespace trammel::references {
 [[nodiscard]] std::vector<Real> column_buckling_program(const Arguments& arguments);
 
 /// A cantilever under follower loads: an end force P = p EI/L^2 along the tangent at the tip
-/// (Beck), or forces q EI/L^3 per length along the tangent everywhere (Leipholz). Source: V. V.
+/// (Beck), or a load q EI/L^3 per length along the tangent at each point (Leipholz). Source: V. V.
 /// Bolotin, Nonconservative Problems of the Theory of Elastic Stability, 1963, section 2.2. With x
 /// from the tip over L and W = w L^2 sqrt(rho A/EI), power series solve
 ///
@@ -38,7 +38,7 @@ namespace trammel::references {
 /// and rayleigh_stiffness_s; response: static, harmonic-peak (largest steady amplitude about the
 /// first mode) or step-peak (first maximum after the load is applied at once); outputs: array of
 /// displacement_m (mid-span), stress_Pa (outer fiber at mid-span), frequency_Hz (of the peak
-/// displacement), time_s (the same). Values: one an output.
+/// displacement), time_s (of the peak displacement). Values: one per output.
 [[nodiscard]] std::vector<Real> deep_beam_program(const Arguments& arguments);
 
 /// Arguments:
@@ -78,7 +78,7 @@ namespace trammel::references {
 [[nodiscard]] std::vector<Real> elastica_column_program(const Arguments& arguments);
 
 /// Arguments: length_m, thickness_m, width_rate_1_m (2 a), E_Pa, rho_kg_m3, count, beam
-/// (euler-bernoulli | timoshenko), nu and shear_coefficient for the latter. Values: [Hz].
+/// (euler-bernoulli | timoshenko), nu and shear_coefficient for timoshenko. Values: [Hz].
 [[nodiscard]] std::vector<Real> exponential_beam_program(const Arguments& arguments);
 
 /// Arguments: loops (N), length_m, gravity_m_s2, start_speed_m_s (of the rods' upper ends),
@@ -149,13 +149,14 @@ struct BeamEnds {
 /// Values: frequencies [Hz].
 [[nodiscard]] std::vector<Real> beam_frequencies_program(const Arguments& arguments);
 
-/// Shares of the beam in the modal mass of a cantilever with the tip mass mu, one per root b:
+/// Fraction of the modal mass that the beam contributes, for a cantilever with the tip mass ratio
+/// mu and each root b:
 ///
 ///   int w^2 dx / (int w^2 dx + mu L w(L)^2) = 1 + 4 (mu / b) db/dmu.
 ///
-/// The relative change of a frequency with the tip mass is the share of the tip mass in the kinetic
-/// energy (Rayleigh), and db/dmu follows from the characteristic equation. Arguments:
-/// tip_mass_ratio, count. Values: shares [-].
+/// By Rayleigh, the relative change of a frequency with the tip mass is the fraction of the kinetic
+/// energy that the tip mass has; db/dmu follows from the characteristic equation. Arguments:
+/// tip_mass_ratio, count. Values: fractions [-].
 [[nodiscard]] std::vector<Real> beam_modal_mass_program(const Arguments& arguments);
 
 }  // namespace trammel::references

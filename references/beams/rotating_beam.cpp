@@ -37,10 +37,12 @@ struct RotatingBeam {
   std::optional<Real> axial_ratio;  ///< s; in the plane only, none: axially rigid
 };
 
-/// Returns V'', V''' and U' of one solution at the tip, which must all vanish.
+/// V'', V''' and U' of one solution at the tip. They vanish for a vibration mode.
 using Tip = std::array<Real, 3>;
 
-/// The solution that starts at the clamped hub with V'' = a, V''' = b, U' = c.
+/// Returns the tip values of the solution that starts at the clamped hub with V'' = a, V''' = b and
+/// U' = c.
+/// @param start  a, b, c
 Tip tip_of_series(const RotatingBeam& beam, const Real& mu, const Tip& start) {
   const Real eta2 = beam.eta * beam.eta;
   const Real at_hub = Real(1) / 2 + beam.hub_ratio;  // tension over eta^2: at_hub - r x - x^2/2
@@ -63,7 +65,8 @@ Tip tip_of_series(const RotatingBeam& beam, const Real& mu, const Tip& start) {
                       U[k + 2] * k2};
     for (int i = 0; i < 3; ++i) tip[i] += step[i];
     largest = std::max({largest, Real(abs(step[1])), Real(abs(step[2]))});
-    // powers of different remainders by four may decouple: four small terms in a row
+    // Powers whose exponents differ modulo four can decouple, so that four successive terms must be
+    // small.
     const bool small = abs(step[0]) + abs(step[1]) + abs(step[2]) < Real(1e-60) * largest;
     small_terms = small ? small_terms + 1 : 0;
     if (small_terms == 4) break;
@@ -83,16 +86,17 @@ Real characteristic(const RotatingBeam& beam, const Real& mu) {
 
 /// Returns the first `count` values of mu.
 std::vector<Real> rotating_beam_roots(const RotatingBeam& beam, int count) {
-  // The two solutions grow like exp(eta sqrt(r + 1/2)) and nearly alike: that many digits cancel.
+  // Both solutions grow like exp(eta sqrt(r + 1/2)) and become nearly proportional, so that their
+  // determinant loses log10 of this factor in digits.
   if (beam.eta * sqrt(beam.hub_ratio + Real(0.5)) > 69) {
-    throw DerivationError("the beam turns too fast for fifty digits");
+    throw DerivationError("the beam rotates too fast: round-off exceeds fifty digits");
   }
   std::vector<Real> roots = first_roots([&](const Real& m) { return characteristic(beam, m); },
                                         Real("0.1"), Real("0.5"), count);
   if (!beam.in_plane || beam.axial_ratio) return roots;
   for (Real& root : roots) {
     const Real squared = root * root - beam.eta * beam.eta;
-    if (!(squared > 0)) throw DerivationError("the beam diverges in the plane of rotation");
+    if (!(squared > 0)) throw DerivationError("the beam is unstable in the plane of rotation");
     root = sqrt(squared);
   }
   return roots;

@@ -24,7 +24,8 @@ constexpr std::array<bool, 256> kStructural = [] {
   return table;
 }();
 
-/// Place in a JSON text. Its functions return whether the text can go on from there.
+/// Position in a JSON text. The functions `pass...` advance it and return false if the text does
+/// not continue as expected.
 class Scanner {
  public:
   explicit Scanner(std::string_view text) : text_(text) {}
@@ -41,7 +42,7 @@ class Scanner {
   }
   [[nodiscard]] bool is_at_end() { return !is_at('\0') && place_ == text_.size(); }
 
-  /// Passes a string that starts here.
+  /// Advances the position past the string that starts there.
   bool pass_string() {
     ++place_;
     while ((place_ = text_.find('"', place_)) != std::string_view::npos) {
@@ -52,7 +53,7 @@ class Scanner {
     return false;
   }
 
-  /// Passes a value up to the comma or bracket behind it.
+  /// Advances the position past a value, to the comma or bracket after it.
   bool pass_value() {
     for (int depth = 0;; ++place_) {
       const char* next = text_.data() + place_;
@@ -85,7 +86,7 @@ bool less(const JsonMember& a, const JsonMember& b) {
 
 constexpr std::string_view kEnding = ".json";
 
-/// @param see  is given a folder and the name of each JSON file in it.
+/// Calls `see` with the folder and the name of each JSON file below `folder`.
 template <typename See>
 void walk(const std::string& folder, const See& see) {
   const std::unique_ptr<DIR, int (*)(DIR*)> open(opendir(folder.c_str()), closedir);

@@ -13,10 +13,10 @@
 /// stated once.
 namespace trammel::references {
 
-/// Key of a family file for what its references have in common.
+/// Key of a family file that contains the keys that its references have in common.
 inline constexpr std::string_view kCommon = "common";
 
-/// Returns whether a key of a family file is the id of a reference.
+/// Returns true if a key of a family file is the id of a reference.
 [[nodiscard]] bool is_reference_id(std::string_view key);
 
 /// Member of a JSON object, as text.
@@ -27,11 +27,11 @@ struct JsonMember {
 
 /// Splits a JSON object into its members. It does not parse their values, because a case needs few
 /// references of a family.
-/// @returns the members by key; nothing if the text is no object, or if a key is there twice.
+/// @returns the members by key; nothing if the text is not an object, or if a key is repeated.
 [[nodiscard]] std::optional<std::vector<JsonMember>> json_members(std::string_view text);
 
 /// Returns the first key of an object and those that follow a line "  },". These are all keys of a
-/// family file in its usual form. It takes a tenth of the time of splitting.
+/// family file in its usual form. This takes a tenth of the time of `json_members`.
 [[nodiscard]] std::vector<std::string_view> keys_of_blocks(std::string_view text);
 
 /// Returns the value of a key, or nothing.
@@ -42,7 +42,7 @@ struct JsonMember {
 [[nodiscard]] nlohmann::json with_common(const nlohmann::json& common, nlohmann::json reference);
 
 /// Reads the references of a family file by id.
-/// @throws ReferenceError  if the file is no JSON object of objects, or if it has a key twice.
+/// @throws ReferenceError  if the file is not a JSON object of objects, or if a key is repeated.
 [[nodiscard]] std::map<std::string, nlohmann::json> read_family(const std::string& file);
 
 /// Returns the JSON files below a folder, each with its name without ".json"; none if there is no
@@ -51,7 +51,8 @@ struct JsonMember {
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> json_files(
     const std::string& folder);
 
-/// Content of a file. A string would be cleared first, which takes longer than reading.
+/// Content of a file in a buffer that is not initialized. Initializing a string would take longer
+/// than reading the file.
 struct FileText {
   std::unique_ptr<char[]> bytes;
   std::string_view text;

@@ -1,6 +1,8 @@
 #include "references/data/manufactured.h"
 
+#include <Eigen/Core>
 #include <boost/math/differentiation/autodiff.hpp>
+#include <complex>
 
 namespace trammel::references::manufactured {
 namespace {
@@ -10,29 +12,46 @@ constexpr double kPi = 3.141592653589793238462643383279503;
 using boost::math::differentiation::autodiff_fvar;
 using boost::math::differentiation::make_fvar;
 
-/// Function of x and y with its first and second derivatives.
-using Field = autodiff_fvar<double, 2, 2>;
+/// Function of x and y: entry (i, j) is its derivative of order i in x and j in y.
+using Field = Eigen::Matrix3d;
 
 /// Function of x with its first four derivatives.
 using Shape = autodiff_fvar<double, 4>;
 
-/// Displacements u and v of a membrane at a point [m].
-std::array<Field, 2> displacement(const MembraneProblem& problem, double at_x, double at_y) {
-  const double a = problem.amplitude;
-  const Field x = make_fvar<double, 2>(at_x) / problem.length;
-  const Field y = make_fvar<double, 0, 2>(at_y) / problem.height;
+/// Returns exp(k s) with its first two derivatives in s. Its parts are sines and cosines if k is
+/// imaginary.
+Eigen::Vector3cd exponential(std::complex<double> k, double s) {
+  return std::exp(k * s) * Eigen::Vector3cd(1, k, k * k);
+}
+
+/// Displacements u and v of a membrane at a point [m]. Each is a sum of products of a function of x
+/// and a function of y.
+std::array<Field, 2> displacement(const MembraneProblem& problem, double x, double y) {
+  const double a = problem.amplitude, p = 1 / problem.length, q = 1 / problem.height;
+  const auto sine = [](double k, double s) { return exponential({0, k}, s).imag().eval(); };
+  const auto cosine = [](double k, double s) { return exponential({0, k}, s).real().eval(); };
+  const auto linear = [](double k, double s) { return Eigen::Vector3d(k * s, k, 0); };
+  const auto square = [](double k, double s) {
+    return Eigen::Vector3d(k * k * s * s, 2 * k * k * s, 2 * k * k);
+  };
+  const Eigen::RowVector3d one(1, 0, 0), Y = linear(q, y).transpose();
+  const Eigen::Vector3d X = linear(p, x), X2 = square(p, x);
   switch (problem.field) {
     case MembraneField::clamped:
-      return {a * sin(kPi * x) * sin(kPi * y), a * sin(2 * kPi * x) * sin(kPi * y)};
+      return {a * sine(kPi * p, x) * sine(kPi * q, y).transpose(),
+              a * sine(2 * kPi * p, x) * sine(kPi * q, y).transpose()};
     case MembraneField::cantilever:
-      return {a * sin(kPi / 2 * x) * cos(kPi / 2 * y), a * (1 - cos(kPi / 2 * x)) * exp(0.5 * y)};
+      return {a * sine(kPi / 2 * p, x) * cosine(kPi / 2 * q, y).transpose(),
+              a * (one.transpose() - cosine(kPi / 2 * p, x)) *
+                  exponential(q / 2, y).real().transpose()};
     case MembraneField::uniform_strain:
-      return {a * x, a * (0.7 * x - 0.4 * y)};
+      return {a * X * one, a * (0.7 * X * one - 0.4 * one.transpose() * Y)};
     case MembraneField::linear_strain:
       break;
   }
-  return {a * (x + 0.6 * x * x - 0.8 * x * y),
-          a * (0.7 * x - 0.4 * y + 0.5 * x * x + 0.3 * x * y - 0.9 * y * y)};
+  return {a * ((X + 0.6 * X2) * one - 0.8 * X * Y),
+          a * ((0.7 * X + 0.5 * X2) * one + 0.3 * X * Y -
+               one.transpose() * (0.4 * Y + 0.9 * square(q, y).transpose()))};
 }
 
 /// Bending shape of a beam [m]. It vanishes together with its first derivative at x = 0.
@@ -58,41 +77,30 @@ Shape shear_angle(const BeamProblem& problem, double x) {
 
 MembraneState evaluate(const MembraneProblem& problem, double x, double y) {
   const auto [u, v] = displacement(problem, x, y);
-  const double ux = u.derivative(1, 0), uy = u.derivative(0, 1);
-  const double vx = v.derivative(1, 0), vy = v.derivative(0, 1);
-  const double uxy = u.derivative(1, 1), vxy = v.derivative(1, 1);
-  const double nu = problem.nu;
-  const double D = problem.E / (1 - nu * nu);
-  const double G = problem.E / (2 * (1 + nu));
+  const double nu = problem.nu, D = problem.E / (1 - nu * nu), G = problem.E / (2 * (1 + nu));
   const double inertia = problem.rho * problem.omega * problem.omega;
   MembraneState s;
-  s.displacement = {u.derivative(0, 0), v.derivative(0, 0)};
-  s.rotation = 0.5 * (vx - uy);
-  s.strain = {ux, vy, uy + vx};
-  s.stress = {D * (ux + nu * vy), D * (vy + nu * ux), G * (uy + vx)};
-  s.body_force = {-D * (u.derivative(2, 0) + nu * vxy) - G * (u.derivative(0, 2) + vxy) -
-                      inertia * s.displacement[0],
-                  -D * (v.derivative(0, 2) + nu * uxy) - G * (uxy + v.derivative(2, 0)) -
-                      inertia * s.displacement[1]};
+  s.displacement = {u(0, 0), v(0, 0)};
+  s.rotation = 0.5 * (v(1, 0) - u(0, 1));
+  s.strain = {u(1, 0), v(0, 1), u(0, 1) + v(1, 0)};
+  s.stress = {D * (u(1, 0) + nu * v(0, 1)), D * (v(0, 1) + nu * u(1, 0)), G * (u(0, 1) + v(1, 0))};
+  s.body_force = {
+      -D * (u(2, 0) + nu * v(1, 1)) - G * (u(0, 2) + v(1, 1)) - inertia * s.displacement[0],
+      -D * (v(0, 2) + nu * u(1, 1)) - G * (u(1, 1) + v(2, 0)) - inertia * s.displacement[1]};
   return s;
 }
 
 std::array<bool, 2> fixed_displacements(const MembraneProblem& problem, double x, double y) {
-  const double tolerance = 1e-9;
-  const bool left = x < tolerance * problem.length;
-  const bool bottom = y < tolerance * problem.height;
-  const bool right = x > (1 - tolerance) * problem.length;
-  const bool top = y > (1 - tolerance) * problem.height;
-  const bool is_on_edge = left || right || bottom || top;
+  const double dx = 1e-9 * problem.length, dy = 1e-9 * problem.height;
+  const bool left = x < dx, bottom = y < dy;
+  const bool is_on_edge = left || bottom || x > problem.length - dx || y > problem.height - dy;
   if (problem.field == MembraneField::clamped) return {is_on_edge, is_on_edge};
   return {left, left && (bottom || problem.field == MembraneField::cantilever)};
 }
 
 BeamState evaluate(const BeamProblem& problem, double x) {
-  const Shape u = axial_shape(problem, x);
-  const Shape w = bending_shape(problem, x);
-  const double square = problem.omega * problem.omega;
-  const double EI = problem.EI;
+  const Shape u = axial_shape(problem, x), w = bending_shape(problem, x);
+  const double square = problem.omega * problem.omega, EI = problem.EI;
   BeamState s;
   s.axial = u.derivative(0);
   s.axial_force = problem.EA * u.derivative(1);
@@ -117,9 +125,8 @@ BeamState evaluate(const BeamProblem& problem, double x) {
     s.moment_load = 0;
   }
   s.transverse_load -= problem.mass_per_length * square * s.deflection;
-  if (problem.shear != ShearStrain::none) {
+  if (problem.shear != ShearStrain::none)
     s.moment_load -= problem.inertia_per_length * square * s.rotation;
-  }
   return s;
 }
 

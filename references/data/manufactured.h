@@ -2,7 +2,7 @@
 
 #include <array>
 
-/// Manufactured solutions: smooth fields in closed form, and the loads that hold them up. A field
+/// Manufactured solutions: smooth fields in closed form, and the loads that balance them. A field
 /// is chosen first; strain, stress and load follow from it by differentiation, so that the exact
 /// solution of a problem without special symmetry is known. Motion is harmonic, field * cos(omega
 /// t); omega = 0 is statics. Source: P. J. Roache, "Code Verification by the Method of Manufactured
@@ -45,7 +45,7 @@ struct MembraneState {
 /// Beams along 0 <= x <= length, clamped at x = 0 and loaded at the far end by (N, V, M) there.
 enum class BeamField {
   smooth,  ///< exponential and trigonometric
-  cubic,   ///< needs no transverse load: what the interpolation of a prismatic element holds
+  cubic,   ///< requires no transverse load; prismatic elements represent it exactly
 };
 
 enum class ShearStrain {

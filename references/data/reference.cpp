@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// In the order of ReferenceKind.
+/// Names of the kinds of references, in the order of ReferenceKind.
 constexpr std::array kKinds = {"proved", "exact", "computed", "paper", "code"};
 
 /// @param place  "file: /id"
@@ -50,7 +50,8 @@ ReferenceKind parse_kind(const std::string& word, const std::string& place) {
   fail(place, "/kind", "'proved', 'exact', 'computed', 'paper' or 'code' (got '" + word + "')");
 }
 
-/// One number for all values, or one for each.
+/// Returns the half width of the uncertainty of each value.
+/// @param stated  one number for all values, or a list with one number for each value
 std::vector<double> expand(const Json& stated, const std::string& place, const char* pointer,
                            std::size_t count) {
   const Json numbers = stated.is_number() ? Json(std::vector<Json>(count, stated)) : stated;
@@ -58,7 +59,7 @@ std::vector<double> expand(const Json& stated, const std::string& place, const c
   if (!numbers.is_array() || numbers.size() != count ||
       !std::all_of(numbers.begin(), numbers.end(), is_half_width))
     fail(place, pointer,
-         "a number that is not negative, or " + std::to_string(count) + " of them, one a value");
+         "a number of at least 0, or " + std::to_string(count) + " of them, one per value");
   return numbers.get<std::vector<double>>();
 }
 
@@ -82,7 +83,7 @@ std::vector<double> read_uncertainty(const Json& json, const Reference& referenc
     fail(place, "", "'uncertainty', or 'printed' digits that imply it");
   std::vector<double> half_widths;
   for (std::size_t i = 0; i < reference.printed.size(); ++i) {
-    // Digits in another unit, or corrected ones, give no uncertainty of the value.
+    // Printed digits that are corrected or in another unit do not determine the uncertainty.
     const double read = std::strtod(reference.printed[i].c_str(), nullptr);
     if (std::abs(read - reference.values[i]) > 1e-12 * std::abs(read)) {
       fail(place, "/printed/" + std::to_string(i),
@@ -123,7 +124,7 @@ double half_unit_in_last_place(const std::string& printed) {
   const auto decimals = point == std::string::npos ? 0 : last - point - 1;
   const long exponent =
       mantissa == std::string::npos ? 0 : std::strtol(printed.c_str() + mantissa + 1, nullptr, 10);
-  // Through text: 0.5e-3 read from decimal is the nearest double, a power by pow need not be.
+  // Parsing the text 0.5e-3 yields the nearest double. A product with std::pow may differ from it.
   const long place = exponent - static_cast<long>(decimals);
   return std::strtod(("0.5e" + std::to_string(place)).c_str(), nullptr);
 }

@@ -17,20 +17,21 @@ struct Reference {
   ReferenceKind kind = ReferenceKind::exact;
   std::string unit;  ///< "Hz", "m", "1", ...
   std::vector<double> values;
-  std::vector<double> uncertainty;   ///< absolute half width, one a value, same unit
+  std::vector<double> uncertainty;   ///< absolute half width, one per value, same unit
   std::string source;                ///< key into references/bibliography.json
   std::string place;                 ///< place in the source: "Table 2, row 1"
   std::vector<std::string> printed;  ///< as printed, if the source prints them
   std::string derivation;            ///< program and arguments in words; empty if none
-  std::vector<std::string> errata;   ///< what is wrong with the source, and how it was shown
+  std::vector<std::string> errata;   ///< errors of the source, with evidence
   std::string notes;
-  /// Probabilities of readings of a model, as JSON text; empty if the values are all.
+  /// Probabilities of readings (interpretations of a published model), as JSON text; empty: none.
   std::string probabilities;
 };
 
 [[nodiscard]] const char* to_string(ReferenceKind kind);
 
-/// Bad input: one line with file, JSON pointer (or byte offset) and what was expected.
+/// Invalid reference file. The message is one line with file, JSON pointer (or byte offset) and the
+/// expected content.
 class ReferenceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -44,7 +45,8 @@ class ReferenceError : public std::runtime_error {
 [[nodiscard]] Reference read_reference(const nlohmann::json& json, const std::string& file,
                                        const std::string& id);
 
-/// Half a unit in the last printed place: "12.768" -> 0.0005, "6.9e10" -> 0.05e10, "12" -> 0.5.
+/// Returns half a unit of the last printed digit: "12.768" -> 0.0005, "6.9e10" -> 0.05e10,
+/// "12" -> 0.5.
 /// @throws ReferenceError  if the text is not a decimal number.
 [[nodiscard]] double half_unit_in_last_place(const std::string& printed);
 
@@ -55,7 +57,7 @@ struct Source {
 
 /// Reads a member of a bibliography, {"key": {"text": "...", "doi": "..."}}.
 /// @param place  "file: /key" in messages
-/// @throws ReferenceError  if the member is no source.
+/// @throws ReferenceError  if the member has no 'text' or 'doi'.
 [[nodiscard]] Source read_source(std::string_view json, const std::string& place);
 
 }  // namespace trammel::references

@@ -46,8 +46,8 @@ int waves_below(const T& k, const T& length) {
   return n > 0 ? static_cast<int>(n) : 0;
 }
 
-/// Bending at w^2: the stiffnesses of motions even and odd about mid-span, and the clamped
-/// frequencies.
+/// Returns the bending part of a member's dynamic stiffness at w^2, for motions even and odd about
+/// mid-span, and the number of clamped frequencies below w.
 template <class T>
 MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const T& load_factor) {
   using std::sqrt;
@@ -58,10 +58,12 @@ MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const 
   const T p = (g + r - tension / m.EI) / 2;
   const T q = g * r - w2 * m.mass / m.EI;
   const T root = sqrt(p * p - q);
-  // `below` always oscillates, `above` only beyond the cut-on of shear waves; neither cancels
+  // Roots k^2: `below` < 0 is oscillatory, `above` only beyond the cut-on frequency of shear waves.
+  // Both formulas avoid cancellation.
   const T below = p >= 0 ? T(-p - root) : T(q / (root - p));
   const T above = p >= 0 ? T(q / below) : T(root - p);
-  Eigen::Matrix<T, 2, 2> even_motion, even_force, odd_motion, odd_force;  // of two solutions
+  // Each of the two solutions is a column.
+  Eigen::Matrix<T, 2, 2> even_motion, even_force, odd_motion, odd_force;
   for (int i = 0; i < 2; ++i) {
     const T k2 = i == 0 ? above : below;
     const auto [C, S] = wave_functions(k2, h);
@@ -79,8 +81,8 @@ MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const 
   MemberStiffness<T> result;
   result.even.template bottomRightCorner<2, 2>() = even_force * even_motion.inverse();
   result.odd.template bottomRightCorner<2, 2>() = odd_force * odd_motion.inverse();
-  // The frequencies with pinned ends are known. Clamping the two rotations removes as many as their
-  // stiffness has negative eigenvalues.
+  // The number of frequencies below w with pinned ends is known. Clamping both rotations reduces it
+  // by the number of negative eigenvalues of the rotational stiffness.
   int pinned = waves_below(T(sqrt(-below)), m.length);
   if (above < 0) pinned += 1 + waves_below(T(sqrt(-above)), m.length);
   result.clamped_below = pinned - (result.even(2, 2) < 0 ? 1 : 0) - (result.odd(2, 2) < 0 ? 1 : 0);
@@ -120,8 +122,8 @@ Eigen::Matrix<T, 6, 6> member_matrix(const MemberStiffness<T>& s) {
   return K / T(2);
 }
 
-/// Negative pivots and log |det| of a symmetric matrix, by L D L^T without interchanges: fifty
-/// digits leave room for the growth that a small pivot brings.
+/// Returns the number of negative pivots and log |det| of a symmetric matrix, by L D L^T without
+/// interchanges. Fifty digits tolerate the growth of round-off that a small pivot causes.
 template <class T>
 std::pair<int, T> matrix_inertia(Matrix<T>& D) {
   using std::abs;

@@ -8,11 +8,12 @@
 #include "references/numerics/ball.h"
 #include "references/numerics/dense.h"
 
-/// The dynamic stiffness matrix D(w) of a frame in its free coordinates, and the Wittrick-Williams
-/// count (W. H. Wittrick, F. W. Williams, Q. J. Mech. Appl. Math. 24, 1971, 263-284): the natural
-/// frequencies below w number
-///   J(w) = J0(w) + s(D(w)),
-/// J0 those of the members with all their ends clamped, s the negative pivots of D.
+/// Dynamic stiffness matrix D(w) of a frame in its free coordinates, and the Wittrick-Williams
+/// count J(w) of its natural frequencies below w (W. H. Wittrick, F. W. Williams, Q. J. Mech. Appl.
+/// Math. 24, 1971, 263-284). With J0(w) the number of frequencies below w of the members with
+/// clamped ends, and s the number of negative pivots of D:
+///
+///   J(w) = J0(w) + s(D(w)).
 namespace trammel::references {
 
 /// Properties of a member in the number type of the evaluation.

@@ -6,10 +6,11 @@
 
 #include "references/numerics/arguments.h"
 
-/// A planar frame as the derivations see it: SI units, world axes, indices into its own vectors.
+/// Planar frame for the derivations: SI units, world axes, nodes and members by index.
 namespace trammel::references {
 
-/// Per unit length of a member: stiffnesses as compliances, so that "rigid" is zero.
+/// Properties of a section. Axial and shear stiffness are stored as compliances, so that rigid is
+/// 0.
 struct FrameSection {
   Real axial_compliance = 0;  ///< 1 / EA [1/N]; 0: inextensible
   Real EI = 0;                ///< [N m^2]
@@ -97,10 +98,10 @@ struct FrameLoad {
 
 /// Reads where[key]: "welded" or "locked", "hinged" or "free", or {"spring_N_m_per_rad": k}.
 /// @param value  where[key], or an entry of it
-/// @throws DerivationError  with the JSON pointer, if it is none of these.
+/// @throws DerivationError  with the JSON pointer, if the value is none of these.
 [[nodiscard]] FrameEnd read_end(const Json& value, const Arguments& where, const std::string& key);
 
-/// The rotation of a node is `share` times the sum of the rotations of member ends.
+/// Constraint of a node: its rotation is `share` times the sum of the rotations of member ends.
 struct RotationConstraint {
   int node = 0;
   Real share = 0;

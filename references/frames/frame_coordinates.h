@@ -7,7 +7,7 @@
 #include "references/frames/frame.h"
 #include "references/numerics/dense.h"
 
-/// The coordinates of a frame: x, y and (if something rotates with it) the rotation of each node,
+/// Coordinates of a frame: x, y and (if a part rotates with the node) the rotation of each node,
 /// and the rotation of each hinged or sprung member end. Supports, rigid bodies, inextensible
 /// members and sums of rotations are equations C u = 0, solved by elimination with full pivoting: u
 /// = N q.

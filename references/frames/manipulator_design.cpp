@@ -22,7 +22,7 @@ Real given_or(const Arguments& object, const std::string& key, const Real& compu
   return is_given(object, key) ? object.positive(key) : computed;
 }
 
-/// All that holds for the links of one kind.
+/// Returns the data of the proximal or of the distal links.
 Arguments links_of_kind(const Arguments& manipulator, const char* kind) {
   Json links = manipulator["links"];
   if (links.contains(kind)) links.merge_patch(Json(links[kind]));
@@ -88,7 +88,8 @@ FrameEnd member_end(const Arguments& joints, const std::string& key) {
   return read_end(constrained ? Json("hinged") : joints[key], joints, key);
 }
 
-/// Eq. 25: the platform's rotation is the mean (or the sum, as printed) of the link-end rotations.
+/// Adds the constraint of Eq. 25 of the paper: the rotation of the platform is the mean (or, as
+/// printed, the sum) of the rotations of the link ends.
 void add_eq25(const Arguments& joints, Frame& frame) {
   const Json& platform = joints["platform"];
   if (platform != "eq25-mean" && platform != "eq25-sum") return;
@@ -156,7 +157,7 @@ Arguments manipulator_arguments(const Arguments& arguments) {
 
 Frame manipulator_frame(const Arguments& manipulator, const Arguments& pose) {
   if (manipulator["platform"].value("kind", "") != "rigid")
-    manipulator.fail("platform", "expected a platform of the kind rigid");
+    manipulator.fail("platform", "expected the platform kind 'rigid'");
   const ManipulatorNumbers numbers = read_manipulator_numbers(manipulator);
   const Arguments joints(manipulator["joints"], manipulator.pointer("joints"),
                          {"active", "elbow", "platform"});

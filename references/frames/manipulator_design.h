@@ -9,7 +9,8 @@
 /// links: proximal_length_m and distal_length_m (one or three each), thickness_m, width_m, mass_kg,
 /// inertia_kg_m2, beam, shear_coefficient, axial; proximal and distal contain differing values.
 /// platform: side_m or vertices_m, thickness_m, mass_kg, inertia_kg_m2.
-/// material, platform_material, joints (one of each kind for all limbs), working_mode.
+/// material, platform_material, joints (active, elbow and platform, equal in all limbs),
+/// working_mode.
 namespace trammel::references {
 
 template <class Number>
@@ -22,8 +23,9 @@ template <class Number>
   return {c * v[0] - s * v[1], s * v[0] + c * v[1]};
 }
 
-/// The intersection of the circles about A and C; mode -1 lies clockwise of the line A C.
-/// @throws DerivationError  if there is none.
+/// Returns the elbow of a limb: an intersection of the circles about A and C. For mode -1, it lies
+/// clockwise of the line A C.
+/// @throws DerivationError  if the circles do not intersect.
 template <class Number>
 [[nodiscard]] Point2<Number> elbow(const Point2<Number>& A, const Point2<Number>& C,
                                    const Real& proximal, const Real& distal, int mode) {
@@ -41,7 +43,7 @@ template <class Number>
 struct LinkNumbers {
   Real length = 0;
   Real mass = 0;
-  bool has_inertia = false;  ///< whether it is given, not that of a thin rod
+  bool has_inertia = false;  ///< the inertia is given; if false, it is that of a thin rod
   Real center = 0;           ///< of mass, from the first joint along the link
   Real inertia = 0;          ///< about the center of mass [kg m^2]
   FrameSection section;

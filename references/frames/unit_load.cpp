@@ -9,7 +9,8 @@ namespace trammel::references {
 
 namespace {
 
-/// Load per unit length in the member's axes, weight included: along it and to its left.
+/// Returns the load per unit length with the weight, in the member's axes: along it, then to its
+/// left.
 std::array<Real, 2> member_load(const Frame& frame, const FrameMember& member) {
   const MemberAxis axis = member_axis(frame, member);
   const Real x = member.load[0] + member.section.mass * frame.gravity[0];
@@ -17,14 +18,16 @@ std::array<Real, 2> member_load(const Frame& frame, const FrameMember& member) {
   return {x * axis.cosine + y * axis.sine, y * axis.cosine - x * axis.sine};
 }
 
-/// Equations of the force method: B f + p on every coordinate, compliances Phi f + phi0.
+/// Equations of the force method for the internal forces f: forces B f + p on the coordinates, and
+/// deformations Phi f + phi0 of the members.
 struct Equations {
   RealMatrix B, Phi;
   RealVector p, phi0;
 };
 
-/// Integrates the products of two diagrams of a member. Rows: a unit N, V and M at the start.
-/// Columns: the same, and the distributed load. Four Gauss points are exact for these quartics.
+/// Integrates products of the force diagrams of a member over its length. Rows: diagrams of a unit
+/// N, V and M at the start. Columns: the same, then the diagram of the distributed load. Four Gauss
+/// points integrate these polynomials exactly.
 Eigen::Matrix<double, 3, 4> compliances(const FrameSection& section,
                                         const std::array<Real, 2>& load, const Real& length) {
   const auto q_u = static_cast<double>(load[0]), q_w = static_cast<double>(load[1]);
@@ -72,7 +75,7 @@ void add_loads(const Frame& frame, const FrameCoordinates& coordinates, Equation
     if (index >= 0) {
       e.p[index] += force;
     } else if (force != 0) {
-      throw DerivationError("a moment on node " + frame.nodes[node].name + ", which cannot turn");
+      throw DerivationError("node " + frame.nodes[node].name + " has a moment but no rotation");
     }
   };
   for (const FrameLoad& load : frame.loads) {
@@ -106,7 +109,8 @@ Equations equations(const Frame& frame, const FrameCoordinates& coordinates) {
   return e;
 }
 
-/// Phi f + B^T N q = -phi0, N^T (B f + p) = 0; returns f, then q.
+/// Minimizes the complementary energy: solves Phi f + B^T N q = -phi0 and N^T (B f + p) = 0.
+/// @returns the internal forces f, then the free displacements q.
 RealVector minimize_complementary_energy(const Equations& e, const RealMatrix& N) {
   const RealMatrix G = N.transpose() * e.B;
   RealMatrix system(e.Phi.rows() + N.cols(), e.Phi.rows() + N.cols());
@@ -139,8 +143,8 @@ void add_node_outputs(const Frame& frame, const FrameCoordinates& coordinates,
   values["deflection_m:" + name] = sqrt(x * x + y * y);
 }
 
-/// The stress |N|/A + |M|/W is that of a member without a distributed load, whose largest value is
-/// at an end.
+/// Adds the outputs of both ends of a member. The stress |N|/A + |M|/W is its largest stress if the
+/// member has no distributed load, because the largest value is then at an end.
 void add_member_outputs(const Frame& frame, const FrameCoordinates& coordinates,
                         const FrameStatics& statics, int index, Values& values) {
   const FrameMember& member = frame.members[index];
@@ -208,7 +212,7 @@ std::vector<Real> frame_statics_program(const Arguments& arguments) {
   for (const std::string& name : arguments.texts("outputs")) {
     const auto value = values.find(name);
     if (value == values.end())
-      arguments.fail("outputs", "'" + name + "' is no output of this frame");
+      arguments.fail("outputs", "'" + name + "' is not an output of this frame");
     result.push_back(value->second);
   }
   return result;

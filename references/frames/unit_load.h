@@ -24,7 +24,7 @@ struct MemberForces {
 
 struct FrameStatics {
   RealVector displacement;    ///< of every coordinate of FrameCoordinates(frame, false)
-  RealVector residual_force;  ///< force on every coordinate by all but its support
+  RealVector residual_force;  ///< force on each coordinate without that of the support
   std::vector<MemberForces> members;
 };
 
@@ -34,8 +34,8 @@ struct FrameStatics {
 /// Arguments: model (or manipulator and pose, with loads), outputs (array of names). Names:
 /// displacement_x_m:NODE, displacement_y_m:NODE, rotation_rad:NODE, end_rotation_rad:MEMBER.start,
 /// reaction_x_N:NODE, reaction_y_N:NODE, reaction_moment_N_m:NODE, axial_force_N:MEMBER.start,
-/// bending_moment_N_m:MEMBER.end. Values: one an output, in the unit that its name ends with.
-/// @throws DerivationError  if a name is none of these, or names no part of the frame.
+/// bending_moment_N_m:MEMBER.end. Values: one per output, in the unit at the end of its name.
+/// @throws DerivationError  if a name is none of these, or if the frame has no such part.
 [[nodiscard]] std::vector<Real> frame_statics_program(const Arguments& arguments);
 
 }  // namespace trammel::references

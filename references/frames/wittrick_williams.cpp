@@ -13,12 +13,13 @@ namespace trammel::references {
 
 namespace {
 
-/// lo and hi within 1e-8 of each other, with fewer than `index` below lo and not so below hi.
+/// Returns a bracket of relative width 1e-8 about the passage `index`, found in double precision:
+/// the count is less than `index` at its lower end, and at least `index` at its upper end.
 std::pair<Real, Real> coarse_bracket(const CountingFunction& f, int index) {
   double lo = f.lo;
   double hi = f.hi;
   for (int i = 0; f.coarse(hi) < index; ++i) {
-    if (i > 60) throw DerivationError("the count stays below " + std::to_string(index));
+    if (i > 60) throw DerivationError("the root count stays below " + std::to_string(index));
     lo = hi;
     hi *= 2;
   }
@@ -33,15 +34,16 @@ std::pair<Real, Real> coarse_bracket(const CountingFunction& f, int index) {
 void confirm_bracket(const CountingFunction& f, int index, Real& lo, Real& hi) {
   for (Real relative_width = Real(1e-8); f.fine(lo).below >= index; relative_width *= 10) {
     lo *= 1 - std::min(relative_width, Real(0.5));
-    if (lo < Real(f.lo) * Real(1e-3)) throw DerivationError("the count does not fall to zero");
+    if (lo < Real(f.lo) * Real(1e-3)) throw DerivationError("the root count is never zero");
   }
   for (Real relative_width = Real(1e-8); f.fine(hi).below < index; relative_width *= 10)
     hi *= 1 + relative_width;
 }
 
-/// Returns the place where the count passes `index`. The m-th root of |det D|, with the sign of the
-/// count, has a simple root there, where m is the number of passages in the bracket. If the bracket
-/// contains a clamped frequency of a member, det D has a pole, and only the count is bisected.
+/// Returns the argument x at which the count reaches `index`. Let m be the number of passages in
+/// the bracket. The m-th root of |det D|, negative if the count is less than `index`, has a simple
+/// root at x. If the bracket contains a clamped frequency of a member, det D has a pole there, and
+/// only the count is bisected.
 Real refine_root(const CountingFunction& f, int index, const Real& lo, const Real& hi) {
   const auto at_lo = f.fine(lo);
   const auto at_hi = f.fine(hi);
@@ -60,21 +62,21 @@ Real refine_root(const CountingFunction& f, int index, const Real& lo, const Rea
   return (ends.first + ends.second) / 2;
 }
 
-/// Returns the `index`-th passage (from 1), to 1e-20.
+/// Returns the argument at which the count reaches `index` (from 1), to a relative 1e-20.
 Real counted_root(const CountingFunction& f, int index) {
   auto [lo, hi] = coarse_bracket(f, index);
   confirm_bracket(f, index, lo, hi);
   return refine_root(f, index, lo, hi);
 }
 
-/// The frame with the axial forces that its loads bring about.
+/// Returns the frame with the axial forces due to its loads.
 Frame with_axial_forces(Frame frame) {
   const FrameStatics statics = unit_load_statics(frame);
   for (std::size_t i = 0; i < frame.members.size(); ++i) {
     FrameMember& member = frame.members[i];
     const auto& N = statics.members[i].N;
     if (N[0] != N[1]) {
-      throw DerivationError("the axial force varies along member " + member.name);
+      throw DerivationError("buckling requires a constant axial force in member " + member.name);
     }
     if (member.section.shear_compliance > 0) {
       throw DerivationError("buckling requires Euler-Bernoulli members");
@@ -84,7 +86,8 @@ Frame with_axial_forces(Frame frame) {
   return frame;
 }
 
-/// The load at which a pinned member alone would buckle, as a factor: the smallest of them.
+/// Returns approximately (10 for pi^2) the smallest load factor at which a member with pinned ends
+/// buckles.
 Real buckling_scale(const Frame& frame) {
   Real scale = 0;
   for (const FrameMember& member : frame.members) {
@@ -98,7 +101,7 @@ Real buckling_scale(const Frame& frame) {
   return scale;
 }
 
-/// A decimal of twelve digits, so that what is read back is what was meant.
+/// Returns a decimal of twelve digits, so that reading it restores the intended number.
 Json decimal(double value) {
   std::ostringstream text;
   text.precision(12);

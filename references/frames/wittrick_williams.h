@@ -9,18 +9,19 @@
 /// Natural frequencies of a frame by the Wittrick-Williams count (`DynamicStiffness`).
 namespace trammel::references {
 
-/// Returns the places where a Wittrick-Williams count passes 1, 2, 3, ... They are bracketed in
-/// double precision; the bracket is confirmed and refined in extended precision. None is missed,
-/// and a repeated one appears as often as it occurs. Double precision would reach only about 3e-10.
+/// Passages: the arguments at which a Wittrick-Williams count reaches 1, 2, 3, ... They are
+/// bracketed in double precision. The bracket is confirmed and refined in extended precision,
+/// because double precision reaches only about 3e-10. No passage is missed, and a repeated passage
+/// appears as often as it occurs.
 struct CountingFunction {
   std::function<int(double)> coarse;
   std::function<DynamicStiffness<Real>::Count(const Real&)> fine;
-  double lo = 0;  ///< > 0; the search begins here; no passage lies below
-  double hi = 0;  ///< its doubling begins here
+  double lo = 0;  ///< > 0; lower end of the search, below all passages
+  double hi = 0;  ///< first upper end of the search, which is doubled
 };
 
 /// Returns the passages from `first` + 1 to `first` + `count`, each to 1e-20.
-/// @throws DerivationError  if the count does not reach them.
+/// @throws DerivationError  if the count does not reach their sum.
 [[nodiscard]] std::vector<Real> counted_roots(const CountingFunction& f, int first, int count);
 
 struct FrameFrequencies {
@@ -42,14 +43,16 @@ struct FrameFrequencies {
 /// Arguments: model (or manipulator and pose), count. Values: elastic frequencies [Hz].
 [[nodiscard]] std::vector<Real> frame_frequencies_program(const Arguments& arguments);
 
-/// Arguments: model (or manipulator and pose), below_Hz. Value: their number, rigid ones included.
+/// Arguments: model (or manipulator and pose), below_Hz. Value: the number of natural frequencies
+/// below below_Hz, including rigid motions.
 [[nodiscard]] std::vector<Real> frame_count_program(const Arguments& arguments);
 
-/// Central differences of `frame_frequencies`, each good to 1e-20, at step, step / 2 and step / 4,
-/// extrapolated twice: the error is O(step^6) plus 1e-20 over the step. Frequencies that remain
-/// repeated have a common derivative. Arguments: model (or manipulator and pose), pointers (JSON
-/// pointers into the arguments, to equal numbers that change together), step (in their unit),
-/// count. Values: [Hz / unit], ascending in frequency.
+/// Derivatives of frequencies, by central differences of `frame_frequencies` at step, step / 2 and
+/// step / 4, extrapolated twice. The error is O(step^6) plus 1e-20 over the step, because each
+/// frequency has the error 1e-20. Frequencies that remain repeated have a common derivative.
+/// Arguments: model (or manipulator and pose), pointers (JSON pointers into the arguments, to equal
+/// numbers that change together), step (in their unit), count. Values: [Hz / unit], ascending in
+/// frequency.
 [[nodiscard]] std::vector<Real> frame_sensitivity_program(const Arguments& arguments);
 
 /// Computes the first `count` positive factors of the loads at which the frame buckles: the axial

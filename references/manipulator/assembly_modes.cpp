@@ -70,7 +70,8 @@ Limbs read_limbs(const Arguments& arguments) {
   return limbs;
 }
 
-/// Bernstein's bounds, |Q'| <= 3 max|Q| and so on, show that Q or Q' is monotonic in an interval.
+/// Search for all zeros of Q. Bernstein's bounds, such as |Q'| <= 3 max|Q|, prove that Q or Q' is
+/// monotonic in an interval.
 struct Search {
   const Arguments& arguments;
   const Limbs& limbs;
@@ -82,23 +83,25 @@ struct Search {
     return Q(limbs, Jet<Real>(phi, Real(1), Real(0)));
   }
 
-  /// Intervals in which Q is monotonic. A zero at an end belongs to one of its two intervals.
+  /// Adds the zero of an interval in which Q is monotonic. A zero at the common end of two
+  /// intervals is added once.
   void add_crossing(const Real& from, const Real& to) {
     if ((at(from) < 0) == (at(to) < 0)) return;
     zeros.push_back(refined_root([&](const Real& phi) { return at(phi); }, from, to));
   }
 
-  /// Intervals in which Q' is monotonic: on either side of the extremum, if there is one.
+  /// Adds the zeros of an interval in which Q' is monotonic, on both sides of the extremum if there
+  /// is one.
   void add_crossings(const Real& from, const Real& to) {
     if ((jet(from).rate < 0) == (jet(to).rate < 0)) return add_crossing(from, to);
     const Real extremum = refined_root([&](const Real& phi) { return jet(phi).rate; }, from, to);
     if (abs(at(extremum)) < Real(1e-40) * largest)
-      arguments.fail("angles_rad", "angles at which no two poses are the same");
+      arguments.fail("angles_rad", "expected angles at which all poses differ");
     add_crossing(from, extremum);
     add_crossing(extremum, to);
   }
 
-  /// Every zero between two angles.
+  /// Adds all zeros between two angles.
   void find(const Real& from, const Real& to) {
     const Real h = (to - from) / 2, middle = from + h;
     const Jet<Real> q = jet(middle);
@@ -106,7 +109,8 @@ struct Search {
     if (abs(q.value) > abs(q.rate) * h + bend * h * h / 2) return;
     if (abs(q.rate) > bend * h) return add_crossing(from, to);
     if (abs(q.acceleration) > 27 * largest * h) return add_crossings(from, to);
-    if (h < Real(1e-12)) arguments.fail("angles_rad", "angles at which no three poses meet");
+    if (h < Real(1e-12))
+      arguments.fail("angles_rad", "expected angles at which no three poses meet");
     find(from, middle);
     find(middle, to);
   }
@@ -117,7 +121,7 @@ std::vector<Real> all_zeros(const Arguments& arguments, const Limbs& limbs) {
   const Real h = 2 * pi<Real>() / kPoints;
   Real largest = 0;
   for (int i = 0; i < kPoints; ++i) largest = std::max(largest, Real(abs(Q(limbs, Real(h * i)))));
-  // Between the points |Q| is at most 3 max|Q| h/2 larger.
+  // Between the points, |Q| exceeds the largest sample by at most 3 max|Q| h/2.
   Search search{arguments, limbs, largest / (1 - 3 * h / 2), {}};
   search.find(-pi<Real>(), pi<Real>());
   return search.zeros;

@@ -13,7 +13,7 @@ namespace {
 
 using Motion = std::array<Jet<Real>, 3>;
 
-/// Everything at one instant, by the name of its quantity.
+/// Quantities of the motion at one instant, by name.
 class Instant {
  public:
   Instant(const ManipulatorNumbers& manipulator, const Motion& motion, const PlanarWrench& wrench)
@@ -37,8 +37,7 @@ class Instant {
 
   [[nodiscard]] Real value(const std::string& name) const {
     const auto found = values_.find(name);
-    if (found == values_.end())
-      throw DerivationError("/outputs: '" + name + "': there is no such quantity");
+    if (found == values_.end()) throw DerivationError("/outputs: '" + name + "': no such quantity");
     return abs(found->second) < Real("1e-40") ? Real(0) : found->second;  // round-off alone
   }
 
@@ -89,7 +88,8 @@ class Instant {
     }
   }
 
-  /// Lines of the distal links in Pluecker coordinates, moments about P over the platform's radius.
+  /// Adds the distances from singularities. The rows of the matrix are the Pluecker coordinates of
+  /// the distal links; moments about P are divided by the radius of the platform.
   void add_singularities() {
     Real squares = 0;
     for (const LimbNumbers& limb : m_.limbs)
@@ -120,8 +120,8 @@ class Instant {
   std::map<std::string, Real> values_;
 };
 
-/// Returns the accelerations of the platform under given torques. Torques are linear in them, so
-/// four inverse problems suffice.
+/// Returns the accelerations of the platform under given torques. The torques depend linearly on
+/// the accelerations, so that four inverse problems suffice.
 RealVector accelerations(const ManipulatorNumbers& m, const PlanarWrench& wrench,
                          const std::vector<Real>& torque, const std::array<Real, 6>& state) {
   const auto torques_at = [&](int moving) {
@@ -138,7 +138,7 @@ RealVector accelerations(const ManipulatorNumbers& m, const PlanarWrench& wrench
     for (int i = 0; i < 3; ++i) A(i, c) = moved[i] - at_rest[i];
     b[c] = torque[c] - at_rest[c];
   }
-  return solve(A, b, "the posture is singular");
+  return solve(A, b, "the pose is singular");
 }
 
 /// Computes the motion under constant torques at each of the times, with 16 steps from time to

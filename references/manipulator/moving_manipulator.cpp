@@ -26,7 +26,8 @@ namespace {
 using State = std::array<Real, 6>;  // u_x, u_y, theta and their rates
 using Three = std::array<Real, 3>;
 
-/// A limb at one pose: what q stretches it by, its stiffness, the lever of its tension about A.
+/// A limb at one pose: derivative of its elongation with respect to q, stiffness k, and lever arm
+/// of its tension about A.
 struct Limb {
   Three stretch;
   Real stiffness, lever;
@@ -57,7 +58,8 @@ class Platform {
     return {{along[0], along[1], arm[0] * along[1] - arm[1] * along[0]}, 1 / compliance, lever};
   }
 
-  /// @param factor  on the wrench at t
+  /// Computes the derivative dx of the state x at the time t.
+  /// @param factor  load factor h(t), which multiplies the wrench
   void rate(const State& x, State& dx, const Real& t, const Real& factor) const {
     const auto pose = platform_motion(trajectory_, t);
     const Real m = numbers_.platform_mass, J = numbers_.platform_inertia;
@@ -73,7 +75,8 @@ class Platform {
       const Real tension = one.stiffness * stretch(one, x);
       for (std::size_t c = 0; c < 3; ++c) f[c] -= tension * one.stretch[c];
     }
-    // M = [m, -m s_y; m, m s_x; J + m s^2]: from the moment about the center of mass.
+    // Moment balance about the center of mass. It uses the mass matrix with the coefficients m,
+    // -m s_y, m s_x and J + m s^2.
     const Real turn = (f[2] - (s[0] * f[1] - s[1] * f[0])) / J;
     dx = {x[3], x[4], x[5], f[0] / m + s[1] * turn, f[1] / m - s[0] * turn, turn};
   }
@@ -108,7 +111,7 @@ class Platform {
 struct History {
   std::vector<Real> time, factor;
 
-  /// By the straight line on which the factor lies at `within`.
+  /// Returns the load factor at t, on the linear segment of the history that contains `within`.
   [[nodiscard]] Real at(const Real& t, const Real& within) const {
     const auto next = std::ranges::upper_bound(time, within);
     if (next == time.begin()) return factor.front();
@@ -150,18 +153,20 @@ using SystemState = std::array<Real, 2 * kCoordinates>;
 using SystemMotion = std::array<Jet<Real>, kCoordinates>;
 using Six = Eigen::Matrix<Real, 6, 1>;
 
-/// A displacement whose acceleration contains the damping force per mass.
+/// Returns a displacement with the damping force per mass added to its acceleration.
 Jet<Real> damped(const Jet<Real>& u, const Real& damping) {
   return {u.value, u.rate, u.acceleration + damping * u.rate};
 }
 
-/// A Timoshenko beam's cubic between its nodes, rows u, v, rotation (Friedman and Kosmatka 1993).
+/// Returns the shape functions of a Timoshenko beam element at x (0 to 1), with the rows u, v and
+/// rotation (Friedman and Kosmatka 1993).
+/// @param phi  shear parameter 12 EI/(kappa G A L^2)
 std::array<Six, 3> interpolation(const Real& x, const Real& length, const Real& phi) {
   const Real g = 1 / (1 + phi), y = 1 - x;
-  const auto lift = [&](const Real& z) {  // v by v of the end at z = 0
+  const auto lift = [&](const Real& z) {  // v due to v at the end z = 0
     return Real(g * (1 - 3 * z * z + 2 * z * z * z + phi * (1 - z)));
   };
-  const auto swing = [&](const Real& z) {  // v by the rotation there
+  const auto swing = [&](const Real& z) {  // v due to the rotation at the end z = 0
     return Real(g * length * z * (1 - z) * (1 - z + phi / 2));
   };
   const auto tilt = [&](const Real& z) { return Real(g * (1 - z) * (1 - 3 * z + phi)); };
@@ -236,7 +241,7 @@ class Links {
   }
 
   /// Solves the equations of motion for the accelerations.
-  /// @param torques  receives those of the base on the proximal links
+  /// @param torques  receives the torques of the base on the proximal links
   [[nodiscard]] SystemMotion solved(const SystemState& x, const Real& t,
                                     std::array<Real, 3>* torques = nullptr) const {
     const Nominal now = nominal(t);
@@ -287,7 +292,7 @@ class Links {
     return now;
   }
 
-  /// Inertia and damping forces minus loads, on each coordinate.
+  /// Returns inertia and damping forces minus loads, for each coordinate.
   [[nodiscard]] Coordinates residual(const Nominal& now, const SystemMotion& q,
                                      std::array<Real, 3>* torques = nullptr) const {
     Coordinates r = platform_residual(now, q);
@@ -309,7 +314,8 @@ class Links {
     return r;
   }
 
-  /// Equation of motion of `Platform`, with damping: a mass at s from P.
+  /// Returns the residual of the platform's equation of motion, with damping. Its center of mass
+  /// has the distance s from P.
   [[nodiscard]] Coordinates platform_residual(const Nominal& now, const SystemMotion& q) const {
     const PointJet s = rotated(numbers_.platform_center, now.pose[2]);
     const Jet<Real> turn = damped(q[2], damping_);
@@ -332,9 +338,10 @@ class Links {
   std::vector<std::array<Link, 2>> links_;
 };
 
-/// States at the times; of a turn of some 1 rad a dozen steps of order 8 leave 1e-13.
+/// Returns the states at the times. For a rotation of about 1 rad, twelve steps of order 8 have an
+/// error of 1e-13.
 std::vector<SystemState> states(const Links& links, const std::vector<Real>& times) {
-  constexpr int kSteps = 4;  // from time to time
+  constexpr int kSteps = 4;  // steps between two successive times
   const auto rate = [&](const SystemState& x, SystemState& dx, const Real& t) {
     const SystemMotion motion = links.solved(x, t);
     for (std::size_t j = 0; j < kCoordinates; ++j) {
@@ -362,7 +369,7 @@ std::vector<Real> moving_platform_program(const Arguments& arguments) {
     history.factor = given.numbers("factor", history.time.size());
   }
   const std::vector<Real> times = arguments.numbers("times_s");
-  if (!std::ranges::is_sorted(times)) arguments.fail("times_s", "times that ascend");
+  if (!std::ranges::is_sorted(times)) arguments.fail("times_s", "expected ascending times");
   State x{};
   Real now = times.front();
   std::vector<Real> values;
@@ -382,7 +389,7 @@ std::vector<Real> moving_platform_program(const Arguments& arguments) {
 std::vector<Real> moving_links_program(const Arguments& arguments) {
   const Links links(arguments);
   const std::vector<Real> times = arguments.numbers("times_s");
-  if (!std::ranges::is_sorted(times)) arguments.fail("times_s", "times that ascend");
+  if (!std::ranges::is_sorted(times)) arguments.fail("times_s", "expected ascending times");
   const std::vector<SystemState> state = states(links, times);
   std::vector<Real> values;
   for (const std::string& name : arguments.texts("outputs")) {

@@ -34,7 +34,7 @@ Sample sample_at(const ManipulatorNumbers& manipulator, const Arguments& traject
   return sample;
 }
 
-/// @param inputs, outputs  one row a sample
+/// @param inputs, outputs  one row per sample
 std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
                                   const std::vector<Real>& query, const Real& sigma) {
   std::vector<Real> squared_distance;
@@ -65,7 +65,7 @@ std::vector<Real> grnn_program(const Arguments& arguments) {
   const Real sigma = arguments.has("spread")
                          ? Real(arguments.positive("spread") / (sqrt(Real(2)) * Real("0.8326")))
                          : arguments.positive("sigma");
-  if (inputs.size() != outputs.size()) arguments.fail("outputs", "expected one row an input row");
+  if (inputs.size() != outputs.size()) arguments.fail("outputs", "expected one row per input row");
   std::vector<Real> values;
   for (const auto& query : arguments.rows("queries", inputs.front().size())) {
     for (const Real& y : nadaraya_watson(inputs, outputs, query, sigma)) values.push_back(y);

@@ -17,7 +17,7 @@ class Body {
   Body(RealMatrix& A, RealVector& b, std::size_t row, const PointJet& center)
       : A_(A), b_(b), row_(row), center_(center) {}
 
-  /// A force of unknown components, `sign` of which acts on this body at `point`.
+  /// Adds `sign` times a joint force with unknown components, which acts on this body at `point`.
   void add_joint_force(std::size_t unknown, const PointJet& point, int sign) {
     A_(row_, unknown) += sign;
     A_(row_ + 1, unknown + 1) += sign;
@@ -101,7 +101,7 @@ ManipulatorForces newton_euler_forces(const ManipulatorNumbers& m,
                        m.gravity);
     platform.add_joint_force(first + at_C, C, 1);
   }
-  const RealVector x = solve(A, b, "the posture is singular: no torques hold it");
+  const RealVector x = solve(A, b, "the pose is singular: no torques balance the loads");
   ManipulatorForces forces;
   for (std::size_t i = 0; i < 3; ++i) {
     const std::size_t first = per_limb * i;

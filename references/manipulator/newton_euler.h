@@ -6,9 +6,8 @@
 #include "references/numerics/jet.h"
 
 /// Inverse dynamics of the planar 3-RRR by the laws of Newton and Euler for each of its seven
-/// bodies cut free: 21 equations for the forces in the nine joints and the three torques. Motions
-/// are differentiated by carrying derivatives along (Jet); no Lagrangian, no Jacobian, no mass
-/// matrix.
+/// bodies: 21 equations for the forces in the nine joints and the three torques. Jet differentiates
+/// the motions. The derivation uses no Lagrangian, no Jacobian and no mass matrix.
 namespace trammel::references {
 
 struct PlanarWrench {
@@ -40,7 +39,7 @@ struct ManipulatorForces {
 /// Computes the forces between platform and limbs, and the torques of the base on the three
 /// proximal links, counterclockwise, in SI.
 /// @param motion  as in `limb_joints`
-/// @throws DerivationError  if a limb cannot reach, or if the posture is singular.
+/// @throws DerivationError  if a limb cannot reach, or if the pose is singular.
 [[nodiscard]] ManipulatorForces newton_euler_forces(const ManipulatorNumbers& manipulator,
                                                     const std::array<Jet<Real>, 3>& motion,
                                                     const PlanarWrench& wrench);

@@ -49,13 +49,14 @@ Knots read_knots(const Arguments& spline) {
     knots.pose[0].push_back(knot.number("x_m"));
     knots.pose[1].push_back(knot.number("y_m"));
     knots.pose[2].push_back(knot.number("phi_rad"));
-    if (k > 0 && !(knots.time[k] > knots.time[k - 1])) spline.fail("knots", "times must ascend");
+    if (k > 0 && !(knots.time[k] > knots.time[k - 1]))
+      spline.fail("knots", "expected ascending times");
   }
   return knots;
 }
 
 /// Slopes at the knots of the cubic spline in Hermite's form: the second derivative is continuous
-/// at the inner knots, and the ends are as asked for.
+/// at the inner knots, and the slopes at the ends are prescribed.
 RealVector slopes(const std::vector<Real>& t, const std::vector<Real>& y, const std::string& ends) {
   const std::size_t n = t.size();
   RealMatrix A = RealMatrix::Zero(n, n);

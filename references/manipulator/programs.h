@@ -5,7 +5,7 @@
 #include "references/manipulator/newton_euler.h"
 #include "references/numerics/arguments.h"
 
-/// Programs that derive motions of the planar 3-RRR, and estimates of them.
+/// Programs that derive motions of the planar 3-RRR, and estimates of these motions.
 namespace trammel::references {
 
 /// Reads "manipulator", as in a case file, and "gravity_m_s2".
@@ -32,8 +32,7 @@ namespace trammel::references {
 
 /// Arguments: base_m, platform_m (three points [x, y] each), proximal_m, distal_m, angles_rad
 /// (three numbers each), output (count | poses). Values: the number, or x, y, phi of each, by phi.
-/// @throws DerivationError  if two poses are the same, or three too near to each other for the
-/// proof.
+/// @throws DerivationError  if two poses are equal, or if three poses are too close for the proof.
 [[nodiscard]] std::vector<Real> assembly_modes_program(const Arguments& arguments);
 
 /// Arguments: as for `manipulator_torques_program`, outputs (names of quantities:

@@ -88,7 +88,7 @@ Real Arguments::positive(const std::string& key, const Default& default_value) c
 
 Real Arguments::not_negative(const std::string& key, const Real& default_value) const {
   Real value = number(key, default_value);
-  if (value < 0) fail(key, "expected a number that is not negative");
+  if (value < 0) fail(key, "expected a number of at least 0");
   return value;
 }
 
@@ -107,7 +107,7 @@ bool Arguments::flag(const std::string& key, bool default_value) const {
 }
 
 std::string Arguments::text(const std::string& key) const {
-  if (!(*this)[key].is_string()) fail(key, "expected a text");
+  if (!(*this)[key].is_string()) fail(key, "expected a string");
   return (*this)[key].get<std::string>();
 }
 

@@ -9,7 +9,8 @@
 
 #include "references/numerics/real.h"
 
-/// Reading the arguments of a derivation: every error names the JSON pointer and what was expected.
+/// Reads the arguments of a derivation. Each error message has the JSON pointer and the expected
+/// content.
 namespace trammel::references {
 
 using Json = nlohmann::json;
@@ -26,9 +27,9 @@ class Arguments {
   using Default = std::optional<Real>;  ///< value of a missing key; none: the key is required
 
   /// @param pointer  location of the object, for messages.
-  /// @throws DerivationError  if `object` is no object, or has a key that is not in `known`.
+  /// @throws DerivationError  if `object` is not an object, or has a key that is not in `known`.
   Arguments(const Json& object, std::string pointer, const std::vector<std::string>& known);
-  /// As above, for an object keyed by names of the user's choice.
+  /// Creates arguments from an object whose keys are names that the user chooses.
   Arguments(const Json& object, std::string pointer);
 
   [[nodiscard]] const Json& json() const { return object_; }
@@ -40,7 +41,7 @@ class Arguments {
   [[nodiscard]] Arguments object(const std::string& key,
                                  const std::vector<std::string>& known) const;
 
-  // Numbers are the decimals that the reader sees: 0.0015 is 15/10000, not the nearest double.
+  // A number is the decimal number in the file: 0.0015 is 15/10000, not the nearest double.
   [[nodiscard]] Real number(const std::string& key, const Default& default_value = {}) const;
   [[nodiscard]] Real positive(const std::string& key, const Default& default_value = {}) const;
   [[nodiscard]] Real not_negative(const std::string& key, const Real& default_value) const;

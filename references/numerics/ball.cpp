@@ -36,14 +36,14 @@ Ball::operator int() const {
   const bool unique = arb_get_unique_fmpz(integer, x_) != 0 && fmpz_fits_si(integer) != 0;
   const slong value = unique ? fmpz_get_si(integer) : 0;
   fmpz_clear(integer);
-  if (!unique) throw DerivationError("the precision does not determine an integer");
+  if (!unique) throw DerivationError("the enclosure does not contain exactly one integer");
   return static_cast<int>(value);
 }
 
 bool Ball::decide(const Ball& a, const Ball& b, Relation yes, Relation no) {
   if (yes(a.x_, b.x_) != 0) return true;
   if (no(a.x_, b.x_) != 0) return false;
-  throw DerivationError("the precision does not determine which of two numbers is larger");
+  throw DerivationError("two enclosures overlap, so that neither number is known to be larger");
 }
 
 }  // namespace trammel::references

@@ -6,8 +6,9 @@
 
 #include "references/numerics/real.h"
 
-/// Ball arithmetic: a number with a radius within which the true one lies, whatever was rounded on
-/// the way. Source: F. Johansson, IEEE Trans. Computers 66(8), 2017, 1281-1292 (Arb).
+/// Ball arithmetic: a number with a radius. The true number lies within the radius, because the
+/// radius includes all round-off errors. Source: F. Johansson, IEEE Trans. Computers 66(8), 2017,
+/// 1281-1292 (Arb).
 namespace trammel::references {
 
 class Ball {
@@ -25,10 +26,11 @@ class Ball {
 
   /// The middle, as an exact number.
   [[nodiscard]] Ball middle() const;
-  /// Rounded to 30 digits, "1.87510406871196116644530824107".
-  /// @throws DerivationError  if the ball is wider than a tenth of the last one.
+  /// Returns the number with 30 digits: "1.87510406871196116644530824107".
+  /// @throws DerivationError  if the ball is wider than a tenth of the last digit.
   [[nodiscard]] std::string digits() const;
-  /// @throws DerivationError  if the ball holds another number or more than one integer.
+  /// Returns the only integer in the ball.
+  /// @throws DerivationError  if the ball contains no or several integers.
   explicit operator int() const;
 
   friend Ball operator+(const Ball& a, const Ball& b) { return with(arb_add, a, b); }
@@ -39,8 +41,8 @@ class Ball {
   Ball& operator+=(const Ball& b) { return *this = *this + b; }
   Ball& operator-=(const Ball& b) { return *this = *this - b; }
 
-  // Returns true or false if that holds for all numbers of both balls.
-  /// @throws DerivationError  if it cannot be decided.
+  // Returns true or false if the relation is true or false for all numbers of both balls.
+  /// @throws DerivationError  if the balls overlap.
   friend bool operator<(const Ball& a, const Ball& b) { return decide(a, b, arb_lt, arb_ge); }
   friend bool operator>(const Ball& a, const Ball& b) { return decide(a, b, arb_gt, arb_le); }
   friend bool operator>=(const Ball& a, const Ball& b) { return decide(a, b, arb_ge, arb_lt); }

@@ -19,7 +19,7 @@ namespace trammel::references {
                                        const std::map<std::string, Real>& values);
 
 /// Arguments: formulas (array of texts), values (object of numbers). One value a formula; each
-/// formula may use the results of those before it as v1, v2, ...
+/// formula may use the results of earlier formulas as v1, v2, ...
 [[nodiscard]] std::vector<Real> formula_program(const Arguments& arguments);
 
 }  // namespace trammel::references

@@ -9,7 +9,7 @@
 namespace trammel::references {
 
 /// Integrates dx/dt = f(x, t) over an interval by Fehlberg's method of order 8.
-/// @param rate  is called with x, a place for dx/dt, and t
+/// @param rate  function rate(x, dxdt, t), which computes dx/dt
 /// @param steps  number of equal steps
 template <std::size_t n, class Rate>
 void integrate(const Rate& rate, std::array<Real, n>& x, const Real& from, const Real& to,

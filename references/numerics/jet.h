@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-/// A quantity along a motion with its first and second derivative by time, carried through every
-/// operation by the rules of differentiation: positions in, velocities and accelerations out.
+/// A quantity along a motion with its first and second time derivative. Each operation applies the
+/// rules of differentiation, so that formulas of positions also yield velocities and accelerations.
 namespace trammel::references {
 
 /// @tparam T  the scalar: Real, or any number with + - * / sqrt, sin and cos.
@@ -47,7 +47,7 @@ struct Jet {
   [[nodiscard]] friend bool operator<(const Jet& a, const T& b) { return a.value < b; }
 
  private:
-  /// f(a), from f, f' and f'' at its value.
+  /// Returns f(a), given f, f' and f'' at the value of a.
   [[nodiscard]] static Jet chain_rule(const Jet& a, const T& f, const T& df, const T& ddf) {
     return {f, df * a.rate, ddf * a.rate * a.rate + df * a.acceleration};
   }

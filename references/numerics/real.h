@@ -6,8 +6,8 @@
 #include <functional>
 #include <vector>
 
-/// The extended precision in which references are derived: 50 decimal digits, rounded to a double
-/// only at the very end; and the roots of characteristic equations in it.
+/// Extended precision of derived references: 50 decimal digits, rounded to a double at the end.
+/// Roots of characteristic equations in this precision.
 namespace trammel::references {
 
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float_50::backend_type,

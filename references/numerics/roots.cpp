@@ -12,7 +12,7 @@ Real refined_root(const std::function<Real(const Real&)>& f, const Real& lo, con
   const Real f_hi = f(hi);
   if (f_lo == 0) return lo;
   if (f_hi == 0) return hi;
-  if ((f_lo > 0) == (f_hi > 0)) throw DerivationError("no change of sign to bracket a root");
+  if ((f_lo > 0) == (f_hi > 0)) throw DerivationError("no change of sign between the bounds");
   std::uintmax_t iterations = 500;
   const auto close = [](const Real& a, const Real& b) {
     return abs(b - a) <= Real(1e-45) * (abs(a) + abs(b));
@@ -32,7 +32,7 @@ std::vector<Real> first_roots(const std::function<Real(const Real&)>& f, const R
     lo = hi;
     f_lo = f_hi;
   }
-  if (static_cast<int>(roots.size()) < count) throw DerivationError("too few roots were found");
+  if (static_cast<int>(roots.size()) < count) throw DerivationError("fewer roots than requested");
   return roots;
 }
 

@@ -46,7 +46,7 @@ void print_values(const Comparison& comparison, std::ostream& out) {
   }
 }
 
-/// Returns the values of a proved reference whose digits differ.
+/// Prints the values of a proved reference whose digits differ.
 void print_proved(const Comparison& comparison, std::ostream& out) {
   const std::vector<std::string>&stored = comparison.printed, &proved = comparison.proved;
   if (stored.empty()) return;
@@ -72,7 +72,7 @@ bool print_comparison(const Comparison& comparison, std::ostream& out) {
   return comparison.within_uncertainty();
 }
 
-/// @param place  a family file, or FILE:ID for one reference of it
+/// @param place  a family file, or FILE:ID for one reference of the file
 bool print_comparisons(const std::string& place, std::ostream& out) {
   const std::size_t colon = place.rfind(".json:");
   const std::string file = colon == std::string::npos ? place : place.substr(0, colon + 5);

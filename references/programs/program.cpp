@@ -40,17 +40,17 @@ const Program& program_of(const std::string& name) {
   if (found != programs().end()) return found->second;
   std::string names;
   for (const auto& entry : programs()) names += (names.empty() ? "" : ", ") + entry.first;
-  throw DerivationError("no program '" + name + "'; there are " + names);
+  throw DerivationError("no program '" + name + "'; expected one of " + names);
 }
 
 std::vector<Real> run_program(const std::string& program, const Json& arguments) {
   return program_of(program).run(Arguments(arguments, "", argument_names(program)));
 }
 
-/// Runs another program at each of several values, one after the other: the true values of a
+/// Runs another program at each of several values of a parameter, for the exact values of a
 /// parameter study. Arguments: program, arguments, pointers (JSON pointers into the arguments) and
 /// values, or patches (merge patches of the arguments).
-/// @throws DerivationError  if a pointer leads nowhere.
+/// @throws DerivationError  if the arguments have no value at a pointer.
 std::vector<Real> parameter_sweep_program(const Arguments& arguments) {
   const std::string program = arguments.text("program");
   std::vector<Json> levels;
@@ -122,7 +122,7 @@ std::vector<double> derive(const std::string& program, const Json& arguments) {
 
 std::vector<std::string> prove(const std::string& program, const Json& arguments) {
   const Program& found = program_of(program);
-  if (!found.prove) throw DerivationError("the program '" + program + "' proves nothing");
+  if (!found.prove) throw DerivationError("the program '" + program + "' has no proof");
   return found.prove(Arguments(arguments, "", argument_names(program)));
 }
 

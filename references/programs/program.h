@@ -8,14 +8,14 @@
 
 #include "references/numerics/arguments.h"
 
-/// The programs that derive references again, by their name in the derivation of a reference,
-/// "derivation": {"program": NAME, "arguments": {...}}, and the command trammel_derive.
+/// Programs that derive references again, and the command trammel_derive. A reference states its
+/// program and arguments as "derivation": {"program": NAME, "arguments": {...}}.
 namespace trammel::references {
 
 struct Program {
   std::function<std::vector<Real>(const Arguments&)> run;
-  /// The same as proved enclosures: 30 digits each, the last uncertain by one; empty if there is no
-  /// proof.
+  /// Returns the same values as proved enclosures: 30 digits each, the last uncertain by one. Empty
+  /// if there is no proof.
   std::function<std::vector<std::string>(const Arguments&)> prove = {};
 };
 
@@ -40,30 +40,31 @@ struct Comparison {
   std::string program;  ///< empty: the file has no derivation
   std::string unit;
   std::vector<double> stored;
-  std::vector<double> uncertainty;           ///< absolute, one a value
+  std::vector<double> uncertainty;           ///< absolute, one per value
   std::vector<double> derived;               ///< empty if there is no derivation
   std::vector<std::string> printed, proved;  ///< digits stored and proved again, of kind "proved"
 
-  /// Every derived value lies within the stated uncertainty of the stored one, and proved digits
-  /// are those stored.
+  /// Returns true if every derived value lies within the stated uncertainty of the stored value,
+  /// and if the proved digits are the stored digits.
   [[nodiscard]] bool within_uncertainty() const;
 };
 
-/// @param reference  a reference with what its family has in common.
-/// @param file  file in messages.
+/// Derives a reference again.
+/// @param reference  a reference with the common keys of its family.
+/// @param file  name of the file in messages.
 /// @throws DerivationError, ReferenceError  with the file and the JSON pointer inside it.
 [[nodiscard]] Comparison compare_with_derivation(const Json& reference, const std::string& file,
                                                  const std::string& id);
 
-/// @param command_line its words, without the name of the program.
-/// @returns the exit status: 0 everything holds, 1 a derived value differs from the stored one, 2
-/// bad
-///          usage or input (one line on `err`), 3 an internal error.
+/// Runs the command trammel_derive.
+/// @param command_line  its words, without the name of the program.
+/// @returns  the exit status: 0 all values agree, 1 a derived value differs from the stored one,
+///           2 bad usage or input (one line on `err`), 3 internal error.
 [[nodiscard]] int derive_command(const std::vector<std::string>& command_line, std::ostream& out,
                                  std::ostream& err);
 
-/// The text of a file that is built into the program, by its name. @throws std::logic_error  if
-/// there is no such file.
+/// Returns the text of a file that is built into the program.
+/// @throws std::logic_error  if there is no such file.
 [[nodiscard]] const std::string& embedded_text(const std::string& file);
 
 }  // namespace trammel::references

@@ -4,30 +4,31 @@
 #include "references/programs/program.h"
 
 /// Natural frequencies as proved enclosures: the count of Wittrick and Williams in ball arithmetic
-/// is an integer that no rounding can change, and what lies between two counts that differ by m are
-/// m frequencies. A proof relies on the theorem, on the formulas of `dynamic_stiffness.cpp` and on
+/// is an integer that no rounding can change. If two counts differ by m, then m frequencies lie
+/// between them. A proof relies on the theorem, on the formulas of `dynamic_stiffness.cpp` and on
 /// Arb.
 namespace trammel::references {
 namespace {
 
-/// x as a function of which w rises, and its numbers near the first frequencies.
-struct Measure {
+/// Variable x of the search, such as the frequency in Hz: its monotonic function w(x), the circular
+/// frequency, and approximations `near` of x at the first natural frequencies.
+struct Variable {
   Ball (*w)(const Ball& x);
   std::vector<Real> near;
 };
 
 class Proof {
  public:
-  Proof(const Frame& frame, const Measure& measure, int rigid_motions)
-      : stiffness_(frame), measure_(measure), below_(rigid_motions) {
-    last_ = Ball(measure_.near.front() / 1000).middle();
+  Proof(const Frame& frame, const Variable& variable, int rigid_motions)
+      : stiffness_(frame), variable_(variable), below_(rigid_motions) {
+    last_ = Ball(variable_.near.front() / 1000).middle();
   }
 
   std::vector<std::string> run() {
     std::vector<std::string> digits;
-    while (digits.size() < measure_.near.size()) {
-      const auto [root, multiplicity] = next(Ball(measure_.near[digits.size()]).middle());
-      for (int i = 0; i < multiplicity && digits.size() < measure_.near.size(); ++i)
+    while (digits.size() < variable_.near.size()) {
+      const auto [root, multiplicity] = next(Ball(variable_.near[digits.size()]).middle());
+      for (int i = 0; i < multiplicity && digits.size() < variable_.near.size(); ++i)
         digits.push_back(root.digits());
     }
     return digits;
@@ -39,17 +40,19 @@ class Proof {
     int multiplicity = 0;
   };
 
-  [[nodiscard]] int count(const Ball& x) const { return stiffness_.count(measure_.w(x)).below; }
+  [[nodiscard]] int count(const Ball& x) const { return stiffness_.count(variable_.w(x)).below; }
 
-  /// The next passage, x near it, halved to its 32nd digit. None lies between the last one and this
-  /// one, since the count stays the same.
+  /// Encloses the next x at which the count increases, by bisection to its 32nd digit. The count
+  /// does not change between the previous enclosure and this one, so that no frequency is missed.
+  /// @param x  approximation of the result
   Passage next(const Ball& x) {
     Ball width = x * Ball(Real("1e-18"));
-    Ball low = (x - width).middle(), high = (x + width * 2).middle();  // x may be exact: not midway
+    // The bracket is not symmetric, so that bisection avoids x, which may be the exact root.
+    Ball low = (x - width).middle(), high = (x + width * 2).middle();
     if (count(low) != below_) low = last_;
-    if (count(low) != below_) throw DerivationError("a frequency lies below the first one found");
+    if (count(low) != below_) throw DerivationError("a frequency lies below the first estimate");
     for (int i = 0; count(high) <= below_; ++i) {
-      if (i > 5) throw DerivationError("no frequency lies where one was found");
+      if (i > 5) throw DerivationError("no frequency lies near its approximation");
       width = width * 1000;
       high = (x + width).middle();
     }
@@ -65,12 +68,12 @@ class Proof {
   }
 
   DynamicStiffness<Ball> stiffness_;
-  const Measure& measure_;
+  const Variable& variable_;
   int below_;  ///< frequencies below `last_`
-  Ball last_;  ///< above the last passage
+  Ball last_;  ///< upper end of the previous enclosure
 };
 
-/// One inextensible member of unit length, mass and bending stiffness.
+/// Returns a frame of one inextensible member with unit length, mass and bending stiffness.
 Frame unit_beam(const BeamEnds& ends) {
   Frame frame;
   frame.nodes = {{"A", {0, 0}}, {"B", {1, 0}}};
@@ -84,7 +87,7 @@ Frame unit_beam(const BeamEnds& ends) {
   const std::string held[] = {ends.kind.substr(0, dash), ends.kind.substr(dash + 1)};
   for (int node = 0; node < 2; ++node) {
     const bool clamped = held[node] == "clamped", guided = held[node] == "guided";
-    // Something holds the beam along its axis, which is no motion of bending.
+    // The first node is fixed along the axis, because axial motions are not bending motions.
     frame.supports.push_back(
         {node, {node == 0, clamped || held[node] == "pinned", clamped || guided}});
   }
@@ -98,16 +101,16 @@ Frame unit_beam(const BeamEnds& ends) {
 std::vector<std::string> prove_frame_frequencies(const Arguments& arguments) {
   const Frame frame = frame_from_arguments(arguments);
   const FrameFrequencies found = frame_frequencies(frame, arguments.count("count"));
-  const Measure measure{[](const Ball& f) { return 2 * pi<Ball>() * f; }, found.frequencies};
-  return Proof(frame, measure, found.rigid_motions).run();
+  const Variable variable{[](const Ball& f) { return 2 * pi<Ball>() * f; }, found.frequencies};
+  return Proof(frame, variable, found.rigid_motions).run();
 }
 
 std::vector<std::string> prove_beam_roots(const Arguments& arguments) {
   const Frame frame = unit_beam(read_beam_ends(arguments));
   const FrameFrequencies found = frame_frequencies(frame, arguments.count("count"));
-  Measure measure{[](const Ball& b) { return b * b; }, {}};
-  for (const Real& f : found.frequencies) measure.near.push_back(sqrt(2 * pi<Real>() * f));
-  return Proof(frame, measure, found.rigid_motions).run();
+  Variable variable{[](const Ball& b) { return b * b; }, {}};
+  for (const Real& f : found.frequencies) variable.near.push_back(sqrt(2 * pi<Real>() * f));
+  return Proof(frame, variable, found.rigid_motions).run();
 }
 
 }  // namespace trammel::references

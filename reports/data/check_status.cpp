@@ -69,6 +69,15 @@ double tolerance_fraction(const Check& check) {
   return check.verdict == Verdict::pass ? 0 : infinity;
 }
 
+const Comparison* find_comparison(const Run& run, const Check& check) {
+  if (!run.uncertainty) return nullptr;
+  for (const Comparison& c : run.uncertainty->comparisons)
+    if (c.check == check.name && c.quantity == check.quantity &&
+        c.index == check.index.value_or(0) && c.u_val)
+      return &c;
+  return nullptr;
+}
+
 double size_of_difference(const Check& check) {
   const double target = check.measure == "ratio" ? 1 : 0;
   return std::abs(check.difference.value_or(target) - target);
@@ -111,7 +120,7 @@ std::size_t total(const Counts& counts) {
 }
 
 void add(Counts& counts, const Run& run) {
-  for (const Check& check : run.checks) ++counts[check_status(check)];
+  for (const CheckGroup& group : group_checks(run)) ++counts[check_status(group.worst())];
 }
 
 bool all_checks_pass(const Counts& counts) {

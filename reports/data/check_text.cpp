@@ -12,7 +12,7 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr int kMaxTargetDigits = 8;  ///< of targets that are shown with all digits
+constexpr int kMaxTargetDigits = 8;  ///< a target with more digits is rounded
 
 std::string with_unit(const std::string& number, const std::string& unit) {
   const std::string symbol = display_unit(unit);
@@ -49,13 +49,14 @@ std::string statistic_text(const std::string& statistic) {
   return spaced(statistic);
 }
 
-/// Returns the number of digits that show the distance from 1.
+/// Returns the number of digits that show the difference of a ratio from 1.
 int ratio_digits(double ratio) {
   return distinguishing_digits(ratio, 1) + (ratio > 1 && ratio < 1.1 ? 1 : 0);
 }
 
-/// Returns a limit or difference in the measure of the check.
-std::string measured(const Check& check, double x, bool sign) {
+/// Returns a limit or a difference as a percentage, as a ratio, or with its unit, as the check
+/// measures it.
+std::string measured_text(const Check& check, double x, bool sign) {
   if (check.measure == "relative") return relative(x, 3, sign);
   if (check.measure == "ratio") return trimmed(x, ratio_digits(x));
   const std::string number = sign ? with_sign(x, 3) : trimmed(x, 4);
@@ -98,13 +99,13 @@ std::string computed_text(const Check& check) {
 }
 
 std::string difference_text(const Check& check, double difference) {
-  if (check.measure == "ratio") return "×\u202f" + measured(check, difference, false);
-  return measured(check, difference, true);
+  if (check.measure == "ratio") return "×\u202f" + measured_text(check, difference, false);
+  return measured_text(check, difference, true);
 }
 
 std::string difference_text(const Check& check) {
   if (check.measure == "bound") {
-    // For an upper limit, the share that is used; for a range, whether the value is inside.
+    // An upper limit has a used fraction. A range contains the value or does not.
     const double used = tolerance_fraction(check);
     if (!std::isfinite(used)) return "–";
     if (check.tolerance->low) return used <= 1 ? "within" : "outside";
@@ -118,12 +119,12 @@ std::string tolerance_text(const Check& check) {
   const Tolerance& t = *check.tolerance;
   if (check.measure == "bound") return bound_text(check);
   if (t.symmetric && *t.high == 0) return "exactly";
-  if (t.symmetric) return "± " + measured(check, *t.high, false);
+  if (t.symmetric) return "± " + measured_text(check, *t.high, false);
   const bool sign = check.measure != "ratio";
   if (t.low && t.high)
-    return measured(check, *t.low, sign) + " to " + measured(check, *t.high, sign);
-  if (t.high) return "≤ " + measured(check, *t.high, sign);
-  return t.low ? "≥ " + measured(check, *t.low, sign) : "–";
+    return measured_text(check, *t.low, sign) + " to " + measured_text(check, *t.high, sign);
+  if (t.high) return "≤ " + measured_text(check, *t.high, sign);
+  return t.low ? "≥ " + measured_text(check, *t.low, sign) : "–";
 }
 
 std::string quantity_text(const Check& check) {

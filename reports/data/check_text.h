@@ -7,15 +7,15 @@
 
 #include "reports/data/results.h"
 
-/// Checks: their status, and their numbers as text.
+/// Status of checks, and the numbers of checks as text.
 namespace trammel::reports {
 
-/// Status of a check on the page. A known discrepancy is a separate status: its verdict is "pass"
-/// as long as the difference is as recorded, but it does not pass.
+/// Status of a check on the page. The verdict of a known discrepancy is "pass" while its difference
+/// is in the recorded range. The page shows a separate status, because the numbers do not agree.
 enum class CheckStatus { passes, known_discrepancy, not_judged, fails, error, not_run, not_given };
 
-/// Presentation of a status. The signs do not depend on color. A status of higher severity needs
-/// attention first.
+/// Text, CSS class and symbol of a status. The symbol, such as ✓, shows the status without color.
+/// The page lists statuses of higher severity first.
 struct StatusStyle {
   CheckStatus status;
   const char *text, *css_class, *sign;
@@ -34,12 +34,13 @@ inline constexpr std::array<StatusStyle, 7> kStatusStyles = {{
 
 [[nodiscard]] CheckStatus check_status(const Check& check);
 
-/// Returns the status of the way in which a run ended. A singular or not converged run passes if it
-/// has checks and all of them pass, because then the case expects this ending.
+/// Returns the status of the end of a run. A run that is singular or did not converge passes if it
+/// has checks and all of them pass, because its case then expects this end.
 [[nodiscard]] CheckStatus check_status(const Run& run);
 
-/// Returns the share of its tolerance that a check uses: 1 at the limit, infinity if there is no
-/// number. For a range, it is the distance from the middle over the half width.
+/// Returns the difference of a check divided by its tolerance: 1 at the limit, infinity if there is
+/// no number. If the tolerance is a range, the result is the distance of the difference from the
+/// middle of the range, divided by half of its width. A bound judges the value itself.
 [[nodiscard]] double tolerance_fraction(const Check& check);
 
 /// Checks of one run with the same name and quantity, in their order.
@@ -47,22 +48,23 @@ struct CheckGroup {
   std::vector<const Check*> checks;
 
   [[nodiscard]] const Check& front() const { return *checks.front(); }
-  /// Returns the entry of highest severity, and among those the one that uses most of its
+  /// Returns the entry of highest severity; of several, the entry with the largest fraction of its
   /// tolerance.
   [[nodiscard]] const Check& worst() const;
 };
 [[nodiscard]] std::vector<CheckGroup> group_checks(const Run& run);
 
-/// Returns the distance of the difference from agreement, in the measure of the check.
+/// Returns the magnitude of the difference, or |ratio - 1| if the check measures a ratio.
 [[nodiscard]] double size_of_difference(const Check& check);
-/// Returns whether `a` needs attention before `b`. Of two known discrepancies, the larger one does.
+/// Returns true if `a` has a higher severity than `b`. At equal severity, it compares the sizes of
+/// two known discrepancies, and otherwise the fractions of the tolerance.
 [[nodiscard]] bool worse(const Check& a, const Check& b);
 
 /// Number of checks of each status.
 using Counts = std::map<CheckStatus, std::size_t>;
 [[nodiscard]] std::size_t count_of(const Counts& counts, CheckStatus status);
 [[nodiscard]] std::size_t total(const Counts& counts);
-/// Adds the checks of a run.
+/// Adds the checks of a run. A check counts once, by its worst number.
 void add(Counts& counts, const Run& run);
 [[nodiscard]] bool all_checks_pass(const Counts& counts);
 
@@ -73,23 +75,29 @@ void add(Counts& counts, const Run& run);
 [[nodiscard]] std::string difference_text(const Check& check);
 [[nodiscard]] std::string tolerance_text(const Check& check);
 
-/// Returns a difference in the measure of the check: "+26 %", "−3 × 10⁻⁸ N", "× 1.02".
+/// Returns a difference as the check measures it: relative "+26 %", absolute "−3 × 10⁻⁸ N", or as a
+/// ratio "× 1.02".
 [[nodiscard]] std::string difference_text(const Check& check, double difference);
+
+/// Returns the comparison of a check with its validation uncertainty; null if there is none.
+[[nodiscard]] const Comparison* find_comparison(const Run& run, const Check& check);
 
 /// Returns the title of the check, or its name if it has none.
 [[nodiscard]] std::string check_title(const Check& check);
 
-/// Returns "frequency (Hz)", "largest magnitude of x displacement of P, against rigid-platform
-/// (m)".
+/// Returns the judged quantity with its unit: "frequency (Hz)", or "largest magnitude of x
+/// displacement of P, against rigid-platform (m)".
 [[nodiscard]] std::string quantity_text(const Check& check);
 
-/// Returns "mode 3", "point 37" or "2"; empty for a check without an index.
+/// Returns the name of the checked entry of a quantity: "mode 3", "point 37" or "2". Empty for a
+/// check without an index.
+/// @param entries  number of checked entries of the quantity
 [[nodiscard]] std::string entry_text(const Check& check, std::size_t entries);
 
 /// Returns the number of failures of a group and its worst entry in one line.
 [[nodiscard]] std::string failure_text(const CheckGroup& group);
 
-/// Returns "192 element evaluations, 2 factorizations".
+/// Returns the counted work of a run: "192 element evaluations, 2 factorizations".
 [[nodiscard]] std::string work_counters_text(const Counters& counters);
 
 }  // namespace trammel::reports

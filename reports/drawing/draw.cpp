@@ -22,7 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Ignores SIGPIPE during its lifetime: if gnuplot closes its pipe, writing fails instead.
+/// Ignores SIGPIPE from construction to destruction. If gnuplot closes its pipe, writing to the
+/// pipe then fails instead of ending the program.
 class NoBrokenPipe {
  public:
   NoBrokenPipe() : previous_(std::signal(SIGPIPE, SIG_IGN)) {}
@@ -56,9 +57,10 @@ std::string preamble(const Figure& figure, const fs::path& svg) {
   return out.str();
 }
 
-/// Returns attributes with the ranges, places and labels of the axes, from which the script of the
-/// page reads values of curves. Empty without two labels, and for drawings of positions.
-/// @param extent  ranges of x and y and their places (y from below), as printed by gnuplot
+/// Returns attributes with the ranges, pixel positions and labels of both axes. The script of the
+/// page uses them to show the values of a curve at the pointer. Empty if an axis has no label, and
+/// for drawings with equal scales of x and y, which show positions.
+/// @param extent  file of gnuplot: ranges of x and y, then their pixel positions (y from below)
 std::string axes_of(const Figure& figure, const fs::path& extent) {
   const auto label = [&](const std::string& start) {
     const std::size_t at = figure.commands.find(start);
@@ -97,9 +99,9 @@ std::string head_of(const Figure& figure, const std::string& program, const std:
          std::to_string(std::hash<std::string>{}(all)) + " -->\n";
 }
 
-/// Reads an earlier drawing of the figure. @returns whether there is one that is complete and
-/// current.
-bool take_drawing(const fs::path& former, const std::string& program, Figure& figure) {
+/// Reads an earlier drawing of the figure.
+/// @returns true if it exists, is complete, and was drawn from the same inputs by the same program.
+bool reuse_drawing(const fs::path& former, const std::string& program, Figure& figure) {
   const fs::path path = svg_path(former, figure);
   if (!fs::is_regular_file(path)) return false;
   const std::string drawn = read_file(path);
@@ -115,7 +117,7 @@ void draw_by_gnuplot(const std::vector<Figure*>& figures, const fs::path& folder
   for (const Figure* figure : figures) fs::remove(svg_path(folder, *figure));
   {
     const NoBrokenPipe guard;
-    // gnuplot ignores the user's settings (-d), and is ended if it hangs.
+    // With -d, gnuplot ignores the settings of the user; `timeout` ends it if it hangs.
     Gnuplot gnuplot("timeout -k 5 " + std::to_string(120 + figures.size()) + " gnuplot -d");
     for (const Figure* figure : figures)
       gnuplot << preamble(*figure, svg_path(folder, *figure)) << figure->commands
@@ -128,7 +130,7 @@ void draw_by_gnuplot(const std::vector<Figure*>& figures, const fs::path& folder
     const fs::path path = svg_path(folder, *figure);
     const std::string drawn = fs::exists(path) ? read_file(path) : "";
     if (drawn.find("</svg>") ==
-        std::string::npos)  // without a message, for example if the disk is full
+        std::string::npos)  // gnuplot reports no error, for example if the disk is full
       throw std::system_error(EIO, std::generic_category(),
                               path.string() + ": the drawing is incomplete");
     figure->svg = tidy_svg(drawn, figure->id, figure->title, figure->alt);
@@ -170,14 +172,14 @@ void draw(const std::vector<Figure*>& figures, const fs::path& folder, const fs:
   fs::create_directories(folder);
   std::vector<Figure*> missing;
   for (Figure* figure : figures) {
-    if (former.empty() || !take_drawing(former, program, *figure)) missing.push_back(figure);
+    if (former.empty() || !reuse_drawing(former, program, *figure)) missing.push_back(figure);
   }
   draw_by_gnuplot(missing, folder);
   for (Figure* figure : figures) {
     write_file(svg_path(folder, *figure), head_of(*figure, program, figure->svg) + figure->svg);
     write_file(folder / (figure->id + ".csv"), to_csv(figure->data));
     if (!figure->moving.empty() &&
-        !figure->is_linked)  // for the script, which cannot read other files
+        !figure->is_linked)  // the script of the page animates it, and cannot read other files
       figure->svg.insert(figure->svg.rfind("</svg>"),
                          "<metadata>" + xml_escaped(figure->moving) + "</metadata>\n");
   }

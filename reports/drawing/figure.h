@@ -17,7 +17,7 @@ struct Figure {
   int width = 500, height = 360;  ///< of the drawing, before it is scaled to its column [px]
   std::string commands;           ///< gnuplot commands of a PlotScript
   Table data;
-  std::string moving = {};  ///< JSON of an animation; empty: none
+  std::string moving = {};  ///< JSON of an animation; empty: not animated
   bool is_linked = false;   ///< the page loads the drawing when it comes into view
   int number = 0;           ///< on its page, from 1
   std::string svg = {};     ///< the drawing as an element with unique ids
@@ -40,7 +40,7 @@ void draw(const std::vector<Figure*>& figures, const std::filesystem::path& fold
 
 /// Converts gnuplot's SVG to an <svg> element for a page: with role, title and description, ids
 /// that start with a hash of `id`, and colors as #rrggbb, but without empty groups and unused
-/// symbols. Points within 0.1 of a unit of the simplified line are left out.
+/// symbols. Points of a line within 0.1 px of the simplified line are omitted.
 /// @throws std::runtime_error  if `text` is not a complete drawing by gnuplot.
 [[nodiscard]] std::string tidy_svg(const std::string& text, const std::string& id,
                                    const std::string& title, const std::string& description);

@@ -5,7 +5,7 @@
 
 namespace trammel::reports::palette {
 
-/// Colors of all figures. They are distinguishable with the common kinds of color blindness and in
+/// Colors of all figures. They are distinguishable with the common types of color blindness and in
 /// gray print (after Okabe and Ito, darkened for thin lines on white). figure.css maps each color
 /// to one for dark pages, so that a new color needs a line there.
 inline constexpr const char* kPaper = "#ffffff";

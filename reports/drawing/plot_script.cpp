@@ -10,7 +10,7 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxKeyCharacters = 38;  ///< of a title that gnuplot can place
+constexpr std::size_t kMaxKeyCharacters = 38;  ///< of a title, so that the key has room for it
 
 /// Returns a row of data; empty, which interrupts the line, if a number is not finite.
 std::string row_text(const std::vector<double>& row) {

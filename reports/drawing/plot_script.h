@@ -14,14 +14,14 @@ namespace trammel::reports {
 /// escapes, so that a path cannot end the string, be expanded or contain a command.
 [[nodiscard]] std::string gnuplot_path(const std::filesystem::path& path);
 
-/// Returns a label of an axis with its place, for `set xtics (...)`.
+/// Returns a tic of an axis, with its text and its position, for `set xtics (...)`.
 [[nodiscard]] std::string tic(const std::string& text, double at);
 
 /// Returns at most `max_characters` characters; a shortened text ends with an ellipsis.
 [[nodiscard]] std::string shortened(const std::string& text, std::size_t max_characters);
 [[nodiscard]] std::size_t characters(const std::string& utf8);
 
-/// Returns " lc rgb '#1f5fa8'".
+/// Returns the line color as an option of gnuplot: " lc rgb '#1f5fa8'".
 [[nodiscard]] std::string lc(const std::string& color);
 
 /// Collects the data and commands of one figure. All texts of results pass through
@@ -40,7 +40,8 @@ class PlotScript {
   /// Adds an entry of the key without a curve.
   void key_entry(const std::string& style, const std::string& title);
 
-  /// Adds a text. @param place  coordinates and options of gnuplot: "graph 0.1,0.2 left"
+  /// Adds a text.
+  /// @param place  position and options of gnuplot: "graph 0.1,0.2 left"
   void label(const std::string& text, const std::string& place);
 
   /// Draws the curves that were added since the last call, at least one.

@@ -127,8 +127,8 @@ std::string without_idle_groups(std::string text) {
   return out;
 }
 
-/// Returns the definitions of the symbols that `body` uses, and of those that they use in turn.
-/// These are defined before them.
+/// Returns the definitions of the symbols that `body` uses directly or through other symbols. Each
+/// symbol is defined before the symbols that use it.
 std::string symbols(const std::string& definitions, const std::string& body) {
   const std::vector<std::string> lines = lines_of(definitions);
   std::string used;

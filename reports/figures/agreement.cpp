@@ -40,11 +40,8 @@ std::vector<PrintedRow> printed_rows(const Run& run) {
 
 /// Returns the expanded uncertainty of a computed entry from discretization and inputs [unit].
 double uncertainty_of(const Run& run, const Check& check) {
-  if (!run.uncertainty) return 0;
-  for (const Comparison& c : run.uncertainty->comparisons)
-    if (c.check == check.name && c.index == *check.index)
-      return 2 * std::hypot(c.u_num.value_or(0), c.u_input.value_or(0));
-  return 0;
+  const Comparison* found = find_comparison(run, check);
+  return found ? 2 * std::hypot(found->u_num.value_or(0), found->u_input.value_or(0)) : 0;
 }
 
 }  // namespace

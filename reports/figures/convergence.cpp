@@ -35,7 +35,7 @@ double drawn_error(double error) {
 }
 
 /// Returns the largest estimate of the round-off error at each level, over all indices.
-PlotScript::Rows floor_of(const Sweeps& sweeps) {
+PlotScript::Rows roundoff_floor(const Sweeps& sweeps) {
   std::map<double, Interval> roundoff;
   for (const Convergence* c : sweeps)
     for (std::size_t i = 0; i < c->parameter.size(); ++i)
@@ -114,7 +114,7 @@ void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interva
                                        " front textcolor rgb '" + palette::kInk + "'");
 }
 
-/// Returns the law of two orders that mix by theory: "a h^4 + b h^1.35".
+/// Returns the theoretical error law with terms of two orders: "a h^4 + b h^1.35".
 std::string law_of(const Convergence& c) {
   return "a h^" + trimmed(*c.theory_order, 3) + " + b h^" + trimmed(*c.lower_order, 3);
 }
@@ -124,8 +124,8 @@ bool any_asymptotic(const Sweeps& sweeps) {
       sweeps, [](const Convergence* c) { return harness::contains(c->in_asymptotic_range, true); });
 }
 
-/// Returns the fitted orders and the theoretical order. If two orders mix, there is no single order
-/// to fit, and the law of both is compared with the errors.
+/// Reports the fitted orders and the theoretical order. If the theoretical error has terms of two
+/// orders, it reports the misfit of the two-term law instead.
 std::string conclusion(const Sweeps& sweeps) {
   const Convergence& first = *sweeps.front();
   const bool mixed = first.lower_order && first.theory_order;
@@ -146,7 +146,7 @@ std::string conclusion(const Sweeps& sweeps) {
     return any_asymptotic(sweeps) ? "Too few levels lie in the asymptotic range to fit an order."
                                   : "No level lies in the asymptotic range.";
   if (mixed)
-    return which + " follows the law " + law_of(first) + " of the size h within " +
+    return which + " follows the law " + law_of(first) + ", with the mesh or step size h, within " +
            reports::relative(misfit, 2, false) + ".";
   return which + (fitted == 1 ? " falls" : " fall") + " with order " +
          low_to_high(significant(orders.low, 3), significant(orders.high, 3)) +
@@ -192,13 +192,13 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   PlotScript script;
   parameter_axis(script, sweeps);
   const std::string words = to_text(parse_quantity(first.quantity));
-  script.axis_label(
-      "y", exact ? "relative error of " + words : "distance of " + words + " from extrapolated");
+  script.axis_label("y", exact ? "relative error of " + words
+                               : "distance of " + words + " from extrapolated value");
   Interval extent{1, 1e-16};
   std::vector<std::string> titles = {"round-off"};
   for (const Convergence* c : sweeps) titles.push_back(series_title(*c, sweeps.size() == 1));
   const int key_height = script.key_below(titles);
-  const auto floor = floor_of(sweeps);
+  const auto floor = roundoff_floor(sweeps);
   for (const auto& row : floor) extent.cover(0.3 * row[1]);
   script.curve(floor, "with filledcurves y1=1e-30" + lc(palette::kShade), "round-off");
   for (std::size_t i = 0; i < sweeps.size(); ++i)
@@ -208,19 +208,19 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   script.plot();
 
   const std::string parameter = parse_quantity(first.sweep).label, result = conclusion(sweeps);
-  return {
-      .id = slug(info.id + "-" + run.variant + "-" + first.sweep + "-" + first.quantity),
-      .title = titled("Convergence of " + words + " over " + parameter, info, run),
-      .caption = "Error against " + parameter +
-                 "; filled marks lie in the asymptotic range, and the gray area is round-off. " +
-                 (exact ? ""
-                        : "Without an exact value, errors are distances from the "
-                          "Richardson-extrapolated value. ") +
-                 result,
-      .alt = "Error against " + parameter + " on logarithmic axes. " + result,
-      .height = 360 + key_height,
-      .commands = script.commands(),
-      .data = table_of(sweeps)};
+  return {.id = slug(info.id + "-" + run.variant + "-" + first.sweep + "-" + first.quantity),
+          .title = titled("Convergence of " + words + " over " + parameter, info, run),
+          .caption =
+              "Error against " + parameter +
+              ". Filled marks lie in the asymptotic range, and the gray area is round-off error. " +
+              (exact ? ""
+                     : "Without an exact value, errors are distances from the "
+                       "Richardson-extrapolated value. ") +
+              result,
+          .alt = "Error against " + parameter + " on logarithmic axes. " + result,
+          .height = 360 + key_height,
+          .commands = script.commands(),
+          .data = table_of(sweeps)};
 }
 
 }  // namespace

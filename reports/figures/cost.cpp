@@ -38,7 +38,7 @@ Interval times_of(const CostStudy& study) {
   return times;
 }
 
-/// Returns the first setting of each curve.
+/// Returns the first setting of each curve (series of settings).
 std::vector<const CostSetting*> curves_of(const CostStudy& study) {
   std::vector<const CostSetting*> curves;
   for (const CostSetting& setting : study.settings) {
@@ -48,7 +48,7 @@ std::vector<const CostSetting*> curves_of(const CostStudy& study) {
   return curves;
 }
 
-/// Strip for settings without a usable error, to the right of the axis of errors.
+/// Positions of the strip to the right of the error axis, which shows settings without a result.
 struct Strip {
   double left = 0, middle = 0, right = 0;
 };
@@ -62,7 +62,7 @@ void draw_strip(PlotScript& script, const Strip& strip) {
   script.command("set object 1 rectangle from " + shortest(strip.left) + ", graph 0 to " +
                  shortest(strip.right) + ", graph 1 behind fillstyle solid noborder fc rgb '" +
                  palette::kBlush + "'");
-  script.label("no answer", shortest(strip.middle) +
+  script.label("no result", shortest(strip.middle) +
                                 ", graph 0.5 center rotate front textcolor rgb '" +
                                 palette::kMuted + "'");
 }
@@ -162,14 +162,14 @@ Figure cost_figure(const CostStudy& study) {
   const int key_height = script.key_below(keys);
   script.plot();
   const std::string note =
-      " The strip at the edge contains " + count(outside, "setting") + " without an answer.";
+      " The strip at the right edge contains " + count(outside, "setting") + " without a result.";
   return {.id = slug("cost-" + study.id),
           .title = study.title,
-          .caption = "Time against error, a curve for each kind of setting. " + study.conclusion +
-                     (outside > 0 ? note : ""),
+          .caption = "Processor time against error, one curve for each series of settings. " +
+                     study.conclusion + (outside > 0 ? note : ""),
           .alt =
-              "Time against error on logarithmic axes, a curve for each kind of setting, with "
-              "the Pareto front below them. " +
+              "Processor time against error on logarithmic axes, one curve for each series of "
+              "settings, with the Pareto front below them. " +
               study.conclusion,
           .height = 350 + key_height,
           .commands = script.commands(),

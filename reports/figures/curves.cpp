@@ -31,8 +31,8 @@ double largest_of(const std::vector<double>& values) {
   return largest;
 }
 
-/// Returns the number as drawn: on a logarithmic axis its magnitude, and nothing for zero.
-Number shown(const Number& value, bool log) {
+/// Returns the number to draw. A logarithmic axis shows magnitudes, and omits zeros.
+Number drawn_number(const Number& value, bool log) {
   if (!value || !log) return value;
   return *value == 0 ? Number() : Number(std::abs(*value));
 }
@@ -41,8 +41,9 @@ PlotScript::Rows curve_rows(const std::vector<double>* x, const std::vector<doub
                             std::pair<double, double> factors, const PlotRequest& request) {
   PlotScript::Rows rows;
   for (std::size_t i = 0; i < y.size(); ++i) {
-    const Number at = shown(x ? (*x)[i] : Number(static_cast<double>(i + 1)), request.is_log("x"));
-    const Number value = shown(y[i], request.is_log("y"));
+    const Number at =
+        drawn_number(x ? (*x)[i] : Number(static_cast<double>(i + 1)), request.is_log("x"));
+    const Number value = drawn_number(y[i], request.is_log("y"));
     if (at && value) {
       rows.push_back({factors.first * *at, factors.second * *value});
     } else if (!rows.empty() && !rows.back().empty()) {
@@ -61,18 +62,20 @@ bool has_any(const Run& run, const std::vector<std::string>& names) {
 
 /// Returns the part of a quantity's name that distinguishes it from the other quantities of the
 /// plot.
-std::string own_words(const std::string& name, const PlotRequest& request) {
+std::string distinguishing_words(const std::string& name, const PlotRequest& request) {
   const QuantityLabel quantity = parse_quantity(name);
   const bool one_label = std::ranges::all_of(
       request.y, [&](const auto& y) { return parse_quantity(y).label == quantity.label; });
   return one_label && !quantity.subject.empty() ? quantity.subject : to_text(quantity);
 }
 
-/// Returns the requested quantities of the requested variants. Each variant must have one of the
-/// quantities at least, and each quantity a variant. Units and lengths must agree.
-std::vector<Series> collect(const CaseInfo& info, const PlotRequest& request,
-                            const std::vector<std::string>& variants,
-                            const std::vector<const Run*>& runs, std::string& problem) {
+/// Returns the requested quantities of the requested variants. Each variant must have at least one
+/// of the quantities, and at least one variant must have each quantity. Units and lengths must
+/// agree.
+/// @param problem  set to the reason if there is nothing to draw
+std::vector<Series> collect_series(const CaseInfo& info, const PlotRequest& request,
+                                   const std::vector<std::string>& variants,
+                                   const std::vector<const Run*>& runs, std::string& problem) {
   std::vector<Series> series;
   for (std::size_t iy = 0; iy < request.y.size(); ++iy) {
     const std::string& y = request.y[iy];
@@ -98,7 +101,7 @@ std::vector<Series> collect(const CaseInfo& info, const PlotRequest& request,
         // Colors distinguish quantities and dashes variants. Of one quantity, both distinguish
         // variants.
         const bool many = request.y.size() > 1;
-        std::string label = many ? own_words(y, request) : info.variant_title(variant);
+        std::string label = many ? distinguishing_words(y, request) : info.variant_title(variant);
         if (many && variants.size() > 1) label += ", " + info.variant_title(variant);
         series.push_back({y, variant, label, many ? iy : iv, iv, values, largest_of(*values)});
         continue;
@@ -114,7 +117,7 @@ std::vector<Series> collect(const CaseInfo& info, const PlotRequest& request,
   return series;
 }
 
-/// Returns the last words that two texts have in common: "distance" of "serial distance" and
+/// Returns the words at the end that two texts have in common: "distance" for "serial distance" and
 /// "parallel distance".
 std::string common_end(const std::string& a, const std::string& b) {
   std::size_t n = 0;
@@ -139,15 +142,16 @@ void set_range(PlotScript& script, const std::string& axis,
   Interval range;
   for (const std::vector<double>* values : curves)
     for (const Number value : *values)
-      if (const Number drawn = shown(value, log)) range.cover(factor * *drawn);
+      if (const Number drawn = drawn_number(value, log)) range.cover(factor * *drawn);
   if (log && !range.empty())
     script.log_axis(axis, range.low, range.high > range.low ? range.high : 10 * range.high);
   if (!log && range.length() > 0) script.range(axis, range.low, range.high);
 }
 
-/// Returns "Largest magnitude: 8.13 mm (base)." A power of ten of the axis is not used in the text.
-std::string measured(const std::vector<Series>& series, const Scale& axis,
-                     const std::string& unit) {
+/// Returns "Largest magnitude: 8.13 mm (base)." The text has the unit of the axis, but without a
+/// power of ten.
+std::string largest_magnitude_text(const std::vector<Series>& series, const Scale& axis,
+                                   const std::string& unit) {
   const Scale scale = axis.unit.starts_with("10") ? Scale{1, unit} : axis;
   const Series& top = *std::ranges::max_element(series, {}, &Series::largest);
   std::string text = "Largest magnitude: " + trimmed(scale.factor * top.largest, 3);
@@ -191,7 +195,8 @@ int draw_series(PlotScript& script, const std::vector<Series>& series, const Cas
   const std::string line = "with lines lw 2.2";
   if (product) {
     for (std::size_t i = 0; i < request.y.size(); ++i)
-      entries.emplace_back(line + lc(palette::color(i)), own_words(request.y[i], request));
+      entries.emplace_back(line + lc(palette::color(i)),
+                           distinguishing_words(request.y[i], request));
     for (std::size_t i = 0; i < variants.size(); ++i)
       entries.emplace_back(line + dashed(i) + lc(palette::kMuted), info.variant_title(variants[i]));
   }
@@ -223,7 +228,7 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
   std::vector<std::string> variants = request.variants;
   if (variants.empty())
     for (const Run* run : runs) variants.push_back(run->variant);
-  const std::vector<Series> series = collect(info, request, variants, runs, problem);
+  const std::vector<Series> series = collect_series(info, request, variants, runs, problem);
   if (series.empty()) return std::nullopt;
 
   const QuantityLabel y = parse_quantity(request.y.front());
@@ -249,7 +254,7 @@ std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& req
       draw_series(script, series, info, request, variants, {x_scale.factor, y_scale.factor}, runs);
   script.plot();
 
-  const std::string largest_text = measured(series, y_scale, y.unit);
+  const std::string largest_text = largest_magnitude_text(series, y_scale, y.unit);
   return Figure{.id = slug(info.id + "-" + request.id),
                 .title = request.title,
                 .caption = request.caption + (request.caption.empty() ? "" : " ") + largest_text,

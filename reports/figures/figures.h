@@ -8,7 +8,7 @@
 #include "reports/data/results.h"
 #include "reports/drawing/figure.h"
 
-/// Makers of figures, one for each kind. The figures are neither numbered nor drawn.
+/// Functions that plan figures. The figures are numbered and drawn later.
 namespace trammel::reports {
 
 /// Printed values of the references that a run is compared with, and the computed values with their
@@ -19,8 +19,8 @@ namespace trammel::reports {
 /// Errors along each sweep on logarithmic axes, one figure for each quantity with all its indices.
 [[nodiscard]] std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run);
 
-/// Time against error on logarithmic axes with the Pareto front. Settings without a result are in a
-/// strip at the edge.
+/// Processor time against error on logarithmic axes with the Pareto front. Settings without a
+/// result are in a strip at the right edge.
 [[nodiscard]] Figure cost_figure(const CostStudy& study);
 
 /// @returns nullptr if there is no run of the variant.
@@ -45,14 +45,14 @@ namespace trammel::reports {
 /// Undeformed mechanism with its joints, drawn over its further poses.
 [[nodiscard]] std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run);
 
-/// Moments of a motion with magnified deflections. The script of a page animates them. Empty if
-/// there are fewer than two moments.
+/// Instants of a motion with magnified deflections. The script of a page animates them. Empty if
+/// there are fewer than two instants.
 [[nodiscard]] std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run);
 
 /// Up to eight mode shapes or deformed shapes of a run, one panel each.
 [[nodiscard]] std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run);
 
-/// Share of its tolerance that each check of a family uses, without known discrepancies.
+/// Difference of each check of a family divided by its tolerance, without known discrepancies.
 /// @param titles  of the cases, by id
 [[nodiscard]] std::optional<Figure> tolerance_figure(
     const std::string& family, const std::map<std::string, std::string>& titles,

@@ -19,7 +19,8 @@ void append(std::vector<Figure>& figures, std::vector<Figure> more) {
   std::ranges::move(more, std::back_inserter(figures));
 }
 
-/// Shows the geometry and the shapes of the first run; folds the shapes and convergence of others.
+/// Plans the figures of a case. The page shows the geometry, and the shapes and convergence of the
+/// first run that has them. It folds the shapes and convergence of further runs.
 Gallery gallery_of(const CaseInfo& info, const Results& results,
                    const std::vector<const Run*>& runs) {
   Gallery gallery;
@@ -67,9 +68,9 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
   return gallery;
 }
 
-/// Returns the place of a family in the report: manipulators first, then effects, the paper, beams,
-/// large motion, membranes, benchmarks, stress suite and controls.
-std::size_t interest_of(const Family& family) {
+/// Returns the position of a family in the report: manipulators first, then effects, the paper,
+/// beams, large motion, membranes, benchmarks, stress suite and controls.
+std::size_t report_position(const Family& family) {
   constexpr std::array<const char*, 19> kOrder = {
       "manipulator", "elastodynamics", "sensitivity", "kinematics", "rigid-dynamics",
       "neural",      "consistency",    "effect",      "beam",       "prestressed",
@@ -130,7 +131,7 @@ std::vector<Family> plan_families(const Results& results) {
     family.runs.insert(family.runs.end(), runs.begin(), runs.end());
     family.galleries[info.id] = gallery_of(info, results, runs);
   }
-  std::ranges::stable_sort(families, {}, interest_of);
+  std::ranges::stable_sort(families, {}, report_position);
   for (Family& family : families) {
     if (auto figure = tolerance_figure(family.id, short_titles(family), family.runs))
       family.overview.push_back(*figure);

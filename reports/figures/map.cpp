@@ -11,7 +11,7 @@ namespace trammel::reports {
 
 namespace {
 
-/// A value at a position, and its class of color.
+/// A value at a position, and the index of its color.
 struct Cell {
   double x, y, value;
   std::size_t color = 0;
@@ -163,12 +163,14 @@ struct ColorClasses {
   [[nodiscard]] std::size_t class_of(double value) const {
     return static_cast<std::size_t>(std::ranges::upper_bound(limits, value) - limits.begin());
   }
-  /// Dark is far from zero; of negative numbers, the lowest are dark.
+  /// Returns the color of class k. Values far from zero are dark: the highest values, or the lowest
+  /// if no value is positive.
   [[nodiscard]] std::string color(std::size_t k) const {
     return lc(palette::kSequence[negative ? limits.size() - std::min(k, limits.size()) : k]);
   }
   [[nodiscard]] std::string describe(std::size_t of_this_map) const {
-    return std::string(negative || positive ? "; dark is far from zero" : "; dark is high") +
+    return std::string(negative || positive ? "; values far from zero are dark"
+                                            : "; high values are dark") +
            (count == of_this_map ? ". Each class has about the same number of positions."
                                  : ". All maps of this quantity have the same classes.");
   }

@@ -12,7 +12,7 @@ namespace trammel::reports {
 
 namespace {
 
-/// Point type of a kind of joint, and its words in the key.
+/// Drawing of one type of joint: point type of gnuplot, and text in the key.
 struct JointSymbol {
   const char *kind, *words;
   int point;
@@ -36,7 +36,7 @@ bool is_drawn(const Drawing& drawing, const JointSymbol& symbol) {
                              [&](const Joint& joint) { return joint.kind == symbol.kind; });
 }
 
-/// Draws the joints of one kind. A hinge is a ring that is filled with the color of the paper.
+/// Draws the joints of one type. A hinge is a ring that is filled with the color of the paper.
 void draw_joints(PlotScript& script, const Drawing& drawing, const JointSymbol& symbol) {
   PlotScript::Rows rows;
   for (const Joint& joint : drawing.joints)
@@ -87,7 +87,7 @@ std::string mechanism_caption(const Box& box, std::size_t poses) {
   return text + ".";
 }
 
-/// Returns the further poses without moments of a motion, which have a separate figure.
+/// Returns the further poses that are not instants of a motion. A separate figure shows the motion.
 std::vector<const Pose*> overlays_of(const Drawing& drawing) {
   std::vector<const Pose*> overlays;
   for (const Pose& pose : drawing.poses)

@@ -13,34 +13,34 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxDrawnMoments = 6;
+constexpr std::size_t kMaxDrawnInstants = 6;
 
-/// Largest length of the vectors of all moments, and its time.
+/// Largest length of the vectors at all instants, and the time at which it occurs.
 struct Largest {
   double length = 0, time = 0;
 };
 
-/// @param of  returns the vectors of a moment
+/// @param of  returns the vectors of all nodes at an instant
 template <class Vectors>
-Largest largest(const std::vector<Pose>& moments, const Vectors& of) {
+Largest largest(const std::vector<Pose>& instants, const Vectors& of) {
   Largest found;
-  for (const Pose& moment : moments)
-    for (const auto& [x, y] : of(moment))
-      if (std::hypot(x, y) > found.length) found = {std::hypot(x, y), *moment.time_s};
+  for (const Pose& instant : instants)
+    for (const auto& [x, y] : of(instant))
+      if (std::hypot(x, y) > found.length) found = {std::hypot(x, y), *instant.time_s};
   return found;
 }
 
-std::vector<Pose> moments_of(const Drawing& drawing) {
-  std::vector<Pose> moments;
+std::vector<Pose> instants_of(const Drawing& drawing) {
+  std::vector<Pose> instants;
   for (const Pose& pose : drawing.poses) {
-    const bool whole = are_finite(pose.nodes) && are_finite(pose.displacement);
-    if (pose.time_s && whole && (moments.empty() || *pose.time_s > *moments.back().time_s))
-      moments.push_back(pose);
+    const bool finite = are_finite(pose.nodes) && are_finite(pose.displacement);
+    if (pose.time_s && finite && (instants.empty() || *pose.time_s > *instants.back().time_s))
+      instants.push_back(pose);
   }
-  return moments;
+  return instants;
 }
 
-/// Returns a factor with two digits, at least 1.
+/// Returns the magnification of deflections in the drawing: a factor with two digits, at least 1.
 double magnification(double deflection, double side) {
   if (!(deflection > 0)) return 1;
   const double factor = kDrawnAmplitude * side / deflection;
@@ -48,19 +48,19 @@ double magnification(double deflection, double side) {
   return std::max(1.0, std::floor(factor / unit) * unit);
 }
 
-std::string caption_of(const std::vector<Pose>& moments, const Largest& deflection, double factor,
+std::string caption_of(const std::vector<Pose>& instants, const Largest& deflection, double factor,
                        const std::string& drawn) {
-  const std::string all = " Drawn: " + drawn + ". Animated: " + std::to_string(moments.size()) +
-                          " moments up to " + trimmed(*moments.back().time_s, 4) +
+  const std::string all = " Drawn: " + drawn + ". Animated: " + std::to_string(instants.size()) +
+                          " instants up to " + trimmed(*instants.back().time_s, 4) +
                           "\u202fs, interpolated linearly.";
   if (deflection.length > 0)
     return "Deflected mechanism (blue) and rigid links (gray); deflections are " +
            (factor > 1 ? "magnified " + trimmed(factor, 2) + " times." : std::string("to scale.")) +
            all + " The largest deflection is " + length_text(deflection.length) + ", at " +
            trimmed(deflection.time, 3) + "\u202fs.";
-  const std::vector<Point>& first = moments.front().nodes;
-  const Largest way = largest(moments, [&](const Pose& moment) {
-    std::vector<Point> moved = moment.nodes;
+  const std::vector<Point>& first = instants.front().nodes;
+  const Largest way = largest(instants, [&](const Pose& instant) {
+    std::vector<Point> moved = instant.nodes;
     for (std::size_t i = 0; i < moved.size(); ++i)
       moved[i].first -= first[i].first, moved[i].second -= first[i].second;
     return moved;
@@ -69,13 +69,13 @@ std::string caption_of(const std::vector<Pose>& moments, const Largest& deflecti
          length_text(way.length) + ", at " + trimmed(way.time, 3) + "\u202fs.";
 }
 
-Table table_of(const std::vector<Pose>& moments) {
+Table table_of(const std::vector<Pose>& instants) {
   Table table{words_in("time_s node x_m y_m u_x_m u_y_m"), {}, kSampleDigits};
-  for (const Pose& moment : moments)
-    for (std::size_t i = 0; i < moment.nodes.size(); ++i) {
-      const Point u = moment.displacement.empty() ? Point() : moment.displacement[i];
-      table.rows.push_back({*moment.time_s, static_cast<double>(i), moment.nodes[i].first,
-                            moment.nodes[i].second, u.first, u.second});
+  for (const Pose& instant : instants)
+    for (std::size_t i = 0; i < instant.nodes.size(); ++i) {
+      const Point u = instant.displacement.empty() ? Point() : instant.displacement[i];
+      table.rows.push_back({*instant.time_s, static_cast<double>(i), instant.nodes[i].first,
+                            instant.nodes[i].second, u.first, u.second});
     }
   return table;
 }
@@ -83,7 +83,8 @@ Table table_of(const std::vector<Pose>& moments) {
 using Json = nlohmann::json;
 using Coordinates = std::vector<long>;
 
-/// Lines of a drawing, with nodes numbered in the order in which they are drawn.
+/// Lines of a drawing as JSON for an animation. Nodes are numbered in the order in which they are
+/// drawn; nodes that are not drawn have no number.
 class Panel {
  public:
   Panel(const Drawing& drawing, const Box& box, double width)
@@ -128,28 +129,28 @@ class Panel {
 };
 
 /// Returns the differences of each row from the row before.
-Json steps(std::vector<Coordinates> rows) {
+Json row_differences(std::vector<Coordinates> rows) {
   for (std::size_t k = rows.size(); k-- > 1;)
     std::ranges::transform(rows[k], rows[k - 1], rows[k].begin(), std::minus());
   return rows;
 }
 
-/// Returns the moments of a motion: positions without deflections (only if they differ) and with
-/// them, each as steps from the moment before.
-std::string moving_poses(const Drawing& drawing, const std::vector<Pose>& moments, double factor,
+/// Returns the animation of a motion as JSON: the positions at each instant with deflections, and
+/// without deflections if they differ. Each instant has the differences from the previous instant.
+std::string moving_poses(const Drawing& drawing, const std::vector<Pose>& instants, double factor,
                          const Box& box, double panel) {
   Panel moving(drawing, box, panel);
   std::vector<Coordinates> still, moved;
-  for (const Pose& moment : moments) {
-    moving.json["times"].push_back(*moment.time_s);
-    still.push_back(moving.places(moment.nodes));
-    const bool deflects = !moment.displacement.empty();
-    moved.push_back(deflects ? moving.places(displaced(moment.nodes,
-                                                       {moment.label, moment.displacement}, factor))
+  for (const Pose& instant : instants) {
+    moving.json["times"].push_back(*instant.time_s);
+    still.push_back(moving.places(instant.nodes));
+    const bool deflects = !instant.displacement.empty();
+    moved.push_back(deflects ? moving.places(displaced(
+                                   instant.nodes, {instant.label, instant.displacement}, factor))
                              : still.back());
   }
-  if (still != moved) moving.json["still"] = steps(std::move(still));
-  moving.json["moved"] = steps(std::move(moved));
+  if (still != moved) moving.json["still"] = row_differences(std::move(still));
+  moving.json["moved"] = row_differences(std::move(moved));
   return moving.json.dump();
 }
 
@@ -159,17 +160,18 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
   if (!run.drawing || (run.drawing->members.empty() && run.drawing->triangles.empty()))
     return std::nullopt;
   const Drawing& drawing = *run.drawing;
-  const std::vector<Pose> moments = moments_of(drawing);
-  if (moments.size() < 2) return std::nullopt;
+  const std::vector<Pose> instants = instants_of(drawing);
+  if (instants.size() < 2) return std::nullopt;
   const Largest deflection = largest(
-      moments, [](const Pose& moment) -> const std::vector<Point>& { return moment.displacement; });
+      instants,
+      [](const Pose& instant) -> const std::vector<Point>& { return instant.displacement; });
   const double factor = magnification(deflection.length, box_around({drawing.nodes}, 0, 0).side());
   std::vector<std::vector<Point>> places, everything;
-  for (const Pose& moment : moments) {
-    everything.push_back(moment.nodes);
-    places.push_back(moment.nodes);
-    if (!moment.displacement.empty())
-      places.back() = displaced(moment.nodes, {moment.label, moment.displacement}, factor);
+  for (const Pose& instant : instants) {
+    everything.push_back(instant.nodes);
+    places.push_back(instant.nodes);
+    if (!instant.displacement.empty())
+      places.back() = displaced(instant.nodes, {instant.label, instant.displacement}, factor);
     everything.push_back(places.back());
   }
   const Box box = box_around(everything, 0.04, 0.22);
@@ -177,26 +179,26 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
   frame(script, box);
   script.axis_label("x", "x (m)");
   script.axis_label("y", "y (m)");
-  const std::size_t stride = (moments.size() + kMaxDrawnMoments - 2) / (kMaxDrawnMoments - 1);
+  const std::size_t stride = (instants.size() + kMaxDrawnInstants - 2) / (kMaxDrawnInstants - 1);
   std::string drawn;
-  for (std::size_t k = 0; k < moments.size(); ++k) {
-    const bool last = k + 1 == moments.size();
+  for (std::size_t k = 0; k < instants.size(); ++k) {
+    const bool last = k + 1 == instants.size();
     if (k % stride != 0 && !last) continue;
-    drawn += (k == 0 ? "" : ", ") + trimmed(*moments[k].time_s, 3);
-    draw_body(script, drawing, moments[k].nodes, palette::kStructure, 1);
+    drawn += (k == 0 ? "" : ", ") + trimmed(*instants[k].time_s, 3);
+    draw_body(script, drawing, instants[k].nodes, palette::kStructure, 1);
     draw_body(script, drawing, places[k], palette::color(0), k == 0 ? 2.4 : 1.1);
   }
   script.plot();
   const std::string caption =
-      caption_of(moments, deflection, factor, drawn + "\u202fs (thick: first)");
+      caption_of(instants, deflection, factor, drawn + "\u202fs (thick: first)");
   return Figure{.id = slug(info.id + "-" + run.variant + "-motion"),
                 .title = titled("Motion", info, run),
                 .caption = caption,
-                .alt = "Outlines of the mechanism at a few moments. " + caption,
+                .alt = "Outlines of the mechanism at a few instants. " + caption,
                 .height = height_of(box),
                 .commands = script.commands(),
-                .data = table_of(moments),
-                .moving = moving_poses(drawing, moments, factor, box, 500)};
+                .data = table_of(instants),
+                .moving = moving_poses(drawing, instants, factor, box, 500)};
 }
 
 bool are_finite(const std::vector<Point>& points) {

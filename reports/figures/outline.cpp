@@ -15,7 +15,7 @@ constexpr std::size_t kCoarseMesh = 12;  ///< largest number of triangles with a
 constexpr std::size_t kFineMesh = 600;   ///< largest number of triangles with thin edges drawn
 
 /// Returns whether the line from `from` through `p` to `to` is straight within 1e-3 rad.
-bool is_between(const std::vector<double>& from, const Point& p, const Point& to) {
+bool is_straight(const std::vector<double>& from, const Point& p, const Point& to) {
   const double ax = p.first - from[0], ay = p.second - from[1];
   const double bx = to.first - p.first, by = to.second - p.second;
   const double lengths = std::hypot(ax, ay) * std::hypot(bx, by);
@@ -23,7 +23,7 @@ bool is_between(const std::vector<double>& from, const Point& p, const Point& to
 }
 
 /// Returns whether the corners are in counterclockwise order.
-bool runs_left(const std::vector<int>& triangle, const std::vector<Point>& nodes) {
+bool is_counterclockwise(const std::vector<int>& triangle, const std::vector<Point>& nodes) {
   const std::size_t step = triangle.size() / 3;
   const Point &a = nodes[triangle[0]], &b = nodes[triangle[step]], &c = nodes[triangle[2 * step]];
   return (b.first - a.first) * (c.second - a.second) > (c.first - a.first) * (b.second - a.second);
@@ -40,7 +40,7 @@ std::map<std::pair<int, int>, Side> sides(const Drawing& drawing) {
   std::map<std::pair<int, int>, Side> found;
   for (const auto& t : drawing.triangles) {
     const std::size_t step = t.size() / 3;
-    const bool left = runs_left(t, drawing.nodes);
+    const bool left = is_counterclockwise(t, drawing.nodes);
     for (std::size_t i = 0; i < t.size(); i += step) {
       const int from = t[i], to = t[(i + step) % t.size()];
       Side& side = found[std::minmax(from, to)];
@@ -120,7 +120,7 @@ PlotScript::Rows rows_of(const std::vector<std::vector<int>>& lines,
     for (std::size_t i = 0; i < line.size(); ++i) {
       const Point& p = nodes[line[i]];
       const bool inner = i > 0 && i + 1 < line.size();
-      if (inner && is_between(rows.back(), p, nodes[line[i + 1]])) continue;
+      if (inner && is_straight(rows.back(), p, nodes[line[i + 1]])) continue;
       rows.push_back({p.first, p.second});
     }
   }

@@ -8,13 +8,14 @@
 #include "reports/drawing/interval.h"
 #include "reports/drawing/plot_script.h"
 
-/// Geometry of drawings: lines and areas, their frame, and the data of animations.
+/// Geometry of drawings: lines, areas, ranges of the axes, and the data of animations.
 namespace trammel::reports {
 
-/// Returns the members, joined to polylines where one starts at the end of the one before.
+/// Returns the members as polylines of node numbers. A member that starts at the end of the
+/// previous member extends its polyline.
 [[nodiscard]] std::vector<std::vector<int>> polylines(const Drawing& drawing);
 
-/// Returns all edges of a coarse mesh of triangles, or the outline of a fine one.
+/// Returns all edges of a coarse mesh of triangles, or the outline of a fine mesh.
 [[nodiscard]] std::vector<std::vector<int>> triangle_edges(const Drawing& drawing);
 
 /// Returns the edges inside the outline. Empty for a coarse mesh, and for a mesh that is too fine
@@ -27,7 +28,7 @@ namespace trammel::reports {
                                        const std::vector<Point>& nodes);
 
 /// Returns closed polygons for filling: the triangles of a coarse mesh, or the outline of a fine
-/// one.
+/// mesh.
 [[nodiscard]] PlotScript::Rows filled_triangles(const Drawing& drawing,
                                                 const std::vector<Point>& nodes);
 
@@ -65,11 +66,12 @@ void draw_body(PlotScript& script, const Drawing& drawing, const std::vector<Poi
 // Animated drawings are JSON for the script of the page. Coordinates are in tenths of a unit of the
 // drawing, with y downwards, and only contain nodes that are drawn.
 
-inline constexpr double kDrawnAmplitude = 0.13;  ///< of deflections, relative to the longer side
+inline constexpr double kDrawnAmplitude =
+    0.13;  ///< largest deflection, relative to the longer side
 
 [[nodiscard]] bool are_finite(const std::vector<Point>& points);
 
-/// Returns the displacements of modes as drawn, a panel each.
+/// Returns the animation of modes as JSON, with one panel for each mode.
 /// @param factor  of each shape
 /// @param panel   width of a panel [px]
 [[nodiscard]] std::string moving_modes(const Drawing& drawing, const std::vector<double>& factor,

@@ -24,8 +24,8 @@ Table table_of(const std::vector<EffectScene>& scenes) {
   return table;
 }
 
-/// Returns the numbers of scenes within their tolerance and with a minimal selection, and the time
-/// of selecting effects and running over that of running with all effects.
+/// Reports how many scenes stay within their tolerance, and in how many the selection is minimal.
+/// Reports the time of selecting effects and running over the time of running with all effects.
 std::string conclusion(const std::vector<EffectScene>& scenes) {
   std::size_t within = 0, minimal = 0;
   double all_effects_s = 0, selected_s = 0;
@@ -46,8 +46,8 @@ std::string conclusion(const std::vector<EffectScene>& scenes) {
 std::string caption_of(const PlotScript::Rows& work, const PlotScript::Rows& time) {
   const auto last = [](const PlotScript::Rows& rows) { return trimmed(rows.back()[1], 3); };
   std::string text =
-      "Counted work and processor time of all runs of a call, relative to the first call. Times "
-      "are those of complete calls on the newest call's machine.";
+      "Counted work and processor time of all runs of each call of trammel, relative to the first "
+      "call. Times are of complete calls on the machine of the newest call.";
   if (!work.empty()) text += " The newest call has " + last(work) + " times the work";
   if (time.size() > 1)
     text += (work.empty() ? " The newest call has " : " and ") + last(time) + " times the time";
@@ -70,7 +70,7 @@ std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes)
   PlotScript script;
   script.log_axis("x", x.low, x.high);
   script.log_axis("y", y.low, y.high);
-  script.axis_label("x", "tolerance: requested largest change");
+  script.axis_label("x", "tolerance: requested limit of the change");
   script.axis_label("y", "obtained change");
   std::vector<std::string> keys = {"tolerance"};
   script.curve({{x.low, x.low}, {x.high, x.high}},
@@ -86,8 +86,8 @@ std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes)
   const int key_height = script.key_below(keys);
   script.plot();
   const std::string plotted =
-      "Change of the results without the omitted effects against the tolerance, one point per "
-      "scene. ";
+      "Change of the results caused by omitting effects, against the requested tolerance, one "
+      "point per scene. ";
   return {{.id = "effects-obtained",
            .title = "Automatic selection of effects: obtained change against tolerance",
            .caption = plotted + conclusion(scenes),

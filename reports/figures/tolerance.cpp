@@ -12,22 +12,22 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double kMinShare = 1e-8;  ///< left edge, also of smaller shares
-constexpr double kMaxShare = 100;   ///< right edge, also of larger shares and of errors
+constexpr double kMinShare = 1e-8;  ///< left edge; smaller fractions are drawn here
+constexpr double kMaxShare = 100;   ///< right edge; larger fractions and errors are drawn here
 
-/// Checks whose shares of the tolerance are points on one line.
+/// Checks that are drawn as points on one line.
 struct ToleranceRow {
   std::string label;
   std::vector<std::pair<const Run*, const Check*>> checks;
   double worst = 0;
 };
 
-/// Returns y of the points of a row. Row 0 is at the top.
+/// Returns the coordinate y of the points of a row. Row 0 is at the top.
 double row_y(std::size_t row) {
   return -static_cast<double>(row) - 0.72;
 }
 
-double share(const Check& check) {
+double drawn_fraction(const Check& check) {
   if (check.verdict == Verdict::error) return kMaxShare;
   return std::clamp(tolerance_fraction(check), kMinShare, kMaxShare);
 }
@@ -51,19 +51,19 @@ std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string
       const auto same = [&](const ToleranceRow& known) { return known.label == label; };
       ToleranceRow& row = harness::find_or_add(rows, same, {label, {}, 0});
       row.checks.emplace_back(run, &check);
-      row.worst = std::max(row.worst, share(check));
+      row.worst = std::max(row.worst, drawn_fraction(check));
     }
   }
   return rows;
 }
 
-/// Returns the points of the checks for which `belongs` holds.
+/// Returns the points of the checks for which `belongs` returns true.
 template <typename Belongs>
 PlotScript::Rows points(const std::vector<ToleranceRow>& rows, Belongs belongs) {
   PlotScript::Rows out;
   for (std::size_t i = 0; i < rows.size(); ++i)
     for (const auto& [_, check] : rows[i].checks)
-      if (belongs(*check)) out.push_back({share(*check), row_y(i)});
+      if (belongs(*check)) out.push_back({drawn_fraction(*check), row_y(i)});
   // Points that would cover each other are drawn once.
   for (auto& point : out) point[0] = std::pow(10, std::round(100 * std::log10(point[0])) / 100);
   std::ranges::sort(out);
@@ -82,9 +82,9 @@ std::string conclusion(const std::vector<ToleranceRow>& rows) {
     }
   }
   if (beyond > 0)
-    return std::to_string(beyond) + " of " + count(n, "check") +
+    return std::to_string(beyond) + " of " + count(n, "number") +
            " fail or could not be evaluated; the worst is in " + worst->label + ".";
-  return (n == 1 ? "The check passes" : "All " + count(n, "check") + " pass") +
+  return (n == 1 ? "The number passes" : "All " + count(n, "number") + " pass") +
          "; the one nearest to its limit uses " + trimmed(100 * worst->worst, 2) +
          "\u202f% of its tolerance (" + worst->label + ").";
 }
@@ -145,7 +145,7 @@ std::optional<Figure> tolerance_figure(const std::string& family,
   script.command(
       "set xtics ('≤ 10⁻⁸' 1e-8, '10⁻⁶' 1e-6, '10⁻⁴' 1e-4, '1 %%' 1e-2, '10 %%' 1e-1, "
       "'limit' 1, '≥ 100' 1e2)");
-  script.axis_label("x", "share of the tolerance used");
+  script.axis_label("x", "fraction of the tolerance used");
   draw_limits(script, rows.size());
   const auto passes = [](const Check& c) { return c.verdict == Verdict::pass; };
   const std::string dot = "with points pt 7 ps 0.55";
@@ -161,9 +161,9 @@ std::optional<Figure> tolerance_figure(const std::string& family,
   const std::string caption = conclusion(rows);
   return Figure{
       .id = slug(family + "-tolerance"),
-      .title = "Share of the tolerance used by each check",
-      .caption =
-          "Share of the tolerance that each check uses, with the limit as a line. " + caption,
+      .title = "Fraction of the tolerance used by each check",
+      .caption = "Difference of each check divided by its tolerance, with the limit 1 as a line. " +
+                 caption,
       .alt = "Dots on a logarithmic axis, with the limit marked. " + caption,
       .height = 105 + 40 * static_cast<int>(rows.size()),
       .commands = script.commands(),

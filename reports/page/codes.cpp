@@ -29,7 +29,7 @@ struct Row {
   const CaseInfo* info = nullptr;
   std::string variant;
   std::vector<const Run*> runs;
-  bool other_case = false;  ///< the codes had different versions of it
+  bool other_case = false;  ///< the codes had different versions of the case
 };
 
 Code read_code(const std::filesystem::path& file) {
@@ -72,7 +72,8 @@ const Check* find_check(const Run& run, const Check& like) {
   return nullptr;
 }
 
-/// Returns the entry that a code fails worst; else the one that uses most of its tolerance.
+/// Returns the entry of a check that a code fails worst; if no code fails, the entry that uses the
+/// largest fraction of its tolerance.
 const Check* shown_check(const Row& row) {
   const Check* shown = nullptr;
   const auto rank = [](const Check& check) {
@@ -86,7 +87,7 @@ const Check* shown_check(const Row& row) {
   return shown;
 }
 
-/// Returns the class in the style sheet, and a sign that does not depend on color.
+/// Returns the CSS class of a grade, and a symbol that shows the grade without color.
 std::pair<const char*, const char*> mark(Grade grade) {
   if (grade == Grade::agrees) return {"passes", "✓"};
   if (grade == Grade::off) return {"fails", "✗"};

@@ -29,7 +29,7 @@ constexpr std::array<Outcome, 5> kOutcomes = {{
     {CheckStatus::not_given, "skipped", "not-run"},
 }};
 
-/// Number of test cases, and of those with each element.
+/// Number of test cases, their time, and the number of test cases with each outcome element.
 struct Tally {
   std::size_t tests = 0;
   double time_s = 0;
@@ -117,7 +117,8 @@ std::string properties_of(const Environment& environment) {
   return text + "    </properties>\n";
 }
 
-/// Returns a test case for each run, with the name "status", and for each check of the runs.
+/// Returns a test case for each run, with the name "status", and for each check of the runs. The
+/// check of an expected ending has the name "expected-status".
 std::string suite(const CaseInfo& info, const Results& results, Tally& all) {
   Tally tally;
   std::string body;
@@ -126,9 +127,12 @@ std::string suite(const CaseInfo& info, const Results& results, Tally& all) {
     const std::string classname = info.id + "." + run.variant;
     body += testcase(classname, "status", run.cost.wall_s, check_status(run), run.reason,
                      run_output(run), tally);
-    for (const CheckGroup& group : group_checks(run))
-      body += testcase(classname, group.front().name, 0, check_status(group.worst()),
-                       check_message(group), check_output(group), tally);
+    for (const CheckGroup& group : group_checks(run)) {
+      const std::string& name = group.front().name;
+      body +=
+          testcase(classname, name == "status" ? "expected-status" : name, 0,
+                   check_status(group.worst()), check_message(group), check_output(group), tally);
+    }
   }
   if (tally.tests == 0) return "";
   all.add(tally);

@@ -22,6 +22,7 @@ struct SectionPage {
 };
 const std::vector<SectionPage>& section_pages() {
   static const std::vector<SectionPage> pages = {
+      {"summary.html", "Summary for an audit", {"audit"}},
       {"paper.html", "The paper", {"claims", "known"}},
       {"cost.html", "Accuracy and computing time", {"cost"}},
       {"stress.html", "Numerical stability", {"stress_suite"}},
@@ -61,6 +62,7 @@ Data index_data(const Results& results, const std::vector<Family>& families,
       {{"environment", environment_section(results)},
        {"claims", claims_section(results)},
        {"known", known_section(results, families)},
+       {"audit", audit_section(results, families)},
        {"cost", cost_section(results, figures)},
        {"stress_suite", stress_suite_section(families)},
        {"effects", effects_section(figures)},

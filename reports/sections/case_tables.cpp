@@ -31,7 +31,7 @@ std::string cell_text(const ColumnRequest& column, const Run& run) {
   return column.over_timing.empty() ? duration(*time) : "× " + trimmed(*time / *other, 2);
 }
 
-/// Returns a table that a case requests: variants down, quantities and timings across.
+/// Returns a table that a case requests. Each variant has a row, each quantity or time a column.
 TextTable variant_table(const TableRequest& request, const CaseInfo& info,
                         const std::vector<const Run*>& runs) {
   TextTable table{request.title, {"Variant"}, {}, request.caption};
@@ -45,12 +45,13 @@ TextTable variant_table(const TableRequest& request, const CaseInfo& info,
   return table;
 }
 
-/// Returns the probable classes of readings of one row of printed numbers, and their predictions.
+/// Returns a table for one row of printed numbers: the most probable interpretations ("readings")
+/// of the published model, with their probabilities and the values that they predict.
 TextTable probability_table(const RowProbabilities& row, const std::string& variant) {
   const auto count_of = [](int n, const char* noun, const char* nouns = "") {
     return count(static_cast<std::size_t>(n), noun, nouns);
   };
-  TextTable table{"Row " + row.row + " under a discrepancy of " +
+  TextTable table{"Row " + row.row + ", assuming a model discrepancy of " +
                       relative(row.discrepancy.value_or(0), 2, false) +
                       (variant == "base" ? "" : ", variant " + variant),
                   {"Most probable reading of each class", ">Probability"},
@@ -70,10 +71,10 @@ TextTable probability_table(const RowProbabilities& row, const std::string& vari
   };
   add_row("as printed [" + row.unit + "]", "", row.printed);
   for (const ReadingClass& reading : row.leading)
-    add_row(reading.title +
-                (reading.readings == 1
-                     ? ""
-                     : " (and " + count_of(reading.readings - 1, "other") + " within the noise)"),
+    add_row(reading.title + (reading.readings == 1
+                                 ? ""
+                                 : " (and " + count_of(reading.readings - 1, "other") +
+                                       " that the row cannot distinguish)"),
             relative(reading.probability.value_or(0), 3, false), reading.values);
   return table;
 }
@@ -117,7 +118,7 @@ std::string effects_title(const Run& run) {
 
 TextTable effects_table(const Run& run) {
   TextTable table{effects_title(run),
-                  {"Effect", "State", ">Dimensionless number", "Definition", ">Own change",
+                  {"Effect", "State", ">Dimensionless number", "Definition", ">Change without it",
                    ">Cumulative change", "Reason"}};
   const auto change = [](Number x) { return x ? relative(*x, 3, false) : ""; };
   for (const EffectRow& e : run.effects) {

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t kMaxClaim = 90;  ///< characters in the table of claims
 
-/// Presentation of a verdict. The signs do not depend on color.
+/// CSS class and symbol of a verdict. The symbol shows the verdict without color.
 struct VerdictStyle {
   const char *verdict, *css_class, *sign;
 };
@@ -30,7 +30,7 @@ constexpr std::array<VerdictStyle, 10> kVerdictStyles = {{
     {"", "not-run", "–"},
 }};
 
-/// Returns the entries together with the text, class and sign of a verdict.
+/// Returns the entries together with the text, CSS class and symbol of a verdict.
 Data with_verdict(const std::string& verdict, std::initializer_list<Entry> entries) {
   const auto* found =
       std::find_if(kVerdictStyles.begin(), kVerdictStyles.end() - 1,
@@ -47,8 +47,8 @@ std::string number_text(const ClaimInterpretation& interpretation, double value)
   return trimmed(value, 4) + (unit.empty() ? "" : "\u202f" + unit);
 }
 
-/// Returns the value, or the range of several values.
-std::string measured(const ClaimInterpretation& interpretation) {
+/// Returns the measured value of an interpretation, or the range of several values.
+std::string measured_range_text(const ClaimInterpretation& interpretation) {
   if (interpretation.entries.empty()) return "";
   const auto [lowest, highest] =
       std::ranges::minmax_element(interpretation.entries, {}, &ClaimEntry::value);
@@ -66,7 +66,7 @@ Data interpretation_data(const ClaimInterpretation& interpretation, const Result
     cases.push_back(object({{"case_id", entry.case_id}, {"case_link", case_link(entry.case_id)}}));
   }
   return with_verdict(interpretation.verdict, {{"description", interpretation.description},
-                                               {"measured", measured(interpretation)},
+                                               {"measured", measured_range_text(interpretation)},
                                                {"cases", cases}});
 }
 
@@ -79,10 +79,12 @@ Data claim_data(const Claim& claim, const Results& results) {
       {{"id", claim.id},
        {"claim", claim.claim},
        {"short", shortened(claim.claim, kMaxClaim)},
-       {"deciding", claim.interpretations.empty() ? "" : measured(claim.interpretations.front())},
+       {"deciding",
+        claim.interpretations.empty() ? "" : measured_range_text(claim.interpretations.front())},
        {"place", claim.place},
-       {"conclusion", claim.verdict == "not measured" ? "No case of these results measures it."
-                                                      : claim.conclusion},
+       {"conclusion", claim.verdict == "not measured"
+                          ? "No case of these results measures this claim."
+                          : claim.conclusion},
        {"undecidable", claim.undecidable},
        {"differs",
         claim.verdict == claim.expected || claim.verdict == "not measured" ? "" : claim.expected},
@@ -128,8 +130,7 @@ std::string overview(const Claims& claims) {
   }
   return count(claims.claims.size(), "claim") + ": " + text +
          ". Each verdict follows from the listed interpretations by a fixed rule. A test fails if "
-         "it "
-         "changes.";
+         "a verdict changes.";
 }
 
 }  // namespace

@@ -6,9 +6,9 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxNamedSettings = 3;  ///< settings of equal time next to the cheapest
+constexpr std::size_t kMaxNamedSettings = 3;  ///< listed settings whose times equal the shortest
 
-/// "2.4 ×".
+/// Returns a time relative to the baseline setting: "2.4 ×".
 std::string times(Number factor) {
   return factor ? trimmed(*factor, *factor < 10 ? 2 : 3) + "\u202f×" : "–";
 }
@@ -17,7 +17,8 @@ std::string error_text(double error) {
   return error < 1e-4 ? power_of_ten(-6) : trimmed(100 * error, 2) + "\u202f%";
 }
 
-/// Returns the cheapest setting and those whose time cannot be distinguished from it.
+/// Returns the setting with the shortest time, and the settings whose measured times cannot be
+/// distinguished from this time.
 std::string settings_text(const CostStudy& study, const CheapestSetting& cheapest) {
   std::string text = study.settings[*cheapest.setting].title;
   const std::size_t tied = cheapest.tied.size();
@@ -75,10 +76,11 @@ std::string measured_text(const CostStudy& study) {
                                                  : "Mean error";
   return norm + " against " + study.reference_solution + ", " + study.scale +
          ". Times are relative to '" + baseline.title + "', which takes " +
-         duration(baseline.cpu_s) + ". Odd and even repeats, evaluated separately, both put " +
-         std::to_string(repeatability.on_both_fronts) + " of " +
+         duration(baseline.cpu_s) + ". Odd and even repeats are also evaluated separately. Of " +
          std::to_string(repeatability.on_either_front) +
-         " settings on the Pareto front. Their times for an accuracy differ by at most " +
+         " settings on either Pareto front, both fronts contain " +
+         std::to_string(repeatability.on_both_fronts) +
+         ". At equal accuracy, the times of the two fronts differ by at most " +
          relative(repeatability.largest_difference.value_or(0), 2, false) + ".";
 }
 

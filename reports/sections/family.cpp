@@ -50,7 +50,7 @@ Counts counts_of(const std::vector<const Run*>& runs) {
 }
 
 /// Returns the worst status of many checks and runs.
-CheckStatus overall(const std::vector<const Run*>& runs) {
+CheckStatus worst_status(const std::vector<const Run*>& runs) {
   Counts counts = counts_of(runs);
   for (const Run* run : runs)
     if (check_status(*run) != CheckStatus::passes) ++counts[check_status(*run)];
@@ -83,7 +83,7 @@ Data warnings(const CaseInfo& info, const std::vector<const Run*>& runs) {
 /// Returns the data of a case for the contents and the page of its family.
 Data case_entry(const CaseInfo& info, const Family& family) {
   const std::vector<const Run*> runs = family.runs_of(info.id);
-  return with_status(overall(runs),
+  return with_status(worst_status(runs),
                      {{"case_link", case_link(info.id)},
                       {"case_id", info.id},
                       {"case_title", info.title},
@@ -125,7 +125,7 @@ Data family_section(const Family& family, const Results& results) {
   const Counts counts = counts_of(family.runs);
   const Data matrices = comparison_matrices(family, results);
   const auto entry = [&](const CaseInfo* info) { return case_entry(*info, family); };
-  return with_status(overall(family.runs),
+  return with_status(worst_status(family.runs),
                      {{"family_link", family_link(family.id)},
                       {"family_title", family.title},
                       {"cases_count", cases_count},

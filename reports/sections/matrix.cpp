@@ -24,41 +24,32 @@ struct MatrixCell {
   const Comparison* comparison = nullptr;
 };
 
-/// Checks of one variant by entry.
+/// Checks of one variant, by the index of the checked entry.
 struct MatrixRow {
   const Run* run;
   std::map<int, MatrixCell> checks;
   double distance = 0;  ///< root mean square of the relative differences
 };
 
-/// Variants that have the same check. Other checks may compare the same entries with other entries
-/// of the same reference.
+/// Content of one matrix: all variants of a family that have the same check. A different check may
+/// compare the quantity with other values of the same reference.
 struct MatrixSubject {
   std::string reference, quantity, check;
   std::vector<MatrixRow> rows;
   std::map<int, double> targets;
 };
 
-bool belongs(const Check& check) {
+bool is_in_matrix(const Check& check) {
   return check.role == "validation" && check.measure == "relative" && check.expected &&
          check.difference && !check.reference.empty() && check.verdict != Verdict::error &&
          check.verdict != Verdict::not_run;
-}
-
-const Comparison* find_comparison(const Run& run, const Check& check) {
-  if (!run.uncertainty) return nullptr;
-  for (const Comparison& c : run.uncertainty->comparisons)
-    if (c.check == check.name && c.quantity == check.quantity &&
-        c.index == check.index.value_or(0) && c.u_val)
-      return &c;
-  return nullptr;
 }
 
 std::vector<MatrixSubject> subjects(const Family& family) {
   std::vector<MatrixSubject> out;
   for (const Run* run : family.runs) {
     for (const Check& check : run->checks) {
-      if (!belongs(check)) continue;
+      if (!is_in_matrix(check)) continue;
       const auto same = [&](const MatrixSubject& known) {
         return known.reference == check.reference && known.quantity == check.quantity &&
                known.check == check.name;
@@ -75,7 +66,8 @@ std::vector<MatrixSubject> subjects(const Family& family) {
   return out;
 }
 
-/// Sorts complete rows before partial ones, then nearest rows first.
+/// Sorts rows with all entries before rows with fewer entries, then by the root mean square of the
+/// differences.
 void sort_rows(MatrixSubject& subject) {
   for (MatrixRow& row : subject.rows) {
     double sum = 0;
@@ -109,8 +101,8 @@ Data cell_of(const MatrixCell& cell) {
   const Comparison& c = *cell.comparison;
   std::string words = c.conclusion;
   if (!c.all_inputs.conclusion.empty())
-    words +=
-        " If nominal lengths are as uncertain as their printed digits: " + c.all_inputs.conclusion;
+    words += " If the nominal lengths are as uncertain as their printed digits imply: " +
+             c.all_inputs.conclusion;
   set(data,
       {{"status_text", words},
        {"expanded_uncertainty", relative(2 * *c.u_val / std::abs(*cell.check->expected), 2, false)},
@@ -145,13 +137,14 @@ struct Tally {
     const auto most =
         std::ranges::max_element(dominant, {}, [](const auto& input) { return input.second; });
     if (most != dominant.end())
-      text += " The dominant input is the " + spaced(most->first) + ", for " +
-              std::to_string(most->second) + " of " + std::to_string(entries) + ".";
+      text += " The input that contributes most to the uncertainty is the " + spaced(most->first) +
+              ", for " + std::to_string(most->second) + " of " + std::to_string(entries) + ".";
     return text;
   }
 };
 
-/// Returns the dominant inputs of a row, each with its largest share of the uncertainty.
+/// Returns the inputs that contribute most to the validation uncertainty of a row, each with its
+/// largest contribution.
 std::string dominant_text(const MatrixRow& row) {
   std::map<std::string, double> shares;
   for (const auto& [_, cell] : row.checks) {
@@ -169,7 +162,7 @@ std::string entry_word(const MatrixSubject& subject) {
   return subject.quantity.starts_with("frequency") ? "mode" : "entry";
 }
 
-/// Returns the nearest value of each entry.
+/// Returns for each entry the computed value that is nearest to its target.
 std::map<int, MatrixCell> nearest_of(const MatrixSubject& subject) {
   std::map<int, MatrixCell> nearest;
   for (const MatrixRow& row : subject.rows)
@@ -181,9 +174,9 @@ std::map<int, MatrixCell> nearest_of(const MatrixSubject& subject) {
   return nearest;
 }
 
-/// Returns the most probable reading for each discrepancy: "Of 666 readings (case) the most
-/// probable is under a discrepancy of 1 % X (40 %); ...". Empty if no run has probabilities of the
-/// row.
+/// Returns the most probable reading (interpretation of the published model) for each assumed model
+/// discrepancy: "Of 666 readings (case), the most probable is X (40 %) for a model discrepancy of
+/// 1 %, Y (30 %) for ...". Empty if no run has probabilities for this reference.
 std::string most_probable(const std::string& reference, const Results& results) {
   std::string text;
   for (const Run& run : results.runs) {
@@ -191,11 +184,11 @@ std::string most_probable(const std::string& reference, const Results& results) 
     for (const auto& row : run.model_probabilities->rows) {
       if (row.reference != reference || row.leading.empty()) continue;
       text += (text.empty() ? "Of " + std::to_string(row.readings) + " readings (" + run.case_id +
-                                  ") the most probable is"
-                            : ";") +
-              " under a discrepancy of " + relative(row.discrepancy.value_or(0), 2, false) + " " +
+                                  "), the most probable is "
+                            : ", ") +
               row.leading.front().title + " (" +
-              relative(row.leading.front().probability.value_or(0), 2, false) + ")";
+              relative(row.leading.front().probability.value_or(0), 2, false) +
+              ") for a model discrepancy of " + relative(row.discrepancy.value_or(0), 2, false);
     }
   }
   return text.empty() ? text : text + ".";
@@ -216,14 +209,12 @@ std::string conclusion(const MatrixSubject& subject, const Family& family, const
     missed += (n++ ? ", " : "") + std::to_string(entry + 1) + " (nearest " +
               relative(*nearest.check->difference, 2, true) + ")";
   }
-  if (n == 0)
-    return text +
-           " Every target is reached within 1\u202f% by a variant, but not all by the same one.";
+  if (n == 0) return text + " Each target is reached within 1\u202f% by at least one variant.";
   return text + " No variant comes within 1\u202f% of " + entry_word(subject) +
          (n == 1 ? " " : "s ") + missed + ".";
 }
 
-/// Returns a cell for each target. It is empty if there is no such entry.
+/// Returns a cell for each target. The cell is empty if `entries` lacks the entry of the target.
 Data cells_of(const MatrixSubject& subject, const std::map<int, MatrixCell>& entries) {
   return list_of(subject.targets, [&](const auto& target) {
     const auto found = entries.find(target.first);

@@ -29,7 +29,7 @@ std::vector<OrderRow> rows_of(const Run& run) {
   return rows;
 }
 
-/// Orders and errors over the entries of a row or of all rows of a family.
+/// Summary of the orders and errors of the entries of a row, or of all rows of a family.
 struct Findings {
   std::size_t rows = 0, entries = 0;
   Interval order, law;                  ///< fitted orders; relative misfits of two-term laws
@@ -60,7 +60,8 @@ struct Findings {
     }
     if (c.exact.value_or(0) != 0) add_bands(c);
   }
-  /// Compares the GCI, which is relative to the value, with the error relative to the exact one.
+  /// Compares the GCI, which is relative to the computed value, with the error, which is relative
+  /// to the exact value.
   void add_bands(const Convergence& c) {
     if (c.richardson)
       extrapolated = std::max(extrapolated.value_or(0), std::abs(*c.richardson / *c.exact - 1));
@@ -81,7 +82,7 @@ std::string theory_text(const Convergence& c) {
 }
 
 std::string observed_text(const Findings& findings) {
-  if (!findings.law.empty()) return "law within " + relative(findings.law.high, 2, false);
+  if (!findings.law.empty()) return "two-term law within " + relative(findings.law.high, 2, false);
   if (findings.order.empty()) return "–";
   return low_to_high(trimmed(findings.order.low, 3), trimmed(findings.order.high, 3));
 }
@@ -97,7 +98,8 @@ std::vector<std::string> cells_of(const OrderRow& row, const std::string& varian
           findings.extrapolated ? significant(*findings.extrapolated, 2) : "–"};
 }
 
-/// Returns how many levels the GCI covers, and its size over the true error.
+/// Reports on how many refinement levels the GCI exceeds the true error, and the median of the GCI
+/// divided by the true error.
 std::string coverage_text(std::size_t covered, const std::string& levels, Number ratio) {
   std::string text = "The numerical uncertainty (GCI) covers the exact value on " +
                      std::to_string(covered) + " of " + levels;
@@ -108,10 +110,10 @@ std::string coverage_text(std::size_t covered, const std::string& levels, Number
 std::string conclusion_of(const Findings& all) {
   std::string text = count(all.entries, "refinement") + ".";
   if (all.fitted > 0)
-    text += " The fitted order lies within a tenth of theory for " + std::to_string(all.near) +
-            " of " + std::to_string(all.fitted) + ".";
+    text += " The fitted order is within 10\u202f% of the theoretical order for " +
+            std::to_string(all.near) + " of " + std::to_string(all.fitted) + ".";
   if (!all.law.empty())
-    text += " Where two orders mix, the two-term law fits the errors within " +
+    text += " If the error has terms of two orders, the sum of both terms fits it within " +
             relative(all.law.high, 2, false) + ".";
   if (all.levels == 0) return text;
   const Number median = all.ratios.empty() ? Number() : Number(harness::upper_median(all.ratios));

@@ -13,7 +13,8 @@
 /// without content has a false `has_rows`.
 namespace trammel::reports {
 
-/// Returns the entries together with `status_text`, `status_class` and `sign`.
+/// Returns the entries together with the `status_text`, `status_class` and symbol (`sign`) of a
+/// status.
 [[nodiscard]] Data with_status(CheckStatus status, std::initializer_list<Entry> entries = {});
 
 /// Returns the counts above zero as a list of {n, percent} with their status.
@@ -42,13 +43,13 @@ struct StudyFigures {
 /// Studies of accuracy and computing time.
 [[nodiscard]] Data cost_section(const Results& results, const StudyFigures& figures);
 
-/// Selection of effects in the scenes of the catalogue.
+/// Automatic selection of effects in the scenes (cases with candidate effects) of the catalogue.
 [[nodiscard]] Data effects_section(const StudyFigures& figures);
 
-/// Changes over the calls of a history.
+/// Counted work and time over the calls in a history file, and the number of changed values.
 [[nodiscard]] Data history_section(const Results& results, const StudyFigures& figures);
 
-/// Features of the program with the kinds of evidence for them.
+/// Features of the program, each with the types of evidence that verify it.
 [[nodiscard]] Data coverage_section(const Results& results);
 
 /// Machine, compiler, libraries and computing time.
@@ -77,10 +78,14 @@ struct StudyFigures {
 /// Verdict, failures and counts of all checks.
 [[nodiscard]] Data summary_section(const Results& results, const std::vector<Family>& families);
 
+/// One sheet for an audit: verdict, counts, the largest known discrepancies with their validation
+/// uncertainty, and the number of the others for each reason.
+[[nodiscard]] Data audit_section(const Results& results, const std::vector<Family>& families);
+
 /// Known discrepancies by family, with their reasons.
 [[nodiscard]] Data known_section(const Results& results, const std::vector<Family>& families);
 
-/// Tiles and figures of the front page.
+/// Key numbers (tiles) and figures of the front page.
 [[nodiscard]] Data front_section(const Results& results, const std::vector<Family>& families,
                                  const StudyFigures& figures);
 

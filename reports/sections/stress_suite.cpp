@@ -8,7 +8,7 @@ namespace trammel::reports {
 
 namespace {
 
-/// One check of a case over all variants.
+/// Entries of one check over all variants of a case.
 struct Indicator {
   const Check* worst = nullptr;
   const Run* run = nullptr;  ///< run of the worst entry
@@ -29,8 +29,8 @@ Indicator worst_of(const std::string& check, const std::vector<const Run*>& runs
   return found;
 }
 
-/// Returns the worst value of an indicator: its difference from the reference, or itself if it is
-/// only bounded.
+/// Returns the row of an indicator. Its value is the worst difference from the reference, or the
+/// worst computed value if the check is a bound.
 Data row_of(const Indicator& indicator, const CaseInfo& info) {
   const Check& check = *indicator.worst;
   const bool is_bound = check.measure == "bound";
@@ -48,7 +48,7 @@ Data row_of(const Indicator& indicator, const CaseInfo& info) {
 
 Data missing_row(const std::string& check) {
   return with_status(CheckStatus::not_run, {{"quantity", check},
-                                            {"of_what", "no run has it"},
+                                            {"of_what", "no run has this check"},
                                             {"value", "–"},
                                             {"bound", "–"},
                                             {"why", ""}});

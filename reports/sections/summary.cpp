@@ -1,4 +1,8 @@
 #include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <map>
 #include <set>
 #include <tuple>
 
@@ -14,7 +18,7 @@ namespace {
 constexpr std::array<std::pair<const char*, const char*>, 4> kRoles = {{
     {"verification", "against exact or independent reference solutions"},
     {"validation", "against the published results under examination"},
-    {"regression", "against our own earlier results"},
+    {"regression", "against earlier results of this solver"},
     {"all", ""},
 }};
 
@@ -22,8 +26,8 @@ constexpr std::array<std::pair<const char*, const char*>, 4> kRoles = {{
 Counts counts_of(const Results& results, const std::string& role) {
   Counts counts;
   for (const Run& run : results.runs)
-    for (const Check& check : run.checks)
-      if (role == "all" || check.role == role) ++counts[check_status(check)];
+    for (const CheckGroup& group : group_checks(run))
+      if (role == "all" || group.front().role == role) ++counts[check_status(group.worst())];
   return counts;
 }
 
@@ -87,7 +91,8 @@ Data failures(const Results& results, std::size_t& unexpected_endings) {
   return out;
 }
 
-/// Targets of known discrepancies. A target counts once for all variants that are compared with it.
+/// Published numbers and statements with a known discrepancy. A number counts once, even if several
+/// variants are compared with it.
 struct Targets {
   std::set<std::tuple<std::string, double, int>>
       printed;  ///< reference, value, entry of repeated values
@@ -118,23 +123,53 @@ Targets targets_of(const Results& results) {
   return targets;
 }
 
-/// Known discrepancies of a case with the same name.
+/// Known discrepancies of all entries of one check in all variants of a case.
 struct KnownDiscrepancy {
   const CaseInfo* info;
+  const Run* run;        ///< of the largest difference
   const Check* largest;  ///< with the largest difference
   std::size_t entries = 0;
   std::set<std::string> reasons = {};
 };
 
-Data known_data(const KnownDiscrepancy& known, const Family& family, const Results& results) {
+std::vector<KnownDiscrepancy> known_discrepancies(const Family& family, const Results& results) {
+  std::vector<KnownDiscrepancy> known;
+  for (const Run* run : family.runs) {
+    for (const Check& check : run->checks) {
+      if (check_status(check) != CheckStatus::known_discrepancy) continue;
+      const CaseInfo& info = results.case_info(run->case_id);
+      const auto same = [&](const KnownDiscrepancy& other) {
+        return other.info == &info && other.largest->name == check.name;
+      };
+      KnownDiscrepancy& found = harness::find_or_add(known, same, {&info, run, &check});
+      if (worse(check, *found.largest)) {
+        found.run = run;
+        found.largest = &check;
+      }
+      found.reasons.insert(check.why);
+      ++found.entries;
+    }
+  }
+  return known;
+}
+
+/// Returns "± 3.2 %": the expanded validation uncertainty of a check relative to its target.
+std::string uncertainty_text(const Run& run, const Check& check) {
+  const Comparison* found = find_comparison(run, check);
+  if (!found || !check.expected) return "–";
+  return "± " + relative(2 * *found->u_val / std::abs(*check.expected), 2, false);
+}
+
+Data known_data(const KnownDiscrepancy& known, const std::string& title, const Results& results) {
   const Check& check = *known.largest;
   const Reference* reference = results.reference(check.reference);
   return object(
-      {{"case_title", family.short_title(*known.info)},
+      {{"case_title", title},
        {"case_link", case_link(known.info->id)},
        {"what", check.title.empty() && reference ? reference->title : check_title(check)},
        {"reference_link", reference ? reference_link(reference->id) : ""},
        {"difference", check.difference ? difference_text(check, *check.difference) : ""},
+       {"uncertainty", uncertainty_text(*known.run, check)},
        {"extent", count(known.entries, "entry", "entries")},
        {"reason", check.why},
        {"further_reasons", known.reasons.size() > 1
@@ -146,33 +181,38 @@ Data known_data(const KnownDiscrepancy& known, const Family& family, const Resul
 Data known_by_family(const Results& results, const std::vector<Family>& families) {
   Data out = list();
   for (const Family& family : families) {
-    std::vector<KnownDiscrepancy> known;
     Targets targets;
     std::size_t entries = 0;
-    for (const Run* run : family.runs) {
-      for (const Check& check : run->checks) {
-        if (check_status(check) != CheckStatus::known_discrepancy) continue;
-        const CaseInfo& info = results.case_info(run->case_id);
-        const auto same = [&](const KnownDiscrepancy& other) {
-          return other.info == &info && other.largest->name == check.name;
-        };
-        KnownDiscrepancy& found = harness::find_or_add(known, same, {&info, &check});
-        if (worse(check, *found.largest)) found.largest = &check;
-        found.reasons.insert(check.why);
-        ++found.entries;
-        ++entries;
-        targets.add(*run, check, results);
-      }
-    }
-    if (known.empty()) continue;
-    const auto entry = [&](const KnownDiscrepancy& discrepancy) {
-      return known_data(discrepancy, family, results);
+    for (const Run* run : family.runs)
+      for (const Check& check : run->checks)
+        if (check_status(check) == CheckStatus::known_discrepancy) {
+          targets.add(*run, check, results);
+          ++entries;
+        }
+    if (entries == 0) continue;
+    const auto entry = [&](const KnownDiscrepancy& known) {
+      return known_data(known, family.short_title(*known.info), results);
     };
     out.push_back(object({{"family_title", family.title},
                           {"extent", targets.text() + " in " + count(entries, "entry", "entries")},
-                          {"known", list_of(known, entry)}}));
+                          {"known", list_of(known_discrepancies(family, results), entry)}}));
   }
   return out;
+}
+
+/// Returns the most frequent reasons with their numbers of entries, and the sum of the others.
+Data reasons_of(const std::vector<KnownDiscrepancy>& known) {
+  constexpr std::ptrdiff_t kShown = 5;
+  std::map<std::string, std::size_t> entries;
+  for (const KnownDiscrepancy& one : known) entries[one.largest->why] += one.entries;
+  std::vector<std::pair<std::string, std::size_t>> sorted(entries.begin(), entries.end());
+  std::ranges::stable_sort(sorted, std::greater(), &std::pair<std::string, std::size_t>::second);
+  std::size_t others = 0;
+  for (; std::ssize(sorted) > kShown; sorted.pop_back()) others += sorted.back().second;
+  if (others > 0) sorted.emplace_back("other reasons", others);
+  return list_of(sorted, [](const auto& reason) {
+    return object({{"reason", reason.first}, {"n", std::to_string(reason.second)}});
+  });
 }
 
 std::string verdict_text(const Counts& counts, std::size_t unexpected_endings) {
@@ -192,28 +232,12 @@ std::string verdict_text(const Counts& counts, std::size_t unexpected_endings) {
 
 std::string overview_text(const Results& results, const std::vector<Family>& families,
                           const Counts& counts) {
-  std::size_t cases = 0, checks = 0;
+  std::size_t cases = 0, numbers = 0;
   for (const Family& family : families) cases += family.cases.size();
-  for (const Run& run : results.runs) checks += group_checks(run).size();
+  for (const Run& run : results.runs) numbers += run.checks.size();
   return count(cases, "case") + " in " + count(families.size(), "family", "families") + ", " +
-         count(results.runs.size(), "run") + ", " + count(checks, "check") + " of " +
-         count(total(counts), "number") + ":";
-}
-
-/// Checks of one role. A check counts once, by its worst entry.
-struct RoleCount {
-  std::size_t passing = 0, all = 0;
-};
-
-RoleCount count_role(const Results& results, const std::string& role) {
-  RoleCount found;
-  for (const Run& run : results.runs)
-    for (const CheckGroup& group : group_checks(run)) {
-      if (group.front().role != role) continue;
-      ++found.all;
-      if (check_status(group.worst()) == CheckStatus::passes) ++found.passing;
-    }
-  return found;
+         count(results.runs.size(), "run") + ", " + count(total(counts), "check") + " of " +
+         count(numbers, "number") + ":";
 }
 
 Data tile(const std::string& number, const std::string& title, const std::string& words,
@@ -224,13 +248,14 @@ Data tile(const std::string& number, const std::string& title, const std::string
 
 Data tiles_of(const Results& results) {
   Data tiles = list();
-  const RoleCount solver = count_role(results, "verification");
-  if (solver.all > 0)
-    tiles.push_back(tile(std::to_string(solver.passing) + " of " + std::to_string(solver.all),
+  const Counts solver = counts_of(results, "verification");
+  const std::size_t passing = count_of(solver, CheckStatus::passes);
+  if (total(solver) > 0)
+    tiles.push_back(tile(std::to_string(passing) + " of " + std::to_string(total(solver)),
                          "Solver verification",
                          "checks against exact values, other codes and theory pass.",
                          results.claims ? "orders.html" : "index.html#trust",
-                         solver.passing == solver.all ? CheckStatus::passes : CheckStatus::fails));
+                         passing == total(solver) ? CheckStatus::passes : CheckStatus::fails));
   if (results.claims) {
     const auto count_of = [&](const std::string& verdict) {
       return std::to_string(std::ranges::count(results.claims->claims, verdict, &Claim::verdict));
@@ -252,7 +277,8 @@ Data tiles_of(const Results& results) {
 
 /// Returns the case that compares most printed numbers with computed ones and their validation
 /// uncertainty, and its figures.
-std::pair<const CaseInfo*, const Gallery*> find_answer(const std::vector<Family>& families) {
+std::pair<const CaseInfo*, const Gallery*> find_main_comparison(
+    const std::vector<Family>& families) {
   std::pair<const CaseInfo*, const Gallery*> found{nullptr, nullptr};
   std::size_t most = 0;
   for (const Family& family : families)
@@ -277,10 +303,10 @@ void add_figure(const Figure& figure, const std::string& link, Data& figures) {
   figures.push_back(data);
 }
 
-/// Returns figures of the manipulator, of its printed and computed frequencies, and of its modes.
-Data answer_of(const std::vector<Family>& families) {
+/// Returns figures of the manipulator, its printed and computed frequencies, and its modes.
+Data manipulator_figures(const std::vector<Family>& families) {
   Data figures = list();
-  const auto [info, gallery] = find_answer(families);
+  const auto [info, gallery] = find_main_comparison(families);
   if (info == nullptr) return figures;
   for (const char* end : {"-mechanism", "-agreement", "-shapes"}) {
     const auto figure = std::ranges::find_if(
@@ -290,8 +316,8 @@ Data answer_of(const std::vector<Family>& families) {
   return figures;
 }
 
-/// Returns a figure each of cost, stability and effects.
-Data questions_of(const std::vector<Family>& families, const StudyFigures& studies) {
+/// Returns one figure each of computing cost, of numerical stability and of the selected effects.
+Data study_figures(const std::vector<Family>& families, const StudyFigures& studies) {
   Data figures = list();
   const auto modes = std::ranges::find(studies.cost, "cost-modes-elements", &Figure::id);
   if (modes != studies.cost.end()) add_figure(*modes, "cost.html", figures);
@@ -315,6 +341,24 @@ Data known_section(const Results& results, const std::vector<Family>& families) 
                  {"known_families", known}});
 }
 
+Data audit_section(const Results& results, const std::vector<Family>& families) {
+  constexpr std::size_t kShown = 10;
+  std::vector<KnownDiscrepancy> known;
+  for (const Family& family : families)
+    std::ranges::copy(known_discrepancies(family, results), std::back_inserter(known));
+  std::ranges::stable_sort(known, std::greater(), [](const KnownDiscrepancy& one) {
+    return one.largest->measure == "relative" ? size_of_difference(*one.largest) : 0;
+  });
+  const auto rest = known.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, known.size()));
+  const auto row = [&](const KnownDiscrepancy& one) {
+    return known_data(one, one.info->title, results);
+  };
+  return object({{"summary", summary_section(results, families)},
+                 {"has_known", !known.empty()},
+                 {"largest", list_of(std::vector(known.begin(), rest), row)},
+                 {"rest", reasons_of({rest, known.end()})}});
+}
+
 Data summary_section(const Results& results, const std::vector<Family>& families) {
   const Counts counts = counts_of(results, "all");
   std::size_t unexpected_endings = 0;
@@ -336,7 +380,7 @@ Data summary_section(const Results& results, const std::vector<Family>& families
 
 Data front_section(const Results& results, const std::vector<Family>& families,
                    const StudyFigures& studies) {
-  const Data answer = answer_of(families), questions = questions_of(families, studies);
+  const Data answer = manipulator_figures(families), questions = study_figures(families, studies);
   return object({{"tiles", tiles_of(results)},
                  {"has_answer", answer.is_non_empty_list()},
                  {"answer", answer},

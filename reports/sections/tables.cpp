@@ -25,13 +25,14 @@ Data row_of(const Check& check, const std::string& entry, bool first = true) {
                                            {"first", first}});
 }
 
-/// Returns the tolerance. Empty for a bound, which is already the target.
+/// Returns the tolerance as text. Empty for a bound, because the column of targets shows its
+/// limits.
 std::string range_text(const Check& check) {
   if (check.measure == "status" || (check.measure == "bound" && !check.expected)) return "";
   return (check.known_discrepancy() ? "expected " : "") + tolerance_text(check);
 }
 
-/// State of a table while it is built: references, and the names of checks that have an anchor.
+/// State of a table under construction: the results, and the names of checks with an anchor.
 struct Rows {
   const Results& results;
   bool is_linked = false;
@@ -76,7 +77,8 @@ bool same_reason(const Check& a, const Check& b) {
   return a.why == b.why && a.reference == b.reference;
 }
 
-/// Adds every entry, or the worst of many. Entries with different reasons are separate groups.
+/// Adds a row for each entry of a check, or only its worst entry if there are more than
+/// kMaxEntries. Entries with different reasons are separate groups.
 void add_group(Data& groups, const CheckGroup& group, Rows& table) {
   if (group.checks.size() > kMaxEntries) {
     const Check& worst = group.worst();
@@ -176,7 +178,7 @@ Data case_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
                                      : worst_table(info, runs, {results, true})},
                         {"has_folded", !few}});
   if (few) return tables;
-  std::string title = "All " + count(checks, "check");
+  std::string title = "All " + count(checks, "number");
   if (runs.size() > 1) title += " of " + count(runs.size(), "variant");
   set(tables, {{"folded_title", title}, {"folded_runs", full_table(info, runs, {results})}});
   return tables;

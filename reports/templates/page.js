@@ -119,7 +119,7 @@ function swinging(modes, panel) {
   const all = shapes.map(p => p.hz).filter(hz => hz > 0), fastest = Math.max(...all);
   return {draw: t => shapes.forEach(shape => shape.draw(t)), slowed: Math.max(Math.min(...all.filter(hz => hz > 1e-6 * fastest)) / 0.5, fastest / 4)};
 }
-// Returns the same for a motion, which repeats after its last moment.
+// Returns the same for a motion, which repeats after its last instant.
 function running(motion, panel) {
   const sums = rows => rows.slice(1).reduce((all, row) => [...all, row.map((step, i) => all.at(-1)[i] + step)], [rows[0]]);
   const g = panel(0), text = made(g, "text", {x: motion.panel[0] / 2, y: -70}), times = motion.times, start = times[0], length = times.at(-1) - start;

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Delays the signals that end the program, during its lifetime.
+/// Blocks the signals that end the program, from construction to destruction.
 class SignalsWait {
  public:
   SignalsWait() {
@@ -45,7 +45,8 @@ bool is_formula(const std::string& text) {
          (first == '-' && letter);
 }
 
-/// Puts an apostrophe before a formula. Control characters other than line breaks become spaces.
+/// Returns a text as a cell of a CSV file. A text that a spreadsheet would interpret as a formula
+/// starts with an apostrophe. Control characters other than line breaks become spaces.
 std::string text_cell(const std::string& text) {
   const bool quoted = text.find_first_of(",\"\r\n") != std::string::npos;
   std::string out = quoted ? "\"" : "";

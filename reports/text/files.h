@@ -16,9 +16,10 @@ namespace trammel::reports {
 /// @throws std::system_error  with the name of the file.
 void write_file(const std::filesystem::path& path, const std::string& text);
 
-/// Moves all files below `from` to the same place below `to`, the file named `last` after all
-/// others. Then removes `from`, and the files of `obsolete` (below `to`) that were not replaced.
-/// Links are replaced and not followed. Signals that end the program are delayed.
+/// Moves all files below `from` to the same relative paths below `to`; moves the file `last` after
+/// all others. Then removes `from`, and the files of `obsolete` (below `to`) that were not
+/// replaced. Links are replaced and not followed. Signals that end the program are blocked
+/// meanwhile.
 /// @throws std::system_error  with the name of an obstacle, before any file is moved.
 void replace_files(const std::filesystem::path& from, const std::filesystem::path& to,
                    const std::string& last, const std::vector<std::filesystem::path>& obsolete);

@@ -54,7 +54,7 @@ template <typename Range, typename Make>
   return out;
 }
 
-/// Returns a list whose items hold one text each, under the name "text".
+/// Returns a list of objects, each with one text under the name "text".
 template <typename Range>
 [[nodiscard]] Data texts(const Range& range) {
   return list_of(range, [&](const auto& text) { return object({{"text", text}}); });

@@ -18,10 +18,10 @@ namespace trammel::reports {
 /// Returns `digits` significant digits, with trailing zeros; scientific outside 1e-4 ... 1e6.
 [[nodiscard]] std::string significant(double x, int digits);
 
-/// Returns the same without trailing zeros: 0.002, not 0.002000.
+/// Returns at most `digits` significant digits, without trailing zeros: 0.002, not 0.002000.
 [[nodiscard]] std::string trimmed(double x, int digits);
 
-/// Returns the same with a sign: +0.31, −4.2 × 10⁻⁹.
+/// Returns the number as `trimmed`, with its sign: +0.31, −4.2 × 10⁻⁹.
 [[nodiscard]] std::string with_sign(double x, int digits);
 
 /// Returns a relative difference as a percentage; below 1e-5, as a plain number.

@@ -13,10 +13,10 @@ struct QuantityLabel {
 
 [[nodiscard]] QuantityLabel parse_quantity(const std::string& name);
 
-/// Returns "x displacement of P".
+/// Returns label and subject of a quantity as text: "x displacement of P".
 [[nodiscard]] std::string to_text(const QuantityLabel& quantity);
 
-/// Converts a unit of references (N m, kg m^2, rad/s) to a typeset one (N·m, kg·m², rad/s).
+/// Converts a unit in the notation of reference files (N m, kg m^2) to a typeset unit (N·m, kg·m²).
 [[nodiscard]] std::string display_unit(const std::string& unit);
 
 /// Factor that scales values of up to `largest` to the range 1 ... 1000, and the scaled unit:
@@ -27,7 +27,7 @@ struct Scale {
 };
 [[nodiscard]] Scale readable_scale(const std::string& unit, double largest);
 
-/// Returns "x displacement of P (mm)".
+/// Returns a label followed by its unit: "x displacement of P (mm)".
 [[nodiscard]] std::string axis_label(const std::string& label, const std::string& unit);
 
 }  // namespace trammel::reports

@@ -51,9 +51,8 @@ Vector3d independent_torques(const RigidManipulator& m, const TrajectoryPoint& m
   const auto forces =
       references::newton_euler_forces(bodies(m), jets, {wrench(0), wrench(1), wrench(2)});
   Vector3d torque;
-  for (Index i = 0; i < 3; ++i) {
+  for (Index i = 0; i < 3; ++i)
     torque(i) = static_cast<double>(forces.torque[static_cast<std::size_t>(i)]);
-  }
   return torque;
 }
 

@@ -1,6 +1,6 @@
-// Measures processor time and peak memory of the first ten modes of two large models. Each model is
-// solved at four sizes, from 1/32 of the full size on, in separate processes. Prints the exponents
-// of growth. Asserts nothing.
+// Measures processor time and peak memory of computing the first ten modes of two large models.
+// Each model is solved at four sizes, from 1/32 to the full size, in separate processes. Prints the
+// exponents of the growth of time and memory with the size. Asserts nothing.
 //   large_modes                  both models, four sizes
 //   large_modes lattice 100000   one model: a square lattice of 100000 frame members
 //   large_modes plate 200000     one model: a square plate of 200000 constant-strain triangles
@@ -97,7 +97,7 @@ struct Cost {
   double megabytes = 0;
 };
 
-Cost measure(const std::string& kind, Index size) {
+Cost measure_cost(const std::string& kind, Index size) {
   std::fflush(stdout);
   const pid_t child = fork();
   if (child == 0) {
@@ -125,7 +125,7 @@ int main(int argc, char** argv) {
     Eigen::MatrixXd powers(4, 2), costs(4, 2);  // log cost = a + b log size
     for (Index i = 0; i < 4; ++i) {
       const auto part = static_cast<Index>(static_cast<double>(size) * std::pow(32, (i - 3) / 3.0));
-      const Cost cost = measure(kind, part);
+      const Cost cost = measure_cost(kind, part);
       powers.row(i) << 1, std::log(static_cast<double>(part));
       costs.row(i) << std::log(cost.seconds), std::log(cost.megabytes);
     }

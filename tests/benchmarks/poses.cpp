@@ -1,5 +1,5 @@
-// Measures natural frequencies along the paper's circle: poses per second on one core, by
-// solve_pose_modes and pose by pose. Asserts nothing.
+// Measures the rate at which natural frequencies along the paper's circle are computed [poses per
+// second on one core], by solve_pose_modes and by separate solutions. Asserts nothing.
 //   poses                       1, 4 and 16 elements per link
 //   poses 4 10000               4 elements per link, 10000 poses, solve_pose_modes only
 #include <algorithm>

@@ -58,7 +58,7 @@ TRAMMEL_WIDE void multiply_and_add(std::array<double, kLanes>& values) {
   values = local;
 }
 
-/// Returns the Laplacian of a square grid, which is as sparse as the stiffness of a lattice.
+/// Returns the Laplacian of a square grid, which is as sparse as the stiffness matrix of a lattice.
 SparseMatrix grid_laplacian(Index n) {
   std::vector<Eigen::Triplet<double>> entries;
   const auto couple = [&](Index i, Index j) {
@@ -84,7 +84,7 @@ void add_factorization(std::vector<LoopRate>& loops) {
   for (Index j = 0; j < U.outerSize(); ++j)
     for (SparseMatrix::InnerIterator it(U, j); it; ++it) ++below[it.row()];
   const double entries = static_cast<double>(U.nonZeros());
-  const SparseMatrix twice = 2 * A;  // a second factorization of the same matrix costs nothing
+  const SparseMatrix twice = 2 * A;  // the factors of an unchanged matrix would be reused
   bool is_doubled = false;
   const double time = least_time([&] {
     is_doubled = !is_doubled;

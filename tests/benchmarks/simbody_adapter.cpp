@@ -211,17 +211,18 @@ struct Mechanism : System {
 using Answer = std::map<std::string, std::vector<double>>;
 
 /// Appends the components of a vector along x and y under the names `head` + "x" or "y" + `tail`.
-void keep_plane(Answer& answer, const std::string& head, const std::string& tail, const Vec3& v) {
+void append_xy(Answer& answer, const std::string& head, const std::string& tail, const Vec3& v) {
   answer[head + "x" + tail].push_back(v[0]);
   answer[head + "y" + tail].push_back(v[1]);
 }
 
-void keep(const Mechanism& mechanism, const Json& angles, const State& state, Answer& answer) {
+void append_nodes(const Mechanism& mechanism, const Json& angles, const State& state,
+                  Answer& answer) {
   for (const auto& [name, place] : mechanism.places) {
-    keep_plane(answer, "position_", "_m:" + name,
-               place.body.findStationLocationInGround(state, place.station));
-    keep_plane(answer, "velocity_", "_m_per_s:" + name,
-               place.body.findStationVelocityInGround(state, place.station));
+    append_xy(answer, "position_", "_m:" + name,
+              place.body.findStationLocationInGround(state, place.station));
+    append_xy(answer, "velocity_", "_m_per_s:" + name,
+              place.body.findStationVelocityInGround(state, place.station));
   }
   for (const auto& item : angles.items()) {
     const MobilizedBody& body = mechanism.places.at(item.value().at("node")).body;
@@ -257,7 +258,7 @@ Answer motion(const Json& model, const Json& options) {
   for (int i = 0; i * step < end * (1 + 1e-12); ++i) {
     while (integrator.getTime() < i * step) integrator.stepTo(i * step);
     mechanism.system.realize(integrator.getState(), SimTK::Stage::Velocity);
-    keep(mechanism, angles, integrator.getState(), answer);
+    append_nodes(mechanism, angles, integrator.getState(), answer);
   }
   return answer;
 }
@@ -308,8 +309,8 @@ SimTK::Vector planar(const Json& row) {  // Simbody's order: the angle first
   return v;
 }
 
-/// Computes the state at a point of the path. The platform's motion is prescribed and the links
-/// follow.
+/// Computes the state at point i of the path. The motion of the platform is prescribed; the motion
+/// of the links follows from the constraints.
 void follow(Manipulator& m, const Json& path, std::size_t i, const SimTK::Vector& q0,
             State& state) {
   const MobilizedBody platform = m.bodies["platform"];
@@ -328,7 +329,7 @@ void follow(Manipulator& m, const Json& path, std::size_t i, const SimTK::Vector
 }
 
 /// Appends angles, rates and accelerations of the links, and the motion of all centers of mass.
-void keep_motion(const Manipulator& m, const State& state, Answer& answer) {
+void append_motion(const Manipulator& m, const State& state, Answer& answer) {
   for (const auto& [name, body] : m.bodies) {
     const double start = m.mechanism["bodies"][name]["angle_rad"].get<double>();
     const bool proximal = name[0] == 'A';
@@ -341,17 +342,17 @@ void keep_motion(const Manipulator& m, const State& state, Answer& answer) {
           body.getBodyAngularAcceleration(state)[2]);
     }
     const Vec3& at = m.centers.at(name);
-    keep_plane(answer, "center_", "_m:" + name, body.findStationLocationInGround(state, at));
-    keep_plane(answer, "center_velocity_", "_m_per_s:" + name,
-               body.findStationVelocityInGround(state, at));
-    keep_plane(answer, "center_acceleration_", "_m_per_s2:" + name,
-               body.findStationAccelerationInGround(state, at));
+    append_xy(answer, "center_", "_m:" + name, body.findStationLocationInGround(state, at));
+    append_xy(answer, "center_velocity_", "_m_per_s:" + name,
+              body.findStationVelocityInGround(state, at));
+    append_xy(answer, "center_acceleration_", "_m_per_s2:" + name,
+              body.findStationAccelerationInGround(state, at));
   }
   answer["kinetic_energy_J"].push_back(m.system.calcKineticEnergy(state));
 }
 
-/// Appends the torques for which the proximal links have the accelerations of the path.
-void keep_torques(Manipulator& m, State& state, Answer& answer) {
+/// Appends the torques that cause the accelerations of the proximal links along the path.
+void append_torques(Manipulator& m, State& state, Answer& answer) {
   std::vector<MobilizedBody> active;
   std::vector<SimTK::Vector> accelerations;
   for (const char* name : {"A1-B1", "A2-B2", "A3-B3"}) {
@@ -379,7 +380,7 @@ void load(Manipulator& m, const Json& model) {
   for (const auto& item : section(model, "loads").items()) {
     if (item.value().is_null()) continue;
     refuse(item.value(), {"node", "force_N", "moment_N_m"}, "load with");
-    if (item.value().at("node") != "P") throw Cannot("no loads but on P");
+    if (item.value().at("node") != "P") throw Cannot("loads are supported on P only");
     m.add_load(item.value(), {m.bodies["platform"], Vec3(0)});
   }
 }
@@ -410,10 +411,10 @@ Answer driven(const Json& model, const Json& mechanism, const Json& options) {
     while (integrator.getTime() < time.get<double>()) integrator.stepTo(time.get<double>());
     const State& now = integrator.getState();
     m.system.realize(now, SimTK::Stage::Velocity);
-    keep_plane(answer, "motion_", "_m", platform.getBodyOriginLocation(now));
+    append_xy(answer, "motion_", "_m", platform.getBodyOriginLocation(now));
     answer["motion_phi_rad"].push_back(path["pose_m_rad"][0][2].get<double>() +
                                        turn(platform, now));
-    keep_plane(answer, "motion_velocity_", "_m_per_s", platform.getBodyOriginVelocity(now));
+    append_xy(answer, "motion_velocity_", "_m_per_s", platform.getBodyOriginVelocity(now));
     answer["motion_velocity_phi_rad_per_s"].push_back(rate(platform, now));
     answer["kinetic_energy_J"].push_back(m.system.calcKineticEnergy(now));
   }
@@ -431,8 +432,8 @@ Answer along_path(const Json& model, const Json& mechanism, const Json& options,
   Answer answer;
   for (std::size_t i = 0; i < path["time_s"].size(); ++i) {
     follow(m, path, i, start, state);
-    keep_motion(m, state, answer);
-    if (torques) keep_torques(m, state, answer);
+    append_motion(m, state, answer);
+    if (torques) append_torques(m, state, answer);
     m.bodies["platform"].unlock(state);
   }
   return answer;
@@ -446,7 +447,7 @@ Answer solve(const Json& given) {
     return along_path(given["model"], given["export"]["mechanism"], options, kind[0] == 'i');
   if (kind == "forward-dynamics")
     return driven(given["model"], given["export"]["mechanism"], options);
-  throw Cannot("no analysis '" + kind + "'");
+  throw Cannot("unsupported analysis '" + kind + "'");
 }
 
 }  // namespace

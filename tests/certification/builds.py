@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Builds trammel in other ways, runs the catalogue with each build, and compares the results with `trammel certify`.
+"""Builds trammel with other compilers and options, runs the catalogue with each build, and compares the results with `trammel certify`.
 
 The comparison includes other modes of rounding. Builds and results of the same sources in OUT are reused. A build takes about ten
 minutes on two cores, and the rest half an hour. --write replaces the page's section and result.json. The exit status is 1 if a

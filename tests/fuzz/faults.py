@@ -14,7 +14,7 @@ import subprocess
 import sys
 import tempfile
 
-CANNOT = 125  # not permitted on this machine
+CANNOT = 125  # exit status if this machine does not permit the fault
 CASE = {
     "id": "own", "title": "A cantilever",
     "model": {
@@ -30,7 +30,7 @@ CASE = {
 
 
 class Bench:
-    """Case, and the folder of a former call that must not be damaged."""
+    """A command with a case, and the folder of its earlier results, which must not be damaged."""
 
     def __init__(self, folder, command, program, library):
         self.folder, self.command, self.program, self.library = folder / command, command, program, library
@@ -66,7 +66,7 @@ class Bench:
                 if file.is_file() and file.suffix != ".cbor" and ".part-" not in file.name}
 
     def damage(self):
-        """Returns a fault of the former or new results, or an empty text."""
+        """Returns a description of the damage to the results, or an empty text."""
         try:
             if len(json.loads((self.out / "results.json").read_text())["runs"]) != 2:
                 return "results.json has lost runs"
@@ -101,7 +101,7 @@ class Faults:
             row[4] += 1
             print(f"{bench.command}: {what} {how.get('fault') or ''}: {wrong}: {said[-300:].strip()}")
 
-    def tell(self):
+    def print_table(self):
         print(f"{'fault':34}{'calls':>7}{'status 0':>10}{'refused':>9}{'not here':>10}{'wrong':>7}")
         for what, row in self.rows.items():
             print(f"{what:34}{row[0]:7}{row[1]:10}{row[2]:9}{row[3]:10}{row[4]:7}")
@@ -191,7 +191,7 @@ def main():
             fail_memory_and_disk(faults, bench, many)
             send_signals(faults, bench)
         change_surroundings(faults, bench)
-    return faults.tell()
+    return faults.print_table()
 
 
 if __name__ == "__main__":

@@ -38,7 +38,7 @@ struct Options {
   std::vector<fs::path> files;
 };
 
-/// State of an input, shared by all processes; it remains if the process that handles it dies.
+/// State of an input in shared memory. It remains if the process that handles the input dies.
 struct Slot {
   enum class Stage { open, reading, computing, done } stage;
   Outcome outcome;
@@ -66,8 +66,8 @@ struct Board {
 
 using Maker = std::function<Input(std::size_t)>;
 
-/// Limits the processor time of this process from now on [s]; the limit of wall time is much
-/// larger.
+/// Limits the further processor time of this process [s]. It also sets a much larger limit of wall
+/// time.
 void limit_time(double seconds) {
   const auto whole = static_cast<time_t>(seconds);
   const itimerval timer{{0, 0}, {whole, static_cast<suseconds_t>(1e6 * (seconds - double(whole)))}};
@@ -75,8 +75,8 @@ void limit_time(double seconds) {
   alarm(60 + 20 * static_cast<unsigned>(seconds));
 }
 
-void take_all(Board& board, const Maker& make, std::size_t first, std::size_t last,
-              double limit_s) {
+void test_batch(Board& board, const Maker& make, std::size_t first, std::size_t last,
+                double limit_s) {
   const fs::path folder = fs::temp_directory_path() / ("trammel-fuzz-" + std::to_string(getpid()));
   fs::create_directories(folder);
   std::cout.setstate(std::ios::badbit);  // the output of commands is not needed
@@ -86,7 +86,7 @@ void take_all(Board& board, const Maker& make, std::size_t first, std::size_t la
     const Input input = make(i);
     slot.stage = Slot::Stage::reading;
     limit_time(kReading_s);
-    const Verdict verdict = take(input, folder, [&] {
+    const Verdict verdict = test_input(input, folder, [&] {
       slot.stage = Slot::Stage::computing;
       limit_time(limit_s);
     });
@@ -96,8 +96,9 @@ void take_all(Board& board, const Maker& make, std::size_t first, std::size_t la
   fs::remove_all(folder);
 }
 
-/// Fills the slots. If a process dies, another one continues with the next open slot.
-void fill(Board& board, const Maker& make, const Options& options) {
+/// Processes all inputs in forked processes, and stores their outcomes in the slots. If a process
+/// dies, another process continues with its next open slot.
+void test_all(Board& board, const Maker& make, const Options& options) {
   constexpr std::size_t kBatch = 50;
   std::vector<std::pair<std::size_t, std::size_t>> batches;
   for (std::size_t i = 0; i < board.size; i += kBatch)
@@ -107,7 +108,7 @@ void fill(Board& board, const Maker& make, const Options& options) {
     std::vector<harness::ProcessTask> tasks;
     for (const auto& [first, last] : batches)
       tasks.push_back({[&, first = first, last = last] {
-                         take_all(board, make, first, last, options.limit_s);
+                         test_batch(board, make, first, last, options.limit_s);
                          return std::string();
                        },
                        100000});
@@ -132,9 +133,11 @@ void fill(Board& board, const Maker& make, const Options& options) {
   }
 }
 
-/// Prints a table by kind and a line for each finding, and saves the input of each finding.
+/// Prints a table of outcomes by type of input, and a line for each finding. Saves the input of
+/// each finding.
 /// @returns the number of findings
-std::size_t tell(Board& board, const Maker& make, const std::string& what, const Options& options) {
+std::size_t print_findings(Board& board, const Maker& make, const std::string& what,
+                           const Options& options) {
   std::map<std::string, std::array<std::size_t, kOutcomes>> counts;
   std::size_t findings = 0;
   for (std::size_t i = 0; i < board.size; ++i) {
@@ -183,8 +186,8 @@ std::size_t run_files(const std::vector<fs::path>& files, Options options) {
   };
   options.limit_s = 5;
   Board board(files.size());
-  fill(board, make, options);
-  return tell(board, make, "file", options);
+  test_all(board, make, options);
+  return print_findings(board, make, "file", options);
 }
 
 std::size_t run_made(const Options& options) {
@@ -196,8 +199,8 @@ std::size_t run_made(const Options& options) {
   };
   Board board(one ? 1 : options.inputs);
   const harness::Stopwatch watch;
-  fill(board, make, options);
-  const std::size_t findings = tell(board, make, "input", options);
+  test_all(board, make, options);
+  const std::size_t findings = print_findings(board, make, "input", options);
   rusage used{};
   getrusage(RUSAGE_CHILDREN, &used);
   std::cout << "seed " << options.seed << ", " << watch.wall_s() << " s, largest memory "

@@ -23,8 +23,7 @@ auto one_of(Random& random, const List& list) {
   return list[below(random, list.size())];
 }
 
-/// Returns a name related to a document: a key, a word, a pointer to a value, or a word after a
-/// colon.
+/// Returns a name from a document: a key, a word, a pointer to a value, or a word after a colon.
 std::string any_word(Random& random, const Json& document) {
   static const Json odd =
       Json::parse(R"(["", " ", "x", "..", "/", "~", "-1", "0", "base", "a:b", ":", "../x", "=1+1",
@@ -96,7 +95,8 @@ void erase(Json& json, const JsonPointer& at) {
   around.is_array() ? around.erase(std::stoul(at.back())) : (void)around.erase(at.back());
 }
 
-/// Damages the text itself. @returns a description of the change
+/// Changes characters of the text, regardless of its structure.
+/// @returns a description of the change
 std::string disturb_text(Random& random, std::string& text) {
   const std::size_t at = below(random, text.size());
   static const std::vector<std::string> pieces = [] {
@@ -176,7 +176,7 @@ Mutator::Mutator(const std::vector<Json>& results) {
     if (entry.path().extension() == ".json")
       add("reference", entry.path().stem(), harness::read_json(entry.path()));
   for (const Json& json : results) add("results", "results", json);
-  // Directories are listed in different orders on different systems.
+  // Sorting makes the inputs independent of the order in which a system lists directories.
   for (auto& [kind, origins] : origins_)
     std::stable_sort(origins.begin(), origins.end(),
                      [](const Origin& a, const Origin& b) { return a.name < b.name; });
@@ -223,7 +223,7 @@ Json Mutator::generate(Random& random, const Schema& schema, const Json& rule, c
   return object;
 }
 
-/// Changes the document at a random place.
+/// Changes the document at a random pointer.
 void Mutator::change(Random& random, const std::string& kind, Json& json, Input& input) const {
   const Schema& schema = schemas_.at(kind);
   const auto places = schema.places(json);
@@ -240,7 +240,7 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
       erase(json, at);
       break;
     case 1:
-      note("made anew");
+      note("generated again");
       value = generate(random, schema, rule, json, 0);
       break;
     case 2:
@@ -258,7 +258,7 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
                                                Json::object(), Json::array({1, 2})});
       note("retyped");
       break;
-    case 5: {  // adds a key that the rule has, or one that it does not have
+    case 5: {  // adds a key that the rule allows, or a key that it does not allow
       const Json properties = rule.empty() ? json : rule.value("properties", Json::object());
       const std::string key =
           properties.empty() || below(random, 6) == 0
@@ -275,16 +275,16 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
       note("added '" + key + "' to");
       break;
     }
-    default: {  // copies the value at such a place of another file
+    default: {  // copies a value with the same rules from another file
       const Origin& other = origins_.at(kind)[below(random, origins_.at(kind).size())];
       std::vector<const Place*> alike;
       for (const Place& candidate : other.places)
         if (!candidate.rules.empty() && candidate.rules == place.rules) alike.push_back(&candidate);
       if (!alike.empty()) value = other.json.at(one_of(random, alike)->at);
-      note("taken from " + other.name);
+      note("copied from " + other.name + " to");
     }
   }
-  // The surrounding value must obey its rule, too.
+  // The object or array that contains the changed value must also obey its rule.
   if (!place.is_certain || json.contains("extends")) return;
   const Json found = json.value(at, Json());
   const bool erased = !json.contains(at);
@@ -312,9 +312,8 @@ Input Mutator::make(std::uint32_t seed, std::uint32_t number, const std::string&
   constexpr std::size_t kMostChanges = 3;
   const std::size_t changes =
       below(random, 20) == 0 ? 0 : 1 + below(random, 2) * below(random, kMostChanges);
-  for (std::size_t i = 0; i < changes; ++i) {
+  for (std::size_t i = 0; i < changes; ++i)
     change(random, input.kind, json, input);
-  }
   if (changes > 1) input.is_invalid = false;  // a second change may repair the first
   if (as_variant) {
     Json patch = merge_patch(origin.json, json);

@@ -13,11 +13,11 @@
 namespace trammel::fuzz {
 
 struct Input {
-  std::string kind;         ///< case, cost, claims, reference or results
+  std::string kind;         ///< type of file: case, cost, claims, reference or results
   std::string name;         ///< of its file, without .json
-  std::string text, how;    ///< `how`: the changes
-  bool is_invalid = false;  ///< by construction; accepting it is a finding
-  std::size_t pick = 0;     ///< selects the variant to compute, modulo their number
+  std::string text, how;    ///< content of the file, and a description of the changes
+  bool is_invalid = false;  ///< known to be invalid, so that accepting it is a finding
+  std::size_t pick = 0;     ///< selects the variant to compute, modulo the number of variants
 };
 
 class Mutator {
@@ -25,7 +25,8 @@ class Mutator {
   /// Reads the catalogue. @param results  results files to start from
   explicit Mutator(const std::vector<Json>& results);
 
-  /// Returns the same input for the same seed and number. @param kind  empty: any kind
+  /// Returns the input with this number in the sequence of a seed.
+  /// @param kind  type of file; empty: any type
   [[nodiscard]] Input make(std::uint32_t seed, std::uint32_t number, const std::string& kind) const;
 
   static const std::vector<std::string>& kinds();

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs cases to the end, and again with ten kills at random times, each followed by --resume.
+"""Runs cases without interruption, and again with ten kills at random times, each followed by a call with --resume.
 
 Arguments: the program, then words for `run`, such as -L beam (the catalogue without slow cases by default). Prints the number of runs
 that each call found in the store. The exit status is 1 if the two results.json differ in more than times and date, or if a stored

@@ -5,25 +5,25 @@
 
 #include "harness/base/json.h"
 
-/// Second reader of cases/schema. It decides which values the rules forbid, independently of the
-/// reader under test.
+/// Second reader of the schemas in cases/schema. It determines the values that the rules forbid,
+/// independently of the reader under test.
 namespace trammel::fuzz {
 
 using harness::Json;
 using harness::JsonPointer;
 
-/// Value in a document, with the rules that apply to it.
+/// Pointer to a value in a document, with the rules of the schema that apply to the value.
 struct Place {
   JsonPointer at;
   std::vector<const Json*> rules;  ///< alternatives; empty: unknown
-  bool is_certain = false;         ///< no choice between rules on the path to it
+  bool is_certain = false;         ///< no alternatives of rules above the value
 };
 
 class Schema {
  public:
   explicit Schema(const std::string& name);
 
-  /// Returns the places of the document and of all values in it.
+  /// Returns the document and all values in it, with their pointers and rules.
   [[nodiscard]] std::vector<Place> places(const Json& document) const;
   /// Returns the alternatives of a rule, with references resolved.
   [[nodiscard]] std::vector<const Json*> alternatives(const Json& rule) const;

@@ -32,7 +32,8 @@ const Catalogue& catalogue() {
   return all;
 }
 
-/// Computes and judges a variant as `run` does. @param all  includes sweeps and uncertainties
+/// Computes and judges a variant as the command `run` does.
+/// @param all  includes sweeps and uncertainties
 void compute(const Case& given, const std::string& variant, bool all) {
   const References references;
   const Document document = patched(given, variant);
@@ -63,7 +64,7 @@ void compute(const Case& given, const std::string& variant, bool all) {
   (void)results::read_results(results::to_json(results_of({run}, {given}, references)));
 }
 
-void take_case(const fs::path& file, std::size_t pick, const std::function<void()>& computing) {
+void test_case(const fs::path& file, std::size_t pick, const std::function<void()>& computing) {
   const Case given = load_case(file, catalogue());
   std::vector<std::string> variants = given.variants();
   const auto own = std::find(variants.begin(), variants.end(), "fuzz");
@@ -76,7 +77,7 @@ void take_case(const fs::path& file, std::size_t pick, const std::function<void(
   for (const std::string& variant : variants) compute(given, variant, pick % 4 == 0);
 }
 
-void take_claims(const fs::path& file) {
+void test_claims(const fs::path& file) {
   static const std::vector<Case> cases = {load_case(catalogue().find_case("table-2-audit")),
                                           load_case(catalogue().find_case("claims-audit"))};
   Document claims = Document::from_json(file.string(), read_json(file));
@@ -93,7 +94,7 @@ void take_claims(const fs::path& file) {
   (void)results::to_json(evaluate_claims(claims, runs));
 }
 
-void take_results(const fs::path& file, const fs::path& sample) {
+void test_results(const fs::path& file, const fs::path& sample) {
   try {
     reports::write_junit(results::read_results(file), file.parent_path() / "junit.xml");
   } catch (const std::runtime_error& error) {
@@ -104,7 +105,7 @@ void take_results(const fs::path& file, const fs::path& sample) {
   (void)compare_command(compare, {});
 }
 
-void take_references(const fs::path& file) {
+void test_references(const fs::path& file) {
   const References library;
   const Json family = read_json(file);
   if (!family.is_object()) throw InputError(file.string(), "", "expected an object");
@@ -113,26 +114,26 @@ void take_references(const fs::path& file) {
       (void)library.add(file.string() + "#/" + item.key());
 }
 
-void take_file(const Input& input, const fs::path& file, const std::function<void()>& computing) {
-  if (input.kind == "case") take_case(file, input.pick, computing);
+void test_file(const Input& input, const fs::path& file, const std::function<void()>& computing) {
+  if (input.kind == "case") test_case(file, input.pick, computing);
   if (input.kind == "cost")
     for (const SweepExtent extent : {SweepExtent::quick, SweepExtent::full})
       (void)load_cost_study(file, extent, References());
-  if (input.kind == "claims") take_claims(file);
-  if (input.kind == "reference") take_references(file);
+  if (input.kind == "claims") test_claims(file);
+  if (input.kind == "reference") test_references(file);
   if (input.kind != "results") return;
   const fs::path sample = file.parent_path() / "sample.json";
   if (!fs::exists(sample)) write_file(sample, sample_results().dump());
-  take_results(file, sample);
+  test_results(file, sample);
 }
 
-/// Checks that a refusal is one line that names a place.
+/// Checks that the message of a refusal is one line with a position in the file.
 Verdict judge_refusal(const std::string& message) {
   static const std::regex place("(: /|: line |at byte |expected )");
   const bool is_line = std::none_of(message.begin(), message.end(),
                                     [](unsigned char c) { return c < 0x20 || c == 0x7f; });
   if (!is_line) return {Outcome::wrong, "control characters in: " + message};
-  if (!std::regex_search(message, place)) return {Outcome::wrong, "no place in: " + message};
+  if (!std::regex_search(message, place)) return {Outcome::wrong, "no position in: " + message};
   return {Outcome::refused, message};
 }
 
@@ -161,17 +162,18 @@ Json sample_results() {
   return sample;
 }
 
-Verdict take(const Input& input, const fs::path& folder, const std::function<void()>& computing) {
+Verdict test_input(const Input& input, const fs::path& folder,
+                   const std::function<void()>& computing) {
   const fs::path file = folder / (input.name + ".json");
   std::ofstream(file, std::ios::binary) << input.text;
   try {
-    take_file(input, file, computing);
-    if (input.is_invalid) return {Outcome::wrong, "accepted, though it breaks the schema"};
+    test_file(input, file, computing);
+    if (input.is_invalid) return {Outcome::wrong, "accepted, although the schema forbids it"};
     return {Outcome::valid, ""};
   } catch (const InputError& error) {
     return judge_refusal(one_line(error.what()));
   } catch (const std::bad_alloc&) {
-    return {Outcome::no_memory, "more memory than there is"};
+    return {Outcome::no_memory, "the input requires too much memory"};
   } catch (const std::exception& error) {
     return {Outcome::internal, error.what()};
   }

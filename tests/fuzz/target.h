@@ -7,14 +7,15 @@
 
 #include "tests/fuzz/mutator.h"
 
-/// Code under test: everything that the program does with an input file, in this process.
+/// Code under test: reads an input file and computes and judges it as the program does, in this
+/// process.
 namespace trammel::fuzz {
 
 enum class Outcome { unfinished, valid, refused, no_memory, crash, hang, stopped, internal, wrong };
 inline constexpr std::size_t kOutcomes = 9;
 /// Returns the name of an outcome. hang: time limit exceeded while reading. stopped: time limit
-/// exceeded while computing, which a case may require. internal: an exception that no input may
-/// cause. wrong: invalid input was accepted, or refused without a line that names a place.
+/// exceeded while computing, which is permitted. internal: an exception that no input may cause.
+/// wrong: invalid input was accepted, or refused without a position in the file.
 [[nodiscard]] const char* to_string(Outcome outcome);
 [[nodiscard]] bool is_finding(Outcome outcome);
 
@@ -26,9 +27,10 @@ struct Verdict {
 /// Returns results of a few small cases to start from.
 [[nodiscard]] harness::Json sample_results();
 
+/// Reads an input, and computes and judges it if it is a case.
 /// @param folder     folder for the input file
-/// @param computing  called after reading
-[[nodiscard]] Verdict take(const Input& input, const std::filesystem::path& folder,
-                           const std::function<void()>& computing);
+/// @param computing  called after reading, before the computation
+[[nodiscard]] Verdict test_input(const Input& input, const std::filesystem::path& folder,
+                                 const std::function<void()>& computing);
 
 }  // namespace trammel::fuzz

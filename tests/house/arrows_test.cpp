@@ -1,5 +1,5 @@
-// Tests the rooms and the allowed includes between them, as listed in the tables of
-// CONTRIBUTING.md.
+// Tests that sources only include headers of the rooms (folders) that the tables of CONTRIBUTING.md
+// allow.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
@@ -226,7 +226,7 @@ BOOST_AUTO_TEST_CASE(folder_readme_lists_its_rooms_and_their_arrows) {
   }
 }
 
-// The linker would merge two types of one name, which corrupts memory.
+// The linker would merge two different types with the same name, which corrupts memory.
 BOOST_AUTO_TEST_CASE(types_of_a_namespace_have_unique_names) {
   static const std::regex space("^namespace (trammel\\S*) \\{"),
       type("^(struct|class|enum class) (\\w+)(<.*>)? (: .*)?\\{.*");

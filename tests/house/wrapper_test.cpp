@@ -28,7 +28,7 @@ void write_script(const fs::path& file, const std::string& text) {
   fs::permissions(file, fs::perms::owner_all);
 }
 
-/// Checkout with the wrapper and a stub of cmake that takes a while and records simultaneous calls.
+/// Checkout with the wrapper and a stub of cmake. The stub is slow, and records simultaneous calls.
 class Checkout {
  public:
   Checkout() {

@@ -1,4 +1,4 @@
-"""Laws by which quantities change under a transformation, and their comparison."""
+"""Predicts how quantities change under a transformation of a case (a law), and compares predictions with results."""
 
 import math
 import re
@@ -33,7 +33,7 @@ class Law:
             if UNCOUNTED.match(name) or (self.ignore_extremes and name.split(":")[-1] in self.ignore_extremes):
                 continue
             if self.rotation and PEAK.match(name):
-                continue  # the largest component along an axis has no law
+                continue  # the peak of a rotated component does not follow from the peaks of the components
             if self.rotation and re.search("_(xx|yy|xy)_", name):
                 values[name] = self.turned_stress(name, quantities)
             elif self.rotation and re.search("_[xy]_", name):
@@ -46,7 +46,7 @@ class Law:
         return values
 
     def turned(self, name, quantities):
-        """Returns both components of a vector; a support along one axis has one component, and the other is zero."""
+        """Returns both components of the rotated vector. If a reaction lacks one component, it is zero."""
         names = [re.sub("_[xy]_", f"_{axis}_", name, count=1) for axis in "xy"]
         zero = [0.0] * len(quantities[name])
         x, y = (quantities.get(n, zero) for n in names)
@@ -77,15 +77,15 @@ class Law:
 
 
 def kind(name):
-    """Returns the kind of a quantity: force, moment, energy or stress, or else its name without place and axis."""
+    """Returns the dimension of a quantity (force, moment, energy or stress), or its name without node and axis."""
     head = name.split(":")[0]
     unit = next((u for u in ("_N_m", "_N", "_J", "_Pa") if head.endswith(u)), None)
     return unit or re.sub(r"_([xy]|xx|yy|xy)(?=_|$)", "", head)
 
 
 def scales(values, forces, size, stiffness):
-    """Returns the largest magnitude of each kind in a case. Forces and moments have one scale by the model's size,
-    which includes the applied forces."""
+    """Returns the largest magnitude of each kind of quantity in a case. The scale of moments is that of forces, which includes
+    the applied forces, times the size of the model."""
     largest = {"_N": forces}
     for name, series in values.items():
         for value in series:
@@ -93,7 +93,7 @@ def scales(values, forces, size, stiffness):
                 largest[kind(name)] = max(largest.get(kind(name), 0.0), abs(value))
     for head in ("displacement_m", "velocity_m_per_s", "motion_velocity_m_per_s"):  # round-off error of positions is 1e-16 of the size
         largest[head] = max(largest.get(head, 0.0), ROUNDOFF * size)
-    for turn, length in TURNS.items():  # a rotation by the displacement of its points over the model's size
+    for turn, length in TURNS.items():  # scale of rotations: displacement over the size of the model
         largest[turn] = max(largest.get(turn, 0.0), largest.get(length, 0.0) / size)
     moved = largest.get("displacement_m", 0.0) / size
     largest["_N"] = max(largest["_N"], largest.get("_N_m", 0.0) / size, ROUNDOFF * moved * stiffness)
@@ -128,8 +128,8 @@ def stated_roundoff(*runs):
 
 
 def differences(expected, obtained, tolerance, model, stated):
-    """Returns (name, expected, obtained, error over the scale of the kind) if the error exceeds the tolerance, and
-    the largest of the other errors."""
+    """Returns (name, expected, obtained, error relative to the scale) for each quantity beyond the tolerance, and the
+    largest error of the other quantities."""
     scale, found, largest_error = scales(expected, *forces_and_size(model)), [], 0.0
     for name, series in expected.items():
         other = obtained.get(name)

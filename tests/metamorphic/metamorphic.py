@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs transformed cases of the catalogue and compares the results with the predictions by the law of each
-transformation. The exit status is 1 if a difference is neither within tolerance nor in exceptions.json."""
+"""Runs transformed cases of the catalogue, such as rotated models. Compares the results with those predicted from the original case.
+The exit status is 1 if a difference is neither within tolerance nor in exceptions.json."""
 
 import argparse
 import collections
@@ -23,10 +23,10 @@ from transformations import ALL, Skip
 
 HERE = pathlib.Path(__file__).parent
 CASES = HERE.parent.parent / "cases"
-# Relative to the scale of the kind of quantity, in addition to the stated round-off error. If the program states one, 1e-9
-# allows for quantities that are differences of others. Otherwise round-off error grows with the condition number and the
-# number of steps. Searches (peaks, sensitivities by differences) stop at 1e-7. Iterations of large motions and paths stop at
-# up to 1e-6 of small responses.
+# Tolerances relative to the largest quantity of the same kind, in addition to the round-off error that the program estimates.
+# With such an estimate, 1e-9 allows for cancellation in differences of quantities. Otherwise, the tolerance includes round-off
+# error, which grows with the condition number and the number of steps. Searches for peaks and difference quotients have errors
+# of 1e-7. Iterations of large motions and paths have errors of up to 1e-6 of small responses.
 TOLERANCE = collections.defaultdict(lambda: 1e-5, statics=1e-9, modes=1e-9, buckling=1e-9, harmonic=1e-6, transient=1e-6)
 SIGN_FREE = {"modes", "buckling"}  # shapes have no fixed sign and no fixed basis among repeated frequencies
 
@@ -70,7 +70,7 @@ def solve(program, folder, cases, seconds):
 
 
 def compare(analysis, options, law, before, after, model):
-    """Returns lines that describe differences from the law, and the largest difference over the scale."""
+    """Returns lines that describe differences from the predictions, and the largest difference relative to the scale."""
     if before["status"] != after["status"]:
         return [f"status: {before['status']} -> {after['status']} {after['reason'][:200]}"], 0.0
     if before["status"] != "solved":
@@ -83,14 +83,14 @@ def compare(analysis, options, law, before, after, model):
     expected, obtained = law.expected(before["quantities"]), after["quantities"]
     if analysis in SIGN_FREE:
         expected = {n: v for n, v in expected.items() if re.match(r"frequency|load_factor|critical|mass_kg|growth", n)}
-    if options.get("whole_path"):  # step control chooses the points of a path; only its events and its end have a law
+    if options.get("whole_path"):  # step control selects the points of a path; only events and the end are predicted
         expected = {n: v if re.match(r"limit_|bifurcation_", n) else v[-1:] for n, v in expected.items()}
         obtained = {n: v if re.match(r"limit_|bifurcation_", n) else v[-1:] for n, v in obtained.items()}
     if analysis == "harmonic":  # amplitudes, without phase
         expected, obtained = ({n: [v and abs(v) for v in s] for n, s in q.items()} for q in (expected, obtained))
     stated = stated_roundoff(before["roundoff"], after["roundoff"])
     tolerance = TOLERANCE[analysis]
-    if law.inert:  # more coordinates have other steps; each motion has the requested error
+    if law.inert:  # additional coordinates change the time steps; each motion has the requested error
         tolerance = max(tolerance, options.get("error_control", {}).get("relative", 0.0))
     found, largest = differences(expected, obtained, tolerance, model, stated)
     found.sort(key=lambda item: -item[3])

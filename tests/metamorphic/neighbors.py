@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs neighbors of inputs that once had wrong results: other numbers, angles, schemes and steps. Prints obtained and exact
-values, which follow from closed forms. The exit status is 1 if a value is wrong."""
+"""Runs variations of inputs that once had wrong results: other numbers, angles, schemes and steps. Prints the obtained values, and
+the exact values by closed forms. The exit status is 1 if a value is wrong."""
 
 import json
 import math

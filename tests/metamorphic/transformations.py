@@ -212,7 +212,7 @@ DEFAULTS = {
 
 
 def defaults(case):
-    """Writes the defaults of absent keys."""
+    """Adds absent keys with their default values."""
     model, analysis = plane_only(case)
     kind, options = next(iter(analysis.items()))
     if kind not in DEFAULTS:
@@ -249,7 +249,7 @@ def rotate(case):
     """Rotates the plane: by 0.7 rad, or by a right angle if parts lie along the world axes."""
     model, analysis = plane_only(case)
     if "harmonic" in analysis:
-        raise Skip("amplitudes of components have no law")
+        raise Skip("amplitudes of rotated components are not predictable")
     right = axis_bound(model, analysis)
     angle = math.pi / 2 if right else 0.7
     c, s = (0.0, 1.0) if right else (math.cos(angle), math.sin(angle))
@@ -422,7 +422,7 @@ def rescale(base, power):
 
 
 def inert(case):
-    """Adds a massless unloaded tail to a node that a member is welded to, and a load of zero."""
+    """Adds a massless unloaded member at a node with a welded member, and a load of zero. No result may change."""
     model, analysis = nodes_only(case)
     for member in model.get("members", {}).values():
         for node, end in zip(member["nodes"], member.get("ends", ["welded"] * 2)):

@@ -1,6 +1,6 @@
 #pragma once
 
-// Header that mutate.py includes before every source. The environment activates one of the faults.
+// Header that mutate.py includes before every source. An environment variable activates one fault.
 
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -39,7 +39,7 @@ inline bool fault(int number) {
   return number == mutation::active;
 }
 
-/// Returns a coefficient; with the fault, 1 + error times the coefficient. Integers become real
+/// Returns a coefficient, multiplied by 1 + error if the fault is active. Integers become real
 /// numbers.
 template <class T>
 auto scaled(int number, const T& x) {
@@ -47,7 +47,7 @@ auto scaled(int number, const T& x) {
   return fault(number) ? Number(Number(x) * (1 + mutation::error)) : Number(x);
 }
 
-/// Replaces the factor after + or - or a sign: `whole`, or `size` with the fault.
+/// Factor that is inserted after + or - or a sign. It is `whole`, or `size` if the fault is active.
 struct Factor {
   int number, size, whole = 1;
 };
@@ -57,7 +57,8 @@ auto operator*(Factor factor, const T& x) {
   return Number(fault(factor.number) ? factor.size : factor.whole) * x;
 }
 
-/// Replaces the operand after * or /: x, or 1 / x with the fault. Integers are indices.
+/// Switch that is inserted after * or /: the operand x becomes 1 / x if the fault is active.
+/// Integers are refused, because they are indices.
 struct Reciprocal {
   int number;
 };
@@ -67,8 +68,7 @@ T operator->*(Reciprocal reciprocal, const T& x) {
   return fault(reciprocal.number) ? T(1.0 / x) : x;
 }
 
-/// Follows a comparison operator and precedes it again; the fault replaces it by the other
-/// operator.
+/// Switch that is inserted as `a < Compared{n} < b`: an active fault changes < to <=, and so on.
 struct Compared {
   int number;
 };

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Finds out which seeded faults the catalogue detects. Faults are active one at a time, all in one build (seeding.py).
+"""Determines the seeded faults that the catalogue detects. One build contains all faults (seeding.py); one is active at a time.
 
 The environment names the active fault, and a mapped file records the faults that a case reaches. A first pass records these and the
 time of each case. Then each fault is active in the cases that reach it: expected families first, cheap cases first. The search ends
@@ -65,7 +65,7 @@ class Probe:
         self.seconds, self.reached, self.recorded = 0.0, set(), set()
         self.is_case = command[1] == "run"
 
-    def measure(self, faults):
+    def record_baseline(self, faults):
         """Records the time without faults, the stored runs, and the faults that the probe reaches."""
         with tempfile.NamedTemporaryFile() as log:
             log.write(bytes(4096))
@@ -73,7 +73,7 @@ class Probe:
             status, self.seconds, self.recorded, _ = run([self], 600, TRAMMEL_FAULT_LOG=log.name)
             marks = pathlib.Path(log.name).read_bytes()
         if status != 0:
-            sys.exit(f"{self.name} does not pass with no fault on (exit status {status})")
+            sys.exit(f"{self.name} fails without an active fault (exit status {status})")
         self.reached = {f["id"] for f in faults if marks[f["number"]]}
         return self
 
@@ -87,8 +87,8 @@ def run(probes, limit, **environment):
         return *call(command, out, limit, **environment), failing_cases(out)
 
 
-def notice(fault, probes, **environment):
-    """Returns the probe that detects the fault, the way of detection, and True if a stored run differs."""
+def find_detecting_probe(fault, probes, **environment):
+    """Returns the probe that detects the fault, the symptom, and True if a stored run differs."""
     limit = 2 + 10 * sum(p.seconds for p in probes)
     status, _, recorded, failing = run(probes, limit, TRAMMEL_FAULT_NUMBER=str(fault["number"]), **environment)
     if status == 0:
@@ -98,7 +98,7 @@ def notice(fault, probes, **environment):
         return probes[0], how, True
     # Without a named case, the call ended early, or only the bands of separate cases are too narrow.
     found = ((p, how, True) for p in probes if p.name in (failing or ()))
-    alone = (notice(fault, [p], **environment) for p in (probes if failing is None else ()))
+    alone = (find_detecting_probe(fault, [p], **environment) for p in (probes if failing is None else ()))
     return next(found, None) or next((f for f in alone if f[0]), (None, "", True))
 
 
@@ -133,14 +133,14 @@ def suites_of(program, folder, chosen):
             if not chosen or re.fullmatch(chosen, name)]
 
 
-def hunt(fault, probes, cap):
-    """Returns the outcome of a fault."""
+def find_outcome(fault, probes, cap):
+    """Returns the outcome of a fault: noticed by a probe, unnoticed, unchanged results, or not reached."""
     expected = fault["expected"] if isinstance(fault["expected"], list) else []
     near = sorted((p for p in probes if fault["id"] in p.reached),
                   key=lambda p: (p.seconds > cap, p.group not in expected, p.seconds))
     changed = False
     for chunk in chunks(near, expected):
-        probe, how, differs = notice(fault, chunk)
+        probe, how, differs = find_detecting_probe(fault, chunk)
         if probe:
             return {"outcome": "noticed", "by": probe.group, "probe": probe.name, "how": how}
         changed = changed or differs
@@ -154,7 +154,7 @@ def smallest_error(fault, probes, cap):
                   key=lambda p: p.seconds)
     best = None
     for exponent in range(-1, -13, -1):
-        found = (notice(fault, chunk, TRAMMEL_FAULT_ERROR=f"1e{exponent}")[0] for chunk in chunks(near))
+        found = (find_detecting_probe(fault, chunk, TRAMMEL_FAULT_ERROR=f"1e{exponent}")[0] for chunk in chunks(near))
         by = next((probe for probe in found if probe), None)
         if by is None:
             break
@@ -173,11 +173,11 @@ def as_expected(fault, found):
 
 
 def check_bits(build, probes):
-    """Checks that the program without an active fault computes the same bits as the one without switches."""
+    """Checks that the program without an active fault computes the same bits as the program without switches."""
     for probe in sorted(probes, key=lambda p: p.seconds)[::8]:
         plain = Probe(probe.name, probe.group, [build / "harness/trammel", *probe.command[1:]])
         if run([plain], 600)[2] != probe.recorded:
-            sys.exit(f"{probe.name}: the switches change what is computed")
+            sys.exit(f"{probe.name}: the inactive switches change the results")
 
 
 def main():
@@ -185,13 +185,13 @@ def main():
     parser.add_argument("build", type=pathlib.Path, help="a ready build folder")
     parser.add_argument("faults", nargs="*", type=pathlib.Path, help="files of faults; all by default")
     parser.add_argument("--out", type=pathlib.Path, help="BUILD/mutation by default")
-    parser.add_argument("--ids", help="seek only faults whose id matches this")
+    parser.add_argument("--ids", help="activate only faults whose id matches this")
     parser.add_argument("--quick", action="store_true", help="only faults that are marked as quick")
     parser.add_argument("--cases", help="only cases and suites whose name matches this")
-    parser.add_argument("--tests", nargs="*", default=[], help="folders of tests that may notice, too")
-    parser.add_argument("--cap", type=float, default=5, help="seconds; longer cases come last [5]")
-    parser.add_argument("--below-cap", action="store_true", help="leave the longer cases out")
-    parser.add_argument("--smallest-errors", action="store_true", help="of the coefficients")
+    parser.add_argument("--tests", nargs="*", default=[], help="folders of tests that may also detect faults")
+    parser.add_argument("--cap", type=float, default=5, help="time in seconds; cases that take longer run last [5]")
+    parser.add_argument("--below-cap", action="store_true", help="omit the cases that take longer than the cap")
+    parser.add_argument("--smallest-errors", action="store_true", help="determine the smallest detected error of each coefficient")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     given = parser.parse_args()
     build, out = given.build.resolve(), (given.out or given.build / "mutation").resolve()
@@ -206,11 +206,11 @@ def main():
         probes += suites_of(programs[f"tests/test_{folder}"], folder, given.cases)
     table = {}
     with concurrent.futures.ThreadPoolExecutor(given.jobs) as pool:
-        probes = list(pool.map(lambda p: p.measure(faults), probes))
+        probes = list(pool.map(lambda p: p.record_baseline(faults), probes))
         probes = [p for p in probes if not given.below_cap or p.seconds <= given.cap]
         check_bits(build, [p for p in probes if p.is_case])
         chosen = [f for f in faults if not given.ids or re.search(given.ids, f["id"])]
-        seek = smallest_error if given.smallest_errors else hunt
+        seek = smallest_error if given.smallest_errors else find_outcome
         found = [pool.submit(seek, fault, probes, given.cap) for fault in chosen]
         for fault, future in zip(chosen, found):
             entry = table[fault["id"]] = {"kind": fault["kind"], **future.result()}

@@ -19,7 +19,7 @@ FOLDERS = ("solver", "harness", "references", "reports", "tests")
 
 
 def number(faults):
-    """Numbers the faults and finds their places. A changed source text or a duplicate fault is an error."""
+    """Numbers the faults and locates their source texts. A changed source text or a duplicate fault is an error."""
     same = {}
     for index, fault in enumerate(faults):
         text = (ROOT / fault["file"]).read_text()
@@ -50,7 +50,7 @@ def load(files):
             faults.append({**fault, "kind": data["kind"]})
     ids = [fault["id"] for fault in faults]
     if len(set(ids)) < len(ids):
-        sys.exit(f"ids twice: {sorted({i for i in ids if ids.count(i) > 1})}")
+        sys.exit(f"duplicate ids: {sorted({i for i in ids if ids.count(i) > 1})}")
     return number(faults)
 
 
@@ -86,7 +86,7 @@ def patched(text, faults, begin=0, end=None):
         inner = [f for f in rest[1:] if f["span"][0] < high]
         rest = [f for f in rest[1:] if f["span"][0] >= high]
         if any(f["span"][1] > high for f in inner):
-            sys.exit(f"{outer['id']}: its text and another's overlap: {[f['id'] for f in inner]}")
+            sys.exit(f"{outer['id']}: its text overlaps the text of {[f['id'] for f in inner]}")
         out += text[at:low] + switched(outer, patched(text, inner, low, high))
         at = high
     return out + text[at:end]

@@ -16,7 +16,7 @@ HEADS = {"physical": "Physics", "coefficient": "Coefficients", "generic": "Gener
 
 
 def row_of(fault):
-    """Returns the row of a fault: the family or suite that detects it, or the reason why none does."""
+    """Returns the table row that counts a fault: its detecting family or suite, or the reason for no detection."""
     expected = fault["expected"]
     if isinstance(expected, str):
         return "Not detected: " + ("equivalent or unobservable" if expected.startswith("survives") else "open")

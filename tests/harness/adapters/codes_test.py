@@ -13,7 +13,7 @@ import tempfile
 
 # case or case:variant, quantity, and its tolerance relative to the largest entry
 CALCULIX = {
-    "cantilever-tip-force": {"reaction_y_N:A": 1e-8, "bending_moment_N_m:AB.start": 1e-8},  # all digits, from the restart file
+    "cantilever-tip-force": {"reaction_y_N:A": 1e-8, "bending_moment_N_m:AB.start": 1e-8},  # the restart file has all digits
     "portal-frame": {"displacement_x_m:B": 1e-8, "rotation_rad:C": 1e-8, "reaction_moment_N_m:A": 1e-8},
     "timoshenko-cantilever-tip-force": {"displacement_y_m:B": 1e-9},
     "exact-statics:welded-hinged-start": {"rotation_rad:P": 1e-8, "reaction_x_N:A3": 1e-7},  # P has no rotation without U1
@@ -35,7 +35,7 @@ GETFEM = {
     "cooks-membrane": {"displacement_y_m:M": 1e-8, "compliance_J": 1e-8},
     "macneal-harder-beam": {"displacement_y_m:C": 1e-7},
     "nafems-le1": {"stress_yy_Pa:D": 1e-6, "displacement_y_m:B": 1e-6},
-    "pressurised-ring": {"displacement_x_m:A": 1e-8, "stress_yy_Pa:A": 1e-4},  # other averaging points in a curved triangle
+    "pressurised-ring": {"displacement_x_m:A": 1e-8, "stress_yy_Pa:A": 1e-4},  # stresses of curved triangles are averaged at different points
     "nafems-fv32:three-node": {"frequency_Hz": 1e-10},
     "nafems-t33": {"frequency_Hz": 1e-8},
 }

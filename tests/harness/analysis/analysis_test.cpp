@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(overflowing_number_is_not_solved) {
   BOOST_TEST(result.quantities.empty());
 }
 
-BOOST_AUTO_TEST_CASE(intended_gap_is_solved) {
+BOOST_AUTO_TEST_CASE(intended_nan_does_not_prevent_the_status_solved) {
   Recorder record;
   record.add_or_gap("a", "", std::nan(""));
   record.add("a", "", 1);
@@ -196,8 +196,9 @@ BOOST_AUTO_TEST_CASE(catalogue_stays_below_the_limit_of_memory) {
   }
 }
 
-/// With upward rounding a step once ended on another branch with one unstable direction. The change
-/// of stability was counted as an event, although there was none between the two points.
+/// With upward rounding, a step along the path once ended on another branch of equilibria with one
+/// unstable direction. The change of stability was reported as an event, although the path has none
+/// between its points.
 BOOST_AUTO_TEST_CASE(path_of_equilibria_keeps_its_branch_in_any_rounding) {
   const Document arch = patched(load_named_case("shallow-arch"), "nearly-perfect");
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO, FE_TONEAREST}) {

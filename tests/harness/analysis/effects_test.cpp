@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(automatic_effects_state_numbers_and_reasons) {
   BOOST_TEST(!result_of(json).effects.at(static_cast<std::size_t>(Effect::shear)).active);
 }
 
-/// A study measures the changes that the dimensionless numbers bound.
+/// Compares the measured change without shear flexibility with beam theory.
 BOOST_AUTO_TEST_CASE(effect_study_measures_each_contribution) {
   const Folder folder;
   const Document document = patched(testing::read(folder, timoshenko_cantilever()), "base");
@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(effect_study_measures_each_contribution) {
   }
 }
 
-/// One number of each kind is compared with its definition.
+/// Compares one dimensionless number of each type with its definition.
 BOOST_AUTO_TEST_CASE(effect_numbers_are_ratios_of_stiffness_and_inertia) {
   Model model;
   model.nodes = {{"A", {0, 0}}, {"B", {3, 4}}};
@@ -109,7 +109,8 @@ BOOST_AUTO_TEST_CASE(effect_numbers_are_ratios_of_stiffness_and_inertia) {
   BOOST_TEST(!numbers[static_cast<std::size_t>(Effect::platform_flexibility)].value);
 }
 
-/// Lists the expensive effects of each scene; effects without cost may stay.
+/// Each scene must select exactly the listed effects that increase the computing time. It may also
+/// select other effects.
 BOOST_AUTO_TEST_CASE(scenes_use_only_the_expensive_effects_they_require) {
   const std::map<std::string, std::string> expected = {
       {"scene-10-newton", "geometric-stiffening and large-displacement"},
@@ -158,9 +159,9 @@ BOOST_AUTO_TEST_CASE(scenes_use_only_the_expensive_effects_they_require) {
   }
 }
 
-/// Large displacement was once estimated from the linear state without the factor 1 / (1 - P /
-/// Pcr).
-BOOST_AUTO_TEST_CASE(columns_near_buckling_get_the_required_tier) {
+/// The importance of large displacement was once estimated from the displacements of linear theory,
+/// without the factor 1 / (1 - P / Pcr) of a compressed column.
+BOOST_AUTO_TEST_CASE(columns_near_buckling_get_the_required_theory) {
   const Case columns = load_named_case("scene-columns-near-buckling");
   for (const std::string& variant : columns.variants()) {
     if (variant.find("whole") != std::string::npos) continue;
@@ -174,8 +175,8 @@ BOOST_AUTO_TEST_CASE(columns_near_buckling_get_the_required_tier) {
   }
 }
 
-/// Linear theory has the same error there as in statics along the same circle. The exact tier is
-/// required.
+/// On the slow circle, linear theory has the same error as in statics, between 3 % and 15 %. The
+/// geometrically exact theory is required.
 BOOST_AUTO_TEST_CASE(slow_circle_under_10_N_uses_large_displacement) {
   const Case circle = load_named_case("scene-slow-circle");
   const EffectStudy study = study_effects(patched(circle, "ten-newton"), {0.01, 0});
@@ -188,8 +189,8 @@ BOOST_AUTO_TEST_CASE(slow_circle_under_10_N_uses_large_displacement) {
   }
 }
 
-/// A sudden start excites stiff parts. The platform's flexibility has only 3e-6 of the strain
-/// energy, but without it the largest force was wrong by 28 %.
+/// A sudden start excites stiff parts. The flexible platform has only 3e-6 of the strain energy,
+/// but if it is modeled as rigid, the largest force is wrong by 28 %.
 BOOST_AUTO_TEST_CASE(sudden_start_keeps_stiff_parts) {
   Json json = patched(load_named_case("scene-slow-circle"), "base").value();
   json.erase("extends");
@@ -201,8 +202,8 @@ BOOST_AUTO_TEST_CASE(sudden_start_keeps_stiff_parts) {
   BOOST_TEST(choice.chosen.has(Effect::platform_flexibility));
 }
 
-/// Along a path the exact tier supports fixed steps and driven actuators only.
-BOOST_AUTO_TEST_CASE(motion_beyond_every_tier_is_reported) {
+/// Along a path, the geometrically exact theory requires fixed time steps and driven actuators.
+BOOST_AUTO_TEST_CASE(motion_beyond_every_theory_is_reported) {
   Document document = patched(load_named_case("scene-slow-circle"), "ten-newton");
   document.apply_patch(
       "test", "", {{"analysis", {{"elastodynamics", {{"error_control", {{"relative", 1e-6}}}}}}}});

@@ -183,6 +183,7 @@ const std::vector<Call> kCalls = {
     {"list", 0, {"manipulator-modes"}},
     {"run holds.json", 0, {"pass", "1 check with 1 number: 1 pass"}},
     {"run fails.json", 1, {"fail"}},
+    {"run holds.json --quiet >all.txt; grep -c . all.txt", 0, {"2\n"}},
     {"run narrow.json", 0, {"[-100.0000001, -99.9999999]"}},
     {"run frequencies.json", 0, {"frequency_Hz"}},
     {"run modes.json", 1, {"(known here: degrees_of_freedom,"}},
@@ -459,7 +460,7 @@ BOOST_AUTO_TEST_CASE(comparison_is_a_page_of_one_file) {
   BOOST_TEST(std::distance(begin(files), end(files)) == 1);
 }
 
-BOOST_AUTO_TEST_CASE(case_is_certified_over_ways_of_rounding) {
+BOOST_AUTO_TEST_CASE(case_is_certified_over_rounding_modes) {
   const Folder folder;
   const Outcome outcome = run(folder, "certify cantilever-tip-force");
   BOOST_TEST(outcome.status == 0, outcome.err);

@@ -16,8 +16,8 @@
 
 BOOST_AUTO_TEST_SUITE(exported_case)
 
-/// Tests that an exported case is the same computation and contains everything that another code
-/// needs.
+/// Tests that an exported case has the same results as its original, and contains all data that
+/// another code requires.
 using namespace trammel;
 using namespace trammel::harness;
 using namespace trammel::testing;
@@ -94,8 +94,8 @@ BOOST_AUTO_TEST_CASE(beginning_of_a_motion_is_exported_bit_for_bit) {
   }
 }
 
-// Sections of tapers are written as E and A, whose product is wrong in the last bit. Forces on
-// edges are added at nodes before those of members.
+// The export writes the sections of tapered members as E and A; their product differs from EA in
+// the last bit. It also adds forces on edges to the nodes before those on members.
 BOOST_AUTO_TEST_CASE(tapers_arcs_and_edges_are_exported_to_round_off) {
   check_twins({"ansys-vm34", "ansys-vm61", "cooks-membrane", "nafems-ring", "tapered-cantilever",
                "vpcs-sdll10"},
@@ -126,8 +126,8 @@ BOOST_AUTO_TEST_CASE(exported_quantities_are_those_of_the_exported_case) {
   }
 }
 
-// The variant has no check itself. It once exported no quantities, and the base could not be
-// compared.
+// The variant has no checks, but a check of the base compares with it. The export of the variant
+// once had no quantities, so that the base could not be judged.
 BOOST_AUTO_TEST_CASE(variant_exports_quantities_that_others_compare) {
   const Case given = load_named_case("scene-thick-link-modes");
   const Json asked = export_case(given, {"whole"})["export"]["quantities"];

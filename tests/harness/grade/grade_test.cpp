@@ -213,7 +213,8 @@ BOOST_AUTO_TEST_CASE(documented_adapter_works_unchanged) {
         row.case_id << ": " << row.reason);
 }
 
-/// Returns the faults in the table of the adapters' README and the cases that detect each of them.
+/// Returns the faults in the table of harness/adapters/README.md, each with the cases that detect
+/// it.
 std::map<std::string, std::set<std::string>> documented_faults() {
   std::map<std::string, std::set<std::string>> faults;
   std::istringstream page(read_text(kSource / "harness/adapters/README.md"));
@@ -230,7 +231,7 @@ std::map<std::string, std::set<std::string>> documented_faults() {
   return faults;
 }
 
-/// Returns those of the named cases that are graded as off.
+/// Grades the faulty solver on the named cases. @returns the cases whose grade is "off"
 std::set<std::string> off_cases(const Folder& folder, const std::string& fault,
                                 const std::set<std::string>& cases, int status) {
   std::string names;

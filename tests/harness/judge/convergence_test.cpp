@@ -11,7 +11,7 @@ namespace {
 
 /// Returns the series v(h) = 10 (1 + a h^p + b h^(p+2)) for h = 1, 1/2, ... with alternating
 /// round-off.
-Convergence made_up(double p, double a, double b, std::size_t levels, double roundoff = 1e-15) {
+Convergence power_law(double p, double a, double b, std::size_t levels, double roundoff = 1e-15) {
   Convergence series;
   series.theory_order = p;
   for (std::size_t k = 0; k < levels; ++k) {
@@ -29,7 +29,7 @@ Convergence made_up(double p, double a, double b, std::size_t levels, double rou
 
 BOOST_AUTO_TEST_CASE(order_of_a_power_law_is_its_exponent) {
   for (const double p : {1.0, 2.0, 4.0}) {
-    Convergence series = made_up(p, 0.1, 0, 6);
+    Convergence series = power_law(p, 0.1, 0, 6);
     for (const bool known : {false, true}) {
       if (known) series.exact = 10;
       const Convergence found = analyze_convergence(series);
@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(order_is_found_for_any_refinement_ratio) {
 
 /// Returns a series of values for h = 1, 1/2, 1/4, ...
 Convergence of_values(const std::vector<double>& values) {
-  Convergence series = made_up(2, 0, 0, values.size());
+  Convergence series = power_law(2, 0, 0, values.size());
   series.values = {values.begin(), values.end()};
   return series;
 }
@@ -85,7 +85,7 @@ BOOST_AUTO_TEST_CASE(divergence_on_coarse_meshes_is_ignored) {
   BOOST_TEST(std::abs(last.richardson.value() - 7.3333333333333333) < 1e-12);
 }
 
-BOOST_AUTO_TEST_CASE(slow_convergence_and_noise_of_rounding_do_not_diverge) {
+BOOST_AUTO_TEST_CASE(slow_convergence_and_round_off_are_no_divergence) {
   const Convergence slow = analyze_convergence(of_values({4, 3, 2.1, 1.29}));  // order 0.15
   BOOST_TEST(std::isfinite(*slow.gci[3]));
   BOOST_TEST(slow.richardson.has_value());
@@ -95,7 +95,7 @@ BOOST_AUTO_TEST_CASE(slow_convergence_and_noise_of_rounding_do_not_diverge) {
 }
 
 BOOST_AUTO_TEST_CASE(next_term_limits_the_asymptotic_range) {
-  Convergence series = made_up(4, 0.1, 0.5, 8);
+  Convergence series = power_law(4, 0.1, 0.5, 8);
   series.exact = 10;
   const Convergence found = analyze_convergence(series);
   BOOST_TEST(!found.in_asymptotic_range[1]);
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(next_term_limits_the_asymptotic_range) {
 }
 
 BOOST_AUTO_TEST_CASE(round_off_floor_is_recognized) {
-  Convergence series = made_up(4, 0.1, 0, 12, 1e-12);
+  Convergence series = power_law(4, 0.1, 0, 12, 1e-12);
   series.exact = 10;
   const Convergence found = analyze_convergence(series);
   // 0.1 h^4 is above 100e-12 as long as h > 1/178.
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(round_off_floor_is_recognized) {
 
 BOOST_AUTO_TEST_CASE(band_contains_the_exact_value_and_is_narrow) {
   for (const double b : {0.5, -0.03, 0.0}) {
-    const Convergence series = made_up(4, 0.1, b, 12, 1e-14);
+    const Convergence series = power_law(4, 0.1, b, 12, 1e-14);
     const Convergence found = analyze_convergence(series);
     for (std::size_t k = 1; k < 12; ++k) {
       const double error = std::abs(*series.values[k] - 10) / std::abs(*series.values[k]);
@@ -130,7 +130,7 @@ BOOST_AUTO_TEST_CASE(band_contains_the_exact_value_and_is_narrow) {
 }
 
 BOOST_AUTO_TEST_CASE(order_other_than_theory_has_safety_factor_3) {
-  Convergence series = made_up(2, 0.1, 0, 6);
+  Convergence series = power_law(2, 0.1, 0, 6);
   series.theory_order = 4;
   const Convergence found = analyze_convergence(series);
   for (std::size_t k = 2; k < 6; ++k) BOOST_TEST(*found.safety_factor[k] == 3);
@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(order_other_than_theory_has_safety_factor_3) {
 }
 
 BOOST_AUTO_TEST_CASE(oscillating_values_have_no_order) {
-  Convergence series = made_up(2, 0.1, 0, 5);
+  Convergence series = power_law(2, 0.1, 0, 5);
   for (std::size_t k = 0; k < 5; ++k) series.values[k] = k % 2 == 0 ? 1.0 : 2.0;
   const Convergence found = analyze_convergence(series);
   for (const auto order : found.order) BOOST_TEST(std::isnan(*order));
@@ -147,7 +147,7 @@ BOOST_AUTO_TEST_CASE(oscillating_values_have_no_order) {
 }
 
 BOOST_AUTO_TEST_CASE(missing_levels_are_skipped_at_the_coarse_end_only) {
-  Convergence series = made_up(4, 0.1, 0, 7);
+  Convergence series = power_law(4, 0.1, 0, 7);
   series.exact = 10;
   series.values[0] = std::nan("");
   Convergence found = analyze_convergence(series);
@@ -160,7 +160,7 @@ BOOST_AUTO_TEST_CASE(missing_levels_are_skipped_at_the_coarse_end_only) {
 }
 
 BOOST_AUTO_TEST_CASE(too_few_levels_have_no_order) {
-  const Convergence found = analyze_convergence(made_up(4, 0.1, 0, 1));
+  const Convergence found = analyze_convergence(power_law(4, 0.1, 0, 1));
   BOOST_TEST(!found.richardson.has_value());
   BOOST_TEST(!found.fitted_order.has_value());
 }

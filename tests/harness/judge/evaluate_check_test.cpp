@@ -19,7 +19,7 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Three frequencies, their reference, and one check of them.
+/// A run with three frequencies, their reference, and one check of the frequencies.
 struct Bench {
   std::shared_ptr<Folder> folder = std::make_shared<Folder>();
   Json check = {{"quantity", "frequency_Hz"},
@@ -201,7 +201,8 @@ BOOST_AUTO_TEST_CASE(printed_digits_determine_the_uncertainty) {
   Bench bench;
   bench.reference.erase("uncertainty");
   bench.reference["printed"] = {"10.00", "20.000", "30"};
-  BOOST_TEST(bench.verdict() == "error");  // half a unit in the last place of "30"
+  BOOST_TEST(bench.verdict() ==
+             "error");  // the uncertainty is half a unit of the last digit of "30"
   bench.reference["printed"] = {"10.00", "20.000", "30.00"};
   BOOST_TEST(bench.verdict() == "pass");
 }
@@ -303,7 +304,7 @@ BOOST_AUTO_TEST_CASE(quantities_of_one_run_are_judged_against_each_other) {
   BOOST_TEST(all[0].difference.value() == -1);
   bench.check["against_quantity"] = "other_m";
   BOOST_TEST(bench.verdict() == "error");
-  // The rule also holds if the variant itself is named.
+  // The result is the same if the check names its own variant.
   bench.check["against_quantity"] = "other_Hz";
   bench.check["against_variant"] = "base";
   bench.other = bench.quantities;

@@ -13,7 +13,8 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// Returns 3 x - 4 y and x^2 (about x = 1), with x within +-0.1 and y within +-0.2.
+/// Returns the outputs 3 x - 4 y and x^2 of a model, about x = 1. The inputs x and y have the half
+/// widths 0.1 and 0.2.
 std::optional<Values> linear_and_square(const Values& d) {
   return Values{3 * d[0] - 4 * d[1], (1 + d[0]) * (1 + d[0])};
 }
@@ -44,9 +45,8 @@ BOOST_AUTO_TEST_CASE(sampling_gives_the_deviation_of_a_uniform_input) {
 BOOST_AUTO_TEST_CASE(each_part_of_each_range_is_visited_once) {
   std::vector<std::set<int>> visited(2);
   const auto record = [&](const Values& d) -> std::optional<Values> {
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < 2; ++k)
       visited[k].insert(static_cast<int>(std::floor((d[k] / kHalfWidths[k] + 1) * 25)));
-    }
     return Values{0.0};
   };
   (void)uncertainty_by_sampling(record, kHalfWidths, 50, 7);

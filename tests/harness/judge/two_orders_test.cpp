@@ -1,4 +1,5 @@
-// Convergence studies of series that another order than the theoretical one governs, or no order.
+// Convergence studies of series whose error has terms of two orders, has a different order than
+// theory, or has no order.
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <functional>

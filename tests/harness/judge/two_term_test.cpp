@@ -14,9 +14,8 @@ const std::vector<double> kSizes = {1, 0.5, 0.25, 0.125, 0.0625};
 
 std::vector<double> errors(double a, double b, double c = 0) {
   std::vector<double> found;
-  for (const double h : kSizes) {
+  for (const double h : kSizes)
     found.push_back(a * std::pow(h, 4) + b * h * h + c * std::pow(h, 6));
-  }
   return found;
 }
 

@@ -12,7 +12,7 @@ using namespace trammel::harness;
 namespace {
 
 /// Returns a study of the values 10 (1 + 0.1 h^2) on halved sizes, with scaled uncertainty bands.
-Convergence made_up(std::size_t levels, double scale) {
+Convergence synthetic_study(std::size_t levels, double scale) {
   Convergence series;
   series.theory_order = 2;
   series.exact = 10;
@@ -38,7 +38,7 @@ results::UncertaintyCoverage summarize(const std::vector<Convergence>& all) {
 
 BOOST_AUTO_TEST_CASE(bands_of_a_clean_series_hold_with_ratio_1_25) {
   const results::UncertaintyCoverage summary =
-      summarize(std::vector<Convergence>(30, made_up(8, 1)));
+      summarize(std::vector<Convergence>(30, synthetic_study(8, 1)));
   BOOST_TEST(summary.levels == 30U * 7U);  // the first level has no band
   BOOST_TEST(*summary.coverage == 1.0);
   BOOST_TEST(*summary.median_ratio == 1.25, boost::test_tools::tolerance(1e-6));
@@ -46,8 +46,8 @@ BOOST_AUTO_TEST_CASE(bands_of_a_clean_series_hold_with_ratio_1_25) {
 }
 
 BOOST_AUTO_TEST_CASE(bands_that_miss_often_fail) {
-  std::vector<Convergence> all(30, made_up(8, 1));
-  for (std::size_t i = 0; i < 3; ++i) all[i] = made_up(8, 0.5);
+  std::vector<Convergence> all(30, synthetic_study(8, 1));
+  for (std::size_t i = 0; i < 3; ++i) all[i] = synthetic_study(8, 0.5);
   const results::UncertaintyCoverage summary = summarize(all);
   BOOST_TEST(summary.covered < summary.levels);
   BOOST_TEST(!summary.passes);
@@ -55,13 +55,13 @@ BOOST_AUTO_TEST_CASE(bands_that_miss_often_fail) {
 
 BOOST_AUTO_TEST_CASE(too_wide_bands_fail_although_they_hold) {
   const results::UncertaintyCoverage summary =
-      summarize(std::vector<Convergence>(30, made_up(8, 4)));
+      summarize(std::vector<Convergence>(30, synthetic_study(8, 4)));
   BOOST_TEST(*summary.coverage == 1.0);
   BOOST_TEST(!summary.passes);
 }
 
 BOOST_AUTO_TEST_CASE(band_is_relative_to_value_and_error_to_exact_value) {
-  Convergence found = made_up(3, 1);
+  Convergence found = synthetic_study(3, 1);
   found.values = {10, 10, 15};
   found.error = {0, 0, 0.5};
   found.gci = {NAN, NAN, 0.4};  // band of 6, error of 5
@@ -72,13 +72,13 @@ BOOST_AUTO_TEST_CASE(band_is_relative_to_value_and_error_to_exact_value) {
 }
 
 BOOST_AUTO_TEST_CASE(few_levels_do_not_fail_the_coverage) {
-  const results::UncertaintyCoverage summary = summarize({made_up(8, 0.5)});
+  const results::UncertaintyCoverage summary = summarize({synthetic_study(8, 0.5)});
   BOOST_TEST(*summary.coverage < 0.95);
   BOOST_TEST(summary.passes);
 }
 
 BOOST_AUTO_TEST_CASE(series_without_an_exact_value_do_not_count) {
-  Convergence found = made_up(8, 1);
+  Convergence found = synthetic_study(8, 1);
   found.exact.reset();
   const results::UncertaintyCoverage summary = summarize({found});
   BOOST_TEST(summary.levels == 0U);
@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(series_without_an_exact_value_do_not_count) {
 }
 
 BOOST_AUTO_TEST_CASE(coverage_without_any_ratio_fails) {
-  Convergence found = made_up(8, 1);
+  Convergence found = synthetic_study(8, 1);
   found.at_roundoff_floor.assign(8, true);  // no level has a ratio
   const results::UncertaintyCoverage summary = summarize(std::vector<Convergence>(30, found));
   BOOST_TEST(*summary.coverage == 1.0);

@@ -36,8 +36,8 @@ Json& options(Json& json) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(platform_at_constant_speed_is_not_at_rest) {
-  // Without acceleration the path frequency is zero. The motion was once compared with that at a
-  // fixed pose.
+  // Without acceleration, the characteristic frequency of the path is zero. The motion was once
+  // compared with the motion at a fixed pose.
   Json json = motion(between("line", 0.01));
   options(json)["step_errors"] = true;
   const AnalysisResult moving = result_of(json);
@@ -49,7 +49,7 @@ BOOST_AUTO_TEST_CASE(platform_at_constant_speed_is_not_at_rest) {
 }
 
 BOOST_AUTO_TEST_CASE(quasi_static_motion_has_no_work_of_its_loads) {
-  // The work was once 0 J, and the energy drift included it.
+  // The work of the loads was once 0 J, so that the energy drift contained their actual work.
   Json json = motion(between("line", 0.01));
   options(json)["effects"] = {{"elastic_inertia", false}};
   const AnalysisResult result = result_of(json);

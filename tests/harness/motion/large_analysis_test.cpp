@@ -46,7 +46,7 @@ BOOST_AUTO_TEST_CASE(step_that_does_not_converge_is_reported) {
   BOOST_TEST(contains(result.outcome.reason, "step 4 at time 0.03 s"), result.outcome.reason);
 }
 
-// Differences about the first instant once required poses before the first knot.
+// Central differences at the first instant once required a pose before the first knot.
 BOOST_AUTO_TEST_CASE(spline_is_tracked_from_first_to_last_instant) {
   const AnalysisResult spline = result_of(tracking(kStraightSpline));
   BOOST_REQUIRE_MESSAGE(spline.outcome.solved(), spline.outcome.reason);
@@ -81,7 +81,7 @@ BOOST_AUTO_TEST_CASE(drive_replaces_the_lock_of_an_actuator) {
 
 namespace {
 
-/// Returns a free mass of 1 kg under 2 N times a load history.
+/// Returns a free mass of 1 kg under a force of 2 N times a load history.
 Json pushed(const Json& times, const Json& factors) {
   Json json = Json::parse(R"({
     "id": "pushed", "title": "A mass that is pushed",

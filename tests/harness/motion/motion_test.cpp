@@ -57,7 +57,8 @@ BOOST_AUTO_TEST_CASE(resonance_without_damping_has_no_peak) {
              tolerance(1e-10));
 }
 
-// At 1, 1.5 and 2 Hz damping changes the response by 1e-4. At resonance, 10 rad/s, it is essential.
+// At 1, 1.5 and 2 Hz, damping changes the response by 1e-4. At the resonance, 10 rad/s = 1.59 Hz,
+// damping determines the response.
 BOOST_AUTO_TEST_CASE(automatic_effects_keep_damping_of_a_response) {
   Json json = harmonic();
   json["analysis"]["harmonic"]["points"] = 3;

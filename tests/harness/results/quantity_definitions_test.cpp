@@ -19,7 +19,8 @@ namespace {
 /// Heads of the names of all quantities, by analysis.
 using Recorded = std::map<std::string, std::set<std::string>>;
 
-/// @returns the heads of the quantities, without those that belong to a study itself
+/// Returns the heads of the quantities, which are the parts of their names before the colon. The
+/// quantities that a study defines are excluded.
 std::set<std::string> heads_of(const Document& document, const Quantities& quantities) {
   const Json& analysis = document.value().at("analysis");
   std::set<std::string> studied, heads;
@@ -73,7 +74,7 @@ Json with_analysis(Json json, const std::string& analysis) {
   return json;
 }
 
-/// All outputs of a transient or harmonic analysis.
+/// Names of all outputs of a transient or harmonic analysis.
 const std::string kOutputs = R"(["displacement_x_m:B", "displacement_y_m:B", "rotation_rad:B",
   "velocity_x_m_per_s:B", "velocity_y_m_per_s:B", "angular_velocity_rad_per_s:B",
   "acceleration_x_m_per_s2:B", "acceleration_y_m_per_s2:B", "axial_force_N:AB.start",
@@ -162,9 +163,8 @@ BOOST_AUTO_TEST_CASE(quantities_are_defined_once_and_with_a_meaning) {
   std::set<std::pair<std::string, std::string>> seen;
   for (const results::QuantityDefinition& one : results::quantity_definitions()) {
     BOOST_TEST(!one.meaning.empty(), one.name);
-    for (const std::string& analysis : one.analyses) {
+    for (const std::string& analysis : one.analyses)
       BOOST_TEST(seen.emplace(analysis, one.head()).second, analysis << " " << one.name);
-    }
   }
 }
 

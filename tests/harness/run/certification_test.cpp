@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(agreeing_digits_are_counted_and_the_worst_is_named) {
   BOOST_TEST(found.tight.empty());
 }
 
-BOOST_AUTO_TEST_CASE(tolerance_below_ten_times_the_noise_is_reported) {
+BOOST_AUTO_TEST_CASE(tolerance_below_ten_times_round_off_is_reported) {
   const Certification found =
       certify({configuration("here", 2, 2), configuration("up", 2 + 2e-10, 2 - 5e-10),
                configuration("down", 2 - 3e-10, 2 + 1e-12)});

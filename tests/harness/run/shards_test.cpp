@@ -15,7 +15,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns four computations: one is only compared with, and one ends with an error.
+/// Returns a case with four variants. The base is compared with one of them, and one ends with an
+/// error.
 std::vector<Case> cases(const Folder& folder) {
   Json json = testing::cantilever();
   json["variants"]["long"]["model"]["nodes"]["B"] = {3, 0};

@@ -33,16 +33,16 @@ Json on_a_line(const Json& analysis) {
   return json;
 }
 
-/// Returns the value of a quantity at a drawn moment.
-double at(const AnalysisResult& result, const std::string& name, const results::Pose& moment) {
+/// Returns the value of a quantity at a drawn instant.
+double at(const AnalysisResult& result, const std::string& name, const results::Pose& instant) {
   const std::vector<double>& time = values(result, "time_s");
   const auto found =
-      std::ranges::min_element(time, {}, [&](double t) { return std::abs(t - *moment.time_s); });
-  BOOST_TEST(*found == *moment.time_s, tolerance(1e-12));
+      std::ranges::min_element(time, {}, [&](double t) { return std::abs(t - *instant.time_s); });
+  BOOST_TEST(*found == *instant.time_s, tolerance(1e-12));
   return values(result, name).at(static_cast<std::size_t>(found - time.begin()));
 }
 
-const std::vector<results::Pose>& moments(const AnalysisResult& result, std::size_t least) {
+const std::vector<results::Pose>& instants(const AnalysisResult& result, std::size_t least) {
   BOOST_REQUIRE(result.drawing.has_value());
   BOOST_TEST_REQUIRE(result.drawing->poses.size() >= least);
   return result.drawing->poses;
@@ -52,7 +52,7 @@ constexpr std::size_t kP = 9;  ///< index of the platform's center among the nod
 
 }  // namespace
 
-BOOST_AUTO_TEST_CASE(drawn_moments_resolve_fast_motions) {
+BOOST_AUTO_TEST_CASE(drawn_instants_resolve_fast_motions) {
   const std::vector<std::size_t> slow = drawn_samples(wave(1), 20);
   BOOST_TEST(slow.size() == 48);
   BOOST_TEST(slow.front() == 0);
@@ -66,23 +66,23 @@ BOOST_AUTO_TEST_CASE(drawn_moments_resolve_fast_motions) {
   for (std::size_t k = 1; k < slow.size(); ++k) BOOST_TEST((slow[k] - slow[k - 1]) / 2 == 10U);
 }
 
-BOOST_AUTO_TEST_CASE(moment_along_a_path_is_drawn_with_its_deflection) {
+BOOST_AUTO_TEST_CASE(instant_along_a_path_is_drawn_with_its_deflection) {
   for (const Json& analysis :
        {Json{{"elastodynamics", {{"step_s", 0.001}, {"initial_state", "quasi-static"}}}},
         Json{{"statics", Json::object()}}, Json{{"kinematics", Json::object()}}}) {
     const AnalysisResult result = result_of(on_a_line(analysis));
     const std::string deflection =
         analysis.contains("statics") ? "displacement_x_m:P" : "deflection_m:P";
-    for (const results::Pose& moment : moments(result, 6)) {
-      BOOST_TEST(moment.nodes.at(kP).first == 0.25 + 0.1 * *moment.time_s, tolerance(1e-12));
-      BOOST_TEST(moment.label == moment_label(*moment.time_s));
+    for (const results::Pose& instant : instants(result, 6)) {
+      BOOST_TEST(instant.nodes.at(kP).first == 0.25 + 0.1 * *instant.time_s, tolerance(1e-12));
+      BOOST_TEST(instant.label == moment_label(*instant.time_s));
       if (analysis.contains("kinematics")) continue;
-      const auto [x, y] = moment.displacement.at(kP);
+      const auto [x, y] = instant.displacement.at(kP);
       BOOST_TEST(
-          (analysis.contains("statics") ? x : std::hypot(x, y)) == at(result, deflection, moment),
+          (analysis.contains("statics") ? x : std::hypot(x, y)) == at(result, deflection, instant),
           tolerance(1e-9));
     }
-    BOOST_TEST(moments(result, 6).back().time_s.value() == 0.1, tolerance(1e-12));
+    BOOST_TEST(instants(result, 6).back().time_s.value() == 0.1, tolerance(1e-12));
   }
 }
 
@@ -102,9 +102,9 @@ BOOST_AUTO_TEST_CASE(poses_of_a_large_motion_are_drawn_at_their_positions) {
                            "law": {"rest_to_rest": {"travel": 1, "duration_s": 1}}}}
     }}
   })"));
-  for (const results::Pose& moment : moments(result, 40))
-    BOOST_TEST(moment.nodes.at(1).first == at(result, "position_x_m:A", moment), tolerance(1e-9));
-  BOOST_TEST(moments(result, 40).back().time_s.value() == 1, tolerance(1e-12));
+  for (const results::Pose& instant : instants(result, 40))
+    BOOST_TEST(instant.nodes.at(1).first == at(result, "position_x_m:A", instant), tolerance(1e-9));
+  BOOST_TEST(instants(result, 40).back().time_s.value() == 1, tolerance(1e-12));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

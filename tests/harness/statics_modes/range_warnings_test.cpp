@@ -55,8 +55,8 @@ BOOST_AUTO_TEST_CASE(strain_beyond_its_range_warns) {
   }
 }
 
-// Euler's load of the cantilever is pi^2 E I / (4 L^2). At 0.95 of it, displacements are about 20
-// times those of linear theory.
+// The Euler load of the cantilever is pi^2 E I / (4 L^2). At 0.95 of this load, displacements are
+// about 20 times those of linear theory.
 BOOST_AUTO_TEST_CASE(second_order_theory_near_buckling_warns) {
   const double critical = std::pow(std::numbers::pi / 4, 2) * 2e11 * 0.05 * 1e-3 / 12;
   for (const auto& [share, across, warned] :
@@ -120,7 +120,8 @@ BOOST_AUTO_TEST_CASE(indeterminate_reactions_warn) {
   }
 }
 
-// A quarter of the cantilever is longer than half a wave of its fourth mode.
+// The mesh is too coarse if an element is longer than half a wave of the mode. A quarter of the
+// cantilever is longer than half a wave of its fourth mode.
 BOOST_AUTO_TEST_CASE(frequencies_of_coarse_meshes_have_a_warning) {
   Json json = testing::cantilever();
   json["analysis"] = {{"modes", {{"count", 4}}}};
@@ -148,8 +149,8 @@ BOOST_AUTO_TEST_CASE(coarse_meshes_of_tapered_members_warn) {
   }
 }
 
-// The first mode has the share 0.613 of the kinetic energy of a cantilever in uniform translation.
-// The norm of the remainder is sqrt(0.387) = 0.622 on a fine mesh.
+// The first mode has 61.3 % of the kinetic energy of a cantilever in uniform translation. The
+// remaining velocity has the relative norm sqrt(0.387) = 0.622 on a fine mesh.
 BOOST_AUTO_TEST_CASE(velocity_outside_the_reduced_basis_warns) {
   Json json = testing::cantilever();
   json["model"]["loads"] = Json::object();

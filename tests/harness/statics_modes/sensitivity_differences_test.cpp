@@ -9,7 +9,8 @@ BOOST_AUTO_TEST_SUITE(sensitivity_differences)
 using namespace trammel::solver;
 using namespace trammel::harness;
 
-/// A frequency is proportional to the root of all stiffness and to the inverse root of all inertia.
+/// A frequency is proportional to the square root of all stiffnesses, and inversely proportional to
+/// the square root of all masses and inertias.
 BOOST_AUTO_TEST_CASE(derivatives_add_up_as_dimensions_require) {
   ManipulatorDesign design = coarse_design();
   design.platform.kind = PlatformKind::rigid;
@@ -50,7 +51,7 @@ BOOST_AUTO_TEST_CASE(difference_quotients_are_of_first_and_second_order) {
 }
 
 BOOST_AUTO_TEST_CASE(straight_limb_has_infinite_derivatives_by_its_lengths) {
-  // All derivatives, also that by E, were once reported as infinite here.
+  // Here, all derivatives were once reported as infinite, even the derivative by E.
   ManipulatorDesign design = coarse_design();
   const Pose pose{0.25, 0.144, 0};
   const Posture posture = inverse_kinematics(design.geometry, pose);

@@ -34,7 +34,7 @@ BOOST_AUTO_TEST_CASE(dominated_setting_is_not_on_the_pareto_front) {
   BOOST_TEST(settings(find_pareto_front(points)) == expected, boost::test_tools::per_element());
 }
 
-BOOST_AUTO_TEST_CASE(differences_within_the_noise_keep_the_front) {
+BOOST_AUTO_TEST_CASE(differences_within_timing_scatter_keep_the_front) {
   // Settings 0 and 1 compute the same result. The second one is 3 % slower or faster.
   for (const double noise : {0.97, 1.03}) {
     const std::vector<CostPoint> points = {{0, 1e-3, 1}, {1, 1.0000001e-3, noise}, {2, 1e-5, 3}};

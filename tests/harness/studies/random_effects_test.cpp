@@ -73,9 +73,9 @@ BOOST_DATA_TEST_CASE(selection_holds_for_hard_scenes, boost::unit_test::data::ma
   BOOST_TEST(study.within_tolerance());
 }
 
-/// A motion of the coarse model is only worthwhile before large displacement with its many
-/// tangents.
-BOOST_AUTO_TEST_CASE(deciding_costs_less_than_it_saves) {
+/// The selection may compute the motion of a coarse model only if the full motion has large
+/// displacements, because it then factors a tangent in each step.
+BOOST_AUTO_TEST_CASE(selecting_effects_costs_less_than_it_saves) {
   for (const int number : {29, 89, 169}) {
     const EffectStudy study = study_of(random_scenes(2, std::to_string(number)).front());
     BOOST_TEST(study.work_ratio() < 1.2, "scene " << number << ", " << study.work_ratio());

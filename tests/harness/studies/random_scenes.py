@@ -58,7 +58,7 @@ def first_omega(thickness, length):
 
 
 class Bar:
-    """Link or member: its sizes, and properties that are drawn relative to its bending stiffness E I."""
+    """Link or member with random dimensions. Further random properties are relative to its bending stiffness E I."""
 
     def __init__(self, draw, length, thickness, width, is_link=False):
         """Draws the thickness relative to the length, and the width relative to the thickness, or for a link to the length."""
@@ -74,7 +74,7 @@ class Bar:
         return {"spring_N_m_per_rad": self.bending / self.length * self.draw.logarithmic(1e-2, 1e6)}
 
     def load(self):
-        """Returns a force that turns the bar by 1e-5 to 0.3 rad [N]."""
+        """Returns a random force that rotates the end of the bar by 1e-5 to 0.3 rad [N]."""
         return self.draw.logarithmic(1e-5, 0.3) * self.bending / (self.length * self.length)
 
 
@@ -233,7 +233,7 @@ def spinning_link(draw, scene):
 
 
 def harmonic(draw, kind, model):
-    """Returns the response to a force from far below the first frequency of the bare beam or link to beyond it."""
+    """Returns the response to a harmonic force, from far below to above the first frequency of the beam or link alone."""
     if "manipulator" in model:
         links, node, place = model["manipulator"]["links"], "P", "A1-B1"
         length, thickness = links["proximal_length_m"], links["thickness_m"]

@@ -22,7 +22,7 @@ namespace {
 const double kExact = 3.5160152685 * std::sqrt(2e11 / 7800 / 12) * 0.1 / 4 / (2 * std::acos(-1.0));
 
 /// Returns a beam of depth 0.1 m within 1 mm, E within 1 % and a nominal length of 2 m within 0.5
-/// m. The printed frequency is wrong by the share `off`.
+/// m. The printed frequency has the relative error `off`.
 Json beam(const Folder& folder, double off) {
   folder.write_reference("printed", "Hz", kExact * (1 - off), {{"absolute", 0.05}}, "code");
   folder.write_reference("other", "Hz", kExact * (1 - off) + 3, {{"absolute", 0.05}}, "code");
@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(uncertainties_agree_with_scaling_laws_of_a_beam) {
   BOOST_TEST(entry.dominant_input == "depth");
   BOOST_TEST(*entry.dominant_share == 0.8, boost::test_tools::tolerance(1e-3));
   BOOST_TEST(*entry.u_reference == 0.05 / std::sqrt(3.0), boost::test_tools::tolerance(1e-12));
-  // The spread of two references is shown, but has no influence.
+  // The difference between two references is reported, but does not change the verdict.
   BOOST_REQUIRE(entry.spread.size() == 1U);
   BOOST_TEST(*entry.spread[0] == 3, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(*entry.u_val < 0.5);

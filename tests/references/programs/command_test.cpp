@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(invalid_usage_and_input_return_status_2_in_one_line) {
     "uncertainty": {"relative": 1}, "derivation": {"program": "beam-roots", "arguments": {}}}})");
   const ScratchFile twice(R"({"x": {}, "y": {}, "x": {}})");
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases = {
-      {{"--program", "none"}, "there are"},
+      {{"--program", "none"}, "expected one of"},
       {{"--program", "beam-roots", "--arguments", "{"}, "--arguments: not JSON"},
       {{"--program", "beam-roots", "--arguments", "{}"}, "/ends: is missing"},
       {{"--unknown"}, "cannot use '--unknown'"},

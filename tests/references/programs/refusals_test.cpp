@@ -1,4 +1,4 @@
-// Invalid arguments of derivations, and the place that the message must name.
+// Invalid arguments of derivations, and the pointer or text that the error message must contain.
 #include <boost/test/data/monomorphic.hpp>
 #include <boost/test/data/test_case.hpp>
 #include <boost/test/unit_test.hpp>

@@ -71,13 +71,13 @@ BOOST_AUTO_TEST_CASE(data_contain_settings_with_and_without_result) {
   BOOST_TEST(contains(csv, "error_max,error_rms,error_mean"));
   BOOST_TEST(contains(csv, "element_evaluations,factorizations,solves"));
   BOOST_TEST(contains(csv, "\"dense, 64 elements\",dense,64,timed-out"));
-  BOOST_TEST(contains(figure.caption, "2 settings without an answer"));
+  BOOST_TEST(contains(figure.caption, "2 settings without a result"));
   // Settings without a result are crosses in a separate strip.
-  BOOST_TEST(contains(figure.commands, "no answer"));
+  BOOST_TEST(contains(figure.commands, "no result"));
   BOOST_TEST(contains(figure.commands, "pt 2"));
   study.settings.resize(7);
   const Figure without = cost_figure(study);
-  BOOST_TEST(!contains(without.commands, "no answer"));
+  BOOST_TEST(!contains(without.commands, "no result"));
   BOOST_TEST(without.caption.ends_with(study.conclusion));
 }
 
@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(page_of_studies_has_figure_table_and_sweep) {
   for (const char* part :
        {"<h1>Accuracy and computing time</h1>", "<figure id=\"fig-cost-sample-modes\">",
         "This is the quick sweep", "sparse, 4 elements", "none of these settings",
-        "both put 6 of 7 settings on the Pareto front"})
+        "Of 7 settings on either Pareto front, both fronts contain 6."})
     BOOST_TEST(contains(text, part), part);
   for (const char* part : {"id=\"summary\"", "href=\"#summary\"", "Computing time of this report"})
     BOOST_TEST(!contains(text, part), part);

@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(caption_of_two_orders_names_their_law) {
   mixed.lower_order = 1.354;
   mixed.two_term = TwoTermLaw{{}, 0.042, {}};
   const auto figure = convergence_figures(beam(), run_with({mixed}));
-  BOOST_TEST(contains(figure[0].caption, "the law a h^4 + b h^1.35 of the size h"));
+  BOOST_TEST(contains(figure[0].caption, "the law a h^4 + b h^1.35, with the mesh or step size h"));
   BOOST_TEST(contains(figure[0].caption, "within 4.2\u202f%"));
 }
 
@@ -122,12 +122,12 @@ BOOST_AUTO_TEST_CASE(tolerance_caption_names_the_worst_check) {
   run.checks = {judged("far", 1e-6, 1e-3), judged("near", -9e-4, 1e-3)};
   auto figure = tolerance_figure("beams", {{"beam", "A beam"}}, {&run});
   BOOST_TEST_REQUIRE(figure.has_value());
-  BOOST_TEST(contains(figure->caption, "All 2 checks pass"));
+  BOOST_TEST(contains(figure->caption, "All 2 numbers pass"));
   BOOST_TEST(contains(figure->caption, "uses 90\u202f% of its tolerance (near)"));
   run.checks.push_back(judged("beyond", 2e-3, 1e-3));
   figure = tolerance_figure("beams", {{"beam", "A beam"}}, {&run});
   BOOST_TEST(contains(figure->caption,
-                      "1 of 3 checks fail or could not be evaluated; the worst is in beyond."));
+                      "1 of 3 numbers fail or could not be evaluated; the worst is in beyond."));
 }
 
 BOOST_AUTO_TEST_CASE(undrawable_curves_report_the_reason) {
@@ -158,10 +158,10 @@ BOOST_AUTO_TEST_CASE(magnified_motion_states_its_largest_deflection) {
   BOOST_REQUIRE(figure);
   BOOST_TEST(contains(figure->caption, "deflections are magnified 110 times."), figure->caption);
   BOOST_TEST(contains(figure->caption, "largest deflection is 1.1\u202fmm, at 1\u202fs."));
-  BOOST_TEST(contains(figure->caption, "3 moments up to 2\u202fs"), figure->caption);
+  BOOST_TEST(contains(figure->caption, "3 instants up to 2\u202fs"), figure->caption);
   const auto moving = nlohmann::json::parse(figure->moving);
   BOOST_TEST(moving["times"] == nlohmann::json({0.0, 1.0, 2.0}));
-  // Checks the displacement of the free end between two moments, with y downwards.
+  // Checks the displacement of the free end between two instants, with y downwards.
   const auto step = [&](const char* set, std::size_t k, double x, double y) {
     const double unit = 5000 / 1.08;
     BOOST_TEST(std::abs(moving[set][k][2].get<double>() - unit * x) <= 1);
@@ -172,16 +172,16 @@ BOOST_AUTO_TEST_CASE(magnified_motion_states_its_largest_deflection) {
   step("moved", 1, -0.1, 0.3 + 0.121);
   step("moved", 2, -0.1, 0.3 - 0.121 - 0.055);
   run.drawing->poses[1].displacement[1].second = std::nan("");
-  BOOST_TEST(contains(motion_figure(beam(), run)->caption, "2 moments"));
+  BOOST_TEST(contains(motion_figure(beam(), run)->caption, "2 instants"));
 }
 
-BOOST_AUTO_TEST_CASE(rigid_motion_is_drawn_at_few_moments) {
+BOOST_AUTO_TEST_CASE(rigid_motion_is_drawn_at_few_instants) {
   Run run = run_with({});
   run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}};
   for (int k = 0; k <= 20; ++k)
     run.drawing->poses.push_back(
         {"", {{0, 0}, {std::cos(0.1 * k), std::sin(0.1 * k)}}, 0.5 * k, {}});
-  run.drawing->poses.push_back(run.drawing->poses.back());  // a duplicate moment
+  run.drawing->poses.push_back(run.drawing->poses.back());  // a duplicate instant
   const auto figure = motion_figure(beam(), run);
   BOOST_REQUIRE(figure);
   BOOST_TEST(contains(figure->caption, "Drawn: 0, 2.5, 5, 7.5, 10\u202fs"), figure->caption);
@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(rigid_motion_is_drawn_at_few_moments) {
       contains(figure->caption,
                "The largest distance of a point from its start is 1.68\u202fm, at 10\u202fs."),
       figure->caption);
-  BOOST_TEST(contains(figure->caption, "21 moments up to 10\u202fs"), figure->caption);
+  BOOST_TEST(contains(figure->caption, "21 instants up to 10\u202fs"), figure->caption);
   BOOST_TEST(figure->data.rows.size() == 42U);
   BOOST_TEST(!contains(figure->moving, "still"));
 }

@@ -58,9 +58,10 @@ BOOST_AUTO_TEST_CASE(map_keeps_every_position_and_explains_its_colors) {
   const auto figure = draw(field(14, 5), problem);
   BOOST_TEST_REQUIRE(figure.has_value(), problem);
   BOOST_TEST(figure->data.rows.size() == 70U);
-  BOOST_TEST(contains(figure->caption,
-                      " in Hz; dark is far from zero. Each class has about the same number of "
-                      "positions."));
+  BOOST_TEST(
+      contains(figure->caption,
+               " in Hz; values far from zero are dark. Each class has about the same number of "
+               "positions."));
   BOOST_TEST(contains(figure->commands, "'below 1'"));  // ten of the 70, in seven classes
   BOOST_TEST(contains(figure->alt, "The largest magnitude is 5.3 Hz"));
 }
@@ -80,7 +81,7 @@ BOOST_AUTO_TEST_CASE(large_magnitudes_are_dark_for_either_sign) {
   BOOST_TEST(shade_of_lowest() == palette::kSequence.back());
   run.quantities["frequency_Hz"].values[0] = 7.0;
   BOOST_TEST(shade_of_lowest() == palette::kSequence.front());
-  BOOST_TEST(contains(draw(run, problem)->caption, "dark is high"));
+  BOOST_TEST(contains(draw(run, problem)->caption, "high values are dark"));
 }
 
 BOOST_AUTO_TEST_CASE(maps_of_one_quantity_have_one_scale) {

@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kPages[] = {"index.html", "families/beam-modes.html",
                                   "cases/beam-pinned-pinned.html", "references.html"};
 
-/// Opens a page of the sample's report at this width and checks what must hold at any width.
+/// Opens the sample's report at this width, and checks the conditions that hold at any width.
 void check_at(int width, const std::string& name) {
   const auto page = sample_report() / name;
   const auto figures = static_cast<int>(occurrences(text_of(page), "<svg "));

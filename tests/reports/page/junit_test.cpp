@@ -36,6 +36,7 @@ BOOST_AUTO_TEST_CASE(each_check_and_each_run_is_a_testcase) {
   BOOST_TEST(occurrences(xml, "<failure ") == 1U);
   BOOST_TEST(occurrences(xml, "<error ") == 2U);  // one of a check, one of a run
   BOOST_TEST(known > 0U);
+  BOOST_TEST(occurrences(xml, "name=\"expected-status\"") == 1U);
   BOOST_TEST(occurrences(xml, "<skipped type=\"trammel.known-discrepancy\"") == known);
   BOOST_TEST(occurrences(xml, "<skipped type=\"trammel.not-run\"") == 1U);
   BOOST_TEST(occurrences(xml, "tests=\"" + std::to_string(testcases) +

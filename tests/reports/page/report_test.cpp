@@ -7,6 +7,7 @@
 #include <set>
 #include <system_error>
 
+#include "reports/data/check_text.h"
 #include "reports/drawing/figure.h"
 #include "tests/support/reports/markup.h"
 #include "tests/support/reports/workspace.h"
@@ -167,8 +168,9 @@ BOOST_AUTO_TEST_CASE(addresses_consist_of_names_only) {
 BOOST_AUTO_TEST_CASE(summary_counts_the_checks_by_verdict) {
   std::size_t pass = 0, known = 0;
   for (const Run& run : sample_results().runs)
-    for (const Check& check : run.checks)
-      if (check.verdict == Verdict::pass) ++(check.known_discrepancy() ? known : pass);
+    for (const trammel::reports::CheckGroup& group : trammel::reports::group_checks(run))
+      if (group.worst().verdict == Verdict::pass)
+        ++(group.worst().known_discrepancy() ? known : pass);
   BOOST_TEST(shows("<strong>" + std::to_string(pass) + "</strong> passes"));
   BOOST_TEST(shows("<strong>" + std::to_string(known) + "</strong> known discrepancy"));
   BOOST_TEST(shows("<strong>1</strong> not judged"));
@@ -202,7 +204,7 @@ BOOST_AUTO_TEST_CASE(claims_are_shown_with_verdict_and_evidence) {
   const std::string text = all_pages_of(results);
   for (const char* part : {"3 claims: 1 contradicted, 1 cannot be decided, 1 not measured.",
                            "<strong>× 1 to × 1.5</strong>", "(expected: confirmed)",
-                           "No case of these results measures it.", "Nothing is published.",
+                           "No case of these results measures this claim.", "Nothing is published.",
                            "This &lt;b&gt;follows&lt;/b&gt;.", "<li><a href=\"paper.html\">"})
     BOOST_TEST(text.find(part) != std::string::npos, part);
   BOOST_TEST(occurrences(text, "(expected:") == 1U);

@@ -76,8 +76,8 @@ BOOST_AUTO_TEST_CASE(unreached_targets_are_named_with_the_nearest) {
 }
 
 BOOST_AUTO_TEST_CASE(shifted_check_has_no_column_in_the_matrix) {
-  // The check compares mode 1 with target 2. It was once shown as the difference of mode 1, and
-  // target 1 as reached.
+  // The check compares mode 1 with target 2. The matrix once showed the result in the column of
+  // mode 1, and thus target 1 as reached.
   Sample sample;
   for (int entry = 0; entry < 2; ++entry) {
     sample.results.runs[1].checks.push_back(compared("shifted", entry, 0.001));

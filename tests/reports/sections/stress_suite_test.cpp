@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(indicator_without_a_run_fails) {
   for (CaseInfo& info : results.cases)
     if (info.stress_suite) info.stress_suite->indicators = {"nowhere"};
   const std::string text = stress_suite_of(results);
-  BOOST_TEST(occurrences(text, "no run has it") == 3U);
+  BOOST_TEST(occurrences(text, "no run has this check") == 3U);
   BOOST_TEST(text.find("3 not run") != std::string::npos);
   BOOST_TEST(stress_suite_of(sample_results()).empty());
 }

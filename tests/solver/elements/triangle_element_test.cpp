@@ -56,7 +56,7 @@ void check_null_space_and_mass(bool curved) {
   for (const auto& u : {along, across, turn}) BOOST_TEST((k * u).norm() < 1e-13 * k.norm());
   const Eigen::SelfAdjointEigenSolver<TriangleMatrix<n>> eigen(k);
   BOOST_TEST(eigen.eigenvalues()[3] > 1e-3 * eigen.eigenvalues()[2 * n - 1]);
-  // A parabola adds two thirds of chord times height to the area.
+  // A parabolic side increases the area by two thirds of its chord times its height.
   const Vector2d chord = element.nodes[2] - element.nodes[1];
   const double bulge = 2 / 3.0 * std::abs(chord.x() * kBulge.y() - chord.y() * kBulge.x());
   const double area = element.corner_area() + (curved ? bulge : 0);

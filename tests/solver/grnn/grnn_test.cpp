@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(predictions_are_those_of_the_printed_formula) {
 BOOST_AUTO_TEST_CASE(samples_at_the_same_distance_have_equal_weights) {
   const Grnn between = make_grnn(column({1, 2, 5}), column({10, 20, 90}), 1e-300);
   BOOST_TEST(predict(between, column({1.5}))(0, 0) == 15.0);
-  // A query one rounding error away from the middle returns either value, but never 0/0.
+  // A query at a distance of one rounding error from the middle returns either value, but not 0/0.
   const double y =
       predict(make_grnn(column({0.1, 0.2}), column({1, 2}), 1e-300), column({0.15}))(0);
   BOOST_TEST((y == 1.0 || y == 2.0 || y == 1.5));

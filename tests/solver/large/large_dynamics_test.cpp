@@ -35,7 +35,8 @@ State run(const GeometricallyExactSystem& system, const TransientOptions& option
 }
 
 /// Errors of the simple pendulum after 2 s: position [m], speed [m/s], force at the hinge [N]. The
-/// exact position is from elliptic functions. Exact speed and force follow from it by energy.
+/// exact position follows from elliptic functions. The exact speed and force follow from the
+/// position by conservation of energy.
 struct PendulumError {
   double place = 0, speed = 0, pull = 0, gap = 0, gap_rate = 0;
 };

@@ -49,8 +49,8 @@ BOOST_AUTO_TEST_CASE(large_motion_without_inertia_is_large_statics) {
   }
 }
 
-/// Small loads displace P by a few micrometers and rotate it by less than 1e-4. The theories differ
-/// by these amounts.
+/// Small loads displace P by a few micrometers and rotate the platform by less than 1e-4 rad. The
+/// relative differences between both theories are of the order of these small quantities.
 BOOST_AUTO_TEST_CASE(small_motions_are_those_of_linear_theory) {
   for (const ElbowKind elbow : kElbows) {
     for (const bool quasi_static : {true, false}) {
@@ -104,8 +104,8 @@ BOOST_AUTO_TEST_CASE(damping_does_not_act_on_the_nominal_motion) {
   BOOST_TEST(largest(solve_elastodynamics(options).deflection - still.deflection) > 0.03 * size);
 }
 
-/// The equilibrium without damping has other rates than the configuration with damping. The strain
-/// rates of the difference were once taken as damping forces.
+/// The initial equilibrium without damping has different rates than the state with damping. The
+/// difference of strain rates once caused spurious damping forces.
 BOOST_AUTO_TEST_CASE(strong_damping_starts_as_in_linear_theory) {
   ElastodynamicsOptions options = options_of(ElbowKind::hinged, 5, 0.2, 2e-3);
   options.wrench = {1e-3, 5e-4, 0};
@@ -121,7 +121,8 @@ BOOST_AUTO_TEST_CASE(strong_damping_starts_as_in_linear_theory) {
   BOOST_TEST(solve_large_elastodynamics(options).outcome.solved());
 }
 
-/// Steps end at the breakpoints of the load history. A pulse of a fifth of a step was once missed.
+/// Time steps end at the breakpoints of the load history. A pulse that lasts a fifth of a step was
+/// once missed.
 BOOST_AUTO_TEST_CASE(pulse_within_a_step_is_resolved) {
   ElastodynamicsOptions options = options_of(ElbowKind::welded, 0.01, 0.04, 5e-3);
   options.wrench = {1, 0, 0};
@@ -135,8 +136,8 @@ BOOST_AUTO_TEST_CASE(pulse_within_a_step_is_resolved) {
 }
 
 BOOST_AUTO_TEST_CASE(path_out_of_reach_is_reported) {
-  // With steps of 1e-2 s the vibration is not resolved. Round-off then decides if the motion fails
-  // before the end of the reach.
+  // With steps of 1e-2 s, the vibration is not resolved. Round-off then decides if the motion fails
+  // before the path leaves the workspace.
   ElastodynamicsOptions options = options_of(ElbowKind::hinged, 1, 1, 5e-3);
   options.path = Line{{0.25, 0.144, 0}, {0.25, 0.9, 0}, 1};
   options.time.sample_times = {0, 1};

@@ -23,8 +23,8 @@ Model column(Index elements) {
   return model;
 }
 
-/// Returns a shallow arch of eight straight pieces on hinges, loaded at its crown with a small
-/// transverse part.
+/// Returns a shallow arch of eight straight members between two hinged supports. The load at its
+/// crown has the small horizontal component `across`.
 Model shallow_arch(double across) {
   Model model;
   Section section = unit_section(1e4);
@@ -44,8 +44,8 @@ Model shallow_arch(double across) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(path_does_not_step_over_its_target) {
-  // Newton's method may fail at the target from a distant state. The step must then be reduced, not
-  // taken.
+  // Newton's method may not converge from a distant state to the target. The step must then be
+  // reduced.
   const GeometricallyExactSystem system(column(24));
   StaticPathOptions options;
   options.target = kPi * kPi / 2;

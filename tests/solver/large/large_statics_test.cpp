@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(tip_errors_of_turned_beams_fall_with_order_6) {
   }
 }
 
-// A step limited by round-off would require hundreds of points instead of 10.
+// If round-off limited the step size, the path would have hundreds of points instead of 10.
 BOOST_AUTO_TEST_CASE(round_off_of_a_fine_mesh_shortens_no_step) {
   Model model = elastica(1024);
   model.loads = {{1, {0, kSmall.load, 0}}};
@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(newton_corrections_shrink_quadratically) {
   BOOST_TEST(pairs >= 1);
 }
 
-// Statics finds a straight column under a follower load stable (M. Beck, ZAMP 3, 1952).
+// A straight column under a follower load has no static instability (M. Beck, ZAMP 3, 1952).
 BOOST_AUTO_TEST_CASE(follower_load_converges_in_any_unit_and_direction) {
   for (const double stiffness : {1e-10, 1e5, 1e20}) {
     for (const double angle : {0.1, 0.36, 1.4}) {

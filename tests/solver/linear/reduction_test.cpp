@@ -87,7 +87,7 @@ BOOST_AUTO_TEST_CASE(truncation_error_is_the_squared_frequency_ratio) {
     const Eigen::VectorXcd whole = answer(full, frequency);
     const double off = (answer(reduced, frequency) - whole).norm() / whole.norm();
     BOOST_TEST(off < ratio * ratio / (1 - ratio * ratio));
-    if (ratio > 0.1) BOOST_TEST(off > 1e-6);  // the truncation has an effect
+    if (ratio > 0.1) BOOST_TEST(off > 1e-6);  // the error of truncation is not negligible
   }
 }
 

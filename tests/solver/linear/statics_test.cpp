@@ -70,9 +70,9 @@ BOOST_AUTO_TEST_CASE(ill_conditioned_model_is_exact_or_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(digits_next_to_a_singularity_are_kept_and_reported) {
-  // The estimate once followed the condition number of K, 1/height^2, so all heights below 1e-7
-  // were refused. The displacement for given nodes has a relative error of only eps/height.
-  std::vector<double> beyond;  // correct digits in excess of the estimate
+  // The error estimate was once proportional to the condition number of K, 1/height^2, so that all
+  // heights below 1e-7 were refused. The displacement has a relative error of only eps/height.
+  std::vector<double> beyond;  // number of correct digits minus its estimate
   for (int power = 1; power <= 12; ++power) {
     const double height = std::pow(10.0, -power);
     Model model;

@@ -13,8 +13,8 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Returns a model with one part of each kind.
-Model sound() {
+/// Returns a valid model with one part of each type.
+Model valid_model() {
   Model model = cantilever(unit_section(), 1, 2);
   model.nodes.push_back({"C", {1, 1}});
   model.plates = {{"web", {1e9, 1, 0.3}, 0.1}};
@@ -26,7 +26,7 @@ Model sound() {
 }
 
 std::string complaint(const std::function<void(Model&)>& spoil) {
-  Model model = sound();
+  Model model = valid_model();
   spoil(model);
   try {
     (void)assemble(model);
@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(valid_model_is_accepted) {
 }
 
 BOOST_AUTO_TEST_CASE(middle_node_may_not_fold_its_triangle_at_a_corner) {
-  // Moves a middle node along its side and to the third node, as shares of these distances.
+  // Moves a middle node along its side and toward the third node, by fractions of these distances.
   const auto moved = [](std::size_t k, double along, double inwards) {
     return complaint([&](Model& m) {
       const auto corner = [&](std::size_t i) { return m.nodes[i % 3].position; };

@@ -76,7 +76,8 @@ BOOST_AUTO_TEST_CASE(motion_without_inertia_is_statics_at_every_pose) {
 }
 
 BOOST_AUTO_TEST_CASE(links_lost_to_round_off_of_a_platform_are_refused) {
-  // The result was once called solved with an unbalanced force of 384 N under a load of 10 N.
+  // The result once had the status solved, although a force of 384 N was unbalanced under a load of
+  // 10 N.
   ElastodynamicsOptions options = resting(1e-2);
   options.design = coarse_design(PlatformKind::triangles);
   options.modal_superposition = true;
@@ -137,7 +138,8 @@ BOOST_AUTO_TEST_CASE(errors_along_and_across_the_path_are_the_deflection) {
     const auto k = static_cast<Index>(i);
     const Vector2d radial(std::cos(s.time[i]), std::sin(s.time[i]));
     const Vector2d u = s.deflection.row(k);
-    BOOST_TEST(std::abs(s.normal_error[k] + radial.dot(u)) < 1e-14);  // left is inside
+    // The left side of the path is inside the circle.
+    BOOST_TEST(std::abs(s.normal_error[k] + radial.dot(u)) < 1e-14);
     BOOST_TEST(std::abs(std::hypot(s.normal_error[k], s.tangential_error[k]) - u.norm()) < 1e-14);
   }
 }

@@ -97,7 +97,8 @@ BOOST_AUTO_TEST_CASE(delayed_torques_are_refused) {
 BOOST_AUTO_TEST_CASE(step_over_a_parallel_singularity_ends_the_motion) {
   const RigidManipulator m = rigid_manipulator(table_1_design());
   const Circle circle{.center = {0.25, 0.144}, .radius = 0.01, .angular_speed = 1, .phi = 0};
-  const Vector3d load(10, 0, 0);  // makes the posture unstable: it collapses within a second
+  // The load makes the pose unstable, so that the manipulator collapses within a second.
+  const Vector3d load(10, 0, 0);
   const auto torque = [&](double t) { return inverse_dynamics(m, at(circle, t), load).torque; };
   const ForwardDynamics f =
       solver::forward_dynamics(m, at(circle, 0), torque, times_to(2, 20), load);

@@ -160,7 +160,8 @@ BOOST_AUTO_TEST_CASE(holding_torques_do_the_opposite_work_of_the_load) {
       const Vector3d dtheta = (j.parallel * dx).cwiseQuotient(j.serial);
       const double scale = wrench.norm() * dx.norm() / j.parallel_distance;
       BOOST_TEST(std::abs(hold.torque.dot(dtheta) + wrench.dot(dx)) < 1e-14 * scale);
-      // The platform, cut at C_i, is in equilibrium. The links pull it along B_i - C_i.
+      // The platform is in equilibrium under the load and the forces of the distal links, which act
+      // at C_i along B_i - C_i.
       Vector3d sum = wrench;
       for (std::size_t i = 0; i < 3; ++i) {
         const Vector2d e = (p.B[i] - p.C[i]).normalized() * hold.tension(static_cast<Index>(i));

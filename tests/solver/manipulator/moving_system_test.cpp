@@ -19,7 +19,7 @@ using Eigen::VectorXd;
 namespace {
 
 /// Returns a circle with a rotating platform, so that every part moves.
-Path waltz() {
+Path circle_with_rotation() {
   std::vector<double> times;
   std::vector<Pose> poses;
   for (int i = 0; i <= 40; ++i) {
@@ -82,7 +82,7 @@ double difference(const MatrixXd& a, const MatrixXd& b) {
 
 BOOST_AUTO_TEST_CASE(moved_system_has_the_matrices_of_a_built_one) {
   for (const ManipulatorDesign& design : designs()) {
-    Walk walk(design, waltz(), 0.1, false);
+    Walk walk(design, circle_with_rotation(), 0.1, false);
     for (const double time : {0.1, 0.33, 0.7}) {
       BOOST_TEST_REQUIRE(walk.go_to(time).solved());
       Model model = build_manipulator(design, at(walk.path, time).pose);
@@ -94,8 +94,8 @@ BOOST_AUTO_TEST_CASE(moved_system_has_the_matrices_of_a_built_one) {
         BOOST_TEST(difference(walk.moving.load(), built.f) < 1e-12);
         continue;
       }
-      // Other coordinates may have been eliminated, so eigenvalues are compared instead of
-      // matrices.
+      // Both systems may have eliminated different coordinates, so that the test compares
+      // eigenvalues instead of matrices.
       const VectorXd moved = all_modes(walk.moving.M(), walk.moving.K()).omega;
       const VectorXd there = all_modes(built.M, built.K).omega;
       BOOST_TEST((moved - there).cwiseQuotient(there).cwiseAbs().maxCoeff() < 1e-9);
@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(nominal_inertia_carries_the_momentum_of_the_bodies) {
   // dynamics.
   for (const ManipulatorDesign& design : designs()) {
     if (design.proximal[0].inertia) continue;
-    Walk walk(design, waltz(), 0.1, false);
+    Walk walk(design, circle_with_rotation(), 0.1, false);
     BOOST_TEST_REQUIRE(walk.go_to(0.4).solved());
     const RigidManipulator rigid = rigid_manipulator(design);
     const InverseDynamics dynamics = inverse_dynamics(rigid, at(walk.path, 0.4));
@@ -165,7 +165,7 @@ BOOST_AUTO_TEST_CASE(nominal_inertia_carries_the_momentum_of_the_bodies) {
 }
 
 BOOST_AUTO_TEST_CASE(common_displacement_has_no_gyroscopic_force) {
-  Walk walk(table_1_design(), waltz(), 0.1, true);
+  Walk walk(table_1_design(), circle_with_rotation(), 0.1, true);
   BOOST_TEST_REQUIRE(walk.go_to(0.4).solved());
   const System& system = walk.moving.start();
   VectorXd u = VectorXd::Zero(system.coordinates.size);
@@ -189,21 +189,21 @@ BOOST_AUTO_TEST_CASE(common_displacement_has_no_gyroscopic_force) {
 }
 
 BOOST_AUTO_TEST_CASE(matrices_of_inextensible_links_grow_linearly) {
-  // By the pattern of the constraints alone, each node once depended on all nodes before it on its
-  // link.
+  // The elimination of constraints once made each node depend on all previous nodes of its link, so
+  // that the number of entries increased quadratically.
   std::vector<double> entries;
   for (const Index elements : {8, 16}) {
     ManipulatorDesign design = with_elements(elements);
     for (auto* links : {&design.proximal, &design.distal})
       for (LinkDesign& link : *links) link.axially_flexible = false;
-    const Walk walk(design, waltz(), 0.1, false);
+    const Walk walk(design, circle_with_rotation(), 0.1, false);
     entries.push_back(static_cast<double>(walk.moving.K().nonZeros()));
   }
   BOOST_TEST(entries[1] / entries[0] < 2.1);
 }
 
 BOOST_AUTO_TEST_CASE(refused_pose_leaves_no_trace) {
-  Walk walk(designs()[3], waltz(), 0.1, false);
+  Walk walk(designs()[3], circle_with_rotation(), 0.1, false);
   MovingSystem& moving = walk.moving;
   const NominalMotion before = moving.motion();
   const VectorXd force = VectorXd::LinSpaced(moving.constraints().T.rows(), -1, 2);
@@ -212,7 +212,8 @@ BOOST_AUTO_TEST_CASE(refused_pose_leaves_no_trace) {
   for (std::size_t member = 0; member < moving.start().model.members.size(); ++member) {
     const auto& ends = moving.start().model.members[member].nodes;
     const Vector2d d = before.node[0].row(ends[1]) - before.node[0].row(ends[0]);
-    for (const double along : {0.0, 0.5}) {  // x or y; the other component then is no pivot
+    // The link lies along x or y. The component across it is then no pivot.
+    for (const double along : {0.0, 0.5}) {
       NominalMotion motion = before;
       motion.part[member].angle = along * std::numbers::pi - std::atan2(d.y(), d.x());
       refused += moving.move_to(motion).solved() ? 0 : 1;

@@ -145,8 +145,8 @@ BOOST_AUTO_TEST_CASE(distant_and_near_singular_poses_are_certified) {
 }
 
 BOOST_AUTO_TEST_CASE(mode_orthogonal_to_the_previous_pose_is_found) {
-  // Arm 3 holds the platform like the ground, so arms 1 and 2 move independently. Arm 1 has the six
-  // lowest modes. Then arm 2 is stretched, and its heavy distal link vibrates below them.
+  // Arm 3 fixes the platform, so that arms 1 and 2 vibrate independently. At first, arm 1 has the
+  // six lowest modes. When arm 2 is stretched, its heavy distal link has a lower frequency.
   ManipulatorDesign design = with_elements(4);
   for (const std::size_t arm : {0, 1}) design.elbow[arm] = {ElbowKind::hinged};
   design.platform_joint[2] = {PlatformJointKind::welded};
@@ -158,7 +158,8 @@ BOOST_AUTO_TEST_CASE(mode_orthogonal_to_the_previous_pose_is_found) {
     const double c = std::numbers::sqrt2 / 2;
     return Pose{0.4 - c * reach, c * reach + 0.1 / std::numbers::sqrt3, 0};
   };
-  std::vector<Pose> poses(63, with_reach(0.37));  // until no vector has a component in arm 2
+  // The first pose is repeated until no iteration vector has a component in arm 2.
+  std::vector<Pose> poses(63, with_reach(0.37));
   poses.push_back(with_reach(0.4 - 5e-7));
   check("one arm alone", design, poses, 1);
 }

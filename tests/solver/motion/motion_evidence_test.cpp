@@ -35,8 +35,8 @@ TransientHistory run(const EquationOfMotion& equation, const TimeScheme& scheme 
   return solve_transient(equation, options);
 }
 
-/// Returns true for the first evaluation of a time. The integrator evaluates it before its evidence
-/// does.
+/// Returns true for the first evaluation at a time. The integrator evaluates a time before the
+/// residuals do.
 struct AskedFirst {
   double last = kNaN;
   bool operator()(double time) {
@@ -46,7 +46,8 @@ struct AskedFirst {
   }
 };
 
-/// Returns the oscillator with matrices that `spoil` changes for the integrator only.
+/// Returns the oscillator whose matrices `spoil` changes for the integrator, but not for the
+/// evaluation of residuals.
 template <class Spoil>
 EquationOfMotion seen_wrongly(const Spoil& spoil) {
   EquationOfMotion equation = oscillator();
@@ -68,7 +69,8 @@ BOOST_AUTO_TEST_CASE(every_scheme_keeps_its_balance_of_energy) {
     BOOST_TEST_REQUIRE(h.summary.outcome.solved(), h.summary.outcome.reason);
     BOOST_TEST(h.summary.evidence.largest(Residual::energy) < 1e-13);
     BOOST_TEST(h.summary.evidence.largest(Residual::equation_of_motion) < 1e-14);
-    // This is not the balance of mechanical energy, in which the error of the scheme remains.
+    // The residual is that of the discrete energy balance. The balance of mechanical energy would
+    // contain the error of the time integration.
     const double off = std::abs(h.energy.back().total() - h.energy.front().total());
     if (spectral_radius(scheme, 100) < 0.9) BOOST_TEST(off > 1e-6);
   }
@@ -96,8 +98,8 @@ BOOST_AUTO_TEST_CASE(wrong_matrices_are_refused) {
   BOOST_TEST(!run(stiffness).summary.outcome.solved());
 }
 
-/// Makes one step of the free undamped oscillator by average acceleration. The velocity has the
-/// factor gamma on the new acceleration.
+/// Makes one step of the free undamped oscillator by average acceleration, with the coefficient
+/// gamma of the new acceleration in the velocity.
 BOOST_AUTO_TEST_CASE(wrong_newmark_coefficient_is_refused) {
   EquationOfMotion equation;
   equation.M = scalar(1), equation.K = scalar(100);

@@ -43,7 +43,7 @@ BOOST_AUTO_TEST_CASE(constant_speed_has_the_steady_state_of_the_frame) {
   options.prestress_at_steady_state = false;
   const RotatingModes rotating = solve_rotating_modes(system, options);
   BOOST_TEST(rotating.outcome.solved());
-  // For q of size 1 and K of size 1e6 the residual is round-off.
+  // With q of order 1 and K of order 1e6, the residual is round-off error.
   BOOST_TEST((equation.K * rotating.q - f).norm() < 1e-9 * f.norm());
 }
 

@@ -203,7 +203,7 @@ BOOST_AUTO_TEST_CASE(quasi_static_start_ignores_a_later_jump) {
   BOOST_TEST(h.v(0, 0) == 2 / equation.K.coeff(0, 0), tolerance(1e-10));
 }
 
-/// Stiff and strongly damped masses follow a slow load without an initial vibration.
+/// Masses on stiff springs with strong damping follow a slow load without an initial vibration.
 BOOST_AUTO_TEST_CASE(quasi_static_start_includes_its_drag) {
   EquationOfMotion equation = chain(3, 1, 1e6);
   equation.C = 0.003 * equation.K;
@@ -217,7 +217,7 @@ BOOST_AUTO_TEST_CASE(quasi_static_start_includes_its_drag) {
   const TransientHistory h = solve_transient(equation, options);
   BOOST_REQUIRE(h.summary.outcome.solved());
   const double of_the_drag =
-      0.003 * slow;  // [N] in each spring; the same number is the acceleration of 1 kg
+      0.003 * slow;  // force in each spring [N], equal to the acceleration of 1 kg [m/s^2]
   BOOST_TEST(h.a.col(0).cwiseAbs().maxCoeff() < 1e-6 * of_the_drag);
   BOOST_TEST(h.q(2, 0) == 3 * (10 - of_the_drag) / 1e6, tolerance(1e-9));
   BOOST_TEST(h.v(2, 0) == 3 * slow / 1e6, tolerance(1e-6));

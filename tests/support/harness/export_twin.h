@@ -10,7 +10,7 @@
 #include "harness/export/exported_case.h"
 #include "tests/support/harness/support.h"
 
-/// An exported case compared with its original.
+/// Comparison of an exported case with its original.
 namespace trammel::testing {
 
 struct ExportTwin {
@@ -35,16 +35,16 @@ inline std::vector<ExportChoice> choices_of(const Case& given, const std::string
   return choices;
 }
 
-/// Returns true for measures of round-off and for quantities that depend on it. The time of a peak
-/// depends on it if samples are equal up to round-off.
+/// Returns true for estimates of round-off and for quantities that depend on round-off. The time of
+/// a peak depends on round-off if several samples are almost equal.
 inline bool is_roundoff(const std::string& name) {
   const auto has = [&](const char* word) { return contains(name, word); };
   return has("roundoff") || has("_residual") || has("energy_drift") || has("newton_") ||
          has("estimated_correct_digits") || has("peak_time_s");
 }
 
-/// Returns true for sums over edges and for values of tapered members, which an exported case
-/// lacks.
+/// Returns true for quantities that an exported case lacks: sums over edges, and values of tapered
+/// members.
 inline bool is_of_lost_part(const std::string& name, const Json& model) {
   std::string item = name.substr(std::min(name.size(), name.find(':') + 1));
   if (model.contains("edges") && model.at("edges").contains(item)) return true;

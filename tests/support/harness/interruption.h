@@ -2,8 +2,8 @@
 
 namespace trammel::testing {
 
-/// Kills runs at random times with KILL, INT and TERM, resumes each of them, and compares the
-/// results with those of an uninterrupted run.
+/// Interrupts runs at random times by the signals KILL, INT and TERM, resumes each run, and
+/// compares the results with those of an uninterrupted run.
 void interrupt_and_resume(int kills, unsigned seed);
 
 }  // namespace trammel::testing

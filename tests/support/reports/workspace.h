@@ -41,7 +41,8 @@ class Workspace {
 /// Returns the sample with the runs of one case only.
 [[nodiscard]] results::Results sample_of(const std::string& case_id);
 
-/// Returns the report of the sample, which is made once for all tests of this program.
+/// Returns the folder of a report of the sample, which is written once for all tests of this
+/// program.
 [[nodiscard]] const std::filesystem::path& sample_report();
 
 /// Returns the first page of a report of these results, or all pages as one text.

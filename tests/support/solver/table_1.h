@@ -19,8 +19,8 @@ inline ManipulatorGeometry table_1_geometry() {
   return g;
 }
 
-/// Returns a geometry unlike the paper's: unequal links, base and platform, P off the centroid,
-/// mixed working modes.
+/// Returns a geometry without symmetry: unequal links, base and platform, P off the centroid, and
+/// different working modes of the limbs.
 inline ManipulatorGeometry uneven_geometry() {
   ManipulatorGeometry g;
   g.base = {Vector2d{0.02, -0.01}, Vector2d{0.61, 0.03}, Vector2d{0.2, 0.47}};
