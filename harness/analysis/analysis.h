@@ -15,7 +15,7 @@ struct AnalysisOptions {
 
 struct AnalysisResult : StepResult {
   Quantities quantities;
-  std::vector<results::EffectRow> effects;  ///< of the computation
+  std::vector<results::EffectRow> effects;  ///< effects of the computation and their reasons
 };
 
 /// Runs the analysis of a case.

@@ -33,9 +33,10 @@ void disagree(double by, OptionCounts& counts) {
 
 /// Options that are tested for one kind of analysis.
 struct Options {
-  std::vector<Json> combinations;           ///< patches of the analysis
-  bool must_agree = false;                  ///< no combination may change a number
-  std::vector<std::string> required_terms;  ///< in the reason of a solution that does not converge
+  std::vector<Json> combinations;  ///< patches of the analysis
+  bool must_agree = false;         ///< no combination may change a number
+  /// Words that the reason of a failed convergence must contain.
+  std::vector<std::string> required_terms;
 };
 
 /// Combines the values of all options under "vary"; each combination starts from "set".

@@ -15,9 +15,10 @@ namespace trammel::harness {
 /// Effects of a case.
 struct EffectChoice {
   solver::Effects chosen = solver::Effects::all();
-  std::optional<double> tolerance;       ///< of "auto"
-  std::vector<results::EffectRow> rows;  ///< of every effect; empty if the analysis has no effects
-  std::optional<EffectSelection> automatic;  ///< of "auto"
+  std::optional<double> tolerance;  ///< tolerance of the automatic selection
+  /// State of every effect; empty if the analysis has no effects.
+  std::vector<results::EffectRow> rows;
+  std::optional<EffectSelection> automatic;  ///< result of the automatic selection
 
   /// @returns true if large displacement, which the analysis cannot compute, exceeds the tolerance
   [[nodiscard]] bool is_beyond_tier() const {

@@ -11,7 +11,7 @@ namespace trammel::harness {
 
 /// Wave number and duration of the responses that an analysis resolves.
 struct ResponseScale {
-  double half_waves = 1;  ///< per member
+  double half_waves = 1;  ///< number of half waves per member
   /// Phase angle of the vibration over which a relative change of a frequency accumulates [rad].
   double phase = 1;
   double platform = 1;         ///< phase angle for a change of the platform's stiffness [rad]

@@ -7,8 +7,8 @@
 #include "harness/scene/case_model.h"
 #include "solver/model/effects.h"
 
-/// Rules for the selection of effects: applicable and required effects of each analysis, and
-/// descriptions.
+/// Rules for the selection of effects: the applicable and required effects of each analysis, and
+/// reasons for them.
 namespace trammel::harness {
 
 /// Key of an analysis that switches an effect.

@@ -24,7 +24,8 @@ struct EffectEvidence {
   std::optional<double> own;         ///< relative change of the results without this effect only
   std::optional<double> cumulative;  ///< relative change without this effect and those removed
                                      ///< before it
-  bool is_measured = false;          ///< on a coarse model; otherwise the changes are bounds
+  /// True if the changes are measured on a coarse model; otherwise they are bounds.
+  bool is_measured = false;
 };
 
 struct EffectSelection {
@@ -32,7 +33,8 @@ struct EffectSelection {
                             ///< remains
   solver::Effects chosen;
   std::array<EffectEvidence, solver::kEffectCount> evidence;
-  double change = 0;  ///< from all effects to the chosen set: sum of measurements and bounds
+  /// Relative change from all effects to the chosen set: sum of measurements and bounds.
+  double change = 0;
   /// Relative change by large displacement if the analysis cannot compute that effect.
   std::optional<double> beyond_tier;
   double work = 0;  ///< work of the selection, as defined by `work_of` in coarse_scene.h
@@ -46,7 +48,7 @@ struct EffectSelection {
                                              const CaseModel& scene, const EffectScope& scope,
                                              double tolerance);
 
-/// @returns true if an effect changes sizes or steps, not only coefficients
+/// Returns true for expensive effects, which change matrix sizes or numbers of steps.
 [[nodiscard]] bool is_expensive(solver::Effect effect);
 
 }  // namespace trammel::harness

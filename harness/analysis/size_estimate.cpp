@@ -176,8 +176,8 @@ class Estimator {
   const Document& document_;
   JsonView root_;
   SizeEstimate size_;
-  std::map<std::string, double> bytes_;  ///< by the key that causes them
-  double points_ = 1, numbers_ = 100;    ///< of the path; recorded at each point
+  std::map<std::string, double> bytes_;  ///< bytes by the key of the case that causes them
+  double points_ = 1, numbers_ = 100;    ///< points of the path, and numbers recorded at each point
   double share_in_plane_ = 1, share_of_members_ = 1;
   std::string path_ = "/model";
 };

@@ -9,10 +9,11 @@ namespace trammel::harness {
 
 /// Upper estimate of the size of one computation. It uses the case only, before anything is built.
 struct SizeEstimate {
-  double coordinates = 0;  ///< of the model before constraints
-  double non_zeros = 0;    ///< of a factor of its stiffness, in a fill-reducing order
-  double bytes = 0;        ///< of the entire computation
-  std::string cause;       ///< pointer to the key that causes the largest part
+  double coordinates = 0;  ///< number of coordinates of the model before constraints
+  /// Number of non-zeros of a factor of the stiffness matrix, in a fill-reducing order.
+  double non_zeros = 0;
+  double bytes = 0;   ///< memory of the entire computation
+  std::string cause;  ///< pointer to the key that causes the largest part
 };
 
 /// Estimates the size from the coordinates, dense solutions, modes, samples, points of paths and

@@ -57,8 +57,9 @@ void end_without_memory(int status, const char* line);
 /// Limits of a program that is not part of trammel.
 struct ProgramLimits {
   double wall_s = 120;
-  std::size_t memory_bytes = 0;                   ///< address space of each process; 0: no limit
-  std::size_t disk_bytes = std::size_t{1} << 30;  ///< of each file, and of the folder in total
+  std::size_t memory_bytes = 0;  ///< address space of each process; 0: no limit
+  /// Limit of each file, and of all files of the folder.
+  std::size_t disk_bytes = std::size_t{1} << 30;
 };
 
 /// Runs a program in a folder, which is also its TMPDIR, in a separate session without standard

@@ -24,7 +24,7 @@ struct Column {
 class Rows {
  public:
   explicit Rows(std::vector<Column> columns) : columns_(std::move(columns)) {}
-  /// @param rows  an array of objects; the columns select keys
+  /// @param rows  an array of objects, one per row; each column shows the value of its key
   Rows(std::vector<Column> columns, const Json& rows);
 
   /// @param cells  one cell per column: text, number, truth value, list of these, or null

@@ -18,7 +18,7 @@ struct TimingOptions {
 
 /// Processor time of one computation. Medians are taken over the repeats.
 struct Timing {
-  std::vector<double> cpu_s;  ///< one entry per repeat
+  std::vector<double> cpu_s;  ///< processor times of one computation, one per repeat
   double median_s = 0;
   double wall_median_s = 0;
   int runs_each = 1;  ///< number of computations in a measurement

@@ -37,7 +37,7 @@ struct Selection {
   std::vector<Run> broken;
 };
 
-/// Unreadable files do not prevent the results of the others.
+/// Loads case files. A file that cannot be read becomes a failed run, so that the other cases run.
 Selection load(const std::vector<std::filesystem::path>& files, const Catalogue& catalogue) {
   Selection selection;
   for (const auto& file : files) {

@@ -21,8 +21,8 @@ namespace trammel::harness {
 struct CommandOptions {
   std::vector<std::string> words;       ///< positional arguments: cases, files, folders, names
   std::string word;                     ///< single positional argument of commands that have one
-  std::vector<std::string> labels;      ///< all of them
-  std::vector<std::string> any_labels;  ///< at least one of them
+  std::vector<std::string> labels;      ///< labels that a case must all have
+  std::vector<std::string> any_labels;  ///< labels of which a case must have at least one
   std::string variant;
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
   std::string out;    ///< folder; a file for `export` and `solve`; empty: standard output
@@ -33,28 +33,29 @@ struct CommandOptions {
   bool json = false, csv = false;
   bool quiet = false;  ///< prints only runs that fail, and the summary
 
-  std::string shard;    ///< for `run`: "K/N"
+  std::string shard;    ///< "K/N" for `run`: the K-th of N shards
   std::string history;  ///< SQLite file to which the call is added; empty: none
   bool vtk = false;
 
   std::string html;  ///< for `compare`: file of the page; empty: none
   bool gate = false;
 
-  std::vector<std::string> sweeps;  ///< for the cases of `cost` and `export`; empty: all
+  std::vector<std::string> sweeps;  ///< names of sweeps for `cost` and `export`; empty: all
   bool quick = false;
   int repeats = 7;
   std::size_t seed = 1;
   /// Estimate discretization errors of all cases, or of none.
   bool all_errors = false, no_errors = false;
-  double warn_above = 0.01;  ///< relative error
+  double warn_above = 0.01;  ///< relative discretization error above which a warning is printed
   double accuracy = 0;       ///< relative error for the search of mesh and step; 0: no search
   std::vector<std::string> quantities;  ///< quantities considered by the search
   double time_limit_s = 120;            ///< time limit of the search
 
-  double tolerance = 0.01;  ///< for `effects`, relative
+  double tolerance = 0.01;  ///< permitted relative change of the results, for `effects`
 
-  std::vector<std::string> builds;  ///< for `certify`: results.json of the same cases
-  bool gaps = false;                ///< for `coverage`: only rows without independent evidence
+  std::vector<std::string> builds;  ///< results.json of other builds, for `certify`
+  /// Print only rows without independent evidence, for `coverage`.
+  bool gaps = false;
 
   int level = -1;  ///< level of the sweep written by `export`; -1: the case itself
   std::string matrices;
@@ -62,8 +63,9 @@ struct CommandOptions {
   std::string adapter;      ///< for `grade`: the program with its arguments
   double max_time_s = 120;  ///< wall time limit of one call of the adapter
   std::size_t max_disk_bytes = std::size_t{1} << 30;  ///< limit of the adapter's files
-  std::size_t shard_count = 0;                        ///< for `slurm`
-  std::string job_time;  ///< in the format of sbatch; empty: default of the partition
+  std::size_t shard_count = 0;                        ///< number of shards, for `slurm`
+  /// Time limit of a job in the format of sbatch; empty: default of the partition.
+  std::string job_time;
 };
 
 using Command = int(const CommandOptions& options, const Renderers& renderers);

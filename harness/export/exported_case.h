@@ -19,7 +19,7 @@ namespace trammel::harness {
 /// Selects one computation of a case.
 struct ExportChoice {
   std::string variant = kBaseVariant;
-  std::string sweep = {};  ///< empty: the only sweep
+  std::string sweep = {};  ///< name of the sweep; empty: the only sweep
   std::optional<std::size_t> level = std::nullopt;
 };
 
@@ -65,7 +65,7 @@ void write_matrices(const Document& document, const ExportedScene& scene,
 /// Names that a built model does not keep.
 struct WrittenNames {
   std::vector<std::pair<std::string, solver::Material>> materials;
-  std::vector<std::string> loads;  ///< of the first entries of `Model::loads`
+  std::vector<std::string> loads;  ///< names of the first entries of `Model::loads`
 };
 
 /// Returns the value of a case's "model".

@@ -14,7 +14,7 @@ namespace trammel::harness {
 struct Adapter {
   std::vector<std::string> words;  ///< program and arguments
   std::filesystem::path folder;    ///< parent of a separate folder for each call
-  ProgramLimits limits;            ///< of one call
+  ProgramLimits limits;            ///< limits of one call of the adapter
 };
 
 /// Splits a command into words. The command is an executable file, or a program of the PATH with

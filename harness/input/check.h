@@ -64,10 +64,10 @@ struct NegativeControl {
 
 struct Check {
   std::string name, title, quantity, statistic, reference, against_variant, against_quantity;
-  std::vector<std::size_t> index, reference_index;  ///< empty: all
+  std::vector<std::size_t> index, reference_index;  ///< selected entries; empty: all
   Role role = Role::verification;
   Measure measure = Measure::relative;
-  std::vector<Window> windows;  ///< one for all entries, or one per entry
+  std::vector<Window> windows;  ///< allowed intervals: one for all entries, or one per entry
   bool symmetric = false;       ///< a tolerance: the window is [-t, t]
   Expectation expectation = Expectation::agrees;
   std::string why;

@@ -247,7 +247,8 @@ using results::TwoTermLaw;
 
 namespace {
 
-/// Least squares for 1 = (a h^p + b h^q) / error over levels first, first + 1, ...
+/// Fits a and b of the two-term law to the levels first, first + 1, ... by least squares of
+///   1 = (a h^p + b h^q) / error.
 class Fit {
  public:
   Fit(const std::vector<double>& h, const std::vector<double>& error, const TwoTermOrders& law)

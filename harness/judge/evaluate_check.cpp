@@ -69,8 +69,9 @@ std::vector<double> pick(const std::vector<double>& values, const std::vector<st
 /// Numbers to compare, entry by entry.
 struct ComparedValues {
   std::vector<double> computed;
-  std::vector<double> expected;     ///< empty: no target
-  std::vector<double> uncertainty;  ///< of the expected value, absolute; empty if it has none
+  std::vector<double> expected;  ///< expected values; empty if the check compares with nothing
+  /// Absolute uncertainty of each expected value; empty if there is none.
+  std::vector<double> uncertainty;
 };
 
 void require_unit(const std::string& quantity, const std::string& unit, const std::string& whose) {

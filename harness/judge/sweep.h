@@ -39,7 +39,7 @@ void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Ch
 
 struct TrackedQuantity {
   std::string quantity, statistic;
-  std::vector<std::size_t> index, reference_index;  ///< empty: all
+  std::vector<std::size_t> index, reference_index;  ///< selected entries; empty: all
   const references::Reference* reference = nullptr;
   bool is_error = false;  ///< the values are themselves errors
   std::optional<double> theory = std::nullopt;

@@ -38,14 +38,14 @@ struct GrnnOutput {
 struct GrnnSamples {
   Eigen::MatrixXd inputs;           ///< sample x input
   Eigen::MatrixXd outputs;          ///< sample x output
-  std::vector<GrnnOutput> columns;  ///< of the outputs
+  std::vector<GrnnOutput> columns;  ///< meaning of each column of the outputs
 };
 
 /// Samples of the paper (Section 4.3). Inputs are the torques of the inverse dynamics at each point
 /// of the scene's path. Outputs are the angles and velocities of the active joints. Angles are
 /// continuous across pi.
 struct PathSamples {
-  solver::Outcome outcome;  ///< of the first point without a solution
+  solver::Outcome outcome;  ///< outcome of the first point without a solution
   GrnnSamples samples;
 };
 

@@ -14,7 +14,7 @@
 namespace trammel::harness {
 namespace {
 
-/// The case's system and its steady response.
+/// System of equations of a case, and its steady response to harmonic loads.
 class HarmonicScene {
  public:
   HarmonicScene(const JsonView& analysis, const CaseModel& case_model, std::size_t step)

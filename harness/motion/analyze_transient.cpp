@@ -36,13 +36,13 @@ struct MotionHistory {
   solver::Evidence evidence;
   solver::Counters counters;
   std::vector<double> time;         ///< [s]
-  std::vector<double> load_factor;  ///< of the loads without weight, at those times
+  std::vector<double> load_factor;  ///< factor of the loads (without weight) at those times
   /// Filtered factors of loads and weight, 2 x time, for the delayed strains under
   /// stiffness-proportional damping. Otherwise empty.
   Eigen::MatrixXd followed_factor;
   Eigen::MatrixXd q, v, a;         ///< free coordinate x time
   solver::ViscousDamping damping;  ///< damping of the motion
-  std::int64_t steps = 0;          ///< of the integrator; 0 for modal superposition
+  std::int64_t steps = 0;          ///< number of time steps; 0 for modal superposition
 };
 
 /// Returns the loads scaled by their history, and the weight, which is constant.

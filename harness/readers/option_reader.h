@@ -22,7 +22,7 @@ namespace trammel::harness {
 [[nodiscard]] solver::TimeScheme read_time_scheme(const JsonView& scheme);
 
 /// Limits the number of steps to ten million.
-/// @param step  place of a time step
+/// @param step  value of the case that is a time step
 /// @throws InputError  if the duration contains more steps.
 void require_step_count(const JsonView& step, double duration);
 

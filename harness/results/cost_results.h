@@ -14,7 +14,7 @@ namespace trammel::results {
 struct SandboxedRun {
   enum class Termination { failed, solved, timed_out };
   Termination termination = Termination::failed;
-  std::string reason;                                     ///< of a failure
+  std::string reason;                                     ///< reason of a failure
   std::vector<std::vector<double>> values;                ///< one list per observed quantity
   std::map<std::string, std::vector<double>> quantities;  ///< all quantities, if none is observed
   Counters counters;
@@ -29,7 +29,7 @@ struct ErrorNorms {
 };
 
 struct SettingTime {
-  std::vector<double> cpu_s;  ///< of one computation, per repeat
+  std::vector<double> cpu_s;  ///< processor time of one computation, per repeat
   /// Time relative to the baseline: interval that contains the median with a probability of 98 %.
   double relative_low = 0, relative_high = 0;
   double wall_median_s = 0;
@@ -38,12 +38,12 @@ struct SettingTime {
 
 struct CostSetting {
   std::string curve, curve_title, title, status, reason;
-  Number value;                      ///< along the curve
-  std::optional<ErrorNorms> errors;  ///< of the first output
+  Number value;                      ///< value of the parameter along the curve
+  std::optional<ErrorNorms> errors;  ///< error norms of the first output
   /// Errors of each output; empty if the setting does not compute it. Only stores contain them.
   std::vector<std::optional<ErrorNorms>> output_errors;
   double cpu_s = 0;  ///< median, or time of the only trial
-  Number relative;   ///< relative to the baseline
+  Number relative;   ///< median time, relative to the baseline
   std::optional<SettingTime> time;
   Counters counters;
   bool pareto_optimal = false;
@@ -66,7 +66,7 @@ struct CheapestSetting {
 
 /// Agreement of the Pareto fronts of two measurements; in a study, of odd and even repeats.
 struct Repeatability {
-  std::size_t on_both_fronts = 0, on_either_front = 0;  ///< settings
+  std::size_t on_both_fronts = 0, on_either_front = 0;  ///< numbers of settings
   std::size_t same_cheapest = 0, target_errors = 0;  ///< target errors reached by both measurements
   /// |ln| of the ratio of the times needed for an accuracy, over all errors of both fronts that
   /// both measurements reach. The value is a fraction: 0.1 is 10 %.

@@ -208,7 +208,7 @@ template <class T>
 Json object_to_json(const T& value, Form form) {
   Json json = Json::object();
   auto& members = json.template get_ref<Json::object_t&>();
-  // Growing would copy all members.
+  // A vector that grows would copy all members.
   members.reserve(std::tuple_size_v<std::decay_t<decltype(kFields<T>)>>);
   const auto write = [&](const auto& field) {
     if (!is_left_out(field, value, form))

@@ -13,7 +13,7 @@ namespace trammel::results {
 
 namespace {
 
-/// Requires one entry per level in every vector of a refinement.
+/// Requires that every vector of a convergence study has one entry per level.
 void complete(Convergence& study, const Place& place) {
   const std::size_t levels = study.parameter.size();
   for (std::size_t i = 0; i < levels; ++i) {

@@ -19,7 +19,8 @@ namespace trammel::results {
 struct Environment {
   std::string trammel, commit, date, compiler, flags, build_type, processor, system;
   int cores = 0;
-  int stored_runs = 0;  ///< left by an earlier call with the same program and input
+  /// Number of runs that an earlier call with the same program and input computed.
+  int stored_runs = 0;
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
 };
 
@@ -41,7 +42,7 @@ struct PlotRequest {
 /// divided by another timing.
 struct ColumnRequest {
   std::string id, title, quantity, timing, over_timing;
-  std::string statistic;  ///< empty: first entry
+  std::string statistic;  ///< statistic of the quantity; empty: its first entry
 };
 
 /// A table with a row for each variant (all, if none is named) and one number per column.
@@ -69,14 +70,14 @@ struct CaseInfo {
   std::vector<PlotRequest> figures;
   std::vector<TableRequest> tables;
   std::vector<Variant> variants;
-  std::string hash;  ///< of the case with all cases that it extends
+  std::string hash;  ///< hash of the case with all cases that it extends
 
   [[nodiscard]] std::string variant_title(const std::string& variant) const;
 };
 
 struct Reference {
   std::string id, title, kind, unit, citation, doi, place, derivation, notes;
-  Numbers values, uncertainty;  ///< absolute half-widths
+  Numbers values, uncertainty;  ///< values, and the absolute half-widths of their uncertainty
   std::vector<std::string> printed, errata;
 };
 
@@ -110,7 +111,7 @@ struct PaperItem {
   struct Counterpart {
     /// Empty: all variants, all quantities, no figure.
     std::string case_id, variant, quantity, figure;
-    std::string verdict;  ///< in words
+    std::string verdict;  ///< verdict in words
   };
   std::string id, section, what;  ///< "equation-14"
   std::vector<Counterpart> shown_by = {};
@@ -142,13 +143,14 @@ struct CoverageRow {
 struct EffectScene {
   std::string scene, analysis, chosen;  ///< the case, its kind of analysis, names of effects
   double tolerance = 0;                 ///< requested [-]
-  double change = 0;     ///< from all effects to the chosen ones, maximum over all kinds [-]
+  double change = 0;     ///< largest relative change of the results from all to the chosen effects
   bool minimal = false;  ///< no chosen effect can be omitted
   double whole_s = 0, chosen_s = 0, deciding_s = 0;  ///< processor time [s]
   /// Counted work of the selection and of the chosen effects, relative to that of all effects.
   double work_ratio = 0;
   double deciding_work_ratio = 0;  ///< counted work of the selection alone
-  Number mesh_change;              ///< from half the elements to all elements [-]
+  /// Relative change of the results from half the elements to all elements.
+  Number mesh_change;
   /// Change due to large displacement, if the analysis cannot represent it [-].
   Number beyond_tier;
 };
@@ -163,7 +165,7 @@ struct HistoryCall {
   std::int64_t id = 0;
   std::string date, commit, machine;
   std::size_t runs = 0, checks = 0, failures = 0, work = 0;
-  double cpu_s = 0;  ///< 0: some runs were computed by an earlier call
+  double cpu_s = 0;  ///< processor time [s]; 0 if an earlier call computed some of the runs
   [[nodiscard]] bool green() const { return failures == 0; }
 };
 
@@ -172,7 +174,7 @@ struct HistoryChange {
   std::string name;  ///< run, check and entry; or the run alone for its counted work
   std::string verdict_before, verdict;
   Number before, after;
-  std::string commit, date;  ///< of the first call with the change
+  std::string commit, date;  ///< commit and date of the first call with the change
   [[nodiscard]] bool of_verdict() const { return verdict_before != verdict; }
 };
 
@@ -188,7 +190,7 @@ struct History {
   std::int64_t since = 0;              ///< the green call used as the baseline of changes; 0: none
   std::vector<HistoryChange> changes;  ///< verdicts first
   std::vector<HistoryChange> work;     ///< changes of counted work, exact
-  std::vector<HistoryDrift> drifts;    ///< largest first
+  std::vector<HistoryDrift> drifts;    ///< drifts, largest first
 };
 
 struct Results {
@@ -197,11 +199,11 @@ struct Results {
   std::vector<CaseInfo> cases;
   std::vector<Reference> references;
   std::vector<Run> runs;
-  std::optional<Solver> solver;  ///< empty: trammel
+  std::optional<Solver> solver;  ///< solver that computed the runs; empty: trammel
   std::optional<UncertaintyCoverage> uncertainty_coverage;
   std::optional<CostStudies> cost;  ///< accuracy and computing time, if measured
   std::optional<Claims> claims;
-  std::vector<CoverageRow> coverage;  ///< of the complete catalogue
+  std::vector<CoverageRow> coverage;  ///< coverage by evidence in the complete catalogue
   std::vector<EffectScene> effect_scenes;
   std::optional<History> history;  ///< its newest call produced these results
   std::string store;               ///< folder of stored runs, relative to the file's folder

@@ -48,7 +48,7 @@ struct Check {
   std::string name, title, quantity, unit, reference, role, measure, why, message;
   /// Empty if the check compares single entries with a reference.
   std::string statistic, against_variant, against_quantity;
-  std::optional<int> index;  ///< from 0
+  std::optional<int> index;  ///< index of the entry, from 0
   Number computed, expected, difference;
   std::optional<Tolerance> tolerance;
   Expectation expectation = Expectation::agrees;
@@ -71,7 +71,7 @@ struct TwoTermLaw {
 /// refinement. All vectors have one entry per level.
 struct Convergence {
   std::string sweep, quantity, statistic;
-  std::string reference;  ///< of the exact value
+  std::string reference;  ///< reference of the exact value
   int index = 0;
   Numbers parameter;         ///< the swept number
   Numbers values, roundoff;  ///< the round-off is relative
@@ -82,7 +82,7 @@ struct Convergence {
   /// A second, lower order that dominates on fine meshes: error = a h^theory + b h^lower.
   Number lower_order;
 
-  Numbers error;  ///< relative to the exact value, or else to the extrapolated one
+  Numbers error;  ///< errors relative to the exact value, or else to the extrapolated one
   Numbers order;  ///< observed between a level and the previous one
   /// Levels with an error above 100 times the round-off error and an order within a tenth of a
   /// neighbor's. If two orders mix, the two-term law must fit the error instead.
@@ -90,7 +90,7 @@ struct Convergence {
   std::vector<bool> at_roundoff_floor;  ///< error at most 100 times the round-off error
   Number fitted_order;                  ///< slope over the asymptotic range
   Number richardson;                    ///< extrapolated value; missing if the values diverge
-  std::optional<TwoTermLaw> two_term;   ///< of the relative error, if two orders mix
+  std::optional<TwoTermLaw> two_term;   ///< law of the relative error, if two orders mix
   /// Grid convergence index: relative half-width of the interval expected to contain the converged
   /// value. It uses the values alone and includes round-off error. Missing if the values diverge.
   Numbers gci;
@@ -102,7 +102,7 @@ struct Convergence {
 
 struct SweepLevel {
   double parameter = 0;
-  harness::Quantities quantities;  ///< empty without a solution
+  harness::Quantities quantities;  ///< quantities of the level; empty without a solution
 };
 
 /// Results of one computation at all levels of a refinement.
@@ -115,16 +115,18 @@ struct Sweep {
 struct UncertainInput {
   std::string name, why;
   std::vector<std::string> pointers;  ///< JSON pointers to its values, which change together
-  Number half_width;                  ///< in the unit of these values
-  bool nominal = false;               ///< a round design value, uncertain only in `all_inputs`
+  /// Half-width of the uniform distribution, in the unit of these values.
+  Number half_width;
+  bool nominal = false;  ///< a round design value, uncertain only in `all_inputs`
 };
 
 /// Verdict of a comparison after ASME V&V 20.
 struct ValidationVerdict {
-  Number u_input, u_input_sampled;  ///< by derivatives, and by sampling
-  Number u_val;                     ///< sqrt(u_num^2 + u_input^2 + u_reference^2)
-  Numbers interval;                 ///< of the model error at about 95 %: E -+ 2 u_val
-  std::string verdict;              ///< one of the words of judge/input_uncertainty.h
+  /// Uncertainty due to the inputs: by derivatives, and by sampling.
+  Number u_input, u_input_sampled;
+  Number u_val;         ///< sqrt(u_num^2 + u_input^2 + u_reference^2)
+  Numbers interval;     ///< interval of the model error at about 95 %: E -+ 2 u_val
+  std::string verdict;  ///< one of the words of judge/input_uncertainty.h
   std::string conclusion;
 };
 
@@ -132,10 +134,10 @@ struct ValidationVerdict {
 /// uncertainties are standard uncertainties in the quantity's unit.
 struct Comparison : ValidationVerdict {
   std::string check, quantity, unit, reference;
-  std::string dominant_input;  ///< largest contribution; empty: none
+  std::string dominant_input;  ///< input with the largest contribution; empty: none
   int index = 0;
   Number simulation, expected, difference;  ///< S, D, E
-  Number u_num, u_reference;  ///< of the discretization, and of the printed digits of D
+  Number u_num, u_reference;  ///< uncertainty due to discretization, and to the printed digits of D
   Number dominant_share;      ///< fraction of u_input squared
   /// Signed standard contribution of each input.
   std::vector<std::pair<std::string, Number>> contributions;
@@ -161,14 +163,15 @@ struct Joint {
 
 struct Shape {
   std::string label;
-  std::vector<Point> displacement;  ///< one per node [m]
+  std::vector<Point> displacement;  ///< displacement of each node [m]
 };
 
 struct Pose {
   std::string label;
-  std::vector<Point> nodes;              ///< one per node of the drawing [m]
-  Number time_s = {};                    ///< time of a snapshot of a motion
-  std::vector<Point> displacement = {};  ///< from the pose, one per node [m]; empty: none
+  std::vector<Point> nodes;  ///< positions of the nodes of the drawing [m]
+  Number time_s = {};        ///< time of a snapshot of a motion
+  /// Displacement of each node from the pose [m]; empty: none.
+  std::vector<Point> displacement = {};
 };
 
 /// Contents of a picture of the model: mesh, joints and shapes.
@@ -210,8 +213,9 @@ struct ErrorEstimate {
   /// Largest value of its kind over the structure [unit]; missing: each value itself.
   Number scale;
   Number order;  ///< lowest order of the active parts; missing: the values are exact in theory
-  bool asymptotic = true;  ///< false: too coarse for that order, so a lower one is used
-  std::string setting;     ///< JSON pointer of the setting with the largest effect on the error
+  /// If false, the mesh is too coarse for `order`, so that a lower order is used.
+  bool asymptotic = true;
+  std::string setting;  ///< JSON pointer of the setting with the largest effect on the error
 
   /// Returns the half-width about one of the quantity's values [unit].
   [[nodiscard]] Number half_width(std::size_t index, double value) const;
@@ -220,7 +224,7 @@ struct ErrorEstimate {
 /// A discretization tried in the search for a requested accuracy.
 struct AccuracyStep {
   std::string setting;  ///< "8 elements, step 0.001 s"
-  Number error;         ///< largest relative estimate of the requested quantities
+  Number error;         ///< largest estimated relative error of the requested quantities
   double cpu_s = 0;
 };
 
@@ -230,14 +234,14 @@ struct ErrorEstimates {
   std::vector<ErrorEstimate> quantities;
   std::string companions;  ///< "half the elements; twice the step"
   std::string reason;      ///< reason for a missing estimate; empty: there is an estimate
-  Counters counters;       ///< of the companions
+  Counters counters;       ///< counted work of the companions
   /// Search for --accuracy, coarse to fine; the last entry is the run.
   std::vector<AccuracyStep> search;
 };
 
-/// Readings that predict the same printed row.
+/// Readings (interpretations of the paper's model) that predict the same printed row.
 struct ReadingClass {
-  std::string title;  ///< of the most probable reading
+  std::string title;  ///< title of the most probable reading of the class
   int readings = 0;
   Number probability;
   Numbers values;  ///< its best prediction, in the row's unit
@@ -300,13 +304,13 @@ struct Run {
   std::vector<Sweep> sweeps;
   std::map<std::string, std::string> references;  ///< hashes by the place of a reference
   std::string machine;                            ///< machine of the time measurements
-  SolverIdentity solver;                          ///< other than trammel
+  SolverIdentity solver;                          ///< solver that computed the run; empty: trammel
 
-  Fault fault = Fault::none;  ///< for the status error
+  Fault fault = Fault::none;  ///< origin of the status error
 
   // Not written.
   int interrupted_by = 0;   ///< signal that prevented the computation
-  bool was_stored = false;  ///< by an earlier call
+  bool was_stored = false;  ///< true if an earlier call computed the run
 
   [[nodiscard]] bool is_solved() const { return status == Status::solved; }
   /// @returns nullptr if the run has no such quantity.

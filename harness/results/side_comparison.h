@@ -11,8 +11,9 @@ namespace trammel::results {
 
 /// Values of one number, or of the frequency of a set of modes, on each side.
 struct ComparedValue {
-  Numbers values;    ///< empty if a side has none
-  Numbers percent;   ///< relative to the first side; empty if that value is zero up to round-off
+  Numbers values;  ///< value on each side; missing if the side has none
+  /// Change from the first side [%]; missing if that value is zero up to round-off.
+  Numbers percent;
   double noise = 0;  ///< differences up to this value are round-off
   /// Largest difference from the first side, relative to the largest value of the series.
   double share = 0;
@@ -28,20 +29,21 @@ struct ComparedNumber : ComparedValue {
 
 /// A set of modes of the first side, and the modes of the other sides with a similar shape.
 struct ComparedModes : ComparedValue {
-  std::vector<std::vector<std::size_t>> modes;  ///< from 1; empty: no mode has a similar shape
-  Numbers last;                                 ///< highest frequencies of sets that have split
-  Numbers alike;                                ///< 1: identical shape
+  /// Numbers of the modes, from 1; empty: no mode has a similar shape.
+  std::vector<std::vector<std::size_t>> modes;
+  Numbers last;   ///< highest frequencies of sets that have split
+  Numbers alike;  ///< similarity of the shapes; 1: identical
 };
 
 struct ComparedRun {
   std::string name;
-  std::vector<ComparedNumber> numbers;  ///< largest change first
+  std::vector<ComparedNumber> numbers;  ///< compared numbers, largest change first
   std::vector<ComparedModes> modes;
   std::vector<std::string> remarks;  ///< quantities missing on some sides; changed verdicts
-  double share = 0;                  ///< largest of its numbers
+  double share = 0;                  ///< largest share of the compared numbers
   bool changed = false;
-  CaseInfo info;          ///< of the first side; not written
-  std::vector<Run> runs;  ///< with their series if they are drawn; not written
+  CaseInfo info;          ///< case of the first side; not written
+  std::vector<Run> runs;  ///< run of each side, with its series if they are drawn; not written
 };
 
 struct ComparedSide {
@@ -50,8 +52,8 @@ struct ComparedSide {
   /// Sums over the runs that all sides have.
   double cpu_s = 0;
   std::size_t work = 0;                ///< element evaluations, factorizations, solves and steps
-  Number relative_time;                ///< relative to the first side
-  Number median_error, largest_error;  ///< relative to references that all sides have
+  Number relative_time;                ///< processor time relative to the first side
+  Number median_error, largest_error;  ///< errors relative to references that all sides have
 };
 
 struct SideComparison {

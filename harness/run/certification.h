@@ -9,7 +9,7 @@
 /// optimization.
 namespace trammel::harness {
 
-/// The same cases, computed with one condition changed.
+/// Results of the same cases under other conditions, such as another rounding mode or compiler.
 struct Configuration {
   std::string name;
   results::Results results;
@@ -33,7 +33,8 @@ struct VerdictFlip {
 /// A tolerance less than ten times the variation of the difference between configurations.
 struct TightTolerance {
   std::string check, configuration;  ///< "case:variant name" of the check, for its worst entry
-  double tolerance = 0, noise = 0;   ///< in the measure of the check
+  /// Tolerance, and variation between configurations, in the measure of the check.
+  double tolerance = 0, noise = 0;
 };
 
 struct Certification {

@@ -14,11 +14,11 @@ namespace trammel::harness {
 
 /// A run, or an entry of one of its checks.
 struct Entry {
-  std::string verdict;    ///< of the check, or the status of the run
+  std::string verdict;    ///< verdict of the check, or status of the run
   results::Number value;  ///< computed value
   double noise = 0;       ///< differences up to this value are round-off
   const results::Run* run = nullptr;
-  const results::Check* check = nullptr;  ///< null: the run itself
+  const results::Check* check = nullptr;  ///< check of the entry; null: the entry is the run itself
 
   /// Returns true if the verdict differs, or the value by more than the noise of both.
   [[nodiscard]] bool differs(const Entry& other) const;

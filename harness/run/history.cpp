@@ -204,7 +204,7 @@ std::vector<HistoryCall> calls_of(Database& database) {
   return calls;
 }
 
-/// Returns the differences from the entries of a call, each with the first later call that had it.
+/// Returns the changes since a call, each with the first later call that had the change.
 std::vector<HistoryChange> changes_since(std::int64_t since,
                                          const std::map<std::string, Course>& courses,
                                          const std::vector<HistoryCall>& calls) {

@@ -36,7 +36,7 @@ struct Shard {
 };
 
 struct RunOptions {
-  std::string variant;  ///< empty: all
+  std::string variant;  ///< variant to run; empty: all
   unsigned jobs = 1;
   TrackedQuantities tracked = TrackedQuantities::named;
   /// Called after each computation and every second, with the number of finished and of all
@@ -50,7 +50,8 @@ struct RunOptions {
   /// Compute refinements and validation uncertainty; disabled only without a store.
   bool studies = true;
   ErrorWish errors = ErrorWish::own_cases;
-  double warn_above = 0.01;                  ///< relative error
+  /// Relative discretization error above which a warning is added.
+  double warn_above = 0.01;
   double accuracy = 0;                       ///< requested accuracy; 0: discretization of the case
   std::vector<std::string> quantities = {};  ///< quantities that the accuracy applies to
 };
@@ -72,7 +73,7 @@ struct RunOptions {
 /// Computations of a shard, including those required only by the checks of other runs.
 struct ShardRuns {
   std::vector<Run> runs;           ///< not judged; in the store
-  std::vector<std::string> names;  ///< of the runs; each belongs to a single shard
+  std::vector<std::string> names;  ///< names of the runs; each run belongs to a single shard
   std::size_t in_all = 0;          ///< number of computations of all shards
 };
 [[nodiscard]] ShardRuns run_shard(const std::vector<Case>& cases, const RunOptions& options,

@@ -25,7 +25,7 @@
 namespace trammel::harness {
 namespace {
 
-constexpr unsigned long long kMaxBytes = 1ULL << 30U;  ///< of uncompressed data
+constexpr unsigned long long kMaxBytes = 1ULL << 30U;  ///< largest size of uncompressed data
 
 /// @throws std::bad_alloc  if zstd reports a failed allocation.
 bool failed(std::size_t result) {

@@ -52,9 +52,9 @@ void clear_starts(const std::filesystem::path& file);
                                            const References& references,
                                            const std::filesystem::path& store, bool resume);
 
+using EffectScenes = std::vector<results::EffectScene>;
 /// Returns the result of `measure` for a case's scene, or the stored result of the same case by the
 /// same program on this machine.
-using EffectScenes = std::vector<results::EffectScene>;
 [[nodiscard]] EffectScenes cached_scenes(const Document& document,
                                          const std::function<EffectScenes()>& measure,
                                          const std::filesystem::path& store, bool resume);

@@ -13,7 +13,7 @@ constexpr std::size_t kPointsPerMember = 12;
 constexpr std::size_t kMaxMovedNodes = 6000;  ///< maximum number of nodes over all moments
 constexpr double kShownShare = 0.8;           ///< required fraction of the way of the coordinates
 
-/// Returns the number of pieces in which an element is drawn.
+/// Returns the number of straight pieces by which an element is drawn.
 std::size_t pieces(const solver::System& system, const solver::FrameElement& element) {
   const auto elements =
       solver::to_size(system.model.members[solver::to_size(element.member)].elements);

@@ -19,9 +19,10 @@ constexpr double kDegree = std::numbers::pi / 180;
 /// the largest one.
 struct Reading {
   double center_frequency = kNaN,
-         center = kNaN;                       ///< at the position that counts as the center
+         center = kNaN;                       ///< sensitivity at the central position
   double mean_frequency = kNaN, mean = kNaN;  ///< over all positions of the map
-  double largest = kNaN;                      ///< in magnitude, away from the boundary
+  /// Sensitivity of largest magnitude, away from the boundary of the workspace.
+  double largest = kNaN;
 };
 
 void record_curves(const std::string& name, const std::string& item,

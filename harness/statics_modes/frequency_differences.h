@@ -28,9 +28,10 @@ struct DesignInPose {
                                      const solver::DesignParameter& parameter);
 
 struct FrequencyDifferences {
-  solver::Outcome outcome;     ///< of the modes of the design and of the changed designs
-  solver::Evidence evidence;   ///< of the modes of all designs
-  Eigen::VectorXd frequency;   ///< ascending [Hz]
+  /// Outcome of computing the modes of the original and the changed designs.
+  solver::Outcome outcome;
+  solver::Evidence evidence;   ///< residuals of the modes of all designs
+  Eigen::VectorXd frequency;   ///< natural frequencies of the original design, ascending [Hz]
   Eigen::VectorXd derivative;  ///< [Hz / unit]; repeated frequencies as in FrequencySensitivity
   solver::Counters counters;
 };

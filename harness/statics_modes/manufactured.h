@@ -12,7 +12,7 @@ namespace trammel::harness {
 struct MembraneTest {
   references::manufactured::MembraneProblem problem;
   double thickness = 0;     ///< [m]
-  solver::Index cells = 1;  ///< along each side
+  solver::Index cells = 1;  ///< number of cells along each side
   bool six_nodes = false;
   double distortion = 0;  ///< displacement of inner mesh nodes, relative to the size of a cell
 };

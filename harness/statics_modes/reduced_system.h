@@ -13,7 +13,7 @@ enum class Weight : std::uint8_t { acts, left_out };
 
 /// System in the coordinates that an analysis requests.
 struct ReducedSystem {
-  solver::Outcome outcome;  ///< of the modes that the system is reduced to
+  solver::Outcome outcome;  ///< outcome of computing the modes to which the system is reduced
   solver::System system;
 };
 

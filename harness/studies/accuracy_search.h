@@ -14,12 +14,12 @@ struct AccuracyRequest {
   /// Names of quantities, or their parts before the colon. If empty: frequencies, load factors,
   /// displacements and positions, or all quantities if there are none of these.
   std::vector<std::string> quantities;
-  double time_limit_s = 120;  ///< of processor time
+  double time_limit_s = 120;  ///< limit of the processor time of the search
 };
 
 struct AccuracySearch {
   std::vector<Document> tried;  ///< coarse to fine; the last one is chosen
-  AnalysisResult result;        ///< of the last one
+  AnalysisResult result;        ///< result of the chosen setting
   results::ErrorEstimates errors;
   std::vector<std::string> asked;  ///< names of the requested quantities; empty: all
   bool reached = false;

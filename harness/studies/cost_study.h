@@ -21,10 +21,11 @@ struct ObservedQuantity {
   std::string addend;              ///< another quantity, added entry by entry; empty: none
   std::string statistic;           ///< reduces the entries to one number; empty: the entries
                                    ///< themselves
-  std::vector<std::size_t> index;  ///< empty: all
+  std::vector<std::size_t> index;  ///< selected entries; empty: all
   bool is_error = false;           ///< the values are relative errors
-  std::vector<double> exact;       ///< from a reference; empty: from the study's reference solution
-  std::size_t output = 0;          ///< index among the study's outputs
+  /// Exact values from a reference; empty: the study's reference solution applies.
+  std::vector<double> exact;
+  std::size_t output = 0;  ///< index among the study's outputs
 
   /// Returns true if the quantity needs the study's reference solution.
   [[nodiscard]] bool needs_reference_solution() const { return !is_error && exact.empty(); }
@@ -43,7 +44,7 @@ using Observations = std::vector<std::vector<double>>;
 struct Setting {
   std::string curve, curve_title;  ///< curve of the setting in the figure
   std::string title;               ///< title with the value: "consistent mass, 4 elements a link"
-  std::optional<double> value;     ///< along the curve
+  std::optional<double> value;     ///< value of the parameter along the curve
   Document document;
   std::vector<ObservedQuantity> observed;
 };
@@ -75,7 +76,7 @@ struct CostStudy {
   /// Outputs. The first one defines figure, front and conclusion, and every setting has it. The
   /// others are optional.
   std::vector<StudyOutput> outputs{1};
-  std::string norm = "max";  ///< of results::ErrorNorms
+  std::string norm = "max";  ///< name of a member of results::ErrorNorms
   int time_limit_s = 60;
 };
 

@@ -18,7 +18,7 @@ struct EffectRun {
   Quantities quantities;
   solver::Counters counters;
   double work = 0;   ///< see `work_of`
-  Changes changes;   ///< relative to the scene with all effects
+  Changes changes;   ///< changes of the results, relative to the scene with all effects
   double cpu_s = 0;  ///< median of the repeats; of one run without repeats
 
   /// Returns the largest change; infinite without a solution.
@@ -49,7 +49,7 @@ struct EffectStudy {
 
 struct EffectStudyOptions {
   double tolerance = 0.01;
-  int repeats = 7;  ///< of each set in turns, after one warm-up; 0: not timed
+  int repeats = 7;  ///< number of timed runs of each set, after one warm-up; 0: no times
 };
 
 /// Studies the effects of a case.

@@ -10,7 +10,7 @@ namespace trammel::harness {
 
 /// Modes sampled at the points that two models have in common.
 struct SampledModes {
-  std::vector<double> frequency;  ///< ascending [Hz]
+  std::vector<double> frequency;  ///< natural frequencies, ascending [Hz]
   Eigen::MatrixXd shape;          ///< displacement at common points x mode
 };
 

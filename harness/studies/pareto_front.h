@@ -13,8 +13,8 @@ namespace trammel::harness {
 
 struct CostPoint {
   std::size_t setting = 0;
-  double error = 0;                ///< relative
-  double time = 0;                 ///< relative to the baseline, median
+  double error = 0;                ///< relative error
+  double time = 0;                 ///< median time, relative to the baseline setting
   double low = time, high = time;  ///< interval of that time
 };
 
