@@ -169,7 +169,7 @@ fs::path store_folder(const std::string& out, const std::string& store) {
   if (!store.empty()) return store;
   fs::path folder = fs::path(out) / "store";
   if (fs::is_symlink(folder))
-    throw InputError("--out " + out + ": expected no link named 'store' (--store follows one)");
+    throw InputError("--out " + out + ": 'store' is a symbolic link, which only --store accepts");
   return folder;
 }
 

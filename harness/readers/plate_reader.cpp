@@ -99,7 +99,8 @@ class Outline {
     const double radius = (point - curve.center).cwiseQuotient(curve.semi_axes).norm();
     if (std::abs(radius - 1) < 1e-6) return;
     throw place.error("expected a node on the curve of the edge (got " + describe_point(point) +
-                      ", " + shortest(radius) + " of the distance from its center to the curve)");
+                      ", " + shortest(radius) +
+                      " times the distance from its center to the curve)");
   }
 
   std::map<std::string, std::vector<solver::Index>> corners_;

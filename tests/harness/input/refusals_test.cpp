@@ -229,7 +229,7 @@ const Refusal kModels[] = {
      "/model/members/AB/end_section: expected two rectangles or two circles"},
     {"ring", R"({"model": {"nodes": {"B": [2.1, 0]}}})",
      "/model/edges/outer/nodes/0: expected a node on the curve of the edge (got (2.1, 0) m, 1.05 "
-     "of the distance from its center to the curve)"},
+     "times the distance from its center to the curve)"},
     {"ring", R"({"model": {"edges": {"bottom": {"nodes": ["A", "C"]}}}})",
      "/model/edges/bottom/nodes/1: no side of a block connects the previous node with this one"},
     {"ring", R"({"model": {"edges": {"bottom": {"nodes": ["A", "A"]}}}})",
