@@ -42,7 +42,7 @@ std::string describe_finest(const CostPoint& first, const std::optional<CostPoin
                             const CostPoint& best, const std::vector<std::string>& titles) {
   if (fine && fine->setting == first.setting) return ", and its error is at most 1e-6 as well.";
   if (fine) {
-    return fmt::format("; an error of 1e-6 requires '{}' and {} times this time.",
+    return fmt::format("; an error of 1e-6 requires '{}', which takes {} times as long.",
                        titles[fine->setting], times(fine->time / first.time));
   }
   if (best.setting == first.setting) {

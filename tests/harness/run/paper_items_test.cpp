@@ -56,8 +56,7 @@ BOOST_AUTO_TEST_CASE(paper_item_must_name_existing_counterparts) {
   BOOST_TEST(contains(shown({{"case", "circle-load"}, {"quantity", "frequency_Hz"}}),
                       "/items/equation-1/shown_by/0/quantity: expected a quantity"));
   BOOST_TEST(contains(fault_of({{"claims", {"2"}}}), "expected a claim (got '2')"));
-  BOOST_TEST(
-      contains(fault_of(Json::object()), "an item requires 'shown_by', 'claims' or 'reason'"));
+  BOOST_TEST(contains(fault_of(Json::object()), "requires 'shown_by', 'claims' or 'reason'"));
 }
 
 BOOST_AUTO_TEST_CASE(verdicts_are_counted_by_quantity_and_variant) {
