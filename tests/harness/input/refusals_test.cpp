@@ -276,7 +276,7 @@ const Refusal kModels[] = {
     {"robot", R"({"model": {"manipulator": {"base_m": [[0, 0], [1, 0], [0, 1]]}}})",
      "/model/manipulator: expected either 'base_side_m' or 'base_m' (got both"},
     {"robot", R"({"model": {"elements": 8}})", "/model/manipulator/links"},
-    {"robot", R"({"model": {"nodes": {"P": [0, 0]}}})", "/model/nodes/P: expected another name"},
+    {"robot", R"({"model": {"nodes": {"P": [0, 0]}}})", "/model/nodes/P: the manipulator already"},
     {"motion", R"({"model": {"trajectory": {"line": null, "spline": {"points": 5, "step_s": 0.1,
         "knots": [{"time_s": 0, "x_m": 0.25, "y_m": 0.144, "phi_rad": 0},
         {"time_s": 0.1, "x_m": 0.26, "y_m": 0.144, "phi_rad": 0},

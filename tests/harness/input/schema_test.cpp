@@ -36,7 +36,7 @@ const Refusal kRefusals[] = {
      "/model/manipulator/material/E_pa: unknown key; did you mean 'E_Pa'?"},
     {"/modle", "{}", "did you mean 'model'?"},
     {"/model/manipulator/links/thicknes_m", "1", "did you mean 'thickness_m'?"},
-    {"/model/manipulator/qqqq", "1", "known here: 'base_m'"},
+    {"/model/manipulator/qqqq", "1", "unknown key; expected 'base_m'"},
     {"/model/manipulator/joints/active", "\"lokced\"", "(got \"lokced\"); did you mean 'locked'?"},
     {"/model/manipulator/links/thickness_m", "-0.1",
      "/model/manipulator/links/thickness_m: expected a number above 0 (got -0.1)"},

@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(paper_item_must_name_existing_counterparts) {
   BOOST_TEST(contains(shown({{"case", "circle-load"}, {"variant", "x"}}), "variant of the case"));
   BOOST_TEST(contains(shown({{"case", "circle-load"}, {"figure", "x"}}), "figure of the case"));
   BOOST_TEST(contains(shown({{"case", "circle-load"}, {"quantity", "frequency_Hz"}}),
-                      "/items/equation-1/shown_by/0/quantity: expected a quantity"));
+                      "/items/equation-1/shown_by/0/quantity: the analysis of"));
   BOOST_TEST(contains(fault_of({{"claims", {"2"}}}), "expected a claim (got '2')"));
   BOOST_TEST(contains(fault_of(Json::object()), "requires 'shown_by', 'claims' or 'reason'"));
 }
