@@ -23,8 +23,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Returns the upper triangle of P A P^T. Its values are the positions of its entries among the
-/// values of one triangle of A.
+/// Returns the upper triangle of P A P^T. Instead of values, it stores the positions of the entries
+/// among the values of one triangle of A.
 template <unsigned Triangle>
 SparseMatrix permuted_places(const SparseMatrix& A, const Permutation& P) {
   SparseMatrix places = A;

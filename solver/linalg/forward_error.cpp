@@ -12,9 +12,9 @@ namespace {
 
 using Eigen::VectorXd;
 
-// Scale of s. It is far below the relevant singular values of the scaled A. Row exchanges therefore
-// take pivots from A, and K is not formed in the process.
-// Source: Bjorck (1996), ch. 2.5.3
+// Factor of the unknowns s in the augmented system. It is far below the relevant singular values of
+// the scaled A. Row exchanges therefore take pivots from A, and the elimination does not form K.
+// Source: Bjorck (1996), ch. 2.5.3, alpha.
 constexpr double kAlpha = 1e-12;
 
 }  // namespace

@@ -18,7 +18,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Returns true if a motion other than zero-energy modes moves mass. Otherwise nothing vibrates.
+/// Returns true if a motion other than zero-energy modes moves mass. Otherwise there is no
+/// vibration.
 bool has_elastic_inertia(const SparseMatrix& M, const MatrixXd& Z) {
   VectorXd x = start_vectors(M.rows(), 1);
   const double total = x.dot(M * x);
@@ -56,7 +57,8 @@ double floating_shift(const System& system, const MatrixXd& Z, Counters& counter
 }
 
 /// Adds the residuals of modes to the evidence: the largest backward error of (K + K_G) x = w^2 M
-/// x, and the number of miscounted modes. K is the sum K + K_G, and K_G is empty without prestress.
+/// x, and the number of missing or superfluous modes. The parameter K is the sum K + K_G. K_G is
+/// empty without prestress.
 void judge(const System& system, const SparseMatrix& K, const SparseMatrix& K_G,
            ModalSolution& solution, Factorization&& spent = {}, double shift_above = 0) {
   if (!solution.outcome.solved()) return;
@@ -152,7 +154,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
 bool orthonormalize(const System& system, MatrixXd& Z) {
   if (Z.cols() == 0) return true;
   const SparseMatrix& M = system.M;
-  // Rotary inertia is divided by the square of the model size to be comparable with mass.
+  // Rotary inertia is divided by the square of the model size, to be comparable with mass.
   const VectorXd squared_length = squared_lengths(system);
   VectorXd mass = M.diagonal().cwiseQuotient(squared_length);
   const double largest = mass.maxCoeff();

@@ -100,7 +100,7 @@ double RowBalance<Scalar>::residual_over_load() const {
   const VectorXd scale = system_.K.diagonal().cwiseAbs().unaryExpr(
       [](double k) { return k > 0 ? 1 / std::sqrt(k) : 0; });
   const VectorXd load = system_.T.cwiseAbs().transpose() * system_.load.cwiseAbs();
-  // Round-off errors cancel at some orientations of the model and not at others.
+  // Use at least the round-off error, because errors cancel at some orientations of the model only.
   const VectorXd residual = rows().col(0).cwiseAbs().cwiseMax(kEps * row_terms().col(0));
   const double size = scale.cwiseProduct(residual).norm();
   return size == 0 ? 0 : size / scale.cwiseProduct(load).norm();
@@ -131,7 +131,7 @@ SparseMatrix damping_matrix(const RayleighDamping& damping, const SparseMatrix& 
 SparseMatrix modal_damping_matrix(const SparseMatrix& M, const Eigen::VectorXd& omega,
                                   const Eigen::MatrixXd& shape, const Eigen::VectorXd& ratio) {
   if (shape.rows() != M.rows() || shape.cols() != omega.size() || ratio.size() != omega.size()) {
-    throw ModelError("modal damping needs one ratio for each mode");
+    throw ModelError("modal damping requires one damping ratio for each mode");
   }
   const Eigen::MatrixXd inertia = M * shape;
   const Eigen::VectorXd factor = 2 * ratio.cwiseProduct(omega);

@@ -9,9 +9,9 @@ namespace trammel::solver {
 /// Balance of the rows of an equation of motion for one or more states. It accumulates the sum of
 /// the terms of each row and the sum of their magnitudes. Stiffness and inertia are summed over
 /// element matrices that are computed again. Each coordinate counts with at least `kLeastShare` of
-/// the largest motion of its state (rotations times the model size). Rows in which only round-off
-/// moves could otherwise not be judged. Scalar is double or, for damped vibration,
-/// `std::complex<double>`.
+/// the largest motion of its state (rotations times the model size). Otherwise there would be no
+/// scale for rows whose motions are only round-off errors. Scalar is double or, for damped
+/// vibration, `std::complex<double>`.
 template <class Scalar>
 class RowBalance {
  public:
@@ -35,7 +35,8 @@ class RowBalance {
   /// Source: Oettli and Prager (1964).
   [[nodiscard]] double backward_error() const;
   /// Returns |rows| of the first state over |load|, in the free coordinates. |rows| is at least the
-  /// round-off error of the terms. The stiffness scales forces and moments to make them comparable.
+  /// round-off error of the terms. The diagonal stiffness scales forces and moments to make them
+  /// comparable.
   [[nodiscard]] double residual_over_load() const;
 
   /// Returns the sums of the magnitudes of the terms on the unconstrained coordinates.

@@ -58,7 +58,7 @@ Outcome outcome_by_error(double error) {
   if (error < 0.1) return {};
   return {Status::not_converged,
           "the model is too ill-conditioned for double precision: less than one digit of the "
-          "displacements would be right"};
+          "displacements would be correct"};
 }
 
 double force_roundoff(const System& system, const VectorXd& q) {
@@ -83,7 +83,7 @@ namespace {
 
 constexpr double kSmallestStep = 1e-4;  // fraction of the loads
 
-/// Returns the forces of q under a fraction of the loads.
+/// Returns the internal forces of q under a fraction of the loads.
 Prestress forces_at(const System& system, double load, const VectorXd& q, const Prestress* before) {
   BodyForces weights = body_forces(system);
   for (Vector2d& weight : weights.element) weight *= load;
@@ -114,15 +114,15 @@ void StiffenedEquilibrium::iterate(const VectorXd& f, const Forces& forces, Stat
     const double ratio = change / last_change;
     const bool slow = !(ratio < 0.5);
     left_ = size > 0 ? change / size * (ratio < 1 ? ratio / (1 - ratio) : 1) : 0;
-    // Forces can change even if nothing moves. Convergence therefore requires at least two
-    // iterations.
+    // Internal forces can change even if no coordinate moves. Convergence therefore requires at
+    // least two iterations.
     const bool settled =
         change <= 1e-14 * size || (slow && change <= force_rounding(state) + 1e-8 * size);
     if (k > 0 && settled) return;
     growing = change < last_change ? 0 : growing + 1;
     last_change = change;
   }
-  state.outcome = {Status::not_converged, "the forces of the state do not converge"};
+  state.outcome = {Status::not_converged, "the iteration for the internal forces did not converge"};
 }
 
 bool StiffenedEquilibrium::solve(const VectorXd& f, StaticState& state) {
@@ -140,7 +140,7 @@ bool StiffenedEquilibrium::solve(const VectorXd& f, StaticState& state) {
   const RefinedSolution refined = refined_solve(tangent, factorization_, f, counters_);
   state.q = refined.x;
   if (refined.converged()) return true;
-  state.outcome = {Status::not_converged, "the stiffness of the state is too ill-conditioned"};
+  state.outcome = {Status::not_converged, "K + K_G is too ill-conditioned for double precision"};
   return false;
 }
 
@@ -206,7 +206,7 @@ StaticState solve_second_order(const System& system, const VectorXd& linear, Cou
     std::ostringstream reason;
     reason.precision(4);
     reason << whole.reason << ": second-order theory has no stable equilibrium beyond " << load
-           << " of the loads";
+           << " times the loads";
     return {{whole.status, reason.str()}, {}, {}};
   }
   reached.error = equilibrium.error(reached);
