@@ -40,7 +40,7 @@ struct StaticInstant {
   State state;
 };
 
-/// Splits the joints that resist relative rotation.
+/// Adds a node for the driven end of a distal link at each joint that resists relative rotation.
 std::vector<DrivenEnd> add_driven_ends(Model& model) {
   std::vector<DrivenEnd> ends;
   for (std::size_t m = 1; m < model.members.size(); m += 2) {
@@ -76,7 +76,7 @@ class LargeElastodynamics {
     if (const char* reason = beyond_large_displacement(options_, start_.model))
       throw ModelError(std::string("large displacement: ") + reason);
     if (!options_.elastic_inertia && options_.time.sample_times.empty())
-      throw ModelError("equilibria along a path need sample times");
+      throw ModelError("equilibria along a path require sample times");
   }
 
   ElastodynamicsSolution run() {
@@ -392,7 +392,8 @@ struct Turn {
   double time = 0, angle = 0, rate = 0;
 };
 
-/// Returns the law, extended beyond the ends of the path with the acceleration and its rate there.
+/// Returns a function of time that is extended beyond the ends of the path with the acceleration
+/// and its rate there.
 TimeFunction extended(const TimeFunction& law, const Path& path) {
   return [law, limits = time_span(path)](double t) {
     const double end = std::clamp(t, limits.first, limits.second), d = t - end;

@@ -186,8 +186,8 @@ void MovingPencil::measure_strain(const VectorBlock<rows>& X,
   measures.rounding *= 2 * kEps;
 }
 
-/// Computes the residual row by row. No row is judged by coordinates that are only round-off of
-/// others (dense_eigen.h). Interior modes are compared with the total energy.
+/// Computes the residual row by row. Small coordinates that may be only round-off errors do not
+/// define the scale of a row (dense_eigen.h). Interior modes are compared with the total energy.
 template <int rows>
 void MovingPencil::measure_residual(const VectorBlock<rows>& X, const VectorBlock<rows>& MX,
                                     Workspace<rows>& space, ModeMeasures<rows>& measures) const {

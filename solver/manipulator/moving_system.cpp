@@ -111,7 +111,7 @@ void MovingSystem::find_spans() {
   }
 }
 
-/// Finds all entries that any pose needs.
+/// Finds all matrix entries that are nonzero at any pose.
 void MovingSystem::find_pattern() {
   const RowMajorMatrix& T = constraints_.T();
   std::vector<Eigen::Triplet<double>> places;
@@ -144,8 +144,9 @@ Vector2d MovingSystem::at_mesh_node(Index mesh_node, const Eigen::MatrixX2d& val
   return (1 - s) * values.row(nodes[0]).transpose() + s * values.row(nodes[1]).transpose();
 }
 
-/// Returns the load of nominal inertia in element axes. The acceleration is an affine field, which
-/// the interpolation represents exactly. A mass offset from its node adds a centripetal part.
+/// Returns the load of nominal inertia in element axes. The interpolation represents the nominal
+/// acceleration, an affine field, exactly. A mass that is offset from its node adds a centripetal
+/// force.
 Vector6d MovingSystem::nominal_inertia(const MovingElement& element, const PartMotion& part,
                                        const Vector2d& direction) const {
   Eigen::Matrix<double, 1, 6> a = Eigen::Matrix<double, 1, 6>::Zero();

@@ -33,7 +33,7 @@ struct Circle {
   double phi = 0;                      ///< [rad]
 };
 
-/// Straight motion at constant speed from one pose to another, which continues beyond.
+/// Straight motion at constant speed from one pose to another, and further beyond `duration`.
 struct Line {
   Pose from, to;
   double duration = 1;  ///< > 0 [s]

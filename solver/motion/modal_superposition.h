@@ -22,7 +22,8 @@ struct ModalBasis {
 };
 
 /// Computes all modes of finite frequency by dense algebra of order n^3, for small models only.
-/// Massless coordinates follow statically and have no mode. M is not factored.
+/// Massless coordinates follow the other coordinates statically and have no mode. M is not
+/// factored.
 /// @throws ModelError  if the model has no mass.
 [[nodiscard]] ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K);
 
@@ -45,8 +46,8 @@ struct ModalResponse {
                                       const std::vector<double>& times, const Eigen::VectorXd& q0,
                                       const Eigen::VectorXd& v0);
 
-/// Solution y of relaxation y' + y = factor for each load. y follows the factor with a delay, or at
-/// once without relaxation.
+/// Solution y of relaxation y' + y = factor for each load. With a relaxation time, y follows the
+/// factor with a delay. Without it, y equals the factor.
 struct FollowedFactors {
   Eigen::MatrixXd value, rate, acceleration;  ///< load x time [-], [1/s], [1/s^2]
 };
@@ -110,14 +111,14 @@ struct OscillatorState {
   double v = 0;  ///< y' [SI/s]
 };
 
-/// Returns the state after the time of `response`, under the load p0 at the start that grows by p1
-/// per second.
+/// Returns the state of an oscillator after the time of `response`, under the load p0 at the start
+/// that grows by p1 per second.
 [[nodiscard]] OscillatorState advance(const ImpulseResponse& response, double omega,
                                       const OscillatorState& start, double p0, double p1);
 
 /// Solves M a = f on the free coordinates if M may be singular. A small multiple of K is added to
-/// M. Refinement removes its effect on coordinates with mass. Massless coordinates then have the
-/// least strain energy.
+/// M. Iterative refinement removes its effect on coordinates with mass. Massless coordinates get
+/// the acceleration with the least strain energy.
 class RegularizedMass {
  public:
   /// @pre `system` outlives this object.
@@ -129,9 +130,9 @@ class RegularizedMass {
   Factorization regular_;
 };
 
-/// Forces that balance the strains of a motion with stiffness-proportional damping. The damping in
-/// K (q + t q') delays the strains relative to loads and inertia. With x + t x' = loads and
-/// accelerations, the balance is
+/// Loads and accelerations that balance the strains of a motion with stiffness-proportional
+/// damping. The damping in K (q + t q') delays the strains relative to loads and inertia. With x +
+/// t x' = loads and accelerations, the balance is
 ///
 ///   K q = x of the loads - M x of the accelerations.
 class LateStrain {
