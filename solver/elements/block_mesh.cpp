@@ -208,8 +208,8 @@ BlockMesh mesh_blocks(const std::vector<Block>& blocks, bool six_nodes) {
   return mesher.mesh();
 }
 
-std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh,
-                          const std::vector<Index>& corners) {
+std::vector<Index> append_mesh(Model& model, Index plate, const BlockMesh& mesh,
+                               const std::vector<Index>& corners) {
   Places places(merge_tolerance(mesh.positions));
   for (const Index corner : corners) places.add(corner, model.nodes[to_size(corner)].position);
   for (std::size_t i = 0; i < model.nodes.size(); ++i)
@@ -270,7 +270,7 @@ Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate) {
   }
   Model model;
   model.plates.push_back(plate);
-  append(model, 0, block);
+  append_mesh(model, 0, block);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) model.nodes[i].name = std::to_string(i);
   return model;
 }

@@ -60,8 +60,8 @@ struct BlockMesh {
 /// @param mesh  mesh of blocks.
 /// @param corners  model nodes at the corners of the blocks.
 /// @returns the index of the model node for each mesh node.
-std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh,
-                          const std::vector<Index>& corners = {});
+std::vector<Index> append_mesh(Model& model, Index plate, const BlockMesh& mesh,
+                               const std::vector<Index>& corners = {});
 
 // Meshes for verifying orders of convergence. They are regular, or distorted in a pattern that
 // repeats from cell to cell. Refinement therefore does not smooth out the distortion.

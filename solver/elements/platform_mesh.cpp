@@ -141,9 +141,7 @@ TriangleMesh platform_mesh(const std::array<Vector2d, 3>& vertices, const Vector
                                             : TriangleMesh::Nodes{i, j, 3, -1, -1, -1};
     const auto corner = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
     if (!(twice_area(corner(0), corner(1), corner(2)) > 0))
-      throw ModelError(
-          "P must lie inside the triangle C1 C2 C3, because the platform mesh divides it into "
-          "C1 C2 P, C2 C3 P and C3 C1 P");
+      throw ModelError("P must lie inside the triangle C1 C2 C3, which the mesh divides at P");
     mesh.triangles.push_back(t);
   }
   for (int i = 0; i < refinements; ++i) mesh = split(std::move(mesh));

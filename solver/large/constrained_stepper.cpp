@@ -39,9 +39,9 @@ double MotionResiduals::equation_of_motion(const State& state, const VectorXd& r
   unknowns_ << state.q, state.lambda;
   add_terms({}, state);
   const auto scale = system_.scale().array();
-  const double least = n > 0 ? kLeastShare * (terms_.head(n).array() * scale).maxCoeff() : 0;
+  const double least = n > 0 ? kLeastFraction * (terms_.head(n).array() * scale).maxCoeff() : 0;
   terms_.head(n) = terms_.head(n).array().max(least / scale);
-  return largest_ratio(residual, terms_.head(n));
+  return row_backward_error(residual, terms_.head(n));
 }
 
 ConstraintGaps MotionResiduals::constraints(const State& state) {

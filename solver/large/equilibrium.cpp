@@ -107,8 +107,8 @@ double Equilibrium::backward_error(const State& state) {
   const double largest_motion = n > 0 ? motion.maxCoeff() : 0;
   const VectorXd force = state.lambda.cwiseQuotient(force_unit_).cwiseAbs();
   const double largest_force = m > 0 ? force.maxCoeff() : 0;
-  x.head(n) = motion.cwiseMax(kLeastShare * largest_motion).cwiseProduct(system_.scale());
-  x.tail(m) = force.cwiseMax(kLeastShare * largest_force).cwiseProduct(force_unit_);
+  x.head(n) = motion.cwiseMax(kLeastFraction * largest_motion).cwiseProduct(system_.scale());
+  x.tail(m) = force.cwiseMax(kLeastFraction * largest_force).cwiseProduct(force_unit_);
   matrix_.clear();
   system_.tangent(state, TangentCoefficients{}, matrix_);
   VectorXd terms(n + m);
@@ -116,7 +116,7 @@ double Equilibrium::backward_error(const State& state) {
   system_.load_derivative(state, load);
   terms.head(n) += std::abs(state.load) * load.cwiseAbs();
   residual_of(state, residual);
-  return largest_ratio(residual, terms);
+  return row_backward_error(residual, terms);
 }
 
 double Equilibrium::smallest_eigenpair(VectorXd& shape) {

@@ -62,7 +62,7 @@ class LargeElastodynamics {
   explicit LargeElastodynamics(const ElastodynamicsOptions& options)
       : options_(options),
         rigid_(rigid_manipulator(options.design)),
-        rigid_motion_(once_per_time([this, rigid = rigid_](double t) {
+        rigid_motion_(cached_motion([this, rigid = rigid_](double t) {
           InverseDynamics found = inverse_dynamics(rigid, at(options_.path, t));
           if (!found.outcome.solved() && reached_.solved()) {
             reached_ = found.outcome;
@@ -407,15 +407,15 @@ TimeFunction extended(const TimeFunction& law, const Path& path) {
 
 }  // namespace
 
-RigidMotion once_per_time(std::function<InverseDynamics(double)> reckon) {
+RigidMotion cached_motion(std::function<InverseDynamics(double)> evaluate) {
   struct Last {
     double time = kNaN;
     InverseDynamics motion;
   };
-  return [reckon = std::move(reckon),
+  return [evaluate = std::move(evaluate),
           last = std::make_shared<Last>()](double t) -> const InverseDynamics& {
     if (last->time != t) {
-      last->motion = reckon(t);
+      last->motion = evaluate(t);
       last->time = t;
     }
     return last->motion;

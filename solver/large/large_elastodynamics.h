@@ -49,7 +49,7 @@ using RigidMotion = std::function<const InverseDynamics&(double)>;
 
 /// Returns the rigid motion with a cache of the last evaluation. All joints and all corrections of
 /// a step request the same time.
-[[nodiscard]] RigidMotion once_per_time(std::function<InverseDynamics(double)> reckon);
+[[nodiscard]] RigidMotion cached_motion(std::function<InverseDynamics(double)> evaluate);
 
 /// Returns the rotation of a part since `start` relative to another part or the ground (-1) [rad],
 /// including full turns. It is followed from the last request in increments of 0.5 rad. The

@@ -87,9 +87,9 @@ class ShiftedStiffness {
   [[nodiscard]] bool converged() const { return last_correction_ < 1e-6; }
 
   /// Returns the backward error of K (x, y) = (w^2 M x, 0) for the real or the imaginary part of a
-  /// mode, row by row. Each coordinate counts with at least `kLeastShare` of the largest motion, as
-  /// in row_balance.h. The terms of each row are at least 1e-9 of the largest terms of rows of its
-  /// type.
+  /// mode, row by row. Each coordinate counts with at least `kLeastFraction` of the largest motion,
+  /// as in row_balance.h. The terms of each row are at least 1e-9 of the largest terms of rows of
+  /// its type.
   [[nodiscard]] double residual(const Extended& mode, const Extended& inertia) const {
     constexpr double kLeastRow = 1e-9;
     const VectorXd& scale = system_.scale();
@@ -97,7 +97,7 @@ class ShiftedStiffness {
     Extended residual = plain_.multiply(mode);
     VectorXd terms(mode.size()), size = mode.cast<double>().cwiseAbs();
     auto motion = size.head(n);
-    motion = motion.cwiseMax(kLeastShare * motion.cwiseQuotient(scale).maxCoeff() * scale);
+    motion = motion.cwiseMax(kLeastFraction * motion.cwiseQuotient(scale).maxCoeff() * scale);
     plain_.term_magnitudes(size, terms);
     residual.head(n) -= inertia;
     terms.head(n) += inertia.cast<double>().cwiseAbs();
@@ -109,7 +109,7 @@ class ShiftedStiffness {
       const auto own = unit.segment(begin, count);
       kind += kLeastRow * kind.cwiseQuotient(own).maxCoeff() * own;
     }
-    return largest_ratio(residual.cast<double>(), terms);
+    return row_backward_error(residual.cast<double>(), terms);
   }
 
   /// Returns the same as `KktMatrix::energy_over_roundoff`.

@@ -42,15 +42,15 @@ struct PivotedSolution {
 /// Returns the singular values in descending order, or NaN if A is not finite.
 [[nodiscard]] Eigen::Vector3d singular_values(const Eigen::Matrix3d& A);
 
-/// Returns the row-wise backward error of a system of equations. It is the largest ratio of
-/// |residual| of a row to the sum of the magnitudes of the terms of that row. 0 / 0 counts as 0.
-/// Values that are not finite count as infinite.
+/// Returns the row-wise backward error of a system of equations. It is the largest ratio of |sum|
+/// to `terms`, where `sum` is the sum of the terms of a row (residual), and `terms` is the sum of
+/// their magnitudes. 0 / 0 counts as 0. Values that are not finite count as infinite.
 /// Source: Oettli and Prager (1964).
-[[nodiscard]] double largest_ratio(const Eigen::VectorXd& residual, const Eigen::VectorXd& terms);
+[[nodiscard]] double row_backward_error(const Eigen::VectorXd& sum, const Eigen::VectorXd& terms);
 
 /// Fraction of the largest coordinate or force. Each smaller coordinate or force counts with this
 /// fraction of the largest in the terms of a row. Otherwise, residuals would be relative to values
 /// that are only round-off errors.
-inline constexpr double kLeastShare = 1e-3;
+inline constexpr double kLeastFraction = 1e-3;
 
 }  // namespace trammel::solver

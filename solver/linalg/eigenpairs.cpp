@@ -458,7 +458,7 @@ SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t) {
   return A;
 }
 
-double miscounted_eigenvalues(const VectorXd& found,
+double eigenvalue_count_error(const VectorXd& found,
                               const std::function<std::optional<Index>(double)>& count_below) {
   constexpr double kClearGap = 1e-6;  // round-off leaves much smaller gaps between repeated values
   for (Index below = found.size() - 1; below >= 0; --below) {
@@ -474,7 +474,7 @@ double miscounted_eigenvalues(const VectorXd& found,
   return nothing_swings ? 0 : kInfinity;
 }
 
-double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B, const VectorXd& found,
+double eigenvalue_count_error(const SparseMatrix& A, const SparseMatrix& B, const VectorXd& found,
                               Factorization&& spent, double shift_above) {
   if (A.rows() == 0) return static_cast<double>(found.size());
   Factorization factorization = std::move(spent);
@@ -484,10 +484,10 @@ double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B, cons
     return counted ? static_cast<double>(*counted) : kInfinity;
   }
   if (shift_above > found[found.size() - 1] && count_below(shift_above) == found.size()) return 0;
-  return miscounted_eigenvalues(found, count_below);
+  return eigenvalue_count_error(found, count_below);
 }
 
-Index dependent_vectors(const SparseMatrix& metric, const MatrixXd& X) {
+Index count_dependent_vectors(const SparseMatrix& metric, const MatrixXd& X) {
   if (X.cols() == 0) return 0;
   constexpr double kDependent = 1e-3;  // eigenvectors leave 1; a duplicate leaves round-off
   const MatrixXd products = X.transpose() * (metric * X);

@@ -75,7 +75,7 @@ struct Eigenpairs {
 /// allows a reliable count.
 /// @param found  eigenvalues, ascending, >= 0; 0 for rigid modes.
 /// @param count_below  as in `Pencil`.
-[[nodiscard]] double miscounted_eigenvalues(
+[[nodiscard]] double eigenvalue_count_error(
     const Eigen::VectorXd& found, const std::function<std::optional<Index>(double)>& count_below);
 
 /// Counts missing or superfluous eigenvalues of A x = t B x with a positive semidefinite A. It uses
@@ -87,13 +87,13 @@ struct Eigenpairs {
 /// @param spent  factorization that is no longer needed. Its ordering is reused. Its factors are
 ///   reused if they belong to A - shift_above B.
 /// @param shift_above  shift above all found values, or 0.
-[[nodiscard]] double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
+[[nodiscard]] double eigenvalue_count_error(const SparseMatrix& A, const SparseMatrix& B,
                                             const Eigen::VectorXd& found,
                                             Factorization&& spent = {}, double shift_above = 0);
 
 /// Returns the number of eigenvectors that depend linearly on the others. The test uses their
 /// products in a metric in which distinct modes are orthogonal. A duplicate mode counts once.
-[[nodiscard]] Index dependent_vectors(const SparseMatrix& metric, const Eigen::MatrixXd& X);
+[[nodiscard]] Index count_dependent_vectors(const SparseMatrix& metric, const Eigen::MatrixXd& X);
 
 /// Options of Lanczos' method.
 struct LanczosOptions {

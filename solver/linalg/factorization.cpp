@@ -146,7 +146,7 @@ Index SparseLdlt::negative_pivots() const {
   return (factors_->pivots.array() < 0).count();
 }
 
-double SparseLdlt::smallest_to_largest_pivot() const {
+double SparseLdlt::smallest_pivot_to_diagonal() const {
   const VectorXd& D = pivots();
   double smallest = 1;
   for (Index j = 0; j < D.size(); ++j) {

@@ -41,7 +41,7 @@ class SparseLdlt {
   [[nodiscard]] Index negative_pivots() const;
   /// Returns the smallest ratio of |pivot| to the diagonal entry of A in its row. It is near zero
   /// if A is singular.
-  [[nodiscard]] double smallest_to_largest_pivot() const;
+  [[nodiscard]] double smallest_pivot_to_diagonal() const;
   /// Returns the largest |L|.
   [[nodiscard]] double element_growth() const;
 

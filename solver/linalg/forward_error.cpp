@@ -19,7 +19,7 @@ constexpr double kAlpha = 1e-12;
 
 }  // namespace
 
-AugmentedSystem::AugmentedSystem(StiffnessFactors factors)
+AugmentedSystem::AugmentedSystem(FactoredStiffness factors)
     : factors_(std::move(factors)), root_(factors_.C.cwiseSqrt()) {
   const Index m = factors_.A.rows(), n = factors_.A.cols();
   SparseMatrix G = root_.asDiagonal() * factors_.A;
@@ -83,7 +83,7 @@ double estimate_norm(Index columns, const std::function<VectorXd(const VectorXd&
   return estimate;
 }
 
-double forward_error(const StiffnessFactors& factors, const SparseMatrix& R, const VectorXd& q,
+double forward_error(const FactoredStiffness& factors, const SparseMatrix& R, const VectorXd& q,
                      const VectorXd& f, const Operator& solve) {
   const SparseMatrix &A = factors.A, &size = factors.size;
   const VectorXd& C = factors.C;

@@ -12,7 +12,7 @@ namespace trammel::solver {
 /// deformations d = A q, and C contains the rigidities of the deformations. `size` >= |A| contains
 /// the magnitudes of the terms of which A is the sum. eps times `size` is therefore the effect of
 /// rounding on A.
-struct StiffnessFactors {
+struct FactoredStiffness {
   SparseMatrix A, size;
   Eigen::VectorXd C;
 };
@@ -26,14 +26,14 @@ struct StiffnessFactors {
 /// Source: Bjorck (1996), Numerical Methods for Least Squares Problems, ch. 2.5 (augmented system).
 class AugmentedSystem {
  public:
-  explicit AugmentedSystem(StiffnessFactors factors);
+  explicit AugmentedSystem(FactoredStiffness factors);
   /// Returns false if the matrix is singular. Then `solve` must not be called.
   [[nodiscard]] bool exists() const { return exists_; }
   /// Returns q, refined with the residuals of both equations.
   [[nodiscard]] RefinedSolution solve(const Eigen::VectorXd& f) const;
 
  private:
-  StiffnessFactors factors_;
+  FactoredStiffness factors_;
   Eigen::VectorXd root_, scaling_;  // C^1/2; unit columns of C^1/2 A
   SparseLu<double> lu_;
   bool exists_ = false;
@@ -69,7 +69,7 @@ class AugmentedSystem {
 /// @param q  solution.
 /// @param f  right-hand side.
 /// @param solve  x -> K^-1 x.
-[[nodiscard]] double forward_error(const StiffnessFactors& factors, const SparseMatrix& R,
+[[nodiscard]] double forward_error(const FactoredStiffness& factors, const SparseMatrix& R,
                                    const Eigen::VectorXd& q, const Eigen::VectorXd& f,
                                    const Operator& solve);
 

@@ -77,7 +77,7 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   solution.outcome = require_determined_stiffening(system);
   if (!solution.outcome.solved()) return solution;
   const Prestress forces =
-      forces_of(system, system.T * statics.q, system.load, body_forces(system));
+      prestress_of(system, system.T * statics.q, system.load, body_forces(system));
   const SparseMatrix softening = -geometric_stiffness(system, forces);
   Factorization factorization;
   const FirstFactor first =
@@ -125,9 +125,9 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   if (pairs.value.size() > 0)
     solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());
   if (!solution.outcome.solved()) return solution;
-  const double missed = miscounted_eigenvalues(system.K, softening, solution.load_factor,
+  const double missed = eigenvalue_count_error(system.K, softening, solution.load_factor,
                                                std::move(factorization), pairs.check_shift);
-  const auto twice = static_cast<double>(dependent_vectors(system.K, solution.shape));
+  const auto twice = static_cast<double>(count_dependent_vectors(system.K, solution.shape));
   solution.evidence.add(Residual::mode_count, missed + twice);
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
   return solution;

@@ -231,6 +231,6 @@ class Projection {
 
 /// Returns K of the free coordinates in factored form: B T and C of all elements
 /// (`for_each_deformation`). Rows without rigidity are omitted.
-[[nodiscard]] StiffnessFactors stiffness_factors(const System& system);
+[[nodiscard]] FactoredStiffness factored_stiffness(const System& system);
 
 }  // namespace trammel::solver

@@ -151,7 +151,7 @@ std::string describe(const VectorXd& mode, const NamedRows& rows) {
 
 std::string describe_mechanism(const System& system, const ZeroEnergyModes& modes) {
   const NamedRows rows = named_rows(system);
-  const MatrixXd u = free_length_scales(system) * modes.basis;
+  const MatrixXd u = free_to_length_matrix(system) * modes.basis;
   MatrixXd U(std::ssize(rows), u.cols());
   for (std::size_t i = 0; i < rows.size(); ++i)
     U.row(static_cast<Index>(i)) = u.row(rows[i].second);
@@ -164,7 +164,7 @@ std::string describe_mechanism(const System& system, const ZeroEnergyModes& mode
   return text;
 }
 
-Outcome require_held(const System& system, const Factorization& K, Counters& counters) {
+Outcome require_no_mechanism(const System& system, const Factorization& K, Counters& counters) {
   const ZeroEnergyModes free = find_zero_energy_modes(system, K, counters);
   if (free.count() == 0) return {};
   return {Status::singular, describe_mechanism(system, free)};

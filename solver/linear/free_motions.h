@@ -33,7 +33,7 @@ struct ZeroEnergyModes {
 /// @param system  assembled model.
 /// @param K  factors of the stiffness.
 /// @param counters  incremented by the factorizations and solves.
-[[nodiscard]] Outcome require_held(const System& system, const Factorization& K,
-                                   Counters& counters);
+[[nodiscard]] Outcome require_no_mechanism(const System& system, const Factorization& K,
+                                           Counters& counters);
 
 }  // namespace trammel::solver

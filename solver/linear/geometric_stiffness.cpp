@@ -263,7 +263,7 @@ Outcome require_determined_stiffening(const System& system) {
   SparseMatrix K_G = geometric_stiffness(system, prestress(system, at_rest, selfstress, none));
   const double size = box_diagonal(system.mesh.positions);
   const VectorXd length =
-      (free_length_scales(system).cwiseAbs().transpose() * VectorXd::Ones(system.T.rows()));
+      (free_to_length_matrix(system).cwiseAbs().transpose() * VectorXd::Ones(system.T.rows()));
   K_G = length.cwiseInverse().asDiagonal() * K_G * length.cwiseInverse().asDiagonal();
   const double stiffening = K_G.nonZeros() > 0 ? K_G.coeffs().abs().maxCoeff() : 0;
   if (stiffening * size <= 1e-9 * selfstress.cwiseAbs().maxCoeff()) return {};

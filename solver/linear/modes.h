@@ -48,7 +48,7 @@ struct ModalSolution {
 
 /// Makes the columns of Z, which are zero-energy modes, orthonormal in the mass matrix. Returns
 /// false if one of them moves no mass.
-[[nodiscard]] bool orthonormalize(const System& system, Eigen::MatrixXd& Z);
+[[nodiscard]] bool mass_orthonormalize(const System& system, Eigen::MatrixXd& Z);
 
 /// Returns the number of natural frequencies below `frequency`, including copies of repeated
 /// frequencies and rigid modes. The count uses the negative pivots of K - (2 pi f)^2 M (Sylvester).

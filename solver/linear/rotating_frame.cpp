@@ -222,8 +222,8 @@ bool find_steady_state(const System& system, const RotatingOptions& options,
       system.f + system.T.transpose() * centrifugal_forces(system, frame, undeformed);
   // Returns the internal forces in q under the centrifugal forces of displacements u.
   const auto forces = [&](const VectorXd& q, const VectorXd& u, const Prestress* before) {
-    return forces_of(system, system.T * q, system.load + centrifugal_forces(system, frame, u),
-                     body_forces(system, frame, u), before);
+    return prestress_of(system, system.T * q, system.load + centrifugal_forces(system, frame, u),
+                        body_forces(system, frame, u), before);
   };
   if (options.stiffening && options.prestress_at_steady_state) {
     steady.iterate(
@@ -268,7 +268,7 @@ double mode_backward_error(const System& system, const SparseMatrix& added, cons
 double miscounted_modes(const GyroscopicPencil& pencil, const GyroscopicModes& modes, bool stable) {
   const VectorXd& w = modes.omega;
   if (stable) {
-    return miscounted_eigenvalues(
+    return eigenvalue_count_error(
         w, [&pencil](double omega) { return gyroscopic_sturm_count(pencil, omega); });
   }
   const double last = w.cwiseAbs2().maxCoeff() + modes.growth_rate.cwiseAbs2().maxCoeff();
@@ -299,7 +299,7 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
   Factorization K;
   K.compute(system.K);
   ++result.counters.factorizations;
-  result.outcome = require_held(system, K, result.counters);
+  result.outcome = require_no_mechanism(system, K, result.counters);
   if (result.outcome.solved() && options.stiffening)
     result.outcome = require_determined_stiffening(system);
   if (!result.outcome.solved()) return result;

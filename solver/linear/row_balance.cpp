@@ -40,7 +40,7 @@ MatrixXd RowBalance<Scalar>::sizes_of(const Matrix& u) const {
   MatrixXd size = u.cwiseAbs();
   for (auto column : size.colwise()) {
     const double largest = column.size() > 0 ? column.cwiseProduct(length_).maxCoeff() : 0;
-    column = column.cwiseMax(kLeastShare * largest * length_.cwiseInverse());
+    column = column.cwiseMax(kLeastFraction * largest * length_.cwiseInverse());
   }
   return size;
 }
@@ -91,7 +91,7 @@ double RowBalance<Scalar>::backward_error() const {
   const MatrixXd residual = rows().cwiseAbs(), terms = row_terms();
   double largest = 0;
   for (Index state = 0; state < residual.cols(); ++state)
-    largest = nan_max(largest, largest_ratio(residual.col(state), terms.col(state)));
+    largest = nan_max(largest, row_backward_error(residual.col(state), terms.col(state)));
   return largest;
 }
 
@@ -117,7 +117,7 @@ Eigen::VectorXd decay_rates(const RayleighDamping& damping, const Eigen::VectorX
   return 0.5 * (damping.mass + damping.stiffness * omega.array().square());
 }
 
-double overdamped_above(const RayleighDamping& damping) {
+double overdamping_frequency(const RayleighDamping& damping) {
   if (damping.stiffness == 0) return std::numeric_limits<double>::infinity();
   const double product = std::min(1.0, damping.mass * damping.stiffness);
   return (1 + std::sqrt(1 - product)) / damping.stiffness;

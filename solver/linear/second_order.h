@@ -38,9 +38,9 @@ struct StaticState {
 /// @param load  loads on the unconstrained coordinates [N, N m].
 /// @param body  forces on masses and members.
 /// @param before  if given, the constraint forces include the second-order terms of these forces.
-[[nodiscard]] Prestress forces_of(const System& system, const Eigen::VectorXd& u,
-                                  const Eigen::VectorXd& load, const BodyForces& body,
-                                  const Prestress* before = nullptr);
+[[nodiscard]] Prestress prestress_of(const System& system, const Eigen::VectorXd& u,
+                                     const Eigen::VectorXd& load, const BodyForces& body,
+                                     const Prestress* before = nullptr);
 
 /// Equilibrium (K + A + K_G) q = f with K_G from the internal forces of q itself. A is the
 /// softening matrix of a rotating frame, or absent. Without A the state must be stable: K + K_G has
@@ -70,10 +70,10 @@ class StiffenedEquilibrium {
 
  private:
   /// Returns the largest |u| [m]; rotations are multiplied by the model size.
-  [[nodiscard]] double measure(const Eigen::VectorXd& q) const;
+  [[nodiscard]] double largest_displacement(const Eigen::VectorXd& q) const;
   /// Returns the error of the displacements [m] caused by the round-off error of the internal
   /// forces.
-  [[nodiscard]] double force_rounding(const StaticState& state) const;
+  [[nodiscard]] double displacement_roundoff_of_forces(const StaticState& state) const;
 
   const System& system_;
   Counters& counters_;

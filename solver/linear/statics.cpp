@@ -296,7 +296,7 @@ Index support_component(const System& system, const ConstraintRow& row) {
   return u == node[0] ? 0 : u == node[1] ? 1 : 2;
 }
 
-void recover(const System& system, const RecoveredForces& forces, StaticSolution& solution) {
+void set_results(const System& system, const RecoveredForces& forces, StaticSolution& solution) {
   recover_displacements(system, forces, solution);
   solution.reaction.setZero(std::ssize(system.model.supports), 3);
   for (std::size_t i = 0; i < forces.constraints.rows.size(); ++i) {
@@ -334,10 +334,10 @@ ForceSum sum_forces(const System& system, const std::vector<Vector2d>& position,
 }
 
 void postprocess(const System& system, const ElasticState& state, StaticSolution& solution) {
-  recover(system,
-          {system.mesh.positions, state.u, system.constraints, constraint_forces(system, state),
-           end_forces(system, state)},
-          solution);
+  set_results(system,
+              {system.mesh.positions, state.u, system.constraints, constraint_forces(system, state),
+               end_forces(system, state)},
+              solution);
   recover_triangles(system, state.u, solution);
   sum_external_forces(system, state, solution);
 }
@@ -412,7 +412,7 @@ double unbalanced_forces(const System& system, const ElasticState& state,
   // chain of inextensible elements to its free end.
   const VectorXd length = length_scales(system);
   const double largest = magnitudes.cwiseQuotient(length).maxCoeff();
-  return largest_ratio(sum, magnitudes.cwiseMax(kLeastShare * largest * length));
+  return row_backward_error(sum, magnitudes.cwiseMax(kLeastFraction * largest * length));
 }
 
 }  // namespace trammel::solver

@@ -104,7 +104,7 @@ template <class T>
 /// Computes displacements, rotations of member ends, reactions, section forces and member stresses.
 /// The largest stress is searched at the ends of each element and between them. The load within an
 /// element is uniform and balances its end forces.
-void recover(const System& system, const RecoveredForces& forces, StaticSolution& solution);
+void set_results(const System& system, const RecoveredForces& forces, StaticSolution& solution);
 
 /// Sums of forces, of moments about the origin, and of the magnitudes of their terms.
 struct ForceSum {

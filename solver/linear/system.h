@@ -62,14 +62,14 @@ struct System {
 }
 
 /// Returns the matrix that maps the free coordinates q to u in units of length.
-[[nodiscard]] inline SparseMatrix free_length_scales(const System& system) {
+[[nodiscard]] inline SparseMatrix free_to_length_matrix(const System& system) {
   return length_scales(system).asDiagonal() * system.T;
 }
 
 /// Returns, for each free coordinate, the sum of squared lengths [m^2] by which its unit motion
 /// moves all coordinates u.
-[[nodiscard]] inline Eigen::VectorXd squared_lengths(const System& system) {
-  const SparseMatrix lengths = free_length_scales(system);
+[[nodiscard]] inline Eigen::VectorXd squared_length_scales(const System& system) {
+  const SparseMatrix lengths = free_to_length_matrix(system);
   return lengths.cwiseAbs2().transpose() * Eigen::VectorXd::Ones(lengths.rows());
 }
 

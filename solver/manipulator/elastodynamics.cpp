@@ -109,7 +109,7 @@ class MotionSolver {
         return follower_.forces(q, v, VectorXd::Zero(q.size())).working;
       };
     }
-    if (!follower_.stands_still()) {
+    if (!follower_.is_at_rest()) {
       equation.update = [this](double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
         if (follower_.update_to(time)) follower_.matrices(M, C, K);
       };
@@ -163,7 +163,7 @@ class MotionSolver {
   /// Superposes all modes at every sample by closed-form solutions.
   void superpose_modes() {
     const std::vector<double> times = sample_times(options_.time);
-    if (!follower_.stands_still()) {
+    if (!follower_.is_at_rest()) {
       throw ModelError("modal superposition requires constant matrices, but the platform moves");
     }
     if (options_.gyroscopic) throw ModelError("a platform at rest has no gyroscopic terms");
@@ -248,7 +248,7 @@ class MotionSolver {
   /// Returns true if the computed work depends on the choice of free coordinates. This is the case
   /// if inextensible links move and the rates of T are omitted.
   [[nodiscard]] bool work_depends_on_axes() const {
-    return !options_.gyroscopic && !follower_.stands_still() &&
+    return !options_.gyroscopic && !follower_.is_at_rest() &&
            std::ranges::any_of(moving_.constraints().rows, [](const ConstraintRow& row) {
              return row.source == ConstraintRow::Source::inextensible;
            });
@@ -433,10 +433,10 @@ StaticSolution postprocess_motion(const MovingSystem& moving, const VectorXd& q,
   std::vector<Vector2d> positions;
   for (Index node = 0; node < std::ssize(moving.start().mesh.positions); ++node)
     positions.push_back(moving.position(node));
-  recover(moving.start(),
-          {positions, forces.working.u, constraints, multipliers,
-           end_forces(moving, forces, multipliers)},
-          state);
+  set_results(moving.start(),
+              {positions, forces.working.u, constraints, multipliers,
+               end_forces(moving, forces, multipliers)},
+              state);
   set_triangle_stress(moving, forces.working.u, state);
   const ForceSum sum = sum_forces(moving.start(), positions, forces.external, state);
   state.equilibrium_residual = sum.force.norm();

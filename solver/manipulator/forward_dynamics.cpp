@@ -75,7 +75,7 @@ class MotionIntegrator {
                           terms.Ch.cwiseAbs() * now.q_dot.head<3>().cwiseAbs() +
                           terms.Nh.cwiseAbs() + given.cwiseAbs() +
                           terms.W.bottomRows<3>().transpose().cwiseAbs() * wrench_.cwiseAbs();
-    result.evidence.add(Residual::equation_of_motion, largest_ratio(now.torque - given, size));
+    result.evidence.add(Residual::equation_of_motion, row_backward_error(now.torque - given, size));
     const ManipulatorGeometry& g = manipulator_.geometry;
     double reach = 0;
     for (std::size_t i = 0; i < 3; ++i) reach = std::max(reach, g.proximal[i] + g.distal[i]);

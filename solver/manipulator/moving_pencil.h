@@ -114,8 +114,9 @@ class MovingPencil {
   /// @param MX  X M.
   /// @param space  temporary blocks.
   template <int rows>
-  [[nodiscard]] ModeMeasures<rows> measure(const VectorBlock<rows>& X, const VectorBlock<rows>& MX,
-                                           Workspace<rows>& space) const;
+  [[nodiscard]] ModeMeasures<rows> measure_modes(const VectorBlock<rows>& X,
+                                                 const VectorBlock<rows>& MX,
+                                                 Workspace<rows>& space) const;
 
  private:
   struct Link {

@@ -299,7 +299,7 @@ Model loaded_model(const ElastodynamicsOptions& options, double time) {
 
 PathFollower::PathFollower(const ElastodynamicsOptions& options, double built_at)
     : options_(options),
-      stands_still_(solver::stands_still(options.path)),
+      is_at_rest_(solver::is_at_rest(options.path)),
       rigid_(rigid_manipulator(options.design)),
       moving_(loaded_model(options, built_at),
               {.inertia = options.elastic_inertia, .gyroscopic = options.gyroscopic}) {
@@ -309,7 +309,7 @@ PathFollower::PathFollower(const ElastodynamicsOptions& options, double built_at
 
 bool PathFollower::update_to(double time) {
   if (time == time_) return outcome_.solved();
-  if (stands_still_ && options_.load_history.constant() && !std::isnan(time_)) {
+  if (is_at_rest_ && options_.load_history.constant() && !std::isnan(time_)) {
     point_.time = time;
   } else {
     outcome_ = move_to(time, options_.gravity);
@@ -366,7 +366,7 @@ bool PathFollower::solve_statically(const VectorXd& f, VectorXd& q) {
     factored_ = true;
     ++counters_.factorizations;
     regular_ = stiffness_.factorize(moving_.K()) &&
-               stiffness_.smallest_to_largest_pivot() > kSingularPivotRatio;
+               stiffness_.smallest_pivot_to_diagonal() > kSingularPivotRatio;
   }
   if (!regular_) return false;
   ++counters_.solves;

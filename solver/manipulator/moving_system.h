@@ -158,7 +158,7 @@ class PathFollower {
   }
   [[nodiscard]] const TrajectoryPoint& point() const { return point_; }
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
-  [[nodiscard]] bool stands_still() const { return stands_still_; }
+  [[nodiscard]] bool is_at_rest() const { return is_at_rest_; }
   [[nodiscard]] bool damped() const;
 
   // Quantities at the current pose, in free coordinates.
@@ -185,7 +185,7 @@ class PathFollower {
   [[nodiscard]] Vector3d wrench(double time) const;
 
   const ElastodynamicsOptions& options_;
-  bool stands_still_;
+  bool is_at_rest_;
   RigidManipulator rigid_;
   MovingSystem moving_;
   SparseLdlt stiffness_{SparseLdlt::Triangle::mean};

@@ -133,7 +133,7 @@ class BlockSolver {
       inverse_iteration();
       if (!rayleigh_ritz()) return false;
       if (change_.head(wanted).maxCoeff() < kTolerance) {
-        measures_ = pencil_.measure(X_, MX_, space_);
+        measures_ = pencil_.measure_modes(X_, MX_, space_);
         const double residual = measures_.backward_error.head(wanted).maxCoeff();
         if (residual < kResidual) {
           if (warm && step == 0 && residual < 1e-2 * kResidual && plain_ > 0) --plain_;

@@ -161,7 +161,7 @@ std::pair<double, double> time_span(const Path& path) {
   return {spline->times.front(), spline->times.back()};
 }
 
-bool stands_still(const Path& path) {
+bool is_at_rest(const Path& path) {
   return std::visit([](const auto& p) { return is_still(p); }, path);
 }
 

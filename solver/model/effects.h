@@ -56,7 +56,7 @@ class Effects {
 /// Returns the name of an effect in case files, such as "axial-flexibility".
 [[nodiscard]] std::string_view name_of(Effect effect);
 /// Returns the effect with this name, or an empty value.
-[[nodiscard]] std::optional<Effect> effect_named(std::string_view name);
+[[nodiscard]] std::optional<Effect> find_effect(std::string_view name);
 
 /// Number of evaluations that each effect causes. Element matrices, element loads and springs are
 /// evaluated.

@@ -41,7 +41,7 @@ std::string in_words(const char* name) {
 
 }  // namespace
 
-const ResidualRule& rule_of(Residual kind) {
+const ResidualRule& residual_rule(Residual kind) {
   return kRules[static_cast<std::size_t>(kind)];
 }
 
@@ -67,11 +67,11 @@ Outcome outcome_by_evidence(const Outcome& claimed, const Evidence& evidence,
   if (evidence.empty()) return {Status::not_converged, "no residual supports the solution"};
   for (const Residual kind : needed) {
     if (!evidence.has(kind))
-      return {Status::not_converged,
-              "the required residual '" + in_words(rule_of(kind).name) + "' was not computed"};
+      return {Status::not_converged, "the required residual '" +
+                                         in_words(residual_rule(kind).name) + "' was not computed"};
   }
   for (const Residual kind : kResiduals) {
-    const ResidualRule& rule = rule_of(kind);
+    const ResidualRule& rule = residual_rule(kind);
     if (!evidence.has(kind) || evidence.largest(kind) <= rule.limit) continue;
     std::ostringstream reason;
     reason << "the residual '" << in_words(rule.name) << "' is " << evidence.largest(kind)

@@ -48,7 +48,7 @@ struct ResidualRule {
   const char* why;
 };
 /// Returns the name and the limit of a type of residual.
-[[nodiscard]] const ResidualRule& rule_of(Residual kind);
+[[nodiscard]] const ResidualRule& residual_rule(Residual kind);
 
 /// Value of Residual::load above which a warning is issued. The solution is not rejected. Above
 /// this value, ill-conditioning dominates the digits of the forces. Below it, the loads are

@@ -64,7 +64,7 @@ HarmonicSolver::HarmonicSolver(const System& system, const HarmonicDamping& damp
     }
   }
   const auto count = static_cast<Index>(damping.modal_ratio.size());
-  superpose(count);
+  compute_modes(count);
   if (!outcome_.solved() || modes_.frequency.size() == 0) return;
   participation_ = modes_.shape.transpose() * unsuperposed_load_;
   unsuperposed_load_ -= system.M * (modes_.shape * participation_);
@@ -73,7 +73,7 @@ HarmonicSolver::HarmonicSolver(const System& system, const HarmonicDamping& damp
   damping_.shape = modes_.shape.leftCols(count);
 }
 
-void HarmonicSolver::superpose(Index damped) {
+void HarmonicSolver::compute_modes(Index damped) {
   Factorization K;
   K.compute(system_.K);
   ++counters_.factorizations;
@@ -92,7 +92,7 @@ void HarmonicSolver::superpose(Index damped) {
     }
   } else if (free.count() > 0 && free.all_found) {
     modes_.shape = free.basis;
-    if (!orthonormalize(system_, modes_.shape)) {
+    if (!mass_orthonormalize(system_, modes_.shape)) {
       outcome_ = {Status::singular,
                   "a part without mass moves freely: " + describe_mechanism(system_, free)};
       return;

@@ -71,7 +71,7 @@ class HarmonicSolver {
   [[nodiscard]] Eigen::VectorXcd acceleration(const Eigen::VectorXcd& q, double omega) const;
 
   /// Computes the modes with a damping ratio, and the rigid modes of an unsupported model.
-  void superpose(Index damped);
+  void compute_modes(Index damped);
 
   const System& system_;
   ViscousDamping damping_;

@@ -125,9 +125,9 @@ ModalResponse superpose(const ModalBasis& basis, const VectorXd& decay, const Sp
   return {basis.shape * y, basis.shape * v, basis.shape * a};
 }
 
-FollowedFactors followed_factors(const PiecewiseLinearLoad& load, double relaxation,
-                                 const VectorXd& start, const std::vector<double>& times) {
-  FollowedFactors found;
+DelayedFactors delayed_factors(const PiecewiseLinearLoad& load, double relaxation,
+                               const VectorXd& start, const std::vector<double>& times) {
+  DelayedFactors found;
   const auto columns = static_cast<Index>(times.size());
   for (Eigen::MatrixXd* m : {&found.value, &found.rate, &found.acceleration})
     m->setZero(load.factor.rows(), columns);
@@ -173,8 +173,8 @@ void add_massless_coordinates(const ModalBasis& basis, const SparseMatrix& M, co
     for (Index i = 0; i < rest.cols(); ++i)
       held.col(i) = beside_modes(factorization.solve(rest.col(i)));
     counters.solves += rest.cols();
-    const FollowedFactors followed =
-        followed_factors(load, relaxation, VectorXd::Zero(rest.cols()), times);
+    const DelayedFactors followed =
+        delayed_factors(load, relaxation, VectorXd::Zero(rest.cols()), times);
     response.q += held * followed.value;
     response.v += held * followed.rate;
     response.a += held * followed.acceleration;
@@ -316,8 +316,8 @@ VectorXd RegularizedMass::solve(const VectorXd& f) const {
 LateStrain::LateStrain(const System& system)
     : system_(system), mass_(system), weight_(system.T.transpose() * system.weight) {}
 
-void LateStrain::put(const VectorXd& q, const Eigen::Vector2d& factors,
-                     ElasticState& elastic) const {
+void LateStrain::set_loads(const VectorXd& q, const Eigen::Vector2d& factors,
+                           ElasticState& elastic) const {
   const VectorXd loads = factors[0] * (system_.f - weight_) + factors[1] * weight_;
   elastic.acceleration = system_.T * mass_.solve(loads - system_.K * q);
   elastic.load_factor = factors[0];

@@ -48,7 +48,7 @@ struct ModalResponse {
 
 /// Solution y of relaxation y' + y = factor for each load. With a relaxation time, y follows the
 /// factor with a delay. Without it, y equals the factor.
-struct FollowedFactors {
+struct DelayedFactors {
   Eigen::MatrixXd value, rate, acceleration;  ///< load x time [-], [1/s], [1/s^2]
 };
 
@@ -57,9 +57,9 @@ struct FollowedFactors {
 /// @param relaxation  relaxation time [s]; 0: y follows at once, with the value after a jump.
 /// @param start  y at times.front(), used with relaxation > 0.
 /// @param times  ascending [s].
-[[nodiscard]] FollowedFactors followed_factors(const PiecewiseLinearLoad& load, double relaxation,
-                                               const Eigen::VectorXd& start,
-                                               const std::vector<double>& times);
+[[nodiscard]] DelayedFactors delayed_factors(const PiecewiseLinearLoad& load, double relaxation,
+                                             const Eigen::VectorXd& start,
+                                             const std::vector<double>& times);
 
 /// Adds the response of massless coordinates that no mode contains, x with M x = 0:
 ///
@@ -141,9 +141,10 @@ class LateStrain {
   explicit LateStrain(const System& system);
   /// Writes the loads and accelerations that balance K q into `elastic`.
   /// @param q  free coordinates.
-  /// @param factors  delayed factors of loads and of weight (`followed_factors`).
+  /// @param factors  delayed factors of loads and of weight (`delayed_factors`).
   /// @param elastic  receives load factors and accelerations.
-  void put(const Eigen::VectorXd& q, const Eigen::Vector2d& factors, ElasticState& elastic) const;
+  void set_loads(const Eigen::VectorXd& q, const Eigen::Vector2d& factors,
+                 ElasticState& elastic) const;
 
  private:
   const System& system_;

@@ -35,8 +35,8 @@ class MotionEvidence {
   explicit MotionEvidence(const EquationOfMotion& equation, const TimeScheme& scheme = {});
 
   /// Adds the largest |M A + C v + K q - f| relative to its terms, row by row. Each coordinate
-  /// counts with at least `kLeastShare` of the largest, after scaling by the diagonal of M + step^2
-  /// K. Otherwise there would be no scale for rows whose motions are only round-off errors.
+  /// counts with at least `kLeastFraction` of the largest, after scaling by the diagonal of M +
+  /// step^2 K. Otherwise there would be no scale for rows whose motions are only round-off errors.
   void add_equilibrium(double time, double load_time, const Eigen::VectorXd& q,
                        const Eigen::VectorXd& v, const Eigen::VectorXd& A, double step);
   /// Adds the residuals of the relations of the scheme between two states.

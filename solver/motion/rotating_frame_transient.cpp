@@ -34,13 +34,13 @@ Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseM
   Factorization factorization;
   factorization.compute(system.K);
   Counters counters;
-  if (Outcome held = require_held(system, factorization, counters); !held.solved()) {
+  if (Outcome held = require_no_mechanism(system, factorization, counters); !held.solved()) {
     held.reason = "the centrifugal forces have no static equilibrium: " + held.reason;
     return held;
   }
   const VectorXd u = system.T * factorization.solve(on_q);
   const BodyForces body = body_forces(system, unit, VectorXd::Zero(u.size()));
-  K_1 = geometric_stiffness(system, forces_of(system, u, force, body));
+  K_1 = geometric_stiffness(system, prestress_of(system, u, force, body));
   return {};
 }
 

@@ -238,7 +238,7 @@ Outcome LinearStepper::begin(const Step& first, double stop) {
   if (is_start || !matrices_.constant()) {
     ++counters_.factorizations;
     mass_is_singular_ = !mass_factor_->factorize(matrices_.M()) ||
-                        mass_factor_->smallest_to_largest_pivot() < kSingularMass;
+                        mass_factor_->smallest_pivot_to_diagonal() < kSingularMass;
   }
   start_factor_ = mass_is_singular_ ? step_factor(first) : mass_factor_.get();
   if (!start_factor_) return {Status::singular, "the matrix M + C h + K h^2 is singular"};

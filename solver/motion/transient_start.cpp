@@ -51,7 +51,7 @@ Outcome start_quasi_statically(EquationMatrices& matrices, const TransientOption
     matrices.update(time);
     if (i == 4 || !matrices.constant()) {
       ++counters.factorizations;
-      if (!factor.factorize(matrices.K()) || factor.smallest_to_largest_pivot() < kSingularMass) {
+      if (!factor.factorize(matrices.K()) || factor.smallest_pivot_to_diagonal() < kSingularMass) {
         return {Status::singular, "the stiffness is singular, so there is no quasi-static start"};
       }
     }
@@ -70,7 +70,7 @@ Outcome check_stability(const EquationMatrices& matrices, const TransientOptions
   if (!std::isfinite(limit) || matrices.M().rows() == 0) return {};
   SparseLdlt factor(SparseLdlt::Triangle::mean);
   ++counters.factorizations;
-  if (!factor.factorize(matrices.M()) || factor.smallest_to_largest_pivot() < kSingularMass) {
+  if (!factor.factorize(matrices.M()) || factor.smallest_pivot_to_diagonal() < kSingularMass) {
     return {Status::singular,
             "the mass is singular: a conditionally stable scheme has no stable step"};
   }
@@ -123,7 +123,7 @@ bool MasslessCoordinates::factor(const EquationMatrices& matrices, double h, Cou
     SparseMatrix sum = matrices.M();
     sum += share_ * added;
     ++counters.factorizations;
-    factored_ = factor_.factorize(sum) && factor_.smallest_to_largest_pivot() > kSingularMass;
+    factored_ = factor_.factorize(sum) && factor_.smallest_pivot_to_diagonal() > kSingularMass;
     if (factored_) break;
   }
   return factored_;

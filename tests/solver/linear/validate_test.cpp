@@ -108,8 +108,7 @@ BOOST_AUTO_TEST_CASE(invalid_models_are_refused_with_the_reason) {
   says("spring spring joins a node with itself", [](Model& m) { m.springs[0].nodes[1] = 2; });
   says(
       "the support of node C fixes a rotation that the node does not have: no member ends there "
-      "and "
-      "no rigid body contains the node",
+      "and no rigid body contains the node",
       [](Model& m) { m.supports.push_back(clamp(2)); });
   says("node C has no rotation: no member end is welded to it, no rigid body contains it",
        [](Model& m) {
