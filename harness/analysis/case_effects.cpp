@@ -69,7 +69,7 @@ std::vector<results::EffectRow> effect_rows(const EffectScope& scope, Effects ch
 Effects read_names(const JsonView& names, const EffectScope& scope, const EffectRules& rules) {
   Effects chosen = scope.required;
   for (const auto& [number, place] : names.entries()) {
-    const auto effect = solver::effect_named(place.get<std::string>());
+    const auto effect = solver::find_effect(place.get<std::string>());
     if (!scope.applicable.has(*effect)) {
       throw place.error("this effect is not applicable ('" + std::string(solver::name_of(*effect)) +
                         "': " + describe_missing(*effect, scope, rules) + ")");

@@ -80,7 +80,7 @@ solver::ElastodynamicsSolution solve(const solver::ElastodynamicsOptions& option
 void record_step_errors(solver::ElastodynamicsOptions options, bool large_displacement,
                         const solver::ElastodynamicsSolution& solution, Recorder& record) {
   if (!options.elastic_inertia || options.modal_superposition) return;
-  if (solver::stands_still(options.path) && !options.gyroscopic && !large_displacement) {
+  if (solver::is_at_rest(options.path) && !options.gyroscopic && !large_displacement) {
     options.modal_superposition = true;
     record_distance("integration_error", solver::solve_elastodynamics(options).deflection,
                     solution.deflection, record);
@@ -95,7 +95,7 @@ void record_step_errors(solver::ElastodynamicsOptions options, bool large_displa
 /// below it.
 void record_damping(const solver::RayleighDamping& damping, const solver::System& start,
                     Recorder& record) {
-  const double above = solver::overdamped_above(damping) / (2 * std::numbers::pi);
+  const double above = solver::overdamping_frequency(damping) / (2 * std::numbers::pi);
   if (!std::isfinite(above)) return;
   record.add("overdamped_above_Hz", above);
   const std::optional<solver::Index> below = solver::sturm_count(start, above);
@@ -175,7 +175,7 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
       throw(*approximations)["transformation_rate_terms"].error(
           "these terms are a part of the elastic inertia, and require 'elastic_inertia': true");
   }
-  if (options.modal_superposition && !solver::stands_still(options.path))
+  if (options.modal_superposition && !solver::is_at_rest(options.path))
     throw analysis["modal_superposition"].error(
         "modal superposition requires constant M and K, and thus a platform at rest");
   for (const solver::TrajectoryPoint& point : case_model.motion) {

@@ -162,8 +162,8 @@ class Motion {
       const auto initial = transient_.find("initial_state");
       const bool held = initial && initial->json() == "static-equilibrium";
       history_.followed_factor =
-          solver::followed_factors(load_, relaxation, VectorXd::Constant(2, held ? 1 : 0),
-                                   history_.time)
+          solver::delayed_factors(load_, relaxation, VectorXd::Constant(2, held ? 1 : 0),
+                                  history_.time)
               .value;
     }
     return history_;
@@ -327,7 +327,7 @@ ModelState state_of(const solver::System& system, const MotionHistory& motion,
     elastic.load_factor = motion.load_factor[solver::to_size(sample)];
     elastic.constraint_forces = constraint_forces(system, elastic);  // damping also acts on them
     elastic.u = system.T * motion.q.col(sample);
-    if (late) late->put(motion.q.col(sample), motion.followed_factor.col(sample), elastic);
+    if (late) late->set_loads(motion.q.col(sample), motion.followed_factor.col(sample), elastic);
     postprocess(system, elastic, state);
   }
   state.displacement = solver::node_motion(system, motion.q.col(sample));

@@ -171,7 +171,7 @@ void mesh_plate(const JsonView& place, const SymbolTable& symbols, const Outline
     corners.insert(corners.end(), of_block.begin(), of_block.end());
   }
   const solver::BlockMesh mesh = solver::mesh_blocks(blocks, six_nodes);
-  const std::vector<solver::Index> nodes = solver::append(structure, plate, mesh, corners);
+  const std::vector<solver::Index> nodes = solver::append_mesh(structure, plate, mesh, corners);
   for (std::size_t b = 0; b < blocks.size(); ++b) {
     for (const std::vector<solver::Index>& of_mesh : mesh.sides[b]) {
       Edge::Piece piece{plate, {}, six_nodes};

@@ -75,7 +75,7 @@ void record_result(AnalysisResult result, Run& run) {
   run.reason = std::move(result.outcome.reason);
   for (const solver::Residual kind : solver::kResiduals)
     if (result.evidence.has(kind))
-      run.residuals.emplace_back(solver::rule_of(kind).name, result.evidence.largest(kind));
+      run.residuals.emplace_back(solver::residual_rule(kind).name, result.evidence.largest(kind));
   for (const Warning& warning : result.warnings) run.warnings.push_back(warning.text());
   run.quantities = std::move(result.quantities);
   run.effects = std::move(result.effects);

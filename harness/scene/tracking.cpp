@@ -29,7 +29,7 @@ void require_joints(const JsonView& place, const solver::ManipulatorDesign& desi
 solver::large_motion::RigidMotion loaded_motion(const solver::RigidManipulator& rigid,
                                                 const CaseModel& case_model,
                                                 const std::function<double(double)>& load_history) {
-  return solver::large_motion::once_per_time([rigid, case_model, load_history](double t) {
+  return solver::large_motion::cached_motion([rigid, case_model, load_history](double t) {
     const auto [first, last] = solver::time_span(*case_model.path);
     const solver::TrajectoryPoint point = solver::at(*case_model.path, std::clamp(t, first, last));
     const Eigen::Vector3d wrench =
@@ -66,7 +66,7 @@ void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& cas
                                              : solver::rigid_manipulator(*case_model.manipulator);
   const solver::large_motion::RigidMotion motion =
       torques ? loaded_motion(rigid, case_model, large_motion.load_history)
-              : solver::large_motion::once_per_time([rigid, path = *case_model.path](double t) {
+              : solver::large_motion::cached_motion([rigid, path = *case_model.path](double t) {
                   return solver::inverse_dynamics(rigid, solver::at(path, t));
                 });
   for (std::size_t i = 0; i < 3; ++i) {

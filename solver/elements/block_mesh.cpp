@@ -112,7 +112,7 @@ class Mesher {
 
   void add(const Block& block) {
     if (block.cells[0] < 1 || block.cells[1] < 1) {
-      throw ModelError("a mesh block must have at least one cell along either side");
+      throw ModelError("a mesh block must have at least one cell along each side");
     }
     if (!(block.grading[0] > 0 && block.grading[1] > 0)) {
       throw ModelError("the grading of a mesh block must be positive");
@@ -138,7 +138,7 @@ class Mesher {
     grid_.clear();
     for (std::size_t j = 0; j < t.size(); ++j) {
       for (std::size_t i = 0; i < s.size(); ++i) {
-        // A node on a side may belong to another block as well.
+        // A node on a side may also belong to an adjacent block.
         const bool outer = i == 0 || j == 0 || i + 1 == s.size() || j + 1 == t.size();
         const Vector2d position = point(s[i], t[j]);
         Index node = outer ? outer_.find(position) : -1;
@@ -199,7 +199,7 @@ class Mesher {
 }  // namespace
 
 BlockMesh mesh_blocks(const std::vector<Block>& blocks, bool six_nodes) {
-  if (blocks.empty()) throw ModelError("a mesh needs at least one block");
+  if (blocks.empty()) throw ModelError("a mesh requires at least one block");
   std::vector<Vector2d> corners;
   for (const Block& block : blocks)
     corners.insert(corners.end(), block.corners.begin(), block.corners.end());
@@ -208,8 +208,8 @@ BlockMesh mesh_blocks(const std::vector<Block>& blocks, bool six_nodes) {
   return mesher.mesh();
 }
 
-std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh,
-                          const std::vector<Index>& corners) {
+std::vector<Index> append_mesh(Model& model, Index plate, const BlockMesh& mesh,
+                               const std::vector<Index>& corners) {
   Places places(merge_tolerance(mesh.positions));
   for (const Index corner : corners) places.add(corner, model.nodes[to_size(corner)].position);
   for (std::size_t i = 0; i < model.nodes.size(); ++i)
@@ -234,7 +234,7 @@ std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh,
 
 namespace {
 
-/// Returns -1, 0 or 1 in a pattern with a period of three cells.
+/// Returns the offset -1, 0 or 1 of a node in a pattern with a period of three cells.
 double pattern(Index n) {
   return static_cast<double>(n % 3) - 1;
 }
@@ -243,7 +243,7 @@ double pattern(Index n) {
 
 Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate) {
   if (!(mesh.distortion >= 0 && mesh.distortion < 0.3)) {
-    throw ModelError("the distortion of a rectangle's mesh must lie between 0 and 0.3");
+    throw ModelError("the distortion of a rectangle's mesh must be >= 0 and < 0.3 cells");
   }
   const auto cells = static_cast<double>(mesh.cells);
   const Vector2d size(mesh.length, mesh.height);
@@ -270,14 +270,14 @@ Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate) {
   }
   Model model;
   model.plates.push_back(plate);
-  append(model, 0, block);
+  append_mesh(model, 0, block);
   for (std::size_t i = 0; i < model.nodes.size(); ++i) model.nodes[i].name = std::to_string(i);
   return model;
 }
 
 Model mesh_line(const DistortedLine& mesh, const Member& member) {
   if (!(mesh.distortion >= 0 && mesh.distortion < 1)) {
-    throw ModelError("the distortion of a line's mesh must lie between 0 and 1");
+    throw ModelError("the distortion of a line's mesh must be >= 0 and < 1 cell");
   }
   Model model;
   for (Index i = 0; i <= mesh.cells; ++i) {

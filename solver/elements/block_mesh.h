@@ -7,8 +7,8 @@
 #include "solver/model/model.h"
 
 /// Mapped meshes of plates. A mesh consists of quadrilateral blocks with straight or elliptic
-/// sides, which are joined where their sides coincide. All functions are pure; they return nodes
-/// and triangles of a Model.
+/// sides, which are joined where their sides coincide. The functions have no side effects except on
+/// their arguments.
 namespace trammel::solver {
 
 /// Ellipse with axes parallel to x and y:
@@ -60,8 +60,8 @@ struct BlockMesh {
 /// @param mesh  mesh of blocks.
 /// @param corners  model nodes at the corners of the blocks.
 /// @returns the index of the model node for each mesh node.
-std::vector<Index> append(Model& model, Index plate, const BlockMesh& mesh,
-                          const std::vector<Index>& corners = {});
+std::vector<Index> append_mesh(Model& model, Index plate, const BlockMesh& mesh,
+                               const std::vector<Index>& corners = {});
 
 // Meshes for verifying orders of convergence. They are regular, or distorted in a pattern that
 // repeats from cell to cell. Refinement therefore does not smooth out the distortion.
@@ -76,7 +76,8 @@ struct RectangleMesh {
   double distortion = 0;  ///< displacement of the inner corners [cells]; 0 <= distortion < 0.3
 };
 
-/// Returns a model with one plate and its triangles, without supports and loads.
+/// Returns a model with one plate, meshed by triangles with the given distortion, without supports
+/// and loads.
 /// @throws ModelError  if the distortion is outside its range and could invert a triangle.
 [[nodiscard]] Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate);
 
@@ -88,7 +89,8 @@ struct DistortedLine {
   double distortion = 0;  ///< displacement of every second inner node [cells]; 0 <= distortion < 1
 };
 
-/// Returns a model with one member per cell. Its first node is at the start of the line.
+/// Returns a model of the line with one member per cell. Its first node is at the start of the
+/// line.
 /// @param mesh  geometry of the line and its distortion.
 /// @param member  properties of all members; its nodes and number of elements are ignored.
 /// @throws ModelError  if the distortion is outside its range and could invert a member.

@@ -5,8 +5,9 @@
 namespace trammel::solver {
 namespace {
 
-/// Returns a section whose properties are mix(a, b, n) of the properties a and b of two sections. A
-/// property scales with depth^n width.
+/// Returns a section whose properties are mix(a, b, n), where a and b are the properties of two
+/// sections. n is the power of the depth with which a property scales: it is proportional to
+/// depth^n width.
 template <class Mix>
 Section mixed(const Section& first, const Section& second, const Mix& mix) {
   Section section;

@@ -76,7 +76,7 @@ template <Real T = double>
   return B;
 }
 
-/// Returns the diagonal stiffness of the three deformations [N/m, N m, N m].
+/// Returns the diagonal stiffness of the three deformations d [N/m, N m, N m].
 template <Real T>
 [[nodiscard]] Eigen::Vector3<T> frame_rigidity(const SectionOf<T>& section, BeamTheory theory,
                                                const std::type_identity_t<T>& length) {

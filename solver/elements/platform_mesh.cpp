@@ -72,9 +72,9 @@ const std::array<RulePoint, 7>& radon_rule() {
   return rule;
 }
 
-/// Calls visit(point, area share) for the points of a quadrature of the triangle near the disc. The
-/// triangle is divided into pieces that are small compared with the disc. Pieces outside the disc
-/// are skipped.
+/// Calls visit(point, area) at the quadrature points of the triangle near the disc around x0.
+/// `area` is the part of the area of the triangle that belongs to the point. The triangle is
+/// divided into pieces that are small compared with the disc. Pieces outside the disc are skipped.
 template <class Visit>
 void integrate_near(const Corners& t, const Vector2d& x0, double radius, const Visit& visit) {
   const Vector2d centroid = (t[0] + t[1] + t[2]) / 3;
@@ -97,8 +97,8 @@ void integrate_near(const Corners& t, const Vector2d& x0, double radius, const V
   }
 }
 
-/// Moments of the share of one node, int N_i phi (1, xi, eta) dA with (xi, eta) = (x - x0) /
-/// radius.
+/// Moments of each node within the pin: int N_i phi (1, xi, eta) dA with (xi, eta) = (x - x0) /
+/// radius (platform_mesh.h).
 using Shares = std::unordered_map<Index, Vector3d>;
 
 void add_shares(const TriangleMesh& mesh, const TriangleMesh::Nodes& nodes, const Vector2d& x0,
@@ -130,7 +130,7 @@ TriangleMesh platform_mesh(const std::array<Vector2d, 3>& vertices, const Vector
                            int refinements, bool six_nodes) {
   constexpr int kMaxRefinements = 10;
   if (refinements < 0 || refinements > kMaxRefinements)
-    throw ModelError("the platform's refinements must be 0 to 10 (three million triangles)");
+    throw ModelError("the platform's refinements must be 0 to 10 (10: three million triangles)");
   const bool clockwise = twice_area(vertices[0], vertices[1], vertices[2]) < 0;
   TriangleMesh mesh;
   mesh.nodes.assign(vertices.begin(), vertices.end());
@@ -141,9 +141,7 @@ TriangleMesh platform_mesh(const std::array<Vector2d, 3>& vertices, const Vector
                                             : TriangleMesh::Nodes{i, j, 3, -1, -1, -1};
     const auto corner = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
     if (!(twice_area(corner(0), corner(1), corner(2)) > 0))
-      throw ModelError(
-          "a platform of triangles needs P inside the triangle C1 C2 C3: it is cut into C1 C2 P, "
-          "C2 C3 P and C3 C1 P");
+      throw ModelError("P must lie inside the triangle C1 C2 C3, which the mesh divides at P");
     mesh.triangles.push_back(t);
   }
   for (int i = 0; i < refinements; ++i) mesh = split(std::move(mesh));
@@ -155,7 +153,7 @@ std::vector<std::pair<Index, double>> pin_weights(const TriangleMesh& mesh, cons
                                                   double radius) {
   Shares shares;
   for (const auto& nodes : mesh.triangles) add_shares(mesh, nodes, x0, radius, shares);
-  if (shares.empty()) throw ModelError("the pin's radius reaches no triangle of the platform");
+  if (shares.empty()) throw ModelError("no triangle of the platform lies within the pin's radius");
   std::vector<std::pair<Index, double>> weights;
   weights.reserve(shares.size());
   for (const auto& share : shares) weights.emplace_back(share.first, 0.0);

@@ -20,7 +20,7 @@
 ///
 /// This equals k = t integral B^T D B dA, paper Eq. (8). The six-node triangle sums over the points
 /// of a rule that is exact to degree 4. Its strains are linear, so that degree 2 suffices for
-/// straight sides. The higher degree serves curved sides.
+/// straight sides. Curved sides require the higher degree.
 namespace trammel::solver {
 
 template <std::size_t n>
@@ -80,7 +80,7 @@ decltype(auto) visit_nodes(const Model& model, const Triangle& triangle, Visit&&
 /// Returns the area [m^2], positive if the points run counterclockwise.
 [[nodiscard]] double signed_area(const TrianglePoints& points);
 
-/// Returns B at a point, which maps coordinates to (exx + eyy, exx - eyy, gxy) [-].
+/// Returns the matrix B at a point, which maps coordinates to (exx + eyy, exx - eyy, gxy) [-].
 template <int nodes>
 [[nodiscard]] Eigen::Matrix<double, 3, 2 * nodes> triangle_deformation(
     const TriangleInterpolation& at) {
@@ -93,13 +93,13 @@ template <int nodes>
   return B;
 }
 
-/// Returns B of a three-node triangle, in which the deformation is uniform.
+/// Returns the matrix B of a three-node triangle, in which the deformation is uniform.
 [[nodiscard]] Eigen::Matrix<double, 3, 6> triangle_deformation(const TrianglePoints& points);
 
-/// Returns the diagonal stiffness [N m] of the three deformations for a plate volume [m^3].
+/// Returns the diagonal stiffness [N m] of (exx + eyy, exx - eyy, gxy) for a plate volume [m^3].
 [[nodiscard]] Vector3d membrane_rigidity(const Material& material, double volume);
 
-/// Returns the stresses (sxx, syy, sxy) [Pa] of the three deformations in plane stress.
+/// Returns the stresses (sxx, syy, sxy) [Pa] of the deformation (exx + eyy, exx - eyy, gxy).
 /// Source: paper Eq. (8).
 [[nodiscard]] Vector3d membrane_stress(const Material& material, const Vector3d& deformation);
 
@@ -127,8 +127,8 @@ template <std::size_t n>
 template <std::size_t n>
 [[nodiscard]] TriangleMatrix<n> triangle_mass(const TriangleNodes<n>& nodes, const Plate& plate);
 
-/// Returns force per area [Pa] times |dx/ds| [m] at a position [m] on a side with tangent dx/ds
-/// [m].
+/// Function that returns the force per area [Pa] times |dx/ds| [m] at a position [m] on a side with
+/// tangent dx/ds [m].
 using SideLoad = std::function<Vector2d(const Vector2d& position, const Vector2d& tangent)>;
 
 /// Returns the consistent nodal forces [N] of a loaded side of a plate:
@@ -141,7 +141,8 @@ using SideLoad = std::function<Vector2d(const Vector2d& position, const Vector2d
                                                   const std::array<Index, 3>& nodes,
                                                   const SideLoad& load);
 
-/// Returns the consistent nodal forces [N] of a uniform load. The pressure acts along the normal.
+/// Returns the consistent nodal forces [N] of a uniform load on a side. The pressure acts along the
+/// normal.
 [[nodiscard]] std::array<Vector2d, 3> edge_forces(const Model& model, const EdgeLoad& load);
 
 }  // namespace trammel::solver

@@ -12,7 +12,7 @@ Eigen::VectorXd scale_of(const Eigen::MatrixXd& inputs, InputScaling scaling) {
   for (Index f = 0; f < inputs.cols(); ++f) {
     const Eigen::VectorXd column = inputs.col(f);
     const double range = column.maxCoeff() - column.minCoeff();
-    if (range == 0) continue;  // constant input; its mean could differ from it by round-off
+    if (range == 0) continue;  // constant input; its deviation could be a round-off error
     const double deviation = std::sqrt((column.array() - column.mean()).square().mean());
     scale(f) = scaling == InputScaling::range ? range : deviation;
   }
@@ -29,22 +29,22 @@ bool squarable(const Eigen::MatrixXd& m) {
 
 Grnn make_grnn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs, double sigma,
                const Eigen::VectorXd& scale) {
-  require(inputs.rows() >= 1, "a GRNN needs at least one sample");
-  require(inputs.rows() == outputs.rows(), "a GRNN needs one output row for each input row");
-  require(inputs.cols() >= 1 && outputs.cols() >= 1, "a GRNN needs an input and an output");
-  require(outputs.allFinite(), "an output of a GRNN's sample is not finite");
-  require(scale.size() == inputs.cols(), "a GRNN needs one scale for each input");
+  require(inputs.rows() >= 1, "a GRNN requires at least one sample");
+  require(inputs.rows() == outputs.rows(), "a GRNN requires one output row for each input row");
+  require(inputs.cols() >= 1 && outputs.cols() >= 1, "a GRNN requires an input and an output");
+  require(outputs.allFinite(), "an output of a GRNN sample is not finite");
+  require(scale.size() == inputs.cols(), "a GRNN requires one scale for each input");
   require(scale.allFinite() && (scale.array() > 0).all(),
-          "the scale of a GRNN's input must be positive");
+          "the scale of each input of a GRNN must be positive");
   require(squarable(inputs * scale.cwiseInverse().asDiagonal()),
-          "a scaled input of a GRNN's sample is not finite or too large to be squared");
+          "a scaled input of a GRNN sample is not finite or too large to be squared");
   return {inputs, outputs, scale, sigma};
 }
 
 Grnn make_grnn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs, double sigma,
                InputScaling scaling) {
-  require(inputs.rows() >= 1, "a GRNN needs at least one sample");
-  require(squarable(inputs), "an input of a GRNN's sample is not finite or too large");
+  require(inputs.rows() >= 1, "a GRNN requires at least one sample");
+  require(squarable(inputs), "an input of a GRNN sample is not finite or too large to be squared");
   return make_grnn(inputs, outputs, sigma, scale_of(inputs, scaling));
 }
 
@@ -59,11 +59,11 @@ Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
   const Eigen::MatrixXd samples = scaled_inputs(network);
   const Eigen::MatrixXd scaled =
       network.scale.cwiseInverse().asDiagonal() * queries.transpose();  // input x query
-  require(squarable(scaled), "a query is not finite or too large to be squared");
+  require(squarable(scaled), "a scaled input of a query is not finite or too large to be squared");
 
-  // Process queries in blocks. One matrix product combines the weights of a block with the
-  // outputs and with a column of ones for the sums of the weights. It covers only samples within
-  // reach of any query of the block.
+  // Process queries in blocks. One matrix product combines the kernel weights of a block with the
+  // outputs and with a column of ones for the sums of the weights. It covers only samples whose
+  // weights are not negligible for at least one query of the block.
   constexpr Index kBlock = 32;
   const Index columns = network.outputs.cols();
   Eigen::MatrixXd targets(samples.rows(), columns + 1);
@@ -93,7 +93,7 @@ Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
 
 namespace {
 
-// Smaller exponents give results that are not normal numbers.
+// Least exponent of the exponential function whose result is a normal floating-point number.
 constexpr double kLeastExponent = -708;
 
 }  // namespace
@@ -102,7 +102,7 @@ const Eigen::ArrayXd& ExcessDistances::compute(const Eigen::Ref<const Eigen::Vec
                                                double reach,
                                                const Eigen::Array<bool, Eigen::Dynamic, 1>* skip) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  // Above the round-off error of the squares of a thousand inputs.
+  // The margin exceeds the round-off error of the squares of a thousand inputs.
   constexpr double kRounding = 1e-12;
   const Index count = samples_.rows();
   excess_ = (query(0) - samples_.col(0).array()).square();
@@ -116,7 +116,7 @@ const Eigen::ArrayXd& ExcessDistances::compute(const Eigen::Ref<const Eigen::Vec
   for (first_ = 0; first_ < nearest && !(excess_(first_) <= limit);) ++first_;
   for (last_ = count; last_ > nearest + 1 && !(excess_(last_ - 1) <= limit);) --last_;
 
-  // Samples that are further away keep D_i^2, which is at least their excess.
+  // Samples that are further away keep the squared distance D_i^2, which is at least their excess.
   auto near = excess_.segment(first_, last_ - first_);
   near.setZero();
   for (Index f = 0; f < samples_.cols(); ++f) {

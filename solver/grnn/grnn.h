@@ -7,15 +7,16 @@
 /// General regression neural network (Specht 1991), the estimator of Nadaraya and Watson (1964).
 namespace trammel::solver {
 
-/// Divisor of each input before distances are computed. A constant input is divided by 1.
+/// Definition of the divisor of each input before distances are computed. A constant input is
+/// divided by 1.
 enum class InputScaling {
   none,
   deviation,  ///< standard deviation over the samples
   range       ///< largest minus smallest value
 };
 
-/// General regression neural network. It consists of its samples; sigma is the only parameter to
-/// train.
+/// General regression neural network. It consists of its samples; the smoothing parameter sigma is
+/// the only parameter to train.
 ///
 ///   Y(x) = sum_i Y_i w_i / sum_i w_i,  w_i = exp(-D_i^2 / 2 sigma^2)   (paper Eq. 36),
 ///   D_i^2 = sum_f ((x_f - X_if) / scale_f)^2                            (paper Eq. 37)
@@ -45,8 +46,8 @@ struct Grnn {
 /// 0.8326 is sqrt(ln 2) to four digits, so that the weight is one half at D = spread.
 [[nodiscard]] double sigma_of_spread(double spread);
 
-/// Returns the outputs for queries. The result is never 0/0, because weights are relative to that
-/// of the nearest sample m. They follow from the differences
+/// Returns the outputs for queries. The result is never 0/0, because weights are relative to the
+/// weight of the nearest sample m. They follow from the differences
 ///
 ///   D_i^2 - D_m^2 = sum_f (X_mf - X_if) ((x_f - X_if) + (x_f - X_mf)) / scale_f^2,
 ///

@@ -35,8 +35,8 @@ std::vector<Index> order_of(Index samples, bool shuffled, std::uint64_t seed) {
 
 std::vector<Index> fold_of_samples(Index samples, const CrossValidation& validation) {
   const Index folds = validation.folds == 0 ? samples : validation.folds;
-  require(folds >= 2, "cross-validation needs at least two folds");
-  require(samples >= folds, "cross-validation needs at least one sample in each fold");
+  require(folds >= 2, "cross-validation requires at least two folds");
+  require(samples >= folds, "cross-validation requires at least one sample in each fold");
   std::vector<Index> fold =
       order_of(samples, validation.order == FoldOrder::shuffled, validation.seed);
   const bool blocks = validation.order == FoldOrder::blocks;
@@ -50,7 +50,7 @@ std::vector<bool> training_mask(Index samples, Index train, Split split, std::ui
   const std::vector<Index> order = order_of(samples, split == Split::shuffled, seed);
   std::vector<bool> trains(order.size(), false);
   for (Index k = 0; k < train; ++k) {
-    // Middle of the k-th of `train` equal intervals.
+    // The sample is in the middle of the k-th of `train` equal intervals.
     const Index rank = split == Split::interleaved ? (2 * k + 1) * samples / (2 * train) : k;
     trains[to_size(order[to_size(rank)])] = true;
   }
@@ -99,8 +99,8 @@ Eigen::VectorXd cross_validation_error(const Grnn& network, const Eigen::VectorX
 }
 
 Eigen::VectorXd logarithmic_grid(double from, double to, Index count) {
-  require(from > 0 && to > from && std::isfinite(to), "a grid of sigmas needs 0 < from < to");
-  require(count >= 3, "a grid of sigmas needs at least three");
+  require(from > 0 && to > from && std::isfinite(to), "a grid of sigmas requires 0 < from < to");
+  require(count >= 3, "a grid of sigmas requires at least three sigmas");
   return Eigen::VectorXd::LinSpaced(count, std::log(from), std::log(to)).array().exp().matrix();
 }
 
@@ -125,7 +125,7 @@ Eigen::VectorXd default_grid(const Grnn& network, Index count) {
 SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,
                          const CrossValidation& validation) {
   check_sigmas(grid);
-  require(std::ranges::is_sorted(grid, std::less_equal()), "the sigmas of a grid must ascend");
+  require(std::ranges::is_sorted(grid, std::less_equal()), "a grid of sigmas must be ascending");
   SigmaSearch search;
   search.grid = grid;
   search.grid_error = cross_validation_error(network, grid, validation);
@@ -148,7 +148,8 @@ SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,
     }
     return error;
   };
-  // Search relative to the middle of the bracket, so that the unit of the inputs does not matter.
+  // Search sigma relative to the middle of the bracket, so that the unit of the inputs does not
+  // matter.
   // This determines sigma to better than 1e-3.
   constexpr int kBits = 12;
   std::uintmax_t evaluations = 100;

@@ -10,8 +10,8 @@
 namespace trammel::solver {
 
 /// Assignment of samples to folds. Neighbors in a time series are nearly equal. Interleaved or
-/// shuffled folds therefore measure interpolation. Folds of consecutive blocks are closer to
-/// extrapolation.
+/// shuffled folds therefore measure the error of interpolation. Folds of consecutive blocks measure
+/// an error closer to that of extrapolation.
 enum class FoldOrder { interleaved, shuffled, blocks };
 
 /// Options of a cross-validation.

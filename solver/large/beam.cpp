@@ -72,7 +72,8 @@ struct Strain {
     shear = e2.dot(slope) - sine;
   }
 
-  /// Sets the rows of a Gauss point with the factors of displacements and of rotations.
+  /// Sets the entries of node a in the two rows (stretch and shear) of Gauss point g. `slope`
+  /// multiplies displacements, and `value` multiplies the rotation.
   void set_rows(int g, int a, double slope, double value, Beam::Gradient& G) const {
     G.block<1, 2>(2 * g, 3 * a) = slope * e1.transpose();
     G(2 * g, 3 * a + 2) = value * shear;
@@ -135,7 +136,7 @@ Beam::Gradient Beam::discrete_gradient(const Coordinates& q0, const Coordinates&
 }
 
 /// Uses rotations relative to the first node, so that a common rotation cancels before
-/// multiplication. Its round-off error would otherwise act as a moment at every node, n^2 eps EI/L
+/// multiplication. Otherwise, its round-off error would act as a moment at every node, n^2 eps EI/L
 /// in total for n elements.
 Beam::Coordinates Beam::forces(const Coordinates& q, const Coordinates& v, double tau) const {
   NodeValues relative = q(kTurns).array() - q[2];

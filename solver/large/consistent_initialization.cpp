@@ -37,7 +37,7 @@ class ConsistentInitialization {
     return {};
   }
 
-  /// Returns the remaining rates of the constraints with the best-fitting velocities.
+  /// Returns the rates G v + dg/dt of the constraints that remain with the best-fitting velocities.
   VectorXd rate_defect() {
     state_.v.setZero(n_);
     if (!solve_velocities({})) return VectorXd::Zero(m_);
@@ -57,7 +57,7 @@ class ConsistentInitialization {
     std::ostringstream message;
     message << "no consistent " << what << " at the start, time " << state_.t
             << " s: the largest constraint residual is " << rigid_constraint_residual()
-            << " of the model's size or of 1 rad";
+            << " times the model size or 1 rad";
     return {Status::not_converged, message.str()};
   }
 
@@ -68,7 +68,7 @@ class ConsistentInitialization {
         .lpNorm<Eigen::Infinity>();
   }
 
-  /// Solves for a force and for the residuals of the rigid rows.
+  /// Solves the linear system for given forces and residuals of the rigid rows.
   /// @return false if the matrix is singular.
   bool solve(const VectorXd& force, const VectorXd& row) {
     solution_ << force, -rigid_.cwiseProduct(row);
@@ -154,8 +154,8 @@ class ConsistentInitialization {
     system_.force_residual(state_, force_residual_);
     if (!solve_with_mass_scaling(0.5, bias)) return false;
     const VectorXd resolved = solution_;
-    // This is nearly the exact acceleration. If it exceeds four times that of an implicit step, the
-    // step does not resolve a vibration or a coordinate is massless.
+    // The solution is nearly the exact acceleration. If it exceeds four times that of an implicit
+    // step, the step does not resolve a vibration or a coordinate is massless.
     if (!solve_with_mass_scaling(1e-4, bias) ||
         weighted_rms_norm(system_, solution_.head(n_)) >
             4 * weighted_rms_norm(system_, resolved.head(n_))) {
@@ -223,7 +223,8 @@ Outcome make_consistent(const ConstrainedSystem& system, State& state,
 
 std::string contradictory_drives(const GeometricallyExactSystem& system, const State& state,
                                  double step) {
-  // Relative to the fastest motion; round-off leaves much less.
+  // Limit of the rate that a drive leaves, relative to the fastest motion; round-off leaves much
+  // less.
   constexpr double kContradiction = 1e-3;
   const std::vector<Drive>& drives = system.large_motion().drives;
   if (drives.empty() || !state.q.allFinite()) return "";

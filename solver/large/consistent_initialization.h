@@ -14,9 +14,9 @@ namespace trammel::solver::large_motion {
 using PrescribedVelocities = std::vector<std::pair<Index, double>>;
 
 /// Makes a state consistent. Positions and velocities are projected onto the rigid constraints.
-/// Velocities have the least kinetic energy for the given ones. Accelerations and multipliers then
-/// follow from the equations of motion. Massless coordinates and vibrations that `step` does not
-/// resolve get the acceleration of an implicit step of that size.
+/// Among all velocities with the given values, those of least kinetic energy are selected.
+/// Accelerations and multipliers then follow from the equations of motion. Massless coordinates and
+/// vibrations that `step` does not resolve get the acceleration of an implicit step of that size.
 /// @param system  equations.
 /// @param state  t and q are the guess; v, a and lambda are replaced.
 /// @param given  prescribed velocities.

@@ -33,15 +33,15 @@ double MotionResiduals::equation_of_motion(const State& state, const VectorXd& r
   terms_.setZero();
   unknowns_.head(n) = state.a;
   unknowns_.tail(state.lambda.size()).setZero();
-  // A negligible stiffness instead of zero, because rows of massless coordinates would be divided
-  // by zero.
+  // Use a negligible stiffness instead of zero, because rows of massless coordinates would be
+  // divided by zero.
   add_terms({.mass = 1, .damping = 0, .stiffness = 1e-30, .compliance = 1}, state);
   unknowns_ << state.q, state.lambda;
   add_terms({}, state);
   const auto scale = system_.scale().array();
-  const double least = n > 0 ? kLeastShare * (terms_.head(n).array() * scale).maxCoeff() : 0;
+  const double least = n > 0 ? kLeastFraction * (terms_.head(n).array() * scale).maxCoeff() : 0;
   terms_.head(n) = terms_.head(n).array().max(least / scale);
-  return largest_ratio(residual, terms_.head(n));
+  return row_backward_error(residual, terms_.head(n));
 }
 
 ConstraintGaps MotionResiduals::constraints(const State& state) {
@@ -237,9 +237,9 @@ void ConstrainedStepper::advance() {
 }
 
 std::string ConstrainedStepper::describe(const StepReport& report) const {
-  if (report.iterations == 0) return "no correction: the tangent is singular there";
+  if (report.iterations == 0) return "no correction: the tangent matrix is singular";
   std::ostringstream text;
-  text << "last correction " << report.residual << " of the model's size after "
+  text << "last correction " << report.residual << " times the model size after "
        << report.iterations << " iterations";
   return text.str();
 }
@@ -312,9 +312,10 @@ double ConstrainedStepper::elastic_row(Index r, double h) const {
 }
 
 /// Corrects positions first, with the residuals of the constraints. Then it corrects the
-/// accelerations, with the rates at the new positions. Both use the same matrix. The second
-/// correction uses the result of the first, so that the corrections decrease quadratically, even
-/// near a singular position. The difference of both is p.
+/// accelerations, with the rates at the new positions. Both corrections use the same matrix. The
+/// second correction uses the result of the first, so that the corrections decrease quadratically,
+/// even near a singular position. The difference between the corrections is p
+/// (constrained_stepper.h).
 void ConstrainedStepper::correct(double h) {
   const Index n = system_.coordinates(), m = system_.constraints();
   residual(velocity_correction_.head(n));
@@ -343,7 +344,7 @@ void ConstrainedStepper::correct(double h) {
 }
 
 bool ConstrainedStepper::has_converged(double h, const StepConvergence& convergence) const {
-  // Factor between the estimate for a single rounding of each force and the accumulated error.
+  // Ratio of the accumulated round-off error to the estimate for a single rounding of each force.
   constexpr double kRoundoffErrors = 10;
   const double acceleration =
       scheme_.acceleration_share * scheme_.relations.beta * h * h * size(A1_);
@@ -355,9 +356,9 @@ bool ConstrainedStepper::has_converged(double h, const StepConvergence& converge
           convergence.last() <= kRoundoffErrors * correction_roundoff(h));
 }
 
-/// Returns the size of a correction by the round-off errors of constraint forces and residuals,
-/// with arbitrary signs. It limits the accuracy of a small motion under large forces in mutual
-/// equilibrium, or near a singular position.
+/// Returns the size of a correction that results from round-off errors of constraint forces and
+/// residuals, with arbitrary signs. It limits the accuracy of a small motion under large forces in
+/// mutual equilibrium, or near a singular position.
 double ConstrainedStepper::correction_roundoff(double h) const {
   const Index n = system_.coordinates(), m = system_.constraints();
   VectorXd multipliers = VectorXd::Zero(n + m), errors(n + m);

@@ -40,9 +40,9 @@ class MotionResiduals {
 };
 
 /// Orientation of the assembly of a mechanism: the sign of det G, or of det (G, v) with one degree
-/// of freedom. It differs between the branches that meet at a singular position. A step that is
-/// longer than the gap between two branches may continue on the wrong branch, with residuals of
-/// round-off only.
+/// of freedom. G is the gradient of the constraints, and v the velocity. The sign differs between
+/// the branches that meet at a singular position. A step that is longer than the gap between two
+/// branches may continue on the wrong branch, although its residuals are only round-off errors.
 class AssemblyBranch {
  public:
   /// @pre The system outlives this object.

@@ -72,7 +72,7 @@ PenaltyScales::PenaltyScales(const Model& model, const LargeMotionModel& large_m
     return values;
   };
   mean_mass_ = mean_of_positive(of_translations(mass_), 1);
-  // Without stiffness, loads turn the model.
+  // In a model without stiffness, the loads define the scale of the stiffness.
   const double turning = load_size(model, large_motion, size) / size;
   mean_stiffness_ =
       mean_of_positive(of_translations(stiffness_), turning > 0 ? turning : mean_mass_);
@@ -82,7 +82,8 @@ RowScales PenaltyScales::of_row(std::span<const Index> coordinates, double lever
   const bool turns =
       std::ranges::all_of(coordinates, [&](Index k) { return k < 0 || layout_.is_rotation(k); });
   const auto largest = [&](const Eigen::VectorXd& values, double mean) {
-    // Entries of the same kind as the row, and rotations in a row of displacements.
+    // `value` is the largest entry of the same type as the row (translation or rotation). `levered`
+    // is that of rotations in a row of displacements.
     double value = 0, levered = 0;
     for (const Index k : coordinates) {
       if (k < 0) continue;

@@ -107,8 +107,8 @@ double Equilibrium::backward_error(const State& state) {
   const double largest_motion = n > 0 ? motion.maxCoeff() : 0;
   const VectorXd force = state.lambda.cwiseQuotient(force_unit_).cwiseAbs();
   const double largest_force = m > 0 ? force.maxCoeff() : 0;
-  x.head(n) = motion.cwiseMax(kLeastShare * largest_motion).cwiseProduct(system_.scale());
-  x.tail(m) = force.cwiseMax(kLeastShare * largest_force).cwiseProduct(force_unit_);
+  x.head(n) = motion.cwiseMax(kLeastFraction * largest_motion).cwiseProduct(system_.scale());
+  x.tail(m) = force.cwiseMax(kLeastFraction * largest_force).cwiseProduct(force_unit_);
   matrix_.clear();
   system_.tangent(state, TangentCoefficients{}, matrix_);
   VectorXd terms(n + m);
@@ -116,7 +116,7 @@ double Equilibrium::backward_error(const State& state) {
   system_.load_derivative(state, load);
   terms.head(n) += std::abs(state.load) * load.cwiseAbs();
   residual_of(state, residual);
-  return largest_ratio(residual, terms);
+  return row_backward_error(residual, terms);
 }
 
 double Equilibrium::smallest_eigenpair(VectorXd& shape) {
@@ -175,7 +175,7 @@ NewtonResult Equilibrium::solve(State& state, double load, const LoadControl& co
   };
   for (int i = 0; i < options_.max_iterations; ++i) {
     if (!factor_if_moved(state, options_.same_state))
-      return fail(Status::singular, "the tangent is singular");
+      return fail(Status::singular, "the tangent matrix is singular");
     correction(state, step_, result);
     if (control) {
       load_direction(state, load_step_);
@@ -183,7 +183,7 @@ NewtonResult Equilibrium::solve(State& state, double load, const LoadControl& co
       step_ += change * load_step_;
       system_.set_load(state, state.load + change);
     }
-    if (!step_.allFinite()) return fail(Status::singular, "the tangent is singular");
+    if (!step_.allFinite()) return fail(Status::singular, "the tangent matrix is singular");
     apply_correction(state, step_);
     const double last = result.correction.back() = weighted_rms_norm(system_, step_.head(n));
     const double displacement = weighted_rms_norm(system_, state.q.head(n));
@@ -192,8 +192,8 @@ NewtonResult Equilibrium::solve(State& state, double load, const LoadControl& co
   }
   std::ostringstream message;
   message << "Newton's method did not converge at load factor " << load << " in "
-          << result.correction.size() << " iterations; last correction " << result.correction.back()
-          << ", residual " << result.force_residual.back() << " N m";
+          << result.correction.size() << " iterations; last relative correction "
+          << result.correction.back() << ", residual " << result.force_residual.back() << " N m";
   return fail(Status::not_converged, message.str());
 }
 
@@ -250,8 +250,9 @@ StaticSolution solve_large_statics(const Model& model,
 
 StaticSolution estimate_large_statics(const Model& model,
                                       const large_motion::LargeMotionModel& large_motion) {
-  // Bending and the resulting axial forces correct each other alternately, so that every second
-  // correction is smaller. Fast convergence yields six digits after ten corrections.
+  // Bending and the resulting axial forces correct each other alternately, so that only every
+  // second correction is smaller than the previous one. Fast convergence yields six digits after
+  // ten corrections.
   const large_motion::NewtonOptions options{
       .max_iterations = 12, .tolerance = 1e-6, .same_state = 1e300};  // never factored again
   const large_motion::GeometricallyExactSystem system(model, large_motion);

@@ -40,7 +40,8 @@ class Equilibrium {
  public:
   explicit Equilibrium(const GeometricallyExactSystem& system, const NewtonOptions& options = {});
 
-  /// Adds the damping forces at the velocities of a state to all following equilibria.
+  /// Adds the damping forces at the velocities of a state, as constant loads, to all following
+  /// equilibria.
   void hold_damping(const State& moving);
 
   /// Solves for the equilibrium at `load`, which is also the time of drives, from a start state.
@@ -62,7 +63,8 @@ class Equilibrium {
   /// shape. It uses inverse iteration with the last factors.
   double smallest_eigenpair(VectorXd& shape);
 
-  /// Motion that the last tangent does not resist. Its energy is the round-off error of its terms.
+  /// Motion without stiffness in the last tangent: its energy is within the round-off error of its
+  /// terms.
   struct FreeMotion {
     bool exists = false;
     bool is_driven = false;  ///< the loads do work on the motion
@@ -80,8 +82,9 @@ class Equilibrium {
     factored_ = State();
   }
 
-  /// Returns true if the corrections end the iteration at a displacement of that size. The last one
-  /// is small enough, or the corrections no longer decrease at the level of round-off.
+  /// Returns true if the corrections end the iteration at a displacement of that size. This is the
+  /// case if the last correction is small enough, or if the corrections no longer decrease at the
+  /// level of round-off.
   [[nodiscard]] bool converged(const std::vector<double>& correction, double displacement) const;
   [[nodiscard]] const KktMatrix& matrix() const { return matrix_; }
 
@@ -106,7 +109,7 @@ void apply_correction(State& state, const VectorXd& step, double factor = 1);
 
 namespace trammel::solver {
 
-/// Adds the evaluations of the elements of a number of tangents, by effect.
+/// Adds the element evaluations of a number of tangent matrices to the counters of each effect.
 /// @param system  equations.
 /// @param tangents  number of tangents.
 /// @param moving  true: tangents with masses.

@@ -173,8 +173,8 @@ double GeometricallyExactSystem::nonconservative_work(const State& from, const S
   padded_.head(n) = (from.v + to.v) / 2;
   product_.noalias() = mass_ * padded_;
   work -= h * large_motion_.mass_damping * padded_.head(n).dot(product_.head(n));
-  // Rows change by the motion and by the drives. Constraint forces do the work of the former
-  // change.
+  // The residuals of the rows change by the motion and by the drives. Constraint forces do the work
+  // of the change by the motion.
   VectorXd before = VectorXd::Zero(parts_.rows), after = before, rate = before;
   State held = to;
   held.t = from.t;

@@ -90,9 +90,9 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
   for (const InitialVelocity& initial : initial_velocities) {
     if (coordinate_of(system, initial) >= 0 || initial.value == 0) continue;
     return {Status::singular,
-            "a start velocity is given where a support holds node " +
+            "an initial velocity is given, but a support holds node " +
                 system.model().nodes[static_cast<std::size_t>(initial.node)].name +
-                ", or it has no rotation"};
+                ", or the node has no rotation"};
   }
   const auto start_without = [&](const InitialVelocity* left_out, State& start) {
     start = system.reference_state();
@@ -126,15 +126,15 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
   return {Status::singular, message.str()};
 }
 
-/// Checks the extrapolation. If both runs differ only by their leading error, their combination
-/// satisfies the constraints much better than the two states agree.
+/// Checks the extrapolation to a step of zero. If both runs differ only by their leading error,
+/// their combination satisfies the constraints much better than the two states agree.
 Outcome outcome_of_extrapolation(const IntegrationSummary& summary) {
   constexpr double kLimit = 1e-3;
   if (summary.constraints.relative_position <= kLimit) return {};
   std::ostringstream message;
   message << "the steps are too long to be extrapolated: the combination of both runs violates a "
              "constraint by "
-          << summary.constraints.relative_position << " of the model's size or of 1 rad";
+          << summary.constraints.relative_position << " times the model size or 1 rad";
   return {Status::not_converged, message.str()};
 }
 

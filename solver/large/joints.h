@@ -13,7 +13,7 @@
 /// Nonlinear Sci. 6, 1996).
 namespace trammel::solver::large_motion {
 
-/// Rigid rows. Their `rho` follows from the parts that they join.
+/// Rigid constraint rows. Their penalty rho (`KktMatrix`) follows from the parts that they join.
 template <int Coords, int Count>
 struct Joint : ElementSizes<Coords, Count> {
   using typename ElementSizes<Coords, Count>::Rows;

@@ -40,7 +40,7 @@ struct StaticInstant {
   State state;
 };
 
-/// Splits the joints that resist relative rotation.
+/// Adds a node for the driven end of a distal link at each joint that resists relative rotation.
 std::vector<DrivenEnd> add_driven_ends(Model& model) {
   std::vector<DrivenEnd> ends;
   for (std::size_t m = 1; m < model.members.size(); m += 2) {
@@ -62,7 +62,7 @@ class LargeElastodynamics {
   explicit LargeElastodynamics(const ElastodynamicsOptions& options)
       : options_(options),
         rigid_(rigid_manipulator(options.design)),
-        rigid_motion_(once_per_time([this, rigid = rigid_](double t) {
+        rigid_motion_(cached_motion([this, rigid = rigid_](double t) {
           InverseDynamics found = inverse_dynamics(rigid, at(options_.path, t));
           if (!found.outcome.solved() && reached_.solved()) {
             reached_ = found.outcome;
@@ -76,7 +76,7 @@ class LargeElastodynamics {
     if (const char* reason = beyond_large_displacement(options_, start_.model))
       throw ModelError(std::string("large displacement: ") + reason);
     if (!options_.elastic_inertia && options_.time.sample_times.empty())
-      throw ModelError("equilibria along a path need sample times");
+      throw ModelError("equilibria along a path require sample times");
   }
 
   ElastodynamicsSolution run() {
@@ -392,7 +392,8 @@ struct Turn {
   double time = 0, angle = 0, rate = 0;
 };
 
-/// Returns the law, extended beyond the ends of the path with the acceleration and its rate there.
+/// Returns a function of time that is extended beyond the ends of the path with the acceleration
+/// and its rate there.
 TimeFunction extended(const TimeFunction& law, const Path& path) {
   return [law, limits = time_span(path)](double t) {
     const double end = std::clamp(t, limits.first, limits.second), d = t - end;
@@ -406,15 +407,15 @@ TimeFunction extended(const TimeFunction& law, const Path& path) {
 
 }  // namespace
 
-RigidMotion once_per_time(std::function<InverseDynamics(double)> reckon) {
+RigidMotion cached_motion(std::function<InverseDynamics(double)> evaluate) {
   struct Last {
     double time = kNaN;
     InverseDynamics motion;
   };
-  return [reckon = std::move(reckon),
+  return [evaluate = std::move(evaluate),
           last = std::make_shared<Last>()](double t) -> const InverseDynamics& {
     if (last->time != t) {
-      last->motion = reckon(t);
+      last->motion = evaluate(t);
       last->time = t;
     }
     return last->motion;

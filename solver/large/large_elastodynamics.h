@@ -41,20 +41,20 @@ namespace trammel::solver {
 
 }  // namespace trammel::solver
 
-/// Joint motions of the rigid manipulator on its path, as laws of drives in large motion.
+/// Joint motions of the rigid manipulator on its path, as prescribed functions of time of drives.
 namespace trammel::solver::large_motion {
 
 /// Returns the rigid motion at a time.
 using RigidMotion = std::function<const InverseDynamics&(double)>;
 
-/// Caches the last evaluation, because all joints and all corrections of a step request the same
-/// time.
-[[nodiscard]] RigidMotion once_per_time(std::function<InverseDynamics(double)> reckon);
+/// Returns the rigid motion with a cache of the last evaluation. All joints and all corrections of
+/// a step request the same time.
+[[nodiscard]] RigidMotion cached_motion(std::function<InverseDynamics(double)> evaluate);
 
 /// Returns the rotation of a part since `start` relative to another part or the ground (-1) [rad],
-/// including full turns. It is followed from the last request in increments of 0.5 rad. The law
-/// continues beyond the ends of the path with the acceleration and its rate there. The solver
-/// requires this for differences about the first and last times.
+/// including full turns. It is followed from the last request in increments of 0.5 rad. The
+/// function continues beyond the ends of the path with the acceleration and its rate there. The
+/// solver requires this for differences about the first and last times.
 /// @param motion  rigid motion.
 /// @param path  path of the platform.
 /// @param start  time with zero rotation [s].

@@ -13,10 +13,10 @@ void validate(const LargeMotionModel& large_motion, const Model& model) {
     if (!holds) throw ModelError(part + ' ' + what);
   };
   const auto require_node = [&](Index node, const std::string& part) {
-    require(node >= 0 && node < std::ssize(model.nodes), part, "names a node that does not exist");
+    require(node >= 0 && node < std::ssize(model.nodes), part, "refers to a missing node");
   };
   const auto require_direction = [&](int direction, const std::string& part) {
-    require(direction >= 0 && direction <= 2, part, "has no direction 0, 1 or 2");
+    require(direction >= 0 && direction <= 2, part, "must have direction 0, 1 or 2");
   };
   for (std::size_t i = 0; i < large_motion.drives.size(); ++i) {
     const Drive& drive = large_motion.drives[i];
@@ -24,11 +24,11 @@ void validate(const LargeMotionModel& large_motion, const Model& model) {
     require_node(drive.node, part);
     if (drive.from != -1) require_node(drive.from, part);
     require_direction(drive.direction, part);
-    require(static_cast<bool>(drive.law), part, "has no law of motion");
+    require(static_cast<bool>(drive.law), part, "requires a function of time");
   }
   for (const Torque& torque : large_motion.torques) {
     require_node(torque.node, "a torque");
-    require(static_cast<bool>(torque.law), "a torque", "has no law");
+    require(static_cast<bool>(torque.law), "a torque", "requires a function of time");
   }
   for (std::size_t i = 0; i < large_motion.sliders.size(); ++i) {
     const Slider& slider = large_motion.sliders[i];
@@ -36,7 +36,7 @@ void validate(const LargeMotionModel& large_motion, const Model& model) {
     require_node(slider.node, part);
     if (slider.rail != -1) require_node(slider.rail, part);
     require(slider.rail != slider.node, part, "slides along itself");
-    require(std::isfinite(slider.direction), part, "has no direction");
+    require(std::isfinite(slider.direction), part, "has a direction that is not a finite number");
   }
   for (std::size_t i = 0; i < large_motion.line_springs.size(); ++i) {
     const LineSpring& spring = large_motion.line_springs[i];
@@ -46,16 +46,16 @@ void validate(const LargeMotionModel& large_motion, const Model& model) {
             "must have a positive stiffness");
     require(model.nodes[to_size(spring.nodes[0])].position !=
                 model.nodes[to_size(spring.nodes[1])].position,
-            part, "joins nodes in one place, so it has no direction");
+            part, "joins coincident nodes, so that it has no direction");
   }
   for (const FollowerLoad& load : large_motion.follower_loads) {
     require_node(load.node, "a follower load");
     require(load.force.allFinite(), "a follower load", "is not a finite number");
   }
   for (const InitialVelocity& initial : large_motion.initial_velocities) {
-    require_node(initial.node, "a start velocity");
-    require_direction(initial.direction, "a start velocity");
-    require(std::isfinite(initial.value), "a start velocity", "is not a finite number");
+    require_node(initial.node, "an initial velocity");
+    require_direction(initial.direction, "an initial velocity");
+    require(std::isfinite(initial.value), "an initial velocity", "is not a finite number");
   }
   for (const auto& [damping, part] :
        {std::pair(large_motion.mass_damping, "mass damping"),

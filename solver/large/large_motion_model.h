@@ -14,7 +14,8 @@
 /// to the pose of the model.
 namespace trammel::solver::large_motion {
 
-/// Returns value, rate and second derivative at a time or, in statics, at a load factor.
+/// Function that returns value, rate and second derivative at a time or, in statics, at a load
+/// factor.
 using TimeFunction = std::function<std::array<double, 3>(double)>;
 
 /// Displacement or rotation of a node relative to another node or the ground (-1), prescribed as a
@@ -75,7 +76,7 @@ struct LargeMotionModel {
   std::vector<FollowerLoad> follower_loads;
   std::vector<InitialVelocity> initial_velocities;
   std::function<double(double)> load_history;  ///< factor on the loads (not gravity); empty: 1
-  std::vector<double> load_breakpoints;        ///< times of its bends, ascending [s]
+  std::vector<double> load_breakpoints;        ///< times of its jumps and kinks, ascending [s]
   double mass_damping = 0;                     ///< forces -mass_damping M v [1/s]
   double strain_rate_damping = 0;  ///< stress from strain + strain_rate_damping * strain rate [s]
 };

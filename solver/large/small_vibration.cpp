@@ -20,18 +20,18 @@ using Extended = KktMatrix::Extended;
 
 /// Fraction of |s| below which the real or imaginary part of s is round-off.
 constexpr double kRoundoffShare = 1e-7;
-/// Ratio of w^2 of some modes to that of the next below which K^-1 has few digits of the other
-/// modes.
+/// Ratio of w^2 of two successive modes below which the lower modes are soft. K^-1 then has few
+/// correct digits of the higher modes.
 constexpr double kSoftShare = 1e-10;
-/// Factor within which K^-1 determines the lowest w^2 above the soft modes. It is exceeded if the
-/// parts above the soft modes are massless.
+/// Factor within which K^-1 determines the lowest w^2 above the soft modes. A larger factor shows
+/// that the parts above the soft modes are massless.
 constexpr double kAlike = 1e6;
 /// Relative distance of the shift from w^2 of a mode in the inverse iteration.
 constexpr double kAside = 1e-3;
 
-/// K - w2 M on the constraints. It is factored with penalties, and assembled again without
-/// penalties for exact products. Round-off errors of stiff members would otherwise hide the
-/// stiffness of soft joints.
+/// Stiffness K - w2 M with the constraints. It is factored with penalties, and assembled again
+/// without penalties for exact products. Otherwise, round-off errors of stiff members would hide
+/// the stiffness of soft joints.
 class ShiftedStiffness {
  public:
   ShiftedStiffness(const GeometricallyExactSystem& system, const State& state, double w2)
@@ -64,8 +64,8 @@ class ShiftedStiffness {
       VectorXd correction = residual.cast<double>();
       factored_.solve(correction);
       x += correction.cast<long double>();
-      // Motions are relative to themselves. Forces of constraints are relative to all forces,
-      // including those on the coordinates.
+      // Corrections of motions are relative to the motions. Corrections of constraint forces are
+      // relative to all forces, including those on the coordinates.
       const auto size_of = [&](const VectorXd& values, const VectorXd& unit, Index begin) {
         return values.segment(begin, unit.size()).cwiseProduct(unit).norm();
       };
@@ -87,8 +87,9 @@ class ShiftedStiffness {
   [[nodiscard]] bool converged() const { return last_correction_ < 1e-6; }
 
   /// Returns the backward error of K (x, y) = (w^2 M x, 0) for the real or the imaginary part of a
-  /// mode, row by row. Each coordinate counts with at least `kLeastShare` of the largest motion, as
-  /// in row_balance.h. The terms of each row are at least 1e-9 of the largest of its kind.
+  /// mode, row by row. Each coordinate counts with at least `kLeastFraction` of the largest motion,
+  /// as in row_balance.h. The terms of each row are at least 1e-9 of the largest terms of rows of
+  /// its type.
   [[nodiscard]] double residual(const Extended& mode, const Extended& inertia) const {
     constexpr double kLeastRow = 1e-9;
     const VectorXd& scale = system_.scale();
@@ -96,7 +97,7 @@ class ShiftedStiffness {
     Extended residual = plain_.multiply(mode);
     VectorXd terms(mode.size()), size = mode.cast<double>().cwiseAbs();
     auto motion = size.head(n);
-    motion = motion.cwiseMax(kLeastShare * motion.cwiseQuotient(scale).maxCoeff() * scale);
+    motion = motion.cwiseMax(kLeastFraction * motion.cwiseQuotient(scale).maxCoeff() * scale);
     plain_.term_magnitudes(size, terms);
     residual.head(n) -= inertia;
     terms.head(n) += inertia.cast<double>().cwiseAbs();
@@ -108,7 +109,7 @@ class ShiftedStiffness {
       const auto own = unit.segment(begin, count);
       kind += kLeastRow * kind.cwiseQuotient(own).maxCoeff() * own;
     }
-    return largest_ratio(residual.cast<double>(), terms);
+    return row_backward_error(residual.cast<double>(), terms);
   }
 
   /// Returns the same as `KktMatrix::energy_over_roundoff`.
@@ -179,7 +180,7 @@ Spectrum spectrum(const ShiftedStiffness& K, const MatrixXd& L, double shift, bo
   return found;
 }
 
-/// Returns w^2 of the lowest mode above those that are free or nearly free, or 0 if there is none.
+/// Returns w^2 of the lowest mode above the free and the soft modes, or 0 if there is none.
 double lowest_above_soft(const Spectrum& modes) {
   for (std::size_t k = 1; k < modes.w2.size(); ++k) {
     const double above = std::abs(modes.w2[k]);
@@ -189,8 +190,8 @@ double lowest_above_soft(const Spectrum& modes) {
 }
 
 /// Returns w^2 of the lowest mode above the free ones if K is singular to working precision. All
-/// modes of K^-1 are then mixed with the free ones. The shifts start above all modes and decrease
-/// to the lowest that is not free.
+/// modes of K^-1 then contain parts of the free ones. The shifts start above all modes and decrease
+/// to the lowest mode that is not free.
 double lowest_above_free(const GeometricallyExactSystem& system, const State& state,
                          const MatrixXd& L, const Spectrum& mixed) {
   constexpr double kNear = 1e-4;  // relative to the shift; the value has more than ten digits
@@ -209,9 +210,10 @@ double lowest_above_free(const GeometricallyExactSystem& system, const State& st
   return 0;
 }
 
-/// Improves a real mode and its w^2 by inverse iteration with K - t M, where t is next to w^2. The
-/// round-off error of the matrix of all modes is relative to its lowest mode. It contaminates a
-/// higher mode by the ratio of both. With t, the requested mode is the largest.
+/// Improves a real mode and its w^2 by inverse iteration with K - t M, where the shift t is next to
+/// w^2. The round-off error of the matrix of all modes is relative to its lowest mode. It
+/// contaminates a higher mode by the ratio of both values. With the shift, the requested mode is
+/// the largest.
 Extended beside(const GeometricallyExactSystem& system, const State& state, const MatrixXd& M,
                 std::complex<double>& w2, Extended mode) {
   const Index n = system.coordinates();
@@ -246,7 +248,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
   SmallVibration found;
   const ShiftedStiffness K(system, state, 0);
   if (!K.exists()) {
-    found.outcome = {Status::singular, "the tangent is singular"};
+    found.outcome = {Status::singular, "the tangent matrix is singular"};
     return found;
   }
   const MatrixXd M = MatrixXd(system.mass()).topLeftCorner(n, n), L = mass_factor(M);
@@ -266,7 +268,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
     stiffened.emplace(system, state, -above);
     const Spectrum clear =
         stiffened->exists() ? spectrum(*stiffened, L, -above, system.symmetric()) : Spectrum();
-    // Otherwise the stiff parts above the soft modes are massless.
+    // Outside this range, the stiff parts above the soft modes are massless.
     const double next = lowest_above_soft(clear);
     if (next > above / kAlike && next < kAlike * above) {
       modes = clear;

@@ -17,10 +17,10 @@ struct SmallVibration {
 /// Largest number of coordinates. The matrix is dense, and the cost grows with the third power.
 inline constexpr Index kMaxVibrationCoordinates = 400;
 
-/// Computes the lowest |s| of s^2 M x + K x + G^T y = 0, G x = C y. K is the tangent of the state.
-/// Follower loads make K nonsymmetric. If two frequencies then meet, the motion flutters, which
-/// statics cannot show (V. V. Bolotin, Nonconservative Problems of the Theory of Elastic Stability,
-/// 1963). They follow from the eigenvalues of K^-1 M on the constraints.
+/// Computes the lowest |s| of s^2 M x + K x + G^T y = 0, G x = C y. K is the tangent stiffness of
+/// the state. The modes follow from the eigenvalues of K^-1 M on the constraints. Follower loads
+/// make K nonsymmetric. If two frequencies then meet, the motion flutters, which statics cannot
+/// show (V. V. Bolotin, Nonconservative Problems of the Theory of Elastic Stability, 1963).
 /// @throws ModelError  if there are more than kMaxVibrationCoordinates coordinates.
 [[nodiscard]] SmallVibration small_vibration(const GeometricallyExactSystem& system,
                                              const State& state, Index count);

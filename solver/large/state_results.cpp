@@ -93,7 +93,7 @@ struct FreeBody {
   }
 };
 
-/// Returns the balance of a member that bends, cut free at both ends.
+/// Returns the sums of forces and moments on a bending member that is cut free at both ends.
 FreeBody cut_free(const GeometricallyExactSystem& system, const State& state, Index first,
                   Index last) {
   constexpr int kLast = BeamInterpolation::kNodes - 1;
@@ -110,7 +110,8 @@ FreeBody cut_free(const GeometricallyExactSystem& system, const State& state, In
     const Beam::Coordinates f = beam.applied_forces();
     for (int a = 0; a <= kLast; ++a)
       body.add(beam.position(a), beam.node_force(f, a), beam.moment(f, a));
-    // Moments are differences of rotations, for any rotation of the member.
+    // Bending moments are differences of rotations, whose magnitudes include the rotation of the
+    // member.
     body.moment_terms +=
         (beam.element.tangent(beam.q, 1, 0).cwiseAbs() * beam.q.cwiseAbs()).maxCoeff();
   }

@@ -24,8 +24,8 @@ namespace trammel::solver::large_motion {
 [[nodiscard]] StaticSolution static_solution(const GeometricallyExactSystem& system,
                                              const State& state);
 
-/// Equilibrium of members that are cut free, under the section forces at their ends, loads, weight
-/// and inertia in the deformed position.
+/// Residual of the equilibrium of members that are cut free. It includes the section forces at
+/// their ends, loads, weight and inertia in the deformed position.
 class MemberBalance {
  public:
   /// Adds the members of a state.
@@ -33,7 +33,7 @@ class MemberBalance {
   /// @param state  satisfies the equation of motion.
   void add(const GeometricallyExactSystem& system, const State& state);
   /// Returns the largest sum of forces, or of moments about a first end, over the largest terms of
-  /// such sums. States and members whose forces are only round-off of others do not contribute.
+  /// such sums. States and members whose forces are only round-off errors do not contribute.
   [[nodiscard]] double residual() const;
 
  private:

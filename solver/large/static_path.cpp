@@ -18,7 +18,7 @@ namespace {
 /// Least cosine of the angle between the tangents at two adjacent points of a path.
 constexpr double kTurn = 0.95;
 
-/// Relative change of the state below which no new factorization is required to count unstable
+/// Relative change of the state below which the last factorization is sufficient to count unstable
 /// directions.
 constexpr double kSame = 1e-9;
 
@@ -137,7 +137,7 @@ class PathFollower {
     if (!point.newton.outcome.solved()) return stop(point.newton.outcome);
     const bool at_rest = point.newton.correction.size() == 1;  // the tangent was factored here
     if (!at_rest && !equilibrium_.factor(point.state))
-      return stop({Status::singular, "the tangent is singular"});
+      return stop({Status::singular, "the tangent matrix is singular"});
     for (Index found = 0; found <= system_.coordinates(); ++found) {
       const Equilibrium::FreeMotion free = equilibrium_.free_motion(point.state);
       if (!free.exists) break;
@@ -147,12 +147,12 @@ class PathFollower {
       }
       equilibrium_.hold(free.coordinate, free.stiffness);
       if (!equilibrium_.factor(point.state))
-        return stop({Status::singular, "the tangent is singular"});
+        return stop({Status::singular, "the tangent matrix is singular"});
     }
     VectorXd direction;
     equilibrium_.load_direction(point.state, direction);
     const double response = weighted_rms_norm(system_, direction.head(system_.coordinates()));
-    if (!std::isfinite(response)) return stop({Status::singular, "the tangent is singular"});
+    if (!std::isfinite(response)) return stop({Status::singular, "the tangent matrix is singular"});
     const double typical = response < 1e-6 ? mean_response(point.state) : response;
     displacement_weight_ = 1 / std::pow(std::max(typical, 1e-6), 2);
     metric_ = VectorXd::Zero(direction.size() + 1);
@@ -222,14 +222,14 @@ class PathFollower {
 
   bool next() {
     if (static_cast<int>(point_count_) >= options_.max_points)
-      return not_converged("too many points");
+      return not_converged("the limit of the number of points was reached");
     PathPoint point;
     VectorXd ahead;
     std::optional<CriticalPoint> critical;
     for (int cut = 0;; ++cut) {
-      if (cut == 40) return not_converged("no step is small enough");
-      // A step beyond the target ends on the target, or is halved. A step that may have reached
-      // another branch nearby is also halved.
+      if (cut == 40) return not_converged("the step was reduced 40 times without success");
+      // A step beyond the target is replaced by a step that ends on the target, or is halved. A
+      // step that may have reached another branch nearby is also halved.
       const bool reached = crosses_target() ? solve_at_target(point)
                                             : corrector(direction_, arc_step_, point) &&
                                                   !passed_target(point.state) &&
@@ -408,8 +408,8 @@ class PathFollower {
       if (!solve_beside(root, trial)) return {};
       if (!load) critical = std::move(trial);
     }
-    // Both sides of a gap do not belong to one path: the sideways distance exceeds the curvature of
-    // the path.
+    // The states on both sides of a gap do not belong to one path: their sideways distance exceeds
+    // that by the curvature of the path.
     const Trial &left = bracket.left(), &right = bracket.right();
     const VectorXd across = chord_between(left.state, right.state);
     const double along = dot(normalized(chord), across);
@@ -425,7 +425,8 @@ class PathFollower {
     direction_.setZero();
     direction_.head(n) = shape;
     direction_ = normalized(direction_);
-    // First noticeable amplitude of the buckling shape, independent of the previous response.
+    // Amplitude at which the buckling shape is first noticeable, independent of the previous
+    // response.
     arc_step_ = 1e-3 * std::sqrt(displacement_weight_);
     append(critical);
     path_.points.back().unstable_directions = -1;

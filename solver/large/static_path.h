@@ -52,7 +52,7 @@ struct StaticPath {
 
 /// Follows the equilibria by arc-length continuation (E. Riks, IJSS 15, 1979) with automatic steps.
 /// The path passes limit points. A change of the number of negative pivots without a limit point is
-/// a bifurcation. Both kinds are located.
+/// a bifurcation. Critical points of both types are located.
 [[nodiscard]] StaticPath follow_static_path(const GeometricallyExactSystem& system,
                                             const StaticPathOptions& options = {});
 

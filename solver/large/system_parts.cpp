@@ -314,7 +314,7 @@ class SystemBuilder {
         factors.push_back(factor);
         coordinates.push_back(index_of(coordinate));
         if (coordinates.back() < 0)
-          throw ModelError("constraint " + constraint.name + " names a rotation that no part has");
+          throw ModelError("constraint " + constraint.name + " refers to a missing rotation");
       }
       if (factors.size() == 2 && factors[0] != 0 && factors[0] == -factors[1]) {
         shared_.merge(coordinates[0], coordinates[1]);
@@ -324,7 +324,7 @@ class SystemBuilder {
           std::ranges::count_if(coordinates, [&](Index k) { return layout_.is_rotation(k); });
       if (rotations != 0 && rotations != std::ssize(coordinates)) {
         throw ModelError("constraint " + constraint.name +
-                         " mixes translations and rotations: it holds for small motion only");
+                         " mixes translations and rotations, which requires small displacements");
       }
       add_row(factors, coordinates);
     }
@@ -382,7 +382,7 @@ class SystemBuilder {
     }
     for (const Drive& drive : large_motion_.drives) {
       if (held[to_size(shared_.find(coordinate(drive.node, to_size(drive.direction))))])
-        throw ModelError(part_label("drive", drive.name, 0) + " moves what a support holds");
+        throw ModelError(part_label("drive", drive.name, 0) + " moves a supported coordinate");
     }
     return held;
   }

@@ -54,11 +54,11 @@ Vector3d singular_values(const Matrix3d& A) {
   return svd.info() == Eigen::Success ? Vector3d(svd.singularValues()) : Vector3d::Constant(kNaN);
 }
 
-double largest_ratio(const Eigen::VectorXd& residual, const Eigen::VectorXd& terms) {
+double row_backward_error(const Eigen::VectorXd& sum, const Eigen::VectorXd& terms) {
   double largest = 0;
-  for (Index i = 0; i < residual.size(); ++i) {
-    if (residual[i] == 0 && terms[i] >= 0) continue;
-    largest = nan_max(largest, std::abs(residual[i]) / terms[i]);
+  for (Index i = 0; i < sum.size(); ++i) {
+    if (sum[i] == 0 && terms[i] >= 0) continue;
+    largest = nan_max(largest, std::abs(sum[i]) / terms[i]);
   }
   return std::isfinite(largest) ? largest : std::numeric_limits<double>::infinity();
 }

@@ -31,7 +31,7 @@ struct ComplexEigenpairs {
 /// Solves A x = lambda x for any square A. The eigenvalues have no order.
 [[nodiscard]] ComplexEigenpairs eigenpairs(const Eigen::MatrixXd& A);
 
-/// Solution of a 3 x 3 system with a measure of singularity.
+/// Solution of a 3 x 3 system and the ratio of its pivots, which shows if the matrix is singular.
 struct PivotedSolution {
   Eigen::Vector3d x;                     ///< meaningless if A is singular
   double smallest_to_largest_pivot = 0;  ///< |R_33| / |R_11|; near zero if A is singular
@@ -42,13 +42,15 @@ struct PivotedSolution {
 /// Returns the singular values in descending order, or NaN if A is not finite.
 [[nodiscard]] Eigen::Vector3d singular_values(const Eigen::Matrix3d& A);
 
-/// Returns the backward error of equations, row by row: the largest |residual| over the sum of the
-/// magnitudes of its terms. 0 / 0 counts as 0. Values that are not finite count as infinite.
+/// Returns the row-wise backward error of a system of equations. It is the largest ratio of |sum|
+/// to `terms`, where `sum` is the sum of the terms of a row (residual), and `terms` is the sum of
+/// their magnitudes. 0 / 0 counts as 0. Values that are not finite count as infinite.
 /// Source: Oettli and Prager (1964).
-[[nodiscard]] double largest_ratio(const Eigen::VectorXd& residual, const Eigen::VectorXd& terms);
+[[nodiscard]] double row_backward_error(const Eigen::VectorXd& sum, const Eigen::VectorXd& terms);
 
-/// Least share of the largest magnitude that every coordinate or force contributes to the terms of
-/// a row. It prevents rows from being judged by values that are only round-off of others.
-inline constexpr double kLeastShare = 1e-3;
+/// Fraction of the largest coordinate or force. Each smaller coordinate or force counts with this
+/// fraction of the largest in the terms of a row. Otherwise, residuals would be relative to values
+/// that are only round-off errors.
+inline constexpr double kLeastFraction = 1e-3;
 
 }  // namespace trammel::solver

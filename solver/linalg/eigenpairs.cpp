@@ -20,11 +20,12 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Number of free coordinates above which Lanczos' method is faster for a few modes.
+// Number of free coordinates above which Lanczos' method is faster than the dense method for a few
+// modes.
 constexpr Index kDenseSize = 64;
 constexpr double kConvergenceTolerance =
     1e-11;  // relative change of an eigenvalue in one inverse iteration
-// Relative gap between distinct neighbors that are certainly no copies.
+// Relative gap above which neighboring eigenvalues are distinct, not copies of a repeated one.
 constexpr double kClusterGap = 1e-3;
 
 // K and B are symmetric. Products use their transpose, because Eigen then sums each row in
@@ -98,7 +99,7 @@ class Solver {
     return BX;
   }
 
-  /// Returns (K - s B) x.
+  /// Returns (K - s B) x with the accurate products K x of the pencil.
   [[nodiscard]] VectorXd apply(const VectorXd& x) const {
     VectorXd y = pencil_.K_times(x);
     if (pencil_.shift != 0) y -= pencil_.shift * times_B(x);
@@ -112,7 +113,7 @@ class Solver {
     return y;
   }
 
-  /// Returns about `count` further vectors with the largest mu > 0, or all remaining ones. It
+  /// Returns about `count` further eigenvectors with the largest mu > 0, or all remaining ones. It
   /// returns fewer if Lanczos' method fails.
   MatrixXd next_block(Index count) {
     if (!dense_) return lanczos(count);
@@ -125,7 +126,7 @@ class Solver {
     return all_.middleCols(taken_ - kept, kept);
   }
 
-  /// Returns all vectors with mu > 0 in descending order of mu.
+  /// Returns all eigenvectors with mu > 0 in descending order of mu.
   MatrixXd dense_vectors() {
     const MatrixXd B = times_B(MatrixXd::Identity(size_, size_));
     const SymmetricEigenpairs pairs =
@@ -136,8 +137,8 @@ class Solver {
     return pairs.vector.rightCols((pairs.value.array() > zero).count()).rowwise().reverse();
   }
 
-  /// Returns eigenvectors of F^-1 B F^-T, with F F^T = K - s B, in the complement of the known
-  /// vectors.
+  /// Returns eigenvectors of F^-1 B F^-T, where F F^T = K - s B, by Lanczos' method. The vectors
+  /// are orthogonal to the known ones.
   [[nodiscard]] MatrixXd lanczos(Index count) const {
     const Index known_count = null_.cols() + X_.cols(), dimension = size_ - known_count;
     const Index wanted = std::min(count, dimension - 1);
@@ -182,15 +183,16 @@ class Solver {
     for (Index j = old; j < X_.cols(); ++j) remove_null(X_.col(j));
   }
 
-  /// Applies further inverse iterations to the requested vectors that need them. K - t B is
-  /// factored with t next to each eigenvalue. The round-off error of (K - s B)^-1 B is relative to
-  /// its largest |mu|. It contaminates the vector of a smaller mu by the ratio of both values. With
-  /// t, the mu of the requested vector is the largest. Vectors of negative mu are unknown, so that
-  /// deflation cannot remove them.
+  /// Improves the requested eigenvectors that need it by inverse iterations with a shift t just
+  /// below each eigenvalue. The round-off error of (K - s B)^-1 B is relative to its largest |mu|.
+  /// It contaminates the vector of a smaller mu by the ratio of both values. With the shift t, the
+  /// mu of the requested vector is the largest. Deflation is no alternative, because vectors of
+  /// negative mu are unknown.
   void iterate_beside_each() {
     constexpr double kAside = 1e-4, kWideSpread = 1e4;
     constexpr int kPasses = 4;
-    // Relative change; a pass reduces other components by the factor kAside.
+    // Relative change of the vector below which the iteration ends. Each pass reduces other
+    // components by the factor kAside.
     constexpr double kEnough = 1e-9;
     const Index wanted = std::min(count_, X_.cols());
     if (wanted == 0 || !pencil_.B) return;
@@ -220,9 +222,9 @@ class Solver {
     if (moved) values();
   }
 
-  /// Iterates until the requested values converge. The next iteration would change a value by the
-  /// last change times the squared ratio to the last value of the block. This product estimates the
-  /// remaining error.
+  /// Iterates until the requested eigenvalues converge. The next iteration would change an
+  /// eigenvalue by its last change, times the square of its ratio to the last eigenvalue of the
+  /// block. This product estimates the remaining error.
   void iterate_to_convergence() {
     constexpr int kSteps = 4;
     values();
@@ -241,9 +243,9 @@ class Solver {
     }
   }
 
-  /// Performs one inverse iteration of the full block with refined solutions, followed by
-  /// Rayleigh-Ritz with accurate products of K. The form (K - s B)^-1 B keeps all digits of the
-  /// lowest values.
+  /// Performs one inverse iteration of all vectors of the block with refined solutions, followed by
+  /// a Rayleigh-Ritz step with accurate products K x. The form (K - s B)^-1 B keeps all digits of
+  /// the lowest eigenvalues.
   void inverse_iteration() {
     const MatrixXd BX = times_B(X_);
     MatrixXd Y(size_, X_.cols());
@@ -280,7 +282,7 @@ class Solver {
     }
   }
 
-  /// Computes the Rayleigh quotients and sorts them in ascending order.
+  /// Computes the Rayleigh quotients and sorts them, with their vectors, in ascending order.
   void values() {
     if (pencil_.indefinite) keep_positive();
     const VectorXd energy = pencil_.K_products(X_).diagonal();
@@ -295,7 +297,7 @@ class Solver {
     X_ = X_(Eigen::all, order).eval();
   }
 
-  /// Removes vectors whose x^T B x is not positive beyond round-off. If no positive eigenvalues
+  /// Removes vectors whose x^T B x is negative, or zero up to round-off. If no positive eigenvalues
   /// remain, the null space of B contributes vectors that converge to negative eigenvalues.
   void keep_positive() {
     const MatrixXd BX = pencil_.B->transpose() * X_;
@@ -312,8 +314,8 @@ class Solver {
     X_.conservativeResize(Eigen::NoChange, kept);
   }
 
-  /// Returns the largest relative change of the values by rounding of the factored matrix. A count
-  /// by inertia cannot resolve smaller differences.
+  /// Returns the largest relative change of the eigenvalues caused by rounding the assembled K. A
+  /// count of negative pivots cannot resolve smaller differences.
   [[nodiscard]] double rounding_of_values() const {
     if (X_.cols() == 0) return 0;
     const MatrixXd KX = pencil_.K->transpose() * X_;
@@ -334,8 +336,8 @@ class Solver {
     return factorization_.is_reliable();
   }
 
-  /// Returns the number of eigenvalues below a shift that splits no cluster. `checked_` of them
-  /// were found.
+  /// Returns the number of eigenvalues below a shift between two clusters, from negative pivots.
+  /// `checked_` is the number of found eigenvalues below this shift.
   Index sturm_check() {
     const VectorXd& v = pairs_.value;
     const Index p = v.size();
@@ -358,8 +360,8 @@ class Solver {
     return counted_;
   }
 
-  /// Returns true if B has more positive eigenvalues than pairs were found, and these are fewer
-  /// than requested. The other eigenvalues are then so far from the first that its round-off error
+  /// Returns true if fewer pairs were found than requested, although B has more positive
+  /// eigenvalues. The other eigenvalues are then so far from the first that its round-off error
   /// hides them.
   [[nodiscard]] bool some_are_hidden() {
     constexpr double kNoMass = 1e-12;  // relative to B scaled to a unit diagonal
@@ -374,8 +376,8 @@ class Solver {
     return factorization_.exists() && B.rows() - factorization_.negative_pivots() > checked_;
   }
 
-  /// Returns the number of found values below a gap. This is the first clear gap at or after the
-  /// requested count, or otherwise the widest gap.
+  /// Returns the number of found eigenvalues below a gap. The gap is the first clear gap at or
+  /// after the requested count, or otherwise the widest gap.
   [[nodiscard]] Index cluster_boundary(double rounding) const {
     const VectorXd& v = pairs_.value;
     const Index p = v.size();
@@ -420,7 +422,7 @@ class Solver {
   MatrixXd all_;     // dense method: all vectors
   Index taken_ = 0;  // dense method: number of vectors returned so far
   Index checked_ = 0, counted_ = 0;
-  // True: the last check shift is further from the values than their round-off error.
+  // True: the last check shift is further from the eigenvalues than their round-off error.
   bool clear_of_rounding_ = true;
   bool failed_ = false;  // an eigenvalue iteration or inverse iteration has not converged
   Eigenpairs pairs_;
@@ -456,7 +458,7 @@ SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t) {
   return A;
 }
 
-double miscounted_eigenvalues(const VectorXd& found,
+double eigenvalue_count_error(const VectorXd& found,
                               const std::function<std::optional<Index>(double)>& count_below) {
   constexpr double kClearGap = 1e-6;  // round-off leaves much smaller gaps between repeated values
   for (Index below = found.size() - 1; below >= 0; --below) {
@@ -472,7 +474,7 @@ double miscounted_eigenvalues(const VectorXd& found,
   return nothing_swings ? 0 : kInfinity;
 }
 
-double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B, const VectorXd& found,
+double eigenvalue_count_error(const SparseMatrix& A, const SparseMatrix& B, const VectorXd& found,
                               Factorization&& spent, double shift_above) {
   if (A.rows() == 0) return static_cast<double>(found.size());
   Factorization factorization = std::move(spent);
@@ -482,10 +484,10 @@ double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B, cons
     return counted ? static_cast<double>(*counted) : kInfinity;
   }
   if (shift_above > found[found.size() - 1] && count_below(shift_above) == found.size()) return 0;
-  return miscounted_eigenvalues(found, count_below);
+  return eigenvalue_count_error(found, count_below);
 }
 
-Index dependent_vectors(const SparseMatrix& metric, const MatrixXd& X) {
+Index count_dependent_vectors(const SparseMatrix& metric, const MatrixXd& X) {
   if (X.cols() == 0) return 0;
   constexpr double kDependent = 1e-3;  // eigenvectors leave 1; a duplicate leaves round-off
   const MatrixXd products = X.transpose() * (metric * X);

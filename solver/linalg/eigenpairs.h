@@ -19,11 +19,11 @@ enum class EigenMethod { automatic, dense, sparse };
 struct Pencil {
   const SparseMatrix* K = nullptr;
   const SparseMatrix* B = nullptr;  ///< null: use `B_times` and `count_below`, with s = 0
-  /// Shift s.
+  /// Shift s, below the requested eigenvalues.
   double shift = 0;
   bool indefinite = false;  ///< true: B is indefinite and negative eigenvalues exist
   Operator K_times;         ///< x -> K x, more accurate than the assembled K
-  /// X -> X^T K X, equally accurate.
+  /// X -> X^T K X, as accurate as `K_times`.
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> K_products;
   Operator B_times;  ///< x -> B x for a B that is not assembled
   /// Returns the number of eigenvalues below a shift, or an empty value if round-off dominates it.
@@ -35,9 +35,9 @@ struct Eigenpairs {
   Outcome outcome;  ///< not_converged: fewer pairs than the inertia count requires
   Eigen::VectorXd value;
   Eigen::MatrixXd vector;  ///< q x pair, x^T |B| x = 1
-  /// Relative error, from the residual; of second order in the error of the vector.
+  /// Estimated relative error of each eigenvalue; it is of second order in the error of the vector.
   Eigen::VectorXd error;
-  /// Shift above these values and below all others, checked by the inertia of LDL^T.
+  /// Shift above these eigenvalues and below all others. The negative pivots of LDL^T confirm it.
   double check_shift = 0;
 };
 
@@ -70,11 +70,12 @@ struct Eigenpairs {
 /// Returns K - t B. Its pattern combines those of K and B for any t.
 [[nodiscard]] SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t);
 
-/// Returns the number of eigenvalues that are missing or superfluous among those found. The count
-/// is compared at the last clear gap among them. The result is infinite if no gap can be counted.
+/// Returns the number of eigenvalues that are missing or superfluous among those found. The counts
+/// are compared at the last clear gap between the eigenvalues. The result is infinite if no gap
+/// allows a reliable count.
 /// @param found  eigenvalues, ascending, >= 0; 0 for rigid modes.
 /// @param count_below  as in `Pencil`.
-[[nodiscard]] double miscounted_eigenvalues(
+[[nodiscard]] double eigenvalue_count_error(
     const Eigen::VectorXd& found, const std::function<std::optional<Index>(double)>& count_below);
 
 /// Counts missing or superfluous eigenvalues of A x = t B x with a positive semidefinite A. It uses
@@ -83,16 +84,16 @@ struct Eigenpairs {
 /// @param A  positive semidefinite.
 /// @param B  symmetric.
 /// @param found  eigenvalues, ascending, >= 0.
-/// @param spent  factorization that is no longer needed. Its ordering is reused, and its factors if
-///   it is of A - shift_above B.
+/// @param spent  factorization that is no longer needed. Its ordering is reused. Its factors are
+///   reused if they belong to A - shift_above B.
 /// @param shift_above  shift above all found values, or 0.
-[[nodiscard]] double miscounted_eigenvalues(const SparseMatrix& A, const SparseMatrix& B,
+[[nodiscard]] double eigenvalue_count_error(const SparseMatrix& A, const SparseMatrix& B,
                                             const Eigen::VectorXd& found,
                                             Factorization&& spent = {}, double shift_above = 0);
 
 /// Returns the number of eigenvectors that depend linearly on the others. The test uses their
 /// products in a metric in which distinct modes are orthogonal. A duplicate mode counts once.
-[[nodiscard]] Index dependent_vectors(const SparseMatrix& metric, const Eigen::MatrixXd& X);
+[[nodiscard]] Index count_dependent_vectors(const SparseMatrix& metric, const Eigen::MatrixXd& X);
 
 /// Options of Lanczos' method.
 struct LanczosOptions {

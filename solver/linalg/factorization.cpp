@@ -23,8 +23,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Returns the upper triangle of P A P^T. Its values are the positions of its entries among the
-/// values of one triangle of A.
+/// Returns the upper triangle of P A P^T. Instead of values, it stores the positions of the entries
+/// among the values of one triangle of A.
 template <unsigned Triangle>
 SparseMatrix permuted_places(const SparseMatrix& A, const Permutation& P) {
   SparseMatrix places = A;
@@ -146,7 +146,7 @@ Index SparseLdlt::negative_pivots() const {
   return (factors_->pivots.array() < 0).count();
 }
 
-double SparseLdlt::smallest_to_largest_pivot() const {
+double SparseLdlt::smallest_pivot_to_diagonal() const {
   const VectorXd& D = pivots();
   double smallest = 1;
   for (Index j = 0; j < D.size(); ++j) {

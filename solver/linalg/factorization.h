@@ -39,8 +39,9 @@ class SparseLdlt {
   /// Returns the number of negative pivots, which is the number of negative eigenvalues
   /// (Sylvester).
   [[nodiscard]] Index negative_pivots() const;
-  /// Returns the smallest ratio of |pivot| to its diagonal entry. It is near zero if A is singular.
-  [[nodiscard]] double smallest_to_largest_pivot() const;
+  /// Returns the smallest ratio of |pivot| to the diagonal entry of A in its row. It is near zero
+  /// if A is singular.
+  [[nodiscard]] double smallest_pivot_to_diagonal() const;
   /// Returns the largest |L|.
   [[nodiscard]] double element_growth() const;
 
@@ -72,8 +73,8 @@ class Factorization {
   [[nodiscard]] double smallest_pivot() const;
   /// Returns the number of negative eigenvalues (Sylvester).
   [[nodiscard]] Index negative_pivots() const { return ldlt_.negative_pivots(); }
-  /// Factors A and returns the number of its negative eigenvalues, or an empty value if it is
-  /// unreliable.
+  /// Factors A and returns the number of its negative eigenvalues, or an empty value if the count
+  /// is unreliable.
   std::optional<Index> inertia(const SparseMatrix& A);
   /// Returns true if the signs of the pivots are reliable. An indefinite matrix without row
   /// exchanges has lost its digits if |L| exceeds about 1e8.
@@ -124,12 +125,12 @@ struct RefinedSolution {
 };
 
 /// Solves A x = b with a factorization of A and improves x with residuals from `A`. It stops when
-/// the error of the correction is round-off, or when the correction no longer halves. (The residual
-/// is no suitable criterion: round-off of stiff axial parts hides errors in soft bending.)
+/// round-off dominates the correction, or when a correction is more than half of the last one. (The
+/// residual is no suitable criterion: round-off of stiff axial parts hides errors in soft bending.)
 /// @param A  operator for the residuals.
 /// @param factorization  of the assembled A.
 /// @param b  right-hand side.
-/// @param guess  initial solution; a good one requires a single solve.
+/// @param guess  initial solution; a good guess requires a single solve.
 /// @param counters  incremented by the solves.
 [[nodiscard]] RefinedSolution refined_solve(const Operator& A, const Factorization& factorization,
                                             const Eigen::VectorXd& b, const Eigen::VectorXd& guess,

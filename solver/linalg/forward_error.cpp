@@ -12,14 +12,14 @@ namespace {
 
 using Eigen::VectorXd;
 
-// Scale of s. It is far below the relevant singular values of the scaled A. Row exchanges therefore
-// take pivots from A, and K is not formed in the process.
-// Source: Bjorck (1996), ch. 2.5.3
+// Factor of the unknowns s in the augmented system. It is far below the relevant singular values of
+// the scaled A. Row exchanges therefore take pivots from A, and the elimination does not form K.
+// Source: Bjorck (1996), ch. 2.5.3, alpha.
 constexpr double kAlpha = 1e-12;
 
 }  // namespace
 
-AugmentedSystem::AugmentedSystem(StiffnessFactors factors)
+AugmentedSystem::AugmentedSystem(FactoredStiffness factors)
     : factors_(std::move(factors)), root_(factors_.C.cwiseSqrt()) {
   const Index m = factors_.A.rows(), n = factors_.A.cols();
   SparseMatrix G = root_.asDiagonal() * factors_.A;
@@ -83,7 +83,7 @@ double estimate_norm(Index columns, const std::function<VectorXd(const VectorXd&
   return estimate;
 }
 
-double forward_error(const StiffnessFactors& factors, const SparseMatrix& R, const VectorXd& q,
+double forward_error(const FactoredStiffness& factors, const SparseMatrix& R, const VectorXd& q,
                      const VectorXd& f, const Operator& solve) {
   const SparseMatrix &A = factors.A, &size = factors.size;
   const VectorXd& C = factors.C;

@@ -8,10 +8,11 @@
 
 namespace trammel::solver {
 
-/// Factors of the stiffness, K = A^T diag(C) A with C > 0. They consist of the deformations d = A q
-/// and their rigidities C. `size` >= |A| contains the magnitudes of the terms of which A is the
-/// sum. eps times `size` is therefore the effect of rounding on A.
-struct StiffnessFactors {
+/// Factored form of the stiffness, K = A^T diag(C) A with C > 0. A maps the coordinates q to
+/// deformations d = A q, and C contains the rigidities of the deformations. `size` >= |A| contains
+/// the magnitudes of the terms of which A is the sum. eps times `size` is therefore the effect of
+/// rounding on A.
+struct FactoredStiffness {
   SparseMatrix A, size;
   Eigen::VectorXd C;
 };
@@ -20,18 +21,19 @@ struct StiffnessFactors {
 ///
 ///   C^-1 s = A q,  A^T s = f.
 ///
-/// The loss of accuracy is the condition number of A. A factorization of K loses its square.
+/// Round-off is amplified by the condition number of A. In a factorization of K it is amplified by
+/// the square of this number.
 /// Source: Bjorck (1996), Numerical Methods for Least Squares Problems, ch. 2.5 (augmented system).
 class AugmentedSystem {
  public:
-  explicit AugmentedSystem(StiffnessFactors factors);
+  explicit AugmentedSystem(FactoredStiffness factors);
   /// Returns false if the matrix is singular. Then `solve` must not be called.
   [[nodiscard]] bool exists() const { return exists_; }
   /// Returns q, refined with the residuals of both equations.
   [[nodiscard]] RefinedSolution solve(const Eigen::VectorXd& f) const;
 
  private:
-  StiffnessFactors factors_;
+  FactoredStiffness factors_;
   Eigen::VectorXd root_, scaling_;  // C^1/2; unit columns of C^1/2 A
   SparseLu<double> lu_;
   bool exists_ = false;
@@ -57,8 +59,9 @@ class AugmentedSystem {
 ///   c = (n + 1)^1/2 u.
 ///
 /// u = eps / 2, or eps while arithmetic rounds in one direction. Rounding errors are assumed
-/// independent within a sum. All signs are at their worst beyond it. The factors of K are perturbed
-/// instead of K. Near a singularity, this limits the loss to the condition number of A.
+/// independent within a sum. Errors of different sums have the signs that give the largest result.
+/// The factors A and C are perturbed instead of K. Near a singularity, this limits the loss of
+/// accuracy to the condition number of A.
 /// Source: Oettli & Prager (1964), Skeel (1979); Bjorck (1991), BIT 31, for least squares; LAPACK's
 /// xPORFS for the maximum over the signs; Higham & Mary (2019), SIAM J. Sci. Comput., for c.
 /// @param factors  A, its magnitudes and C.
@@ -66,7 +69,7 @@ class AugmentedSystem {
 /// @param q  solution.
 /// @param f  right-hand side.
 /// @param solve  x -> K^-1 x.
-[[nodiscard]] double forward_error(const StiffnessFactors& factors, const SparseMatrix& R,
+[[nodiscard]] double forward_error(const FactoredStiffness& factors, const SparseMatrix& R,
                                    const Eigen::VectorXd& q, const Eigen::VectorXd& f,
                                    const Operator& solve);
 

@@ -29,7 +29,7 @@ struct Linearization {
 };
 
 Linearization linearize(const GyroscopicPencil& pencil) {
-  // Relative addition to the mass, which is singular for a mass offset from its node.
+  // Relative increase of the mass matrix, which is singular for a mass offset from its node.
   constexpr double kHelp = 1e-12;
   const Index n = pencil.K.rows();
   const VectorXd diagonal = pencil.M.diagonal();
@@ -122,8 +122,8 @@ GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, Index co
       modes.outcome = {Status::not_converged, "no finite frequency was found"};
     return modes;
   }
-  // Solve with i G in the space of the pairs, whose vectors have z^T A z = w^2. Its eigenvalues are
-  // 1 / w for +w and -w.
+  // Solve the Hermitian problem of i G in the space of the computed vectors (Rayleigh-Ritz). Their
+  // z^T A z is w^2. The eigenvalues are 1 / w for +w and -w.
   const MatrixXd V = pairs.vector * pairs.value.cwiseSqrt().cwiseInverse().asDiagonal();
   const MatrixXd skew = V.transpose() * (G * V);
   const Eigen::SelfAdjointEigenSolver<MatrixXcd> ritz(Complex(0, 0.5) * (skew - skew.transpose()));

@@ -16,7 +16,7 @@ namespace trammel::solver {
 struct GyroscopicPencil {
   SparseMatrix K, C, M;
   Operator K_times;  ///< x -> K x, more accurate than the assembled K
-  /// X -> X^T K X, equally accurate.
+  /// X -> X^T K X, as accurate as `K_times`.
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> K_products;
 };
 
@@ -38,8 +38,8 @@ struct GyroscopicModes {
 [[nodiscard]] GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, Index count,
                                                       EigenMethod method, Counters& counters);
 
-/// Computes all modes for any K with the dense companion matrix in 1 / lambda. Each pair is
-/// returned once.
+/// Computes all modes for any K with the dense companion matrix in 1 / lambda. Each pair of
+/// conjugate eigenvalues is returned once.
 [[nodiscard]] GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil);
 
 /// Returns the number of negative eigenvalues of K + i w C - w^2 M. For a positive definite K this

@@ -15,13 +15,13 @@
 namespace trammel::solver {
 namespace {
 
-/// Bracket of the first load factor by inertia counts. K - t B has as many negative pivots as there
-/// are factors in (0, t) (Sylvester).
+/// Bracket of the lowest buckling factor, from negative pivots. K - t B has as many negative pivots
+/// as there are buckling factors in (0, t) (Sylvester).
 struct FirstFactor {
   bool determined = false;  ///< false: no count is reliable
   bool exists = false;      ///< false: there is no factor up to `checked`
   double below = 0;  ///< no factor is below this value, and the first is below four times the value
-  double checked = 0;  ///< largest t whose inertia was counted
+  double checked = 0;  ///< largest t for which the negative pivots were counted
 };
 
 FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
@@ -38,8 +38,8 @@ FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
   double least = largest;
   for (const double size : scaled.coeffs())
     if (size > kRoundoff * largest) least = std::min(least, size);
-  // At this factor the loads exceed each entry a thousandfold, and unaffected stiffness keeps ten
-  // digits.
+  // Largest factor to check. The loads exceed each stiffness entry a thousandfold there, and
+  // unaffected stiffness keeps ten digits.
   const double farthest = std::min(1e3 / least, 1e10 / largest);
   double counted = 0;
   const auto has_factor_below = [&](double t) -> std::optional<bool> {
@@ -77,14 +77,14 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   solution.outcome = require_determined_stiffening(system);
   if (!solution.outcome.solved()) return solution;
   const Prestress forces =
-      forces_of(system, system.T * statics.q, system.load, body_forces(system));
+      prestress_of(system, system.T * statics.q, system.load, body_forces(system));
   const SparseMatrix softening = -geometric_stiffness(system, forces);
   Factorization factorization;
   const FirstFactor first =
       bracket_first_factor(system.K, softening, factorization, solution.counters);
   if (!first.determined) {
     solution.outcome = {Status::not_converged,
-                        "the inertia of K + factor K_G is dominated by round-off"};
+                        "round-off decides the signs of the pivots of K + factor K_G"};
     return solution;
   }
   solution.checked_factor = first.checked;
@@ -96,8 +96,8 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   pencil.K = &system.K;
   pencil.B = &softening;
   pencil.indefinite = true;
-  // Shift, because members in large tension have small negative factors. Without a shift they would
-  // have the largest 1/factor, whose round-off error hides the others.
+  // The shift is required because members in large tension have small negative factors. Without it
+  // they would have the largest 1 / factor, whose round-off error hides the other factors.
   pencil.shift = first.below;
   pencil.K_times = stiffness_operator(system);
   pencil.K_products = [&system](const Eigen::MatrixXd& X) {
@@ -125,9 +125,9 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   if (pairs.value.size() > 0)
     solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());
   if (!solution.outcome.solved()) return solution;
-  const double missed = miscounted_eigenvalues(system.K, softening, solution.load_factor,
+  const double missed = eigenvalue_count_error(system.K, softening, solution.load_factor,
                                                std::move(factorization), pairs.check_shift);
-  const auto twice = static_cast<double>(dependent_vectors(system.K, solution.shape));
+  const auto twice = static_cast<double>(count_dependent_vectors(system.K, solution.shape));
   solution.evidence.add(Residual::mode_count, missed + twice);
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
   return solution;

@@ -25,8 +25,8 @@ std::vector<ConstraintRow> support_rows(const Model& model, const Coordinates& c
       const Index u = coordinates.node[static_cast<std::size_t>(support.node)][k];
       if (u < 0) {
         throw ModelError("the support of " + node_label(model, support.node) +
-                         " fixes its rotation, but it has none: no member ends there and no rigid "
-                         "body holds it");
+                         " fixes a rotation that the node does not have: no member ends there and "
+                         "no rigid body contains the node");
       }
       rows.push_back({ConstraintRow::Source::support, static_cast<Index>(i), {{u, 1.0}}});
     }
@@ -105,7 +105,8 @@ class Elimination {
     return pivots;
   }
 
-  /// Returns an eliminated u as a sum over free coordinates, or null if u is free.
+  /// Returns the expression of an eliminated coordinate u as a sum over free coordinates, or null
+  /// if u is free.
   [[nodiscard]] const Terms* expression(Index u) const {
     const Index row = row_of_[to_size(u)];
     return row < 0 ? nullptr : &expressions_[static_cast<std::size_t>(row)].terms;

@@ -122,7 +122,7 @@ Index Coordinates::number(const Model& model, const Coordinate& coordinate) cons
   if (coordinate.kind == Coordinate::Kind::end_rotation) {
     if (coordinate.member < 0 || coordinate.member >= static_cast<Index>(member_end.size()) ||
         coordinate.end < 0 || coordinate.end > 1) {
-      throw ModelError("a constraint names an end of a member that does not exist");
+      throw ModelError("a constraint refers to an end of a member that does not exist");
     }
     const Index found = member_end[static_cast<std::size_t>(coordinate.member)]
                                   [static_cast<std::size_t>(coordinate.end)];
@@ -131,13 +131,13 @@ Index Coordinates::number(const Model& model, const Coordinate& coordinate) cons
                      "rotation");
   }
   if (coordinate.node < 0 || coordinate.node >= static_cast<Index>(model.nodes.size())) {
-    throw ModelError("a constraint names a node that does not exist");
+    throw ModelError("a constraint refers to a node that does not exist");
   }
   const Index found =
       node[static_cast<std::size_t>(coordinate.node)][static_cast<std::size_t>(coordinate.kind)];
   if (found >= 0) return found;
   throw ModelError(node_label(model, coordinate.node) +
-                   " has no rotation: no member end is welded to it and no rigid body holds it");
+                   " has no rotation: no member end is welded to it, no rigid body contains it");
 }
 
 Discretisation discretize(const Model& model) {

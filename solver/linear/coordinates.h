@@ -53,7 +53,7 @@ struct Coordinates {
     return numbers;
   }
 
-  /// Returns the index of a coordinate of the model.
+  /// Returns the index of a coordinate in u.
   /// @throws ModelError  if the node or member end has no such coordinate.
   [[nodiscard]] Index number(const Model& model, const Coordinate& coordinate) const;
 };

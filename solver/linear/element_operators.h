@@ -103,8 +103,8 @@ void for_each_deformation(const System& system, Visit&& visit) {
 [[nodiscard]] double strain_roundoff(const System& system, const Eigen::VectorXd& u);
 
 /// Returns the scale of the round-off error of the strain energy [J]: the sum of (|B| |u|)^T C (|B|
-/// |u|) over all elements. A motion deforms nothing if its u^T K u is below about eps^2 times this
-/// value.
+/// |u|) over all elements. A motion causes no deformation if its u^T K u is below about eps^2 times
+/// this value.
 [[nodiscard]] double strain_magnitude(const System& system, const Eigen::VectorXd& u);
 
 /// Returns the stress (sxx, syy, sxy) [Pa] of a triangle at a point.
@@ -185,9 +185,9 @@ void for_each_inertia(const System& system, Visit&& visit) {
 /// Returns M a on the unconstrained coordinates [N, N m].
 [[nodiscard]] Eigen::VectorXd inertia_forces(const System& system, const Eigen::VectorXd& a);
 
-/// Sums symmetric element matrices of unconstrained coordinates to a matrix of the free
-/// coordinates, using the rows of T. Entries at the same position are added in the order in which
-/// they were given.
+/// Projects symmetric element matrices on the free coordinates with the rows of T, and adds them to
+/// one matrix. Entries at the same position are added in the order in which they were passed to
+/// `add`.
 class Projection {
  public:
   explicit Projection(const Constraints& constraints) : T_(constraints.T) {}
@@ -231,6 +231,6 @@ class Projection {
 
 /// Returns K of the free coordinates in factored form: B T and C of all elements
 /// (`for_each_deformation`). Rows without rigidity are omitted.
-[[nodiscard]] StiffnessFactors stiffness_factors(const System& system);
+[[nodiscard]] FactoredStiffness factored_stiffness(const System& system);
 
 }  // namespace trammel::solver

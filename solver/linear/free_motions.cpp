@@ -22,10 +22,10 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kShift = 1e-12;  // relative to the diagonal
-/// Pivots below this limit start a search. Pivots of a mechanism are round-off errors, up to 1.2e-9
-/// for 1152 coordinates if all errors have the same sign.
+/// A pivot below this limit starts the search for zero-energy modes. Pivots of a mechanism are
+/// round-off errors, up to 1.2e-9 for 1152 coordinates if all errors have the same sign.
 constexpr double kSmallPivot = 1e-8;
-// (45 eps)^2, relative to `strain_magnitude`; smaller energies are round-off.
+// (45 eps)^2, relative to `strain_magnitude`; smaller strain energies are round-off errors.
 constexpr double kDeformation = 1e-28;
 constexpr Index kMaxModes = 48;
 
@@ -72,7 +72,7 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
     while (count < block) {
       const VectorXd u = system.T * X.col(count);
       const double energy = strain_products(system, u)(0, 0);
-      // x^T D x = 1 is the scale for parts that nothing deforms.
+      // Energies are relative to at least x^T D x = 1, for parts without strain.
       if (!(energy <= kDeformation * std::max(1.0, strain_magnitude(system, u)))) break;
       ++count;
     }
@@ -86,8 +86,8 @@ namespace {
 
 constexpr std::size_t kMaxEntries = 3;  // entries per mode
 constexpr Index kMaxMotions = 6;
-/// Entries below this fraction of the largest are round-off, and so are differences of equal
-/// entries.
+/// Entries below this fraction of the largest entry are round-off errors. Entries that differ by
+/// less are treated as equal.
 constexpr double kRoundoff = 1e-6;
 
 using NamedRows = std::vector<std::pair<std::string, Index>>;
@@ -151,7 +151,7 @@ std::string describe(const VectorXd& mode, const NamedRows& rows) {
 
 std::string describe_mechanism(const System& system, const ZeroEnergyModes& modes) {
   const NamedRows rows = named_rows(system);
-  const MatrixXd u = free_length_scales(system) * modes.basis;
+  const MatrixXd u = free_to_length_matrix(system) * modes.basis;
   MatrixXd U(std::ssize(rows), u.cols());
   for (std::size_t i = 0; i < rows.size(); ++i)
     U.row(static_cast<Index>(i)) = u.row(rows[i].second);
@@ -164,7 +164,7 @@ std::string describe_mechanism(const System& system, const ZeroEnergyModes& mode
   return text;
 }
 
-Outcome require_held(const System& system, const Factorization& K, Counters& counters) {
+Outcome require_no_mechanism(const System& system, const Factorization& K, Counters& counters) {
   const ZeroEnergyModes free = find_zero_energy_modes(system, K, counters);
   if (free.count() == 0) return {};
   return {Status::singular, describe_mechanism(system, free)};

@@ -9,17 +9,17 @@
 
 namespace trammel::solver {
 
-/// Motions of the free coordinates that deform nothing: the null space of K.
+/// Zero-energy modes: a basis of the null space of K, whose motions cause no deformation.
 struct ZeroEnergyModes {
   Eigen::MatrixXd basis;  ///< q x count
   bool all_found = true;  ///< false: there are more modes than the search covers
   [[nodiscard]] Eigen::Index count() const { return basis.cols(); }
 };
 
-/// Searches for zero-energy modes if the factors of K suggest them by a small, zero or negative
-/// pivot. It uses inverse iteration with a small shift. The criterion is the strain energy u^T K u
-/// of the elements compared with its round-off error. The size of a pivot is no criterion, because
-/// a long slender chain is ill-conditioned without being a mechanism.
+/// Searches for zero-energy modes if the factorization of K has a small, zero or negative pivot. It
+/// uses inverse iteration with a small shift. A zero-energy mode has a strain energy u^T K u of the
+/// elements that is within its round-off error. The size of a pivot is no criterion, because a long
+/// slender chain is ill-conditioned without being a mechanism.
 [[nodiscard]] ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization& K,
                                                      Counters& counters);
 
@@ -33,7 +33,7 @@ struct ZeroEnergyModes {
 /// @param system  assembled model.
 /// @param K  factors of the stiffness.
 /// @param counters  incremented by the factorizations and solves.
-[[nodiscard]] Outcome require_held(const System& system, const Factorization& K,
-                                   Counters& counters);
+[[nodiscard]] Outcome require_no_mechanism(const System& system, const Factorization& K,
+                                           Counters& counters);
 
 }  // namespace trammel::solver

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Returns L H of geometric_stiffness.h.
+/// Returns L H of geometric_stiffness.h for the mean axial force N and its increase n.
 Eigen::Matrix3d geometric_rigidity(const FrameElement& e, BeamTheory theory, double N, double n) {
   Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
   H(0, 0) = N;
@@ -29,8 +29,8 @@ Eigen::Matrix3d geometric_rigidity(const FrameElement& e, BeamTheory theory, dou
   return e.length * H;
 }
 
-/// Visits the gradients B of u and v along the principal axes of the stress at one point of a
-/// triangle, and their diagonal H.
+/// Calls visit(coordinates, B, H) at one point of a triangle. B contains the gradients of u and v
+/// along the principal axes of the stress, and H is the diagonal of their stiffness.
 template <std::size_t n, class Visit>
 void visit_plate_geometric_stiffness(const std::array<Index, n>& coordinates,
                                      const TriangleInterpolation& at,
@@ -53,8 +53,8 @@ void visit_plate_geometric_stiffness(const std::array<Index, n>& coordinates,
   visit(coordinates, B, Eigen::Matrix4d(Eigen::Vector4d(s[0], s[0], s[1], s[1]).asDiagonal()));
 }
 
-/// Calls visit(row, triangle, at, weight) for the stress points of plates. The arguments are the
-/// row of Prestress::stress, area coordinates, and the share of the area of the triangle.
+/// Calls visit(row, triangle, at, weight) for the stress points of plates. `row` is the row of
+/// Prestress::stress, `at` contains area coordinates, and `weight` is the fraction of the area.
 template <class Visit>
 void for_each_stress_point(const Model& model, Visit&& visit) {
   Index row = 0;
@@ -226,7 +226,7 @@ Prestress prestress_roundoff(const System& system, const VectorXd& q) {
   for (Index i = 0; i < roundoff.axial.size(); ++i) {
     const FrameElement& e = frame[to_size(i)];
     if (!system.model.members[to_size(e.member)].axially_flexible) continue;
-    // The elongation of a stiff element is a difference of nearly equal motions.
+    // The elongation of a stiff element is a difference of nearly equal displacements.
     const Vector2d size(u[e.coordinates[3]] + u[e.coordinates[0]],
                         u[e.coordinates[4]] + u[e.coordinates[1]]);
     roundoff.axial[i] = kEps * e.section.EA / e.length * e.direction.cwiseAbs().dot(size);
@@ -263,13 +263,13 @@ Outcome require_determined_stiffening(const System& system) {
   SparseMatrix K_G = geometric_stiffness(system, prestress(system, at_rest, selfstress, none));
   const double size = box_diagonal(system.mesh.positions);
   const VectorXd length =
-      (free_length_scales(system).cwiseAbs().transpose() * VectorXd::Ones(system.T.rows()));
+      (free_to_length_matrix(system).cwiseAbs().transpose() * VectorXd::Ones(system.T.rows()));
   K_G = length.cwiseInverse().asDiagonal() * K_G * length.cwiseInverse().asDiagonal();
   const double stiffening = K_G.nonZeros() > 0 ? K_G.coeffs().abs().maxCoeff() : 0;
   if (stiffening * size <= 1e-9 * selfstress.cwiseAbs().maxCoeff()) return {};
   return {Status::singular,
           "forces of redundant constraints, which statics does not determine, stiffen or soften "
-          "the model: a member or body between them has to be flexible"};
+          "the model: make a member or body between these constraints flexible"};
 }
 
 SparseMatrix geometric_stiffness(const System& system, const Prestress& state) {

@@ -7,20 +7,22 @@
 #include "solver/linear/system.h"
 #include "solver/model/evidence.h"
 
-/// Geometric stiffness: effect of the forces of a state on small further motions. Loads keep their
-/// direction, and the geometry is undeformed (second-order theory). The matrix is a sum of B^T H B
-/// over a few motions of each element, like the elastic stiffness.
+/// Geometric stiffness K_G: stiffness against small further motions that results from the internal
+/// forces of a loaded state. Loads keep their direction, and the geometry is undeformed
+/// (second-order theory). The matrix is a sum of B^T H B over a few motions of each element, like
+/// the elastic stiffness.
 namespace trammel::solver {
 
-/// Second-order work d^T H d / 2, with d = B u, of a force on a point that is moved by a rotation.
-/// d consists of the rotation and, for a slider, its displacement along the turning rail.
+/// Geometric stiffness of a force on a point that moves with the rotation of a node. The
+/// second-order work of the force is d^T H d / 2 with d = B u. d consists of the rotation and, for
+/// a slider, its displacement along the turning rail.
 struct TurningPart {
   std::array<Index, 5> coordinates{-1, -1, -1, -1, -1};  ///< unconstrained coordinates; -1: unused
   Eigen::Matrix<double, 2, 5> B = Eigen::Matrix<double, 2, 5>::Identity();
   Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
 };
 
-/// Forces of a state.
+/// Internal forces of a loaded state, from which the geometric stiffness follows.
 struct Prestress {
   Eigen::VectorXd axial;  ///< mean axial force of each frame element, tension positive [N]
   Eigen::VectorXd axial_variation;  ///< axial force at the second end minus that at the first end
@@ -42,7 +44,7 @@ struct BodyForces {
 /// Returns the forces of the loads and gravity of the model.
 [[nodiscard]] BodyForces body_forces(const System& system);
 
-/// Computes the forces of a state.
+/// Computes the internal forces of a state from its displacements.
 /// @param system  assembled model.
 /// @param u  displacements of the unconstrained coordinates [m, rad].
 /// @param multipliers  multipliers of the constraints in the state: forces of inextensible members
@@ -51,7 +53,7 @@ struct BodyForces {
 [[nodiscard]] Prestress prestress(const System& system, const Eigen::VectorXd& u,
                                   const Eigen::VectorXd& multipliers, const BodyForces& body);
 
-/// Returns the round-off errors of the forces of a state q, with the same sign everywhere. They
+/// Returns the round-off errors of the internal forces of a state q, all with the same sign. They
 /// include forces of members, forces on arms of rigid bodies, and stresses of plates. The stress
 /// error is represented as equal tension in all directions.
 /// @param system  assembled model.
@@ -76,7 +78,8 @@ struct BodyForces {
 ///
 ///   H = [N, n/12, 0; n/12, N/12, g n/60; 0, g n/60, g^2 N/20],  g = 1 / (1 + Phi).
 ///
-/// N is the mean axial force, and n is its linear increase along the element.
+/// N is the mean axial force, and n is the increase of the axial force from the first to the second
+/// end.
 [[nodiscard]] FrameDeformation frame_chord_rotation_and_bending(const Vector2d& direction,
                                                                 double length);
 
@@ -93,7 +96,7 @@ struct BodyForces {
                                                   double axial, double axial_variation,
                                                   const Vector6d& u);
 
-/// Returns the round-off error of x^T K_G x [J], including that of the forces
+/// Returns the round-off error of x^T K_G x [J], including that of the internal forces
 /// (`prestress_roundoff`).
 /// @param system  assembled model.
 /// @param K_G  geometric stiffness, q x q.

@@ -18,7 +18,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Returns true if a motion other than zero-energy modes moves mass. Otherwise nothing vibrates.
+/// Returns true if a motion other than zero-energy modes moves mass. Otherwise there is no
+/// vibration.
 bool has_elastic_inertia(const SparseMatrix& M, const MatrixXd& Z) {
   VectorXd x = start_vectors(M.rows(), 1);
   const double total = x.dot(M * x);
@@ -30,7 +31,7 @@ bool has_elastic_inertia(const SparseMatrix& M, const MatrixXd& Z) {
 /// modes. K - s M is then as well-conditioned as the elastic part of K.
 double floating_shift(const System& system, const MatrixXd& Z, Counters& counters) {
   SparseMatrix shifted = system.K;
-  const VectorXd diagonal = system.K.diagonal(), squared_length = squared_lengths(system);
+  const VectorXd diagonal = system.K.diagonal(), squared_length = squared_length_scales(system);
   const double largest =
       diagonal.size() > 0 ? diagonal.cwiseQuotient(squared_length).maxCoeff() : 0;
   if (!(largest > 0)) return -1;
@@ -56,7 +57,8 @@ double floating_shift(const System& system, const MatrixXd& Z, Counters& counter
 }
 
 /// Adds the residuals of modes to the evidence: the largest backward error of (K + K_G) x = w^2 M
-/// x, and the number of miscounted modes. K is the sum K + K_G, and K_G is empty without prestress.
+/// x, and the number of missing or superfluous modes. The parameter K is the sum K + K_G. K_G is
+/// empty without prestress.
 void judge(const System& system, const SparseMatrix& K, const SparseMatrix& K_G,
            ModalSolution& solution, Factorization&& spent = {}, double shift_above = 0) {
   if (!solution.outcome.solved()) return;
@@ -69,8 +71,8 @@ void judge(const System& system, const SparseMatrix& K, const SparseMatrix& K_G,
     if (K_G.nonZeros() > 0) rows.add(K_G, solution.shape);
     solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());
   }
-  const double missed = miscounted_eigenvalues(K, system.M, w2, std::move(spent), shift_above);
-  const auto twice = static_cast<double>(dependent_vectors(system.M, solution.shape));
+  const double missed = eigenvalue_count_error(K, system.M, w2, std::move(spent), shift_above);
+  const auto twice = static_cast<double>(count_dependent_vectors(system.M, solution.shape));
   solution.evidence.add(Residual::mode_count, missed + twice);
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
 }
@@ -97,7 +99,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
   if (!state) {
     free = find_zero_energy_modes(system, factorization, counters);
     solution.zero_energy_mode_count = free.count();
-    if (!orthonormalize(system, free.basis)) {
+    if (!mass_orthonormalize(system, free.basis)) {
       solution.outcome = {Status::singular,
                           "a part without mass moves freely: " + describe_mechanism(system, free)};
       return solution;
@@ -149,11 +151,11 @@ ModalSolution solve(const System& system, const ModesOptions& options,
 
 }  // namespace
 
-bool orthonormalize(const System& system, MatrixXd& Z) {
+bool mass_orthonormalize(const System& system, MatrixXd& Z) {
   if (Z.cols() == 0) return true;
   const SparseMatrix& M = system.M;
-  // Rotary inertia is divided by the square of the model size to be comparable with mass.
-  const VectorXd squared_length = squared_lengths(system);
+  // Rotary inertia is divided by the square of the model size, to be comparable with mass.
+  const VectorXd squared_length = squared_length_scales(system);
   VectorXd mass = M.diagonal().cwiseQuotient(squared_length);
   const double largest = mass.maxCoeff();
   if (!(largest > 0)) return false;

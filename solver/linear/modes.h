@@ -29,7 +29,7 @@ struct ModalSolution {
       frequency;  ///< ascending, including copies of repeated frequencies [Hz]; rigid modes have 0
   /// Estimated relative round-off error of each frequency [-]. It is half of 2 eps sum |d|^T C |B|
   /// |u| / w^2, plus the error estimated from the residual. The first term bounds the effect on the
-  /// strain energy of rounding the mode.
+  /// strain energy of rounding the mode u (element_operators.h).
   Eigen::VectorXd roundoff;
   Eigen::MatrixXd shape;             ///< free coordinate x mode; see node_motion
   Index zero_energy_mode_count = 0;  ///< number of leading frequencies that are zero
@@ -46,9 +46,9 @@ struct ModalSolution {
 [[nodiscard]] ModalSolution solve_prestressed_modes(const System& system,
                                                     const ModesOptions& options);
 
-/// Makes the columns of Z orthonormal in the mass matrix. The columns are zero-energy modes.
-/// Returns false if one of them moves no mass.
-[[nodiscard]] bool orthonormalize(const System& system, Eigen::MatrixXd& Z);
+/// Makes the columns of Z, which are zero-energy modes, orthonormal in the mass matrix. Returns
+/// false if one of them moves no mass.
+[[nodiscard]] bool mass_orthonormalize(const System& system, Eigen::MatrixXd& Z);
 
 /// Returns the number of natural frequencies below `frequency`, including copies of repeated
 /// frequencies and rigid modes. The count uses the negative pivots of K - (2 pi f)^2 M (Sylvester).

@@ -66,7 +66,7 @@ SparseMatrix selection(Index size, const std::vector<Index>& chosen) {
   return S;
 }
 
-/// Returns the lowest modes with a held boundary.
+/// Returns the lowest modes of a member's interior with fixed boundary coordinates.
 MatrixXd fixed_interface_modes(const SparseMatrix& K, const SparseMatrix& M, Index modes,
                                Factorization& factorization, Counters& counters) {
   Pencil pencil;
@@ -87,11 +87,11 @@ void add_column(const VectorXd& values, const std::vector<Index>& set, Index col
   }
 }
 
-/// Relative round-off level of the static response to a load.
+/// Relative static response below which a load is represented by the modes up to round-off.
 constexpr double kCarried = 1e-10;
 
-/// Returns the parts of static responses beyond the modes. They have unit strain energy, and each
-/// is K-orthogonal to the preceding ones.
+/// Returns the components of static responses that the modes do not represent. They have unit
+/// strain energy, and each is K-orthogonal to the preceding ones.
 MatrixXd beyond_modes(const SparseMatrix& K, const SparseMatrix& M, const MatrixXd& modes,
                       const std::vector<VectorXd>& responses) {
   MatrixXd parts(K.rows(), 0);
@@ -107,8 +107,8 @@ MatrixXd beyond_modes(const SparseMatrix& K, const SparseMatrix& M, const Matrix
   return parts;
 }
 
-/// Returns R in q = R p. The columns are the boundary coordinates, followed by the modes and
-/// responses of each set.
+/// Returns the matrix R of the reduction q = R p. Its columns are the boundary coordinates,
+/// followed by the modes and responses of each set.
 SparseMatrix reduction(const System& system, Index modes, const std::vector<VectorXd>& loads,
                        Counters& counters) {
   const std::vector<std::vector<Index>> sets = interior_sets(system);
@@ -159,7 +159,7 @@ SparseMatrix reduction(const System& system, Index modes, const std::vector<Vect
 
 SparseMatrix projected(const SparseMatrix& matrix, const SparseMatrix& R) {
   const SparseMatrix product = R.transpose() * (matrix * R);
-  // Symmetric to the last digit, as the factorization requires.
+  // Make the product symmetric to the last digit, as the factorization requires.
   return 0.5 * (product + SparseMatrix(product.transpose()));
 }
 
@@ -176,7 +176,7 @@ System in_coordinates(const System& system, const SparseMatrix& R) {
 }  // namespace
 
 System reduce_members(const System& system, Index modes, const std::vector<VectorXd>& loads) {
-  if (modes < 0) throw ModelError("a reduction needs a number of modes that is not negative");
+  if (modes < 0) throw ModelError("the number of modes of a reduction must not be negative");
   Counters counters = system.counters;
   System reduced = in_coordinates(system, reduction(system, modes, loads, counters));
   reduced.counters = counters;
@@ -203,7 +203,7 @@ System reduce_to_modes(const System& system, const ModalSolution& modes,
       factorization.compute(K);
       ++counters.factorizations;
     }
-    if (!factorization.exists()) throw ModelError("a reduction to modes needs a stiff model");
+    if (!factorization.exists()) throw ModelError("the stiffness matrix to reduce is singular");
     VectorXd answer = factorization.solve(rest);
     answer += factorization.solve(rest - system.K * answer);  // corrects the effect of the shift
     counters.solves += 2;

@@ -30,7 +30,7 @@ namespace trammel::solver {
                                     const std::vector<Eigen::VectorXd>& loads = {});
 
 /// Reduces the model to modes with static correction (mode acceleration), q = Phi p + r s. r is the
-/// response to each load beyond the modes:
+/// component of the static response to each load that the modes do not represent:
 ///
 ///   K r = f - M Phi Phi^T f.
 ///

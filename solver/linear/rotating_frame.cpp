@@ -20,7 +20,7 @@ const Eigen::Matrix2d& perpendicular_matrix() {
   return J;
 }
 
-/// Returns the projector to the direction away from the axis.
+/// Returns the projector on the direction from the axis of rotation to a point.
 Eigen::Matrix2d distance_projector(RotationAxis axis) {
   return Eigen::Vector2d(axis == RotationAxis::x ? 0 : 1, axis == RotationAxis::y ? 0 : 1)
       .asDiagonal();
@@ -145,8 +145,8 @@ SparseMatrix gyroscopic_matrix(const System& system) {
 }
 
 VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, const VectorXd& u) {
-  // The interpolation represents the position of every point by the node positions with zero
-  // rotation.
+  // The interpolation represents the position of every point exactly by the node positions with
+  // zero rotation.
   VectorXd position = u;
   for (std::size_t node = 0; node < system.coordinates.node.size(); ++node) {
     const Vector2d arm = system.mesh.positions[node] - frame.center;
@@ -161,7 +161,8 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
         detail::scatter(coordinates, (w2 * (S * detail::gather(coordinates, position))).eval(),
                         force);
       });
-  // The interpolation lacks the heights of the sections.
+  // Add the effect of the section height, which the interpolation of the member axis does not
+  // contain.
   for (const FrameElement& e : system.mesh.frame) {
     if (frame.axis == RotationAxis::normal || e.section.inertia_per_length == 0) continue;
     const Vector2d swept = e.length * (perpendicular_matrix() * e.direction);
@@ -171,7 +172,7 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
     const double moment = w2 * section_pull(P, e.direction).moment;
     detail::scatter(e.coordinates, (moment * (rotary_mass(e, member) * unit_turn)).eval(), force);
   }
-  // The interpolation lacks the constant offset.
+  // Add the constant offset of each center of mass, which the interpolation does not contain.
   for (const PointMass& point_mass : system.model.masses) {
     detail::scatter(system.coordinates.node[to_size(point_mass.node)],
                     (w2 * point_mass.mass * center_of_mass_interpolation(point_mass).transpose() *
@@ -219,10 +220,10 @@ bool find_steady_state(const System& system, const RotatingOptions& options,
   const VectorXd undeformed = VectorXd::Zero(system.T.rows());
   const VectorXd rhs =
       system.f + system.T.transpose() * centrifugal_forces(system, frame, undeformed);
-  // Returns the forces in q under the centrifugal forces of displacements u.
+  // Returns the internal forces in q under the centrifugal forces of displacements u.
   const auto forces = [&](const VectorXd& q, const VectorXd& u, const Prestress* before) {
-    return forces_of(system, system.T * q, system.load + centrifugal_forces(system, frame, u),
-                     body_forces(system, frame, u), before);
+    return prestress_of(system, system.T * q, system.load + centrifugal_forces(system, frame, u),
+                        body_forces(system, frame, u), before);
   };
   if (options.stiffening && options.prestress_at_steady_state) {
     steady.iterate(
@@ -267,7 +268,7 @@ double mode_backward_error(const System& system, const SparseMatrix& added, cons
 double miscounted_modes(const GyroscopicPencil& pencil, const GyroscopicModes& modes, bool stable) {
   const VectorXd& w = modes.omega;
   if (stable) {
-    return miscounted_eigenvalues(
+    return eigenvalue_count_error(
         w, [&pencil](double omega) { return gyroscopic_sturm_count(pencil, omega); });
   }
   const double last = w.cwiseAbs2().maxCoeff() + modes.growth_rate.cwiseAbs2().maxCoeff();
@@ -284,8 +285,8 @@ GyroscopicModes gyroscopic_modes(const GyroscopicPencil& pencil, bool stable,
   if (pencil.K.rows() <= kLargestUnstable) return all_gyroscopic_modes(pencil);
   GyroscopicModes modes;
   modes.outcome = {Status::not_converged,
-                   "the stiffness of the rotating frame is not positive definite, and the model "
-                   "is too large for the dense solution that this needs"};
+                   "the stiffness of the rotating frame is not positive definite; this requires a "
+                   "dense solution, for which the model is too large"};
   return modes;
 }
 
@@ -298,7 +299,7 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
   Factorization K;
   K.compute(system.K);
   ++result.counters.factorizations;
-  result.outcome = require_held(system, K, result.counters);
+  result.outcome = require_no_mechanism(system, K, result.counters);
   if (result.outcome.solved() && options.stiffening)
     result.outcome = require_determined_stiffening(system);
   if (!result.outcome.solved()) return result;

@@ -17,9 +17,9 @@
 ///
 ///   M q.. + 2 W G q. + (K + K_G - W^2 S) q = f + W^2 f_c.
 ///
-/// Neither term acts on the rotary inertia of point masses, which is assumed equal along and across
-/// the axis. Neither term acts on the rotary inertia of sections if the axis is normal to the
-/// plane.
+/// The Coriolis and centrifugal terms do not act on the rotary inertia of point masses, which is
+/// assumed equal along and across the axis. They do not act on the rotary inertia of sections if
+/// the axis is normal to the plane.
 namespace trammel::solver {
 
 /// Axis of rotation: the normal of the plane, or an axis in the plane. An axis in the plane has
@@ -81,7 +81,7 @@ struct RotatingOptions {
 struct RotatingModes {
   Outcome outcome;              ///< singular: a mechanism; not_converged: see the reason
   Eigen::VectorXd q;            ///< steady state, free coordinates; see node_motion
-  bool stable = true;           ///< false: a motion grows
+  bool stable = true;           ///< false: the amplitude of at least one mode grows
   Eigen::VectorXd frequency;    ///< ascending [Hz]; 0 for monotonic growth
   Eigen::VectorXd growth_rate;  ///< growth rate of each mode [1/s]; 0 in a stable state
   Eigen::MatrixXcd shape;       ///< free coordinate x mode, q(t) = Re(x e^{i w t}), |x| = 1

@@ -40,7 +40,7 @@ MatrixXd RowBalance<Scalar>::sizes_of(const Matrix& u) const {
   MatrixXd size = u.cwiseAbs();
   for (auto column : size.colwise()) {
     const double largest = column.size() > 0 ? column.cwiseProduct(length_).maxCoeff() : 0;
-    column = column.cwiseMax(kLeastShare * largest * length_.cwiseInverse());
+    column = column.cwiseMax(kLeastFraction * largest * length_.cwiseInverse());
   }
   return size;
 }
@@ -91,7 +91,7 @@ double RowBalance<Scalar>::backward_error() const {
   const MatrixXd residual = rows().cwiseAbs(), terms = row_terms();
   double largest = 0;
   for (Index state = 0; state < residual.cols(); ++state)
-    largest = nan_max(largest, largest_ratio(residual.col(state), terms.col(state)));
+    largest = nan_max(largest, row_backward_error(residual.col(state), terms.col(state)));
   return largest;
 }
 
@@ -100,7 +100,7 @@ double RowBalance<Scalar>::residual_over_load() const {
   const VectorXd scale = system_.K.diagonal().cwiseAbs().unaryExpr(
       [](double k) { return k > 0 ? 1 / std::sqrt(k) : 0; });
   const VectorXd load = system_.T.cwiseAbs().transpose() * system_.load.cwiseAbs();
-  // Round-off errors cancel at some orientations of the model and not at others.
+  // Use at least the round-off error, because errors cancel at some orientations of the model only.
   const VectorXd residual = rows().col(0).cwiseAbs().cwiseMax(kEps * row_terms().col(0));
   const double size = scale.cwiseProduct(residual).norm();
   return size == 0 ? 0 : size / scale.cwiseProduct(load).norm();
@@ -117,7 +117,7 @@ Eigen::VectorXd decay_rates(const RayleighDamping& damping, const Eigen::VectorX
   return 0.5 * (damping.mass + damping.stiffness * omega.array().square());
 }
 
-double overdamped_above(const RayleighDamping& damping) {
+double overdamping_frequency(const RayleighDamping& damping) {
   if (damping.stiffness == 0) return std::numeric_limits<double>::infinity();
   const double product = std::min(1.0, damping.mass * damping.stiffness);
   return (1 + std::sqrt(1 - product)) / damping.stiffness;
@@ -131,7 +131,7 @@ SparseMatrix damping_matrix(const RayleighDamping& damping, const SparseMatrix& 
 SparseMatrix modal_damping_matrix(const SparseMatrix& M, const Eigen::VectorXd& omega,
                                   const Eigen::MatrixXd& shape, const Eigen::VectorXd& ratio) {
   if (shape.rows() != M.rows() || shape.cols() != omega.size() || ratio.size() != omega.size()) {
-    throw ModelError("modal damping needs one ratio for each mode");
+    throw ModelError("modal damping requires one damping ratio for each mode");
   }
   const Eigen::MatrixXd inertia = M * shape;
   const Eigen::VectorXd factor = 2 * ratio.cwiseProduct(omega);

@@ -8,10 +8,10 @@ namespace trammel::solver {
 
 /// Balance of the rows of an equation of motion for one or more states. It accumulates the sum of
 /// the terms of each row and the sum of their magnitudes. Stiffness and inertia are summed over
-/// element matrices that are computed again. Each coordinate counts with at least `kLeastShare` of
-/// the largest motion of its state (rotations times the model size). Rows in which only round-off
-/// moves could otherwise not be judged. Scalar is double or, for damped vibration,
-/// `std::complex<double>`.
+/// element matrices that are computed again. Each coordinate counts with at least `kLeastFraction`
+/// of the largest motion of its state (rotations times the model size). Otherwise there would be no
+/// scale for rows whose motions are only round-off errors. Scalar is double or, for damped
+/// vibration, `std::complex<double>`.
 template <class Scalar>
 class RowBalance {
  public:
@@ -35,14 +35,15 @@ class RowBalance {
   /// Source: Oettli and Prager (1964).
   [[nodiscard]] double backward_error() const;
   /// Returns |rows| of the first state over |load|, in the free coordinates. |rows| is at least the
-  /// round-off error of the terms. The stiffness scales forces and moments to make them comparable.
+  /// round-off error of the terms. The diagonal stiffness scales forces and moments to make them
+  /// comparable.
   [[nodiscard]] double residual_over_load() const;
 
   /// Returns the sums of the magnitudes of the terms on the unconstrained coordinates.
   [[nodiscard]] const Eigen::MatrixXd& terms() const { return terms_; }
 
  private:
-  /// Returns the magnitudes of u, each at least `kLeastShare` of the largest of its column.
+  /// Returns the magnitudes of u, each at least `kLeastFraction` of the largest of its column.
   [[nodiscard]] Eigen::MatrixXd sizes_of(const Matrix& u) const;
   [[nodiscard]] Matrix rows() const;
   [[nodiscard]] Eigen::MatrixXd row_terms() const;
@@ -77,7 +78,7 @@ struct RayleighDamping {
 ///
 /// It is infinite if the stiffness factor is zero. It is 1 / stiffness if mass * stiffness >= 1.
 /// Then no mode vibrates.
-[[nodiscard]] double overdamped_above(const RayleighDamping& damping);
+[[nodiscard]] double overdamping_frequency(const RayleighDamping& damping);
 
 /// Returns mass * M + stiffness * K on the union of both patterns.
 [[nodiscard]] SparseMatrix damping_matrix(const RayleighDamping& damping, const SparseMatrix& M,

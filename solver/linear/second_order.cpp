@@ -20,10 +20,10 @@ StaticState solve_linear_statics(const System& system, Counters& counters) {
   Factorization factorization;
   factorization.compute(system.K);
   ++counters.factorizations;
-  solution.outcome = require_held(system, factorization, counters);
+  solution.outcome = require_no_mechanism(system, factorization, counters);
   if (!solution.outcome.solved()) return solution;
-  const StiffnessFactors factors = stiffness_factors(system);
-  const SparseMatrix R = free_length_scales(system);
+  const FactoredStiffness factors = factored_stiffness(system);
+  const SparseMatrix R = free_to_length_matrix(system);
   const auto take = [&](const VectorXd& q, double left, const Operator& inverse) {
     solution.q = q;
     const double bound = forward_error(factors, R, q, system.f, inverse);
@@ -58,7 +58,7 @@ Outcome outcome_by_error(double error) {
   if (error < 0.1) return {};
   return {Status::not_converged,
           "the model is too ill-conditioned for double precision: less than one digit of the "
-          "displacements would be right"};
+          "displacements would be correct"};
 }
 
 double force_roundoff(const System& system, const VectorXd& q) {
@@ -83,12 +83,12 @@ namespace {
 
 constexpr double kSmallestStep = 1e-4;  // fraction of the loads
 
-/// Returns the forces of q under a fraction of the loads.
+/// Returns the internal forces of q under a fraction of the loads.
 Prestress forces_at(const System& system, double load, const VectorXd& q, const Prestress* before) {
   BodyForces weights = body_forces(system);
   for (Vector2d& weight : weights.element) weight *= load;
   for (Vector2d& weight : weights.point_mass) weight *= load;
-  return forces_of(system, system.T * q, load * system.load, weights, before);
+  return prestress_of(system, system.T * q, load * system.load, weights, before);
 }
 
 }  // namespace
@@ -98,7 +98,7 @@ StiffenedEquilibrium::StiffenedEquilibrium(const System& system, Counters& count
     : system_(system),
       counters_(counters),
       softening_(softening),
-      lengths_(free_length_scales(system)),
+      lengths_(free_to_length_matrix(system)),
       elastic_(stiffness_operator(system)) {}
 
 void StiffenedEquilibrium::iterate(const VectorXd& f, const Forces& forces, StaticState& state) {
@@ -109,20 +109,20 @@ void StiffenedEquilibrium::iterate(const VectorXd& f, const Forces& forces, Stat
     const VectorXd before = state.q;
     if (!solve(f, state)) return;
     state.forces = forces(state.q, &state.forces);
-    const double size = measure(state.q);
-    const double change = measure(state.q - before);
+    const double size = largest_displacement(state.q);
+    const double change = largest_displacement(state.q - before);
     const double ratio = change / last_change;
     const bool slow = !(ratio < 0.5);
     left_ = size > 0 ? change / size * (ratio < 1 ? ratio / (1 - ratio) : 1) : 0;
-    // Forces can change even if nothing moves. Convergence therefore requires at least two
-    // iterations.
-    const bool settled =
-        change <= 1e-14 * size || (slow && change <= force_rounding(state) + 1e-8 * size);
+    // Internal forces can change even if no coordinate moves. Convergence therefore requires at
+    // least two iterations.
+    const bool settled = change <= 1e-14 * size ||
+                         (slow && change <= displacement_roundoff_of_forces(state) + 1e-8 * size);
     if (k > 0 && settled) return;
     growing = change < last_change ? 0 : growing + 1;
     last_change = change;
   }
-  state.outcome = {Status::not_converged, "the forces of the state do not converge"};
+  state.outcome = {Status::not_converged, "the iteration for the internal forces did not converge"};
 }
 
 bool StiffenedEquilibrium::solve(const VectorXd& f, StaticState& state) {
@@ -140,7 +140,7 @@ bool StiffenedEquilibrium::solve(const VectorXd& f, StaticState& state) {
   const RefinedSolution refined = refined_solve(tangent, factorization_, f, counters_);
   state.q = refined.x;
   if (refined.converged()) return true;
-  state.outcome = {Status::not_converged, "the stiffness of the state is too ill-conditioned"};
+  state.outcome = {Status::not_converged, "K + K_G is too ill-conditioned for double precision"};
   return false;
 }
 
@@ -154,23 +154,23 @@ double StiffenedEquilibrium::error(const StaticState& state) const {
     return factorization_.solve(b);
   };
   if (state.q.isZero(0)) return 0;
-  return forward_error(stiffness_factors(system_), lengths_, state.q, system_.f, inverse) +
-         force_rounding(state) / measure(state.q) + left_;
+  return forward_error(factored_stiffness(system_), lengths_, state.q, system_.f, inverse) +
+         displacement_roundoff_of_forces(state) / largest_displacement(state.q) + left_;
 }
 
-double StiffenedEquilibrium::measure(const VectorXd& q) const {
+double StiffenedEquilibrium::largest_displacement(const VectorXd& q) const {
   return (lengths_ * q).lpNorm<Eigen::Infinity>();
 }
 
-double StiffenedEquilibrium::force_rounding(const StaticState& state) const {
+double StiffenedEquilibrium::displacement_roundoff_of_forces(const StaticState& state) const {
   const VectorXd change = geometric_stiffness_forces(system_, prestress_roundoff(system_, state.q),
                                                      system_.T * state.q);
   ++counters_.solves;
-  return measure(factorization_.solve(system_.T.transpose() * change));
+  return largest_displacement(factorization_.solve(system_.T.transpose() * change));
 }
 
-Prestress forces_of(const System& system, const VectorXd& u, const VectorXd& load,
-                    const BodyForces& body, const Prestress* before) {
+Prestress prestress_of(const System& system, const VectorXd& u, const VectorXd& load,
+                       const BodyForces& body, const Prestress* before) {
   VectorXd force = internal_forces(system, u) - load;
   if (before) force += geometric_stiffness_forces(system, *before, u);
   return prestress(system, u, system.constraints.multipliers(force), body);
@@ -206,7 +206,7 @@ StaticState solve_second_order(const System& system, const VectorXd& linear, Cou
     std::ostringstream reason;
     reason.precision(4);
     reason << whole.reason << ": second-order theory has no stable equilibrium beyond " << load
-           << " of the loads";
+           << " times the loads";
     return {{whole.status, reason.str()}, {}, {}};
   }
   reached.error = equilibrium.error(reached);

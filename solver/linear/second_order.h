@@ -15,7 +15,7 @@ struct StaticState {
   Outcome outcome;    ///< singular: the reason describes the zero-energy mode; not_converged: less
                       ///< than one correct digit
   Eigen::VectorXd q;  ///< free coordinates [m, rad]
-  Prestress forces;   ///< second-order theory: forces of q
+  Prestress forces;   ///< second-order theory: internal forces of q
   double error = 1;   ///< bound of max |du| / max |u|; rotations are multiplied by the model size
 };
 
@@ -32,31 +32,32 @@ struct StaticState {
 /// force. The deformation of a stiff element is a difference of nearly equal motions.
 [[nodiscard]] double force_roundoff(const System& system, const Eigen::VectorXd& q);
 
-/// Computes the forces of a state under loads.
+/// Computes the internal forces of a state under loads.
 /// @param system  assembled model.
 /// @param u  displacements of the unconstrained coordinates [m, rad].
 /// @param load  loads on the unconstrained coordinates [N, N m].
 /// @param body  forces on masses and members.
 /// @param before  if given, the constraint forces include the second-order terms of these forces.
-[[nodiscard]] Prestress forces_of(const System& system, const Eigen::VectorXd& u,
-                                  const Eigen::VectorXd& load, const BodyForces& body,
-                                  const Prestress* before = nullptr);
+[[nodiscard]] Prestress prestress_of(const System& system, const Eigen::VectorXd& u,
+                                     const Eigen::VectorXd& load, const BodyForces& body,
+                                     const Prestress* before = nullptr);
 
-/// Equilibrium (K + A + K_G) q = f with K_G from the forces of q itself. A is the softening matrix
-/// of a rotating frame, or absent. Without A the state must be stable: K + K_G has no negative
-/// pivot (Sylvester). Functions that fail set the outcome of the state.
+/// Equilibrium (K + A + K_G) q = f with K_G from the internal forces of q itself. A is the
+/// softening matrix of a rotating frame, or absent. Without A the state must be stable: K + K_G has
+/// no negative pivot (Sylvester). Functions that fail set the outcome of the state.
 class StiffenedEquilibrium {
  public:
-  /// Returns the forces in q, from q and the forces of the matrix that was used to solve for q.
+  /// Returns the internal forces in q, from q and the forces of the matrix that was used to solve
+  /// for q.
   using Forces = std::function<Prestress(const Eigen::VectorXd&, const Prestress*)>;
 
   StiffenedEquilibrium(const System& system, Counters& counters,
                        const SparseMatrix* softening = nullptr);
 
-  /// Solves with K_G of the forces of the state, or without K_G if they are empty. Returns false on
-  /// failure.
+  /// Solves with K_G of the internal forces of the state, or without K_G if they are empty. Returns
+  /// false on failure.
   bool solve(const Eigen::VectorXd& f, StaticState& state);
-  /// Solves and updates the forces until they converge, starting from a nearby state.
+  /// Solves and updates the internal forces until they converge, starting from a nearby state.
   void iterate(const Eigen::VectorXd& f, const Forces& forces, StaticState& state);
 
   /// Returns StaticState::error of the state that was solved last.
@@ -68,10 +69,11 @@ class StiffenedEquilibrium {
   [[nodiscard]] bool is_stable() const { return factorization_.smallest_pivot() > 0; }
 
  private:
-  /// Returns max |u| [m]; rotations are multiplied by the model size.
-  [[nodiscard]] double measure(const Eigen::VectorXd& q) const;
-  /// Returns the effect of the round-off error of the forces on the displacements [m].
-  [[nodiscard]] double force_rounding(const StaticState& state) const;
+  /// Returns the largest |u| [m]; rotations are multiplied by the model size.
+  [[nodiscard]] double largest_displacement(const Eigen::VectorXd& q) const;
+  /// Returns the error of the displacements [m] caused by the round-off error of the internal
+  /// forces.
+  [[nodiscard]] double displacement_roundoff_of_forces(const StaticState& state) const;
 
   const System& system_;
   Counters& counters_;
@@ -79,13 +81,13 @@ class StiffenedEquilibrium {
   SparseMatrix lengths_, added_;
   Operator elastic_;
   Factorization factorization_;
-  double left_ = 0;  // relative change of q that the last iteration leaves
+  double left_ = 0;  // estimated relative error of q after the last iteration
 };
 
-/// Solves (K + K_G) q = f by second-order theory, with K_G from the forces of q itself. The outcome
-/// is `singular` if the model buckles below the full load. It is `not_converged` if no equilibrium
-/// exists beyond the load factor that the reason states. The error includes the round-off error of
-/// the forces and the last iteration.
+/// Solves (K + K_G) q = f by second-order theory, with K_G from the internal forces of q itself.
+/// The outcome is `singular` if the model buckles below the full load. It is `not_converged` if no
+/// equilibrium exists beyond the load factor that the reason states. The error includes the
+/// round-off error of the internal forces and the error of the last iteration.
 ///
 /// The method follows the equilibria from the unloaded state. If fixed-point iteration with K + K_G
 /// does not converge under the full load, the load is applied in steps. The state is stable in each

@@ -23,8 +23,8 @@ double digits(double error) {
   return -std::log10(std::clamp(error, kEps, 1.0));
 }
 
-/// Returns the amplification of the second-order contribution d = -(K + K_G)^-1 K_G q. It is the
-/// stiffness of this motion relative to its remaining stiffness:
+/// Returns the amplification of the second-order displacement d = -(K + K_G)^-1 K_G q by the loads.
+/// It is the elastic stiffness of this motion relative to its remaining stiffness:
 ///
 ///   d^T K d / d^T (K + K_G) d.
 ///
@@ -39,15 +39,15 @@ double amplification(const System& system, const VectorXd& first, const StaticSt
   return stiffness > 0 && left > 0 ? stiffness / left : 1;
 }
 
-/// Adds the residual of the equation of the state, with K and K_G computed again, and the
-/// equilibrium of its forces.
+/// Adds the residual of the equation of the state, with K and K_G computed again, and the residual
+/// of the equilibrium of its forces.
 void take_residuals(const System& system, const ElasticState& state, StaticSolution& solution) {
   RowBalance<double> rows(system);
   rows.add_stiffness(state.u);
   rows.add_load(-system.load);
   if (state.prestress) {
     rows.add(geometric_stiffness(system, *state.prestress), solution.q);
-    // The forces of the state are differences of larger values.
+    // The internal forces of the state are differences of larger values.
     const Prestress roundoff = prestress_roundoff(system, solution.q);
     rows.add_terms(geometric_stiffness_forces(system, roundoff, state.u).cwiseAbs() / kEps);
   }
@@ -214,8 +214,8 @@ void recover_triangles(const System& system, const VectorXd& u, StaticSolution& 
   for (Index node = 0; node < area.size(); ++node) solution.node_stress.row(node) /= area[node];
 }
 
-/// Sums all external actions on the model: loads, reactions and springs to the ground. Equilibrium
-/// refers to the theory that was solved.
+/// Sums all external actions on the model: loads, reactions and springs to the ground. In
+/// second-order theory, the sum includes the forces of the geometric stiffness.
 void sum_external_forces(const System& system, const ElasticState& state,
                          StaticSolution& solution) {
   VectorXd load = acting_load(system, state);
@@ -296,7 +296,7 @@ Index support_component(const System& system, const ConstraintRow& row) {
   return u == node[0] ? 0 : u == node[1] ? 1 : 2;
 }
 
-void recover(const System& system, const RecoveredForces& forces, StaticSolution& solution) {
+void set_results(const System& system, const RecoveredForces& forces, StaticSolution& solution) {
   recover_displacements(system, forces, solution);
   solution.reaction.setZero(std::ssize(system.model.supports), 3);
   for (std::size_t i = 0; i < forces.constraints.rows.size(); ++i) {
@@ -334,17 +334,17 @@ ForceSum sum_forces(const System& system, const std::vector<Vector2d>& position,
 }
 
 void postprocess(const System& system, const ElasticState& state, StaticSolution& solution) {
-  recover(system,
-          {system.mesh.positions, state.u, system.constraints, constraint_forces(system, state),
-           end_forces(system, state)},
-          solution);
+  set_results(system,
+              {system.mesh.positions, state.u, system.constraints, constraint_forces(system, state),
+               end_forces(system, state)},
+              solution);
   recover_triangles(system, state.u, solution);
   sum_external_forces(system, state, solution);
 }
 
 namespace {
 
-/// Adds the forces of nodes on members according to the section forces, without the member loads.
+/// Adds the forces of nodes on members, computed from the section forces without the member loads.
 void add_members(const System& system, const ElasticState& state, const StaticSolution& solution,
                  VectorXd& sum) {
   const ElementForces forces = end_forces(system, state);
@@ -363,8 +363,8 @@ void add_members(const System& system, const ElasticState& state, const StaticSo
   }
 }
 
-/// Adds the forces of springs and triangles, and second-order forces of all parts except members.
-/// The section forces of members include theirs.
+/// Adds the forces of springs and triangles, and second-order forces of all parts except members,
+/// whose section forces include them.
 void add_other_elements(const System& system, const ElasticState& state, VectorXd& sum) {
   const auto add = [&](const auto& coordinates, const auto& B, const auto& c) {
     const auto deformation = (B * detail::gather(coordinates, state.u)).eval();
@@ -391,7 +391,7 @@ void add_constraints(const System& system, const ElasticState& state,
     double force = multipliers[static_cast<Index>(i)];
     for (const auto& [coordinate, coefficient] : row.terms)
       magnitudes[coordinate] += std::abs(coefficient * force);
-    // Included in the section forces.
+    // The section forces of the member include this constraint force.
     if (row.source == ConstraintRow::Source::inextensible) continue;
     if (row.source == ConstraintRow::Source::support)
       force = solution.reaction(row.index, support_component(system, row));
@@ -412,7 +412,7 @@ double unbalanced_forces(const System& system, const ElasticState& state,
   // chain of inextensible elements to its free end.
   const VectorXd length = length_scales(system);
   const double largest = magnitudes.cwiseQuotient(length).maxCoeff();
-  return largest_ratio(sum, magnitudes.cwiseMax(kLeastShare * largest * length));
+  return row_backward_error(sum, magnitudes.cwiseMax(kLeastFraction * largest * length));
 }
 
 }  // namespace trammel::solver

@@ -14,8 +14,9 @@ namespace trammel::solver {
 
 /// Options of a static analysis.
 struct StaticsOptions {
-  /// true: second-order theory, (K + K_G) q = f. K_G is the geometric stiffness of the forces of
-  /// the solution itself. Tension stiffens, and compression softens (geometric_stiffness.h).
+  /// true: second-order theory, (K + K_G) q = f. K_G is the geometric stiffness of the internal
+  /// forces of the solution itself. Tension stiffens, and compression softens
+  /// (geometric_stiffness.h).
   bool second_order = false;
 };
 
@@ -27,9 +28,9 @@ struct StaticsOptions {
 struct StaticSolution {
   Outcome outcome;           ///< singular: the reason describes the zero-energy mode
   Eigen::VectorXd q;         ///< free coordinates; see node_motion
-  Prestress forces;          ///< second-order theory: forces of q
-  double amplification = 1;  ///< amplification of the second-order contribution by the loads [-]
-  double estimated_correct_digits = 0;  ///< of the largest displacement: second_order.h
+  Prestress forces;          ///< second-order theory: internal forces of q
+  double amplification = 1;  ///< factor by which the loads amplify second-order displacements [-]
+  double estimated_correct_digits = 0;  ///< of the largest displacement, from StaticState::error
   Eigen::MatrixX3d displacement;  ///< model node x (ux [m], uy [m], rotation [rad]); NaN for a node
                                   ///< without rotation
   Eigen::MatrixX2d end_rotation;  ///< member x (first end, second end) [rad]
@@ -52,7 +53,7 @@ struct StaticSolution {
 [[nodiscard]] StaticSolution solve_statics(const System& system,
                                            const StaticsOptions& options = {});
 
-/// State from which forces and stresses are computed.
+/// Displaced and loaded state from which forces and stresses are computed.
 struct ElasticState {
   Eigen::VectorXd u;             ///< displacements of the unconstrained coordinates [m, rad]
   double load_factor = 1;        ///< factor of all loads except weight
@@ -86,7 +87,7 @@ struct RecoveredForces {
 struct ForceRoundoff {
   double force = 0, moment = 0;
 };
-/// Returns the round-off level of the forces of a state.
+/// Returns the magnitudes of force and moment below which those of a state are round-off errors.
 /// @param ends  forces on the frame elements.
 /// @param size  size of the model [m].
 [[nodiscard]] ForceRoundoff force_roundoff(const ElementForces& ends, double size);
@@ -103,7 +104,7 @@ template <class T>
 /// Computes displacements, rotations of member ends, reactions, section forces and member stresses.
 /// The largest stress is searched at the ends of each element and between them. The load within an
 /// element is uniform and balances its end forces.
-void recover(const System& system, const RecoveredForces& forces, StaticSolution& solution);
+void set_results(const System& system, const RecoveredForces& forces, StaticSolution& solution);
 
 /// Sums of forces, of moments about the origin, and of the magnitudes of their terms.
 struct ForceSum {
@@ -135,10 +136,10 @@ struct ForceSum {
 /// include the inertia of their element. Reactions and residuals do not include it.
 void postprocess(const System& system, const ElasticState& state, StaticSolution& solution);
 
-/// Checks the equilibrium of the reported forces at every coordinate. They are section forces at
-/// member ends, forces of springs and triangles, reactions, forces of other constraints, and nodal
-/// loads. Returns the largest sum over `terms`. The value is small even if the equation was not
-/// solved, because it only checks that the forces belong to the state.
+/// Returns the largest unbalanced force of the reported forces at any coordinate, over `terms`.
+/// They are section forces at member ends, forces of springs and triangles, reactions, forces of
+/// other constraints, and nodal loads. This check only confirms that the forces belong to the
+/// state. The result is small even if the state does not solve the equation.
 /// @param system  assembled model.
 /// @param state  displacements, loads and accelerations.
 /// @param solution  reported forces.

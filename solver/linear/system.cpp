@@ -32,8 +32,8 @@ std::vector<SpringElement> spring_elements(const Model& model, const Coordinates
   return springs;
 }
 
-/// Returns a sum with a zero on each diagonal position, so that unloaded free coordinates remain in
-/// the pattern.
+/// Returns an empty sum with a zero on each diagonal position, so that free coordinates without
+/// entries remain in the pattern.
 Projection empty_sum(const System& system) {
   const auto& triangles = system.model.triangles;
   const bool quadratic = !triangles.empty() && triangles.front().quadratic();

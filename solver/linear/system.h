@@ -61,14 +61,15 @@ struct System {
   return scale;
 }
 
-/// Returns the matrix from the free coordinates q to u in lengths.
-[[nodiscard]] inline SparseMatrix free_length_scales(const System& system) {
+/// Returns the matrix that maps the free coordinates q to u in units of length.
+[[nodiscard]] inline SparseMatrix free_to_length_matrix(const System& system) {
   return length_scales(system).asDiagonal() * system.T;
 }
 
-/// Returns the squared length [m^2] that a unit of each free coordinate moves.
-[[nodiscard]] inline Eigen::VectorXd squared_lengths(const System& system) {
-  const SparseMatrix lengths = free_length_scales(system);
+/// Returns, for each free coordinate, the sum of squared lengths [m^2] by which its unit motion
+/// moves all coordinates u.
+[[nodiscard]] inline Eigen::VectorXd squared_length_scales(const System& system) {
+  const SparseMatrix lengths = free_to_length_matrix(system);
   return lengths.cwiseAbs2().transpose() * Eigen::VectorXd::Ones(lengths.rows());
 }
 

@@ -51,7 +51,7 @@ class Validator {
  private:
   void known(Index node, const std::string& part) const {
     if (node < 0 || node >= static_cast<Index>(model_.nodes.size())) {
-      throw ModelError(part + " names node " + std::to_string(node) + ", but the model has " +
+      throw ModelError(part + " refers to node " + std::to_string(node) + ", but the model has " +
                        std::to_string(model_.nodes.size()) + " nodes");
     }
   }
@@ -59,7 +59,7 @@ class Validator {
   template <class Nodes>
   void on_plate(Index plate, const Nodes& nodes, std::size_t count, const std::string& part) const {
     require(plate >= 0 && plate < std::ssize(model_.plates), part,
-            "names a plate that does not exist");
+            "refers to a plate that does not exist");
     for (std::size_t k = 0; k < count; ++k) known(nodes[k], part);
   }
 
@@ -142,7 +142,7 @@ class Validator {
     };
     const double at_center = area_at(Vector3d::Constant(1 / 3.0));
     for (const Vector3d& at : triangle_node_coordinates()) {
-      require(area_at(at) * at_center > 0, part, "is folded by the middle nodes of its sides");
+      require(area_at(at) * at_center > 0, part, "has mid-side nodes that fold it over itself");
     }
   }
 

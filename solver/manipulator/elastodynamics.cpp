@@ -16,9 +16,9 @@
 
 namespace trammel::solver {
 
-/// Balance of all forces, and of all moments, on the full model: the largest residual and the
-/// largest sum of magnitudes over the samples [N], [N m]. Rows of the equation of motion are
-/// compared with terms that include the round-off error of very stiff parts. This balance has no
+/// Sums of all forces, and of all moments, on the complete model. They are the largest residual and
+/// the largest sum of magnitudes over the samples [N], [N m]. The terms of rows of the equation of
+/// motion include the round-off error of very stiff parts. The sums over the complete model have no
 /// such terms.
 struct WholeBalance {
   Vector2d residual = Vector2d::Zero(), terms = Vector2d::Zero();
@@ -94,7 +94,7 @@ class MotionSolver {
     equation.M = equation.K = moving_.K();
     if (follower_.damped() || options_.gyroscopic) equation.C = moving_.K();
     follower_.matrices(equation.M, equation.C, equation.K);
-    // The load is NaN if there is no pose, which ends the integration.
+    // The load is NaN if the pose is out of reach, which ends the integration.
     equation.load = [this](double time, VectorXd& f) {
       if (follower_.update_to(time)) {
         f = follower_.load();
@@ -105,11 +105,11 @@ class MotionSolver {
     if (!options_.load_history.constant()) equation.breakpoints = options_.load_history.time;
     if (options_.gyroscopic) {
       equation.working_motion = [this](double time, const VectorXd& q, const VectorXd& v) {
-        follower_.update_to(time);  // without a pose, the load has become NaN before
+        follower_.update_to(time);  // the load has already become NaN if there is no pose
         return follower_.forces(q, v, VectorXd::Zero(q.size())).working;
       };
     }
-    if (!follower_.stands_still()) {
+    if (!follower_.is_at_rest()) {
       equation.update = [this](double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K) {
         if (follower_.update_to(time)) follower_.matrices(M, C, K);
       };
@@ -132,9 +132,8 @@ class MotionSolver {
     for (const double time : sample_times(options_.time)) {
       if (!follower_.update_to(load_time(time))) return;
       if (!follower_.solve_statically(follower_.load(), q)) {
-        solution_.outcome = {
-            Status::singular,
-            "the stiffness is singular: free joints have no quasi-static position"};
+        solution_.outcome = {Status::singular,
+                             "the stiffness is singular: free joints have no static equilibrium"};
         return;
       }
       record_exact({0, time, q, still, still, {.strain = q.dot(moving_.K() * q) / 2}},
@@ -151,7 +150,8 @@ class MotionSolver {
     solution_.summary.time = sample.time;
   }
 
-  /// Returns the acting forces at the current pose, with the wrench scaled by its history.
+  /// Returns the forces at the current pose as functions of time. The load history scales the
+  /// wrench.
   [[nodiscard]] PiecewiseLinearLoad load_in_time(const VectorXd& f) const {
     const LoadHistory& history = options_.load_history;
     if (history.constant()) return step_load(f, options_.time.start);
@@ -163,7 +163,7 @@ class MotionSolver {
   /// Superposes all modes at every sample by closed-form solutions.
   void superpose_modes() {
     const std::vector<double> times = sample_times(options_.time);
-    if (!follower_.stands_still()) {
+    if (!follower_.is_at_rest()) {
       throw ModelError("modal superposition requires constant matrices, but the platform moves");
     }
     if (options_.gyroscopic) throw ModelError("a platform at rest has no gyroscopic terms");
@@ -194,7 +194,7 @@ class MotionSolver {
       MotionEnergy energy{.kinetic = v.dot(M * v) / 2, .strain = q.dot(K * q) / 2};
       // The work of a variable load is not integrated here.
       energy.work = options_.load_history.constant() ? f.dot(q - q0) : kNaN;
-      // The remaining energy has been dissipated. Without damping it shows the round-off error.
+      // The remaining energy has been dissipated. Without damping it is the round-off error.
       if (follower_.damped())
         energy.dissipated = strain_at_start + energy.work - energy.kinetic - energy.strain;
       record_exact({0, times[i], q, v, a, energy}, times[i], evidence);
@@ -212,8 +212,9 @@ class MotionSolver {
         damping_ratio(options_.damping, 2 * std::numbers::pi * *first);
   }
 
-  /// Solves K q = f - T^T C u., with the velocity of K q = f. Elastic inertia is omitted, because
-  /// each of its terms depends on the choice of free coordinates.
+  /// Starts quasi-statically with the rates of T: solves K q = f - T^T C u., with the velocity of
+  /// the solution of K q = f. Elastic inertia is omitted, because each of its terms depends on the
+  /// choice of free coordinates.
   Outcome start_with_rates(TransientOptions& time, Counters& counters) {
     EquationOfMotion equation = this->equation();
     equation.C = {};
@@ -232,21 +233,22 @@ class MotionSolver {
       return outcome;
     const VectorXd drag = follower_.forces(time.q0, time.v0, zero).working.drag;
     const VectorXd f = follower_.load() - moving_.constraints().T.transpose() * drag;
-    // T. q changes with q. Among the consistent velocities, use the one that keeps the strains.
+    // T. q depends on q. Among the consistent velocities, use the one that does not change the
+    // strains.
     VectorXd q, change;
     if (!follower_.solve_statically(f, q) ||
         !follower_.solve_statically(moving_.K_T_dot() * (q - time.q0), change)) {
-      return {Status::singular, "the stiffness is singular: there is no quasi-static start"};
+      return {Status::singular, "the stiffness is singular, so there is no quasi-static start"};
     }
     time.v0 -= change;
     time.q0 = q;
     return outcome;
   }
 
-  /// Returns true if the work of free coordinates depends on the axes. This is the case if
-  /// inextensible links move and the rates of T are omitted.
+  /// Returns true if the computed work depends on the choice of free coordinates. This is the case
+  /// if inextensible links move and the rates of T are omitted.
   [[nodiscard]] bool work_depends_on_axes() const {
-    return !options_.gyroscopic && !follower_.stands_still() &&
+    return !options_.gyroscopic && !follower_.is_at_rest() &&
            std::ranges::any_of(moving_.constraints().rows, [](const ConstraintRow& row) {
              return row.source == ConstraintRow::Source::inextensible;
            });
@@ -271,8 +273,8 @@ class MotionSolver {
     solution_.evidence = solution_.summary.evidence;
   }
 
-  /// Moves the follower to the time whose loads act on the sample, and records the state. Nothing
-  /// is recorded without a pose.
+  /// Moves the follower to the time whose loads act on the sample, and records the state. It
+  /// records nothing if the pose is out of reach.
   void record(const MotionSample& sample, double load_time) {
     if (!follower_.update_to(load_time)) return;
     const MovingSystem::Forces forces = follower_.forces(sample.q, sample.v, sample.a);
@@ -297,7 +299,7 @@ class MotionSolver {
     update_effect_numbers();
   }
 
-  /// Returns the displacement of P, as a row of displacements [m, m, rad].
+  /// Returns the static displacement of P, as a row (ux, uy [m], rotation [rad]).
   [[nodiscard]] Vector3d quasi_static_displacement(const StaticSolution& state) {
     const Index P = moving_.start().model.find_node("P");
     if (!options_.elastic_inertia) return state.displacement.row(P);
@@ -431,10 +433,10 @@ StaticSolution postprocess_motion(const MovingSystem& moving, const VectorXd& q,
   std::vector<Vector2d> positions;
   for (Index node = 0; node < std::ssize(moving.start().mesh.positions); ++node)
     positions.push_back(moving.position(node));
-  recover(moving.start(),
-          {positions, forces.working.u, constraints, multipliers,
-           end_forces(moving, forces, multipliers)},
-          state);
+  set_results(moving.start(),
+              {positions, forces.working.u, constraints, multipliers,
+               end_forces(moving, forces, multipliers)},
+              state);
   set_triangle_stress(moving, forces.working.u, state);
   const ForceSum sum = sum_forces(moving.start(), positions, forces.external, state);
   state.equilibrium_residual = sum.force.norm();

@@ -22,8 +22,8 @@ namespace {
 namespace odeint = boost::numeric::odeint;
 using State = Eigen::Matrix<double, 7, 1>;  // pose, velocity, work of torques and wrench
 
-/// Local error relative to the tolerance, in the measures of ForwardOptions. Odeint accepts a step
-/// up to 1.
+/// Local error of a step relative to the tolerance, as defined in ForwardOptions. Odeint accepts a
+/// step if it is at most 1.
 struct ErrorNorm {
   double tolerance;
   double duration;  ///< of the motion [s]
@@ -75,7 +75,7 @@ class MotionIntegrator {
                           terms.Ch.cwiseAbs() * now.q_dot.head<3>().cwiseAbs() +
                           terms.Nh.cwiseAbs() + given.cwiseAbs() +
                           terms.W.bottomRows<3>().transpose().cwiseAbs() * wrench_.cwiseAbs();
-    result.evidence.add(Residual::equation_of_motion, largest_ratio(now.torque - given, size));
+    result.evidence.add(Residual::equation_of_motion, row_backward_error(now.torque - given, size));
     const ManipulatorGeometry& g = manipulator_.geometry;
     double reach = 0;
     for (std::size_t i = 0; i < 3; ++i) reach = std::max(reach, g.proximal[i] + g.distal[i]);
@@ -103,7 +103,7 @@ class MotionIntegrator {
   void advance(double end) {
     while (result.outcome.solved() && t_ < end) {
       if (result.steps + result.rejected >= max_steps_) {
-        stop(Status::not_converged, "too many steps");
+        stop(Status::not_converged, "the limit of the number of steps was reached");
       } else {
         step(end);
       }
@@ -157,14 +157,14 @@ class MotionIntegrator {
     }
   }
 
-  /// Returns the determinant whose sign identifies the side of a parallel singularity. The
-  /// equations in the actuator angles have no solution there. A step may jump over the singularity,
-  /// depending on round-off.
+  /// Returns the determinant whose sign differs between the two sides of a parallel singularity.
+  /// The equations in the actuator angles have no solution at the singularity. A step may jump over
+  /// it, depending on round-off.
   [[nodiscard]] double side() const { return parallel_determinant(manipulator_.geometry, pose()); }
 
   static constexpr const char* kSingularity =
-      "a parallel (type 2) singularity is passed, where the actuators' angles do not determine the "
-      "motion; the rigid motion itself could continue";
+      "a parallel (type 2) singularity is passed, where the actuator angles do not determine the "
+      "motion; the rigid bodies themselves could pass it";
 
   void stop(Status status, const std::string& reason) {
     std::ostringstream why;
@@ -198,7 +198,7 @@ PlatformAcceleration forward_acceleration(const RigidManipulator& m, const Pose&
   const Vector3d force = torque + G.transpose() * wrench - terms.Ch * rates - terms.Nh;
   const Eigen::LLT<Matrix3d> llt(terms.Mh);
   if (llt.info() != Eigen::Success) {
-    result.outcome = {Status::singular, "the reduced mass matrix is not positive definite"};
+    result.outcome = {Status::singular, "the reduced mass matrix Mh is not positive definite"};
     return result;
   }
   const Vector3d active = llt.solve(force);
@@ -215,7 +215,7 @@ ForwardDynamics forward_dynamics(const RigidManipulator& m, const TrajectoryPoin
   double last = start.time;
   for (const double t : times) {
     if (!(t >= last) || !std::isfinite(t))
-      throw ModelError("the times of the motion must ascend from its start");
+      throw ModelError("the times of the motion must be ascending and not before its start");
     last = t;
   }
   MotionIntegrator integrator(m, torque, wrench, options, start, last);

@@ -23,7 +23,7 @@ MaterialOf<Dual> lifted(const Material& m) {
   return {.E = Dual(m.E), .rho = Dual(m.rho), .nu = Dual(m.nu)};
 }
 
-/// Converts the numbers from which sections are computed.
+/// Converts the dimensions and material of a link to dual numbers with zero derivatives.
 LinkDesignOf<Dual> lifted(const LinkDesign& link) {
   return {.thickness = Dual(link.thickness),
           .width = Dual(link.width),
@@ -37,7 +37,7 @@ void seed(Dual* x) {
   if (x != nullptr) *x = with_derivative(value(*x), 1);
 }
 
-/// Link with its derivative, as required by the elements.
+/// Section and length of a link with their derivatives, as required by the elements.
 struct SeededLink {
   SectionOf<Dual> section;
   Eigen::Vector2<Dual> direction;
@@ -82,7 +82,8 @@ SeededDesign seed_design(const ManipulatorDesign& design, const Posture& posture
     const Dual b = with_derivative(g.distal[i], length && parameter.distal[i] ? 1 : 0);
     const Eigen::Vector2<Dual> A = g.base[i].cast<Dual>();
     const Eigen::Vector2<Dual> C = posture.C[i].cast<Dual>();
-    // The angles of a straight limb change infinitely fast with its lengths only.
+    // The angles of a straight limb change infinitely fast with its lengths, but not with other
+    // parameters.
     const Eigen::Vector2<Dual> B =
         derivative(a) == 0 && derivative(b) == 0
             ? Eigen::Vector2<Dual>(posture.B[i].cast<Dual>())
@@ -102,8 +103,8 @@ Eigen::Matrix<double, static_cast<int>(n), Eigen::Dynamic> gather_modes(
   return local;
 }
 
-/// Computes U^T (dK/dp - w^2 dM/dp) U on the unconstrained coordinates, for a set of modes U of one
-/// w.
+/// Computes U^T (dK/dp - w^2 dM/dp) U on the unconstrained coordinates. U contains all modes with
+/// the same angular frequency w.
 class SetDerivative {
  public:
   SetDerivative(const System& system, const MatrixXd& U, double omega_squared)
@@ -144,8 +145,8 @@ class SetDerivative {
     sum += rates_of(strain) - omega_squared_ * rates_of(inertia);
   }
 
-  /// Adds the motion of eliminated coordinates: C u = 0 depends on p, which contributes - mu^T
-  /// dC/dp u twice.
+  /// Adds the effect of eliminated coordinates. Their constraints C u = 0 depend on p, which
+  /// contributes - mu^T dC/dp u twice.
   void add_constraints(const SeededDesign& design, MatrixXd& sum) const {
     for (std::size_t r = 0; r < system_.constraints.rows.size(); ++r) {
       const ConstraintRow& row = system_.constraints.rows[r];
@@ -175,7 +176,7 @@ class SetDerivative {
           gather_modes(system_.coordinates.node[static_cast<std::size_t>(lump.node)], U_);
       sum -= omega_squared_ * (u.transpose() * dm * u);
     }
-    // Use the strains, which remain small next to the rigid motion of a stiff plate.
+    // Use the deformations, which remain small next to the rigid motion of a stiff plate.
     for_each_plate_deformation(system_, [&](const auto& coordinates, const auto& B, const auto& c) {
       const Eigen::MatrixXd strain = B * gather_modes(coordinates, U_);
       sum += stiffness * (strain.transpose() * c.asDiagonal() * strain);
@@ -193,11 +194,11 @@ class SetDerivative {
   MatrixXd multipliers_;  // constraint row x mode
 };
 
-/// Relative distance below which frequencies belong to one set. Shapes of modes with a larger
-/// distance are accurate to the round-off error of the modes over this distance.
+/// Relative difference below which frequencies are treated as repeated. Mode shapes with a larger
+/// difference are accurate to the round-off error of the modes over this difference.
 constexpr double kSameFrequency = 1e-7;
 
-/// Computes enough modes to complete the last requested set.
+/// Computes enough modes to complete the last requested set of repeated frequencies.
 ModalSolution whole_sets(const System& system, Index count) {
   constexpr Index kSpareModes = 3;
   const Index all = system.K.rows();
@@ -210,8 +211,8 @@ ModalSolution whole_sets(const System& system, Index count) {
   }
 }
 
-/// Returns the distance of a set from the nearest frequency outside it, relative to its frequency
-/// unless that is zero.
+/// Returns the difference between the frequencies of a set and the nearest other frequency. It is
+/// relative to the frequency of the set, unless that is zero.
 double relative_gap(const VectorXd& frequency, const FrequencySet& set) {
   const double f = frequency[set.first];
   const Index end = set.first + set.count;
@@ -221,7 +222,7 @@ double relative_gap(const VectorXd& frequency, const FrequencySet& set) {
   return f > 0 ? gap / f : gap;
 }
 
-/// Computes the derivatives of one set of equal frequencies for the parameters with a seeded
+/// Computes the derivatives of one set of repeated frequencies for the parameters with a seeded
 /// design.
 /// @param system  assembled model.
 /// @param modes  modes of the system.
@@ -247,7 +248,7 @@ Outcome differentiate_set(const System& system, const ModalSolution& modes, cons
     }
     const SymmetricEigenpairs rates = symmetric_eigenpairs(small);
     if (!rates.converged)
-      return {Status::not_converged, "the rates of repeated frequencies did not converge"};
+      return {Status::not_converged, "the derivatives of repeated frequencies did not converge"};
     result.derivative.col(p).segment(set.first, shown) =
         rates.value.head(shown) / (4 * std::numbers::pi * omega);
   }

@@ -9,8 +9,8 @@
 
 namespace trammel::solver {
 
-/// Parameter of the design or the pose. It may refer to several numbers that change by the same
-/// amount.
+/// Parameter of the design or the pose. It may refer to several lengths or properties, which change
+/// by the same amount.
 struct DesignParameter {
   enum class Kind {
     length,
@@ -42,7 +42,7 @@ struct DesignParameter {
 
 namespace detail {
 
-/// Returns the number of a part to which the parameter refers, or null.
+/// Returns the property of a link or platform to which the parameter refers, or null.
 template <class Part>
 [[nodiscard]] auto number(Part& part, DesignParameter::Kind kind) -> decltype(&part.thickness) {
   switch (kind) {
@@ -59,7 +59,7 @@ template <class Part>
   }
 }
 
-/// Returns the number of a link to which the parameter refers, or null.
+/// Returns the property of a link to which the parameter refers, or null.
 template <class T>
 [[nodiscard]] T* link_number(LinkDesignOf<T>& link, DesignParameter::Kind kind) {
   return kind == DesignParameter::Kind::width ? &link.width : number(link, kind);
@@ -77,7 +77,7 @@ template <class T>
 // determines whether the mass of a link is a fixed total or follows from its density.
 
 /// Set of modes whose frequencies are equal up to round-off. Their shapes are an arbitrary basis of
-/// a subspace. Only the derivatives of the full set are meaningful.
+/// a subspace. Only the derivatives of all modes of the set together are meaningful.
 struct FrequencySet {
   Index first = 0;
   Index count = 1;

@@ -27,15 +27,15 @@ double wrapped(double angle) {
   return a <= -std::numbers::pi ? std::numbers::pi : a;
 }
 
-/// Solution of the triangle A_i B_i C_i from its sides a = |A B|, b = |B C|, r = |A C|.
+/// Angles of the triangle A_i B_i C_i from its sides a = |A B|, b = |B C|, r = |A C|.
 template <Real T>
 struct LimbAngles {
   T angle_at_A;
   T elbow_sine;  ///< unsigned
 };
 
-/// Returns x, or 0 if x is negative. A side that is rounded beyond the reach makes a factor
-/// slightly negative; the limb is then straight.
+/// Returns x, or 0 if x is negative. If r exceeds the reach by round-off only, a factor is slightly
+/// negative, and the limb is straight.
 template <Real T>
 T not_negative(const T& x) {
   return value(x) > 0 ? x : T(0);
@@ -55,7 +55,7 @@ LimbAngles<T> solve_limb(const T& a, const T& b, double r) {
   return {2.0 * angle, sqrt(T(sum * stretch)) * sqrt(T(fold_out * fold_in)) / (2.0 * a * b)};
 }
 
-/// Returns theta_a [rad], not wrapped.
+/// Returns the angle theta_a of the proximal link [rad], which may be outside (-pi, pi].
 template <Real T>
 T active_angle(const Vector2d& p_AC, const LimbAngles<T>& limb, int working_mode) {
   return std::atan2(p_AC.y(), p_AC.x()) + static_cast<double>(working_mode) * limb.angle_at_A;
@@ -69,7 +69,7 @@ std::string out_of_reach(std::size_t i, double a, double b, double r) {
   std::ostringstream why;
   why << "limb " << i + 1 << " (A" << i + 1 << "-B" << i + 1 << "-C" << i + 1 << ")";
   if (beyond <= roundoff && within <= roundoff) {
-    why << " has C on A: with links of equal length its direction is undetermined";
+    why << " has C on A, so that the direction of its equal links is undetermined";
   } else {
     why << " cannot reach: C is " << r << " m from A, " << std::max(beyond, within)
         << (beyond > roundoff ? " m beyond the sum of its link lengths"
@@ -117,7 +117,7 @@ void check_geometry(const ManipulatorGeometry& g) {
     if (std::abs(g.working_mode[i]) != 1)
       throw ModelError("the working mode of limb " + n() + " must be 1 or -1");
   }
-  if (platform_radius(g) == 0) throw ModelError("the platform points C1, C2 and C3 all lie in P");
+  if (platform_radius(g) == 0) throw ModelError("the platform points C1, C2 and C3 lie at P");
 }
 
 Posture inverse_kinematics(const ManipulatorGeometry& g, const Pose& pose) {
@@ -173,7 +173,7 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
   ForwardKinematics result{.outcome = {}, .pose = start};
   double last = std::numeric_limits<double>::infinity();
   for (; result.iterations < kMaxIterations; ++result.iterations) {
-    Matrix3d J;         // as in `scaled`, with rows divided by the distal lengths
+    Matrix3d J;         // J_x as in `scaled`, with rows divided by the distal lengths
     Vector3d residual;  // (|d|^2 - b^2) / 2b = |d| - b to first order [m]
     result.closure_error = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -191,19 +191,20 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
     const PivotedSolution correction = pivoted_solve(J, residual);
     if (!(correction.smallest_to_largest_pivot > kSingularRatio)) {
       result.outcome = {Status::singular,
-                        "a parallel singularity: the actuators do not determine the platform"};
+                        "a parallel singularity: the actuator angles do not determine the pose"};
       return result;
     }
     const Vector3d step = -correction.x;
     const double norm = step.norm();
-    // Quadratic convergence ends when the steps no longer decrease at the level of round-off.
+    // Newton's method converges quadratically until round-off. Then the corrections no longer
+    // decrease.
     if (norm <= 4 * kEps * size || (norm <= 1e-12 * size && norm >= last / 2)) return result;
     last = norm;
     result.pose = pose_of(result.pose.vector() + step.cwiseProduct(Vector3d(1, 1, 1 / size)));
   }
   std::ostringstream why;
-  why << "no assembly of the manipulator was found near the start: the loop closure error is "
-      << result.closure_error << " m";
+  why << "no assembly of the manipulator was found near the start pose: the error of the closed "
+      << "loops is " << result.closure_error << " m";
   result.outcome = {Status::not_converged, why.str()};
   return result;
 }

@@ -10,8 +10,8 @@
 /// Rigid kinematics of the planar 3-RRR manipulator: limbs A_i B_i C_i, active joints at A_i.
 namespace trammel::solver {
 
-/// Ratio of singular values below which a solution has no correct digit. Each row of J_x contains
-/// about ten rounding errors.
+/// Ratio of smallest to largest singular value below which a solution has no correct digit. Each
+/// row of J_x contains about ten rounding errors.
 inline constexpr double kSingularRatio = 64 * kEps;
 
 using Eigen::Matrix3d;
@@ -23,7 +23,7 @@ struct ManipulatorGeometry {
   std::array<double, 3> proximal{};  ///< |A_i B_i| [m]
   std::array<double, 3> distal{};    ///< |B_i C_i| [m]
   /// Side of the elbow, +1 or -1: theta_i = direction(A_i C_i) + working_mode_i * (angle at A_i).
-  /// The paper uses -1 (elbow on the clockwise side).
+  /// The paper uses -1 (elbow on the clockwise side of A_i C_i).
   std::array<int, 3> working_mode{-1, -1, -1};
 };
 

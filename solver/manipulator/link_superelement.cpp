@@ -34,7 +34,7 @@ struct ElementChain {
   }
 };
 
-/// Returns motions of all nodes that are zero except at the given coordinates.
+/// Returns motions of all nodes, one per column, that are zero except at the given coordinates.
 MatrixXd motions_of(const std::vector<Index>& coordinates, const MatrixXd& values, Index size) {
   MatrixXd U = MatrixXd::Zero(size, values.cols());
   for (std::size_t i = 0; i < coordinates.size(); ++i)
@@ -42,9 +42,9 @@ MatrixXd motions_of(const std::vector<Index>& coordinates, const MatrixXd& value
   return U;
 }
 
-/// Returns the modes of the coordinates on all nodes, with all others held. They have unit strain
-/// energy, and the longest period comes first. Bending and stretching are uncoupled and solved
-/// separately, so that zeros remain exact.
+/// Returns the modes of the given coordinates on all nodes, with all other coordinates held. They
+/// have unit strain energy, in descending order of the period. Bending and stretching are uncoupled
+/// and solved separately, so that zeros remain exact.
 MatrixXd modes_of(const ElementChain& chain, const std::vector<Index>& coordinates) {
   const Index size = 3 * (chain.elements + 1);
   const auto count = static_cast<Index>(coordinates.size());
@@ -78,7 +78,7 @@ LinkSuperelement condense(const Member& member, double length) {
                      frame_rigidity(section, member.theory, part),
                      frame_mass(section, member.theory, member.mass, part)};
   if (!member.axially_flexible) chain.c[0] = 0;
-  // The static motion of a prismatic member equals the interpolation of one element.
+  // The static motion of a prismatic member equals the interpolation of a single element.
   MatrixXd follows(3 * (n + 1), 6);
   const double phi = shear_ratio(section, member.theory, length);
   for (Index k = 0; k <= n; ++k) {

@@ -32,13 +32,14 @@ double platform_area(const std::array<Vector2d, 3>& c) {
   return std::abs(cross(c[1] - c[0], c[2] - c[0])) / 2;
 }
 
-/// Returns false for collinear vertices, whose area consists of round-off.
+/// Returns false if the vertices are collinear, so that their area is only a round-off error.
 bool has_area(const std::array<Vector2d, 3>& c) {
   const double size = std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
   return platform_area(c) > 1e-12 * size * size;
 }
 
-/// Sets the end of a link at a joint: sprung, welded if the kind is `rigid`, or hinged otherwise.
+/// Sets the end of a link at a joint. It is sprung, welded if the type of the joint equals `rigid`,
+/// or hinged otherwise.
 template <class Kind>
 void set_joint(const Joint<Kind>& joint, Kind rigid, const std::string& name, MemberEnd& end) {
   if (joint.kind == Kind::sprung) {
@@ -61,8 +62,8 @@ void check_platform_joints(const ManipulatorDesign& design) {
     const std::string C = numbered('C', i);
     if (is_eq25(kind)) {
       require(joints[0].kind == joints[1].kind && joints[1].kind == joints[2].kind,
-              "Eq. 25 ties the platform's rotation to all three link ends at once: choose the same "
-              "for C1, C2 and C3");
+              "Eq. 25 relates the platform's rotation to all three link ends: choose the same "
+              "joint for C1, C2 and C3");
     }
     if (design.platform.kind == PlatformDesign::Kind::rigid) continue;
     for (const auto& [joint, problem] :
@@ -128,14 +129,14 @@ void add_rigid_platform(const ManipulatorDesign& design, const Eigen::Matrix2d& 
 void add_pin(const TriangleMesh& mesh, std::size_t vertex, double radius, Index pin, Index first,
              Model& model) {
   const auto weights = pin_weights(mesh, mesh.nodes[vertex], radius);
-  // The stiffness of a link at C couples all nodes within its pin, which gives n^2 entries. P
+  // A link at C couples all nodes within its pin, which adds n^2 entries to the stiffness matrix. P
   // carries only loads.
   constexpr std::size_t kMaxNodes = 500;
   require(pin == kP || weights.size() <= kMaxNodes,
           "the pin at C" + std::to_string(pin - kC + 1) + " covers " +
               std::to_string(weights.size()) +
-              " nodes of the platform and couples each with each: at most 500, so choose a smaller "
-              "pin radius or fewer refinements");
+              " nodes of the platform and couples all of them: at most 500 nodes are allowed, so "
+              "choose a smaller pin radius or fewer refinements");
   for (const Coordinate::Kind kind : {Coordinate::Kind::x, Coordinate::Kind::y}) {
     LinearConstraint tie;
     tie.name =
@@ -156,8 +157,8 @@ void add_triangles(const ManipulatorDesign& design, const Pose& pose, const Eige
   require(material.nu > -1 && material.nu < 0.5,
           "the platform's Poisson's ratio must lie between -1 and 0.5");
   require(!platform.inertia.has_value(),
-          "a printed platform inertia needs a rigid platform: that of triangles follows from "
-          "their mass");
+          "a printed platform inertia requires a rigid platform: the inertia of triangles follows "
+          "from their mass");
   require(platform.pin_radius >= 0 && std::isfinite(platform.pin_radius),
           "the pin radius must not be negative");
   const double area = platform_area(design.geometry.platform);
@@ -168,9 +169,9 @@ void add_triangles(const ManipulatorDesign& design, const Pose& pose, const Eige
   const TriangleMesh mesh = platform_mesh(design.geometry.platform, Vector2d::Zero(),
                                           platform.refinements, platform.six_nodes);
   const bool pinned = platform.pin_radius > 0;
-  // Without pins, the first nodes C1, C2, C3, P of the mesh are those of the model. The model
-  // contains them in this order from kC, so that the mesh starts at kC. With pins it starts after
-  // P.
+  // Without pins, the first nodes C1, C2, C3, P of the mesh are nodes of the model. The model
+  // contains them in this order from kC, so that the mesh starts at kC. With pins, the mesh starts
+  // after P.
   const Index first = pinned ? kP + 1 : kC;
   const std::size_t shared = pinned ? 0 : 4;
   for (std::size_t n = shared; n < mesh.nodes.size(); ++n)
@@ -206,7 +207,7 @@ SectionOf<T> link_section(const LinkDesignOf<T>& link, const std::type_identity_
     require(positive(number), std::string("a link's ") + name + " must be positive");
   require(value(link.material.nu) > -1 && value(link.material.nu) <= 0.5,
           "a link's Poisson's ratio must lie between -1 and 0.5");
-  require(link.elements >= 1, "a link needs at least one element");
+  require(link.elements >= 1, "a link requires at least one element");
   const T mass =
       link.mass ? T(*link.mass) : T(link.material.rho * link.thickness * link.width * length);
   for (const auto& [name, number] :
@@ -236,7 +237,7 @@ PlatformMassOf<T> platform_mass(const PlatformDesignOf<T>& platform,
   if (platform.mass) {
     result.mass = T(*platform.mass);
   } else {
-    require(has_area(c), "the platform's triangle C1 C2 C3 has no area: give its mass instead");
+    require(has_area(c), "the triangle C1 C2 C3 has no area, so the platform requires a mass");
     require(positive(value(platform.thickness)), "the platform's thickness must be positive");
     result.mass = platform.material.rho * platform.thickness * platform_area(c);
   }

@@ -9,11 +9,11 @@
 #include "solver/model/model.h"
 #include "solver/model/numbers.h"
 
-/// Builder of the 3-RRR manipulator. A geometry, a pose and the choices that the paper leaves open
-/// define a Model.
+/// Builder of the 3-RRR manipulator. A geometry, a pose and the options that the paper does not
+/// specify define a Model.
 namespace trammel::solver {
 
-/// Kind of one joint. The stiffness is used by the kind `sprung` only.
+/// Type of one joint and its stiffness, which is used by the type `sprung` only.
 template <class Kind>
 struct Joint {
   Kind kind{};
@@ -25,8 +25,8 @@ enum class ActiveKind { locked, free, sprung };
 /// Joint at B_i. The rotation of the node is that of the proximal link. A hinge or spring is at the
 /// end of the distal link.
 enum class ElbowKind { welded, hinged, sprung };
-/// Joint at C_i. hinged: Eq. 24 only. eq25_*: hinged, and Eq. 25 ties the platform rotation zeta to
-/// the rotations of the three link ends: zeta = mean, or zeta = sum as printed. All kinds except
+/// Joint at C_i. hinged: Eq. 24 only. eq25_*: hinged, and Eq. 25 relates the platform rotation zeta
+/// to the rotations of the three link ends: zeta = mean, or zeta = sum as printed. All types except
 /// `hinged` require a rigid platform, because a node of triangles has no rotation. Eq. 25 is one
 /// equation for all three joints.
 enum class PlatformJointKind { hinged, welded, sprung, eq25_mean, eq25_sum };
@@ -35,7 +35,8 @@ using ActiveJoint = Joint<ActiveKind>;
 using ElbowJoint = Joint<ElbowKind>;
 using PlatformJoint = Joint<PlatformJointKind>;
 
-/// Straight link of rectangular section. With T = Dual (numbers.h) it carries a derivative.
+/// Straight link of rectangular section. With T = Dual (numbers.h), each property also carries its
+/// derivative with respect to one parameter.
 template <class T>
 struct LinkDesignOf {
   T thickness = T(0);  ///< in the plane [m]
@@ -54,7 +55,7 @@ struct LinkDesignOf {
 };
 using LinkDesign = LinkDesignOf<double>;
 
-/// Kind of platform: a rigid body, or a plate of triangles.
+/// Model of the platform: a rigid body, or a plate of triangles.
 enum class PlatformKind { rigid, triangles };
 
 /// Platform: a rigid body or a plate of triangles.

@@ -10,12 +10,12 @@ using Eigen::MatrixXd;
 
 namespace {
 
-/// Limit of the entries of T. Larger entries lose four digits.
+/// Limit of the entries of T. Larger entries amplify round-off by four digits.
 constexpr double kLargestT = 1e4;
 /// Fraction of the largest entry of a row of T below which an entry is round-off.
 constexpr double kVanishing = 1e-11;
 
-/// Returns the part whose motion changes the row, or null.
+/// Returns the part on whose rotation the coefficients of the row depend, or null.
 const PartMotion* part_of(const System& start, const ConstraintRow& row,
                           const NominalMotion& motion) {
   if (row.source == ConstraintRow::Source::inextensible)
@@ -62,7 +62,7 @@ MovingConstraints::MovingConstraints(const System& start, const NominalMotion& m
   extend_pattern(start, motion);
 }
 
-/// Selects the rows from which T is computed.
+/// Selects the constraint rows from which T is computed.
 void MovingConstraints::find_dependent_rows() {
   dependent_row_of_.assign(to_size(constraints_.T.rows()), -1);
   for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
@@ -85,9 +85,10 @@ void MovingConstraints::find_dependent_rows() {
   select_dependent_ = columns(dependent_row_of_, std::ssize(dependent_rows_));
 }
 
-/// Extends T by all entries that any pose needs. These are the entries that do not vanish at three
-/// rotations of the parts in general position. The pattern of C alone would let each node of an
-/// inextensible member follow all preceding nodes, whose contributions cancel numerically.
+/// Extends the pattern of T by all entries that are nonzero at any pose. These are the entries that
+/// do not vanish at three arbitrary rotations of the parts. The pattern of C alone would contain
+/// more: each node of an inextensible member would follow all preceding nodes, whose contributions
+/// cancel numerically.
 void MovingConstraints::extend_pattern(const System& start, const NominalMotion& motion) {
   auto& T = constraints_.T;
   Eigen::ArrayXX<bool> needed(static_cast<Index>(dependent_rows_.size()), T.cols());
@@ -117,7 +118,8 @@ void MovingConstraints::extend_pattern(const System& start, const NominalMotion&
   T_ddot_ = T_dot_;
 }
 
-/// Returns C^(order) times a matrix with one row per coordinate: dependent row x column.
+/// Returns the product of the time derivative C^(order) and a matrix with one row per coordinate.
+/// Rows are dependent rows.
 MatrixXd MovingConstraints::product(const System& start, const NominalMotion& motion, int order,
                                     const RowMajorMatrix& matrix) const {
   MatrixXd sum = MatrixXd::Zero(std::ssize(dependent_rows_), matrix.cols());
@@ -160,7 +162,7 @@ Outcome MovingConstraints::move(const System& start, const NominalMotion& from,
   const MatrixXd X = dependent_coordinates(start, to);
   if (!(X.allFinite() && X.cwiseAbs().maxCoeff() < kLargestT)) {
     return {Status::singular,
-            "the coordinates eliminated at the start are unsuitable for this pose"};
+            "the constraints do not determine the eliminated coordinates at this pose"};
   }
   for (const std::size_t r : dependent_rows_) {
     ConstraintRow& row = constraints_.rows[r];

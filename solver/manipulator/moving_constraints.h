@@ -9,8 +9,8 @@
 
 namespace trammel::solver {
 
-/// Constraints u = T q of moving parts: C T = 0 with the pivots of the start, and its time
-/// derivatives:
+/// Constraints u = T q of moving parts and the time derivatives of T. At every pose C T = 0, and
+/// the eliminated coordinates are those of the start pose:
 ///
 ///   C_p X = - C_f,   C_p X. = - C. T,   C_p X.. = - C.. T - 2 C. T.
 ///
@@ -24,7 +24,7 @@ class MovingConstraints {
   MovingConstraints(const System& start, const NominalMotion& motion, bool derivatives);
 
   /// Computes T at a new motion. The outcome is singular if the coordinates that the constraints
-  /// eliminate are unsuitable for this pose. Then nothing changes.
+  /// eliminate are unsuitable for this pose. T is then unchanged.
   [[nodiscard]] Outcome move(const System& start, const NominalMotion& from,
                              const NominalMotion& to);
 

@@ -44,7 +44,7 @@ NominalMotion nominal_motion(const Model& model, const InverseDynamics& dynamics
     for (const Index node : {limb, 3 + limb})
       place(node, A, {A, Vector2d::Zero(), Vector2d::Zero()}, motion.part[to_size(2 * limb)]);
   }
-  // C1 C2 C3, P and the nodes of a plate turn with the platform.
+  // The nodes C1 C2 C3, P and those of the plate turn with the platform.
   const Carrier P = {point.pose.position(), point.velocity.head<2>(), point.acceleration.head<2>()};
   for (Index node = 6; node < std::ssize(model.nodes); ++node)
     place(node, from.segment<2>(6), P, motion.part.back());
@@ -59,7 +59,8 @@ double largest_angular_velocity(const NominalMotion& motion) {
 
 namespace {
 
-/// Returns the derivative of a rotation with respect to the angle, times the inverse rotation.
+/// Returns the 3 x 3 matrix of the derivative of a rotation with respect to the angle, times the
+/// inverse rotation.
 const Eigen::Matrix3d& generator() {
   static const Eigen::Matrix3d J = (Eigen::Matrix3d() << 0, -1, 0, 1, 0, 0, 0, 0, 0).finished();
   return J;
@@ -87,7 +88,7 @@ MovingElement frame_element(const FrameElement& e, const Member& member) {
   if (!member.axially_flexible) element.c[0] = 0;
   element.m = e.is_bar() ? bar_mass(e.section, member.mass, e.length)
                          : frame_mass(e.section, member.theory, member.mass, e.length);
-  if (e.is_bar() || member.mass == MassMatrix::lumped) return element;  // W does not turn
+  if (e.is_bar() || member.mass == MassMatrix::lumped) return element;  // isotropic interpolation
   const double phi = shear_ratio(e.section, member.theory, e.length);
   const double rotary = has_rotary_inertia(member.theory) ? e.section.inertia_per_length : 0.0;
   for (const LineQuadraturePoint& point : line_quadrature()) {

@@ -12,14 +12,15 @@
 /// Rigid motion of the manipulator along its path, for each part of the model.
 namespace trammel::solver {
 
-/// Rotation of a rigid part relative to the position in which the model was built.
+/// Rotation of a rigid part since the pose at which the model was built.
 struct PartMotion {
   double angle = 0;         ///< [rad]
   double rate = 0;          ///< [rad/s]
   double acceleration = 0;  ///< [rad/s^2]
 
   bool operator==(const PartMotion&) const = default;
-  /// Returns a vector that turns with the part, or its time derivative of order 1 or 2.
+  /// Returns a vector that is `at_start` at the built pose and turns with the part, or its time
+  /// derivative of order 1 or 2.
   [[nodiscard]] Vector2d derivative(const Vector2d& at_start, int order) const;
 };
 
@@ -31,7 +32,7 @@ struct NominalMotion {
   Vector2d gravity = Vector2d::Zero();  ///< [m/s^2]
   double load_factor = 1;               ///< factor on the loads of the model
 
-  /// Returns the part of a manipulator with which the rotation of a model node turns.
+  /// Returns the part of a manipulator whose rotation equals that of a model node.
   [[nodiscard]] const PartMotion& at_node(Index model_node) const {
     return model_node < 6 ? part[to_size(2 * (model_node % 3))] : part.back();
   }

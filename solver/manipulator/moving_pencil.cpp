@@ -186,8 +186,8 @@ void MovingPencil::measure_strain(const VectorBlock<rows>& X,
   measures.rounding *= 2 * kEps;
 }
 
-/// Computes the residual row by row. No row is judged by coordinates that are only round-off of
-/// others (dense_eigen.h). Interior modes are compared with the total energy.
+/// Computes the residual row by row. Small coordinates that may be only round-off errors do not
+/// define the scale of a row (dense_eigen.h). Interior modes are compared with the total energy.
 template <int rows>
 void MovingPencil::measure_residual(const VectorBlock<rows>& X, const VectorBlock<rows>& MX,
                                     Workspace<rows>& space, ModeMeasures<rows>& measures) const {
@@ -197,7 +197,7 @@ void MovingPencil::measure_residual(const VectorBlock<rows>& X, const VectorBloc
   Numbers largest = Numbers::Zero();
   for (Index i = 0; i < ends(); ++i) largest = largest.max(length_[i] * space.sizes.col(i).array());
   for (Index i = 0; i < ends(); ++i) {
-    space.sizes.col(i) = space.sizes.col(i).array().max(kLeastShare / length_[i] * largest);
+    space.sizes.col(i) = space.sizes.col(i).array().max(kLeastFraction / length_[i] * largest);
   }
   measures.backward_error.setZero();
   for (Index i = 0; i < ends(); ++i) {
@@ -219,8 +219,9 @@ void MovingPencil::measure_residual(const VectorBlock<rows>& X, const VectorBloc
 }
 
 template <int rows>
-ModeMeasures<rows> MovingPencil::measure(const VectorBlock<rows>& X, const VectorBlock<rows>& MX,
-                                         Workspace<rows>& space) const {
+ModeMeasures<rows> MovingPencil::measure_modes(const VectorBlock<rows>& X,
+                                               const VectorBlock<rows>& MX,
+                                               Workspace<rows>& space) const {
   ModeMeasures<rows> measures;
   measures.inertia = X.ends.cwiseProduct(MX.ends).rowwise().sum() +
                      X.inside.cwiseProduct(MX.inside).rowwise().sum();
@@ -237,9 +238,9 @@ ModeMeasures<rows> MovingPencil::measure(const VectorBlock<rows>& X, const Vecto
 
 template void MovingPencil::mass_times(const VectorBlock<6>&, VectorBlock<6>&) const;
 template void MovingPencil::mass_times(const VectorBlock<16>&, VectorBlock<16>&) const;
-template ModeMeasures<6> MovingPencil::measure(const VectorBlock<6>&, const VectorBlock<6>&,
-                                               Workspace<6>&) const;
-template ModeMeasures<16> MovingPencil::measure(const VectorBlock<16>&, const VectorBlock<16>&,
-                                                Workspace<16>&) const;
+template ModeMeasures<6> MovingPencil::measure_modes(const VectorBlock<6>&, const VectorBlock<6>&,
+                                                     Workspace<6>&) const;
+template ModeMeasures<16> MovingPencil::measure_modes(const VectorBlock<16>&,
+                                                      const VectorBlock<16>&, Workspace<16>&) const;
 
 }  // namespace trammel::solver

@@ -24,7 +24,7 @@ class DenseLdlt {
   /// Returns the largest |L|. The signs of the pivots are unreliable if it exceeds about 1e8.
   [[nodiscard]] double element_growth() const { return growth_; }
 
-  /// Solves for several right-hand sides, one per row. Each operation then applies to all of them.
+  /// Solves for several right-hand sides, one per row of X. Each operation is applied to all rows.
   template <class Block>
   void solve_in_place(Block& X) const {
     const Index n = L_.rows();
@@ -49,8 +49,8 @@ class DenseLdlt {
   double growth_ = 0;
 };
 
-/// Several vectors in the coordinates of a MovingPencil: row x coordinate. Each operation applies
-/// to all rows. Their number is known at compile time.
+/// Several vectors in the coordinates of a MovingPencil: row x coordinate. Each operation is
+/// applied to all rows. The number of rows is known at compile time.
 template <int rows>
 struct VectorBlock {
   Eigen::Matrix<double, rows, Eigen::Dynamic> ends;  ///< free coordinates of the joints
@@ -100,10 +100,10 @@ class MovingPencil {
 
   /// Returns the stiffness of the joint coordinates at the current pose.
   [[nodiscard]] const Eigen::MatrixXd& K() const { return K_; }
-  /// Returns the number of eigenvalues of the full model below `shift`, by the inertia of K - shift
-  /// M. It is the sum of the counts of the interior and of its Schur complement on the joint
-  /// coordinates (Wittrick & Williams 1971). The result is -1 if the pivots are dominated by
-  /// round-off.
+  /// Returns the number of eigenvalues of the full model below `shift`, from the signs of the
+  /// pivots of K - shift M. It is the sum of the counts of the interior and of its Schur complement
+  /// on the joint coordinates (Wittrick & Williams 1971). The result is -1 if the pivots are
+  /// dominated by round-off.
   [[nodiscard]] Index eigenvalues_below(double shift);
 
   /// Computes Y = X M.
@@ -114,8 +114,9 @@ class MovingPencil {
   /// @param MX  X M.
   /// @param space  temporary blocks.
   template <int rows>
-  [[nodiscard]] ModeMeasures<rows> measure(const VectorBlock<rows>& X, const VectorBlock<rows>& MX,
-                                           Workspace<rows>& space) const;
+  [[nodiscard]] ModeMeasures<rows> measure_modes(const VectorBlock<rows>& X,
+                                                 const VectorBlock<rows>& MX,
+                                                 Workspace<rows>& space) const;
 
  private:
   struct Link {

@@ -111,7 +111,7 @@ void MovingSystem::find_spans() {
   }
 }
 
-/// Finds all entries that any pose needs.
+/// Finds all matrix entries that are nonzero at any pose.
 void MovingSystem::find_pattern() {
   const RowMajorMatrix& T = constraints_.T();
   std::vector<Eigen::Triplet<double>> places;
@@ -144,8 +144,9 @@ Vector2d MovingSystem::at_mesh_node(Index mesh_node, const Eigen::MatrixX2d& val
   return (1 - s) * values.row(nodes[0]).transpose() + s * values.row(nodes[1]).transpose();
 }
 
-/// Returns the load of nominal inertia in element axes. The acceleration is an affine field, which
-/// the interpolation represents exactly. A mass offset from its node adds a centripetal part.
+/// Returns the load of nominal inertia in element axes. The interpolation represents the nominal
+/// acceleration, an affine field, exactly. A mass that is offset from its node adds a centripetal
+/// force.
 Vector6d MovingSystem::nominal_inertia(const MovingElement& element, const PartMotion& part,
                                        const Vector2d& direction) const {
   Eigen::Matrix<double, 1, 6> a = Eigen::Matrix<double, 1, 6>::Zero();
@@ -298,7 +299,7 @@ Model loaded_model(const ElastodynamicsOptions& options, double time) {
 
 PathFollower::PathFollower(const ElastodynamicsOptions& options, double built_at)
     : options_(options),
-      stands_still_(solver::stands_still(options.path)),
+      is_at_rest_(solver::is_at_rest(options.path)),
       rigid_(rigid_manipulator(options.design)),
       moving_(loaded_model(options, built_at),
               {.inertia = options.elastic_inertia, .gyroscopic = options.gyroscopic}) {
@@ -308,7 +309,7 @@ PathFollower::PathFollower(const ElastodynamicsOptions& options, double built_at
 
 bool PathFollower::update_to(double time) {
   if (time == time_) return outcome_.solved();
-  if (stands_still_ && options_.load_history.constant() && !std::isnan(time_)) {
+  if (is_at_rest_ && options_.load_history.constant() && !std::isnan(time_)) {
     point_.time = time;
   } else {
     outcome_ = move_to(time, options_.gravity);
@@ -365,7 +366,7 @@ bool PathFollower::solve_statically(const VectorXd& f, VectorXd& q) {
     factored_ = true;
     ++counters_.factorizations;
     regular_ = stiffness_.factorize(moving_.K()) &&
-               stiffness_.smallest_to_largest_pivot() > kSingularPivotRatio;
+               stiffness_.smallest_pivot_to_diagonal() > kSingularPivotRatio;
   }
   if (!regular_) return false;
   ++counters_.solves;

@@ -16,16 +16,16 @@
 
 namespace trammel::solver {
 
-/// Options of a moving system.
+/// Options of the matrices and loads of a moving system.
 struct MovingSystemOptions {
   bool inertia = true;      ///< false: no M, and no inertia in the assembly at the start
   bool gyroscopic = false;  ///< true: also matrices of the rates of the parts
   bool condensed = false;   ///< true: condensed members (link_superelement.h), without loads
 };
 
-/// Model whose parts move: K, M and inertia loads as functions of the pose, on one pattern. Element
-/// matrices are computed once in the axes of their parts. For each pose they are rotated and added
-/// at precomputed positions.
+/// Model whose parts move: K, M and inertia loads as functions of the pose. The matrices have
+/// entries at the same positions at all poses. Element matrices are computed once in the axes of
+/// their parts. For each pose they are rotated and added at precomputed positions.
 ///
 /// The elastic displacements u(t) = T(t) q(t) are components in world axes, relative to the moving
 /// nominal position. W = R N T_s is the interpolation of an element in world axes, which turns with
@@ -48,7 +48,7 @@ class MovingSystem {
   /// unsuitable for this pose.
   [[nodiscard]] Outcome move_to(const NominalMotion& motion);
 
-  // Matrices of the free coordinates q at the current pose. They share one pattern.
+  // Matrices of the free coordinates q at the current pose, with entries at the same positions.
   [[nodiscard]] const SparseMatrix& K() const { return K_; }
   [[nodiscard]] const SparseMatrix& M() const { return M_; }
   [[nodiscard]] const SparseMatrix& gyroscopic_matrix() const { return C_gyroscopic_; }
@@ -142,11 +142,12 @@ class PathFollower {
   /// @pre `options` outlive this object.
   PathFollower(const ElastodynamicsOptions& options, double built_at);
 
-  /// Updates to a time. Repeated calls for the same time do nothing. A platform at rest under a
-  /// constant load is evaluated once.
+  /// Updates the manipulator to a time. Repeated calls for the same time do nothing. A platform at
+  /// rest under a constant load is evaluated once.
   /// @returns false on failure; then `outcome` states the time and the reason.
   bool update_to(double time);
-  /// Updates to a time with any gravity [m/s^2], without reuse of earlier evaluations.
+  /// Updates the manipulator to a time with any gravity [m/s^2], without reuse of earlier
+  /// evaluations.
   [[nodiscard]] Outcome move_to(double time, const Vector2d& gravity);
 
   [[nodiscard]] const MovingSystem& system() const { return moving_; }
@@ -157,7 +158,7 @@ class PathFollower {
   }
   [[nodiscard]] const TrajectoryPoint& point() const { return point_; }
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
-  [[nodiscard]] bool stands_still() const { return stands_still_; }
+  [[nodiscard]] bool is_at_rest() const { return is_at_rest_; }
   [[nodiscard]] bool damped() const;
 
   // Quantities at the current pose, in free coordinates.
@@ -184,7 +185,7 @@ class PathFollower {
   [[nodiscard]] Vector3d wrench(double time) const;
 
   const ElastodynamicsOptions& options_;
-  bool stands_still_;
+  bool is_at_rest_;
   RigidManipulator rigid_;
   MovingSystem moving_;
   SparseLdlt stiffness_{SparseLdlt::Triangle::mean};

@@ -18,15 +18,15 @@
 namespace trammel::solver {
 namespace {
 
-constexpr Index kBlock = 64;             // poses that share start vectors
-constexpr Index kGuard = 3;              // vectors beyond the requested modes
+constexpr Index kBlock = 64;             // poses that are solved in sequence on one thread
+constexpr Index kGuard = 3;              // vectors in addition to the requested modes
 constexpr Index kLargest = 48;           // joint coordinates above which sparse matrices are faster
 constexpr double kSmallestPivot = 1e-9;  // of the scaled stiffness: a loss of nine digits
 constexpr double kLargestCoupling = 1e-7;  // an eigenvalue changes by its square
 constexpr double kTolerance = 1e-11;  // relative change of an eigenvalue in one inverse iteration
-// Backward error of a mode; up to ten times this value is accepted.
+// Limit of the backward error of a mode; up to ten times this value is accepted.
 constexpr double kResidual = 1e-11;
-constexpr double kClearGap = 1e-3;  // relative gap between distinct neighbors
+constexpr double kClearGap = 1e-3;  // relative gap between distinct neighboring eigenvalues
 
 /// Data shared by all threads. Each thread writes results of different poses.
 struct Task {
@@ -105,8 +105,8 @@ class BlockSolver {
   void begin() {
     const Index n = pencil_.ends();
     X_.ends = start_vectors(rows, n);
-    // Strain energies of unit motions of the joints are m^2 or 1 times a stiffness. Interior modes
-    // have stiffness 1.
+    // The strain energy of a unit motion of a joint coordinate is a stiffness times 1 m^2 or 1
+    // rad^2. Interior modes have stiffness 1.
     X_.ends *= pencil_.K().diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
     X_.inside = start_vectors(rows, pencil_.inside(), 1);
   }
@@ -133,7 +133,7 @@ class BlockSolver {
       inverse_iteration();
       if (!rayleigh_ritz()) return false;
       if (change_.head(wanted).maxCoeff() < kTolerance) {
-        measures_ = pencil_.measure(X_, MX_, space_);
+        measures_ = pencil_.measure_modes(X_, MX_, space_);
         const double residual = measures_.backward_error.head(wanted).maxCoeff();
         if (residual < kResidual) {
           if (warm && step == 0 && residual < 1e-2 * kResidual && plain_ > 0) --plain_;
@@ -158,8 +158,8 @@ class BlockSolver {
     for (Index i = 0; i < X.inside.cols(); ++i) X.inside.col(i) = Z * X.inside.col(i);
   }
 
-  /// Computes the lowest eigenvalues in the space of Y = K^-1 M X, and the change by the last step.
-  /// If Y z is a mode, X z was its predecessor.
+  /// Computes the lowest eigenvalues in the space of Y = K^-1 M X, and their change by the last
+  /// step. If Y z is a mode, X z approximates it before the step.
   bool rayleigh_ritz() {
     const Square stiffness = products(Y_, MX_), inertia = products(Y_, MY_);
     const Square before = products(X_, MX_);
@@ -207,7 +207,7 @@ class BlockSolver {
     }
     if (below != found) return false;
     const Numbers w2 = measures_.strain / measures_.inertia;
-    // Only the iteration used assembled matrices, not the quotient.
+    // Only the iteration used assembled matrices, the Rayleigh quotient did not.
     if (!((w2 / value_ - 1).abs().head(count).maxCoeff() < 1e-6)) return false;
     Evidence evidence;
     evidence.add(Residual::mode_count, 0);
@@ -246,7 +246,7 @@ void solve_blocks(const Task& task, std::vector<Solver> solvers) {
   std::vector<std::future<void>> threads;
   for (Solver& solver : solvers)
     threads.push_back(std::async(std::launch::async, work, std::ref(solver)));
-  // Wait for all before an error is thrown.
+  // Wait for all threads before an exception is thrown.
   for (const std::future<void>& thread : threads) thread.wait();
   for (std::future<void>& thread : threads) thread.get();
   for (const Solver& solver : solvers) {

@@ -25,7 +25,7 @@ struct PoseModes {
   std::vector<Evidence> evidence;
   std::vector<Index> zero_energy_mode_count;
   Index free_coordinates = 0;
-  double coupling = 0;  ///< largest neglected product of modes within a link
+  double coupling = 0;  ///< largest neglected coupling of modes within a link (LinkSuperelement)
   Index by_itself = 0;  ///< number of poses solved by `solve_modes`
   Counters counters;
 };

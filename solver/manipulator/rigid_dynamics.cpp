@@ -51,7 +51,7 @@ Vector3d body_inertia(const RigidManipulator& m, Index body) {
   return of((body < 3 ? m.proximal : m.distal)[to_size(body % 3)]);
 }
 
-/// Center of mass of a body and the matrix of its motion.
+/// Center of mass of a body and the matrix that maps rates of the nine coordinates to its velocity.
 template <Real T>
 struct BodyPlace {
   Vec2<T> position;
@@ -96,11 +96,11 @@ Outcome state_outcome(const Posture& posture, const ManipulatorGeometry& geometr
   const Jacobians j = jacobians(geometry, pose, posture);
   if (!(j.parallel_distance > kSingularRatio))
     return {Status::singular,
-            "a parallel singularity: the actuators do not determine the platform's motion"};
+            "a parallel singularity: the actuators do not determine the motion of the platform"};
   if (!(j.serial_distance > kSingularRatio))
     return {Status::singular,
-            "a serial singularity: a limb is straight or folded and its actuator does not follow "
-            "from the platform's motion"};
+            "a serial singularity: a limb is straight or folded, so that the velocity of the "
+            "platform does not determine that of its actuator"};
   return {};
 }
 

@@ -53,29 +53,29 @@ struct RigidManipulator {
 /// @throws ModelError  as `link_section` and `platform_mass`.
 [[nodiscard]] RigidManipulator rigid_manipulator(const ManipulatorDesign& design);
 
-/// Returns values with their rates as derivatives.
+/// Returns dual numbers of values whose derivatives are the rates.
 template <int n>
 [[nodiscard]] Eigen::Matrix<Dual, n, 1> with_rates(const Eigen::Matrix<double, n, 1>& values,
                                                    const Eigen::Matrix<double, n, 1>& rates) {
   return values.binaryExpr(rates, [](double x, double rate) { return with_derivative(x, rate); });
 }
-/// Returns the rates.
+/// Returns the derivatives (rates) of dual numbers.
 template <int n, int m>
 [[nodiscard]] Eigen::Matrix<double, n, m> rates_of(const Eigen::Matrix<Dual, n, m>& values) {
   return values.unaryExpr([](const Dual& x) { return derivative(x); });
 }
 
-/// Returns the values without their rates.
+/// Returns the values of dual numbers without their rates.
 template <int n, int m>
 [[nodiscard]] Eigen::Matrix<double, n, m> values_of(const Eigen::Matrix<Dual, n, m>& values) {
   return values.unaryExpr([](const Dual& x) { return x.value(); });
 }
 
-/// Returns M with its rate [kg, kg m, kg m^2], symmetric.
+/// Returns the mass matrix M with its rate [kg, kg m, kg m^2], symmetric.
 [[nodiscard]] Eigen::Matrix<Dual, 9, 9> mass_matrix(const RigidManipulator& m,
                                                     const Vector9<Dual>& q);
 
-/// Returns W = [I; d theta_p / d theta_a; d(x, y, phi) / d theta_a].
+/// Returns the matrix W = [I; d theta_p / d theta_a; d(x, y, phi) / d theta_a] of q. = W theta_a.
 /// @pre The pose is no parallel singularity.
 template <Real T>
 [[nodiscard]] Eigen::Matrix<T, 9, 3> motion_map(const RigidManipulator& m, const Vector9<T>& q);

@@ -30,7 +30,7 @@ FirstFrequency first_frequency(const ManipulatorDesign& design, const DesignPara
     }
     if (rigid < count) break;
   }
-  if (first.outcome.solved()) first.outcome = {Status::singular, "all modes are rigid"};
+  if (first.outcome.solved()) first.outcome = {Status::singular, "all modes are rigid-body modes"};
   return first;
 }
 
@@ -58,7 +58,7 @@ SensitivityMap map_first_frequency(const ManipulatorDesign& design,
 
 namespace {
 
-/// Positions of P within reach of a limb: between two circles about one center.
+/// Region of positions of P that a limb can reach: between two circles about one center.
 struct Annulus {
   Vector2d center;
   double inner = 0, outer = 0;
@@ -97,8 +97,9 @@ void add_arcs(const std::array<Annulus, 3>& all, const Annulus& own, double radi
   if (!arc.empty()) arcs.push_back(std::move(arc));
 }
 
-/// Finds det J_x = 0 between two positions at which its values `a` and `b` have different signs.
-/// Returns an empty value if the line between them leaves the reach.
+/// Finds the point with det J_x = 0 between two positions at which det J_x has the values `a` and
+/// `b` of opposite signs. Returns an empty value if a limb cannot reach all of the line between
+/// them.
 std::optional<Vector2d> crossing(const ManipulatorGeometry& geometry, double phi,
                                  const Vector2d& from, const Vector2d& to, double a, double b) {
   std::uintmax_t evaluations = 100;
@@ -156,7 +157,7 @@ std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry
   std::vector<Polyline> segments;
   for (Index j = 0; j + 1 < grid.rows; ++j) {
     for (Index i = 0; i + 1 < grid.columns; ++i) {
-      // Search around the cell. A saddle has four crossings and results in two segments.
+      // Search the sides of the cell. A saddle has four zeros and results in two segments.
       const std::array<Index, 4> di = {0, 1, 1, 0};
       const std::array<Index, 4> dj = {0, 0, 1, 1};
       Polyline crossings;

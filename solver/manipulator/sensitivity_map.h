@@ -40,7 +40,7 @@ struct PoseGrid {
                                       Index columns);
 
 /// Map of the first frequency, row x column; NaN without a value. On the boundary of the workspace
-/// the derivative is infinite, and only frequency and distance have values.
+/// the derivative is infinite, and only the frequency and the distance have values.
 struct SensitivityMap {
   PoseGrid grid;
   Eigen::MatrixXd frequency;        ///< f_1 [Hz]

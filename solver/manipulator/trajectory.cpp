@@ -30,7 +30,7 @@ TrajectoryPoint evaluate(const Circle& circle, double t) {
           {-w * w * rx, -w * w * ry, 0}};
 }
 
-/// Returns from + s (to - from), with ds = ds/dt and dds = d2s/dt2.
+/// Returns the motion from + s (to - from), with ds = ds/dt and dds = d2s/dt2.
 TrajectoryPoint between(const Pose& from, const Pose& to, double s, double ds, double dds) {
   const Vector3d line = to.vector() - from.vector();
   require_path(line.allFinite(), "the ends of the path are not finite");
@@ -54,12 +54,12 @@ TrajectoryPoint evaluate(const RestToRest& path, double t) {
 
 TrajectoryPoint evaluate(const Spline& spline, double time) {
   const auto& times = spline.times;
-  require_path(times.size() >= 2, "a table of poses needs at least three points");
+  require_path(times.size() >= 2, "a table of poses requires at least three points");
   // A multiple of a step may exceed the end by round-off: 63 steps of 0.1 s are more than 6.3 s.
   const double rounding = 4 * std::numeric_limits<double>::epsilon() *
                           std::max(std::abs(times.front()), std::abs(times.back()));
   require_path(time >= times.front() - rounding && time <= times.back() + rounding,
-               "the time lies outside the table of poses");
+               "the time is outside the range of the table of poses");
   const double t = std::clamp(time, times.front(), times.back());
   const auto next = std::upper_bound(times.begin() + 1, times.end() - 1, t);
   const auto k = static_cast<Index>(next - times.begin());
@@ -82,7 +82,7 @@ bool is_still(const Spline& spline) {
   return (spline.pose.rowwise() - spline.pose.row(0)).isZero(0);
 }
 
-/// Handles a line, or a motion from rest to rest.
+/// Returns the motion along a line, or from rest to rest.
 template <class Way>
 bool is_still(const Way& line) {
   return line.from.vector() == line.to.vector();
@@ -96,8 +96,8 @@ bool is_still(const Way& line) {
 Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& poses,
                    SplineEnds ends) {
   const auto n = static_cast<Index>(times.size());
-  require_path(n >= 3, "a table of poses needs at least three points");
-  require_path(poses.size() == times.size(), "a table of poses needs one time for each pose");
+  require_path(n >= 3, "a table of poses requires at least three points");
+  require_path(poses.size() == times.size(), "a table of poses requires one time for each pose");
   Spline spline{times, Eigen::MatrixX3d(n, 3), Eigen::MatrixX3d::Zero(n, 3)};
   for (Index k = 0; k < n; ++k) spline.pose.row(k) = poses[to_size(k)].vector();
   const Eigen::Map<const Eigen::VectorXd> knots(times.data(), n);
@@ -105,7 +105,7 @@ Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& po
   require_path(spline.pose.allFinite() && knots.allFinite(), "the table of poses is not finite");
   for (Index k = 0; k + 1 < n; ++k) {
     if (h(k) > 0) continue;
-    throw PathError("the times of the table of poses must ascend; knot " + std::to_string(k + 1) +
+    throw PathError("the times of a table of poses must ascend; knot " + std::to_string(k + 1) +
                     " at " + std::to_string(knots[k + 1]) + " s does not follow " +
                     std::to_string(knots[k]) + " s");
   }
@@ -142,7 +142,7 @@ Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& po
   Eigen::SparseMatrix<double> A(n, n);
   A.setFromTriplets(entries.begin(), entries.end());
   SparseLu<double> lu;
-  require_path(lu.factorize(A), "no spline interpolates the table of poses");
+  require_path(lu.factorize(A), "the equations of the spline through the table are singular");
   for (Index c = 0; c < 3; ++c) spline.acceleration.col(c) = lu.solve(rhs.col(c));
   return spline;
 }
@@ -161,12 +161,12 @@ std::pair<double, double> time_span(const Path& path) {
   return {spline->times.front(), spline->times.back()};
 }
 
-bool stands_still(const Path& path) {
+bool is_at_rest(const Path& path) {
   return std::visit([](const auto& p) { return is_still(p); }, path);
 }
 
 std::vector<TrajectoryPoint> sample(const Path& path, Index points, double step) {
-  require_path(points >= 1, "a trajectory needs at least one point");
+  require_path(points >= 1, "a trajectory requires at least one point");
   require_path(step > 0 && std::isfinite(step), "the time step of a trajectory must be positive");
   std::vector<TrajectoryPoint> result;
   result.reserve(static_cast<std::size_t>(points));

@@ -33,7 +33,7 @@ struct Circle {
   double phi = 0;                      ///< [rad]
 };
 
-/// Straight motion at constant speed from one pose to another, which continues beyond.
+/// Straight motion at constant speed from one pose to another, and further beyond `duration`.
 struct Line {
   Pose from, to;
   double duration = 1;  ///< > 0 [s]
@@ -75,7 +75,7 @@ using Path = std::variant<Circle, Line, RestToRest, Spline>;
 [[nodiscard]] std::pair<double, double> time_span(const Path& path);
 
 /// Returns true if the platform never moves at any time.
-[[nodiscard]] bool stands_still(const Path& path);
+[[nodiscard]] bool is_at_rest(const Path& path);
 
 /// Returns the motion at the times 0, step, 2 step, ... , (points - 1) step.
 /// @throws ModelError  as `at`, or if points < 1 or the step is not positive.

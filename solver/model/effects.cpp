@@ -34,7 +34,7 @@ std::string_view name_of(Effect effect) {
   return kNames[static_cast<std::size_t>(effect)];
 }
 
-std::optional<Effect> effect_named(std::string_view name) {
+std::optional<Effect> find_effect(std::string_view name) {
   const auto found = std::find(kNames.begin(), kNames.end(), name);
   if (found == kNames.end()) return std::nullopt;
   return static_cast<Effect>(found - kNames.begin());

@@ -14,18 +14,18 @@ namespace trammel::solver {
 
 /// Physical effect of a scene.
 enum class Effect : std::uint8_t {
-  axial_flexibility,     ///< members that bend also stretch; off: inextensible, by constraints
+  axial_flexibility,     ///< members that bend can stretch; off: constraints make them inextensible
   shear,                 ///< shear of the sections; off: Euler-Bernoulli or Rayleigh beam
   rotary_inertia,        ///< rotary inertia of the sections; off: Euler-Bernoulli or shear beam
-  platform_flexibility,  ///< platform of triangles in a manipulator; off: rigid body
+  platform_flexibility,  ///< elastic platform of a manipulator, made of triangles; off: rigid body
   joint_compliance,      ///< springs between member ends and nodes; off: welded ends
   link_mass,             ///< mass and inertia of the members
   gravity,               ///< weight of all masses
   inertia,     ///< all masses; off: no mass matrix, and motion is a sequence of equilibria
   damping,     ///< dissipative forces that depend on velocities
   gyroscopic,  ///< Coriolis and other forces in rotating frames, except the centrifugal force
-  geometric_stiffening,  ///< forces turn with the part on which they act: second-order theory
-  large_displacement,  ///< equilibrium in the deformed configuration: the geometrically exact tier
+  geometric_stiffening,  ///< internal forces turn with their member or plate: second-order theory
+  large_displacement,  ///< equilibrium in the deformed configuration: geometrically exact elements
 };
 inline constexpr std::size_t kEffectCount = 12;
 
@@ -56,20 +56,22 @@ class Effects {
 /// Returns the name of an effect in case files, such as "axial-flexibility".
 [[nodiscard]] std::string_view name_of(Effect effect);
 /// Returns the effect with this name, or an empty value.
-[[nodiscard]] std::optional<Effect> effect_named(std::string_view name);
+[[nodiscard]] std::optional<Effect> find_effect(std::string_view name);
 
-/// Number of evaluations that each effect causes: element matrices, element loads, springs.
+/// Number of evaluations that each effect causes. Element matrices, element loads and springs are
+/// evaluated.
 using EffectCounts = std::array<std::int64_t, kEffectCount>;
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Numbers of evaluations. They are the same on every machine. Inactive effects have zero.
+/// Numbers of evaluations during an analysis. They are the same on every machine. Inactive effects
+/// have zero.
 struct Counters {
   std::int64_t element_evaluations = 0;  ///< element matrices
   std::int64_t factorizations = 0;
   std::int64_t solves = 0;  ///< right-hand sides, including iterative refinement
   std::int64_t steps = 0;   ///< time steps or load steps, including rejected ones
-  EffectCounts effects{};   ///< by effect
+  EffectCounts effects{};   ///< evaluations caused by each effect
 
   void count(Effect effect, std::int64_t evaluations) {
     effects[static_cast<std::size_t>(effect)] += evaluations;

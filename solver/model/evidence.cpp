@@ -10,26 +10,26 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A row has at most about 1000 terms (a rigid body with all parts that are joined to it). Each is
-/// rounded to eps, which leaves 1e3 eps = 2e-13. Newton's method at a critical point, where the
-/// tangent is singular, leaves a hundred times that. A factor that is wrong by one part in a
-/// million leaves 1e-6.
+/// A row is a sum of at most about 1000 terms, for a rigid body with all parts that are joined to
+/// it. Rounding each term to eps leaves a relative residual of 1e3 eps = 2e-13. Newton's method
+/// leaves a hundred times this residual at a critical point, where the tangent stiffness is
+/// singular. A factor that is wrong by one part in a million leaves a residual of 1e-6.
 constexpr double kRowLimit = 1e-10;
 
-/// Newton's method ends when the last correction of a step is small. This leaves 1e-5 of the terms
-/// where four-bar linkages pass singular positions. It leaves at most 3e-11 elsewhere in the
-/// catalogue. Missing inertia, an outdated load or a velocity of the wrong sign leaves more
-/// (motion_residuals_test.cpp).
+/// Newton's method ends a time step when its last correction is small. The remaining residual is
+/// 1e-5 of the terms of a row where four-bar linkages pass singular positions. It is at most 3e-11
+/// in the other cases of the catalogue. Missing inertia, an outdated load or a velocity of the
+/// wrong sign leaves a residual above this limit (motion_residuals_test.cpp).
 constexpr double kStepLimit = 1e-4;
 
 constexpr std::array<ResidualRule, kResiduals.size()> kRules = {{
-    {"equilibrium", kRowLimit, "round-off of the terms of a row"},
-    {"recovered_forces", kRowLimit, "round-off of the terms of a row"},
-    {"eigenvalue_equation", kRowLimit, "round-off of the terms of a row"},
-    {"mode_count", 0, "a count is exact"},
-    {"equation_of_motion", kStepLimit, "size of the last correction of a step"},
-    {"constraints", 1e-9, "1e-9 of the model size"},
-    {"energy", 1e-6, "accumulated round-off over the steps"},
+    {"equilibrium", kRowLimit, "round-off error of a sum of 1000 terms"},
+    {"recovered_forces", kRowLimit, "round-off error of a sum of 1000 terms"},
+    {"eigenvalue_equation", kRowLimit, "round-off error of a sum of 1000 terms"},
+    {"mode_count", 0, "the number of modes must be exact"},
+    {"equation_of_motion", kStepLimit, "error after the last Newton correction of a time step"},
+    {"constraints", 1e-9, "position error of joints relative to the model size"},
+    {"energy", 1e-6, "round-off error of the energy balance, accumulated over the steps"},
     {"load", kInfinity, "no limit: ill-conditioned models produce a warning"},
 }};
 
@@ -41,7 +41,7 @@ std::string in_words(const char* name) {
 
 }  // namespace
 
-const ResidualRule& rule_of(Residual kind) {
+const ResidualRule& residual_rule(Residual kind) {
   return kRules[static_cast<std::size_t>(kind)];
 }
 
@@ -67,11 +67,11 @@ Outcome outcome_by_evidence(const Outcome& claimed, const Evidence& evidence,
   if (evidence.empty()) return {Status::not_converged, "no residual supports the solution"};
   for (const Residual kind : needed) {
     if (!evidence.has(kind))
-      return {Status::not_converged,
-              "the required residual '" + in_words(rule_of(kind).name) + "' was not computed"};
+      return {Status::not_converged, "the required residual '" +
+                                         in_words(residual_rule(kind).name) + "' was not computed"};
   }
   for (const Residual kind : kResiduals) {
-    const ResidualRule& rule = rule_of(kind);
+    const ResidualRule& rule = residual_rule(kind);
     if (!evidence.has(kind) || evidence.largest(kind) <= rule.limit) continue;
     std::ostringstream reason;
     reason << "the residual '" << in_words(rule.name) << "' is " << evidence.largest(kind)

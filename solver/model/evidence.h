@@ -17,18 +17,18 @@ struct Outcome {
   [[nodiscard]] bool solved() const { return status == Status::solved; }
 };
 
-// Independent residuals that support a solution. Solving did not use them.
+// Independent residuals that support a solution. The method of solution does not use them.
 
-/// Kind of a residual. Each residual is relative to the magnitudes of the terms in its sum.
+/// Type of a residual. Each residual is divided by the magnitudes of the terms in its sum.
 /// Round-off alone leaves a few eps; a meaningless solution leaves about 1.
 enum class Residual {
-  equilibrium,          ///< K u = f row by row, with matrices assembled again
-  recovered_forces,     ///< equilibrium of the reported forces: members, supports, loads
-  eigenvalue_equation,  ///< K x = w^2 M x row by row, for every mode
-  mode_count,  ///< modes that are missing, superfluous (Sylvester's law of inertia) or duplicate
-  equation_of_motion,  ///< row by row; the largest over all steps
-  constraints,         ///< joints, drives and loop closures, relative to the model size
-  energy,              ///< work of all forces minus the change of energy, over the full run
+  equilibrium,          ///< K u - f, row by row; K and f are assembled again for this check
+  recovered_forces,     ///< sum of the reported member forces, reactions and loads on each node
+  eigenvalue_equation,  ///< K x - w^2 M x, row by row, for every mode
+  mode_count,  ///< number of missing, superfluous (Sylvester's law of inertia) and duplicate modes
+  equation_of_motion,  ///< equation of motion, row by row; the largest over all steps
+  constraints,  ///< position error of joints, drives and closed loops, relative to the model size
+  energy,       ///< work of all forces minus the change of energy, over the full run
   load,  ///< |K u - f| / |f|, at least its round-off error; small if the condition number is small
 };
 inline constexpr std::array kResiduals = {Residual::equilibrium,
@@ -40,22 +40,22 @@ inline constexpr std::array kResiduals = {Residual::equilibrium,
                                           Residual::energy,
                                           Residual::load};
 
-/// Name and limit of a kind of residual.
+/// Name and limit of a type of residual.
 struct ResidualRule {
   const char* name;  ///< name in results and messages
   double limit;      ///< a solution with a larger residual does not count as solved
   /// Error term that the limit bounds.
   const char* why;
 };
-/// Returns the name and the limit of a kind of residual.
-[[nodiscard]] const ResidualRule& rule_of(Residual kind);
+/// Returns the name and the limit of a type of residual.
+[[nodiscard]] const ResidualRule& residual_rule(Residual kind);
 
 /// Value of Residual::load above which a warning is issued. The solution is not rejected. Above
 /// this value, ill-conditioning dominates the digits of the forces. Below it, the loads are
-/// satisfied to better than any measurement of them.
+/// satisfied more accurately than loads can be measured.
 inline constexpr double kLoadWarning = 1e-6;
 
-/// Largest residual of each kind that was computed.
+/// Largest residual of each type that was computed.
 class Evidence {
  public:
   /// Records a residual. NaN and negative values count as infinite.
@@ -63,7 +63,7 @@ class Evidence {
   /// Records the largest residuals of other evidence.
   void add(const Evidence& other);
   [[nodiscard]] bool has(Residual kind) const { return taken_[index(kind)]; }
-  /// Returns the largest residual of a kind.
+  /// Returns the largest residual of a type.
   [[nodiscard]] double largest(Residual kind) const { return largest_[index(kind)]; }
   [[nodiscard]] bool empty() const;
 
@@ -74,8 +74,8 @@ class Evidence {
   std::array<double, kResiduals.size()> largest_{};
 };
 
-/// Returns the outcome that the evidence supports. A claim of success is accepted under three
-/// conditions: residuals were computed, they include all kinds in `needed`, and all are within
+/// Returns the outcome that the evidence supports. A solved outcome is accepted under three
+/// conditions: residuals were computed, they include all types in `needed`, and all are within
 /// their limits. Otherwise the outcome is `not_converged`. Failures are returned unchanged.
 [[nodiscard]] Outcome outcome_by_evidence(const Outcome& claimed, const Evidence& evidence,
                                           const std::vector<Residual>& needed = {});

@@ -20,7 +20,8 @@ namespace trammel::solver {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Isotropic linear elastic material. With T = Dual (numbers.h) it carries a derivative.
+/// Isotropic linear elastic material. With T = Dual (numbers.h), each property also carries its
+/// derivative with respect to one parameter.
 template <class T>
 struct MaterialOf {
   T E = T(0);    ///< Young's modulus [Pa]
@@ -139,7 +140,7 @@ struct Spring {
   Vector3d stiffness = Vector3d::Zero();  ///< along world x, y [N/m] and in rotation [N m/rad]
 };
 
-/// Motions of a node that are fixed to the ground.
+/// Displacements and rotation of a node that are fixed to the ground.
 struct Support {
   std::string name;
   Index node = 0;
@@ -155,11 +156,11 @@ struct Coordinate {
   int end = 0;        ///< end_rotation
 };
 
-/// Linear constraint, sum of coefficient * coordinate = 0. Paper Eq. 25 and pins of finite radius
-/// have this form.
+/// Homogeneous linear constraint on the motion of the model: sum of coefficient * coordinate = 0.
+/// Eq. 25 of the paper and pins of finite radius have this form.
 struct LinearConstraint {
-  /// Data of a slider, if the sum is its linearized constraint. The rotation of the node turns the
-  /// line on which the slider moves.
+  /// Data of a slider on a straight rail, if the sum is the linearized constraint of the slider.
+  /// The rotation of `node` turns the rail.
   struct Rail {
     Index node = 0, slider = 0;
     Vector2d direction = Vector2d::UnitX();
@@ -224,7 +225,8 @@ inline void require(bool condition, const std::string& message) {
 [[nodiscard]] std::string node_label(const Model& model, Index node);
 /// Returns "member" and the name or number of a member.
 [[nodiscard]] std::string member_label(const Model& model, Index member);
-/// Returns the kind and the name of a part, or its number if the name is empty.
+/// Returns the type of a part (`kind`, such as "spring") and its name, or its number if the name is
+/// empty.
 [[nodiscard]] std::string part_label(const char* kind, const std::string& name, std::size_t index);
 
 // Vectors in the plane.

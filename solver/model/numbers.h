@@ -42,7 +42,7 @@ concept Real = std::same_as<T, double> || std::same_as<T, Dual>;
 [[nodiscard]] inline double value(const Dual& x) {
   return x.value();
 }
-/// Returns the derivative.
+/// Returns the derivative with respect to the parameter.
 [[nodiscard]] inline double derivative(const Dual& x) {
   return x.derivatives()[0];
 }

@@ -29,7 +29,7 @@ void check(const EquationOfMotion& e) {
     throw ModelError("M, C and K of an equation of motion must be square and of equal size");
   }
   if (e.update && !(same_pattern(e.M, e.K) && (e.C.size() == 0 || same_pattern(e.M, e.C)))) {
-    throw ModelError("matrices that change with time must share one pattern");
+    throw ModelError("M, C and K that change with time must have entries at the same positions");
   }
 }
 
@@ -116,14 +116,14 @@ void PiecewiseLinearLoad::at(double t, VectorXd& f) const {
 
 void PiecewiseLinearLoad::check() const {
   if (factor.cols() != std::ssize(time) || factor.rows() != pattern.cols() || time.empty())
-    throw ModelError("a piecewise linear load needs a factor for each of its loads and times");
-  if (!std::is_sorted(time.begin(), time.end())) throw ModelError("load times must ascend");
+    throw ModelError("a piecewise linear load requires one factor per load and time");
+  if (!std::is_sorted(time.begin(), time.end())) throw ModelError("load times must be ascending");
 }
 
 void PiecewiseLinearLoad::apply_to(EquationOfMotion& equation) const {
   check();
   if (pattern.rows() != equation.M.rows()) {
-    throw ModelError("the load must have the size of the equation of motion");
+    throw ModelError("the load must have as many entries as the equation of motion has rows");
   }
   equation.breakpoints.insert(equation.breakpoints.end(), time.begin(), time.end());
   equation.load = [self = *this](double t, VectorXd& f) { self.at(t, f); };

@@ -10,8 +10,8 @@
 /// Equation of motion (paper Eq. 13, 18), M(t) q'' + C(t) q' + K(t) q = f(t).
 namespace trammel::solver {
 
-/// State from which energies are computed if q is measured relative to moving axes: u = T(t) q and
-/// its forces.
+/// State from which energies are computed if q is measured relative to moving axes. It consists of
+/// the displacements u = T(t) q and the forces that act on them.
 struct WorkingMotion {
   Eigen::VectorXd u, load, drag;   ///< load and damping forces [SI]
   double kinetic = 0, strain = 0;  ///< [J]
@@ -22,20 +22,21 @@ struct WorkingMotion {
 /// (gyroscopic terms).
 struct EquationOfMotion {
   SparseMatrix M, C, K;  ///< at the start [SI]; an empty C means no damping
-  /// Writes f(t) [SI]; empty: no load. At a jump it gives the value after the jump.
+  /// Writes f(t) [SI]; empty: no load. At a jump it writes the value after the jump.
   std::function<void(double time, Eigen::VectorXd& f)> load;
-  /// Writes the values of M, C and K at `time`; empty: constant matrices. With `update` the three
-  /// matrices share one pattern, which does not change.
+  /// Writes the values of M, C and K at `time`; empty: constant matrices. With `update`, the
+  /// entries of the three matrices have the same positions, which do not change.
   std::function<void(double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K)> update;
-  /// Returns the working motion of a state at a time; after the jump at a time of a jump. Empty: u
-  /// is q itself, with the forces of the equation.
+  /// Returns the working motion of a state at a time. At a jump, it is the motion after the jump.
+  /// Empty: u is q itself, with the forces of the equation.
   std::function<WorkingMotion(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v)>
       working_motion;
   /// Times at which the load or its slope jumps [s]. A step ends at each of them.
   std::vector<double> breakpoints;
 };
 
-/// M, C and K at the time of the last update, with one pattern. C is zero without damping.
+/// M, C and K at the time of the last update, with entries at the same positions. C is zero without
+/// damping.
 class EquationMatrices {
  public:
   /// Copies the matrices.
@@ -66,7 +67,8 @@ class EquationMatrices {
 // Loads whose factors are linear between given times and constant outside them. A factor jumps if a
 // time is given twice. Its value at a jump is the value after the jump.
 
-/// Interval between two of the times, or outside them: x = (1 - share) x[left] + share x[right].
+/// Interval between two given times, or the range before or after all times. A quantity x is
+/// interpolated as (1 - share) x[left] + share x[right].
 struct TimeInterval {
   Index left = 0, right = 0;
   double share = 0;

@@ -24,13 +24,14 @@ using Complex = std::complex<double>;
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
-/// Solves with (1 + i w stiffness) K + (i w mass - w^2) M, which is real without Rayleigh damping.
+/// Solves (K + i w C - w^2 M) x = f with Rayleigh damping, as ((1 + i w stiffness) K + (i w mass -
+/// w^2) M) x = f. The matrix is real without damping.
 VectorXcd solve_direct(const System& system, const RayleighDamping& damping, double omega,
                        const VectorXd& f) {
   if (damping.mass == 0 && damping.stiffness == 0) {
     Factorization factorization;
     factorization.compute(system.K - omega * omega * system.M);
-    if (!factorization.exists()) {  // exactly at an undamped frequency of the remaining model
+    if (!factorization.exists()) {  // the frequency is an undamped natural frequency
       factorization.compute(system.K - omega * omega * (1 + 1e-9) * system.M);
     }
     if (!factorization.exists()) return {};
@@ -46,7 +47,7 @@ VectorXcd solve_direct(const System& system, const RayleighDamping& damping, dou
   if (!lu.factorize(Z)) return {};
   const VectorXcd load = f.cast<Complex>();
   const VectorXcd x = lu.solve(load);
-  return x + lu.solve(load - Z * x);  // elimination alone leaves light rows unbalanced
+  return x + lu.solve(load - Z * x);  // refinement balances rows with small entries
 }
 
 }  // namespace
@@ -59,11 +60,11 @@ HarmonicSolver::HarmonicSolver(const System& system, const HarmonicDamping& damp
       counters_(system.counters) {
   for (const double ratio : damping.modal_ratio) {
     if (!(std::isfinite(ratio) && ratio >= 0)) {
-      throw ModelError("a damping ratio must be a number that is not negative");
+      throw ModelError("a damping ratio must be a finite number >= 0");
     }
   }
   const auto count = static_cast<Index>(damping.modal_ratio.size());
-  superpose(count);
+  compute_modes(count);
   if (!outcome_.solved() || modes_.frequency.size() == 0) return;
   participation_ = modes_.shape.transpose() * unsuperposed_load_;
   unsuperposed_load_ -= system.M * (modes_.shape * participation_);
@@ -72,7 +73,7 @@ HarmonicSolver::HarmonicSolver(const System& system, const HarmonicDamping& damp
   damping_.shape = modes_.shape.leftCols(count);
 }
 
-void HarmonicSolver::superpose(Index damped) {
+void HarmonicSolver::compute_modes(Index damped) {
   Factorization K;
   K.compute(system_.K);
   ++counters_.factorizations;
@@ -91,7 +92,7 @@ void HarmonicSolver::superpose(Index damped) {
     }
   } else if (free.count() > 0 && free.all_found) {
     modes_.shape = free.basis;
-    if (!orthonormalize(system_, modes_.shape)) {
+    if (!mass_orthonormalize(system_, modes_.shape)) {
       outcome_ = {Status::singular,
                   "a part without mass moves freely: " + describe_mechanism(system_, free)};
       return;
@@ -107,7 +108,8 @@ VectorXcd HarmonicSolver::at(double frequency) const {
   ++counters_.factorizations;
   counters_.solves += 2;
   if (q.size() == 0) return q;
-  // The direct response contains damped modes only by round-off near resonance.
+  // Remove the damped modes from the direct response, which contains them only by round-off near
+  // resonance.
   if (participation_.size() > 0) {
     const VectorXcd image = system_.M * q;
     q -= modes_.shape * (modes_.shape.transpose() * image);
@@ -175,7 +177,8 @@ HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequen
   result.resultant_start.resize(members, 3);
   result.resultant_end.resize(members, 3);
   result.member_stress.setZero(members);
-  // Backward, so that the first element of a member comes last.
+  // Loop backward: the first element of a member comes last and therefore sets the forces at its
+  // start.
   for (Index i = size.rows(); i-- > 0;) {
     const FrameElement& e = system_.mesh.frame[static_cast<std::size_t>(i)];
     const bool last = i + 1 == size.rows() ||
@@ -219,8 +222,8 @@ HarmonicPeak harmonic_peak(const HarmonicSolver& response, double low, double hi
       best = i;
     }
   }
-  // Use the nearest bracket with lower values on both sides, because there may be several peaks
-  // between two scan points.
+  // Bracket the peak by the nearest scan points with lower values on both sides, because there may
+  // be several peaks between two scan points.
   const double first = places[best > 0 ? best - 1 : 0],
                last = places[std::min(best + 1, places.size() - 1)];
   const auto below = [&](double by) { return std::max(first, peak.frequency - by); };
@@ -232,7 +235,8 @@ HarmonicPeak harmonic_peak(const HarmonicSolver& response, double low, double hi
   while (!is_lower(below(width)) || !is_lower(above(width))) width *= 4;
   constexpr int kBits = 26;  // half the bits of a double, because a maximum is flat
   std::uintmax_t evaluations = 100;
-  // Use the fraction of the interval as variable, because the tolerance has an absolute part.
+  // Use the fraction of the interval as variable of the search, because its tolerance has an
+  // absolute part.
   const double start = below(width), interval = above(width) - start;
   const auto [share, negative] = boost::math::tools::brent_find_minima(
       [&](double s) { return -size(start + s * interval); }, 0.0, 1.0, kBits, evaluations);

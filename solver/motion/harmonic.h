@@ -23,7 +23,7 @@ struct HarmonicAmplitudes {
   Eigen::MatrixX3d displacement;     ///< model node x (ux, uy [m], rotation [rad])
   Eigen::MatrixX3d resultant_start;  ///< member x (N [N], V [N], M [N m])
   Eigen::MatrixX3d resultant_end;
-  Eigen::VectorXd member_stress;  ///< largest |N / A +- M / W| at the ends of the elements [Pa]
+  Eigen::VectorXd member_stress;  ///< largest |N / A +- M / W| at the ends of elements [Pa]
 };
 
 /// Steady response q(t) = Re(q e^{i w t}) to the loads of the model, except weight, that vary as
@@ -31,8 +31,8 @@ struct HarmonicAmplitudes {
 ///
 ///   (K + i w C - w^2 M) q = f.
 ///
-/// Modes with a damping ratio and rigid modes are superposed. The remaining load is solved for
-/// directly, so that no mode is truncated.
+/// Modes with a damping ratio and rigid modes are superposed. The equation is solved directly for
+/// the remaining load, so that no mode is truncated.
 class HarmonicSolver {
  public:
   /// Computes the required modes.
@@ -57,8 +57,8 @@ class HarmonicSolver {
   [[nodiscard]] double backward_error(const Eigen::VectorXcd& q, double frequency) const;
 
   /// Returns amplitudes over a cycle. Section forces follow from the strains. They balance inertia,
-  /// mass-proportional damping and loads, times 1 / (1 + i w stiffness). Inextensible members have
-  /// the forces that extensible members have in the limit.
+  /// mass-proportional damping and loads, times 1 / (1 + i w stiffness). The forces of inextensible
+  /// members are the limit of those of extensible members with increasing stiffness.
   /// @param q  response at `frequency`.
   /// @param frequency  [Hz].
   [[nodiscard]] HarmonicAmplitudes amplitudes(const Eigen::VectorXcd& q, double frequency) const;
@@ -71,7 +71,7 @@ class HarmonicSolver {
   [[nodiscard]] Eigen::VectorXcd acceleration(const Eigen::VectorXcd& q, double omega) const;
 
   /// Computes the modes with a damping ratio, and the rigid modes of an unsupported model.
-  void superpose(Index damped);
+  void compute_modes(Index damped);
 
   const System& system_;
   ViscousDamping damping_;
@@ -80,7 +80,7 @@ class HarmonicSolver {
   Eigen::VectorXd participation_;      // Phi^T f
   Eigen::VectorXd unsuperposed_load_;  // f - M Phi Phi^T f
   Outcome outcome_;
-  bool held_ = true;  // false: the model has zero-energy modes
+  bool held_ = true;  // false: the model has zero-energy modes (unsupported or a mechanism)
   mutable Counters counters_;
 };
 

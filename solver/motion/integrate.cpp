@@ -18,8 +18,8 @@ struct Stop {
 /// Returns the sample times, breakpoints after the start, and the end, in ascending order.
 std::vector<Stop> stops_of(const TransientOptions& options, const std::vector<double>& samples,
                            const std::vector<double>& breakpoints) {
-  // Round-off error of a time that is a multiple of a step. Breakpoints with a larger distance are
-  // integrated separately, even for a short pulse.
+  // Round-off error of a time that is a multiple of a step. Breakpoints that are further apart have
+  // separate stops, even for a short pulse.
   const double apart = 8 * kEps * std::max(std::abs(options.start), std::abs(options.end));
   std::vector<Stop> stops;
   for (const double time : samples) stops.push_back({time, true, false});
@@ -46,7 +46,8 @@ std::vector<Stop> stops_of(const TransientOptions& options, const std::vector<do
   return stops;
 }
 
-/// Returns the least number of equal steps until a stop that do not exceed the requested step.
+/// Returns the least number of equal steps until a stop, such that no step exceeds the requested
+/// step.
 double equal_steps(double span, double step, int multiple = 1) {
   return multiple * std::max(1.0, std::ceil(span / (multiple * step) * (1 - 1e-9)));
 }
@@ -78,9 +79,9 @@ class HalvedSteps {
     done_ /= 2;
     count_ /= 2;
   }
-  /// Halves the step. @returns null, or the reason of a failure
+  /// Halves the step. @returns null, or the reason of a failure.
   [[nodiscard]] const char* reject(const Step& /*step*/, const StepReport& report) {
-    if (report.status != Status::solved) return "the step failed";
+    if (report.status != Status::solved) return "no solution of the step was found";
     if (++level_ > options_.adaptive->finest_level) return "the step size is at its minimum";
     size_ /= 2;
     done_ *= 2;
@@ -95,7 +96,8 @@ class HalvedSteps {
   int level_ = 0;
 };
 
-/// Steps according to the error. Smaller and larger steps are tried if a step does not converge.
+/// Step sizes that follow from the estimated error. Smaller and larger steps are tried if a step
+/// does not converge.
 class FreeSteps {
  public:
   static constexpr double kErrorLimit = 1.5;
@@ -108,7 +110,7 @@ class FreeSteps {
     failures_ = 0;
     failed_size_ = 0;
   }
-  /// Returns equal steps until a sample time, which avoids a tiny last step.
+  /// Returns the next step. The steps until a sample time are equal, which avoids a tiny last step.
   [[nodiscard]] Step next(double time) const {
     const double remaining = stop_ - time;
     const double allowed = failures_ > 0 ? size_ : std::min(size_, longest_);
@@ -130,7 +132,7 @@ class FreeSteps {
     size_ = std::clamp(wanted, 0.3 * step.size, std::max(1.8 * step.size, size_));
   }
   [[nodiscard]] const char* reject(const Step& step, const StepReport& report) {
-    if (++failures_ > 30) return "no step converges";
+    if (++failures_ > 30) return "30 attempts with different step sizes did not converge";
     if (report.status != Status::solved) {
       size_ = retry(step.size);
     } else if (report.leaves_branch) {
@@ -139,12 +141,13 @@ class FreeSteps {
       size_ = step.size * std::clamp(0.85 / std::cbrt(report.error), 0.2, 0.8);
     }
     if (size_ >= 1e-7 * options_.step || step.last) return nullptr;
-    return "the step has become smaller than 1e-7 of the requested one";
+    return "the step size is below 1e-7 of the requested step";
   }
 
  private:
-  /// Returns a new size after a step that does not converge. Smaller and larger sizes alternate. A
-  /// singular position may lie within the step, beyond which the equations are regular again.
+  /// Returns a new size after a step that does not converge. Smaller and larger sizes alternate,
+  /// because a singular position may lie within the step. The equations are regular again beyond
+  /// it.
   double retry(double size) {
     if (failed_size_ == 0) failed_size_ = size;
     const double smaller = failed_size_ * std::pow(0.5, (failures_ + 1) / 2);
@@ -183,7 +186,7 @@ class TimeIntegration {
 
  private:
   /// Sets the limit of the number of steps. With fixed steps it is 1000 plus ten times the
-  /// requested number. Failing steps are made ever smaller, and the limit ends such runs.
+  /// requested number. Failing steps become smaller and smaller, and the limit ends such runs.
   void set_step_limit(Index stops) {
     max_steps_ = options_.max_steps;
     if (options_.adaptive) return;
@@ -192,7 +195,7 @@ class TimeIntegration {
     const double limit = 1000 + 10 * steps;
     if (limit >= static_cast<double>(max_steps_)) return;
     max_steps_ = static_cast<std::int64_t>(limit);
-    limit_reason_ = "too many steps failed: the limit is ten times the requested number";
+    limit_reason_ = "too many steps failed: the limit is ten times the requested number of steps";
   }
 
   bool advance(double stop) {
@@ -255,7 +258,7 @@ class TimeIntegration {
   StepReport report_;  ///< report of the last attempt
   double time_, next_look_;
   std::int64_t max_steps_ = 0;
-  const char* limit_reason_ = "too many steps";
+  const char* limit_reason_ = "the limit of the number of steps (max_steps) was reached";
 };
 
 }  // namespace

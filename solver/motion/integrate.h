@@ -16,9 +16,9 @@ namespace trammel::solver {
 
 /// Error control. In linear systems the sum of the estimated errors of all steps stays below
 /// relative * size + absolute [m sqrt(kg)]. The allowed error is distributed evenly in time, so
-/// that the global error is proportional to the tolerance. The size is the largest sqrt(q^T M q) so
-/// far. Before there is a motion, it is an estimate from the load. In geometrically exact systems,
-/// `relative` bounds the error of each step relative to the model size.
+/// that the global error is proportional to the tolerance. `size` is the largest sqrt(q^T M q)
+/// since the start. Before there is a motion, it is an estimate from the load. In geometrically
+/// exact systems, `relative` bounds the error of each step relative to the model size.
 struct ErrorControl {
   double relative = 1e-4;
   double absolute = 0;
@@ -30,15 +30,15 @@ struct TransientOptions {
   double start = 0;  ///< [s]
   double end = 0;    ///< > start [s]
   /// Step [s]. With error control it is the largest step of a linear system and the first step of a
-  /// geometrically exact system. It is shortened so that the time between stops is a multiple of
-  /// the step.
+  /// geometrically exact system. It is shortened so that the time between two stops is a multiple
+  /// of the step. Stops are breakpoints and, for geometrically exact systems, sample times.
   double step = 0;
   TimeScheme scheme = average_acceleration();
   std::optional<ErrorControl> adaptive;  ///< empty: fixed steps
   /// Sample times, ascending, within [start, end] [s]; empty: every step. Steps of geometrically
   /// exact systems end at each sample time. Linear motions are interpolated.
   std::vector<double> sample_times;
-  /// True: start from K q = f - C v with its velocity; false: from q0, v0.
+  /// True: start from the solution of K q = f - C v and its velocity v; false: start from q0, v0.
   bool quasi_static_start = false;
   Eigen::VectorXd q0, v0;  ///< empty: zero
 
@@ -105,7 +105,7 @@ class Stepper {
   virtual void accept(const Step& step, bool inspect, Evidence& evidence) = 0;
   /// Prepares for discontinuous accelerations after a breakpoint.
   virtual void restart() {}
-  /// Outputs the state at the start and at a sample time.
+  /// Outputs the last accepted state, at the start and at a sample time.
   virtual void show() {}
   /// Describes the last attempt in words, for the reason of a failure.
   [[nodiscard]] virtual std::string describe(const StepReport& report) const = 0;

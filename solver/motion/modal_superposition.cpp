@@ -20,7 +20,7 @@ struct Factor {
   VectorXd value, slope;
 };
 
-/// Visits the intervals between the samples and the times of the load.
+/// Visits the time intervals between all samples and load times in ascending order.
 /// @param load  loads and factors.
 /// @param times  sample times, ascending [s].
 /// @param sample  called with (index of the sample, factors after it).
@@ -51,7 +51,7 @@ ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
   const Eigen::MatrixXd mass = M;
   const Eigen::MatrixXd stiffness = K;
   const double trace = mass.trace();
-  if (!(trace > 0)) throw ModelError("a model without mass has no modes");
+  if (!(trace > 0)) throw ModelError("a model without mass has no vibration modes");
   // Solve M x = mu (K + s M) x with a shift far below most of the spectrum: mu = 1 / (w^2 + s).
   const double shift = 1e-4 * stiffness.trace() / trace;
   const double positive = shift > 0 ? shift : 1;
@@ -78,7 +78,7 @@ ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K) {
     basis.shape.col(i) = x / std::sqrt(modal_mass);
     basis.omega[i] = x.dot(stiffness * x) / modal_mass;
   }
-  // Values within the round-off error of the stiffest mode are treated as zero.
+  // Eigenvalues within the round-off error of the stiffest mode are treated as zero.
   const double zero = count == 0 ? 0 : 1e-15 * basis.omega.cwiseAbs().maxCoeff();
   for (double& w2 : basis.omega) w2 = w2 > zero ? std::sqrt(w2) : 0;
   return basis;
@@ -125,9 +125,9 @@ ModalResponse superpose(const ModalBasis& basis, const VectorXd& decay, const Sp
   return {basis.shape * y, basis.shape * v, basis.shape * a};
 }
 
-FollowedFactors followed_factors(const PiecewiseLinearLoad& load, double relaxation,
-                                 const VectorXd& start, const std::vector<double>& times) {
-  FollowedFactors found;
+DelayedFactors delayed_factors(const PiecewiseLinearLoad& load, double relaxation,
+                               const VectorXd& start, const std::vector<double>& times) {
+  DelayedFactors found;
   const auto columns = static_cast<Index>(times.size());
   for (Eigen::MatrixXd* m : {&found.value, &found.rate, &found.acceleration})
     m->setZero(load.factor.rows(), columns);
@@ -141,7 +141,7 @@ FollowedFactors followed_factors(const PiecewiseLinearLoad& load, double relaxat
     found.value.col(column) = settled + away;
     found.rate.col(column) = factor.slope;
     if (relaxation == 0) return;
-    // Use the differential equation, because it is free of round-off for coordinates at rest.
+    // Use the differential equation, because it has no round-off error for coordinates at rest.
     found.rate.col(column) = (factor.value - found.value.col(column)) / relaxation;
     found.acceleration.col(column) = (factor.slope - found.rate.col(column)) / relaxation;
   };
@@ -173,8 +173,8 @@ void add_massless_coordinates(const ModalBasis& basis, const SparseMatrix& M, co
     for (Index i = 0; i < rest.cols(); ++i)
       held.col(i) = beside_modes(factorization.solve(rest.col(i)));
     counters.solves += rest.cols();
-    const FollowedFactors followed =
-        followed_factors(load, relaxation, VectorXd::Zero(rest.cols()), times);
+    const DelayedFactors followed =
+        delayed_factors(load, relaxation, VectorXd::Zero(rest.cols()), times);
     response.q += held * followed.value;
     response.v += held * followed.rate;
     response.a += held * followed.acceleration;
@@ -215,7 +215,7 @@ ImpulseResponse by_series(double omega, double decay, double t) {
   return r;
 }
 
-/// Integrals int_0^t exp(-rate s) ds and its integral.
+/// Decay e^(-rate t): its integral over [0, t], and the integral of this integral.
 struct Decay {
   double once, twice;
 };
@@ -236,7 +236,7 @@ Decay integrate_decay(double rate, double t) {
   return {once, (t - once) / rate};
 }
 
-/// Evaluates the two decays separately, for roots that are far apart.
+/// Evaluates both real decay rates separately, for roots that are far apart.
 ImpulseResponse by_decays(double omega, double decay, double root, double t) {
   const double fast = decay + root;
   const double slow = omega * omega / fast;
@@ -316,8 +316,8 @@ VectorXd RegularizedMass::solve(const VectorXd& f) const {
 LateStrain::LateStrain(const System& system)
     : system_(system), mass_(system), weight_(system.T.transpose() * system.weight) {}
 
-void LateStrain::put(const VectorXd& q, const Eigen::Vector2d& factors,
-                     ElasticState& elastic) const {
+void LateStrain::set_loads(const VectorXd& q, const Eigen::Vector2d& factors,
+                           ElasticState& elastic) const {
   const VectorXd loads = factors[0] * (system_.f - weight_) + factors[1] * weight_;
   elastic.acceleration = system_.T * mass_.solve(loads - system_.K * q);
   elastic.load_factor = factors[0];

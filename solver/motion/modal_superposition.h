@@ -22,7 +22,8 @@ struct ModalBasis {
 };
 
 /// Computes all modes of finite frequency by dense algebra of order n^3, for small models only.
-/// Massless coordinates follow statically and have no mode. M is not factored.
+/// Massless coordinates follow the other coordinates statically and have no mode. M is not
+/// factored.
 /// @throws ModelError  if the model has no mass.
 [[nodiscard]] ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K);
 
@@ -45,9 +46,9 @@ struct ModalResponse {
                                       const std::vector<double>& times, const Eigen::VectorXd& q0,
                                       const Eigen::VectorXd& v0);
 
-/// Solution y of relaxation y' + y = factor for each load. y follows the factor with a delay, or at
-/// once without relaxation.
-struct FollowedFactors {
+/// Solution y of relaxation y' + y = factor for each load. With a relaxation time, y follows the
+/// factor with a delay. Without it, y equals the factor.
+struct DelayedFactors {
   Eigen::MatrixXd value, rate, acceleration;  ///< load x time [-], [1/s], [1/s^2]
 };
 
@@ -56,9 +57,9 @@ struct FollowedFactors {
 /// @param relaxation  relaxation time [s]; 0: y follows at once, with the value after a jump.
 /// @param start  y at times.front(), used with relaxation > 0.
 /// @param times  ascending [s].
-[[nodiscard]] FollowedFactors followed_factors(const PiecewiseLinearLoad& load, double relaxation,
-                                               const Eigen::VectorXd& start,
-                                               const std::vector<double>& times);
+[[nodiscard]] DelayedFactors delayed_factors(const PiecewiseLinearLoad& load, double relaxation,
+                                             const Eigen::VectorXd& start,
+                                             const std::vector<double>& times);
 
 /// Adds the response of massless coordinates that no mode contains, x with M x = 0:
 ///
@@ -110,14 +111,14 @@ struct OscillatorState {
   double v = 0;  ///< y' [SI/s]
 };
 
-/// Returns the state after the time of `response`, under the load p0 at the start that grows by p1
-/// per second.
+/// Returns the state of an oscillator after the time of `response`, under the load p0 at the start
+/// that grows by p1 per second.
 [[nodiscard]] OscillatorState advance(const ImpulseResponse& response, double omega,
                                       const OscillatorState& start, double p0, double p1);
 
 /// Solves M a = f on the free coordinates if M may be singular. A small multiple of K is added to
-/// M. Refinement removes its effect on coordinates with mass. Massless coordinates then have the
-/// least strain energy.
+/// M. Iterative refinement removes its effect on coordinates with mass. Massless coordinates get
+/// the acceleration with the least strain energy.
 class RegularizedMass {
  public:
   /// @pre `system` outlives this object.
@@ -129,9 +130,9 @@ class RegularizedMass {
   Factorization regular_;
 };
 
-/// Forces that balance the strains of a motion with stiffness-proportional damping. The damping in
-/// K (q + t q') delays the strains relative to loads and inertia. With x + t x' = loads and
-/// accelerations, the balance is
+/// Loads and accelerations that balance the strains of a motion with stiffness-proportional
+/// damping. The damping in K (q + t q') delays the strains relative to loads and inertia. With x +
+/// t x' = loads and accelerations, the balance is
 ///
 ///   K q = x of the loads - M x of the accelerations.
 class LateStrain {
@@ -140,9 +141,10 @@ class LateStrain {
   explicit LateStrain(const System& system);
   /// Writes the loads and accelerations that balance K q into `elastic`.
   /// @param q  free coordinates.
-  /// @param factors  delayed factors of loads and of weight (`followed_factors`).
+  /// @param factors  delayed factors of loads and of weight (`delayed_factors`).
   /// @param elastic  receives load factors and accelerations.
-  void put(const Eigen::VectorXd& q, const Eigen::Vector2d& factors, ElasticState& elastic) const;
+  void set_loads(const Eigen::VectorXd& q, const Eigen::Vector2d& factors,
+                 ElasticState& elastic) const;
 
  private:
   const System& system_;

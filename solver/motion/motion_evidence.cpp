@@ -26,7 +26,7 @@ void MotionEvidence::find_scale(double step) {
 
 void MotionEvidence::set_sizes(const VectorXd& x) {
   const double largest = x.size() ? x.cwiseProduct(scale_).lpNorm<Eigen::Infinity>() : 0;
-  size_ = x.cwiseAbs().cwiseMax((kLeastShare * largest) * scale_.cwiseInverse());
+  size_ = x.cwiseAbs().cwiseMax((kLeastFraction * largest) * scale_.cwiseInverse());
   size_.array() += kUnderflow;
 }
 
@@ -42,13 +42,13 @@ void MotionEvidence::add_equilibrium(double time, double load_time, const Vector
   matrices_.update(time);
   if (scale_.size() == 0) find_scale(step);
   sum_ = -f_;
-  // Moments of a load that cancel leave their round-off error.
+  // Moments of a load may cancel except for their round-off error.
   const double load = f_.size() ? f_.cwiseQuotient(scale_).lpNorm<Eigen::Infinity>() : 0;
-  terms_ = f_.cwiseAbs().cwiseMax((kLeastShare * load) * scale_);
+  terms_ = f_.cwiseAbs().cwiseMax((kLeastFraction * load) * scale_);
   add_product(matrices_.M(), A);
   add_product(matrices_.C(), v);
   add_product(matrices_.K(), q);
-  evidence_.add(Residual::equation_of_motion, largest_ratio(sum_, terms_));
+  evidence_.add(Residual::equation_of_motion, row_backward_error(sum_, terms_));
 }
 
 void MotionEvidence::add_relations(const TransientState& from, const TransientState& to, double h) {

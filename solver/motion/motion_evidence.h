@@ -11,7 +11,7 @@
 namespace trammel::solver {
 
 /// Magnitude below which motions are treated as zero, because underflow removes their digits.
-/// Numerical damping leads to such motions.
+/// Numerical damping reduces motions to such values.
 inline constexpr double kUnderflow = std::numeric_limits<double>::min() / kEps;
 
 /// Residuals of a motion, computed step by step with separate matrices and loads.
@@ -35,8 +35,8 @@ class MotionEvidence {
   explicit MotionEvidence(const EquationOfMotion& equation, const TimeScheme& scheme = {});
 
   /// Adds the largest |M A + C v + K q - f| relative to its terms, row by row. Each coordinate
-  /// counts with at least `kLeastShare` of the largest, after scaling by the diagonal of M + step^2
-  /// K. A row in which only round-off moves could otherwise not be judged.
+  /// counts with at least `kLeastFraction` of the largest, after scaling by the diagonal of M +
+  /// step^2 K. Otherwise there would be no scale for rows whose motions are only round-off errors.
   void add_equilibrium(double time, double load_time, const Eigen::VectorXd& q,
                        const Eigen::VectorXd& v, const Eigen::VectorXd& A, double step);
   /// Adds the residuals of the relations of the scheme between two states.
@@ -46,8 +46,8 @@ class MotionEvidence {
   /// @param to  state at the end.
   /// @param h  step [s].
   void add_energy(const TransientState& from, const TransientState& to, double h);
-  /// Starts a segment with unbalanced forces. They do work in the first step, because massless
-  /// coordinates have no acceleration to balance them.
+  /// Starts a segment in which the given forces are not balanced at the start. They do work in the
+  /// first step, because massless coordinates have no acceleration to balance them.
   void begin_segment(const Eigen::VectorXd& unbalanced) { unbalanced_ = unbalanced; }
 
   /// Returns all residuals.

@@ -25,7 +25,7 @@ VectorXd unit_rotation(const System& system, const Vector2d& center) {
   return rotation;
 }
 
-/// Computes K_1 by statics under the centrifugal forces at 1 rad/s.
+/// Computes K_1, the geometric stiffness of the centrifugal forces at 1 rad/s, by linear statics.
 Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseMatrix& K_1) {
   if (Outcome determined = require_determined_stiffening(system); !determined.solved())
     return determined;
@@ -34,13 +34,13 @@ Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseM
   Factorization factorization;
   factorization.compute(system.K);
   Counters counters;
-  if (Outcome held = require_held(system, factorization, counters); !held.solved()) {
-    held.reason = "nothing holds the centrifugal forces that cause the stiffening: " + held.reason;
+  if (Outcome held = require_no_mechanism(system, factorization, counters); !held.solved()) {
+    held.reason = "the centrifugal forces have no static equilibrium: " + held.reason;
     return held;
   }
   const VectorXd u = system.T * factorization.solve(on_q);
   const BodyForces body = body_forces(system, unit, VectorXd::Zero(u.size()));
-  K_1 = geometric_stiffness(system, forces_of(system, u, force, body));
+  K_1 = geometric_stiffness(system, prestress_of(system, u, force, body));
   return {};
 }
 
@@ -49,7 +49,7 @@ Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseM
 Outcome add_rotating_frame_terms(const System& system, const PrescribedRotation& rotation,
                                  EquationOfMotion& equation) {
   if (!system.load.isZero(0)) {
-    throw ModelError("expected a model without loads: they would not turn with the axes");
+    throw ModelError("a model with loads is not supported: loads would not turn with the axes");
   }
   const RotatingFrame unit{1, rotation.center, RotationAxis::normal};
   SparseMatrix K_1(system.K.rows(), system.K.cols());
@@ -61,7 +61,8 @@ Outcome add_rotating_frame_terms(const System& system, const PrescribedRotation&
   const SparseMatrix added = K_1 - centrifugal_softening(system);
   SparseMatrix C = equation.C;
   if (C.size() == 0) C.resize(system.K.rows(), system.K.cols());
-  // Create a common pattern. A sum keeps all positions of its terms, including zeros.
+  // Create a common pattern. A sum keeps the positions of all entries of its terms, including
+  // zeros.
   SparseMatrix zero = system.M + system.K + C + G + added;
   zero.coeffs().setZero();
   const auto values = [&zero](const SparseMatrix& A) {

@@ -38,8 +38,9 @@ struct TimeScheme {
   [[nodiscard]] double velocity_gain() const { return gamma * gain(); }
   /// Returns the change of q / h^2 per unit change of a1.
   [[nodiscard]] double position_gain() const { return beta * gain(); }
-  /// Returns c of the local error c h^2 (A1 - A0) of a position (Zienkiewicz & Xie 1991). The error
-  /// of v remains if this error vanishes. The result is therefore at least 1/12.
+  /// Returns the constant c of the local error c h^2 (A1 - A0) of a position (Zienkiewicz & Xie
+  /// 1991). The error of v remains even if this error is zero. The result is therefore at least
+  /// 1/12.
   [[nodiscard]] double error_constant() const {
     return std::max(1.0 / 12, std::abs(beta + (alpha_m - alpha_f) / 2 - 1.0 / 6));
   }
@@ -64,8 +65,8 @@ struct TimeScheme {
 /// @throws ModelError  if the radius is outside this range.
 [[nodiscard]] TimeScheme generalized_alpha(double radius);
 
-/// Returns the largest growth factor of a free undamped motion in a step of w h = `phase_step`. The
-/// scheme is unstable if it exceeds 1.
+/// Returns the spectral radius of a step with w h = `phase_step`: the largest factor by which a
+/// free undamped motion grows. The scheme is unstable if it exceeds 1.
 [[nodiscard]] double spectral_radius(const TimeScheme& scheme, double phase_step);
 
 /// Returns the largest w h for which an undamped motion stays bounded, or infinity if any step is
@@ -93,7 +94,7 @@ void correct(const TimeScheme& s, double h, const Correction& correction, State&
   to.v += (s.velocity_gain() * h) * correction;
 }
 
-/// Converts A from the time to which it belongs with the old step to that with the new step.
+/// Converts A, which belongs to a time that depends on the step, from the old step to the new step.
 /// @param ratio  new step / old step.
 /// @param a  acceleration of the equation of motion.
 /// @param A  acceleration of the scheme, changed in place.
@@ -101,8 +102,9 @@ inline void change_step(double ratio, const Eigen::VectorXd& a, Eigen::VectorXd&
   A = a + ratio * (A - a);
 }
 
-/// Returns the largest difference between the two sides of a relation, relative to the sum of its
-/// terms [-].
+/// Returns the largest difference between the two sides of the relations between q, v, a and A,
+/// relative to the sum of the terms of each relation [-].
+/// @param positions  false: omit the relation of positions, which constraints modify.
 /// @param s  time scheme.
 /// @param h  step [s].
 /// @param from  state at the start.
@@ -117,7 +119,7 @@ double relation_residual(const TimeScheme& s, double h, const State& from,
                          const Eigen::VectorXd& A0, const State& to, const Eigen::VectorXd& A1,
                          bool positions, const Norm& norm, Eigen::VectorXd& defect) {
   // A body that stops moving has accelerations dominated by the round-off error of its positions
-  // over beta h^2. Terms with a larger share of round-off than this limit are dominated by
+  // over beta h^2. Terms with a larger fraction of round-off than this limit are dominated by
   // round-off. The limit is a tenth of the residual limit.
   constexpr double kRoundoffShare = 1e-5;
   const double roundoff = kEps * (norm(from.q) + norm(to.q)) / (std::max(s.beta, 1.0 / 12) * h * h);

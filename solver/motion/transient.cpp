@@ -32,21 +32,21 @@ void check(const EquationOfMotion& e, const TransientOptions& o) {
   const Index n = e.M.rows();
   const auto missing_or_sized = [n](const VectorXd& x) { return x.size() == 0 || x.size() == n; };
   if (!missing_or_sized(o.q0) || !missing_or_sized(o.v0)) {
-    throw ModelError("the initial state must have the size of the equation of motion");
+    throw ModelError("the initial state must have one entry per row of the equation of motion");
   }
   if (!(std::isfinite(o.start) && std::isfinite(o.end) && o.end > o.start)) {
-    throw ModelError("a motion must end after its start");
+    throw ModelError("the end of a motion must be later than its start");
   }
   if (!(std::isfinite(o.step) && o.step > 0)) throw ModelError("the time step must be positive");
   if (!std::is_sorted(o.sample_times.begin(), o.sample_times.end()) ||
       (!o.sample_times.empty() &&
        !(o.sample_times.front() >= o.start && o.sample_times.back() <= o.end))) {
-    throw ModelError("sample times must ascend within the time of the motion");
+    throw ModelError("sample times must be ascending and lie between start and end of the motion");
   }
   if (o.adaptive && !(o.adaptive->relative >= 0 && o.adaptive->absolute >= 0 &&
                       o.adaptive->relative + o.adaptive->absolute > 0 &&
                       o.adaptive->finest_level >= 0 && o.adaptive->finest_level <= 40)) {
-    throw ModelError("error control needs a positive tolerance and at most 40 levels");
+    throw ModelError("error control requires a positive tolerance and at most 40 step levels");
   }
 }
 
@@ -75,7 +75,7 @@ class SampleOutput {
       emit(state.time, state.q, state.v, state.a, state.shown);
     } while (next_ < times_.size() && times_[next_] == state.time);
   }
-  /// Returns true if a step with this end contains a sample.
+  /// Returns true if a step that ends at this time contains a sample.
   [[nodiscard]] bool covers(double end) const {
     return times_.empty() || (next_ < times_.size() && times_[next_] <= end);
   }
@@ -96,7 +96,8 @@ class SampleOutput {
 };
 
 void SampleOutput::step(const TransientState& begin, const TransientState& end, double h) {
-  // Step ends are sums of steps. A sample within round-off of a step end is not inside the step.
+  // A step end is a sum of steps. A sample within the round-off error of a step end is not inside
+  // the step.
   constexpr double kEndOfStep = 1e-6;
   if (times_.empty()) {
     emit(end.time, end.q, end.v, end.a, end.shown);
@@ -121,8 +122,8 @@ void SampleOutput::step(const TransientState& begin, const TransientState& end, 
   if (inside) observe_({-1, end.time, end.q, end.v, end.a, end.shown});
 }
 
-/// Stepper of M q'' + C q' + K q = f. Its tangent is constant or known at each time. Factorizations
-/// of constant matrices are kept for each step size.
+/// Stepper of the linear equation M q'' + C q' + K q = f. The matrices are constant or known
+/// functions of time. Factorizations of constant matrices are kept for each step size.
 class LinearStepper final : public Stepper {
  public:
   LinearStepper(const EquationOfMotion& equation, const TransientOptions& options,
@@ -160,11 +161,11 @@ class LinearStepper final : public Stepper {
   [[nodiscard]] std::string describe(const StepReport& report) const override {
     std::ostringstream text;
     if (report.status == Status::singular) {
-      text << "where M + C h + K h^2 is singular";
+      text << "where the matrix M + C h + K h^2 is singular";
     } else if (report.status == Status::not_converged) {
-      text << "where the residual is " << report.residual << " of the terms of the equation";
+      text << "where the residual is " << report.residual << " times the terms of the equation";
     } else {
-      text << "whose estimated error is " << report.error << " times the allowed one";
+      text << "whose estimated error is " << report.error << " times the allowed error";
     }
     return text.str();
   }
@@ -178,7 +179,8 @@ class LinearStepper final : public Stepper {
   double judge_residual(StepReport& report, double& allowed) const;
   [[nodiscard]] double error_ratio(double h);
   void update_energies(double load_time);
-  /// Returns the left limit at a jump; see EquationOfMotion::load.
+  /// Returns the time of the left limit if the load jumps at the end of the step; see
+  /// EquationOfMotion::load.
   [[nodiscard]] double load_time(const Step& step) const {
     return step.last ? std::nextafter(step.end, now_->time) : step.end;
   }
@@ -192,10 +194,10 @@ class LinearStepper final : public Stepper {
   TransientState *now_ = &states_[0], *next_ = &states_[1];
   VectorXd residual_, correction_;  // work vectors
   std::unique_ptr<SparseLdlt> mass_factor_;
-  SparseLdlt* start_factor_ = nullptr;  // of M, or of the first step if M is singular
+  SparseLdlt* start_factor_ = nullptr;  // of M, or of the first step's matrix if M is singular
   bool mass_is_singular_ = false;
   MasslessCoordinates massless_;
-  bool massless_balance_ = false;  // massless coordinates follow the others in the output states
+  bool massless_balance_ = false;  // output states: massless coordinates are in equilibrium
   std::array<TransientState, 2> shown_{TransientState(0), TransientState(0)};
   std::vector<std::pair<double, std::unique_ptr<SparseLdlt>>> factors_;  // one step size per level
   double largest_ = 0, largest_residual_ = 0;
@@ -236,10 +238,10 @@ Outcome LinearStepper::begin(const Step& first, double stop) {
   if (is_start || !matrices_.constant()) {
     ++counters_.factorizations;
     mass_is_singular_ = !mass_factor_->factorize(matrices_.M()) ||
-                        mass_factor_->smallest_to_largest_pivot() < kSingularMass;
+                        mass_factor_->smallest_pivot_to_diagonal() < kSingularMass;
   }
   start_factor_ = mass_is_singular_ ? step_factor(first) : mass_factor_.get();
-  if (!start_factor_) return {Status::singular, "M + C h + K h^2 is singular"};
+  if (!start_factor_) return {Status::singular, "the matrix M + C h + K h^2 is singular"};
   massless_balance_ =
       mass_is_singular_ && matrices_.constant() && massless_.factor(matrices_, h, counters_);
   if (massless_balance_) {
@@ -267,8 +269,8 @@ Outcome LinearStepper::begin(const Step& first, double stop) {
   return {};
 }
 
-/// Moves massless coordinates after a jump of the load. They move at once, and work that is not
-/// stored as strain energy is dissipated.
+/// Moves massless coordinates to their new equilibrium after a jump of the load. They move
+/// instantly. The work that is not stored as strain energy is dissipated.
 void LinearStepper::settle_massless(double h) {
   correction_ = now_->q;
   matrices_.load(now_->time + h / 2, next_->f);
@@ -282,10 +284,11 @@ void LinearStepper::settle_massless(double h) {
   now_->energy.strain = strain;
 }
 
-/// Estimates the size of the motion from the load of a segment. The error control needs a size
-/// before there is any motion. x = M^-1 f is assumed to move as an oscillator with its Rayleigh
-/// quotient. The frequency has a lower limit from the total time, which covers free bodies. The
-/// estimate is the static displacement, or the distance at the speed gained in a shorter segment.
+/// Estimates the amplitude of the motion from the load of a segment, because the error control
+/// requires an amplitude before there is any motion. x = M^-1 f is assumed to move as an oscillator
+/// with its Rayleigh quotient. The frequency has a lower limit from the total time, which covers
+/// free bodies. The estimate is the static displacement or, in a shorter segment, the distance
+/// covered at the speed that the load causes.
 void LinearStepper::estimate_size_from_load(double begin, double end) {
   constexpr int kPoints = 8;
   const double time = options_.end - options_.start;
@@ -305,7 +308,7 @@ void LinearStepper::estimate_size_from_load(double begin, double end) {
   }
 }
 
-/// Returns the factors of M + gamma' h C + beta' h^2 K, or null if it is singular.
+/// Returns the factors of the step matrix M + gamma' h C + beta' h^2 K, or null if it is singular.
 SparseLdlt* LinearStepper::step_factor(const Step& step) {
   const auto index = matrices_.constant() ? static_cast<std::size_t>(step.level) : 0;
   if (factors_.size() <= index) factors_.resize(index + 1);

@@ -15,14 +15,14 @@ namespace trammel::solver {
 struct MotionEnergy {
   double kinetic = 0;     ///< v^T M v / 2
   double strain = 0;      ///< q^T K q / 2
-  double work = 0;        ///< of the load, by the trapezoidal rule over each step
-  double dissipated = 0;  ///< by C, by the same rule; for a working motion by its drag on its u
+  double work = 0;        ///< work of the load, by the trapezoidal rule over each step
+  double dissipated = 0;  ///< by C, by the same rule; for a working motion: by `drag` on its `u`
   [[nodiscard]] double total() const { return kinetic + strain - work + dissipated; }
 };
 
 /// Motion at a sample time. Between the ends of a step, q and v are cubic Hermite polynomials, and
 /// a and the energies are linear. After samples inside a step, the end of the step is also output,
-/// where the equation holds.
+/// because the equation of motion is satisfied there.
 struct MotionSample {
   Index index = 0;             ///< -1: end of a step that is no sample
   double time = 0;             ///< [s]
@@ -30,7 +30,7 @@ struct MotionSample {
   const Eigen::VectorXd& v;    ///< q' [SI/s]
   const Eigen::VectorXd& a;    ///< q'' [SI/s^2]
   const MotionEnergy& energy;  ///< [J]
-  /// True: inside a step; the equation holds up to the error of the steps.
+  /// True: inside a step; the error of the equation of motion includes that of the interpolation.
   bool interpolated = false;
 };
 /// Receives the samples of a motion.

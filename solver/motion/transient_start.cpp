@@ -31,7 +31,7 @@ void solve_refined(const SparseMatrix& K, SparseLdlt& factor, const VectorXd& f,
 }  // namespace
 
 double smooth_span(const std::vector<double>& breakpoints, const TransientOptions& options) {
-  // Below 1, because the load at a jump has the value after the jump.
+  // The fraction is below 1, because the load at a jump has the value after the jump.
   constexpr double kBefore = 0.999;
   double span = std::min(options.step, options.end - options.start);
   for (const double time : breakpoints)
@@ -51,8 +51,8 @@ Outcome start_quasi_statically(EquationMatrices& matrices, const TransientOption
     matrices.update(time);
     if (i == 4 || !matrices.constant()) {
       ++counters.factorizations;
-      if (!factor.factorize(matrices.K()) || factor.smallest_to_largest_pivot() < kSingularMass) {
-        return {Status::singular, "the stiffness is singular: there is no quasi-static start"};
+      if (!factor.factorize(matrices.K()) || factor.smallest_pivot_to_diagonal() < kSingularMass) {
+        return {Status::singular, "the stiffness is singular, so there is no quasi-static start"};
       }
     }
     matrices.load(time, f);
@@ -70,7 +70,7 @@ Outcome check_stability(const EquationMatrices& matrices, const TransientOptions
   if (!std::isfinite(limit) || matrices.M().rows() == 0) return {};
   SparseLdlt factor(SparseLdlt::Triangle::mean);
   ++counters.factorizations;
-  if (!factor.factorize(matrices.M()) || factor.smallest_to_largest_pivot() < kSingularMass) {
+  if (!factor.factorize(matrices.M()) || factor.smallest_pivot_to_diagonal() < kSingularMass) {
     return {Status::singular,
             "the mass is singular: a conditionally stable scheme has no stable step"};
   }
@@ -89,15 +89,15 @@ Outcome check_stability(const EquationMatrices& matrices, const TransientOptions
   if (phase <= limit) return {};
   std::ostringstream message;
   message << "the step h = " << options.step
-          << " s is unstable: the fastest motion has w h = " << phase
-          << ", the limit of the scheme is " << limit << "; use h below "
+          << " s is unstable: the highest frequency w has w h = " << phase
+          << ", but the stability limit of the scheme is " << limit << "; use h below "
           << options.step * limit / phase << " s";
   return {Status::not_converged, message.str()};
 }
 
 namespace {
 
-/// Returns the least ratio of two diagonals among positive entries. The added matrix is therefore
+/// Returns the least ratio of two diagonals among positive entries. An added matrix scaled by it is
 /// small compared with every mass, even if a step covers many periods.
 double least_ratio(const SparseMatrix& M, const SparseMatrix& added) {
   double least = std::numeric_limits<double>::infinity();
@@ -123,15 +123,15 @@ bool MasslessCoordinates::factor(const EquationMatrices& matrices, double h, Cou
     SparseMatrix sum = matrices.M();
     sum += share_ * added;
     ++counters.factorizations;
-    factored_ = factor_.factorize(sum) && factor_.smallest_to_largest_pivot() > kSingularMass;
+    factored_ = factor_.factorize(sum) && factor_.smallest_pivot_to_diagonal() > kSingularMass;
     if (factored_) break;
   }
   return factored_;
 }
 
 void MasslessCoordinates::balance(const VectorXd& residual, VectorXd& x) {
-  // (M + share B) s = residual also moves masses. (M + share B) w = M s moves masses by the same
-  // amount only.
+  // (M + share B) s = residual moves not only massless coordinates, but also masses. (M + share B)
+  // w = M s moves the masses by the same amount, and only masses.
   factor_.solve(residual, s_);
   const VectorXd image = matrices_->M() * s_;
   factor_.solve(image, w_);

@@ -29,8 +29,8 @@ inline constexpr double kSingularMass = 1e-13;
                                              const TransientOptions& options, Eigen::VectorXd& q,
                                              Eigen::VectorXd& v, Counters& counters);
 
-/// Returns a failure if the fastest motion grows with the step. The power iteration estimates the
-/// highest frequency from below. It therefore accepts all stable steps.
+/// Returns a failure if the highest frequency is unstable with the step. The power iteration
+/// estimates this frequency from below. It therefore accepts all stable steps.
 [[nodiscard]] Outcome check_stability(const EquationMatrices& matrices,
                                       const TransientOptions& options, Counters& counters);
 

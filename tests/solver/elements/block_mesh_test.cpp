@@ -61,7 +61,7 @@ BOOST_AUTO_TEST_CASE(six_node_triangles_have_the_area_of_the_ellipse) {
   for (const Index cells : {2, 4, 8}) {
     Model model;
     model.plates = {{"p", {1, 1, 0}, 1}};
-    append(model, 0, mesh_blocks({elliptic_quarter(cells)}, true));
+    append_mesh(model, 0, mesh_blocks({elliptic_quarter(cells)}, true));
     const double error = std::abs(area(model) / exact - 1);
     BOOST_TEST(error < 1e-3);
     if (last > 0) BOOST_TEST(last / error > 14);  // fourth order
@@ -100,13 +100,13 @@ BOOST_AUTO_TEST_CASE(mesh_is_joined_to_existing_nodes) {
   Model model;
   model.plates = {{"p", {1, 1, 0}, 1}};
   model.nodes = {{"elsewhere", {3, 0}}, {"middle", {0.5, 0.5}}, {"corner", {1, 1 + 1e-13}}};
-  const std::vector<Index> nodes = append(model, 0, mesh_blocks({block}, false));
+  const std::vector<Index> nodes = append_mesh(model, 0, mesh_blocks({block}, false));
   BOOST_TEST(model.nodes.size() == 3u + 9 - 2);
   BOOST_TEST((std::count(nodes.begin(), nodes.end(), 1) == 1));
   BOOST_TEST((std::count(nodes.begin(), nodes.end(), 2) == 1));
   // A second plate next to the first one shares its three nodes.
   for (Vector2d& corner : block.corners) corner.x() += 1;
-  append(model, 0, mesh_blocks({block}, false));
+  append_mesh(model, 0, mesh_blocks({block}, false));
   BOOST_TEST(model.nodes.size() == 10u + 9 - 3);
 }
 
@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(pressure_on_a_curved_side_is_that_on_its_chord) {
   const BlockMesh mesh = mesh_blocks({elliptic_quarter(4)}, true);
   Model model;
   model.plates = {{"membrane", {210e9, 1, 0.3}, 0.1}};
-  const std::vector<Index> nodes = append(model, 0, mesh);
+  const std::vector<Index> nodes = append_mesh(model, 0, mesh);
   const std::vector<Index>& side = mesh.sides[0][1];
   const auto node = [&](std::size_t i) { return nodes[static_cast<std::size_t>(side[i])]; };
   for (std::size_t i = 0; i + 2 < side.size(); i += 2) {

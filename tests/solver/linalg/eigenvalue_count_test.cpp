@@ -19,22 +19,22 @@ SparseMatrix diagonal(const VectorXd& values) {
 BOOST_AUTO_TEST_CASE(missed_and_repeated_modes_are_counted) {
   const SparseMatrix A = diagonal(VectorXd{{1, 2, 2, 5, 9}}), B = diagonal(VectorXd::Ones(5));
   MatrixXd shapes = MatrixXd::Identity(5, 4);
-  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 2, 2, 5}}) == 0);
-  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{2, 2, 5}}) == 1);
-  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 1, 2, 2, 5}}) == 1);
-  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 2, 2, 5}}, {}, 7) == 0);
-  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{2, 2, 5}}, {}, 7) == 1);
+  BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{1, 2, 2, 5}}) == 0);
+  BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{2, 2, 5}}) == 1);
+  BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{1, 1, 2, 2, 5}}) == 1);
+  BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{1, 2, 2, 5}}, {}, 7) == 0);
+  BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{2, 2, 5}}, {}, 7) == 1);
   // The gaps decide for a limit below the last eigenvalue or above an eigenvalue that was not
   // requested.
-  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 2, 2, 5}}, {}, 3) == 0);
-  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{1, 2, 2}}, {}, 7) == 0);
-  BOOST_TEST(dependent_vectors(B, shapes) == 0);
+  BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{1, 2, 2, 5}}, {}, 3) == 0);
+  BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{1, 2, 2}}, {}, 7) == 0);
+  BOOST_TEST(count_dependent_vectors(B, shapes) == 0);
   // The lowest eigenvalue is missing and another one is repeated, so the number is correct.
-  BOOST_TEST(miscounted_eigenvalues(A, B, VectorXd{{2, 2, 2, 5}}) == 0);
+  BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{2, 2, 2, 5}}) == 0);
   shapes.col(0) = 0.6 * shapes.col(1) + 0.8 * shapes.col(2);
-  BOOST_TEST(dependent_vectors(B, shapes) == 1);
+  BOOST_TEST(count_dependent_vectors(B, shapes) == 1);
   shapes(0, 0) = std::nan("");
-  BOOST_TEST(dependent_vectors(B, shapes) == 4);
+  BOOST_TEST(count_dependent_vectors(B, shapes) == 4);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -14,7 +14,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-StiffnessFactors factors(const MatrixXd& A) {
+FactoredStiffness factors(const MatrixXd& A) {
   return {A.sparseView(), A.cwiseAbs().sparseView(), VectorXd::Ones(A.rows())};
 }
 
@@ -24,7 +24,7 @@ struct Bounded {
   double bound = 0;
 };
 
-Bounded bounded_solution(const StiffnessFactors& K, const VectorXd& f) {
+Bounded bounded_solution(const FactoredStiffness& K, const VectorXd& f) {
   const AugmentedSystem augmented(K);
   BOOST_TEST_REQUIRE(augmented.exists());
   const Operator solve = [&](const VectorXd& b) -> VectorXd { return augmented.solve(b).x; };
@@ -54,7 +54,7 @@ BOOST_AUTO_TEST_CASE(bound_follows_the_condition_of_A_near_a_singularity) {
   // q = (1 - 1/phi, 1/phi) exactly. K = A^T A has a condition number of about 16/phi^2.
   for (int power = 4; power <= 40; power += 4) {
     const double phi = std::ldexp(1.0, -power);
-    const StiffnessFactors K = factors(MatrixXd{{1, 1}, {1, 1 + phi}});
+    const FactoredStiffness K = factors(MatrixXd{{1, 1}, {1, 1 + phi}});
     const auto [q, bound] = bounded_solution(K, Eigen::Vector2d(3, 3 + 2 * phi));
     BOOST_TEST(std::abs(q[1] * phi - 1) <= bound);
     BOOST_TEST(bound >= kEps / phi);
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(bound_follows_the_condition_of_A_near_a_singularity) {
 
 BOOST_AUTO_TEST_CASE(stiff_part_costs_no_digits) {
   for (const double stiff : {1.0, 1e6, 1e12}) {  // two springs in series, the first one stiff
-    StiffnessFactors K = factors(MatrixXd{{1, 0}, {-1, 1}});
+    FactoredStiffness K = factors(MatrixXd{{1, 0}, {-1, 1}});
     K.C = Eigen::Vector2d(stiff, 1);
     const auto [q, bound] = bounded_solution(K, Eigen::Vector2d(0, 1));
     BOOST_TEST(q[1] == 1 + 1 / stiff, boost::test_tools::tolerance(1e-15));
@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(stiff_part_costs_no_digits) {
 
 // With one coordinate the norm is a sum, so the estimate is exact.
 BOOST_AUTO_TEST_CASE(bound_is_the_sum_of_rounded_strains_and_forces) {
-  StiffnessFactors K = factors(MatrixXd{{1, 0}, {-3, 2}, {0.5, 1}});
+  FactoredStiffness K = factors(MatrixXd{{1, 0}, {-3, 2}, {0.5, 1}});
   K.C = Eigen::Vector3d(2, 5, 0.7);
   const MatrixXd A = K.A;
   const MatrixXd inverse = (A.transpose() * K.C.asDiagonal() * A).inverse();
@@ -96,7 +96,7 @@ BOOST_AUTO_TEST_CASE(bound_is_the_sum_of_rounded_strains_and_forces) {
 }
 
 BOOST_AUTO_TEST_CASE(bound_doubles_with_directed_rounding) {
-  const StiffnessFactors K = factors(MatrixXd{{1, 0}, {-1, 1}});
+  const FactoredStiffness K = factors(MatrixXd{{1, 0}, {-1, 1}});
   const VectorXd q = Eigen::Vector2d(1, 2), f = Eigen::Vector2d(0, 1);
   const AugmentedSystem augmented(K);
   const Operator solve = [&](const VectorXd& b) -> VectorXd { return augmented.solve(b).x; };

@@ -61,10 +61,10 @@ BOOST_AUTO_TEST_CASE(middle_node_may_not_fold_its_triangle_at_a_corner) {
     for (const double sign : {-1, 1}) {
       BOOST_TEST(moved(k, sign * 0.24, 0) == "no complaint");  // det = 1 -+ 4 along at the ends
       BOOST_TEST(moved(k, sign * 0.26, 0) ==
-                 "triangle 0 is folded by the middle nodes of its sides");
+                 "triangle 0 has mid-side nodes that fold it over itself");
     }
     BOOST_TEST(moved(k, 0, 0.45) == "no complaint");  // det = 1 - 2 inwards on all of the side
-    BOOST_TEST(moved(k, 0, 0.55) == "triangle 0 is folded by the middle nodes of its sides");
+    BOOST_TEST(moved(k, 0, 0.55) == "triangle 0 has mid-side nodes that fold it over itself");
   }
 }
 
@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(triangle_folded_at_a_middle_node_is_refused) {
     for (const Vector2d& p : {Vector2d(0.9, -0.05), Vector2d(0.5, 0.25), Vector2d(0, 0.5)})
       m.nodes.push_back({"", p});
   };
-  BOOST_TEST(complaint(folded) == "triangle 0 is folded by the middle nodes of its sides");
+  BOOST_TEST(complaint(folded) == "triangle 0 has mid-side nodes that fold it over itself");
 }
 
 BOOST_AUTO_TEST_CASE(invalid_models_are_refused_with_the_reason) {
@@ -86,7 +86,7 @@ BOOST_AUTO_TEST_CASE(invalid_models_are_refused_with_the_reason) {
     m.nodes[1].position = {0, 0};
     m.triangles = {};
   });
-  says("member AB names node 9, but the model has 3 nodes",
+  says("member AB refers to node 9, but the model has 3 nodes",
        [](Model& m) { m.members[0].nodes[1] = 9; });
   says("member AB must have at least one element", [](Model& m) { m.members[0].elements = 0; });
   says("member AB must have a positive axial stiffness E A",
@@ -107,10 +107,10 @@ BOOST_AUTO_TEST_CASE(invalid_models_are_refused_with_the_reason) {
   says("the point mass at node B has a negative mass", [](Model& m) { m.masses[0].mass = -1; });
   says("spring spring joins a node with itself", [](Model& m) { m.springs[0].nodes[1] = 2; });
   says(
-      "the support of node C fixes its rotation, but it has none: no member ends there and no "
-      "rigid body holds it",
+      "the support of node C fixes a rotation that the node does not have: no member ends there "
+      "and no rigid body contains the node",
       [](Model& m) { m.supports.push_back(clamp(2)); });
-  says("node C has no rotation: no member end is welded to it and no rigid body holds it",
+  says("node C has no rotation: no member end is welded to it, no rigid body contains it",
        [](Model& m) {
          m.loads = {{2, {0, 0, 1}}};
        });

@@ -10,7 +10,7 @@ using namespace trammel::solver;
 
 BOOST_AUTO_TEST_CASE(joint_angle_continues_beyond_half_a_turn) {
   constexpr double kRate = 3;
-  const large_motion::RigidMotion crank = large_motion::once_per_time([](double t) {
+  const large_motion::RigidMotion crank = large_motion::cached_motion([](double t) {
     InverseDynamics motion;
     motion.q.setZero();
     motion.q_dot.setZero();

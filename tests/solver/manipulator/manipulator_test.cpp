@@ -294,19 +294,19 @@ BOOST_AUTO_TEST_CASE(invalid_designs_are_refused_with_the_reason) {
        [](auto& d) { d.platform_joint[1].kind = Kind::welded; }},
       {"platform at C2: a node of constant-strain triangles has no",
        [](auto& d) { d.platform_joint[1].kind = Kind::sprung; }},
-      {"choose the same for C1, C2 and C3",
+      {"choose the same joint for C1, C2 and C3",
        [](auto& d) {
          d = rigid_design();
          d.platform_joint[0].kind = Kind::eq25_sum;
        }},
-      {"choose the same for C1, C2 and C3",
+      {"choose the same joint for C1, C2 and C3",
        [](auto& d) {
          d = rigid_design();
          d.platform_joint[1].kind = d.platform_joint[2].kind = Kind::eq25_sum;
        }},
       {"the platform's Poisson's ratio must lie between -1 and 0.5",
        [](auto& d) { d.platform.material.nu = -1; }},
-      {"needs a rigid platform", [](auto& d) { d.platform.inertia = 0.000799; }},
+      {"requires a rigid platform", [](auto& d) { d.platform.inertia = 0.000799; }},
       {"the spring stiffness of the active joint A3",
        [](auto& d) { d.active[2].kind = ActiveKind::sprung; }},
       {"the spring stiffness of the elbow joint B1",
@@ -334,7 +334,7 @@ BOOST_AUTO_TEST_CASE(invalid_designs_are_refused_with_the_reason) {
   }
   ManipulatorDesign off = table_1_design();
   for (Vector2d& c : off.geometry.platform) c += Vector2d(0.2, 0);
-  check(refusal(off, {0.05, 0.144, 0}), "needs P inside the triangle");
+  check(refusal(off, {0.05, 0.144, 0}), "P must lie inside the triangle");
   check(refusal(table_1_design(), {-0.2, 0.144, 0}), "limb 2 (A2-B2-C2) cannot reach");
 }
 

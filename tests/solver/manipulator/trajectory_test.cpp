@@ -127,15 +127,15 @@ BOOST_AUTO_TEST_CASE(invalid_paths_are_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(path_is_at_rest_only_if_it_never_moves) {
-  BOOST_TEST(stands_still(Circle{{0.25, 0.144}, 0, 1}));
-  BOOST_TEST(stands_still(Circle{{0.25, 0.144}, 0.01, 0}));
-  BOOST_TEST(!stands_still(Circle{{0.25, 0.144}, 0.01, 1}));
-  BOOST_TEST(stands_still(Line{kFrom, kFrom, 1}));
-  BOOST_TEST(!stands_still(Line{kFrom, kTo, 1}));
-  BOOST_TEST(stands_still(RestToRest{kTo, kTo, 1}));
-  BOOST_TEST(!stands_still(RestToRest{kFrom, kTo, 1}));  // at rest before 0 and after 1 s
-  BOOST_TEST(stands_still(make_spline({0, 1, 2}, {kTo, kTo, kTo}, SplineEnds::at_rest)));
-  BOOST_TEST(!stands_still(make_spline({0, 1, 2}, {kTo, kFrom, kTo}, SplineEnds::at_rest)));
+  BOOST_TEST(is_at_rest(Circle{{0.25, 0.144}, 0, 1}));
+  BOOST_TEST(is_at_rest(Circle{{0.25, 0.144}, 0.01, 0}));
+  BOOST_TEST(!is_at_rest(Circle{{0.25, 0.144}, 0.01, 1}));
+  BOOST_TEST(is_at_rest(Line{kFrom, kFrom, 1}));
+  BOOST_TEST(!is_at_rest(Line{kFrom, kTo, 1}));
+  BOOST_TEST(is_at_rest(RestToRest{kTo, kTo, 1}));
+  BOOST_TEST(!is_at_rest(RestToRest{kFrom, kTo, 1}));  // at rest before 0 and after 1 s
+  BOOST_TEST(is_at_rest(make_spline({0, 1, 2}, {kTo, kTo, kTo}, SplineEnds::at_rest)));
+  BOOST_TEST(!is_at_rest(make_spline({0, 1, 2}, {kTo, kFrom, kTo}, SplineEnds::at_rest)));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -34,10 +34,10 @@ Model sprung_cantilever() {
 
 BOOST_AUTO_TEST_CASE(every_effect_has_its_own_name) {
   for (const Effect effect : Effects::all().list()) {
-    BOOST_TEST((effect_named(name_of(effect)) == effect));
+    BOOST_TEST((find_effect(name_of(effect)) == effect));
   }
   BOOST_TEST(Effects::all().list().size() == kEffectCount);
-  BOOST_TEST(!effect_named("friction"));
+  BOOST_TEST(!find_effect("friction"));
 }
 
 BOOST_AUTO_TEST_CASE(inactive_effect_has_no_matrix_and_no_evaluation) {

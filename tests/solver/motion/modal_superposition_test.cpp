@@ -129,10 +129,10 @@ BOOST_AUTO_TEST_CASE(overflowing_numbers_have_no_modes) {
 
 BOOST_AUTO_TEST_CASE(overdamping_begins_at_the_printed_limits) {
   const RayleighDamping printed{.mass = 0.02, .stiffness = 0.003};
-  BOOST_TEST(damping_ratio(printed, overdamped_above(printed)) == 1, tolerance(1e-12));
-  BOOST_TEST(std::isinf(overdamped_above({.mass = 1, .stiffness = 0})));
-  BOOST_TEST(overdamped_above({.mass = 0, .stiffness = 0.5}) == 4);
-  BOOST_TEST(overdamped_above({.mass = 3, .stiffness = 1}) == 1);
+  BOOST_TEST(damping_ratio(printed, overdamping_frequency(printed)) == 1, tolerance(1e-12));
+  BOOST_TEST(std::isinf(overdamping_frequency({.mass = 1, .stiffness = 0})));
+  BOOST_TEST(overdamping_frequency({.mass = 0, .stiffness = 0.5}) == 4);
+  BOOST_TEST(overdamping_frequency({.mass = 3, .stiffness = 1}) == 1);
 }
 
 BOOST_AUTO_TEST_CASE(modes_decouple_with_rayleigh_and_modal_damping) {
