@@ -104,14 +104,13 @@ inline void change_step(double ratio, const Eigen::VectorXd& a, Eigen::VectorXd&
 
 /// Returns the largest difference between the two sides of the relations between q, v, a and A,
 /// relative to the sum of the terms of each relation [-].
-/// @param positions  false: omit the relation of positions, which constraints modify.
 /// @param s  time scheme.
 /// @param h  step [s].
 /// @param from  state at the start.
 /// @param A0  acceleration of the scheme at the start.
 /// @param to  state at the end.
 /// @param A1  acceleration of the scheme at the end.
-/// @param positions  false if constraints modify the positions.
+/// @param positions  false: omit the relation of positions, which constraints modify.
 /// @param norm  norm of a vector of coordinates.
 /// @param defect  work vector.
 template <class State, class Norm>
