@@ -76,8 +76,7 @@ struct Repeatability {
 /// Result of a study for one of its outputs, or for all of them together.
 struct CostOutput {
   std::string title, scale;
-  std::vector<Number> errors;  ///< per setting, in the study's norm; missing if the setting does
-                               ///< not compute the output
+  std::vector<Number> errors;  ///< of each setting, in the norm of the study; empty: no output
   std::vector<CheapestSetting> cheapest;
 };
 
