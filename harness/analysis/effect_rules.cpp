@@ -144,7 +144,7 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
 
 /// Returns true if something other than members has mass. Otherwise the mass of members is required
 /// for vibration.
-bool has_mass_beside_members(const solver::Model& model) {
+bool has_mass_of_other_parts(const solver::Model& model) {
   return std::ranges::any_of(model.masses,
                              [](const solver::PointMass& one) { return one.mass > 0; }) ||
          std::ranges::any_of(model.plates,
@@ -153,7 +153,7 @@ bool has_mass_beside_members(const solver::Model& model) {
 
 EffectScope vibration_scope(const JsonView& analysis, const solver::Model& model) {
   EffectScope scope = inertia_scope(model);
-  if (scope.applicable.has(Effect::link_mass) && !has_mass_beside_members(model))
+  if (scope.applicable.has(Effect::link_mass) && !has_mass_of_other_parts(model))
     scope.required = scope.required.with(Effect::link_mass);
   if (analysis.has("damping")) scope.applicable = scope.applicable.with(Effect::damping);
   return scope;

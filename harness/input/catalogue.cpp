@@ -86,10 +86,10 @@ fs::path Catalogue::find_case(const std::string& name_or_file) const {
 
 fs::path Catalogue::find_base_case(const std::string& name_or_file, const fs::path& from) const {
   std::error_code error;
-  fs::path beside = from.parent_path() / name_or_file;
-  if (fs::is_regular_file(beside, error)) return beside;
-  beside += ".json";
-  if (fs::is_regular_file(beside, error)) return beside;
+  fs::path file = from.parent_path() / name_or_file;
+  if (fs::is_regular_file(file, error)) return file;
+  file += ".json";
+  if (fs::is_regular_file(file, error)) return file;
   if (fs::path found = by_name(name_or_file); !found.empty()) return found;
   throw InputError(from.string(), "/extends",
                    unknown_name("a file relative to this one or a case of the catalogue",

@@ -25,9 +25,9 @@ solver::ModesOptions read_modes_options(const JsonView& analysis) {
 }
 
 /// Rejects a key that is incompatible with modes about a loaded or rotating state.
-void refuse(const JsonView& analysis, const char* key, const char* beside, const char* reason) {
+void refuse(const JsonView& analysis, const char* key, const char* other_key, const char* reason) {
   if (!analysis.has(key) || analysis[key].json() == false) return;
-  throw analysis[key].error(std::string("not allowed with '") + beside + "': " + reason);
+  throw analysis[key].error(std::string("not allowed with '") + other_key + "': " + reason);
 }
 
 /// Returns the system in the coordinates that the analysis requests.

@@ -58,11 +58,12 @@ Data index_data(const Results& results, const std::vector<Family>& families,
          {"family_link", "family_title", "extent", "counts"});
     return data;
   };
+  const Data summary = summary_section(results, families);
   return object(
       {{"environment", environment_section(results)},
        {"claims", claims_section(results)},
        {"known", known_section(results, families)},
-       {"audit", audit_section(results, families)},
+       {"audit", audit_section(results, families, summary)},
        {"cost", cost_section(results, figures)},
        {"stress_suite", stress_suite_section(families)},
        {"effects", effects_section(figures)},
@@ -75,7 +76,7 @@ Data index_data(const Results& results, const std::vector<Family>& families,
        {"has_catalogue", results.claims.has_value()},
        {"missing", results.missing},
        {"has_runs", !results.runs.empty() || (figures.cost.empty() && figures.effects.empty())},
-       {"summary", summary_section(results, families)},
+       {"summary", summary},
        {"front", front_section(results, families, figures)},
        {"families", list_of(families, group)}});
 }

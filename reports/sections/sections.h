@@ -80,7 +80,8 @@ struct StudyFigures {
 
 /// One sheet for an audit: verdict, counts, the largest known discrepancies with their validation
 /// uncertainty, and the number of the others for each reason.
-[[nodiscard]] Data audit_section(const Results& results, const std::vector<Family>& families);
+[[nodiscard]] Data audit_section(const Results& results, const std::vector<Family>& families,
+                                 const Data& summary);
 
 /// Known discrepancies by family, with their reasons.
 [[nodiscard]] Data known_section(const Results& results, const std::vector<Family>& families);

@@ -126,10 +126,9 @@ Targets targets_of(const Results& results) {
 /// Known discrepancies of all entries of one check in all variants of a case.
 struct KnownDiscrepancy {
   const CaseInfo* info;
-  const Run* run;        ///< of the largest difference
-  const Check* largest;  ///< with the largest difference
-  std::size_t entries = 0;
-  std::set<std::string> reasons = {};
+  std::vector<std::pair<const Run*, const Check*>> entries;  ///< largest difference first
+
+  [[nodiscard]] const Check& largest() const { return *entries.front().second; }
 };
 
 std::vector<KnownDiscrepancy> known_discrepancies(const Family& family, const Results& results) {
@@ -139,15 +138,11 @@ std::vector<KnownDiscrepancy> known_discrepancies(const Family& family, const Re
       if (check_status(check) != CheckStatus::known_discrepancy) continue;
       const CaseInfo& info = results.case_info(run->case_id);
       const auto same = [&](const KnownDiscrepancy& other) {
-        return other.info == &info && other.largest->name == check.name;
+        return other.info == &info && other.largest().name == check.name;
       };
-      KnownDiscrepancy& found = harness::find_or_add(known, same, {&info, run, &check});
-      if (worse(check, *found.largest)) {
-        found.run = run;
-        found.largest = &check;
-      }
-      found.reasons.insert(check.why);
-      ++found.entries;
+      auto& entries = harness::find_or_add(known, same, {&info, {}}).entries;
+      entries.emplace_back(run, &check);
+      if (worse(check, *entries.front().second)) std::swap(entries.front(), entries.back());
     }
   }
   return known;
@@ -161,41 +156,41 @@ std::string uncertainty_text(const Run& run, const Check& check) {
 }
 
 Data known_data(const KnownDiscrepancy& known, const std::string& title, const Results& results) {
-  const Check& check = *known.largest;
+  const Check& check = known.largest();
   const Reference* reference = results.reference(check.reference);
+  std::set<std::string> reasons;
+  for (const auto& entry : known.entries) reasons.insert(entry.second->why);
   return object(
       {{"case_title", title},
        {"case_link", case_link(known.info->id)},
        {"what", check.title.empty() && reference ? reference->title : check_title(check)},
        {"reference_link", reference ? reference_link(reference->id) : ""},
        {"difference", check.difference ? difference_text(check, *check.difference) : ""},
-       {"uncertainty", uncertainty_text(*known.run, check)},
-       {"extent", count(known.entries, "entry", "entries")},
+       {"uncertainty", uncertainty_text(*known.entries.front().first, check)},
+       {"extent", count(known.entries.size(), "entry", "entries")},
        {"reason", check.why},
-       {"further_reasons", known.reasons.size() > 1
-                               ? count(known.reasons.size() - 1, "further reason") + " on its page"
-                               : ""}});
+       {"further_reasons",
+        reasons.size() > 1 ? count(reasons.size() - 1, "further reason") + " on its page" : ""}});
 }
 
 /// Returns the families with known discrepancies, each with its list.
 Data known_by_family(const Results& results, const std::vector<Family>& families) {
   Data out = list();
   for (const Family& family : families) {
+    const std::vector<KnownDiscrepancy> known = known_discrepancies(family, results);
+    if (known.empty()) continue;
     Targets targets;
     std::size_t entries = 0;
-    for (const Run* run : family.runs)
-      for (const Check& check : run->checks)
-        if (check_status(check) == CheckStatus::known_discrepancy) {
-          targets.add(*run, check, results);
-          ++entries;
-        }
-    if (entries == 0) continue;
-    const auto entry = [&](const KnownDiscrepancy& known) {
-      return known_data(known, family.short_title(*known.info), results);
+    for (const KnownDiscrepancy& discrepancy : known) {
+      entries += discrepancy.entries.size();
+      for (const auto& [run, check] : discrepancy.entries) targets.add(*run, *check, results);
+    }
+    const auto entry = [&](const KnownDiscrepancy& discrepancy) {
+      return known_data(discrepancy, family.short_title(*discrepancy.info), results);
     };
     out.push_back(object({{"family_title", family.title},
                           {"extent", targets.text() + " in " + count(entries, "entry", "entries")},
-                          {"known", list_of(known_discrepancies(family, results), entry)}}));
+                          {"known", list_of(known, entry)}}));
   }
   return out;
 }
@@ -204,7 +199,8 @@ Data known_by_family(const Results& results, const std::vector<Family>& families
 Data reasons_of(const std::vector<KnownDiscrepancy>& known) {
   constexpr std::ptrdiff_t kShown = 5;
   std::map<std::string, std::size_t> entries;
-  for (const KnownDiscrepancy& one : known) entries[one.largest->why] += one.entries;
+  for (const KnownDiscrepancy& discrepancy : known)
+    for (const auto& entry : discrepancy.entries) ++entries[entry.second->why];
   std::vector<std::pair<std::string, std::size_t>> sorted(entries.begin(), entries.end());
   std::ranges::stable_sort(sorted, std::greater(), &std::pair<std::string, std::size_t>::second);
   std::size_t others = 0;
@@ -341,19 +337,21 @@ Data known_section(const Results& results, const std::vector<Family>& families) 
                  {"known_families", known}});
 }
 
-Data audit_section(const Results& results, const std::vector<Family>& families) {
-  constexpr std::size_t kShown = 10;
+Data audit_section(const Results& results, const std::vector<Family>& families,
+                   const Data& summary) {
+  constexpr std::ptrdiff_t kShown = 10;
   std::vector<KnownDiscrepancy> known;
   for (const Family& family : families)
     std::ranges::copy(known_discrepancies(family, results), std::back_inserter(known));
-  std::ranges::stable_sort(known, std::greater(), [](const KnownDiscrepancy& one) {
-    return one.largest->measure == "relative" ? size_of_difference(*one.largest) : 0;
+  std::ranges::stable_sort(known, std::greater(), [](const KnownDiscrepancy& discrepancy) {
+    const Check& largest = discrepancy.largest();
+    return largest.measure == "relative" ? size_of_difference(largest) : 0;
   });
-  const auto rest = known.begin() + static_cast<std::ptrdiff_t>(std::min(kShown, known.size()));
-  const auto row = [&](const KnownDiscrepancy& one) {
-    return known_data(one, one.info->title, results);
+  const auto rest = known.begin() + std::min(kShown, std::ssize(known));
+  const auto row = [&](const KnownDiscrepancy& discrepancy) {
+    return known_data(discrepancy, discrepancy.info->title, results);
   };
-  return object({{"summary", summary_section(results, families)},
+  return object({{"summary", summary},
                  {"has_known", !known.empty()},
                  {"largest", list_of(std::vector(known.begin(), rest), row)},
                  {"rest", reasons_of({rest, known.end()})}});

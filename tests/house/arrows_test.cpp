@@ -103,9 +103,8 @@ std::vector<std::string> resolve(const std::string& name, const std::string& roo
   const std::string near = first_part(room) + "/" + name;
   if (has(near)) return {near};
   std::vector<std::string> found;
-  for (const std::string& other : order) {
+  for (const std::string& other : order)
     if (lies_in(other, name)) found.push_back(other);
-  }
   return found;
 }
 

@@ -26,9 +26,8 @@ std::string text_of(const std::string& file) {
 
 std::vector<std::string> found(const std::string& text, const std::regex& pattern) {
   std::vector<std::string> all;
-  for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at) {
+  for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at)
     all.push_back((*at)[1]);
-  }
   return all;
 }
 
@@ -39,9 +38,8 @@ BOOST_AUTO_TEST_CASE(files_named_in_the_main_documents_exist) {
   for (const char* document : {"README.md", "CONTRIBUTING.md"}) {
     const std::vector<std::string> named = found(text_of(document), path);
     BOOST_TEST(!named.empty(), document);
-    for (const std::string& file : named) {
+    for (const std::string& file : named)
       BOOST_TEST(fs::exists(root / file), document << " names " << file);
-    }
   }
 }
 
@@ -79,9 +77,8 @@ BOOST_AUTO_TEST_CASE(case_format_names_every_analysis) {
   const auto ref = schema.at("properties").at("analysis").at("$ref").get<std::string>();
   const auto& analyses = schema.at(nlohmann::json::json_pointer(ref.substr(1))).at("properties");
   BOOST_TEST(analyses.size() > 10U);
-  for (const auto& item : analyses.items()) {
+  for (const auto& item : analyses.items())
     BOOST_TEST(readme.find("`" + item.key() + "`") != std::string::npos, item.key());
-  }
 }
 
 BOOST_AUTO_TEST_CASE(conventions_have_a_row_for_every_analysis) {

@@ -180,9 +180,8 @@ BOOST_AUTO_TEST_CASE(claim_on_a_nan_quantity_is_not_measured) {
   const results::Claims found = evaluate_claims(claims_of({{"g", value}}, "confirmed"), {run});
   BOOST_TEST((found.claims[0].verdict == "not measured"));
   BOOST_TEST(found.claims[0].interpretations[0].entries.size() == 2U);
-  for (const results::ClaimEntry& entry : found.claims[0].interpretations[0].entries) {
+  for (const results::ClaimEntry& entry : found.claims[0].interpretations[0].entries)
     BOOST_TEST(std::isfinite(entry.value));
-  }
 }
 
 BOOST_AUTO_TEST_CASE(contradictory_claim_rule_is_refused) {

@@ -48,9 +48,8 @@ std::vector<Run> run_all(const std::vector<Case>& cases, unsigned jobs = 1,
 }
 
 const CheckResult& find(const Run& run, const std::string& name) {
-  for (const CheckResult& one : run.checks) {
+  for (const CheckResult& one : run.checks)
     if (one.name == name) return one;
-  }
   throw std::runtime_error("no check " + name);
 }
 

@@ -80,9 +80,8 @@ BOOST_AUTO_TEST_CASE(every_setting_is_kept_with_a_status) {
   BOOST_TEST((study.settings[4].status == "failed"));
   BOOST_TEST(contains(study.settings[4].reason, "values of frequency_Hz"));
   BOOST_TEST(!study.settings[4].time.has_value());
-  for (const CostPoint& point : cost_points(study)) {
+  for (const CostPoint& point : cost_points(study))
     BOOST_TEST((study.settings[point.setting].status == "measured"));
-  }
 }
 
 BOOST_AUTO_TEST_CASE(outputs_are_judged_separately_and_together) {
@@ -121,9 +120,8 @@ BOOST_AUTO_TEST_CASE(outputs_are_judged_separately_and_together) {
 
 BOOST_AUTO_TEST_CASE(counters_measure_work_and_are_reproducible) {
   const results::CostStudy a = measured(study_json()), b = measured(study_json());
-  for (std::size_t i = 0; i < a.settings.size(); ++i) {
+  for (std::size_t i = 0; i < a.settings.size(); ++i)
     BOOST_TEST((a.settings[i].counters == b.settings[i].counters));
-  }
   // Twice the elements require twice the evaluations.
   BOOST_TEST(a.settings[2].counters.front().second == 2 * a.settings[1].counters.front().second);
 }

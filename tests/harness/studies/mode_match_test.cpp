@@ -27,9 +27,8 @@ BOOST_AUTO_TEST_CASE(modes_are_matched_by_shape_and_not_by_number) {
   BOOST_TEST(matches[0].b.at(0) == 1U);
   BOOST_TEST(matches[1].b.at(0) == 0U);
   BOOST_TEST(matches[2].b.at(0) == 2U);
-  for (const ModeMatch& match : matches) {
+  for (const ModeMatch& match : matches)
     BOOST_TEST(match.overlap == 1, boost::test_tools::tolerance(1e-12));
-  }
 }
 
 BOOST_AUTO_TEST_CASE(repeated_modes_are_matched_as_a_set) {

@@ -265,6 +265,22 @@ BOOST_AUTO_TEST_CASE(known_discrepancy_is_never_shown_as_a_success) {
   BOOST_TEST(all_pages_of(results).find("1 printed number in 3 entries") != std::string::npos);
 }
 
+BOOST_AUTO_TEST_CASE(audit_counts_other_discrepancies_by_reason) {
+  Results results = sample_of("beam-pinned-pinned");
+  Check known = results.runs[0].checks[0];
+  known.expectation = Expectation::known_discrepancy;
+  for (const int i : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 12}) {
+    const bool repeated = results.runs[0].checks.back().name == std::to_string(i);
+    known.name = std::to_string(i);
+    known.difference = 2 - 0.1 * i - (repeated ? 0.1 : 0);
+    known.why = repeated ? "second reason" : "first reason";
+    results.runs[0].checks.push_back(known);
+  }
+  const std::string text = all_pages_of(results);  // the ten largest are rows of a table
+  for (const char* part : {"<strong>3</strong> first reason", "<strong>1</strong> second reason"})
+    BOOST_TEST(text.find(part) != std::string::npos, part);
+}
+
 BOOST_AUTO_TEST_CASE(second_report_leaves_nothing_of_the_first) {
   const Workspace workspace;
   const fs::path out = workspace.path() / "out";

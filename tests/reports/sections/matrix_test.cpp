@@ -43,9 +43,8 @@ struct Sample {
       run.case_id = "modes";
       run.variant = variant;
       run.status = Status::solved;
-      for (int entry = 0; entry < 3; ++entry) {
+      for (int entry = 0; entry < 3; ++entry)
         run.checks.push_back(compared("program", entry, 0.1 * (entry + 1)));
-      }
       results.runs.push_back(run);
     }
     results.cases = {info};
@@ -79,9 +78,8 @@ BOOST_AUTO_TEST_CASE(shifted_check_has_no_column_in_the_matrix) {
   // The check compares mode 1 with target 2. The matrix once showed the result in the column of
   // mode 1, and thus target 1 as reached.
   Sample sample;
-  for (int entry = 0; entry < 2; ++entry) {
+  for (int entry = 0; entry < 2; ++entry)
     sample.results.runs[1].checks.push_back(compared("shifted", entry, 0.001));
-  }
   const std::string words = sample.conclusion(sample.results.runs[1].checks[0]);
   BOOST_TEST(contains(words, "modes 1 (nearest +10\u202f%), 2 (nearest +20\u202f%), 3"), words);
   BOOST_TEST(sample.conclusion(sample.results.runs[1].checks[3]) == "");  // one variant

@@ -135,9 +135,8 @@ BOOST_AUTO_TEST_CASE(pressure_on_a_curved_side_is_that_on_its_chord) {
   }
   const System system = assemble(model);
   Vector2d sum = Vector2d::Zero();
-  for (const auto& c : system.coordinates.node) {
+  for (const auto& c : system.coordinates.node)
     sum += Vector2d(system.load[c[0]], system.load[c[1]]);
-  }
   BOOST_TEST(sum.x() == 10e6 * 0.1 * 2.75, tolerance(1e-12));  // for any curve with these ends
   BOOST_TEST(sum.y() == 10e6 * 0.1 * 3.25, tolerance(1e-12));
 }
