@@ -50,7 +50,7 @@ const EffectWords& words_of(Effect effect) {
       /* gravity */
       {"", all("no part has a weight ('gravity_m_s2')")},
       /* inertia */
-      {"(speed of the path over the first frequency)^2",
+      {"(angular speed of the path / first natural angular frequency)^2",
        {kAtRest, kNotTurning, kNotTurning, kNotTurning}},
       /* damping */
       {"damping ratio of the first mode",

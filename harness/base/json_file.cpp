@@ -182,7 +182,7 @@ Json read_json(const std::filesystem::path& file) {
 
 namespace {
 
-void put(const Json& json, std::size_t depth, std::size_t deepest, std::string& text) {
+void append_json(const Json& json, std::size_t depth, std::size_t deepest, std::string& text) {
   // Texts of limited depth, such as results, have many lines; indentation would take 2 % of the
   // size.
   const std::size_t most = deepest < kMaxDepth ? 1 : kMaxDepth;
@@ -211,7 +211,7 @@ void put(const Json& json, std::size_t depth, std::size_t deepest, std::string& 
     if (json.is_object()) {
       text += one_line(item.key()) + ": ";
     }
-    put(item.value(), depth + 1, deepest, text);
+    append_json(item.value(), depth + 1, deepest, text);
   }
   line(depth);
   text += json.is_object() ? '}' : ']';
@@ -235,7 +235,7 @@ bool is_written_in_place(std::filesystem::path file) {
 
 std::string format_json(const Json& json, std::size_t deepest) {
   std::string text;
-  put(json, 0, deepest, text);
+  append_json(json, 0, deepest, text);
   return text + "\n";
 }
 

@@ -40,7 +40,7 @@ bool is_number(const std::string& text) {
 /// would evaluate.
 std::string csv_text(const Json& cell) {
   if (cell.is_null()) return "";
-  if (cell.is_number_float()) return shortest(cell.get<double>());
+  if (cell.is_number_float()) return shortest_decimal(cell.get<double>());
   if (!cell.is_string() && !cell.is_array()) return cell.dump();
   const std::string text = table_cell(cell, "");
   if (is_number(text)) return text;
@@ -73,6 +73,8 @@ void Rows::add(std::vector<Json> cells) {
 void Rows::print(std::ostream& out, const std::string& indent) const {
   std::vector<std::string> lines(rows_.size() + 1, indent);
   for (std::size_t c = 0; c < columns_.size(); ++c) {
+    const auto is_missing = [&](const std::vector<Json>& row) { return row[c].is_null(); };
+    if (!rows_.empty() && std::ranges::all_of(rows_, is_missing)) continue;
     std::vector<std::string> cells = {columns_[c].head};
     bool right = columns_[c].is_right_aligned;
     for (const std::vector<Json>& row : rows_) {

@@ -31,7 +31,7 @@ class Rows {
   void add(std::vector<Json> cells);
   [[nodiscard]] bool empty() const { return rows_.empty(); }
 
-  /// Prints a table with aligned columns.
+  /// Prints a table with aligned columns, without columns that have no values.
   void print(std::ostream& out, const std::string& indent = "") const;
   /// Returns an array of objects.
   [[nodiscard]] Json json() const;

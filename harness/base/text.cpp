@@ -83,7 +83,7 @@ std::string join(const std::vector<std::string>& items, const std::string& last)
   return text;
 }
 
-std::string shortest(double value) {
+std::string shortest_decimal(double value) {
   if (std::isnan(value)) return "NaN";
   if (std::isinf(value)) return value > 0 ? "infinity" : "-infinity";
   char buffer[32];

@@ -30,7 +30,7 @@ namespace trammel::harness {
 [[nodiscard]] std::string join(const std::vector<std::string>& items, const std::string& last);
 
 /// Returns the shortest decimal number that is read back as the same double.
-[[nodiscard]] std::string shortest(double value);
+[[nodiscard]] std::string shortest_decimal(double value);
 
 /// Formats a number with "%.*g"; returns "-" if it is not finite.
 [[nodiscard]] std::string rounded(double value, int digits = 6);

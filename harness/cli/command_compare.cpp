@@ -30,6 +30,9 @@ using results::ComparedSide;
 using results::Number;
 using results::SideComparison;
 
+/// Heading of estimated discretization errors.
+constexpr const char* kErrorHead = "+- [%]";
+
 /// Computes one variant without its refinements.
 Side side_of(const Case& given, const std::string& variant) {
   const References references;
@@ -110,27 +113,42 @@ void print_sides(const SideComparison& comparison) {
   if (errors) std::cout << "error: relative to references, median over all of them\n";
 }
 
+/// Returns the discretization error of a value [%], or null without an estimate.
+Json error_percent(const results::ComparedValue& value, std::size_t side) {
+  const Number error = value.errors[side], number = value.values[side];
+  return error && number && *number != 0 ? Json(100 * *error / std::abs(*number)) : Json();
+}
+
 void print_modes(const ComparedRun& run, const SideComparison& comparison) {
   if (run.modes.empty()) return;
-  Rows table({"mode", "side", "modes", {"Hz", "", 8}, {"percent", "", 3}, {"alike", "", 4}});
+  Rows table({"mode",
+              "side",
+              "modes",
+              {"Hz", "", 8},
+              {"percent", "", 3},
+              {kErrorHead, "", 2},
+              {"alike", "", 4}});
   for (const results::ComparedModes& modes : run.modes)
     for (std::size_t s = 0; s < modes.values.size(); ++s) {
       Json frequencies = Json::array({number_or_null(modes.values[s])});
       if (modes.last[s]) frequencies.push_back(*modes.last[s]);
       table.add({s == 0 ? Json(modes.modes[0]) : Json(), comparison.sides[s].label,
                  modes.modes[s].empty() ? Json("no mode of similar shape") : Json(modes.modes[s]),
-                 frequencies, number_or_null(modes.percent[s]), number_or_null(modes.alike[s])});
+                 frequencies, number_or_null(modes.percent[s]), error_percent(modes, s),
+                 number_or_null(modes.alike[s])});
     }
   table.print(std::cout);
   std::cout << "alike: 1 for the same shape (modal assurance criterion; for repeated modes, the\n"
                "subspaces are compared)\n";
 }
 
-/// Adds two columns for each side: the value, and its difference from the first side in percent.
+/// Adds three columns for each side: the value, its difference from the first side in percent, and
+/// its discretization error in percent.
 std::vector<Column> with_sides(std::vector<Column> columns, const SideComparison& comparison) {
   for (const ComparedSide& side : comparison.sides) {
     columns.emplace_back(side.label.c_str(), "", 10);
     columns.emplace_back((side.label + " [%]").c_str(), "", 3);
+    columns.emplace_back((side.label + " " + kErrorHead).c_str(), kErrorHead, 2);
   }
   return columns;
 }
@@ -139,6 +157,7 @@ void add_row(std::vector<Json> cells, const results::ComparedValue& value, Rows&
   for (std::size_t s = 0; s < value.values.size(); ++s) {
     cells.push_back(number_or_null(value.values[s]));
     cells.push_back(number_or_null(value.percent[s]));
+    cells.push_back(error_percent(value, s));
   }
   rows.add(std::move(cells));
 }

@@ -36,7 +36,7 @@ std::string conclusion(const Convergence& found) {
   }
   if (found.fitted_order) parts.push_back("fitted " + rounded(*found.fitted_order, 4));
   if (found.richardson) {
-    parts.push_back("extrapolated " + shortest(*found.richardson));
+    parts.push_back("extrapolated " + shortest_decimal(*found.richardson));
     if (found.exact)
       parts.push_back(
           fmt::format("with a relative error of {:.2g}",
@@ -52,7 +52,7 @@ void print(const Convergence& found) {
             << (found.statistic.empty() ? fmt::format("{}[{}]", found.quantity, found.index)
                                         : found.statistic + " of " + found.quantity);
   if (found.exact)
-    std::cout << ", exact " << shortest(*found.exact) << " (" << found.reference << ")";
+    std::cout << ", exact " << shortest_decimal(*found.exact) << " (" << found.reference << ")";
   std::cout << '\n';
   Rows table({found.sweep.c_str(),
               {"value", "", 12},

@@ -75,7 +75,7 @@ struct Option {
 
 /// Accepts a number from `least` to `most`. CLI::Range would print limits such as 1e-10 as 0.
 CLI::Validator within(double least, double most) {
-  const std::string limits = shortest(least) + " to " + shortest(most);
+  const std::string limits = shortest_decimal(least) + " to " + shortest_decimal(most);
   const auto complaint = [=](std::string& word) -> std::string {
     double value = 0;
     const bool fits = CLI::detail::lexical_cast(word, value) && value >= least && value <= most;

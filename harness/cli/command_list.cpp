@@ -66,7 +66,7 @@ std::string describe_windows(const Check& check) {
   if (check.symmetric) return fmt::format("within {}", check.windows[0].high);
   std::vector<std::string> each;
   for (const Window& window : check.windows)
-    each.push_back("[" + shortest(window.low) + ", " + shortest(window.high) + "]");
+    each.push_back("[" + shortest_decimal(window.low) + ", " + shortest_decimal(window.high) + "]");
   return "in " + join(each, "and");
 }
 
@@ -138,8 +138,9 @@ void describe_sweeps(const Case& given) {
   for (const auto& [sweep, place] : sweeps->entries()) {
     std::cout << "  " << sweep << "  " << place["values"].json().dump();
     if (place.has("theory_order")) {
-      std::cout << ", order " << shortest(place.number("theory_order"));
-      if (place.has("lower_order")) std::cout << " and " << shortest(place.number("lower_order"));
+      std::cout << ", order " << shortest_decimal(place.number("theory_order"));
+      if (place.has("lower_order"))
+        std::cout << " and " << shortest_decimal(place.number("lower_order"));
       std::cout << " by theory";
     }
     std::cout << '\n';
@@ -185,8 +186,10 @@ void print_values(const CitedReference& cited) {
   print_reference(cited);
   Rows table({"index", {"value", ">value [" + reference.unit + "]"}, {"uncertainty", "", 2}});
   for (std::size_t i = 0; i < reference.values.size(); ++i)
-    table.add({i, reference.printed.empty() ? shortest(reference.values[i]) : reference.printed[i],
-               reference.uncertainty[i]});
+    table.add(
+        {i,
+         reference.printed.empty() ? shortest_decimal(reference.values[i]) : reference.printed[i],
+         reference.uncertainty[i]});
   table.print(std::cout, "  ");
 }
 
@@ -256,8 +259,8 @@ int describe_command(const CommandOptions& options, const Renderers& /*renderers
   std::cout << given.id() << ": " << given.title() << '\n'
             << wrapped(given.document.value().value("description", ""), "  ") << "\nModel     "
             << describe_model(base) << "\nAnalysis  " << analysis_kind(given.document) << " "
-            << given.document.value().at("analysis").begin()->dump() << "\nFile      "
-            << given.file.string() << '\n';
+            << base.value().at("analysis").begin()->dump() << "\nFile      " << given.file.string()
+            << '\n';
   if (given.variants().size() > 1) {
     std::cout << "\nVariants\n";
     Rows table({"name", "title"});

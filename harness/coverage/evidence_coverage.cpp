@@ -38,7 +38,7 @@ class FeatureWalk {
   /// @param value  null: all values allowed by the rule
   void visit(const SchemaRule& stated, const Json* value, const std::string& context) {
     if (const SchemaRule* reference = keyword(stated, "$ref")) {
-      const std::string path = text_of(*reference);
+      const std::string path = string_of(*reference);
       const std::string name = path.substr(path.rfind('/') + 1);
       if (value != nullptr || seen_.insert(name).second)
         visit(resolved(root_, stated), value, name);
@@ -58,7 +58,7 @@ class FeatureWalk {
 
   void visit_choice(const SchemaRule& choice, const Json* value, const std::string& context) {
     if (!choice.IsString()) return;
-    const std::string text = text_of(choice);
+    const std::string text = string_of(choice);
     if (value == nullptr || *value == text) features_.insert(context + " = " + text);
   }
 
@@ -71,7 +71,7 @@ class FeatureWalk {
 
   template <class Item>
   void visit_key(const Item& item, const Json* value, const std::string& context) {
-    const std::string key = text_of(item.name);
+    const std::string key = string_of(item.name);
     if (value != nullptr && (!value->is_object() || !value->contains(key))) return;
     features_.insert(context + "." + key);
     visit(item.value, value == nullptr ? nullptr : &value->at(key), context + "." + key);

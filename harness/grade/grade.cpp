@@ -45,7 +45,7 @@ void end_as(Run& run, results::Status status, const std::string& reason) {
 bool ended_without_answer(const ProcessOutcome& outcome, const ProgramLimits& limits, Run& run) {
   switch (outcome.termination) {
     case Ending::timed_out:
-      end_as(run, Status::timed_out, "stopped after " + shortest(limits.wall_s) + " s");
+      end_as(run, Status::timed_out, "stopped after " + shortest_decimal(limits.wall_s) + " s");
       return true;
     case Ending::disk_full:
       end_as(run, Status::crashed,

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <tuple>
 
 #include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
@@ -140,6 +141,34 @@ std::string Case::variant_title(const std::string& variant) const {
   return document.value().at("variants").at(variant).value("title", variant);
 }
 
+namespace {
+
+/// Adds error control to a motion that states no step, and its first or largest step. If a sweep
+/// varies the step, nothing is added.
+void add_default_steps(Document& document) {
+  constexpr double kStep = 1e-3;  // relative to the duration
+  const Json control = {{"error_control", {{"relative", 1e-4}}}};
+  const Json& whole = document.value();
+  if (whole.value("sweeps", Json()).dump().find("step_s\"") != std::string::npos) return;
+  for (const auto& [kind, duration, tolerance] :
+       {std::tuple("large-motion", "end_time_s", Json{{"tolerance", 1e-6}}),
+        std::tuple("transient", "duration_s", control),
+        std::tuple("elastodynamics", "duration_s", control)}) {
+    const JsonPointer place = JsonPointer("/analysis") / kind;
+    if (!whole.contains(place) || whole.at(place).contains("step_s")) continue;
+    const Json& motion = whole.at(place);
+    const bool is_exact = motion.value("modal_superposition", false) ||
+                          motion.value("method", Json()) == "modal-superposition";
+    const bool is_stated = is_exact || motion.contains(tolerance.begin().key());
+    Json patch = Json::object();
+    patch[place] = is_stated ? Json::object() : tolerance;
+    if (motion.contains(duration)) patch[place]["step_s"] = kStep * motion[duration].get<double>();
+    document.apply_patch("default steps", "", patch);
+  }
+}
+
+}  // namespace
+
 Case load_case(const fs::path& file) {
   return load_case(file, Catalogue());
 }
@@ -170,6 +199,7 @@ Document patched(const Case& given, const std::string& variant) {
   }
   if (variant != kBaseVariant)
     document.validate("case");  // load_case has already validated the case itself
+  add_default_steps(document);
   return document;
 }
 
@@ -244,7 +274,7 @@ void warn_of_millimeters(const Lengths& lengths, std::vector<std::string>& warni
   const auto& [largest, place] = *lengths.rbegin();
   const double next = std::next(lengths.rbegin())->first;
   if (next > 0 && largest > 100 * next)
-    warnings.push_back(place + " is " + shortest(largest) +
+    warnings.push_back(place + " is " + shortest_decimal(largest) +
                        " m, more than 100 times all others; is it in millimeters?");
 }
 
@@ -257,7 +287,7 @@ std::vector<std::string> unit_warnings(const Document& document) {
   for (const auto& [place, value] : parts.items()) {
     const bool is_angle = place.ends_with("_rad") && !place.ends_with("per_rad");
     if (is_angle && value.is_number() && std::abs(value.get<double>()) > 2 * std::numbers::pi)
-      warnings.push_back("/model" + place + " is " + shortest(value.get<double>()) +
+      warnings.push_back("/model" + place + " is " + shortest_decimal(value.get<double>()) +
                          " rad, more than a turn; is it in degrees?");
   }
   Lengths nodes, links;

@@ -274,8 +274,8 @@ Window read_window(const JsonView& place) {
   if (place[0].json().is_null() && place[1].json().is_null())
     throw place.error("expected at least one limit that is a number (got two nulls)");
   if (window.low > window.high) {
-    throw place.error("expected the lower limit first (got " + shortest(window.low) + ", " +
-                      shortest(window.high) + ")");
+    throw place.error("expected the lower limit first (got " + shortest_decimal(window.low) + ", " +
+                      shortest_decimal(window.high) + ")");
   }
   return window;
 }

@@ -10,7 +10,7 @@ namespace trammel::harness {
 namespace {
 
 bool equals(const Json& value, const SchemaRule& choice) {
-  if (value.is_string() && choice.IsString()) return value == text_of(choice);
+  if (value.is_string() && choice.IsString()) return value == string_of(choice);
   return value.is_number() && choice.IsNumber() && value.get<double>() == choice.GetDouble();
 }
 

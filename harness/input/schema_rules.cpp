@@ -72,7 +72,7 @@ std::string limits(const SchemaRule& rule) {
   std::vector<std::string> parts;
   const auto add = [&](const char* key, const char* word) {
     if (const SchemaRule* limit = keyword(rule, key)) {
-      parts.push_back(word + shortest(limit->GetDouble()));
+      parts.push_back(word + shortest_decimal(limit->GetDouble()));
     }
   };
   add("exclusiveMinimum", "above ");
@@ -104,7 +104,7 @@ std::string describe_array(const SchemaRule& root, const SchemaRule& rule) {
 }
 
 std::string describe_choice(const SchemaRule& choice) {
-  if (choice.IsString()) return quoted(text_of(choice));
+  if (choice.IsString()) return quoted(string_of(choice));
   using Encoding = rapidjson::UTF8<>;
   using Text = rapidjson::GenericStringBuffer<Encoding, SchemaAllocator>;
   Text text;
@@ -143,7 +143,7 @@ std::vector<std::string> allowed_keys(const Rules& rules) {
     const SchemaRule* others = keyword(*rule, "additionalProperties");
     if (others == nullptr || !others->IsFalse()) return {};
     if (const SchemaRule* properties = keyword(*rule, "properties")) {
-      for (const auto& item : properties->GetObject()) keys.push_back(text_of(item.name));
+      for (const auto& item : properties->GetObject()) keys.push_back(string_of(item.name));
     }
   }
   std::ranges::sort(keys);
@@ -173,12 +173,12 @@ std::string pointer_to(const std::vector<std::string>& path) {
 std::vector<std::string> needed_keys(const Json& object, const SchemaRule& rule) {
   std::vector<std::string> keys;
   const auto add = [&](const SchemaRule& names) {
-    for (const SchemaRule& name : names.GetArray()) keys.push_back(text_of(name));
+    for (const SchemaRule& name : names.GetArray()) keys.push_back(string_of(name));
   };
   if (const SchemaRule* required = keyword(rule, "required")) add(*required);
   if (const SchemaRule* dependencies = keyword(rule, "dependencies")) {
     for (const auto& item : dependencies->GetObject()) {
-      if (object.contains(text_of(item.name))) add(item.value);
+      if (object.contains(string_of(item.name))) add(item.value);
     }
   }
   return keys;
@@ -223,7 +223,7 @@ SchemaFault explain_value(const SchemaRule& root, const BrokenRules& broken) {
     if (!contains(wanted, text)) wanted.push_back(text);
     if (const SchemaRule* stated = keyword(*rule, "enum")) {
       for (const SchemaRule& choice : stated->GetArray()) {
-        if (choice.IsString()) choices.push_back(text_of(choice));
+        if (choice.IsString()) choices.push_back(string_of(choice));
       }
     }
     if (broken.value->is_array() && keyword(*rule, "uniqueItems") != nullptr) {

@@ -125,8 +125,9 @@ ComparedValues collect(const Check& check, const CheckContext& context) {
 }
 
 std::string outside(const Check& check, double value, const Window& window) {
-  const std::string where = fmt::format("{} is outside of [{}, {}]", shortest(value),
-                                        shortest(window.low), shortest(window.high));
+  const std::string where =
+      fmt::format("{} is outside of [{}, {}]", shortest_decimal(value),
+                  shortest_decimal(window.low), shortest_decimal(window.high));
   if (check.expectation == Expectation::known_discrepancy) {
     return "the difference left its recorded range: " + where;
   }
@@ -149,18 +150,18 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
                     CheckResult& entry) {
   const double expected = check.has_target() ? *entry.expected : 0;
   if (!std::isfinite(*entry.computed)) {
-    entry.message = "the computed value is " + shortest(*entry.computed);
+    entry.message = "the computed value is " + shortest_decimal(*entry.computed);
     return;
   }
   if (!std::isfinite(expected)) {
-    entry.message = "the expected value is " + shortest(expected);
+    entry.message = "the expected value is " + shortest_decimal(expected);
     return;
   }
   const double value =
       check.measure == Measure::value ? *entry.computed : *results::difference_of(entry);
   if (!std::isfinite(value)) {
     entry.message = "the measure " + std::string(to_string(check.measure)) +
-                    " is undefined for an expected value of " + shortest(expected);
+                    " is undefined for an expected value of " + shortest_decimal(expected);
     return;
   }
   if (check.measure != Measure::value) entry.difference = value;
@@ -176,7 +177,7 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
   }
   const double scale = check.measure == Measure::relative ? std::abs(expected) : 1;
   if (check.role == Role::verification && check.symmetric && uncertainty > window->high * scale) {
-    entry.message = "the uncertainty of the reference is +-" + shortest(uncertainty) +
+    entry.message = "the uncertainty of the reference is +-" + shortest_decimal(uncertainty) +
                     ", which is more than the tolerance";
     return;
   }
@@ -214,7 +215,7 @@ std::vector<CheckResult> evaluate_entries(const Check& check, const ComparedValu
   return entries.size() > kMaxEntries ? worst_of(std::move(entries)) : entries;
 }
 
-std::vector<CheckResult> judge(const Check& check, const CheckContext& context) {
+std::vector<CheckResult> evaluate_computed(const Check& check, const CheckContext& context) {
   try {
     if (check.order) return evaluate_order_check(check, context);
     return evaluate_entries(check, collect(check, context), context.other_solver);
@@ -253,7 +254,7 @@ std::vector<CheckResult> evaluate_check(const Check& check, const CheckContext& 
     control.verdict = Verdict::not_given;
     return {control};
   }
-  std::vector<CheckResult> entries = judge(check, context);
+  std::vector<CheckResult> entries = evaluate_computed(check, context);
   if (check.negative_control) return {judge_control(check, entries)};
   return entries;
 }

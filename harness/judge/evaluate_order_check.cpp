@@ -102,7 +102,7 @@ class OrderCheckEvaluator {
       if (std::isnan(farthest) || std::abs(here - target) > std::abs(farthest - target)) {
         farthest = here;
         check_result.message = fmt::format("{} meshes qualify, the worst is {}", meshes_,
-                                           shortest(*found_.parameter[k]));
+                                           shortest_decimal(*found_.parameter[k]));
       }
     }
     return farthest;
@@ -124,7 +124,7 @@ class OrderCheckEvaluator {
         check_result);
     check_result.message =
         fmt::format("{} meshes qualify; the worst order between two of them is {}", meshes_,
-                    shortest(farthest));
+                    shortest_decimal(farthest));
     conclude(check_result, *check_result.computed - theory, criterion_.within);
     return check_result;
   }
@@ -142,8 +142,9 @@ class OrderCheckEvaluator {
     const double a = *found_.two_term->coefficients[0], b = *found_.two_term->coefficients[1];
     check_result.computed = found_.two_term->max_relative_misfit;
     check_result.message =
-        fmt::format("{} meshes qualify; relative error = {} h^{} + {} h^{}", meshes_, shortest(a),
-                    shortest(*found_.theory_order), shortest(b), shortest(*found_.lower_order));
+        fmt::format("{} meshes qualify; relative error = {} h^{} + {} h^{}", meshes_,
+                    shortest_decimal(a), shortest_decimal(*found_.theory_order),
+                    shortest_decimal(b), shortest_decimal(*found_.lower_order));
     conclude(check_result, *check_result.computed, *criterion_.two_term_within);
     return check_result;
   }

@@ -185,8 +185,11 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
   options.time.end = options.time.sample_times.back();
   if (!(options.time.end > options.time.start))
     throw analysis.error("the trajectory requires at least two points (got one)");
-  if (options.elastic_inertia)
+  if (!analysis.has("step_s")) {
+    options.time.step = 1e-3 * (options.time.end - options.time.start);
+  } else if (options.elastic_inertia) {
     require_step_count(analysis["step_s"], options.time.end - options.time.start);
+  }
   return options;
 }
 

@@ -45,7 +45,7 @@ std::optional<solver::Index> refined(solver::Index count, Refine refine) {
 
 /// Writes twice or half a number of elements into a patch.
 /// @returns false if an odd number would be halved
-bool put(Json& place, solver::Index count, Refine refine) {
+bool set_refined_count(Json& place, solver::Index count, Refine refine) {
   const auto found = refined(count, refine);
   if (found) place = *found;
   return found.has_value();
@@ -55,12 +55,13 @@ bool refine_links(const Document& document, Refine refine, Json& patch) {
   const Json& manipulator = document.value()["model"]["manipulator"];
   const Json& links = manipulator["links"];
   Json& refined_links = patch["manipulator"]["links"];
-  bool all =
-      put(refined_links["elements"], links.value("elements", default_elements(document)), refine);
+  bool all = set_refined_count(refined_links["elements"],
+                               links.value("elements", default_elements(document)), refine);
   for (const char* kind : {"proximal", "distal"}) {
     const Json* own = find(links, std::string("/") + kind + "/elements");
     if (own != nullptr)
-      all = put(refined_links[kind]["elements"], own->get<solver::Index>(), refine) && all;
+      all = set_refined_count(refined_links[kind]["elements"], own->get<solver::Index>(), refine) &&
+            all;
   }
   const Json& platform = manipulator["platform"];
   if (platform["kind"] != "triangles") return all;
@@ -116,11 +117,15 @@ std::optional<Json> mesh_patch(const Document& document, Refine refine) {
   if (model.contains("members"))
     for (const auto& [name, member] : model["members"].items())
       if (!is_bar(model, member) || elements_of(document, name) > 1)
-        all = put(patch["members"][name]["elements"], elements_of(document, name), refine) && all;
+        all = set_refined_count(patch["members"][name]["elements"], elements_of(document, name),
+                                refine) &&
+              all;
   if (model.contains("plates"))
     for (const auto& [name, plate] : model["plates"].items())
       if (plate.contains("blocks"))
-        all = put(patch["plates"][name]["divisions"], plate.value("divisions", 1), refine) && all;
+        all = set_refined_count(patch["plates"][name]["divisions"], plate.value("divisions", 1),
+                                refine) &&
+              all;
   if (model.contains("manipulator")) all = refine_links(document, refine, patch) && all;
   if (patch.empty() || !all) return std::nullopt;
   return Json{{"model", patch}};
@@ -159,7 +164,8 @@ std::optional<Json> step_patch(const Document& document, Refine refine) {
   Json patch = Json::object();
   if (kind == "forward-dynamics") {
     patch["tolerance"] = looser * analysis.value("tolerance", 1e-10);
-  } else if (is_exact || !analysis.contains("step_s") || kind == "grnn") {
+  } else if (is_exact || kind == "grnn" ||
+             !(analysis.contains("step_s") || has_step_tolerance(document))) {
     if (kind != "transient" && kind != "harmonic") return std::nullopt;
   } else if (analysis.contains("tolerance")) {
     patch["tolerance"] = looser * analysis["tolerance"].get<double>();

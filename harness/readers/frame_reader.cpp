@@ -135,7 +135,7 @@ void add_pin(const JsonView& place, const Pin& pin, solver::Model& model) {
   constexpr double kRoundoff = 1e-12;  // of computed coordinates, relative to the model's size
   if (apart > kRoundoff * solver::box_diagonal(model)) {
     throw place["nodes"].error("the nodes of a pin require the same position (got a distance of " +
-                               shortest(apart) + " m)");
+                               shortest_decimal(apart) + " m)");
   }
   solver::add_pin(model, pin.name, pin.nodes);
 }

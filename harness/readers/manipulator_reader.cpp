@@ -83,7 +83,7 @@ solver::Spline read_spline(const JsonView& spline) {
   }
   if (times.front() != 0) {
     throw spline["knots"][0].error("expected the first knot at 0 s (got " +
-                                   shortest(times.front()) + " s)");
+                                   shortest_decimal(times.front()) + " s)");
   }
   return solver::make_spline(times, poses, spline.get("ends", solver::SplineEnds::natural));
 }

@@ -91,7 +91,7 @@ solver::LoadHistory read_load_history(const JsonView& analysis) {
 
 solver::TransientOptions read_time_options(const JsonView& analysis) {
   solver::TransientOptions options;
-  options.step = analysis.number("step_s");
+  options.step = analysis.get("step_s", 0.0);
   if (const auto scheme = analysis.find("scheme")) options.scheme = read_time_scheme(*scheme);
   if (const auto adaptive = analysis.find("error_control")) {
     const FieldReader reader(*adaptive);

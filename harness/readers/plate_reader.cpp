@@ -23,7 +23,7 @@ const Eigen::Vector2d& position(const solver::Model& structure, solver::Index no
 }
 
 std::string describe_point(const Eigen::Vector2d& point) {
-  return "(" + shortest(point.x()) + ", " + shortest(point.y()) + ") m";
+  return "(" + shortest_decimal(point.x()) + ", " + shortest_decimal(point.y()) + ") m";
 }
 
 double twice_area(const solver::Model& structure, const solver::Triangle& triangle) {
@@ -99,7 +99,7 @@ class Outline {
     const double radius = (point - curve.center).cwiseQuotient(curve.semi_axes).norm();
     if (std::abs(radius - 1) < 1e-6) return;
     throw place.error("expected a node on the curve of the edge (got " + describe_point(point) +
-                      ", " + shortest(radius) +
+                      ", " + shortest_decimal(radius) +
                       " times the distance from its center to the curve)");
   }
 
@@ -286,7 +286,7 @@ void check_meshed_nodes(const JsonView& model, std::size_t first, const solver::
         "the node " + describe_point(here) +
         " is connected to nothing; expected the position of "
         "a mesh node (the nearest one is " +
-        shortest(nearest) + " m away)");
+        shortest_decimal(nearest) + " m away)");
   }
 }
 

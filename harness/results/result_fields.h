@@ -251,10 +251,10 @@ TRAMMEL_FIELDS(History, TRAMMEL_REQUIRED(calls, since, changes, work, drifts));
 TRAMMEL_FIELDS(Results, optional("numerical_uncertainty", &S::uncertainty_coverage),
                TRAMMEL_REQUIRED(format, environment, cases, references, runs),
                TRAMMEL_OPTIONAL(solver, cost, claims, coverage, effect_scenes, history, store));
-TRAMMEL_FIELDS(ComparedNumber,
-               TRAMMEL_REQUIRED(quantity, index, entries, values, percent, noise, share, changed));
-TRAMMEL_FIELDS(ComparedModes,
-               TRAMMEL_REQUIRED(modes, values, last, percent, alike, noise, share, changed));
+TRAMMEL_FIELDS(ComparedNumber, TRAMMEL_REQUIRED(quantity, index, entries, values, percent, errors,
+                                                noise, share, changed));
+TRAMMEL_FIELDS(ComparedModes, TRAMMEL_REQUIRED(modes, values, last, percent, errors, alike, noise,
+                                               share, changed));
 TRAMMEL_FIELDS(ComparedRun, TRAMMEL_REQUIRED(name, changed, share, numbers),
                TRAMMEL_OPTIONAL(modes, remarks));
 TRAMMEL_FIELDS(ComparedSide,

@@ -249,6 +249,14 @@ const std::vector<double>* Run::quantity(const std::string& name) const {
   return found == quantities.end() ? nullptr : &found->second.values;
 }
 
+Number Run::half_width(const std::string& name, std::size_t index) const {
+  const std::vector<double>* values = quantity(name);
+  if (!errors || values == nullptr || index >= values->size()) return {};
+  const auto found = std::ranges::find(errors->quantities, name, &ErrorEstimate::quantity);
+  if (found == errors->quantities.end()) return {};
+  return found->half_width(index, (*values)[index]);
+}
+
 Number ErrorEstimate::half_width(std::size_t index, double value) const {
   const Number error = relative.size() == 1      ? relative.front()
                        : index < relative.size() ? relative[index]

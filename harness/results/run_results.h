@@ -315,6 +315,9 @@ struct Run {
   [[nodiscard]] bool is_solved() const { return status == Status::solved; }
   /// @returns nullptr if the run has no such quantity.
   [[nodiscard]] const std::vector<double>* quantity(const std::string& name) const;
+  /// Returns the half-width of the band of the discretization error about an entry [unit]; missing
+  /// without an estimate.
+  [[nodiscard]] Number half_width(const std::string& name, std::size_t index) const;
 };
 
 /// Returns the difference of `computed` from `expected`; missing if a check does not compare.

@@ -14,6 +14,9 @@ struct ComparedValue {
   Numbers values;  ///< value on each side; missing if the side has none
   /// Change from the first side [%]; missing if that value is zero up to round-off.
   Numbers percent;
+  /// Half-width of the band of the discretization error on each side [unit]; missing without an
+  /// estimate.
+  Numbers errors;
   double noise = 0;  ///< differences up to this value are round-off
   /// Largest difference from the first side, relative to the largest value of the series.
   double share = 0;

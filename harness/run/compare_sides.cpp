@@ -83,7 +83,7 @@ double distance(const Number& a, const Number& b) {
 
 /// Sets the change and the percentages of a number whose values and `noise` are set.
 /// @param scale  largest value of the series
-void judge(ComparedValue& value, double scale) {
+void set_change(ComparedValue& value, double scale) {
   const Number first = value.values.front();
   value.percent.assign(value.values.size(), Number());
   for (std::size_t s = 1; s < value.values.size(); ++s) {
@@ -106,11 +106,12 @@ ComparedNumber compare_entry(const std::string& name, std::size_t i, const Runs&
   found.noise = kRoundoff * scale;
   for (const results::Run* run : runs) {
     found.values.push_back((*run->quantity(name))[i]);
+    found.errors.push_back(run->half_width(name, i));
     const double roundoff =
         stated_roundoff(*run, name, i) * std::abs(found.values.back().value_or(0));
     found.noise = std::max(found.noise, roundoff);
   }
-  judge(found, scale);
+  set_change(found, scale);
   return found;
 }
 
@@ -234,6 +235,7 @@ std::vector<ComparedModes> compare_modes(const Runs& runs,
         rows.back().modes = {from_one(match.a)};
         rows.back().values = {first};
         rows.back().last = {Number()};
+        rows.back().errors = {runs.front()->half_width("frequency_Hz", match.a.front())};
         rows.back().alike = {1.0};
       }
       ComparedModes& found = rows.at(row++);
@@ -242,6 +244,8 @@ std::vector<ComparedModes> compare_modes(const Runs& runs,
       const double low = there ? both->second.frequency[match.b.front()] : 0;
       const double high = there ? both->second.frequency[match.b.back()] : 0;
       found.values.push_back(there ? Number(low) : Number());
+      found.errors.push_back(there ? runs[s]->half_width("frequency_Hz", match.b.front())
+                                   : Number());
       found.last.push_back(high - low > 1e-6 * high ? Number(high) : Number());
       found.alike.push_back(there ? Number(match.overlap) : Number());
       const double stated = stated_roundoff(*runs[s], "frequency_Hz", match.a.front());
@@ -249,7 +253,7 @@ std::vector<ComparedModes> compare_modes(const Runs& runs,
     }
     if (row != rows.size()) return {};
   }
-  for (ComparedModes& found : rows) judge(found, largest);
+  for (ComparedModes& found : rows) set_change(found, largest);
   return rows;
 }
 

@@ -205,7 +205,7 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
 /// Returns the part of the request, besides the case, that determines the stored result.
 std::string request_of(const Task& task) {
   if (task.accuracy.accuracy == 0) return task.errors ? "errors" : "";
-  return shortest(task.accuracy.accuracy) + " " + join(task.accuracy.quantities, " ");
+  return shortest_decimal(task.accuracy.accuracy) + " " + join(task.accuracy.quantities, " ");
 }
 
 /// Computes the tasks that are missing from the store. Tasks that were interrupted most often go

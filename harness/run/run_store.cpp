@@ -70,7 +70,7 @@ Kept stored_from(const std::string& bytes) {
   return results::from_json<Kept>(parse_cbor(uncompressed(bytes)));
 }
 
-bool stand(const std::map<std::string, std::string>& hashes, const References& references) {
+bool are_unchanged(const std::map<std::string, std::string>& hashes, const References& references) {
   return std::ranges::all_of(
       hashes, [&](const auto& item) { return references.hash(item.first) == item.second; });
 }
@@ -80,7 +80,7 @@ void mark_used(const std::filesystem::path& file) {
   std::filesystem::last_write_time(file, std::filesystem::file_time_type::clock::now(), error);
 }
 
-std::string text_of(const Json& json) {
+std::string text_of_json(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
@@ -128,7 +128,7 @@ std::string name_of(const CostStudy& study, const TimingOptions& timing) {
     all.push_back({output.scale.kind, output.scale.number, output.title, output.scale_description});
   for (const Setting& setting : study.settings) add_setting(setting, all);
   if (study.reference_solution) add_setting(*study.reference_solution, all);
-  return name_of(text_of(all));
+  return name_of(text_of_json(all));
 }
 
 /// Returns the file with one byte for each call that has started the computation of that file.
@@ -154,8 +154,8 @@ Json tried_cases(const Document& document) {
 std::string computation_name(const Document& document, bool requested,
                              const std::string& solver_hash) {
   const std::string file = std::filesystem::absolute(document.origin("").file).string();
-  return name_of(text_of({requested, file, tried_cases(document), solver_hash}) +
-                 text_of(document.value()));
+  return name_of(text_of_json({requested, file, tried_cases(document), solver_hash}) +
+                 text_of_json(document.value()));
 }
 
 std::string to_bytes(const Run& run) {
@@ -176,7 +176,7 @@ bool find_stored(const std::filesystem::path& file, Run& run, bool any_machine,
                  const References& references) {
   try {
     Run found = run_from(read_text(file));
-    if (!stand(found.references, references)) return false;
+    if (!are_unchanged(found.references, references)) return false;
     const bool timed = !any_machine && !found.cost.timings.empty();
     if (timed && found.machine != machine_name()) return false;
     found.case_id = run.case_id;
@@ -209,7 +209,7 @@ results::CostStudy cached_cost_study(const CostStudy& study, const CostOptions& 
                                      const std::filesystem::path& store, bool resume) {
   return find_or_compute<results::CostStudy>(
       store, name_of(study, options.timing), resume,
-      [&](const results::CostStudy& kept) { return stand(kept.references, references); },
+      [&](const results::CostStudy& kept) { return are_unchanged(kept.references, references); },
       [&] { return measure_study(study, options, references); });
 }
 
@@ -218,7 +218,7 @@ SandboxedRun cached_solution(const Setting& setting, int time_limit_s, const Ref
   Json all = Json::array({"setting"});
   add_setting(setting, all);
   return find_or_compute<SandboxedRun>(
-      store, name_of(text_of(all)), resume,
+      store, name_of(text_of_json(all)), resume,
       [](const SandboxedRun& run) { return run.termination == SandboxedRun::Termination::solved; },
       [&] { return run_sandboxed(setting, time_limit_s, references); });
 }
@@ -226,7 +226,7 @@ SandboxedRun cached_solution(const Setting& setting, int time_limit_s, const Ref
 EffectScenes cached_scenes(const Document& document, const std::function<EffectScenes()>& measure,
                            const std::filesystem::path& store, bool resume) {
   return find_or_compute<EffectScenes>(
-      store, name_of("effects " + machine_name() + text_of(document.value())), resume,
+      store, name_of("effects " + machine_name() + text_of_json(document.value())), resume,
       [](const EffectScenes&) { return true; }, measure);
 }
 

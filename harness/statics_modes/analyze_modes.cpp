@@ -25,7 +25,8 @@ solver::ModesOptions read_modes_options(const JsonView& analysis) {
 }
 
 /// Rejects a key that is incompatible with modes about a loaded or rotating state.
-void refuse(const JsonView& analysis, const char* key, const char* other_key, const char* reason) {
+void require_absent(const JsonView& analysis, const char* key, const char* other_key,
+                    const char* reason) {
   if (!analysis.has(key) || analysis[key].json() == false) return;
   throw analysis[key].error(std::string("not allowed with '") + other_key + "': " + reason);
 }
@@ -34,7 +35,8 @@ void refuse(const JsonView& analysis, const char* key, const char* other_key, co
 solver::System condensed(const JsonView& analysis, const CaseModel& case_model,
                          solver::System system) {
   if (!analysis.has("reduction")) return system;
-  refuse(analysis, "count_below_Hz", "reduction", "the count includes all modes of the full model");
+  require_absent(analysis, "count_below_Hz", "reduction",
+                 "the count includes all modes of the full model");
   if (case_model.effects.has(solver::Effect::geometric_stiffening))
     throw analysis["reduction"].error("not allowed with geometric stiffening ('prestressed')");
   if (analysis["reduction"].has("modes"))
@@ -50,8 +52,9 @@ solver::ModalSolution modes_of(const JsonView& analysis, const CaseModel& case_m
   const solver::ModesOptions options = read_modes_options(analysis);
   if (!case_model.effects.has(solver::Effect::geometric_stiffening))
     return solver::solve_modes(system, options);
-  refuse(analysis, "count_below_Hz", analysis.has("prestressed") ? "prestressed" : "effects",
-         "the count refers to the unloaded model");
+  require_absent(analysis, "count_below_Hz",
+                 analysis.has("prestressed") ? "prestressed" : "effects",
+                 "the count refers to the unloaded model");
   return solver::solve_prestressed_modes(system, options);
 }
 
@@ -188,9 +191,9 @@ StepResult analyze_rotating(const JsonView& modes, const solver::System& system,
 StepResult analyze_modes_at(const JsonView& analysis, const CaseModel& case_model, std::size_t step,
                             bool draw, ShapeTracker* tracker, Recorder& record) {
   if (analysis.has("rotating")) {
-    refuse(analysis, "count_below_Hz", "rotating", "the count refers to the model at rest");
-    refuse(analysis, "reduction", "rotating", "the reduced model has no Coriolis forces");
-    refuse(analysis, "prestressed", "rotating", "a rotating frame always includes loads");
+    require_absent(analysis, "count_below_Hz", "rotating", "the count refers to the model at rest");
+    require_absent(analysis, "reduction", "rotating", "the reduced model has no Coriolis forces");
+    require_absent(analysis, "prestressed", "rotating", "a rotating frame always includes loads");
     if (case_model.path) throw analysis["rotating"].error("'rotating' requires one 'pose'");
     return analyze_rotating(analysis, solver::assemble(build_model(case_model, step)),
                             case_model.effects, draw, record);
@@ -286,7 +289,7 @@ StepResult analyze_modes(const JsonView& analysis, const CaseModel& case_model, 
                          Recorder& record) {
   const bool tracks = analysis.get("track_shapes", false);
   if (tracks) {
-    refuse(analysis, "rotating", "track_shapes", "a rotating frame requires one 'pose'");
+    require_absent(analysis, "rotating", "track_shapes", "a rotating frame requires one 'pose'");
     if (!case_model.path) throw analysis["track_shapes"].error("requires a trajectory");
   } else if (follows_pose(analysis, case_model)) {
     return analyze_modes_of_poses(analysis, case_model, draw, record);

@@ -112,7 +112,7 @@ StepResult analyze_sensitivity_map(const JsonView& analysis, const CaseModel& ca
   std::vector<Reading> readings;
   for (const auto& entry : analysis["orientations_deg"].entries()) {
     const auto degrees = entry.second.get<double>();
-    const std::string item = "phi-" + shortest(degrees);
+    const std::string item = "phi-" + shortest_decimal(degrees);
     solver::Pose center = case_model.motion.front().pose;
     center.phi = degrees * kDegree;
     const solver::PoseGrid grid = solver::reachable_grid(design.geometry, center.phi,

@@ -27,7 +27,7 @@ inline constexpr std::array kWords<mms::ShearStrain> = {"none", "from-bending", 
 namespace {
 
 /// Records residuals of (K - omega^2 M) q = f, with newly assembled matrices.
-void judge(const solver::System& system, double omega, ManufacturedSolution& solution) {
+void add_evidence(const solver::System& system, double omega, ManufacturedSolution& solution) {
   const Eigen::VectorXd u = system.T * solution.q;
   solver::RowBalance<double> rows(system);
   rows.add_stiffness(u);
@@ -57,7 +57,7 @@ ManufacturedSolution solve(solver::System system, double omega) {
     if (!refined.converged()) {
       solution.outcome = {solver::Status::singular, "round-off error leaves no correct digit"};
     }
-    judge(system, omega, solution);
+    add_evidence(system, omega, solution);
   } else {
     solution.outcome = {solver::Status::singular,
                         "the matrix is singular: the model is unsupported or at a resonance"};

@@ -37,8 +37,8 @@ std::string setting_of(const Document& document) {
   const Json& json = document.value();
   const auto add = [&](const std::string& word, const std::string& pointer) {
     if (!json.contains(JsonPointer(pointer)) || !json.at(JsonPointer(pointer)).is_number()) return;
-    text +=
-        (text.empty() ? "" : ", ") + word + shortest(json.at(JsonPointer(pointer)).get<double>());
+    text += (text.empty() ? "" : ", ") + word +
+            shortest_decimal(json.at(JsonPointer(pointer)).get<double>());
   };
   const Json& model = json.value("model", Json::object());
   if (model.contains("manipulator")) add("elements ", mesh_pointer(document));

@@ -103,11 +103,11 @@ Document start_of(const JsonView& study, const JsonView& part) {
 /// element a link".
 std::string named(const std::string& each, double value) {
   const std::size_t at = each.find("{}");
-  if (at == std::string::npos) return each + " " + shortest(value);
+  if (at == std::string::npos) return each + " " + shortest_decimal(value);
   std::string after = each.substr(at + 2);
   const std::size_t end = std::min(after.find(' ', 1), after.size());
   if (value == 1 && end > 1 && after[end - 1] == 's') after.erase(end - 1, 1);
-  return each.substr(0, at) + shortest(value) + after;
+  return each.substr(0, at) + shortest_decimal(value) + after;
 }
 
 bool is_swept(const JsonView& curve, double value, SweepExtent extent) {
@@ -175,7 +175,7 @@ std::pair<Scale, std::string> read_scale(const JsonView& output) {
   if (place && place->json().is_object()) {
     const double number = place->number("value");
     return {{Scale::Kind::number, number},
-            "relative to " + shortest(number) + ", " + place->text("why")};
+            "relative to " + shortest_decimal(number) + ", " + place->text("why")};
   }
   if (place && place->json() == "largest")
     return {{Scale::Kind::largest, 0}, "relative to the largest of all true values"};
@@ -276,7 +276,7 @@ const std::vector<double>& values_of(const Quantities& quantities, const std::st
   if (found == quantities.end()) {
     std::vector<std::string> names;
     for (const auto& item : quantities) names.push_back(item.first);
-    throw std::runtime_error(unknown_name("a quantity of the computation", name, names));
+    throw std::runtime_error(unknown_name("a quantity that the computation returns", name, names));
   }
   return found->second.values;
 }

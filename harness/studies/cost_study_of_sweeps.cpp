@@ -75,7 +75,7 @@ std::vector<Setting> settings_of(const Document& document, const std::string& sw
   std::vector<Setting> settings;
   for (Level& level : levels(document, sweep)) {
     settings.push_back({sweep, place.get<std::string>("title", sweep),
-                        sweep + " " + shortest(level.parameter), level.parameter,
+                        sweep + " " + shortest_decimal(level.parameter), level.parameter,
                         std::move(level.document), observed});
   }
   return settings;

@@ -83,7 +83,7 @@ std::string target_text(const Check& check) {
   if (check.measure == "validation") return "as recorded";
   if (!check.expected) return check.measure == "bound" && check.tolerance ? bound_text(check) : "–";
   // A printed value is shown with all its digits, unless it has too many.
-  const int own = digits_in(shortest(*check.expected));
+  const int own = digits_in(shortest_decimal(*check.expected));
   if (own <= kMaxTargetDigits) return significant(*check.expected, own);
   return significant(*check.expected, digits_for(check));
 }

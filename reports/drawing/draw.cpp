@@ -78,7 +78,7 @@ std::string axes_of(const Figure& figure, const fs::path& extent) {
     if (!(in >> end)) return "";
   std::string numbers;
   for (std::size_t i = 0; i < ends.size(); ++i)
-    numbers += shortest(i < 6 ? ends[i] : figure.height - ends[i]) + " ";
+    numbers += shortest_decimal(i < 6 ? ends[i] : figure.height - ends[i]) + " ";
   const auto is_log = [&](const char* axis) {
     return figure.commands.find(std::string("set logscale ") + axis) != std::string::npos;
   };

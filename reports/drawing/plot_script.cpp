@@ -17,7 +17,7 @@ std::string row_text(const std::vector<double>& row) {
   std::string out;
   for (const double x : row) {
     if (!std::isfinite(x)) return "";
-    out += (out.empty() ? "" : " ") + shortest(x, kSampleDigits);
+    out += (out.empty() ? "" : " ") + shortest_decimal(x, kSampleDigits);
   }
   return out;
 }
@@ -64,7 +64,7 @@ std::string gnuplot_path(const std::filesystem::path& path) {
 std::string tic(const std::string& text, double at) {
   std::string format;  // gnuplot interprets labels as formats
   for (const char c : text) format += c == '%' ? "%%" : std::string(1, c);
-  return gnuplot_string(format) + " " + shortest(at);
+  return gnuplot_string(format) + " " + shortest_decimal(at);
 }
 
 std::size_t characters(const std::string& utf8) {
@@ -121,7 +121,7 @@ int PlotScript::key_below(const std::vector<std::string>& titles) {
 }
 
 void PlotScript::range(const std::string& axis, double low, double high) {
-  command("set " + axis + "range [" + shortest(low) + ":" + shortest(high) + "]");
+  command("set " + axis + "range [" + shortest_decimal(low) + ":" + shortest_decimal(high) + "]");
 }
 
 void PlotScript::axis_label(const std::string& axis, const std::string& text) {

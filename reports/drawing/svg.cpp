@@ -63,8 +63,8 @@ std::string short_path(const std::string& path) {
     Line kept;
     boost::geometry::simplify(line, kept, 0.1);  // largest distance of an omitted point
     for (std::size_t i = 0; kept.size() > 1 && i < kept.size(); ++i)
-      out += (i == 0 ? "M" : " ") + shortest(std::round(10 * kept[i].x()) / 10) + ',' +
-             shortest(std::round(10 * kept[i].y()) / 10);
+      out += (i == 0 ? "M" : " ") + shortest_decimal(std::round(10 * kept[i].x()) / 10) + ',' +
+             shortest_decimal(std::round(10 * kept[i].y()) / 10);
     line.clear();
   };
   std::istringstream in(path);

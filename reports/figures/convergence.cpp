@@ -109,7 +109,8 @@ void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interva
   extent.cover(bottom);
   script.curve({{x_top, top}, {x_top, bottom}, {x_bottom, bottom}, {x_top, top}},
                "with lines lw 1.4" + lc(palette::kInk));
-  script.label(trimmed(theory, 3), shortest(x_top) + "," + shortest(std::sqrt(top * bottom)) +
+  script.label(trimmed(theory, 3), shortest_decimal(x_top) + "," +
+                                       shortest_decimal(std::sqrt(top * bottom)) +
                                        (falls ? " right offset -0.6,0" : " left offset 0.6,0") +
                                        " front textcolor rgb '" + palette::kInk + "'");
 }

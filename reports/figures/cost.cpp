@@ -59,10 +59,10 @@ Strip strip_of(double low, double high) {
 }
 
 void draw_strip(PlotScript& script, const Strip& strip) {
-  script.command("set object 1 rectangle from " + shortest(strip.left) + ", graph 0 to " +
-                 shortest(strip.right) + ", graph 1 behind fillstyle solid noborder fc rgb '" +
-                 palette::kBlush + "'");
-  script.label("no result", shortest(strip.middle) +
+  script.command("set object 1 rectangle from " + shortest_decimal(strip.left) + ", graph 0 to " +
+                 shortest_decimal(strip.right) +
+                 ", graph 1 behind fillstyle solid noborder fc rgb '" + palette::kBlush + "'");
+  script.label("no result", shortest_decimal(strip.middle) +
                                 ", graph 0.5 center rotate front textcolor rgb '" +
                                 palette::kMuted + "'");
 }

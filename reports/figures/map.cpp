@@ -185,7 +185,7 @@ int draw_map(PlotScript& script, const PlotRequest& request, const Run& run, con
              const ColorClasses& classes) {
   script.command("set size ratio -1");
   const auto [low, high] = std::ranges::minmax_element(field.cells, {}, &Cell::x);
-  const std::string step = shortest(round_step((high->x - low->x + field.dx) / 4));
+  const std::string step = shortest_decimal(round_step((high->x - low->x + field.dx) / 4));
   script.command("set xtics " + step);
   script.command("set ytics " + step);
   script.axis_label("x", axis_label(parse_quantity(request.x).label, "m"));

@@ -44,10 +44,11 @@ void draw_joints(PlotScript& script, const Drawing& drawing, const JointSymbol& 
       rows.push_back({drawing.nodes[joint.node].first, drawing.nodes[joint.node].second});
   if (rows.empty()) return;
   const std::string style = "with points pt " + std::to_string(symbol.point) + " ps " +
-                            shortest(symbol.size) + lc(symbol.color);
+                            shortest_decimal(symbol.size) + lc(symbol.color);
   script.curve(rows, style, symbol.filled ? symbol.words : "");
   if (symbol.filled) return;
-  script.curve(rows, "with points pt 7 ps " + shortest(0.6 * symbol.size) + lc(palette::kPaper));
+  script.curve(rows,
+               "with points pt 7 ps " + shortest_decimal(0.6 * symbol.size) + lc(palette::kPaper));
   script.key_entry("with points pt 6 ps 1 lw 2" + lc(palette::kInk), symbol.words);
 }
 
@@ -62,8 +63,8 @@ void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
     const double r = std::hypot(x - cx, y - cy) + 1e-300;
     const double reach = 0.055 * box.side();
     const double lift = r < reach ? reach : 0;
-    script.label(joint.name, shortest(x + reach * (x - cx) / r) + "," +
-                                 shortest(y + reach * (y - cy) / r + lift) +
+    script.label(joint.name, shortest_decimal(x + reach * (x - cx) / r) + "," +
+                                 shortest_decimal(y + reach * (y - cy) / r + lift) +
                                  " center front textcolor rgb '" + palette::kInk + "'");
   }
 }

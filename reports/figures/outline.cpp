@@ -176,16 +176,16 @@ void frame(PlotScript& script, const Box& box) {
   script.range("x", box.x.low, box.x.high);
   script.range("y", box.y.low, box.y.high);
   script.command("set size ratio -1");
-  const std::string step = shortest(round_step(box.side() / 5));
+  const std::string step = shortest_decimal(round_step(box.side() / 5));
   script.command("set xtics " + step + "; set ytics " + step);
 }
 
 void draw_body(PlotScript& script, const Drawing& drawing, const std::vector<Point>& nodes,
                const std::string& color, double width, const std::string& title) {
   const std::string line = "with lines" + lc(color) + " lw ";
-  script.curve(rows_of(triangle_edges(drawing), nodes), line + shortest(0.5 * width),
+  script.curve(rows_of(triangle_edges(drawing), nodes), line + shortest_decimal(0.5 * width),
                drawing.members.empty() ? title : "");
-  script.curve(rows_of(polylines(drawing), nodes), line + shortest(width), title);
+  script.curve(rows_of(polylines(drawing), nodes), line + shortest_decimal(width), title);
 }
 
 int height_of(const Box& box) {

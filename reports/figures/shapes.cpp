@@ -110,7 +110,8 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
     factors.push_back(factor);
     moved.push_back(displaced(drawing.nodes, shape, factor));
     for (const char* head : {"u_x_m [", "u_y_m ["})
-      table.heads.push_back(head + shape.label + "; drawn " + shortest(factor, 4) + " times]");
+      table.heads.push_back(head + shape.label + "; drawn " + shortest_decimal(factor, 4) +
+                            " times]");
     for (std::size_t i = 0; i < drawing.nodes.size(); ++i)
       table.rows[i].insert(table.rows[i].end(),
                            {shape.displacement[i].first, shape.displacement[i].second});

@@ -98,8 +98,8 @@ void draw_labels(PlotScript& script, const std::vector<ToleranceRow>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const std::string label =
         shortened(rows[i].label, 44) + " (" + std::to_string(rows[i].checks.size()) + ")";
-    const std::string line = ", first " + shortest(-static_cast<double>(i));
-    script.label(label, "graph 0.006, first " + shortest(-static_cast<double>(i) - 0.3) +
+    const std::string line = ", first " + shortest_decimal(-static_cast<double>(i));
+    script.label(label, "graph 0.006, first " + shortest_decimal(-static_cast<double>(i) - 0.3) +
                             " left front font ',13.5' textcolor rgb '" + palette::kInk + "'");
     if (i > 0)
       script.command("set arrow from graph 0" + line + " to graph 1" + line + " nohead back lw 1" +

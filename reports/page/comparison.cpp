@@ -78,6 +78,7 @@ TextTable modes_table(const ComparedRun& run, const SideComparison& comparison) 
     for (std::size_t s = 0; s < found.values.size(); ++s) {
       std::string text = found.values[s] ? significant(*found.values[s], 6) : "no similar mode";
       if (found.last[s]) text += " to " + significant(*found.last[s], 6);
+      if (found.errors[s]) text += " ± " + significant(*found.errors[s], 2);
       if (found.modes[s] != found.modes[0] && !found.modes[s].empty())
         text += " (mode " + numbers_text(found.modes[s]) + ")";
       row.push_back(text);
@@ -98,6 +99,7 @@ TextTable numbers_table(const ComparedRun& run, const SideComparison& comparison
       const Number value = number.values[s];
       const bool zero = value && std::abs(*value) <= number.noise;
       row.push_back(zero ? "0" : or_dash(value, 6));
+      if (!zero && number.errors[s]) row.back() += " ± " + significant(*number.errors[s], 2);
       if (s > 0) row.push_back(percent_text(number.percent[s]));
     }
     table.rows.push_back(row);

@@ -51,7 +51,7 @@ std::string attributes(Tally tally) {
   for (const auto& [name, element] :
        {std::pair("failures", "failure"), {"errors", "error"}, {"skipped", "skipped"}})
     text += attribute(name, std::to_string(tally.elements[element]));
-  return text + attribute("time", shortest(tally.time_s));
+  return text + attribute("time", shortest_decimal(tally.time_s));
 }
 
 /// Returns a test case with its outcome and output, and counts it.
@@ -61,7 +61,7 @@ std::string testcase(const std::string& classname, const std::string& name, doub
   ++tally.tests;
   tally.time_s += time_s;
   std::string text = "    <testcase" + attribute("classname", classname) + attribute("name", name) +
-                     attribute("time", shortest(time_s)) + ">\n";
+                     attribute("time", shortest_decimal(time_s)) + ">\n";
   const auto outcome = std::ranges::find(kOutcomes, status, &Outcome::status);
   if (outcome != kOutcomes.end()) {
     ++tally.elements[outcome->element];

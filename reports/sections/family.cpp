@@ -14,9 +14,9 @@ Data counts_list(const Counts& counts) {
   Data out = list();
   const auto all = static_cast<double>(total(counts));
   for (const auto& [status, n] : counts)
-    out.push_back(with_status(
-        status,
-        {{"n", std::to_string(n)}, {"percent", shortest(100.0 * static_cast<double>(n) / all)}}));
+    out.push_back(
+        with_status(status, {{"n", std::to_string(n)},
+                             {"percent", shortest_decimal(100.0 * static_cast<double>(n) / all)}}));
   return out;
 }
 

@@ -75,7 +75,7 @@ Data case_of(const CaseInfo& info, const Family& family, Counts& counts) {
                  {"rows", rows}});
 }
 
-std::string text_of(const Counts& counts, std::size_t items, std::size_t cases) {
+std::string counts_text(const Counts& counts, std::size_t items, std::size_t cases) {
   std::string text;
   for (const auto& [status, n] : counts)
     add_item(text, std::to_string(n) + " " +
@@ -101,7 +101,7 @@ Data stress_suite_section(const std::vector<Family>& families) {
   for (const auto& [item, data] : cases) in_order.push_back(data);
   return object({{"has_rows", !cases.empty()},
                  {"cases", in_order},
-                 {"words", text_of(counts, items.size(), cases.size())}});
+                 {"words", counts_text(counts, items.size(), cases.size())}});
 }
 
 }  // namespace trammel::reports

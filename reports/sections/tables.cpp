@@ -188,17 +188,40 @@ Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
   Table table;
   table.heads = words_in(
       "case variant status check role quantity index unit target computed measure difference "
-      "tolerance_low tolerance_high expectation reference verdict message");
+      "tolerance_low tolerance_high expectation reference verdict message discretization_error "
+      "u_num u_input u_reference u_val dominant_input");
   for (const Run* run : runs)
-    for (const Check& c : run->checks)
+    for (const Check& c : run->checks) {
+      const bool is_entry = c.index && c.statistic.empty() && c.against_variant.empty();
+      const Comparison none, *found = find_comparison(*run, c),
+                             &validation = found != nullptr ? *found : none;
       table.rows.push_back(
-          {info.id, run->variant, to_string(run->status), c.name, c.role, c.quantity,
-           c.index ? Table::Cell(static_cast<double>(*c.index + 1)) : Table::Cell{}, c.unit,
-           cell(c.expected), cell(c.computed), c.measure, cell(c.difference),
+          {info.id,
+           run->variant,
+           to_string(run->status),
+           c.name,
+           c.role,
+           c.quantity,
+           c.index ? Table::Cell(static_cast<double>(*c.index + 1)) : Table::Cell{},
+           c.unit,
+           cell(c.expected),
+           cell(c.computed),
+           c.measure,
+           cell(c.difference),
            c.tolerance ? cell(c.tolerance->low) : Table::Cell{},
            c.tolerance ? cell(c.tolerance->high) : Table::Cell{},
-           std::string(c.known_discrepancy() ? "known-discrepancy" : "agrees"), c.reference,
-           to_string(c.verdict), c.message});
+           std::string(c.known_discrepancy() ? "known-discrepancy" : "agrees"),
+           c.reference,
+           to_string(c.verdict),
+           c.message,
+           is_entry ? cell(run->half_width(c.quantity, static_cast<std::size_t>(*c.index)))
+                    : Table::Cell{},
+           cell(validation.u_num),
+           cell(validation.u_input),
+           cell(validation.u_reference),
+           cell(validation.u_val),
+           validation.dominant_input});
+    }
   return table;
 }
 

@@ -60,7 +60,7 @@ std::string text_cell(const std::string& text) {
 
 std::string written(const Table::Cell& value, int digits) {
   if (const auto* number = std::get_if<double>(&value))
-    return digits > 0 ? shortest(*number, digits) : shortest(*number);
+    return digits > 0 ? shortest_decimal(*number, digits) : shortest_decimal(*number);
   if (const auto* text = std::get_if<std::string>(&value)) return text_cell(*text);
   return "";
 }

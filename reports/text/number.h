@@ -36,10 +36,10 @@ namespace trammel::reports {
 inline constexpr int kSampleDigits = 7;
 
 /// Returns the shortest text that reads back as the same double, independent of the locale.
-[[nodiscard]] std::string shortest(double x);
+[[nodiscard]] std::string shortest_decimal(double x);
 
 /// Returns the number with at most `digits` significant digits.
-[[nodiscard]] std::string shortest(double x, int digits);
+[[nodiscard]] std::string shortest_decimal(double x, int digits);
 
 /// Returns "10⁻⁷".
 [[nodiscard]] std::string power_of_ten(int exponent);

@@ -59,8 +59,8 @@ double floating_shift(const System& system, const MatrixXd& Z, Counters& counter
 /// Adds the residuals of modes to the evidence: the largest backward error of (K + K_G) x = w^2 M
 /// x, and the number of missing or superfluous modes. The parameter K is the sum K + K_G. K_G is
 /// empty without prestress.
-void judge(const System& system, const SparseMatrix& K, const SparseMatrix& K_G,
-           ModalSolution& solution, Factorization&& spent = {}, double shift_above = 0) {
+void add_evidence(const System& system, const SparseMatrix& K, const SparseMatrix& K_G,
+                  ModalSolution& solution, Factorization&& spent = {}, double shift_above = 0) {
   if (!solution.outcome.solved()) return;
   const VectorXd w2 = (2 * std::numbers::pi * solution.frequency).cwiseAbs2();
   if (w2.size() > 0) {
@@ -86,7 +86,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
   Counters& counters = solution.counters;
   SparseMatrix K_G(system.K.rows(), system.K.cols()), stiffened;
   if (system.K.rows() == 0) {  // nothing can move
-    judge(system, system.K, K_G, solution);
+    add_evidence(system, system.K, K_G, solution);
     return solution;
   }
   if (state) K_G = geometric_stiffness(system, state->forces);
@@ -145,7 +145,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
     solution.roundoff[rigid + j] = 0.5 * (rounding / w2 + pairs.error[j]) + 4 * kEps;
     solution.shape.col(rigid + j) = x;
   }
-  judge(system, K, K_G, solution, std::move(factorization), pairs.check_shift);
+  add_evidence(system, K, K_G, solution, std::move(factorization), pairs.check_shift);
   return solution;
 }
 

@@ -94,7 +94,7 @@ double rate(const MobilizedBody& body, const State& state) {
   return body.isGround() ? 0 : body.getOneU(state, 0);
 }
 
-void refuse(const Json& json, const std::set<std::string>& known, const char* what) {
+void require_known_keys(const Json& json, const std::set<std::string>& known, const char* what) {
   for (const auto& item : json.items())
     if (known.count(item.key()) == 0 && item.value() != Json(false))
       throw Cannot(std::string("no ") + what + " '" + item.key() + "'");
@@ -108,10 +108,10 @@ struct Mechanism : System {
   Vec3 at(const Json& model, const std::string& node) { return point(model.at("nodes").at(node)); }
 
   explicit Mechanism(const Json& model) {
-    refuse(model,
-           {"nodes", "rigid_bodies", "point_masses", "supports", "pins", "axial_springs", "loads",
-            "gravity_m_s2"},
-           "part");
+    require_known_keys(model,
+                       {"nodes", "rigid_bodies", "point_masses", "supports", "pins",
+                        "axial_springs", "loads", "gravity_m_s2"},
+                       "part");
     std::map<std::string, std::set<std::string>> groups;
     std::set<std::string> grouped;
     for (const auto& item : section(model, "rigid_bodies").items()) {
@@ -172,7 +172,7 @@ struct Mechanism : System {
     add_weight(model);
     for (const auto& item : section(model, "axial_springs").items()) {
       const Json& spring = item.value();
-      refuse(spring, {"nodes", "stiffness_N_per_m", "rest_length_m"}, "spring with");
+      require_known_keys(spring, {"nodes", "stiffness_N_per_m", "rest_length_m"}, "spring with");
       const Place& a = places.at(spring.at("nodes").at(0));
       const Place& b = places.at(spring.at("nodes").at(1));
       SimTK::Force::TwoPointLinearSpring(forces, a.body, a.station, b.body, b.station,
@@ -181,7 +181,7 @@ struct Mechanism : System {
     }
     for (const auto& item : section(model, "loads").items()) {
       const Json& load = item.value();
-      refuse(load, {"node", "force_N", "moment_N_m"}, "load with");
+      require_known_keys(load, {"node", "force_N", "moment_N_m"}, "load with");
       const Place& place = places.at(load.at("node"));
       if (!place.body.isGround()) add_load(load, place);
     }
@@ -191,7 +191,7 @@ struct Mechanism : System {
   void start(const Json& given, State& state) {
     std::vector<std::pair<MobilizedBody, Real>> known;
     for (const auto& item : given.items()) {
-      refuse(item.value(), {"x_m_per_s", "rotation_rad_per_s"}, "initial");
+      require_known_keys(item.value(), {"x_m_per_s", "rotation_rad_per_s"}, "initial");
       const Place& place = places.at(item.key());
       if (place.body.isGround() || place.body.getNumU(state) != 1)
         throw Cannot("no initial velocities but of bodies that turn about the ground");
@@ -239,10 +239,10 @@ void append_nodes(const Mechanism& mechanism, const Json& angles, const State& s
 }
 
 Answer motion(const Json& model, const Json& options) {
-  refuse(options,
-         {"end_time_s", "step_s", "output_step_s", "extrapolated", "nodes", "initial_velocities",
-          "angles", "integrator", "spectral_radius", "tolerance"},
-         "option");
+  require_known_keys(options,
+                     {"end_time_s", "step_s", "output_step_s", "extrapolated", "nodes",
+                      "initial_velocities", "angles", "integrator", "spectral_radius", "tolerance"},
+                     "option");
   Mechanism mechanism(model);
   SimTK::State state = mechanism.system.realizeTopology();
   mechanism.system.realizeModel(state);
@@ -379,7 +379,7 @@ void load(Manipulator& m, const Json& model) {
   m.add_weight(model);
   for (const auto& item : section(model, "loads").items()) {
     if (item.value().is_null()) continue;
-    refuse(item.value(), {"node", "force_N", "moment_N_m"}, "load with");
+    require_known_keys(item.value(), {"node", "force_N", "moment_N_m"}, "load with");
     if (item.value().at("node") != "P") throw Cannot("loads are supported on P only");
     m.add_load(item.value(), {m.bodies["platform"], Vec3(0)});
   }
@@ -387,7 +387,7 @@ void load(Manipulator& m, const Json& model) {
 
 /// Integrates the motion from the first point of the path under constant torques.
 Answer driven(const Json& model, const Json& mechanism, const Json& options) {
-  refuse(options, {"torque_N_m", "tolerance"}, "option");
+  require_known_keys(options, {"torque_N_m", "tolerance"}, "option");
   if (!options.contains("torque_N_m")) throw Cannot("torques that follow a path");
   Manipulator m(mechanism);
   load(m, model);
@@ -422,7 +422,7 @@ Answer driven(const Json& model, const Json& mechanism, const Json& options) {
 }
 
 Answer along_path(const Json& model, const Json& mechanism, const Json& options, bool torques) {
-  refuse(options, {"bodies", "torque_residuals"}, "option");
+  require_known_keys(options, {"bodies", "torque_residuals"}, "option");
   Manipulator m(mechanism);
   if (torques) load(m, model);
   State state = m.system.realizeTopology();

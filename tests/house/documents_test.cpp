@@ -17,7 +17,7 @@ namespace {
 
 const fs::path root = TRAMMEL_SOURCE_DIR;
 
-std::string text_of(const std::string& file) {
+std::string read_text_file(const std::string& file) {
   std::ifstream in(root / file);
   std::ostringstream text;
   text << in.rdbuf();
@@ -36,7 +36,7 @@ std::vector<std::string> found(const std::string& text, const std::regex& patter
 BOOST_AUTO_TEST_CASE(files_named_in_the_main_documents_exist) {
   const std::regex path("`((?:cases|harness|references|reports|solver|tests|\\.ci)/[\\w./-]*)`");
   for (const char* document : {"README.md", "CONTRIBUTING.md"}) {
-    const std::vector<std::string> named = found(text_of(document), path);
+    const std::vector<std::string> named = found(read_text_file(document), path);
     BOOST_TEST(!named.empty(), document);
     for (const std::string& file : named)
       BOOST_TEST(fs::exists(root / file), document << " names " << file);
@@ -47,7 +47,7 @@ BOOST_AUTO_TEST_CASE(files_named_in_folder_readmes_exist) {
   const std::regex path("`([\\w-]+/[\\w./-]+\\.(?:h|cpp|json))`");
   for (const char* folder : {"solver", "harness", "references", "reports", "cases"}) {
     const std::string readme = std::string(folder) + "/README.md";
-    const std::vector<std::string> named = found(text_of(readme), path);
+    const std::vector<std::string> named = found(read_text_file(readme), path);
     BOOST_TEST(named.size() > 4U, readme);
     for (const std::string& file : named)
       BOOST_TEST((fs::exists(root / folder / file) || fs::exists(root / file)),
@@ -62,7 +62,7 @@ BOOST_AUTO_TEST_CASE(named_schema_of_a_file_exists) {
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       if (entry.path().extension() != ".json") continue;
       const fs::path file = fs::relative(entry.path(), root);
-      for (const std::string& path : found(text_of(file.string()), schema)) {
+      for (const std::string& path : found(read_text_file(file.string()), schema)) {
         ++named;
         BOOST_TEST(fs::exists(entry.path().parent_path() / path), file << " names " << path);
       }
@@ -72,8 +72,8 @@ BOOST_AUTO_TEST_CASE(named_schema_of_a_file_exists) {
 }
 
 BOOST_AUTO_TEST_CASE(case_format_names_every_analysis) {
-  const auto schema = nlohmann::json::parse(text_of("cases/schema/case.schema.json"));
-  const std::string readme = text_of("docs/cases.md");
+  const auto schema = nlohmann::json::parse(read_text_file("cases/schema/case.schema.json"));
+  const std::string readme = read_text_file("docs/cases.md");
   const auto ref = schema.at("properties").at("analysis").at("$ref").get<std::string>();
   const auto& analyses = schema.at(nlohmann::json::json_pointer(ref.substr(1))).at("properties");
   BOOST_TEST(analyses.size() > 10U);
@@ -82,8 +82,8 @@ BOOST_AUTO_TEST_CASE(case_format_names_every_analysis) {
 }
 
 BOOST_AUTO_TEST_CASE(conventions_have_a_row_for_every_analysis) {
-  const std::string text = text_of("cases/CONVENTIONS.md");
-  const auto schema = nlohmann::json::parse(text_of("cases/schema/case.schema.json"));
+  const std::string text = read_text_file("cases/CONVENTIONS.md");
+  const auto schema = nlohmann::json::parse(read_text_file("cases/schema/case.schema.json"));
   for (const auto& item : schema.at("definitions").at("analysis").at("properties").items())
     BOOST_TEST(text.find("\n| `" + item.key() + "` |") != std::string::npos, item.key());
   std::vector<std::string> cases;

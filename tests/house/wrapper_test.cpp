@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string text_of(const fs::path& file) {
+std::string read_text_file(const fs::path& file) {
   std::ifstream in(file);
   std::ostringstream text;
   text << in.rdbuf();
@@ -61,7 +61,7 @@ rmdir "$folder/busy"
     const std::string line = "cd '" + root_.string() + "' && export PATH=\"$PWD/bin:$PATH\" && (" +
                              command + ") >said.txt 2>&1 </dev/null";
     status_ = WEXITSTATUS(std::system(line.c_str()));
-    return text_of(root_ / "said.txt");
+    return read_text_file(root_ / "said.txt");
   }
   [[nodiscard]] const fs::path& root() const { return root_; }
   [[nodiscard]] int status() const { return status_; }
@@ -71,7 +71,7 @@ rmdir "$folder/busy"
   mutable int status_ = 0;
 };
 
-bool says(const std::string& text, const std::string& part) {
+bool contains_text(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
@@ -82,9 +82,9 @@ BOOST_AUTO_TEST_CASE(simultaneous_calls_build_one_after_the_other) {
   const std::string said = checkout.run(
       "source/trammel list & a=$!; source/trammel describe & b=$!; wait $a && wait $b");
   BOOST_TEST(checkout.status() == 0);
-  BOOST_TEST(says(said, "program list"), said);
-  BOOST_TEST(says(said, "program describe"), said);
-  BOOST_TEST(says(said, "waiting for another call"), said);
+  BOOST_TEST(contains_text(said, "program list"), said);
+  BOOST_TEST(contains_text(said, "program describe"), said);
+  BOOST_TEST(contains_text(said, "waiting for another call"), said);
   BOOST_TEST(!fs::exists(checkout.root() / "source/build/release/faults"));
 }
 
@@ -93,7 +93,7 @@ BOOST_AUTO_TEST_CASE(other_build_folder_leaves_the_checkout_unchanged) {
   const std::string said = checkout.run(
       "mkdir away; ln -s ../source/trammel away/trammel; cd away; "
       "CDPATH=/usr TRAMMEL_BUILD=build ./trammel list");
-  BOOST_TEST(says(said, "program list"), said);
+  BOOST_TEST(contains_text(said, "program list"), said);
   BOOST_TEST(!fs::exists(checkout.root() / "source/build"));
 }
 
@@ -103,13 +103,13 @@ BOOST_AUTO_TEST_CASE(log_of_a_former_call_is_discarded) {
   const fs::path build = checkout.root() / "source/build/release";
   std::ofstream(build / "wrapper.log") << "an old fault\n";
   (void)checkout.run("script -qec 'source/trammel list' /dev/null");  // a terminal has no log
-  BOOST_TEST(!says(text_of(build / "wrapper.log"), "an old fault"));
+  BOOST_TEST(!contains_text(read_text_file(build / "wrapper.log"), "an old fault"));
   std::ofstream(build / "wrapper.log") << "an old fault\n";
   std::ofstream(build / "broken") << '\n';
   const std::string said = checkout.run("source/trammel list");
   BOOST_TEST(checkout.status() == 3);
-  BOOST_TEST(says(said, "a new fault"), said);
-  BOOST_TEST(!says(said, "an old fault"), said);
+  BOOST_TEST(contains_text(said, "a new fault"), said);
+  BOOST_TEST(!contains_text(said, "an old fault"), said);
 }
 
 BOOST_AUTO_TEST_CASE(impossible_build_folder_is_refused_in_one_line) {

@@ -19,7 +19,7 @@ using namespace trammel::testing;
 namespace {
 
 std::string fault(const std::string& text) {
-  return complaint([&] { (void)parse_json(text, "x.json"); });
+  return input_error_message([&] { (void)parse_json(text, "x.json"); });
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ BOOST_AUTO_TEST_CASE(deep_nesting_is_refused_without_stack_overflow) {
 BOOST_AUTO_TEST_CASE(missing_file_and_folder_are_not_readable) {
   const testing::Folder folder;
   for (const auto& path : {folder.path(), folder.path() / "none.json"}) {
-    BOOST_TEST(complaint([&] { (void)read_json(path); }) ==
+    BOOST_TEST(input_error_message([&] { (void)read_json(path); }) ==
                path.string() + ": expected a readable file");
   }
 }
@@ -135,12 +135,13 @@ BOOST_AUTO_TEST_CASE(message_with_control_characters_is_one_line) {
 }
 
 BOOST_AUTO_TEST_CASE(endless_and_too_large_files_are_refused) {
-  BOOST_TEST(complaint([] { (void)read_json("/dev/zero"); }) ==
+  BOOST_TEST(input_error_message([] { (void)read_json("/dev/zero"); }) ==
              "/dev/zero: expected a readable file");
   const testing::Folder folder;
   const auto large = folder.write("large.json", "{}");
   std::filesystem::resize_file(large, (std::uintmax_t{1} << 28) + 1);  // sparse
-  BOOST_TEST(testing::contains(complaint([&] { (void)read_json(large); }), "at most 256 MiB"));
+  BOOST_TEST(
+      testing::contains(input_error_message([&] { (void)read_json(large); }), "at most 256 MiB"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -67,7 +67,7 @@ Eigen::MatrixXd read_matrix(const std::filesystem::path& file) {
 std::string refusal_of(const Json& json) {
   const Folder folder;
   const Case given = read(folder, json);
-  return complaint([&] { (void)export_case(given, {}); });
+  return input_error_message([&] { (void)export_case(given, {}); });
 }
 
 }  // namespace
@@ -155,7 +155,7 @@ BOOST_AUTO_TEST_CASE(sweep_level_is_exported_as_one_case) {
   BOOST_TEST(finest["export"]["level"] == count - 1);
   BOOST_TEST(finest["export"]["hash"] != export_case(given, {})["export"]["hash"]);
   const auto message = [&](const ExportChoice& choice) {
-    return complaint([&] { (void)export_case(given, choice); });
+    return input_error_message([&] { (void)export_case(given, choice); });
   };
   BOOST_TEST(contains(message({"base", "elements", count}), "expected a level from 0 to "));
   BOOST_TEST(contains(message({"base", "steps", 0}), "expected the name of a sweep (got 'steps'"));

@@ -39,13 +39,14 @@ BOOST_AUTO_TEST_CASE(invalid_variant_is_refused_at_its_place) {
   json["variants"]["removed"]["model"]["sections"]["bar"]["material"] = nullptr;
   const Case given = testing::read(folder, json);
   const std::string file = given.file.string();
-  BOOST_TEST(complaint([&] { (void)patched(given, "thin"); }) ==
+  BOOST_TEST(input_error_message([&] { (void)patched(given, "thin"); }) ==
              file +
                  ": /variants/thin/model/sections/bar/rectangle/thickness_m: expected a number "
                  "above 0 (got -1)");
-  BOOST_TEST(contains(complaint([&] { (void)patched(given, "removed"); }),
+  BOOST_TEST(contains(input_error_message([&] { (void)patched(given, "removed"); }),
                       "/variants/removed/model/sections/bar: expected the key 'material'"));
-  BOOST_TEST(contains(complaint([&] { (void)patched(given, "thn"); }), "did you mean 'thin'?"));
+  BOOST_TEST(
+      contains(input_error_message([&] { (void)patched(given, "thn"); }), "did you mean 'thin'?"));
 }
 
 BOOST_AUTO_TEST_CASE(extending_case_inherits_model_but_no_checks) {
@@ -78,7 +79,7 @@ BOOST_AUTO_TEST_CASE(error_in_an_extended_case_names_its_file) {
   base["model"]["materials"]["steel"]["E_Pa"] = "stiff";
   const auto file = folder.write(base);
   const Json json = {{"id", "x"}, {"title", "X"}, {"extends", "cantilever"}};
-  BOOST_TEST(complaint([&] { (void)testing::read(folder, json); }) ==
+  BOOST_TEST(input_error_message([&] { (void)testing::read(folder, json); }) ==
              file.string() +
                  ": /model/materials/steel/E_Pa: expected a number above 0 (got "
                  "\"stiff\")");
@@ -88,7 +89,7 @@ BOOST_AUTO_TEST_CASE(cyclic_extension_is_refused) {
   const Folder folder;
   (void)folder.write({{"id", "a"}, {"title", "A"}, {"extends", "b"}});
   const Json b = {{"id", "b"}, {"title", "B"}, {"extends", "a"}};
-  BOOST_TEST(contains(complaint([&] { (void)testing::read(folder, b); }),
+  BOOST_TEST(contains(input_error_message([&] { (void)testing::read(folder, b); }),
                       "/extends: the case extends itself"));
 }
 
@@ -98,7 +99,7 @@ BOOST_AUTO_TEST_CASE(extended_case_may_be_in_another_folder) {
   const Json json = {{"id", "x"}, {"title", "X"}, {"extends", "sub/cantilever.json"}};
   BOOST_TEST(testing::read(folder, json).document.value().contains("analysis"));
   const Json lost = {{"id", "x"}, {"title", "X"}, {"extends", "sub/cantilver.json"}};
-  BOOST_TEST(contains(complaint([&] { (void)testing::read(folder, lost); }),
+  BOOST_TEST(contains(input_error_message([&] { (void)testing::read(folder, lost); }),
                       "/extends: expected a file relative to this one or a case of the catalogue"));
 }
 
@@ -109,7 +110,7 @@ BOOST_AUTO_TEST_CASE(stress_suite_indicator_must_be_a_check_of_the_case) {
     "stress_suite": {"item": 1, "indicators": ["digits", "driftt"]},
     "checks": {"digits": {"quantity": "q", "role": "verification", "bound": {"at_most": 1, "why": "w"}},
                "drift": {"quantity": "q", "role": "verification", "bound": {"at_most": 1, "why": "w"}}}})");
-  const std::string said = complaint([&] { static_cast<void>(load_case(file)); });
+  const std::string said = input_error_message([&] { static_cast<void>(load_case(file)); });
   BOOST_TEST(contains(said, "/stress_suite/indicators/1"));
   BOOST_TEST(contains(said, "did you mean 'drift'?"));
 }
@@ -158,7 +159,7 @@ BOOST_AUTO_TEST_CASE(invalid_sweep_level_is_refused_at_its_value) {
   json["sweeps"]["both"]["pointers"] = {"/model/elements"};
   const Document base = patched(testing::read(folder, json), "base");
   const auto fault = [&](const char* sweep) {
-    return complaint([&] { (void)levels(base, sweep); });
+    return input_error_message([&] { (void)levels(base, sweep); });
   };
   BOOST_TEST(contains(fault("elements"),
                       "/sweeps/elements/values/1: expected a whole number at least 1 and at most "

@@ -12,9 +12,9 @@ using namespace trammel::testing;
 BOOST_AUTO_TEST_CASE(two_rooms_cannot_have_cases_with_one_name) {
   const testing::Folder folder;
   const auto first = folder.write("beams/cantilever.json", "{}");
-  BOOST_TEST(complaint([&] { (void)Catalogue(folder.path()); }).empty());
+  BOOST_TEST(input_error_message([&] { (void)Catalogue(folder.path()); }).empty());
   const auto second = folder.write("hard/cantilever.json", "{}");
-  BOOST_TEST(complaint([&] { (void)Catalogue(folder.path()); }) ==
+  BOOST_TEST(input_error_message([&] { (void)Catalogue(folder.path()); }) ==
              second.string() + ": /id: expected a unique name of the case (another one is " +
                  first.string() + ")");
 }
@@ -27,7 +27,7 @@ BOOST_AUTO_TEST_CASE(case_is_found_in_any_folder) {
   const Catalogue catalogue(folder.path());
   BOOST_TEST(catalogue.find_case("runs") == run);
   BOOST_TEST(catalogue.runnable_files().size() == 2);
-  BOOST_TEST(testing::contains(complaint([&] { (void)catalogue.find_case("rnus"); }),
+  BOOST_TEST(testing::contains(input_error_message([&] { (void)catalogue.find_case("rnus"); }),
                                "did you mean 'runs'?"));
 }
 

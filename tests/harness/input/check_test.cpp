@@ -30,7 +30,7 @@ Check check_of(const Json& json, const std::string& variant = "base") {
 }
 
 std::string fault(const Json& expect) {
-  return complaint([&] { (void)check_of(expecting(expect)); });
+  return input_error_message([&] { (void)check_of(expecting(expect)); });
 }
 
 }  // namespace
@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(quantity_is_not_judged_against_itself) {
            {"against_quantity", "frequency_Hz"},
            {"role", "verification"},
            {"tolerance", {{"absolute", 1}, {"why", "w"}}}};
-  BOOST_TEST(contains(complaint([&] { (void)check_of(json); }),
+  BOOST_TEST(contains(input_error_message([&] { (void)check_of(json); }),
                       "/checks/c/against_quantity: a quantity cannot be compared with itself"));
   check["against_variant"] = "base";
   const Folder folder;
@@ -104,12 +104,12 @@ BOOST_AUTO_TEST_CASE(check_that_cannot_fail_is_refused) {
            {"against_variant", "base"},
            {"role", "verification"},
            {"tolerance", {{"absolute", 1}, {"why", "w"}}}};
-  BOOST_TEST(contains(complaint([&] { (void)check_of(json); }),
+  BOOST_TEST(contains(input_error_message([&] { (void)check_of(json); }),
                       "/checks/c/against_variant: the case has no other variant"));
   check = {{"quantity", "frequency_Hz"},
            {"role", "validation"},
            {"expect", {{"agrees", "w"}, {"value_between", {nullptr, nullptr}}}}};
-  BOOST_TEST(contains(complaint([&] { (void)check_of(json); }),
+  BOOST_TEST(contains(input_error_message([&] { (void)check_of(json); }),
                       "/checks/c/expect/value_between: expected at least one"));
   check["expect"]["value_between"] = {nullptr, 1};
   BOOST_TEST(check_of(json).windows.at(0).high == 1);

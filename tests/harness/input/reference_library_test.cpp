@@ -24,7 +24,7 @@ Json reference() {
 std::string fault(const std::string& text) {
   const Folder folder;
   const std::string file = folder.write("references.json", text).string();
-  const std::string message = complaint([&] { (void)References().add(file + "#/x"); });
+  const std::string message = input_error_message([&] { (void)References().add(file + "#/x"); });
   BOOST_TEST(message.rfind(file + ":", 0) == 0U, message);
   return message.substr(std::min(message.size(), file.size()));
 }

@@ -294,7 +294,7 @@ const Refusal kModels[] = {
 void check(const Refusal& refusal) {
   Json json = cases().at(refusal.name);
   json.merge_patch(Json::parse(refusal.patch));
-  const std::string message = testing::complaint([&] { (void)testing::result_of(json); });
+  const std::string message = testing::input_error_message([&] { (void)testing::result_of(json); });
   BOOST_TEST(contains(message, refusal.message), message);
 }
 
@@ -302,7 +302,9 @@ void check(const Refusal& refusal) {
 
 BOOST_AUTO_TEST_CASE(unchanged_cases_are_accepted) {
   for (const auto& [name, json] : cases())
-    BOOST_TEST(testing::complaint([&json = json] { (void)testing::result_of(json); }) == "", name);
+    BOOST_TEST(
+        testing::input_error_message([&json = json] { (void)testing::result_of(json); }) == "",
+        name);
 }
 
 BOOST_DATA_TEST_CASE(invalid_model_is_refused, kModels, refusal) {

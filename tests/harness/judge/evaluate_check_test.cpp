@@ -352,7 +352,7 @@ BOOST_AUTO_TEST_CASE(contradictory_checks_are_refused) {
     Bench bench;
     bench.check.erase(gone);
     bench.check[key] = value;
-    return complaint([&] { (void)bench.judge_all(); });
+    return input_error_message([&] { (void)bench.judge_all(); });
   };
   BOOST_TEST(contains(fault("bound", {{"at_most", 1}, {"why", "w"}}), "of the keys 'tolerance'"));
   BOOST_TEST(contains(fault("role", "validation"), "/checks/c/tolerance: a check of role"));

@@ -189,7 +189,7 @@ BOOST_AUTO_TEST_CASE(contradictory_claim_rule_is_refused) {
     Json reading = ratio;
     reading[key] = value;
     if (value.is_null()) reading.erase(key);
-    return complaint([&] {
+    return input_error_message([&] {
       (void)evaluate_claims(claims_of({{"r", reading}}, "confirmed"), {bend(1, 1)});
     });
   };

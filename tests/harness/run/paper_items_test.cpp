@@ -21,7 +21,7 @@ std::vector<PaperItem> items_of(const Json& item) {
 std::string fault_of(Json item) {
   item["section"] = "1";
   item["what"] = "w";
-  return complaint([&] { (void)items_of(item); });
+  return input_error_message([&] { (void)items_of(item); });
 }
 
 }  // namespace

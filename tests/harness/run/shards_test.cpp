@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(shard_is_read_from_k_of_n) {
   BOOST_TEST(parse_shard("2/8").number == 2U);
   BOOST_TEST(parse_shard("8/8").count == 8U);
   for (const char* bad : {"", "2", "0/3", "4/3", "1/100001", "-1/3", "1/3 ", "1/", "/3", "a/b"})
-    BOOST_TEST(contains(complaint([&] { (void)parse_shard(bad); }), "expected K/N"), bad);
+    BOOST_TEST(contains(input_error_message([&] { (void)parse_shard(bad); }), "expected K/N"), bad);
 }
 
 BOOST_AUTO_TEST_CASE(merged_shards_equal_a_run_in_one) {
@@ -92,7 +92,7 @@ BOOST_AUTO_TEST_CASE(incomplete_and_inconsistent_shards_are_refused) {
   const auto folders = computed_shards(folder, cases(folder), 2);
   const fs::path store = folder.path() / "merged";
   const auto said = [&](const std::vector<fs::path>& some) {
-    return complaint([&] { (void)merge_shards(some, store); });
+    return input_error_message([&] { (void)merge_shards(some, store); });
   };
   BOOST_TEST(said(folders) == "");
   BOOST_TEST(contains(said({folders[0]}), "missing: 2"));

@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(index_beyond_the_reasons_is_refused) {
   Json json = read_json(file);
   json["runs"][0]["checks"][0]["why"] = 1;
   write_file(file, json.dump());
-  BOOST_TEST(contains(testing::complaint([&] { (void)load_results(file); }), "/reasons"));
+  BOOST_TEST(contains(testing::input_error_message([&] { (void)load_results(file); }), "/reasons"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -38,7 +38,7 @@ CostStudy load(const Json& json, SweepExtent sweeping = SweepExtent::full) {
 }
 
 std::string fault_of(const Json& json, SweepExtent sweeping = SweepExtent::full) {
-  return complaint([&] { (void)load(json, sweeping); });
+  return input_error_message([&] { (void)load(json, sweeping); });
 }
 
 }  // namespace
@@ -169,13 +169,15 @@ BOOST_AUTO_TEST_CASE(sweeps_of_a_case_are_a_cost_study) {
   BOOST_TEST(study.settings[1].title == "elements 2");
   BOOST_TEST(study.baseline == 0U);
   BOOST_TEST(study.reference_description == "the finest level, elements 4");
-  BOOST_TEST(contains(
-      complaint([&] { (void)cost_study_of_sweeps(given, kBaseVariant, {"element"}, references); }),
-      "did you mean 'elements'"));
+  BOOST_TEST(contains(input_error_message([&] {
+                        (void)cost_study_of_sweeps(given, kBaseVariant, {"element"}, references);
+                      }),
+                      "did you mean 'elements'"));
   const Case without = testing::read(folder, testing::cantilever());
-  BOOST_TEST(contains(
-      complaint([&] { (void)cost_study_of_sweeps(without, kBaseVariant, {}, references); }),
-      "expected 'sweeps'"));
+  BOOST_TEST(contains(input_error_message([&] {
+                        (void)cost_study_of_sweeps(without, kBaseVariant, {}, references);
+                      }),
+                      "expected 'sweeps'"));
 }
 
 BOOST_AUTO_TEST_CASE(sweep_is_measured_by_exact_values_of_checks) {

@@ -176,10 +176,11 @@ BOOST_AUTO_TEST_CASE(study_requires_a_reference_solution_and_a_baseline) {
   Json json = study_json();
   json["reference_solution"]["patch"]["model"]["supports"] = {{"A", nullptr}};
   json["quantities"]["frequency_Hz"]["index"] = {7};
-  BOOST_TEST(contains(complaint([&] { (void)measured(json); }), "reference solution cannot be"));
+  BOOST_TEST(
+      contains(input_error_message([&] { (void)measured(json); }), "reference solution cannot be"));
   json = study_json();
   json["baseline"] = {{"curve", "more"}};
-  BOOST_TEST(contains(complaint([&] { (void)measured(json); }), "a baseline cannot be"));
+  BOOST_TEST(contains(input_error_message([&] { (void)measured(json); }), "a baseline cannot be"));
 }
 
 BOOST_AUTO_TEST_CASE(results_obey_their_schema_and_keep_the_front) {

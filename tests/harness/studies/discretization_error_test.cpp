@@ -204,7 +204,7 @@ BOOST_AUTO_TEST_CASE(unreachable_accuracy_and_invalid_search_are_reported) {
   BOOST_TEST(!search.reached);
   BOOST_TEST(!search.errors.reason.empty());
   const auto refusal = [&](const Json& json, const std::string& quantity) {
-    return complaint([&] {
+    return input_error_message([&] {
       (void)search_accuracy(document_of(json), {1e-3, {quantity}, 60}, references);
     });
   };
@@ -263,8 +263,8 @@ BOOST_AUTO_TEST_CASE(entries_in_a_check_suggest_index) {
                       {"entries", {0}},
                       {"bound", {{"at_most", 1}, {"why", "made up"}}}}}};
   const Folder folder;
-  BOOST_TEST(
-      contains(complaint([&] { (void)load_case(folder.write(json)); }), "did you mean 'index'"));
+  BOOST_TEST(contains(input_error_message([&] { (void)load_case(folder.write(json)); }),
+                      "did you mean 'index'"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

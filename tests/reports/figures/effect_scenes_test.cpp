@@ -36,7 +36,7 @@ BOOST_AUTO_TEST_CASE(page_of_scenes_only_shows_their_effects) {
   Results results;
   results.effect_scenes = kScenes;
   const Workspace folder;
-  const std::string page = text_of(write_report(results, folder.path() / "out"));
+  const std::string page = read_text_file(write_report(results, folder.path() / "out"));
   BOOST_TEST(contains(page, "Automatic selection of effects"));
   BOOST_TEST(contains(page, "figures/effects-obtained.svg"));
   BOOST_TEST(contains(page, "2 of 3 scenes stay within"));

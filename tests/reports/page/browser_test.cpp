@@ -19,7 +19,7 @@ constexpr const char* kPages[] = {"index.html", "families/beam-modes.html",
 /// Opens the sample's report at this width, and checks the conditions that hold at any width.
 void check_at(int width, const std::string& name) {
   const auto page = sample_report() / name;
-  const auto figures = static_cast<int>(occurrences(text_of(page), "<svg "));
+  const auto figures = static_cast<int>(occurrences(read_text_file(page), "<svg "));
   const Visit seen = visit_framed(page, width);
   BOOST_TEST(measured(seen, "width") == width);
   BOOST_TEST(measured(seen, "figures") == figures);

@@ -15,7 +15,7 @@ namespace {
 std::string junit_of(const Results& results) {
   const Workspace workspace;
   trammel::reports::write_junit(results, workspace.path() / "junit.xml");
-  return text_of(workspace.path() / "junit.xml");
+  return read_text_file(workspace.path() / "junit.xml");
 }
 
 }  // namespace

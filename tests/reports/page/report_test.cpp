@@ -91,7 +91,7 @@ BOOST_AUTO_TEST_CASE(each_figure_is_in_the_page_and_has_its_data) {
   for (const std::string& name : drawings) {
     BOOST_TEST(shows("<figure id=\"fig-" + name + "\">"));
     BOOST_TEST(shows("figures/" + name + ".csv\""));
-    const std::string data = text_of(sample_report() / "figures" / (name + ".csv"));
+    const std::string data = read_text_file(sample_report() / "figures" / (name + ".csv"));
     BOOST_TEST(occurrences(data, "\n") > 1U, name << " has no data");
   }
 }
@@ -107,10 +107,10 @@ BOOST_AUTO_TEST_CASE(curve_has_a_row_for_each_point_or_a_reason) {
   }
   const Workspace workspace;
   write_report(results, workspace.path());
-  const std::string data = text_of(workspace.path() / "figures/vpcs-sdll02-f.csv");
+  const std::string data = read_text_file(workspace.path() / "figures/vpcs-sdll02-f.csv");
   BOOST_TEST(data.rfind("time_s,force_N:P [base]", 0) == 0U);
   BOOST_TEST(occurrences(data, "\n") == 632U);
-  BOOST_TEST(text_of(workspace.path() / "cases/vpcs-sdll02.html")
+  BOOST_TEST(read_text_file(workspace.path() / "cases/vpcs-sdll02.html")
                  .find("Stress is not drawn: the variant base has no stress_Pa:A-B.") !=
              std::string::npos);
 }
@@ -121,7 +121,7 @@ BOOST_AUTO_TEST_CASE(powers_of_ten_are_typeset_in_text_only) {
   results.cases[1].description = "below 1e-6 of all";
   results.cases[1].title = "Frame of 2.5e3";
   write_report(results, workspace.path());
-  const std::string text = text_of(workspace.path() / "cases/vpcs-sdll02.html");
+  const std::string text = read_text_file(workspace.path() / "cases/vpcs-sdll02.html");
   BOOST_TEST(text.find("below 10⁻⁶ of all") != std::string::npos);
   BOOST_TEST(text.find("Frame of 2.5\u202f×\u202f10³") != std::string::npos);
   BOOST_TEST(text.find("Checks of Frame of 2.5e3") != std::string::npos);  // an attribute
@@ -133,8 +133,9 @@ BOOST_AUTO_TEST_CASE(pages_and_drawings_are_balanced_and_escaped) {
   BOOST_TEST(shows("Beam &lt;b&gt;&amp;&quot;quoted&quot;"));
   BOOST_TEST(!shows("<b>&"));
   for (const std::string& name : files_with(".svg"))
-    BOOST_TEST(markup_fault(text_of(sample_report() / "figures" / (name + ".svg")), false) == "",
-               name);
+    BOOST_TEST(
+        markup_fault(read_text_file(sample_report() / "figures" / (name + ".svg")), false) == "",
+        name);
 }
 
 BOOST_AUTO_TEST_CASE(pages_load_nothing_else_and_every_link_arrives) {
@@ -217,7 +218,7 @@ BOOST_AUTO_TEST_CASE(equal_results_make_equal_reports) {
   for (const auto& entry : fs::recursive_directory_iterator(sample_report())) {
     if (!entry.is_regular_file()) continue;
     const fs::path name = fs::relative(entry.path(), sample_report());
-    BOOST_TEST((text_of(entry.path()) == text_of(workspace.path() / "again" / name)),
+    BOOST_TEST((read_text_file(entry.path()) == read_text_file(workspace.path() / "again" / name)),
                name << " differs");
     ++compared;
   }
@@ -301,7 +302,7 @@ BOOST_AUTO_TEST_CASE(failed_report_leaves_the_former_one) {
   const Workspace workspace;
   const fs::path out = workspace.path() / "out", elsewhere = workspace.path() / "elsewhere";
   const Results all = sample_results();
-  const std::string before = text_of(write_report(all, out));
+  const std::string before = read_text_file(write_report(all, out));
   const auto count = [&] { return std::distance(fs::recursive_directory_iterator(out), {}); };
   const auto files = count();
   {
@@ -309,7 +310,7 @@ BOOST_AUTO_TEST_CASE(failed_report_leaves_the_former_one) {
     BOOST_TEST(!trammel::reports::can_draw());
     BOOST_CHECK_THROW(write_report(all, out), std::runtime_error);
   }
-  BOOST_TEST((text_of(out / "index.html") == before));
+  BOOST_TEST((read_text_file(out / "index.html") == before));
   BOOST_TEST(count() == files);
   // A link out of the folder is not followed, but replaced.
   fs::rename(out / "checks", elsewhere);
@@ -322,7 +323,7 @@ BOOST_AUTO_TEST_CASE(failed_report_leaves_the_former_one) {
   fs::remove_all(out / "checks");
   std::ofstream(out / "checks") << "mine";
   BOOST_CHECK_THROW(write_report(all, out), std::system_error);
-  BOOST_TEST(text_of(out / "checks") == "mine");
+  BOOST_TEST(read_text_file(out / "checks") == "mine");
 }
 
 BOOST_AUTO_TEST_CASE(stored_runs_keep_drawings_that_did_not_change) {
@@ -332,18 +333,18 @@ BOOST_AUTO_TEST_CASE(stored_runs_keep_drawings_that_did_not_change) {
   write_report(results, workspace.path());
   const fs::path drawing = fs::directory_iterator(workspace.path() / "figures")->path().string();
   const fs::path svg = fs::path(drawing).replace_extension(".svg");
-  const std::string drawn = text_of(svg), commit = results.environment.commit;
+  const std::string drawn = read_text_file(svg), commit = results.environment.commit;
   {
     const WithoutGnuplot without;
     write_report(results, workspace.path());
-    BOOST_TEST(text_of(svg) == drawn);
+    BOOST_TEST(read_text_file(svg) == drawn);
     results.environment.commit = "another";
     BOOST_CHECK_THROW(write_report(results, workspace.path()), std::runtime_error);
   }
   std::ofstream(svg, std::ios::app) << "torn";
   results.environment.commit = commit;
   write_report(results, workspace.path());
-  BOOST_TEST(text_of(svg).find("torn") == std::string::npos);
+  BOOST_TEST(read_text_file(svg).find("torn") == std::string::npos);
 }
 
 BOOST_AUTO_TEST_CASE(similar_names_have_separate_files) {

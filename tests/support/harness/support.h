@@ -77,7 +77,7 @@ class Folder {
 
 /// Returns the message of an InputError, or an empty text.
 template <class Work>
-std::string complaint(const Work& work) {
+std::string input_error_message(const Work& work) {
   try {
     work();
   } catch (const InputError& error) {

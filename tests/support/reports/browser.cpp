@@ -50,7 +50,7 @@ addEventListener("message", e => Object.assign(document.documentElement.dataset,
 
 Visit visit_framed(const fs::path& page, int width) {
   const Workspace workspace;
-  std::string text = text_of(page);
+  std::string text = read_text_file(page);
   text.replace(text.rfind("</body>"), 7, kProbeScript);
   if (const std::size_t head = text.find("<head>"); head != std::string::npos)
     text.insert(head + 6, "<base href=\"file://" + page.parent_path().string() + "/\">");
@@ -72,8 +72,8 @@ Visit visit(const fs::path& page) {
       (workspace.path() / "profile").string() + "' --window-size=1400,2000 'file://" +
       page.string() + "' >'" + document.string() + "' 2>'" + console.string() + "'";
   if (std::system(command.c_str()) != 0)
-    throw std::runtime_error("Chromium failed: " + text_of(console));
-  return {text_of(document), text_of(console)};
+    throw std::runtime_error("Chromium failed: " + read_text_file(console));
+  return {read_text_file(document), read_text_file(console)};
 }
 
 int measured(const Visit& visit, const std::string& name) {

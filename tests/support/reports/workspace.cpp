@@ -26,7 +26,7 @@ Workspace::~Workspace() {
   fs::remove_all(path_, ignored);
 }
 
-std::string text_of(const fs::path& file) {
+std::string read_text_file(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   if (!in) throw std::runtime_error("no " + file.string());
   std::ostringstream out;
@@ -38,7 +38,7 @@ std::map<std::string, std::string> pages_of(const fs::path& report) {
   std::map<std::string, std::string> pages;
   for (const auto& entry : fs::recursive_directory_iterator(report))
     if (entry.path().extension() == ".html")
-      pages[fs::relative(entry.path(), report).string()] = text_of(entry.path());
+      pages[fs::relative(entry.path(), report).string()] = read_text_file(entry.path());
   return pages;
 }
 
@@ -123,7 +123,7 @@ const fs::path& sample_report() {
 
 std::string page_of(const results::Results& results) {
   const Workspace workspace;
-  return text_of(reports::write_report(results, workspace.path() / "out"));
+  return read_text_file(reports::write_report(results, workspace.path() / "out"));
 }
 
 std::string all_pages_of(const results::Results& results) {

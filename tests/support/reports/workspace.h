@@ -22,7 +22,7 @@ class Workspace {
   std::filesystem::path path_;
 };
 
-[[nodiscard]] std::string text_of(const std::filesystem::path& file);
+[[nodiscard]] std::string read_text_file(const std::filesystem::path& file);
 
 /// Returns the pages of a report by their relative paths, or all pages as one text.
 [[nodiscard]] std::map<std::string, std::string> pages_of(const std::filesystem::path& report);
