@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <ostream>
 #include <sstream>
 
@@ -30,23 +31,18 @@ std::string table_cell(const Json& cell, const Column& column) {
   return fmt::format("{}", fmt::join(items, ", "));
 }
 
-bool is_number(const std::string& text) {
-  char* end = nullptr;
-  (void)std::strtod(text.c_str(), &end);
-  return !text.empty() && *end == '\0';
+/// Returns true if a spreadsheet would interpret the text as a formula.
+bool is_formula(const std::string& text) {
+  const char first = text.empty() ? ' ' : text[0], second = text.size() > 1 ? text[1] : ' ';
+  const bool letter = std::isalpha(static_cast<unsigned char>(second)) != 0 || second == '(';
+  return first == '=' || first == '+' || first == '@' || first == '\t' || first == '\r' ||
+         (first == '-' && letter);
 }
 
-/// Quotes a text (RFC 4180), unless it is a number. An apostrophe precedes text that a spreadsheet
-/// would evaluate.
-std::string csv_text(const Json& cell) {
+std::string csv_cell(const Json& cell) {
   if (cell.is_null()) return "";
   if (cell.is_number_float()) return shortest_decimal(cell.get<double>());
-  if (!cell.is_string() && !cell.is_array()) return cell.dump();
-  const std::string text = table_cell(cell, "");
-  if (is_number(text)) return text;
-  std::string quoted = text.find_first_of("=+-@") == 0 ? "\"'" : "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + "\"";
+  return cell.is_string() || cell.is_array() ? csv_text(table_cell(cell, "")) : cell.dump();
 }
 
 }  // namespace
@@ -107,8 +103,19 @@ std::string Rows::csv() const {
     text += '\n';
   };
   add_line(columns_, [](const Column& column) { return csv_text(column.key); });
-  for (const std::vector<Json>& row : rows_) add_line(row, csv_text);
+  for (const std::vector<Json>& row : rows_) add_line(row, csv_cell);
   return text;
+}
+
+std::string csv_text(const std::string& text) {
+  const bool is_quoted = text.find_first_of(",\"\r\n") != std::string::npos;
+  std::string out = is_quoted ? "\"" : "";
+  if (is_formula(text)) out += '\'';
+  for (const char c : text) {
+    out += std::iscntrl(static_cast<unsigned char>(c)) != 0 && c != '\n' ? ' ' : c;
+    if (c == '"') out += c;
+  }
+  return is_quoted ? out + '"' : out;
 }
 
 std::string wrapped(const std::string& text, const std::string& indent, std::size_t width) {

@@ -66,11 +66,6 @@ std::string tolerance_text(const results::Check& check) {
   return high ? "[" + text(low) + ", " + text(high) + "]" : "at least " + text(low);
 }
 
-std::string verdict_text(const results::Check& check) {
-  const bool is_recorded = check.verdict == Verdict::pass && check.known_discrepancy();
-  return is_recorded ? "known discrepancy" : to_string(check.verdict);
-}
-
 /// Returns the largest estimated error of a quantity [%]; empty without an estimate.
 std::string error_text(const results::Run& run, const std::string& quantity) {
   if (!run.errors) return "";
@@ -110,7 +105,7 @@ std::vector<Column> check_columns() {
 std::vector<Json> check_cells(const results::Check& check, bool with_index) {
   const std::string index = check.index && with_index ? fmt::format("[{}]", *check.index) : "",
                     statistic = check.statistic.empty() ? "" : check.statistic + " ";
-  return {verdict_text(check),
+  return {results::verdict_text(check),
           check.name,
           statistic + check.quantity + index,
           number_or_null(check.computed),
@@ -197,7 +192,7 @@ void print_summary(const results::Results& results) {
     entries += run.checks.size();
     for (const CheckSummary& summary : summarize_checks(run)) {
       ++checks;
-      ++verdicts[verdict_text(*summary.worst)];
+      ++verdicts[results::verdict_text(*summary.worst)];
     }
     if (!run.uncertainty) continue;
     comparisons += run.uncertainty->comparisons.size();
@@ -210,7 +205,7 @@ void print_summary(const results::Results& results) {
   std::cout << fmt::format(", {} with {}: {} pass, {} known discrepancies, {} fail",
                            count_of(checks, "check"), count_of(entries, "number"), verdicts["pass"],
                            verdicts["known discrepancy"], verdicts["fail"]);
-  for (const char* rare : {"error", "not-run", "recorded"})
+  for (const char* rare : {"changed discrepancy", "error", "not run", "recorded"})
     if (verdicts[rare] > 0) std::cout << ", " << verdicts[rare] << ' ' << rare;
   const auto bad = std::ranges::count(results.runs, results::Status::error, &results::Run::status);
   if (bad > 0) std::cout << "; " << bad << " with status error";

@@ -308,6 +308,12 @@ Number difference_of(const Check& check) {
 std::string to_string(Verdict verdict) {
   return detail::name_of(verdict);
 }
+std::string verdict_text(const Check& check) {
+  const bool changed = check.verdict == Verdict::fail;
+  if (check.known_discrepancy() && (changed || check.verdict == Verdict::pass))
+    return changed ? "changed discrepancy" : "known discrepancy";
+  return check.verdict == Verdict::not_run ? "not run" : to_string(check.verdict);
+}
 std::string to_string(Status status) {
   return detail::name_of(status);
 }

@@ -322,6 +322,9 @@ struct Run {
 
 /// Returns the difference of `computed` from `expected`; missing if a check does not compare.
 [[nodiscard]] Number difference_of(const Check& check);
+/// Returns the verdict in words. A known discrepancy that has left its recorded range is a changed
+/// discrepancy.
+[[nodiscard]] std::string verdict_text(const Check& check);
 [[nodiscard]] std::string to_string(Verdict verdict);
 [[nodiscard]] std::string to_string(Status status);
 

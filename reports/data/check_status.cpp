@@ -12,12 +12,17 @@ const StatusStyle& style_of(CheckStatus status) {
   return *std::ranges::find(kStatusStyles, status, &StatusStyle::status);
 }
 
+bool is_failure(CheckStatus status) {
+  return status == CheckStatus::fails || status == CheckStatus::changed_discrepancy ||
+         status == CheckStatus::error;
+}
+
 CheckStatus check_status(const Check& check) {
   switch (check.verdict) {
     case Verdict::pass:
       return check.known_discrepancy() ? CheckStatus::known_discrepancy : CheckStatus::passes;
     case Verdict::fail:
-      return CheckStatus::fails;
+      return check.known_discrepancy() ? CheckStatus::changed_discrepancy : CheckStatus::fails;
     case Verdict::error:
       return CheckStatus::error;
     case Verdict::not_run:
@@ -124,7 +129,7 @@ void add(Counts& counts, const Run& run) {
 }
 
 bool all_checks_pass(const Counts& counts) {
-  return count_of(counts, CheckStatus::fails) + count_of(counts, CheckStatus::error) == 0;
+  return std::ranges::none_of(counts, [](const auto& item) { return is_failure(item.first); });
 }
 
 }  // namespace trammel::reports

@@ -12,7 +12,16 @@ namespace trammel::reports {
 
 /// Status of a check on the page. The verdict of a known discrepancy is "pass" while its difference
 /// is in the recorded range. The page shows a separate status, because the numbers do not agree.
-enum class CheckStatus { passes, known_discrepancy, not_judged, fails, error, not_run, not_given };
+enum class CheckStatus {
+  passes,
+  known_discrepancy,
+  changed_discrepancy,
+  not_judged,
+  fails,
+  error,
+  not_run,
+  not_given
+};
 
 /// Text, CSS class and symbol of a status. The symbol, such as ✓, shows the status without color.
 /// The page lists statuses of higher severity first.
@@ -21,17 +30,20 @@ struct StatusStyle {
   const char *text, *css_class, *sign;
   int severity;
 };
-inline constexpr std::array<StatusStyle, 7> kStatusStyles = {{
+inline constexpr std::array<StatusStyle, 8> kStatusStyles = {{
     {CheckStatus::passes, "passes", "passes", "✓", 0},
     {CheckStatus::known_discrepancy, "known discrepancy", "known-discrepancy", "≠", 1},
     {CheckStatus::not_judged, "not judged", "not-judged", "○", 2},
     {CheckStatus::fails, "fails", "fails", "✗", 4},
+    {CheckStatus::changed_discrepancy, "changed discrepancy", "fails", "Δ", 4},
     {CheckStatus::error, "error", "error", "!", 5},
     {CheckStatus::not_run, "not run", "not-run", "–", 3},
     {CheckStatus::not_given, "not given", "not-run", "·", 3},
 }};
 [[nodiscard]] const StatusStyle& style_of(CheckStatus status);
 
+/// Returns true for a check that fails, that has left its recorded range, or that has no result.
+[[nodiscard]] bool is_failure(CheckStatus status);
 [[nodiscard]] CheckStatus check_status(const Check& check);
 
 /// Returns the status of the end of a run. A run that is singular or did not converge passes if it

@@ -124,7 +124,7 @@ Table table_of(const std::vector<ToleranceRow>& rows) {
       table.rows.push_back(
           {run->case_id, run->variant, check->name, check->quantity,
            check->index ? Table::Cell(static_cast<double>(*check->index + 1)) : Table::Cell{},
-           std::isfinite(used) ? Table::Cell(used) : Table::Cell{}, to_string(check->verdict)});
+           std::isfinite(used) ? Table::Cell(used) : Table::Cell{}, verdict_text(*check)});
     }
   return table;
 }

@@ -21,8 +21,9 @@ struct Outcome {
   CheckStatus status;
   const char *element, *type;
 };
-constexpr std::array<Outcome, 5> kOutcomes = {{
+constexpr std::array<Outcome, 6> kOutcomes = {{
     {CheckStatus::fails, "failure", "fail"},
+    {CheckStatus::changed_discrepancy, "failure", "changed-discrepancy"},
     {CheckStatus::error, "error", "error"},
     {CheckStatus::known_discrepancy, "skipped", "known-discrepancy"},
     {CheckStatus::not_run, "skipped", "not-run"},

@@ -55,8 +55,8 @@ CheckStatus worst_status(const std::vector<const Run*>& runs) {
   for (const Run* run : runs)
     if (check_status(*run) != CheckStatus::passes) ++counts[check_status(*run)];
   for (const CheckStatus status :
-       {CheckStatus::error, CheckStatus::fails, CheckStatus::known_discrepancy, CheckStatus::passes,
-        CheckStatus::not_judged})
+       {CheckStatus::error, CheckStatus::fails, CheckStatus::changed_discrepancy,
+        CheckStatus::known_discrepancy, CheckStatus::passes, CheckStatus::not_judged})
     if (count_of(counts, status) > 0) return status;
   return CheckStatus::not_run;
 }

@@ -67,10 +67,6 @@ Data failure_data(const CaseInfo& info, const Run& run, CheckStatus status,
                {"text", text}});
 }
 
-bool is_failure(CheckStatus status) {
-  return status == CheckStatus::fails || status == CheckStatus::error;
-}
-
 /// Returns the runs that did not end as expected, and the checks that fail or could not be judged.
 Data failures(const Results& results, std::size_t& unexpected_endings) {
   Data out = list();
@@ -214,9 +210,13 @@ Data reasons_of(const std::vector<KnownDiscrepancy>& known) {
 std::string verdict_text(const Counts& counts, std::size_t unexpected_endings) {
   if (total(counts) == 0) return "No checks were made.";
   const std::size_t fails = count_of(counts, CheckStatus::fails);
+  const std::size_t changed = count_of(counts, CheckStatus::changed_discrepancy);
   const std::size_t errors = count_of(counts, CheckStatus::error);
   std::string text;
   if (fails > 0) add_item(text, count(fails, "check fails", "checks fail"));
+  if (changed > 0)
+    add_item(text,
+             count(changed, "known discrepancy has changed", "known discrepancies have changed"));
   if (errors > 0) add_item(text, std::to_string(errors) + " could not be evaluated");
   if (unexpected_endings > 0)
     add_item(text, count(unexpected_endings, "run did not end as expected",

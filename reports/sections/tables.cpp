@@ -212,7 +212,7 @@ Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
            c.tolerance ? cell(c.tolerance->high) : Table::Cell{},
            std::string(c.known_discrepancy() ? "known-discrepancy" : "agrees"),
            c.reference,
-           to_string(c.verdict),
+           verdict_text(c),
            c.message,
            is_entry ? cell(run->half_width(c.quantity, static_cast<std::size_t>(*c.index)))
                     : Table::Cell{},

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cctype>
 #include <cerrno>
 #include <csignal>
 #include <fstream>
@@ -12,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "harness/base/rows.h"
 #include "reports/text/number.h"
 
 namespace trammel::reports {
@@ -37,31 +37,10 @@ class SignalsWait {
   sigset_t before_{};
 };
 
-/// Returns whether a spreadsheet would interpret the text as a formula.
-bool is_formula(const std::string& text) {
-  const char first = text.empty() ? ' ' : text[0], second = text.size() > 1 ? text[1] : ' ';
-  const bool letter = std::isalpha(static_cast<unsigned char>(second)) != 0 || second == '(';
-  return first == '=' || first == '+' || first == '@' || first == '\t' || first == '\r' ||
-         (first == '-' && letter);
-}
-
-/// Returns a text as a cell of a CSV file. A text that a spreadsheet would interpret as a formula
-/// starts with an apostrophe. Control characters other than line breaks become spaces.
-std::string text_cell(const std::string& text) {
-  const bool quoted = text.find_first_of(",\"\r\n") != std::string::npos;
-  std::string out = quoted ? "\"" : "";
-  if (is_formula(text)) out += '\'';
-  for (const char c : text) {
-    out += is_control(c) && c != '\n' ? ' ' : c;
-    if (c == '"') out += c;
-  }
-  return quoted ? out + '"' : out;
-}
-
 std::string written(const Table::Cell& value, int digits) {
   if (const auto* number = std::get_if<double>(&value))
     return digits > 0 ? shortest_decimal(*number, digits) : shortest_decimal(*number);
-  if (const auto* text = std::get_if<std::string>(&value)) return text_cell(*text);
+  if (const auto* text = std::get_if<std::string>(&value)) return harness::csv_text(*text);
   return "";
 }
 
@@ -128,7 +107,7 @@ Table::Cell cell(harness::Number number) {
 std::string to_csv(const Table& table) {
   std::string out;
   for (std::size_t i = 0; i < table.heads.size(); ++i)
-    out += (i ? "," : "") + text_cell(table.heads[i]);
+    out += (i ? "," : "") + harness::csv_text(table.heads[i]);
   out += '\n';
   for (const auto& row : table.rows) {
     for (std::size_t i = 0; i < row.size(); ++i)

@@ -54,6 +54,14 @@ BOOST_AUTO_TEST_CASE(names_do_not_depend_on_the_outcome) {
   BOOST_TEST((names() == before));
 }
 
+BOOST_AUTO_TEST_CASE(changed_discrepancy_is_a_failure_of_its_own_type) {
+  Results results = sample_results();
+  for (Run& run : results.runs)
+    for (Check& check : run.checks)
+      if (check.known_discrepancy()) check.verdict = Verdict::fail;
+  BOOST_TEST(occurrences(junit_of(results), "<failure type=\"trammel.changed-discrepancy\"") > 0U);
+}
+
 BOOST_AUTO_TEST_CASE(text_from_the_results_is_escaped) {
   Results results = sample_results();
   results.runs.back().reason = "a < b && \"c\" \x01";
