@@ -187,9 +187,8 @@ StepResult analyze_options(const Document& document, const References& reference
       const Document whole = patched(tried, variant);
       if (analysis_kind(whole) == "options")
         throw choice.error("expected a case with an analysis other than 'options'");
-      for (const Document& added : computations_of(whole, choice)) {
+      for (const Document& added : computations_of(whole, choice))
         run_combinations(added, place, references, seen, own);
-      }
     }
     for (const auto& [quantity, number] : own) {
       record.add(quantity, name, number);

@@ -119,9 +119,8 @@ std::vector<Level> study_levels(const Document& document) {
   if (study["analysis"].has("study"))
     throw study["analysis"].error("a study cannot contain a study; expected another analysis");
   const bool along = study.get("trajectory", false);
-  if (along == study.has("values")) {
+  if (along == study.has("values"))
     throw study.error("expected exactly one of 'values' and 'trajectory'");
-  }
   std::vector<Level> found = along ? trajectory_levels(document, study) : levels(document, study);
   for (Level& level : found) level.document = with_inner_analysis(std::move(level.document));
   return found;

@@ -69,9 +69,8 @@ const EffectWords& words_of(Effect effect) {
 EffectScope statics_scope(const JsonView&, const solver::Model& model) {
   EffectScope scope;
   scope.applicable = solver::applicable_effects(model).without(Effect::rotary_inertia);
-  if (!scope.applicable.has(Effect::gravity)) {
+  if (!scope.applicable.has(Effect::gravity))
     scope.applicable = scope.applicable.without(Effect::link_mass);
-  }
   scope.applicable =
       scope.applicable.with(Effect::geometric_stiffening).with(Effect::large_displacement);
   dependents_of(scope, Effect::gravity) = Effects().with(Effect::link_mass);
@@ -99,9 +98,8 @@ EffectScope inertia_scope(const solver::Model& model) {
 
 EffectScope modes_at_rest_scope(const solver::Model& model) {
   EffectScope scope = inertia_scope(model);
-  if (is_loaded(model) || scope.applicable.has(Effect::gravity)) {
+  if (is_loaded(model) || scope.applicable.has(Effect::gravity))
     scope.applicable = scope.applicable.with(Effect::geometric_stiffening);
-  }
   dependents_of(scope, Effect::geometric_stiffening) = Effects().with(Effect::gravity);
   return scope;
 }
@@ -113,9 +111,8 @@ EffectScope rotating_scope(const JsonView& rotating, const solver::Model& model)
   scope.applicable = scope.applicable.with(Effect::geometric_stiffening);
   if (scope.applicable.has(Effect::gravity)) scope.required = scope.required.with(Effect::gravity);
   // If the axis lies in the plane, Coriolis forces are normal to the plane.
-  if (rotating.get<std::string>("axis", "normal") == "normal") {
+  if (rotating.get<std::string>("axis", "normal") == "normal")
     scope.applicable = scope.applicable.with(Effect::gyroscopic);
-  }
   return scope;
 }
 
@@ -125,14 +122,12 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
       solver::applicable_effects(model).with(Effect::inertia).with(Effect::gyroscopic);
   const solver::RayleighDamping damping = read_rayleigh(analysis.find("damping"));
   const Effects with_velocity = Effects().with(Effect::damping).with(Effect::gyroscopic);
-  if (damping.mass != 0 || damping.stiffness != 0) {
+  if (damping.mass != 0 || damping.stiffness != 0)
     scope.applicable = scope.applicable.with(Effect::damping);
-  }
   // Inextensible links rotate, and constraints that rotate with them cost more than axial
   // flexibility.
-  if (scope.applicable.has(Effect::axial_flexibility)) {
+  if (scope.applicable.has(Effect::axial_flexibility))
     scope.required = Effects().with(Effect::axial_flexibility);
-  }
   scope.no_large_displacement =
       solver::beyond_large_displacement(read_motion_options(analysis), model);
   if (scope.no_large_displacement == nullptr)

@@ -101,9 +101,7 @@ class Estimator {
       for (const auto& entry : members->entries()) count_elements(entry.second, model, 1);
       numbers_ += 12 * static_cast<double>(members->size());
     }
-    if (const auto nodes = model.find("nodes")) {
-      numbers_ += 9 * static_cast<double>(nodes->size());
-    }
+    if (const auto nodes = model.find("nodes")) numbers_ += 9 * static_cast<double>(nodes->size());
   }
 
   void count_plate(const JsonView& plate) {
@@ -129,16 +127,13 @@ class Estimator {
     const auto outputs = [&] {
       return 5.0 + (analysis.has("outputs") ? static_cast<double>(analysis["outputs"].size()) : 0);
     };
-    if (analysis.has("eigensolver") && analysis["eigensolver"].json() == "dense") {
+    if (analysis.has("eigensolver") && analysis["eigensolver"].json() == "dense")
       add(analysis["eigensolver"].pointer(), 64 * n * n);
-    }
-    if (const auto count = analysis.find("count")) {
+    if (const auto count = analysis.find("count"))
       add(count->pointer(), 64 * n * std::min(count->get<double>(), n));
-    }
     if (kind == "transient") {
-      if (analysis.has("method") && analysis["method"].json() == "modal-superposition") {
+      if (analysis.has("method") && analysis["method"].json() == "modal-superposition")
         add(analysis["method"].pointer(), 80 * n * n);
-      }
       const double steps = analysis.number("duration_s") / analysis.number("step_s");
       const double samples = analysis.get("samples", std::clamp(steps, 1.0, 1e4));
       add(analysis[analysis.has("samples") ? "samples" : "step_s"].pointer(),

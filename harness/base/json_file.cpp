@@ -208,9 +208,7 @@ void append_json(const Json& json, std::size_t depth, std::size_t deepest, std::
     if (!first) text += ',';
     first = false;
     line(depth + 1);
-    if (json.is_object()) {
-      text += one_line(item.key()) + ": ";
-    }
+    if (json.is_object()) text += one_line(item.key()) + ": ";
     append_json(item.value(), depth + 1, deepest, text);
   }
   line(depth);

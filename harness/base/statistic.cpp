@@ -31,9 +31,8 @@ double statistic_of(const std::string& name, const std::vector<double>& values) 
   if (name == "first") return values.front();
   if (name == "last") return values.back();
   if (name == "range") return *most - *least;
-  if (name == "rms") {
+  if (name == "rms")
     return std::sqrt(std::inner_product(values.begin(), values.end(), values.begin(), 0.0) / count);
-  }
   return std::numeric_limits<double>::quiet_NaN();
 }
 

@@ -79,9 +79,8 @@ std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& w
                                      const std::function<void()>& done) {
   std::vector<Timing> timings(works.size());
   std::vector<std::vector<double>> wall(works.size());
-  for (std::size_t i = 0; i < works.size(); ++i) {
+  for (std::size_t i = 0; i < works.size(); ++i)
     timings[i].runs_each = runs_for(works[i], options.shortest_s);
-  }
   std::uint64_t state = options.seed;
   for (int repeat = 0; repeat < options.repeats; ++repeat) {
     for (const std::size_t i : shuffle_indices(works.size(), state)) {

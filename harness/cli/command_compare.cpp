@@ -18,7 +18,6 @@
 #include "harness/run/results.h"
 #include "harness/run/run.h"
 #include "harness/run/stored_results.h"
-#include "harness/studies/cost.h"
 
 namespace trammel::harness {
 namespace {
@@ -204,42 +203,6 @@ std::string csv(const SideComparison& comparison) {
   return rows.csv();
 }
 
-/// Returns the points of a study by the titles of its settings.
-std::vector<CostPoint> named_points(const results::CostStudy& study,
-                                    std::vector<std::string>& titles) {
-  std::vector<CostPoint> points = cost_points(study);
-  for (CostPoint& point : points) {
-    const std::string& title = study.settings[point.setting].title;
-    const auto known = std::ranges::find(titles, title);
-    point.setting = static_cast<std::size_t>(known - titles.begin());
-    if (known == titles.end()) titles.push_back(title);
-  }
-  return points;
-}
-
-/// Prints the agreement of two measurements of the same studies.
-void print_costs(const std::optional<results::CostStudies>& a,
-                 const std::optional<results::CostStudies>& b) {
-  if (!a || !b) return;
-  Rows table(
-      {"study", "on both fronts", "of", "same cheapest", "of targets", ">median", ">largest"});
-  for (const results::CostStudy& study : a->studies) {
-    const auto other = std::ranges::find(b->studies, study.id, &results::CostStudy::id);
-    if (other == b->studies.end()) continue;
-    std::vector<std::string> titles;
-    const std::vector<CostPoint> points = named_points(study, titles);
-    const results::Repeatability both = compare_pareto_fronts(points, named_points(*other, titles));
-    table.add({study.id, both.on_both_fronts, both.on_either_front, both.same_cheapest,
-               both.target_errors, fmt::format("{:.2g} % apart", 100 * *both.median_difference),
-               fmt::format("{:.2g} %", 100 * *both.largest_difference)});
-  }
-  if (table.empty()) return;
-  std::cout << "accuracy and computing time: settings on the Pareto fronts, the cheapest setting "
-               "for each\n"
-               "target error, and the difference of the time needed for an accuracy\n";
-  table.print(std::cout, "  ");
-}
-
 }  // namespace
 
 fs::path results_path(const std::string& name) {
@@ -256,8 +219,6 @@ Json read_if_results(const fs::path& file) {
 int compare_command(const CommandOptions& options, const Renderers& renderers) {
   if (!options.html.empty()) require_drawing(renderers);
   std::vector<Side> sides = sides_of(options.words);
-  std::vector<std::optional<results::CostStudies>> costs;
-  for (const Side& side : sides) costs.push_back(side.results.cost);
   const SideComparison comparison = compare_sides(std::move(sides), !options.html.empty());
   if (options.json) {
     std::cout << format_json(to_json(comparison));
@@ -265,7 +226,6 @@ int compare_command(const CommandOptions& options, const Renderers& renderers) {
     std::cout << csv(comparison);
   } else {
     print(comparison);
-    for (std::size_t s = 1; s < costs.size(); ++s) print_costs(costs.front(), costs[s]);
   }
   if (!options.html.empty()) renderers.comparison(comparison, options.html);
   return options.gate && comparison.changed > 0 ? 1 : 0;

@@ -55,9 +55,8 @@ std::vector<CostStudy> read_studies(const CommandOptions& options, SweepExtent e
   std::set<fs::path> seen;
   bool any_case = false;
   const auto add = [&](const fs::path& file) {
-    if (seen.insert(fs::weakly_canonical(file)).second) {
+    if (seen.insert(fs::weakly_canonical(file)).second)
       studies.push_back(load_cost_study(file, extent, references));
-    }
   };
   for (const std::string& word : options.words) {
     std::vector<std::string> known;

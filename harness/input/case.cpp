@@ -42,9 +42,8 @@ void apply_with_bases(Document& document, const fs::path& file, const Catalogue&
   if (!json.is_object()) throw InputError(file.string(), "", "expected an object");
   seen.push_back(fs::weakly_canonical(file));
   if (const auto extends = json.find("extends"); extends != json.end()) {
-    if (!extends->is_string()) {
+    if (!extends->is_string())
       throw InputError(file.string(), "/extends", "expected the name or the file of a case");
-    }
     const fs::path base = catalogue.find_base_case(extends->get<std::string>(), file);
     if (contains(seen, fs::weakly_canonical(base))) {
       throw InputError(
@@ -60,9 +59,8 @@ void apply_with_bases(Document& document, const fs::path& file, const Catalogue&
 void check_variant_names(const Case& given) {
   const JsonView root(given.document);
   for (const auto& [name, variant] : root.entries("variants")) {
-    if (name == kBaseVariant) {
+    if (name == kBaseVariant)
       throw variant.error("the name 'base' is reserved for the case itself");
-    }
   }
 }
 
@@ -189,9 +187,8 @@ Document patched(const Case& given, const std::string& variant) {
   document.apply_patch(file, "", Json{{"description", nullptr}, {"variants", nullptr}});
   if (variant != kBaseVariant) {
     const std::vector<std::string> names = given.variants();
-    if (!contains(names, variant)) {
+    if (!contains(names, variant))
       throw InputError(file, "/variants", unknown_name("the name of a variant", variant, names));
-    }
     Json patch = given.document.value().at("variants").at(variant);
     patch.erase("title");
     const Origin written = given.document.origin((JsonPointer("/variants") / variant).to_string());
@@ -238,9 +235,8 @@ std::vector<Level> levels(const Document& variant, const std::string& sweep_name
 std::vector<Level> levels(const Document& variant, const JsonView& sweep) {
   const JsonView values = sweep["values"];
   const bool by_patches = sweep.has("patches");
-  if (by_patches == sweep.has("pointers")) {
+  if (by_patches == sweep.has("pointers"))
     throw sweep.error("expected exactly one of 'pointers' and 'patches'");
-  }
   if (by_patches && sweep["patches"].size() != values.size()) {
     throw sweep["patches"].error("expected one patch for each of the " +
                                  std::to_string(values.size()) + " values (got " +

@@ -47,14 +47,12 @@ void read_tolerance(const JsonView& place, Check& check) {
 }
 
 void read_bound(const JsonView& place, Check& check) {
-  if (!place.has("at_most") && !place.has("at_least")) {
+  if (!place.has("at_most") && !place.has("at_least"))
     throw place.error("a bound requires 'at_most', 'at_least' or both");
-  }
   check.measure = Measure::value;
   check.windows = {{place.get("at_least", -kUnlimited), place.get("at_most", kUnlimited)}};
-  if (check.windows[0].low > check.windows[0].high) {
+  if (check.windows[0].low > check.windows[0].high)
     throw place.error("'at_least' is larger than 'at_most'");
-  }
   check.why = place.text("why");
 }
 
@@ -75,17 +73,15 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
   }
   const Json& sweep = sweeps.at(order.sweep);
   const Json own = followed(sweep, quantity);
-  if (!sweep.contains("theory_order") && !own.contains("theory_order")) {
+  if (!sweep.contains("theory_order") && !own.contains("theory_order"))
     throw place["sweep"].error("an 'order' check requires a sweep that states 'theory_order'");
-  }
   order.of_errors = own.value("is_error", false);
   if (exactly_one(place, {"within", "two_term_within"}) == "within") {
     order.within = place.number("within");
   } else {
     order.two_term_within = place.number("two_term_within");
-    if (!sweep.contains("lower_order")) {
+    if (!sweep.contains("lower_order"))
       throw place["sweep"].error("'two_term_within' requires a sweep that states 'lower_order'");
-    }
   }
   order.meshes = place.get("min_meshes", std::size_t{3});
   if (const auto wave = place.find("wave_number")) {
@@ -165,28 +161,24 @@ void read_expectation(const JsonView& place, Check& check) {
 void require_target(const JsonView& place, const Check& check) {
   const int targets = (check.reference.empty() ? 0 : 1) +
                       (check.against_variant.empty() && check.against_quantity.empty() ? 0 : 1);
-  if (targets > 1) {
+  if (targets > 1)
     throw place.error("'reference' excludes 'against_variant' and 'against_quantity'");
-  }
   if (check.against_quantity == check.quantity && check.against_variant.empty())
     throw place["against_quantity"].error(
         "a quantity cannot be compared with itself; expected another quantity");
-  if (!check.reference_index.empty() && check.reference.empty()) {
+  if (!check.reference_index.empty() && check.reference.empty())
     throw place["reference_index"].error("'reference_index' requires 'reference'");
-  }
   const bool of_errors = check.order && check.order->of_errors;
   const bool needs = !of_errors && (check.order || check.measure != Measure::value);
-  if (needs && targets == 0) {
+  if (needs && targets == 0)
     throw place.error("this check requires 'reference', 'against_variant' or 'against_quantity'");
-  }
   if (!needs && targets > 0) {
     throw place.error("expected no 'reference', 'against_variant' or 'against_quantity': " +
                       std::string(of_errors ? "the quantity is itself an error"
                                             : "a bound limits the value itself"));
   }
-  if (check.order && !of_errors && check.reference.empty()) {
+  if (check.order && !of_errors && check.reference.empty())
     throw place.error("'order' requires 'reference' with the exact values");
-  }
 }
 
 /// Reads the criterion of the check, which depends on its role.
@@ -236,9 +228,8 @@ Check read_check(const std::string& name, const JsonView& place, const Document&
   }
   // The description of a variant is stated once and applies to all its checks.
   const auto variant_text = JsonView(document).get<std::string>("description", "");
-  if (check.expectation == Expectation::known_discrepancy && !variant_text.empty()) {
+  if (check.expectation == Expectation::known_discrepancy && !variant_text.empty())
     check.why = variant_text + " " + check.why;
-  }
   return check;
 }
 

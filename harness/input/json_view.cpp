@@ -32,9 +32,8 @@ std::vector<std::pair<std::string, JsonView>> JsonView::entries() const {
   std::vector<std::pair<std::string, JsonView>> found;
   found.reserve(json_->size());
   if (json_->is_array()) {
-    for (std::size_t i = 0; i < json_->size(); ++i) {
+    for (std::size_t i = 0; i < json_->size(); ++i)
       found.emplace_back(std::to_string(i), (*this)[i]);
-    }
     return found;
   }
   for (const auto& item : json_->items()) {

@@ -64,12 +64,10 @@ bool obeys(const Json& value, std::string_view name, const SchemaRule& limit) {
     return name != "pattern" || matches_name_pattern(text);
   }
   if (!value.is_structured()) return true;
-  if (name == (value.is_array() ? "minItems" : "minProperties")) {
+  if (name == (value.is_array() ? "minItems" : "minProperties"))
     return value.size() >= limit.GetUint64();
-  }
-  if (name == (value.is_array() ? "maxItems" : "maxProperties")) {
+  if (name == (value.is_array() ? "maxItems" : "maxProperties"))
     return value.size() <= limit.GetUint64();
-  }
   if (value.is_array()) return name != "uniqueItems" || is_unique(value);
   if (name == "required") return has_all(value, limit);
   return name != "dependencies" ||

@@ -71,9 +71,8 @@ std::size_t count_of(const SchemaRule& rule, const char* name, std::size_t other
 std::string limits(const SchemaRule& rule) {
   std::vector<std::string> parts;
   const auto add = [&](const char* key, const char* word) {
-    if (const SchemaRule* limit = keyword(rule, key)) {
+    if (const SchemaRule* limit = keyword(rule, key))
       parts.push_back(word + shortest_decimal(limit->GetDouble()));
-    }
   };
   add("exclusiveMinimum", "above ");
   add("minimum", "at least ");
@@ -226,9 +225,8 @@ SchemaFault explain_value(const SchemaRule& root, const BrokenRules& broken) {
         if (choice.IsString()) choices.push_back(string_of(choice));
       }
     }
-    if (broken.value->is_array() && keyword(*rule, "uniqueItems") != nullptr) {
+    if (broken.value->is_array() && keyword(*rule, "uniqueItems") != nullptr)
       suffix = " without duplicates";
-    }
   }
   if (broken.value->is_string()) suffix = did_you_mean(broken.value->get<std::string>(), choices);
   return {pointer_to(broken.path), "expected " + join(wanted, "or") + " (got " +

@@ -189,9 +189,8 @@ class ConvergenceStudy {
     }
     series_.two_term = fit_two_terms(
         h_, signed_error, usable, {*series_.theory_order, *series_.lower_order}, kTwoTermTolerance);
-    if (series_.two_term && series_.two_term->max_relative_misfit <= kTwoTermTolerance) {
+    if (series_.two_term && series_.two_term->max_relative_misfit <= kTwoTermTolerance)
       in_range_ = series_.two_term->used;
-    }
     return true;
   }
 
@@ -290,9 +289,8 @@ std::optional<TwoTermLaw> fit_two_terms(const std::vector<double>& h,
                                         const std::vector<bool>& usable, const TwoTermOrders& law,
                                         double within) {
   std::vector<bool> levels = usable;
-  for (std::size_t k = 0; k < levels.size(); ++k) {
+  for (std::size_t k = 0; k < levels.size(); ++k)
     levels[k] = levels[k] && std::isfinite(error[k]) && error[k] != 0;
-  }
   const Fit fit(h, error, law);
   std::optional<TwoTermLaw> found;
   while (std::ranges::count(levels, true) >= 3) {
@@ -310,9 +308,8 @@ double extrapolate_two_terms(const std::array<double, 3>& h, const std::array<do
   const auto p = [&](std::size_t i) { return std::pow(h[i] / fine, law.p) - 1; };
   const auto q = [&](std::size_t i) { return std::pow(h[i] / fine, law.q) - 1; };
   const double determinant = p(0) * q(1) - p(1) * q(0);
-  if (determinant == 0 || !std::isfinite(determinant)) {
+  if (determinant == 0 || !std::isfinite(determinant))
     return std::numeric_limits<double>::quiet_NaN();
-  }
   const double d0 = v[0] - v[2];
   const double d1 = v[1] - v[2];
   const double a = (d0 * q(1) - d1 * q(0)) / determinant;

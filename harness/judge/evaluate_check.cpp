@@ -8,6 +8,7 @@
 
 #include "harness/base/statistic.h"
 #include "harness/base/text.h"
+#include "harness/results/check_groups.h"
 
 namespace trammel::harness {
 namespace {
@@ -112,9 +113,8 @@ ComparedValues collect(const Check& check, const CheckContext& context) {
   if (pairs.computed.empty()) throw NotComparable{check.quantity + " has no entries"};
   if (!check.statistic.empty()) pairs.computed = {statistic_of(check.statistic, pairs.computed)};
   if (!check.reference.empty()) pair_with_reference(check, context, pairs);
-  if (!check.against_variant.empty() || !check.against_quantity.empty()) {
+  if (!check.against_variant.empty() || !check.against_quantity.empty())
     pair_with_run(check, context, pairs);
-  }
   if (check.has_target() && pairs.expected.size() != pairs.computed.size())
     throw NotComparable{fmt::format("the lengths differ: {} computed, {} expected",
                                     pairs.computed.size(), pairs.expected.size())};
@@ -128,9 +128,8 @@ std::string outside(const Check& check, double value, const Window& window) {
   const std::string where =
       fmt::format("{} is outside of [{}, {}]", shortest_decimal(value),
                   shortest_decimal(window.low), shortest_decimal(window.high));
-  if (check.expectation == Expectation::known_discrepancy) {
+  if (check.expectation == Expectation::known_discrepancy)
     return "the difference left its recorded range: " + where;
-  }
   if (check.role == Role::validation) return "no longer agrees within the recorded range: " + where;
   return where;
 }
@@ -187,13 +186,10 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
 }
 
 std::vector<CheckResult> worst_of(std::vector<CheckResult> entries) {
-  const auto worst = std::ranges::max_element(
-      entries,
-      [](const CheckResult& a, const CheckResult& b) { return severity(a) < severity(b); });
-  CheckResult worst_result = *worst;
-  worst_result.message = "worst of " + std::to_string(entries.size()) +
-                         (worst_result.message.empty() ? "" : ": " + worst_result.message);
-  return {worst_result};
+  CheckResult worst = *std::ranges::min_element(entries, results::worse);
+  worst.message = "largest of " + std::to_string(entries.size()) +
+                  (worst.message.empty() ? "" : ": " + worst.message);
+  return {worst};
 }
 
 std::vector<CheckResult> evaluate_entries(const Check& check, const ComparedValues& pairs,
@@ -294,16 +290,6 @@ const references::Reference& find_reference(const CheckContext& context,
 
 bool fails_gate(Verdict verdict) {
   return verdict != Verdict::pass && verdict != Verdict::recorded && verdict != Verdict::not_given;
-}
-
-double severity(const CheckResult& entry) {
-  if (entry.verdict == Verdict::error) return std::numeric_limits<double>::infinity();
-  const double value = entry.difference.value_or(entry.computed.value_or(0));
-  if (!entry.tolerance) return std::abs(value);
-  const auto& [low, high, symmetric] = *entry.tolerance;
-  if (!low || !high) return low ? *low - value : value - *high;
-  const double half = (*high - *low) / 2;
-  return (std::abs(value - (*low + half)) - half) / (half > 0 ? half : 1);
 }
 
 }  // namespace trammel::harness

@@ -43,9 +43,6 @@ struct CheckContext {
 /// Returns true unless the verdict is pass, recorded or not given.
 [[nodiscard]] bool fails_gate(Verdict verdict);
 
-/// Returns a severity for sorting: errors first, then by the used fraction of the window.
-[[nodiscard]] double severity(const CheckResult& entry);
-
 /// Returns one judgment per entry. For a long array, only the worst entry is returned, with a
 /// note.
 [[nodiscard]] std::vector<CheckResult> evaluate_check(const Check& check,

@@ -27,9 +27,8 @@ std::vector<std::vector<double>> latin_hypercube(std::size_t count, std::size_t 
   std::vector<std::size_t> cell(count);
   for (std::size_t k = 0; k < inputs; ++k) {
     for (std::size_t i = 0; i < count; ++i) cell[i] = i;
-    for (std::size_t i = count - 1; i > 0; --i) {
+    for (std::size_t i = count - 1; i > 0; --i)
       std::swap(cell[i], cell[static_cast<std::size_t>(uniform(generator) * (i + 1.0))]);
-    }
     for (std::size_t i = 0; i < count; ++i) {
       const double at = static_cast<double>(cell[i]) + uniform(generator);
       points[i][k] = 2 * at / static_cast<double>(count) - 1;
@@ -59,9 +58,8 @@ std::optional<std::vector<std::vector<double>>> uncertainty_by_derivatives(
     const auto below = response(offsets);
     if (!above || !below || above->size() != below->size()) return std::nullopt;
     std::vector<double> contribution;
-    for (std::size_t i = 0; i < above->size(); ++i) {
+    for (std::size_t i = 0; i < above->size(); ++i)
       contribution.push_back(((*above)[i] - (*below)[i]) / (2 * kStep * std::sqrt(3.0)));
-    }
     contributions.push_back(std::move(contribution));
   }
   return contributions;

@@ -34,9 +34,8 @@ std::pair<double, double> entry_of(const Quantities& quantities,
     std::vector<double> chosen = quantity.values;
     if (!tracked_quantity.index.empty()) {
       chosen.clear();
-      for (const std::size_t i : tracked_quantity.index) {
+      for (const std::size_t i : tracked_quantity.index)
         chosen.push_back(i < quantity.values.size() ? quantity.values[i] : kNaN);
-      }
     }
     const double roundoff = quantity.roundoff.empty() ? 0 : statistic_of("max", quantity.roundoff);
     return {statistic_of(tracked_quantity.statistic, chosen), roundoff};

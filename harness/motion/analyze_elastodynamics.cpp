@@ -54,9 +54,8 @@ void record_energy(const solver::ElastodynamicsSolution& solution, bool quasi_st
     size = std::max({size, energy.kinetic, energy.strain, std::abs(energy.work)});
   }
   if (quasi_static || !(size > 0)) return;
-  for (const solver::MotionEnergy& energy : solution.energy) {
+  for (const solver::MotionEnergy& energy : solution.energy)
     record.add("energy_drift", (energy.total() - solution.energy.front().total()) / size);
-  }
 }
 
 /// Records the distance of P between two solutions at each sample, relative to the largest
@@ -117,9 +116,8 @@ void record_summary(const solver::ElastodynamicsSolution& solution, Recorder& re
   if (summary.accepted > 0) record.add("step_residual", summary.largest_residual);
   record.add("first_frequency_Hz", effects.first_frequency);
   record.add("damping_ratio", effects.damping_ratio);
-  if (std::isfinite(effects.nominal_inertia)) {
+  if (std::isfinite(effects.nominal_inertia))
     record.add("nominal_inertia_number", effects.nominal_inertia);
-  }
   record.add("elastic_inertia_number", effects.elastic_inertia);
   record.add("transformation_rate_number", effects.gyroscopic);
 }
@@ -178,9 +176,8 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
   if (options.modal_superposition && !solver::is_at_rest(options.path))
     throw analysis["modal_superposition"].error(
         "modal superposition requires constant M and K, and thus a platform at rest");
-  for (const solver::TrajectoryPoint& point : case_model.motion) {
+  for (const solver::TrajectoryPoint& point : case_model.motion)
     options.time.sample_times.push_back(point.time);
-  }
   options.time.start = options.time.sample_times.front();
   options.time.end = options.time.sample_times.back();
   if (!(options.time.end > options.time.start))

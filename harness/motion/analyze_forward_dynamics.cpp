@@ -50,9 +50,8 @@ StepResult analyze_forward_dynamics(const JsonView& analysis, const CaseModel& c
   const Eigen::Vector3d wrench = wrench_on_platform(case_model, case_model.motion.front().pose);
   const bool given = analysis.has("torque_N_m");
   Eigen::Vector3d constant = Eigen::Vector3d::Zero();
-  for (std::size_t i = 0; given && i < 3; ++i) {
+  for (std::size_t i = 0; given && i < 3; ++i)
     constant(static_cast<solver::Index>(i)) = analysis["torque_N_m"][i].get<double>();
-  }
   // The integrator may evaluate times slightly past the end of the path, where a spline is
   // undefined.
   const double last = case_model.motion.back().time;

@@ -59,9 +59,8 @@ Eigen::MatrixXd read_rows(const JsonView& rows) {
     const Json& row = rows.json()[i];  // avoids a JsonView per row, of up to 100,000 rows
     if (row.size() != columns)
       throw rows[i].error("expected " + std::to_string(columns) + " numbers as in the first row");
-    for (std::size_t j = 0; j < columns; ++j) {
+    for (std::size_t j = 0; j < columns; ++j)
       matrix(static_cast<solver::Index>(i), static_cast<solver::Index>(j)) = row[j].get<double>();
-    }
   }
   return matrix;
 }
@@ -181,9 +180,8 @@ struct Parts {
 
 Parts parts_of(const std::vector<bool>& trains) {
   Parts parts;
-  for (std::size_t i = 0; i < trains.size(); ++i) {
+  for (std::size_t i = 0; i < trains.size(); ++i)
     (trains[i] ? parts.training : parts.held_out).push_back(static_cast<solver::Index>(i));
-  }
   return parts;
 }
 
@@ -219,9 +217,8 @@ void record_part(const std::string& part, const std::vector<solver::Index>& whic
   const Eigen::MatrixXd own = rows(error, which);
   for (solver::Index j = 0; j < own.cols(); ++j) {
     const GrnnOutput& column = samples.columns[solver::to_size(j)];
-    for (solver::Index i = 0; i < own.rows(); ++i) {
+    for (solver::Index i = 0; i < own.rows(); ++i)
       record.add(part + "_" + column.quantity + "_error" + column.unit, column.item, own(i, j));
-    }
   }
   record.add(part + "_rms_error", rms(own, scales));
   const Eigen::MatrixXd of_range = own * scales.range.cwiseInverse().asDiagonal();
@@ -263,9 +260,8 @@ std::vector<EvaluationTime> time_against_solving(const solver::Grnn& network,
     sink += solver::predict(network, samples.inputs).sum();
   }));
   timings.push_back(time_evaluation("prediction_one_by_one", count, [&] {
-    for (solver::Index k = 0; k < samples.inputs.rows(); ++k) {
+    for (solver::Index k = 0; k < samples.inputs.rows(); ++k)
       sink += solver::predict(network, samples.inputs.row(k))(0, 0);
-    }
   }));
   timings.push_back(time_evaluation("inverse_dynamics", count, [&] {
     for (const solver::TrajectoryPoint& point : case_model.motion) {
@@ -413,9 +409,8 @@ StepResult analyze_grnn_samples(const Document& document, const References&, boo
     choose_sigma(analysis, network, record);
     const Eigen::MatrixXd predicted = solver::predict(network, queries);
     for (solver::Index k = 0; k < predicted.rows(); ++k) {
-      for (solver::Index j = 0; j < predicted.cols(); ++j) {
+      for (solver::Index j = 0; j < predicted.cols(); ++j)
         record.add("prediction", samples.columns[solver::to_size(j)].item, predicted(k, j));
-      }
     }
   } catch (const solver::ModelError& error) {
     throw analysis.error(std::string("expected a valid network: ") + error.what());

@@ -45,9 +45,8 @@ OutputSelection read_kept(const JsonView& analysis, const GeometricallyExactSyst
   const solver::Model& model = system.model();
   OutputSelection selection;
   if (const auto names = analysis.find("nodes")) {
-    for (const auto& entry : names->entries()) {
+    for (const auto& entry : names->entries())
       selection.nodes.push_back(find_node(entry.second, model));
-    }
   } else {
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
       if (!model.nodes[i].name.empty()) selection.nodes.push_back(static_cast<solver::Index>(i));

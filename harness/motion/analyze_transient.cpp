@@ -55,9 +55,8 @@ solver::PiecewiseLinearLoad load_in_time(const solver::System& system,
 solver::TimeScheme read_scheme(const JsonView& transient) {
   const auto method = transient.find("method");
   if (!method) return solver::average_acceleration();
-  if (const auto stated = method->find("newmark")) {
+  if (const auto stated = method->find("newmark"))
     return solver::newmark(stated->number("beta"), stated->number("gamma"));
-  }
   if (method->has("hht_alpha")) return solver::hht_alpha(method->number("hht_alpha"));
   if (method->has("spectral_radius"))
     return solver::generalized_alpha(method->number("spectral_radius"));
@@ -247,9 +246,8 @@ class Motion {
     if (!basis.outcome.solved()) return;
     const solver::HarmonicDamping damping = stated_damping(basis.omega.size());
     Eigen::VectorXd decay = solver::decay_rates(damping.rayleigh, basis.omega);
-    for (solver::Index i = 0; i < std::ssize(damping.modal_ratio); ++i) {
+    for (solver::Index i = 0; i < std::ssize(damping.modal_ratio); ++i)
       decay[i] += damping.modal_ratio[solver::to_size(i)] * basis.omega[i];
-    }
     solver::ModalResponse response =
         solver::superpose(basis, decay, system_.M, load_, history_.time, initial_.q0, initial_.v0);
     solver::add_massless_coordinates(basis, system_.M, system_.K, damping.rayleigh.stiffness, load_,

@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <iostream>
 #include <map>
-#include <tuple>
 
-#include "harness/base/find_or_add.h"
 #include "harness/base/number.h"
 #include "harness/base/quantity.h"
 #include "harness/base/text.h"
 #include "harness/judge/evaluate_check.h"
 #include "harness/printing/printing.h"
+#include "harness/results/check_groups.h"
 #include "harness/results/run_grade.h"
 
 namespace trammel::harness {
@@ -18,27 +17,6 @@ namespace {
 
 using results::Number;
 using results::Numbers;
-
-/// The worst entry of a check: failing entries first, then by the distance from the tolerance or
-/// bound.
-struct CheckSummary {
-  const results::Check* worst = nullptr;
-  std::size_t entries = 0;
-};
-
-std::vector<CheckSummary> summarize_checks(const results::Run& run) {
-  std::vector<CheckSummary> summaries;
-  const auto rank = [](const results::Check& check) {
-    return std::tuple(fails_gate(check.verdict), check.known_discrepancy(), severity(check));
-  };
-  for (const results::Check& check : run.checks) {
-    const auto is_same = [&](const CheckSummary& known) { return known.worst->name == check.name; };
-    CheckSummary& summary = find_or_add(summaries, is_same, {&check, 0});
-    ++summary.entries;
-    if (rank(check) > rank(*summary.worst)) summary.worst = &check;
-  }
-  return summaries;
-}
 
 /// Returns the number of digits that distinguish the ends of a range from each other and from the
 /// judged number.
@@ -68,10 +46,8 @@ std::string tolerance_text(const results::Check& check) {
 
 /// Returns the largest estimated error of a quantity [%]; empty without an estimate.
 std::string error_text(const results::Run& run, const std::string& quantity) {
-  if (!run.errors) return "";
-  const auto found =
-      std::ranges::find(run.errors->quantities, quantity, &results::ErrorEstimate::quantity);
-  if (found == run.errors->quantities.end()) return "";
+  const auto* found = run.errors ? run.errors->find(quantity) : nullptr;
+  if (found == nullptr) return "";
   double largest = 0;
   for (const Number relative : found->relative) largest = std::max(largest, relative.value_or(0));
   return fmt::format("+- {:.2g} %{}", 100 * largest, found->asymptotic ? "" : " (coarse)");
@@ -123,9 +99,9 @@ void print_run(const results::Run& run) {
   if (run.checks.empty()) return print_quantities(run);
   Rows table(check_columns());
   std::string messages;
-  for (const CheckSummary& summary : summarize_checks(run)) {
-    const results::Check& check = *summary.worst;
-    table.add(check_cells(check, summary.entries > 1));
+  for (const results::CheckGroup& group : results::group_checks(run)) {
+    const results::Check& check = group.worst();
+    table.add(check_cells(check, group.checks.size() > 1));
     const bool is_printed = check.quantity == "status" && !run.reason.empty();
     if (fails_gate(check.verdict) && !check.message.empty() && !is_printed)
       messages += wrapped(check.name + ": " + check.message, "    ");
@@ -190,9 +166,9 @@ void print_summary(const results::Results& results) {
   std::size_t checks = 0, entries = 0, comparisons = 0;
   for (const results::Run& run : results.runs) {
     entries += run.checks.size();
-    for (const CheckSummary& summary : summarize_checks(run)) {
+    for (const results::CheckGroup& group : results::group_checks(run)) {
       ++checks;
-      ++verdicts[results::verdict_text(*summary.worst)];
+      ++verdicts[results::verdict_text(group.worst())];
     }
     if (!run.uncertainty) continue;
     comparisons += run.uncertainty->comparisons.size();

@@ -26,9 +26,8 @@ Shape read_shape(const JsonView& section) {
     throw section.error(
         "expected exactly one of 'rectangle', 'circle', and 'area_m2' with 'second_moment_m4'");
   }
-  if (!plain && section.has("half_depth_m")) {
+  if (!plain && section.has("half_depth_m"))
     throw section["half_depth_m"].error("'half_depth_m' requires 'area_m2'");
-  }
   if (section.has("rectangle")) {
     const double t = section["rectangle"].number("thickness_m");
     const double w = section["rectangle"].number("width_m");
@@ -84,13 +83,11 @@ solver::Member read_member(const std::string& name, const JsonView& place,
   fields(reader, member);
   const Eigen::Vector2d span = nodes[solver::to_size(member.nodes[1])].position -
                                nodes[solver::to_size(member.nodes[0])].position;
-  if (!(span.norm() > 0)) {
+  if (!(span.norm() > 0))
     throw place["nodes"].error("expected two nodes at different positions (got the same position)");
-  }
   member.end_section = member.section;
-  if (place.has("taper") && !place.has("end_section")) {
+  if (place.has("taper") && !place.has("end_section"))
     throw place["taper"].error("'taper' requires 'end_section'");
-  }
   if (place.has("end_section")) {
     reader.optional("end_section", member.end_section);
     member.taper = read_taper(place, symbols);
@@ -180,9 +177,8 @@ void read_supports(const JsonView& model, const SymbolTable& symbols, solver::Mo
 }
 
 void read_load(const JsonView& place, const SymbolTable& symbols, solver::Model& model) {
-  if (place.has("node") == place.has("edge")) {
+  if (place.has("node") == place.has("edge"))
     throw place.error("expected exactly one of 'node' and 'edge'");
-  }
   const bool on_edge = place.has("edge");
   for (const char* key : {"force_N", "moment_N_m", "traction_Pa", "normal_Pa"}) {
     const bool of_edge = std::string(key).ends_with("_Pa");

@@ -224,12 +224,10 @@ solver::large_motion::TimeFunction read_law(const JsonView& law) {
     const double speed = place->number("speed_per_s");
     return [speed](double t) { return std::array<double, 3>{speed * t, speed, 0}; };
   }
-  if (const auto place = law.find("spin_up")) {
+  if (const auto place = law.find("spin_up"))
     return spin_up(place->number("speed_per_s"), place->number("duration_s"));
-  }
-  if (const auto place = law.find("rest_to_rest")) {
+  if (const auto place = law.find("rest_to_rest"))
     return rest_to_rest(place->number("travel"), place->number("duration_s"));
-  }
   const JsonView place = law["harmonic"];
   const double a = place.number("amplitude"), w = place.number("angular_speed_rad_s");
   return [a, w](double t) {

@@ -192,9 +192,8 @@ void read_plate(const std::string& name, const JsonView& place, const SymbolTabl
   for (const char* key : {"element", "divisions"}) {
     if (place.has(key)) throw place[key].error("'" + std::string(key) + "' requires 'blocks'");
   }
-  for (const auto& entry : place["triangles"].entries()) {
+  for (const auto& entry : place["triangles"].entries())
     structure.triangles.push_back(read_triangle(entry.second, symbols, structure, plate));
-  }
 }
 
 Edge find_edge(const JsonView& place, const std::vector<solver::Index>& corners,
@@ -219,9 +218,8 @@ void read_plates(const JsonView& model, SymbolTable& symbols, solver::Model& str
   Sides sides;
   for (const auto& [name, place] : model.entries("plates"))
     read_plate(name, place, symbols, outline, structure, sides);
-  for (const auto& [name, corners] : outline.corners()) {
+  for (const auto& [name, corners] : outline.corners())
     symbols.edge.emplace(name, find_edge(model["edges"][name], corners, sides));
-  }
 }
 
 std::vector<solver::Index> nodes_of(const Edge& edge) {

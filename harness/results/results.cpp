@@ -251,10 +251,14 @@ const std::vector<double>* Run::quantity(const std::string& name) const {
 
 Number Run::half_width(const std::string& name, std::size_t index) const {
   const std::vector<double>* values = quantity(name);
-  if (!errors || values == nullptr || index >= values->size()) return {};
-  const auto found = std::ranges::find(errors->quantities, name, &ErrorEstimate::quantity);
-  if (found == errors->quantities.end()) return {};
+  const ErrorEstimate* found = errors ? errors->find(name) : nullptr;
+  if (found == nullptr || values == nullptr || index >= values->size()) return {};
   return found->half_width(index, (*values)[index]);
+}
+
+const ErrorEstimate* ErrorEstimates::find(const std::string& quantity) const {
+  const auto found = std::ranges::find(quantities, quantity, &ErrorEstimate::quantity);
+  return found == quantities.end() ? nullptr : &*found;
 }
 
 Number ErrorEstimate::half_width(std::size_t index, double value) const {

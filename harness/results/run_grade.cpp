@@ -1,8 +1,8 @@
 #include "harness/results/run_grade.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
+
+#include "harness/results/check_groups.h"
 
 namespace trammel::results {
 
@@ -35,26 +35,14 @@ bool is_failure(Grade grade) {
          grade == Grade::timed_out;
 }
 
-double tolerance_share(const Check& check) {
-  if (!check.difference || !check.tolerance) return 0;
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const double low = check.tolerance->low.value_or(-infinity),
-               high = check.tolerance->high.value_or(infinity);
-  const double half = (high - low) / 2, away = std::abs(*check.difference - (low + half));
-  if (std::isfinite(half) && half > 0) return away / half;
-  return check.verdict == Verdict::fail ? infinity : 0;
-}
-
 const Check* decisive_check(const Run& run) {
-  const Check* telling = nullptr;
-  const auto rank = [](const Check& check) {
-    return std::pair(check.verdict == Verdict::fail, tolerance_share(check));
-  };
+  const Check* decisive = nullptr;
   for (const Check& check : run.checks) {
-    const bool judged = check.verdict == Verdict::pass || check.verdict == Verdict::fail;
-    if (judged && (telling == nullptr || rank(check) > rank(*telling))) telling = &check;
+    const bool is_judged = check.verdict == Verdict::pass || check.verdict == Verdict::fail;
+    if (is_judged && check.difference && (decisive == nullptr || worse(check, *decisive)))
+      decisive = &check;
   }
-  return telling;
+  return decisive;
 }
 
 }  // namespace trammel::results

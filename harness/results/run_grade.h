@@ -33,11 +33,8 @@ inline constexpr std::array<Grade, 10> kAllGrades = {
 /// Returns true if the grade counts against the code: off, broken, crashed or timed out.
 [[nodiscard]] bool is_failure(Grade grade);
 
-/// Returns the most informative check: a failing one, else the judged check that uses most of its
-/// tolerance. Null if no check has a difference.
+/// Returns the most informative check: the most severe one that is judged and has a
+/// difference; null if there is none.
 [[nodiscard]] const Check* decisive_check(const Run& run);
-
-/// Returns the fraction of the tolerance used by a check's difference; 0 without a difference.
-[[nodiscard]] double tolerance_share(const Check& check);
 
 }  // namespace trammel::results

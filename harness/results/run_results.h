@@ -237,6 +237,9 @@ struct ErrorEstimates {
   Counters counters;       ///< counted work of the companions
   /// Search for --accuracy, coarse to fine; the last entry is the run.
   std::vector<AccuracyStep> search;
+
+  /// @returns nullptr if the quantity has no estimate.
+  [[nodiscard]] const ErrorEstimate* find(const std::string& quantity) const;
 };
 
 /// Readings (interpretations of the paper's model) that predict the same printed row.

@@ -322,9 +322,8 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
   }
   const auto quantities_of = [&](const std::string& variant) -> const Quantities* {
     for (const Task& other : tasks) {
-      if (other.owner == task.owner && other.run.variant == variant && other.run.is_solved()) {
+      if (other.owner == task.owner && other.run.variant == variant && other.run.is_solved())
         return &other.run.quantities;
-      }
     }
     return nullptr;
   };

@@ -14,9 +14,8 @@ namespace {
 
 void require_joints(const JsonView& place, const solver::ManipulatorDesign& design) {
   for (std::size_t i = 0; i < 3; ++i) {
-    if (design.active[i].kind != solver::ActiveKind::locked) {
+    if (design.active[i].kind != solver::ActiveKind::locked)
       throw place.error("tracking requires 'locked' active joints, which it then drives");
-    }
     if (design.elbow[i].kind != solver::ElbowKind::hinged ||
         design.platform_joint[i].kind != solver::PlatformJointKind::hinged) {
       throw place.error("tracking requires hinged elbow joints and platform joints");
@@ -56,9 +55,8 @@ solver::large_motion::PrescribedVelocities tracking_start(
 void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& case_model,
                   const solver::Model& model,
                   solver::large_motion::LargeMotionModel& large_motion) {
-  if (!case_model.manipulator || !case_model.path) {
+  if (!case_model.manipulator || !case_model.path)
     throw place.error("tracking requires a manipulator with 'trajectory'");
-  }
   require_joints(place, *case_model.manipulator);
   const bool torques = tracking == Tracking::torques;
   const solver::RigidManipulator rigid = torques

@@ -39,9 +39,7 @@ void record_point(const GeometricallyExactSystem& system, const PathPoint& point
   warn_of_strain(system.model(), solution, warnings);
   record_drives(system, point.state, record);
   record.add("newton_iterations", point.newton.correction.size());
-  if (point.unstable_directions >= 0) {
-    record.add("unstable_directions", point.unstable_directions);
-  }
+  if (point.unstable_directions >= 0) record.add("unstable_directions", point.unstable_directions);
 }
 
 /// Records frequencies about a point of the path. For several points, the names include the mode.
@@ -89,13 +87,11 @@ void draw_poses(const GeometricallyExactSystem& system, const std::vector<PathPo
 StepResult analyze_large_statics(const JsonView& analysis, const CaseModel& case_model,
                                  std::size_t step, bool draw, Recorder& record) {
   const auto factors = analysis.get("load_factors", std::vector<double>{1.0});
-  if (case_model.path && factors.size() > 1) {
+  if (case_model.path && factors.size() > 1)
     throw analysis["load_factors"].error("a model with 'trajectory' requires a single load factor");
-  }
   solver::large_motion::StaticPathOptions options = read_large_statics_options(analysis);
-  if (options.keep_points && (case_model.path || factors.size() > 1)) {
+  if (options.keep_points && (case_model.path || factors.size() > 1))
     throw analysis["whole_path"].error("'whole_path' requires one pose and one load factor");
-  }
   // Small vibration reports a free part as a mode of 0 Hz; otherwise its position is undetermined.
   options.keep_free_parts = analysis.get("vibration_modes", solver::Index{0}) > 0;
   solver::Model model = build_bare_model(case_model, step);

@@ -88,9 +88,8 @@ Eigen::MatrixXd unit_translations(const solver::System& system, const Eigen::Mat
   const auto& nodes = system.coordinates.node;
   Eigen::MatrixXd translations(2 * std::ssize(nodes), u.cols());
   for (solver::Index i = 0; i < std::ssize(nodes); ++i) {
-    for (std::size_t c = 0; c < 2; ++c) {
+    for (std::size_t c = 0; c < 2; ++c)
       translations.row(2 * i + static_cast<solver::Index>(c)) = u.row(nodes[solver::to_size(i)][c]);
-    }
   }
   return translations.colwise().normalized();
 }

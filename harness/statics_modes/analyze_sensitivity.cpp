@@ -114,9 +114,7 @@ StepResult analyze_sensitivity(const JsonView& analysis, const CaseModel& case_m
     if (exactly && std::isfinite(found.gap[i])) record.add("frequency_gap", found.gap[i]);
   }
   for (const solver::FrequencySet& set : found.sets) {
-    for (solver::Index i = 0; i < set.count; ++i) {
-      record.add("multiplicity", set.count);
-    }
+    for (solver::Index i = 0; i < set.count; ++i) record.add("multiplicity", set.count);
   }
   for (std::size_t p = 0; p < named.size(); ++p) {
     const auto column = static_cast<solver::Index>(p);
@@ -127,9 +125,8 @@ StepResult analyze_sensitivity(const JsonView& analysis, const CaseModel& case_m
       if (found.frequency[i] == 0) continue;  // rigid-body motions
       record.add("relative_sensitivity", named[p].name, derivative * value / found.frequency[i]);
     }
-    if (analysis.get("differences", false)) {
+    if (analysis.get("differences", false))
       record_differences(case_model, named[p], found, column, record, result);
-    }
   }
   return result;
 }

@@ -77,9 +77,8 @@ Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
 void record_rises(const std::vector<Reading>& readings, Recorder& record) {
   const auto rise = [&](const char* name, const char* item, double Reading::*number) {
     const double first = std::abs(readings.front().*number);
-    for (std::size_t k = 1; k < readings.size(); ++k) {
+    for (std::size_t k = 1; k < readings.size(); ++k)
       record.add_or_gap(name, item, 100 * (std::abs(readings[k].*number) / first - 1));
-    }
   };
   rise("sensitivity_rise_percent", "center", &Reading::center);
   rise("sensitivity_rise_percent", "mean", &Reading::mean);

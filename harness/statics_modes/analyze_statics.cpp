@@ -33,9 +33,8 @@ StepResult analyze_exactly(const CaseModel& case_model, std::size_t step, bool d
 
 StepResult analyze_statics(const JsonView&, const CaseModel& case_model, std::size_t step,
                            bool draw, Recorder& record) {
-  if (case_model.effects.has(solver::Effect::large_displacement)) {
+  if (case_model.effects.has(solver::Effect::large_displacement))
     return analyze_exactly(case_model, step, draw, record);
-  }
   const solver::System system = solver::assemble(build_model(case_model, step), case_model.effects);
   ModelState solution{solver::solve_statics(
       system, {.second_order = case_model.effects.has(solver::Effect::geometric_stiffening)})};
@@ -60,9 +59,8 @@ StepResult analyze_statics(const JsonView&, const CaseModel& case_model, std::si
   record.add("equilibrium_residual_N", solution.equilibrium_residual);
   record.add("moment_residual_N_m", solution.moment_residual);
   record.add("estimated_correct_digits", solution.estimated_correct_digits);
-  if (result.drawing) {
+  if (result.drawing)
     result.drawing->shapes.push_back(draw_shape(system, solution.q, "under the loads"));
-  }
   return result;
 }
 

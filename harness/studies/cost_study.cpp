@@ -120,9 +120,8 @@ void check_quick(const JsonView& curve) {
   if (!curve.has("quick_values") || !curve.has("values")) return;
   const auto values = curve["values"].get<std::vector<double>>();
   for (const auto& entry : curve["quick_values"].entries()) {
-    if (!contains(values, entry.second.get<double>())) {
+    if (!contains(values, entry.second.get<double>()))
       throw entry.second.error("expected one of the 'values' of this curve");
-    }
   }
 }
 
@@ -163,9 +162,8 @@ std::size_t find_baseline(const JsonView& place, const std::vector<Setting>& set
                             (!setting.value.has_value() || *setting.value == place.number("value"));
     return setting.curve == place.text("curve") && same_value;
   });
-  if (found == settings.end()) {
+  if (found == settings.end())
     throw place.error("no setting has this curve and value (see 'quick_values')");
-  }
   return static_cast<std::size_t>(found - settings.begin());
 }
 

@@ -163,12 +163,10 @@ class ValidationStudy {
   /// Sets the discretization error of each place as a standard uncertainty.
   void take_errors(const results::ErrorEstimates& errors) {
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      const auto found = std::ranges::find(errors.quantities, places_[i].check->quantity,
-                                           &results::ErrorEstimate::quantity);
+      const auto* found = errors.find(places_[i].check->quantity);
       const Number half_width =
-          found == errors.quantities.end()
-              ? Number()
-              : found->half_width(places_[i].index, value_at(quantities_, places_[i]));
+          found == nullptr ? Number()
+                           : found->half_width(places_[i].index, value_at(quantities_, places_[i]));
       study_.comparisons[i].u_num = half_width.value_or(0) / kGciToStandard;
     }
   }

@@ -3,7 +3,6 @@
 #include <limits>
 #include <stdexcept>
 
-#include "harness/base/find_or_add.h"
 #include "reports/data/check_text.h"
 
 namespace trammel::reports {
@@ -58,22 +57,6 @@ CheckStatus check_status(const Run& run) {
   throw std::logic_error("unknown status");
 }
 
-double tolerance_fraction(const Check& check) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const Number& judged = check.measure == "bound" ? check.computed : check.difference;
-  if (!check.tolerance || !judged) return infinity;
-  const Tolerance& t = *check.tolerance;
-  if (t.low && t.high) {
-    const double half = 0.5 * (*t.high - *t.low);
-    const double distance = std::abs(*judged - 0.5 * (*t.high + *t.low));
-    if (half > 0) return distance / half;
-    return distance == 0 ? 0 : infinity;
-  }
-  if (t.high && *t.high > 0) return std::abs(*judged) / *t.high;
-  if (t.low && *t.low > 0) return *judged > 0 ? *t.low / *judged : infinity;
-  return check.verdict == Verdict::pass ? 0 : infinity;
-}
-
 const Comparison* find_comparison(const Run& run, const Check& check) {
   if (!run.uncertainty) return nullptr;
   for (const Comparison& c : run.uncertainty->comparisons)
@@ -81,36 +64,6 @@ const Comparison* find_comparison(const Run& run, const Check& check) {
         c.index == check.index.value_or(0) && c.u_val)
       return &c;
   return nullptr;
-}
-
-double size_of_difference(const Check& check) {
-  const double target = check.measure == "ratio" ? 1 : 0;
-  return std::abs(check.difference.value_or(target) - target);
-}
-
-bool worse(const Check& a, const Check& b) {
-  const int sa = style_of(check_status(a)).severity;
-  const int sb = style_of(check_status(b)).severity;
-  if (sa != sb) return sa > sb;
-  if (a.known_discrepancy() && b.known_discrepancy())
-    return size_of_difference(a) > size_of_difference(b);
-  return tolerance_fraction(a) > tolerance_fraction(b);
-}
-
-const Check& CheckGroup::worst() const {
-  return **std::ranges::min_element(checks,
-                                    [](const Check* a, const Check* b) { return worse(*a, *b); });
-}
-
-std::vector<CheckGroup> group_checks(const Run& run) {
-  std::vector<CheckGroup> groups;
-  for (const Check& check : run.checks) {
-    const auto same = [&](const CheckGroup& known) {
-      return known.front().name == check.name && known.front().quantity == check.quantity;
-    };
-    harness::find_or_add(groups, same, {}).checks.push_back(&check);
-  }
-  return groups;
 }
 
 std::size_t count_of(const Counts& counts, CheckStatus status) {

@@ -50,27 +50,11 @@ inline constexpr std::array<StatusStyle, 8> kStatusStyles = {{
 /// has checks and all of them pass, because its case then expects this end.
 [[nodiscard]] CheckStatus check_status(const Run& run);
 
-/// Returns the difference of a check divided by its tolerance: 1 at the limit, infinity if there is
-/// no number. If the tolerance is a range, the result is the distance of the difference from the
-/// middle of the range, divided by half of its width. A bound judges the value itself.
-[[nodiscard]] double tolerance_fraction(const Check& check);
-
-/// Checks of one run with the same name and quantity, in their order.
-struct CheckGroup {
-  std::vector<const Check*> checks;
-
-  [[nodiscard]] const Check& front() const { return *checks.front(); }
-  /// Returns the entry of highest severity; of several, the entry with the largest fraction of its
-  /// tolerance.
-  [[nodiscard]] const Check& worst() const;
-};
-[[nodiscard]] std::vector<CheckGroup> group_checks(const Run& run);
-
-/// Returns the magnitude of the difference, or |ratio - 1| if the check measures a ratio.
-[[nodiscard]] double size_of_difference(const Check& check);
-/// Returns true if `a` has a higher severity than `b`. At equal severity, it compares the sizes of
-/// two known discrepancies, and otherwise the fractions of the tolerance.
-[[nodiscard]] bool worse(const Check& a, const Check& b);
+using results::CheckGroup;
+using results::group_checks;
+using results::size_of_difference;
+using results::tolerance_fraction;
+using results::worse;
 
 /// Number of checks of each status.
 using Counts = std::map<CheckStatus, std::size_t>;

@@ -3,6 +3,7 @@
 #include <tuple>
 
 #include "harness/base/find_or_add.h"
+#include "harness/results/check_groups.h"
 #include "harness/results/run_grade.h"
 #include "reports/data/check_text.h"
 #include "reports/data/results.h"
@@ -78,7 +79,7 @@ const Check* shown_check(const Row& row) {
   const Check* shown = nullptr;
   const auto rank = [](const Check& check) {
     return std::tuple(check.expected.has_value(), check.verdict == Verdict::fail,
-                      tolerance_share(check));
+                      results::tolerance_fraction(check));
   };
   for (const Run* run : row.runs) {
     const Check* check = run == nullptr ? nullptr : decisive_check(*run);

@@ -193,34 +193,21 @@ Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
   for (const Run* run : runs)
     for (const Check& c : run->checks) {
       const bool is_entry = c.index && c.statistic.empty() && c.against_variant.empty();
-      const Comparison none, *found = find_comparison(*run, c),
-                             &validation = found != nullptr ? *found : none;
-      table.rows.push_back(
-          {info.id,
-           run->variant,
-           to_string(run->status),
-           c.name,
-           c.role,
-           c.quantity,
-           c.index ? Table::Cell(static_cast<double>(*c.index + 1)) : Table::Cell{},
-           c.unit,
-           cell(c.expected),
-           cell(c.computed),
-           c.measure,
-           cell(c.difference),
-           c.tolerance ? cell(c.tolerance->low) : Table::Cell{},
-           c.tolerance ? cell(c.tolerance->high) : Table::Cell{},
-           std::string(c.known_discrepancy() ? "known-discrepancy" : "agrees"),
-           c.reference,
-           verdict_text(c),
-           c.message,
-           is_entry ? cell(run->half_width(c.quantity, static_cast<std::size_t>(*c.index)))
-                    : Table::Cell{},
-           cell(validation.u_num),
-           cell(validation.u_input),
-           cell(validation.u_reference),
-           cell(validation.u_val),
-           validation.dominant_input});
+      const Number error =
+          is_entry ? run->half_width(c.quantity, static_cast<std::size_t>(*c.index)) : Number();
+      const Tolerance range = c.tolerance.value_or(Tolerance());
+      const Comparison* found = find_comparison(*run, c);
+      const Comparison entry = found != nullptr ? *found : Comparison();
+      auto& row = table.rows.emplace_back();
+      const auto add = [&](const std::vector<Table::Cell>& cells) {
+        row.insert(row.end(), cells.begin(), cells.end());
+      };
+      add({info.id, run->variant, to_string(run->status), c.name, c.role, c.quantity});
+      add({cell(c.index ? Number(*c.index + 1) : Number()), c.unit, cell(c.expected)});
+      add({cell(c.computed), c.measure, cell(c.difference), cell(range.low), cell(range.high)});
+      add({std::string(c.known_discrepancy() ? "known-discrepancy" : "agrees"), c.reference});
+      add({verdict_text(c), c.message, cell(error), cell(entry.u_num), cell(entry.u_input)});
+      add({cell(entry.u_reference), cell(entry.u_val), entry.dominant_input});
     }
   return table;
 }

@@ -27,9 +27,8 @@ BOOST_AUTO_TEST_CASE(diagnostic_quantities_are_recognized) {
                            "constraint_rate_residual"}) {
     BOOST_TEST(is_diagnostic(name), name);
   }
-  for (const char* name : {"frequency_Hz", "displacement_error", "compliance_J", "x:roundoff"}) {
+  for (const char* name : {"frequency_Hz", "displacement_error", "compliance_J", "x:roundoff"})
     BOOST_TEST(!is_diagnostic(name), name);
-  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -116,9 +116,8 @@ BOOST_AUTO_TEST_CASE(schemas_use_only_implemented_keywords) {
       }
     }
   };
-  for (const char* name : {"adapter_result", "case", "claims", "cost", "reference", "results"}) {
+  for (const char* name : {"adapter_result", "case", "claims", "cost", "reference", "results"})
     visit(read_json(data_root() / "cases" / "schema" / (std::string(name) + ".schema.json")), true);
-  }
 }
 
 BOOST_AUTO_TEST_CASE(every_stored_reference_obeys_the_schema) {
@@ -165,9 +164,8 @@ BOOST_AUTO_TEST_CASE(every_integer_of_the_schemas_has_a_bound) {
     if (!rule.is_structured()) return;
     for (const auto& item : rule.items()) visit(item.value(), item.key());
   };
-  for (const char* name : {"case", "claims", "cost", "reference"}) {
+  for (const char* name : {"case", "claims", "cost", "reference"})
     visit(read_json(data_root() / "cases" / "schema" / (std::string(name) + ".schema.json")), name);
-  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

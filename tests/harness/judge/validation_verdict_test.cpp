@@ -60,17 +60,13 @@ BOOST_AUTO_TEST_CASE(reference_that_splits_a_pair_is_inconsistent) {
 BOOST_AUTO_TEST_CASE(inconsistency_does_not_excuse_a_model_beyond_it) {
   const Comparison first = comparison(20.0, 12.768, 0, 0.1, 3e-4);
   const Comparison second = comparison(20.0, 15.115, 0, 0.1, 3e-4);
-  for (const auto& v : judged({first, second})) {
-    BOOST_TEST(v.verdict == kModelError);
-  }
+  for (const auto& v : judged({first, second})) BOOST_TEST(v.verdict == kModelError);
 }
 
 BOOST_AUTO_TEST_CASE(values_differing_beyond_round_off_are_no_pair) {
   const Comparison first = comparison(14.0, 12.768, 0, 0.1, 3e-4);
   const Comparison second = comparison(14.1, 15.115, 0, 0.1, 3e-4);
-  for (const auto& v : judged({first, second})) {
-    BOOST_TEST(v.verdict == kModelError);
-  }
+  for (const auto& v : judged({first, second})) BOOST_TEST(v.verdict == kModelError);
 }
 
 BOOST_AUTO_TEST_CASE(pair_printed_with_few_digits_is_judged_separately) {

@@ -59,9 +59,8 @@ BOOST_AUTO_TEST_CASE(order_leading_term_and_limit_are_judged) {
   const Folder folder;
   Json json = beam(folder);
   std::vector<Run> runs = run_all({testing::read(folder, json)});
-  for (const char* name : {"order", "order.leading-term", "order.richardson"}) {
+  for (const char* name : {"order", "order.leading-term", "order.richardson"})
     BOOST_TEST((find(runs.at(0), name).verdict == Verdict::pass), name);
-  }
   BOOST_TEST(exit_status(runs) == 0);
   BOOST_TEST(std::abs(find(runs[0], "order").computed.value() - 4) < 0.05);
   // Lumped mass has order 2 and another leading term.

@@ -14,9 +14,8 @@ BOOST_AUTO_TEST_CASE(printed_value_is_uncertain_by_half_a_last_unit) {
 }
 
 BOOST_AUTO_TEST_CASE(text_that_is_no_decimal_number_is_refused) {
-  for (const char* text : {"", "twelve", "0x1p3", "nan", "1.2 mm"}) {
+  for (const char* text : {"", "twelve", "0x1p3", "nan", "1.2 mm"})
     BOOST_CHECK_THROW(static_cast<void>(half_unit_in_last_place(text)), ReferenceError);
-  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

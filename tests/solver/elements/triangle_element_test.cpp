@@ -23,9 +23,8 @@ struct Element {
 
   explicit Element(bool curved = false) {
     const TrianglePoints corners = {Vector2d(0.1, 0), Vector2d(1.2, 0.3), Vector2d(0.4, 1)};
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < n; ++i)
       nodes[i] = i < 3 ? corners[i] : (corners[i - 3] + corners[(i - 2) % 3]) / 2;
-    }
     if (curved) nodes[4] += kBulge;
   }
 
@@ -70,9 +69,8 @@ void check_null_space_and_mass(bool curved) {
   const auto spin =
       element.sample([&](const Vector2d& p) { return Vector2d(kTurn * (p - centroid)); });
   double sides = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i)
     sides += (element.nodes[i] - element.nodes[(i + 1) % 3]).squaredNorm();
-  }
   BOOST_TEST(spin.dot(M * spin) == mass * sides / 36, tolerance(1e-13));
 }
 
@@ -87,9 +85,8 @@ void check_interpolation(bool curved) {
   }
   const TriangleInterpolation here = interpolate(element.nodes, {0.2, 0.5, 0.3});
   Matrix2d gradient = Matrix2d::Zero();
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < n; ++i)
     gradient += element.nodes[i] * here.gradient.col(static_cast<Index>(i)).transpose();
-  }
   BOOST_TEST((gradient - Matrix2d::Identity()).norm() < 1e-14);
   BOOST_TEST(here.gradient.leftCols<n>().rowwise().sum().norm() < 1e-14);
 }

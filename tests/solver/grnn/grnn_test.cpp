@@ -126,9 +126,8 @@ BOOST_AUTO_TEST_CASE(split_has_the_requested_size_and_order) {
     return std::count(part.begin(), part.end(), true);
   };
   for (const Split split : {Split::first, Split::interleaved, Split::shuffled}) {
-    for (const Index train : {1, 379, 631}) {
+    for (const Index train : {1, 379, 631})
       BOOST_TEST(count(training_mask(631, train, split)) == train);
-    }
   }
   const std::vector<bool> first = training_mask(631, 379, Split::first);
   BOOST_TEST(first[378]);

@@ -173,9 +173,8 @@ BOOST_AUTO_TEST_CASE(rigid_rotation_of_a_triangle_has_no_energy) {
   const Triangle2d<3> triangle = some_triangle();
   const std::array<Vector2d, 3> corners = {Vector2d(0, 0), Vector2d(1, 0.1), Vector2d(0.2, 0.9)};
   Triangle2d<3>::Coordinates q;
-  for (std::size_t a = 0; a < 3; ++a) {
+  for (std::size_t a = 0; a < 3; ++a)
     q.segment<2>(2 * static_cast<Index>(a)) = rotated(corners[a], 2.1) - corners[a];
-  }
   BOOST_TEST(triangle.energy(q) < 1e-30);
 }
 

@@ -28,9 +28,8 @@ t::MembraneFieldPoint stretched(double a, const Vector2d& p) {
 
 VectorXd nodal_values(const t::System& system, double a) {
   VectorXd q = VectorXd::Zero(system.K.rows());
-  for (std::size_t i = 0; i < system.model.nodes.size(); ++i) {
+  for (std::size_t i = 0; i < system.model.nodes.size(); ++i)
     q[system.coordinates.node[i][0]] = a * system.model.nodes[i].position.x();
-  }
   return q;
 }
 

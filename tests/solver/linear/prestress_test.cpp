@@ -35,9 +35,8 @@ BOOST_AUTO_TEST_CASE(both_methods_return_the_same_factors) {
   const BucklingSolution sparse = solve_buckling(system, {4, EigenMethod::sparse});
   BOOST_REQUIRE(dense.load_factor.size() == 4);
   BOOST_REQUIRE(sparse.load_factor.size() == 4);
-  for (Index i = 0; i < 4; ++i) {
+  for (Index i = 0; i < 4; ++i)
     BOOST_TEST(sparse.load_factor[i] == dense.load_factor[i], tolerance(1e-10));
-  }
 }
 
 BOOST_AUTO_TEST_CASE(tension_does_not_buckle) {

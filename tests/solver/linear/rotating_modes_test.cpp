@@ -38,9 +38,8 @@ BOOST_AUTO_TEST_CASE(modes_at_rest_are_the_ordinary_modes) {
   for (const EigenMethod path : {EigenMethod::dense, EigenMethod::sparse}) {
     const RotatingModes r = rotate(model, 0, 16, path);
     BOOST_REQUIRE_MESSAGE(r.outcome.solved(), r.outcome.reason);
-    for (Index i = 0; i < 16; ++i) {
+    for (Index i = 0; i < 16; ++i)
       BOOST_TEST(r.frequency[i] == ordinary.frequency[i], tolerance(1e-9));
-    }
   }
 }
 
@@ -71,9 +70,8 @@ BOOST_AUTO_TEST_CASE(both_methods_agree_in_a_rotating_frame) {
     const RotatingModes sparse = rotate(model, 1.5, 6, EigenMethod::sparse);
     BOOST_REQUIRE_MESSAGE(dense.outcome.solved(), dense.outcome.reason);
     BOOST_REQUIRE_MESSAGE(sparse.outcome.solved(), sparse.outcome.reason);
-    for (Index i = 0; i < 6; ++i) {
+    for (Index i = 0; i < 6; ++i)
       BOOST_TEST(dense.frequency[i] == sparse.frequency[i], tolerance(1e-9));
-    }
   }
 }
 

@@ -46,9 +46,8 @@ std::vector<ManipulatorDesign> designs() {
   }
   all[2].active.fill({ActiveKind::sprung, 3});
   all[3].platform.kind = PlatformKind::rigid;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i)
     all[3].proximal[i].axially_flexible = all[3].distal[i].axially_flexible = false;
-  }
   return all;
 }
 
@@ -157,9 +156,8 @@ BOOST_AUTO_TEST_CASE(nominal_inertia_carries_the_momentum_of_the_bodies) {
     const VectorXd with = walk.moving.forces(zero, zero, zero, {}, true).external;
     const VectorXd without = walk.moving.forces(zero, zero, zero, {}, false).external;
     Vector2d sum = Vector2d::Zero();
-    for (const auto& c : walk.moving.start().coordinates.node) {
+    for (const auto& c : walk.moving.start().coordinates.node)
       sum += Vector2d(with[c[0]] - without[c[0]], with[c[1]] - without[c[1]]);
-    }
     BOOST_TEST((sum + momentum).norm() < 1e-12 * momentum.norm());
   }
 }

@@ -1,0 +1,73 @@
+#include "harness/results/check_groups.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "harness/base/find_or_add.h"
+
+namespace trammel::results {
+namespace {
+
+/// Severity of each verdict, in the order of `Verdict`.
+constexpr std::array kSeverity = {0, 4, 5, 3, 2, 3};
+
+int severity(const Check& check) {
+  const bool is_known = check.verdict == Verdict::pass && check.known_discrepancy();
+  return is_known ? 1 : kSeverity.at(static_cast<std::size_t>(check.verdict));
+}
+
+Number judged_number(const Check& check) {
+  return check.measure == "bound" ? check.computed : check.difference;
+}
+
+}  // namespace
+
+double tolerance_fraction(const Check& check) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Number judged = judged_number(check);
+  if (!check.tolerance || !judged) return infinity;
+  const Tolerance& t = *check.tolerance;
+  if (t.low && t.high) {
+    const double half = 0.5 * (*t.high - *t.low);
+    const double distance = std::abs(*judged - 0.5 * (*t.high + *t.low));
+    if (half > 0) return distance / half;
+    return distance == 0 ? 0 : infinity;
+  }
+  if (t.high && *t.high > 0) return std::abs(*judged) / *t.high;
+  if (t.low && *t.low > 0) return *judged > 0 ? *t.low / *judged : infinity;
+  return check.verdict == Verdict::pass ? 0 : infinity;
+}
+
+double size_of_difference(const Check& check) {
+  const double target = check.measure == "ratio" ? 1 : 0;
+  return std::abs(check.difference.value_or(target) - target);
+}
+
+bool worse(const Check& a, const Check& b) {
+  if (severity(a) != severity(b)) return severity(a) > severity(b);
+  if (a.known_discrepancy() && b.known_discrepancy())
+    return size_of_difference(a) > size_of_difference(b);
+  const double share_a = tolerance_fraction(a), share_b = tolerance_fraction(b);
+  if (share_a != share_b) return share_a > share_b;
+  const bool is_lower_bound = a.tolerance && !a.tolerance->high;  // a limit of zero has no fraction
+  return is_lower_bound ? judged_number(a) < judged_number(b) : judged_number(a) > judged_number(b);
+}
+
+const Check& CheckGroup::worst() const {
+  return **std::ranges::min_element(checks,
+                                    [](const Check* a, const Check* b) { return worse(*a, *b); });
+}
+
+std::vector<CheckGroup> group_checks(const Run& run) {
+  std::vector<CheckGroup> groups;
+  for (const Check& check : run.checks) {
+    const auto same = [&](const CheckGroup& known) {
+      return known.front().name == check.name && known.front().quantity == check.quantity;
+    };
+    harness::find_or_add(groups, same, {}).checks.push_back(&check);
+  }
+  return groups;
+}
+
+}  // namespace trammel::results
