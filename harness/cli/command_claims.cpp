@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iostream>
 
+#include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 #include "harness/base/rows.h"
 #include "harness/base/text.h"
@@ -50,15 +51,26 @@ void print_item(const results::PaperItem& item, const Json& claims) {
   std::cout << wrapped(item.reason, "    ") << wrapped(item.note, "    ");
 }
 
+/// Returns the runs of stored results with their series.
+std::vector<Run> stored_runs(const std::string& name) {
+  results::Results stored = read_summary(results_path(name));
+  for (Run& run : stored.runs)
+    if (!run.stored.empty() && !load_stored_data(run, stored.store))
+      throw InputError(name + ": expected the store of these results (got no file of the run " +
+                       run.case_id + ":" + run.variant + ")");
+  return std::move(stored.runs);
+}
+
 }  // namespace
 
 int claims_command(const CommandOptions& options, const Renderers& /*renderers*/) {
   const Document document = load_claims();
-  const References references;
   RunOptions run_options;
   run_options.jobs = options.jobs;
   const results::Claims claims = evaluate_claims(
-      document, run_with_progress(cases_of(document, Catalogue().load()), references, run_options));
+      document, options.word.empty() ? run_with_progress(cases_of(document, Catalogue().load()),
+                                                         References(), run_options)
+                                     : stored_runs(options.word));
   if (options.json) {
     std::cout << format_json(results::to_json(claims));
   } else {
@@ -72,7 +84,8 @@ int paper_command(const CommandOptions& options, const Renderers& /*renderers*/)
   const Document claim_set = load_claims();
   results::Claims shown;
   shown.items = load_paper_items(claim_set, Catalogue());
-  if (!options.word.empty()) judge_paper_items(read_summary(options.word), shown.items);
+  if (!options.word.empty())
+    judge_paper_items(read_summary(results_path(options.word)), shown.items);
   if (options.json) {
     std::cout << format_json(results::to_json(shown).at("items"));
   } else {

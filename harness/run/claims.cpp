@@ -309,7 +309,8 @@ std::string verdict_of(const results::Results& results, const PaperItem::Counter
   if (passed > 0)
     parts.push_back(fmt::format("{} {}", passed, passed > 1 ? "checks pass" : "check passes"));
   if (discrepancies > 0)
-    parts.push_back(fmt::format("{} do not agree (as recorded)", discrepancies));
+    parts.push_back(fmt::format("{} known {}", discrepancies,
+                                discrepancies > 1 ? "discrepancies" : "discrepancy"));
   if (other > 0) parts.push_back(fmt::format("{} fail", other));
   return parts.empty() ? "computed, not judged" : join(parts, "and");
 }

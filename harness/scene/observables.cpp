@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "harness/base/find_or_add.h"
 #include "harness/base/number.h"

@@ -10,7 +10,6 @@
 #include "reports/drawing/figure.h"
 #include "reports/page/report.h"
 #include "reports/text/files.h"
-#include "reports/text/number.h"
 
 namespace trammel::reports {
 
@@ -49,10 +48,9 @@ std::string attribute(const std::string& name, const std::string& value) {
 
 std::string attributes(Tally tally) {
   std::string text = attribute("tests", std::to_string(tally.tests));
-  for (const auto& [name, element] :
-       {std::pair("failures", "failure"), {"errors", "error"}, {"skipped", "skipped"}})
+  for (const auto& [name, element] : {std::pair("failures", "failure"), {"errors", "error"}})
     text += attribute(name, std::to_string(tally.elements[element]));
-  return text + attribute("time", shortest_decimal(tally.time_s));
+  return text + attribute("time", std::to_string(tally.time_s));
 }
 
 /// Returns a test case with its outcome and output, and counts it.
@@ -62,7 +60,7 @@ std::string testcase(const std::string& classname, const std::string& name, doub
   ++tally.tests;
   tally.time_s += time_s;
   std::string text = "    <testcase" + attribute("classname", classname) + attribute("name", name) +
-                     attribute("time", shortest_decimal(time_s)) + ">\n";
+                     attribute("time", std::to_string(time_s)) + ">\n";
   const auto outcome = std::ranges::find(kOutcomes, status, &Outcome::status);
   if (outcome != kOutcomes.end()) {
     ++tally.elements[outcome->element];
@@ -139,6 +137,7 @@ std::string suite(const CaseInfo& info, const Results& results, Tally& all) {
   all.add(tally);
   const Environment& environment = results.environment;
   return "  <testsuite" + attribute("name", info.id) + attributes(tally) +
+         attribute("skipped", std::to_string(tally.elements["skipped"])) +
          attribute("timestamp", environment.date) + attribute("hostname", host_name()) + ">\n" +
          properties_of(environment) + body + "  </testsuite>\n";
 }

@@ -1,8 +1,6 @@
 #include "solver/large/equilibrium.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #include "solver/linear/buckling.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/SparseCore>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -4,7 +4,6 @@
 #include <Eigen/SparseCore>
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <vector>
 
 #include "solver/elements/frame_element.h"

@@ -1,10 +1,8 @@
 #include "solver/linear/fields.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <utility>
-#include <vector>
 
 #include "solver/elements/frame_element.h"
 #include "solver/elements/triangle_element.h"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
 #include "solver/linalg/eigenpairs.h"
 #include "solver/linear/geometric_stiffness.h"

@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <vector>
 
 #include "solver/linear/geometric_stiffness.h"

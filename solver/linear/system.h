@@ -2,7 +2,6 @@
 
 #include <Eigen/SparseCore>
 #include <array>
-#include <string>
 #include <vector>
 
 #include "solver/linear/constraints.h"

@@ -1,6 +1,5 @@
 #include "solver/manipulator/link_superelement.h"
 
-#include <cmath>
 #include <vector>
 
 #include "solver/linalg/dense_eigen.h"

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <cmath>
 #include <vector>
 
 #include "solver/manipulator/moving_system.h"

@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <utility>
 #include <vector>
 
 #include "solver/linalg/factorization.h"

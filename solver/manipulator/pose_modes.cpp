@@ -3,7 +3,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <atomic>
-#include <cmath>
 #include <future>
 #include <numbers>
 #include <optional>

@@ -5,7 +5,6 @@
 #include <array>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 #include <optional>

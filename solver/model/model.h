@@ -3,7 +3,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <optional>
 #include <stdexcept>
 #include <string>

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "solver/linalg/dense_eigen.h"
 #include "solver/model/numbers.h"

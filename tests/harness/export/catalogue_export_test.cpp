@@ -1,6 +1,5 @@
 // ctest: labels=slow timeout=3600
 #include <boost/test/unit_test.hpp>
-#include <cmath>
 #include <iostream>
 #include <map>
 

@@ -3,7 +3,6 @@
 
 #include <Eigen/Dense>
 #include <boost/test/unit_test.hpp>
-#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <set>

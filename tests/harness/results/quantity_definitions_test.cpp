@@ -1,7 +1,6 @@
 // ctest: labels=program timeout=300
 #include "harness/results/quantity_definitions.h"
 
-#include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <map>
 #include <set>

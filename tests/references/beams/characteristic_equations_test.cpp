@@ -4,7 +4,6 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 #include <string>
-#include <vector>
 
 #include "references/programs/program.h"
 #include "tests/support/references/frames.h"

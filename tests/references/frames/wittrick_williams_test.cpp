@@ -3,7 +3,6 @@
 
 #include <boost/test/unit_test.hpp>
 #include <string>
-#include <vector>
 
 #include "references/frames/dynamic_stiffness.h"
 #include "tests/support/references/frames.h"

@@ -6,7 +6,6 @@
 #include <fstream>
 #include <map>
 #include <string>
-#include <vector>
 
 #include "references/data/family.h"
 #include "references/programs/program.h"

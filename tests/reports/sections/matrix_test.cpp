@@ -1,6 +1,5 @@
 #include <boost/test/unit_test.hpp>
 #include <string>
-#include <vector>
 
 #include "reports/sections/sections.h"
 #include "tests/support/reports/markup.h"

@@ -1,7 +1,6 @@
 #include "solver/model/effects.h"
 
 #include <boost/test/unit_test.hpp>
-#include <cmath>
 
 #include "solver/linear/system.h"
 #include "solver/linear/validate.h"

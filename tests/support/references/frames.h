@@ -1,8 +1,6 @@
 #pragma once
 
 #include <boost/test/unit_test.hpp>
-#include <cmath>
-#include <string>
 #include <vector>
 
 #include "references/numerics/arguments.h"

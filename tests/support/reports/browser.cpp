@@ -1,6 +1,5 @@
 #include "tests/support/reports/browser.h"
 
-#include <array>
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
