@@ -14,7 +14,7 @@
 /// All beam theories share one interpolation, which is exact for a prismatic beam loaded at its
 /// ends (Przemieniecki 1968; Friedman & Kosmatka 1993). It depends on the shear ratio
 ///
-///   Phi = 12 EI / (kappa GA L^2).
+///   \f[ \Phi = 12 EI / (\kappa GA L^2). \f]
 ///
 /// Phi = 0 gives the Hermite cubics of the Euler-Bernoulli and Rayleigh theories. The element does
 /// not lock in shear.
@@ -24,7 +24,7 @@
 ///   elongation              u2 - u1,
 ///   symmetric bending       θ2 - θ1,
 ///   antisymmetric bending   θ1 + θ2 - 2 (v2 - v1) / L,
-///   k = B^T diag(EA/L, EI/L, 3 EI / (L (1 + Phi))) B.
+///   \f[ k = B^T \operatorname{diag}(EA/L,\ EI/L,\ 3 EI / (L (1 + \Phi)))\, B. \f]
 ///
 /// Energies and forces computed from d keep the significant digits of bending next to a much
 /// stiffer axial part. The entries of k in world axes lose them.

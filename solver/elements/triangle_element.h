@@ -120,7 +120,7 @@ template <std::size_t n>
 
 /// Computes the consistent mass matrix [kg], 2n x 2n:
 ///
-///   m = rho t integral N^T N dA.
+///   \f[ m = \rho t \int N^T N \, dA. \f]
 ///
 /// It is also exact for curved sides (integrand of degree 6).
 /// Source: paper Eq. (9).

@@ -18,8 +18,10 @@ enum class InputScaling {
 /// General regression neural network. It consists of its samples; the smoothing parameter sigma is
 /// the only parameter to train.
 ///
-///   Y(x) = sum_i Y_i w_i / sum_i w_i,  w_i = exp(-D_i^2 / 2 sigma^2)   (paper Eq. 36),
-///   D_i^2 = sum_f ((x_f - X_if) / scale_f)^2                            (paper Eq. 37)
+///   \f[ Y(x) = \sum_i Y_i w_i \Big/ \sum_i w_i, \quad w_i = e^{-D_i^2 / 2 \sigma^2}, \quad
+///       D_i^2 = \sum_f ((x_f - X_{if}) / s_f)^2 \f]
+///
+/// (paper Eq. 36 and 37) with the scale s of each input.
 struct Grnn {
   Eigen::MatrixXd inputs;   ///< sample x input
   Eigen::MatrixXd outputs;  ///< sample x output

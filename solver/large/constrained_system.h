@@ -8,7 +8,7 @@
 
 /// Equations of statics and of all time integrators of this tier:
 ///
-///     M(q) a = f(t, q, v) - G(t, q)^T lambda,      g(t, q) + tau dg/dt = C lambda,
+///     \f[ M(q) a = f(t, q, v) - G(t, q)^T \lambda, \quad g(t, q) + \tau \dot g = C \lambda, \f]
 ///
 /// with C = diag(c). A row with c = 0 is a rigid constraint (joint, drive, Euler-Bernoulli shear).
 /// A row with c > 0 is elastic (stretch, a spring), and tau is its strain-rate damping.

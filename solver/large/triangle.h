@@ -11,7 +11,8 @@ namespace trammel::solver::large_motion {
 /// Total-Lagrangian membrane triangle of a St. Venant-Kirchhoff material in plane stress, with 3 or
 /// 6 nodes (mid-sides 01, 12, 20):
 ///
-///   E = (H + H^T + H^T H)/2, H = du/dX, S = D E, energy = t A sum of w E:S/2.
+///   \f[ E = (H + H^T + H^T H)/2, \quad H = du/dX, \quad S = D E, \quad
+///       U = t A \sum w\, E : S/2. \f]
 ///
 /// Coordinates are (ux, uy) of each node [m].
 template <int Nodes>

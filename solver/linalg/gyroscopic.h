@@ -28,11 +28,13 @@ struct GyroscopicModes {
   Eigen::MatrixXcd shape;       ///< coordinate x mode, columns of norm 1
 };
 
-/// Computes the lowest modes for a positive definite K. With z = (x, i w x) the problem is linear:
+/// Computes the lowest modes for a positive definite K. With z = (x, i omega x) the problem is
+/// linear:
 ///
-///   A z = i w G z,  A = diag(K, M),  G = [-C, -M; M, 0] real and skew.
+///   \f[ A z = i \omega G z, \quad A = \operatorname{diag}(K, M), \quad
+///       G = \begin{bmatrix} -C & -M \\ M & 0 \end{bmatrix}. \f]
 ///
-/// A z = w^2 G^T A^-1 G z is a real symmetric pencil in which each w^2 is double. The second block
+/// A z = omega^2 G^T A^-1 G z is a real symmetric pencil with double omega^2. The second block
 /// of z contains only the coordinates that have mass.
 /// Source: Meirovitch (1974).
 [[nodiscard]] GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, Index count,

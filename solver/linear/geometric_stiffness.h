@@ -74,7 +74,7 @@ struct BodyForces {
 /// chord, and symmetric and antisymmetric bending s, a of frame_element.h. For all beam theories
 /// the interpolation gives, with d = (psi, s, a),
 ///
-///   integral N v'^2 dx = L d^T H d.
+///   \f[ \int N v'^2 dx = L\, d^T H d. \f]
 ///
 ///   H = [N, n/12, 0; n/12, N/12, g n/60; 0, g n/60, g^2 N/20],  g = 1 / (1 + Phi).
 ///

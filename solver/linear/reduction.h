@@ -11,7 +11,7 @@ namespace trammel::solver {
 /// the nodes that divide it into elements. They follow the other coordinates statically. In
 /// addition they move in the lowest modes with held member ends:
 ///
-///   q_i = -K_ii^-1 K_ib q_b + X p + r s,   K_ii x = w^2 M_ii x.
+///   \f[ q_i = -K_{ii}^{-1} K_{ib} q_b + X p + r s, \quad K_{ii} x = \omega^2 M_{ii} x. \f]
 ///
 /// r is the part of K_ii^-1 f_i beyond X for each of `loads`. It makes the static response and the
 /// internal forces of the members exact. Without modes and loads the method is static condensation.

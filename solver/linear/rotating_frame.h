@@ -7,14 +7,15 @@
 #include "solver/linear/system.h"
 #include "solver/model/evidence.h"
 
-/// Equations of motion relative to a frame that rotates with constant angular speed W
+/// Equations of motion relative to a frame that rotates with constant angular speed Omega
 /// (counterclockwise) about a center c. The acceleration of a mass at x is
 ///
-///   u.. + 2 W J u. - W^2 (x - c + u),   J = [0 -1; 1 0].
+///   \f[ \ddot u + 2 \Omega J \dot u - \Omega^2 (x - c + u), \quad
+///       J = \begin{bmatrix} 0 & -1 \\ 1 & 0 \end{bmatrix}. \f]
 ///
 /// The equation of motion is
 ///
-///   M q.. + 2 W G q. + (K + K_G - W^2 S) q = f + W^2 f_c.
+///   \f[ M \ddot q + 2 \Omega G \dot q + (K + K_G - \Omega^2 S) q = f + \Omega^2 f_c. \f]
 ///
 /// The Coriolis and centrifugal terms do not act on the rotary inertia of point masses, which is
 /// assumed equal along and across the axis. They do not act on the rotary inertia of sections if
@@ -31,7 +32,7 @@ enum class RotationAxis { normal, x, y };
 
 /// Steady rotation of a reference frame.
 struct RotatingFrame {
-  double speed = 0;                    ///< W [rad/s]
+  double speed = 0;                    ///< Omega [rad/s]
   Vector2d center = Vector2d::Zero();  ///< c, a point on the axis [m]
   RotationAxis axis = RotationAxis::normal;
 };
@@ -44,7 +45,7 @@ struct RotatingFrame {
 /// Source: Coriolis force on the interpolation.
 [[nodiscard]] SparseMatrix gyroscopic_matrix(const System& system);
 
-/// Returns the centrifugal forces W^2 integral rho N^T (x - c + u) dV on the unconstrained
+/// Returns the centrifugal forces Omega^2 integral rho N^T (x - c + u) dV on the unconstrained
 /// coordinates [N, N m].
 [[nodiscard]] Eigen::VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame,
                                                  const Eigen::VectorXd& u);
@@ -69,14 +70,14 @@ struct RotatingOptions {
 /// Small vibrations about the steady state of a rotating frame, relative to the frame. The steady
 /// state and the modes satisfy
 ///
-///   (K + K_G - W^2 S) q = f + W^2 f_c,
-///   (K + K_G - W^2 S + i w 2 W G - w^2 M) x = 0.
+///   \f[ (K + K_G - \Omega^2 S) q = f + \Omega^2 f_c, \f]
+///   \f[ (K + K_G - \Omega^2 S + 2 i \omega \Omega G - \omega^2 M) x = 0. \f]
 ///
 /// The supports rotate with the frame, and the geometry is undeformed.
 ///
-/// Stable states have real w. They lead to a Hermitian problem in 1 / w, whose modes are counted
-/// completely. At a w just above the last mode, the matrix of the second equation has as many
-/// negative pivots as there are modes below.
+/// Stable states have real omega. They lead to a Hermitian problem in 1 / omega, whose modes are
+/// counted completely. At an omega just above the last mode, the matrix of the second equation has
+/// as many negative pivots as there are modes below.
 struct RotatingModes {
   Outcome outcome;              ///< singular: a mechanism; not_converged: see the reason
   Eigen::VectorXd q;            ///< steady state, free coordinates; see node_motion

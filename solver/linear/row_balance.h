@@ -86,7 +86,7 @@ struct RayleighDamping {
 
 /// Returns the matrix of modal damping, with x^T M x = 1:
 ///
-///   C = sum over modes of 2 ratio w (M x)(M x)^T.
+///   \f[ C = \sum_{\text{modes}} 2 \zeta \omega (M x)(M x)^T. \f]
 ///
 /// The given modes have their damping ratio, and all others have zero. The matrix is dense in the
 /// coordinates that the modes move. Large models use `superpose` instead.

@@ -23,7 +23,7 @@ struct StaticsOptions {
 /// points from the first to the second node of a member. x points along the member and y to its
 /// left. Tension is positive:
 ///
-///   EI v'' = M, dM/dx = -V, dV/dx = -q_y, dN/dx = -q_x.
+///   \f[ EI\, v'' = M, \quad dM/dx = -V, \quad dV/dx = -q_y, \quad dN/dx = -q_x. \f]
 struct StaticSolution {
   Outcome outcome;           ///< singular: the reason describes the zero-energy mode
   Eigen::VectorXd q;         ///< free coordinates; see node_motion

@@ -14,7 +14,7 @@
 /// Elastic vibration of the manipulator about its nominal rigid motion along a path (paper Eq.
 /// 12-19, with the rigid platform of Eq. 20-27):
 ///
-///   M(t) q.. + (C(t) + G(t)) q. + (K(t) + S(t)) q = T^T F + f(t),   C = w1 M + w2 K.
+///   \f[ M \ddot q + (C + G) \dot q + (K + S) q = T^T F + f(t), \quad C = w_1 M + w_2 K. \f]
 ///
 /// The joints follow the path exactly. F is the load on the platform, and f the inertia load of the
 /// nominal motion. G and S are the gyroscopic, centrifugal and Euler terms of the moving links

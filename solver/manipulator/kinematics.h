@@ -138,7 +138,7 @@ struct HoldingTorques {
 /// e_i = d_i / |d_i|, tensions T_i and torques tau_i satisfy
 ///
 ///   sum_i T_i (e_i, cross(C_i - P, e_i)) = wrench,
-///   tau_i = -T_i cross(B_i - A_i, e_i).
+///   \f[ \tau_i = -T_i\, (B_i - A_i) \times e_i. \f]
 ///
 /// At a serial singularity the torque of the limb is zero, and the result remains valid.
 /// @param jacobians  Jacobian matrices of the pose.

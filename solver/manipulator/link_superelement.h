@@ -12,7 +12,8 @@ namespace trammel::solver {
 ///
 /// This is a change of basis without truncation:
 ///
-///   K = diag(k, I),   M = [m, P^T; P, diag(mu)].
+///   \f[ K = \begin{bmatrix} k & \\ & I \end{bmatrix}, \quad
+///       M = \begin{bmatrix} m & P^T \\ P & \operatorname{diag} \mu \end{bmatrix}. \f]
 ///
 /// k is the stiffness of one element of the full length. The matrices do not depend on the position
 /// of the member.

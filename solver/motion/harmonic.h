@@ -26,10 +26,10 @@ struct HarmonicAmplitudes {
   Eigen::VectorXd member_stress;  ///< largest |N / A +- M / W| at the ends of elements [Pa]
 };
 
-/// Steady response q(t) = Re(q e^{i w t}) to the loads of the model, except weight, that vary as
-/// cos(w t):
+/// Steady response q(t) = Re(q e^{i omega t}) to the loads of the model, except weight, that vary
+/// as cos(omega t):
 ///
-///   (K + i w C - w^2 M) q = f.
+///   \f[ (K + i \omega C - \omega^2 M) q = f. \f]
 ///
 /// Modes with a damping ratio and rigid modes are superposed. The equation is solved directly for
 /// the remaining load, so that no mode is truncated.

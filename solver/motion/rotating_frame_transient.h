@@ -7,12 +7,12 @@
 #include "solver/model/evidence.h"
 #include "solver/motion/transient.h"
 
-/// Small motion relative to axes that rotate with a prescribed speed W(t), which may vary.
+/// Small motion relative to axes that rotate with a prescribed speed Omega(t).
 namespace trammel::solver {
 
 /// Prescribed rotation of the axes.
 struct PrescribedRotation {
-  /// Returns W [rad/s] and its rate W. [rad/s^2], counterclockwise.
+  /// Returns Omega [rad/s] and its rate [rad/s^2], counterclockwise.
   std::function<std::array<double, 2>(double time)> speed;
   Vector2d center = Vector2d::Zero();  ///< center of rotation [m]
   /// true: include K_1, the geometric stiffness of the centrifugal forces at 1 rad/s on the
@@ -24,7 +24,8 @@ struct PrescribedRotation {
 /// Converts M q.. + C q. + K q = 0 to the equation of motion relative to the axes, to which the
 /// supports are fixed:
 ///
-///   M q.. + (C + 2 W G) q. + (K + W^2 (K_1 - S) + W. G) q = W^2 f_c + W. f_e.
+///   \f[ M \ddot q + (C + 2 \Omega G) \dot q + (K + \Omega^2 (K_1 - S) + \dot \Omega G) q
+///       = \Omega^2 f_c + \dot \Omega f_e. \f]
 ///
 /// See rotating_frame.h for G, S and f_c. f_e is -M times the acceleration field of a unit angular
 /// acceleration.

@@ -13,11 +13,11 @@ namespace trammel::solver {
 /// with four parameters. a is the acceleration that satisfies the equation of motion at the ends of
 /// a step of length h. A is the algorithmic acceleration:
 ///
-///     (1 - alpha_m) A1 + alpha_m A0 = (1 - alpha_f) a1 + alpha_f a0,
+///     \f[ (1 - \alpha_m) A_1 + \alpha_m A_0 = (1 - \alpha_f) a_1 + \alpha_f a_0, \f]
 ///
-///     q1 = q0 + h v0 + h^2 ((1/2 - beta) A0 + beta A1),
+///     \f[ q_1 = q_0 + h v_0 + h^2 ((1/2 - \beta) A_0 + \beta A_1), \f]
 ///
-///     v1 = v0 + h ((1 - gamma) A0 + gamma A1).
+///     \f[ v_1 = v_0 + h ((1 - \gamma) A_0 + \gamma A_1). \f]
 ///
 /// Equilibrium holds at the end of every step instead of at a point within it. The order is
 /// therefore the same for a and for matrices that change with time. A belongs to a time that is
