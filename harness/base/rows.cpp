@@ -109,8 +109,7 @@ std::string Rows::csv() const {
 
 std::string csv_text(const std::string& text) {
   const bool is_quoted = text.find_first_of(",\"\r\n") != std::string::npos;
-  std::string out = is_quoted ? "\"" : "";
-  if (is_formula(text)) out += '\'';
+  std::string out = std::string(is_quoted ? "\"" : "") + (is_formula(text) ? "'" : "");
   for (const char c : text) {
     out += std::iscntrl(static_cast<unsigned char>(c)) != 0 && c != '\n' ? ' ' : c;
     if (c == '"') out += c;

@@ -224,6 +224,8 @@ std::string version_text() {
   return text;
 }
 
+const std::vector<std::string> kTopics = {"cases", "verdicts", "effects", "accuracy"};
+
 /// Parser and dispatcher of the command line.
 class CommandLine {
  public:
@@ -253,19 +255,22 @@ class CommandLine {
     return command_();
   }
 
- private:
   static bool is_command(const std::string& name) {
     return std::ranges::any_of(kCommands,
                                [&](const CommandEntry& command) { return name == command.name; });
   }
 
-  static std::string expected_command(const std::string& word) {
+  /// @param names  further names that are expected
+  static std::string expected_command(const std::string& word,
+                                      std::vector<std::string> names = {}) {
     if (word.empty()) return "expected a command (see trammel --help)";
-    std::vector<std::string> names;
+    const std::string topics = names.empty() ? "" : ", or " + join(names, "or");
     for (const CommandEntry& command : kCommands) names.emplace_back(command.name);
-    return "expected a command (got '" + printable(word) + "')" + did_you_mean(word, names);
+    return "expected a command" + topics + " (got '" + printable(word) + "')" +
+           did_you_mean(word, names);
   }
 
+ private:
   std::string explained(const CLI::ParseError& error, const std::vector<std::string>& arguments) {
     const std::string first = arguments.front();
     return printable(error.what(), 200) + " (see trammel " +
@@ -334,6 +339,8 @@ int run_command_line(const std::vector<std::string>& arguments, const Renderers&
       const std::string text = words.empty() ? "" : help_text("topic " + words.front());
       std::cout << text << (text.empty() ? "" : "\n");
       if (!text.empty()) return 0;
+      if (!words.empty() && !CommandLine::is_command(words.front()))
+        throw InputError("trammel help: " + CommandLine::expected_command(words.front(), kTopics));
       words.emplace_back("--help");
     }
     const int status = CommandLine(renderers, words.empty() ? "" : words.front()).run(words);

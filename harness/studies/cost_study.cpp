@@ -300,9 +300,8 @@ Observations extract_observations(const Quantities& quantities,
       values = std::move(chosen);
     }
     if (!entry.statistic.empty()) values = {statistic_of(entry.statistic, values)};
-    if (!entry.exact.empty() && entry.exact.size() != values.size()) {
+    if (!entry.exact.empty() && entry.exact.size() != values.size())
       wrong_length(entry.quantity, entry.exact.size(), values.size());
-    }
     all.push_back(std::move(values));
   }
   return all;

@@ -102,9 +102,8 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
   const bool exact = keep_exact(observed);
   study.reference_description = "the exact values of " + quantities_of(observed);
   for (const std::string& name : wanted) {
-    for (Setting& setting : settings_of(document, name, observed)) {
+    for (Setting& setting : settings_of(document, name, observed))
       study.settings.push_back(std::move(setting));
-    }
     if (exact || study.reference_solution) continue;
     study.reference_solution = study.settings.back();
     study.reference_description = "the finest level, " + study.settings.back().title;

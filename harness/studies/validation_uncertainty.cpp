@@ -79,15 +79,13 @@ std::vector<UncertainInput> read_inputs(const JsonView& place, const References&
     UncertainInput input;
     input.name = name;
     input.nominal = entry.get("nominal", false);
-    if (entry.has("half_width") == entry.has("reference")) {
+    if (entry.has("half_width") == entry.has("reference"))
       throw entry.error("expected exactly one of 'half_width' and 'reference'");
-    }
     if (entry.has("reference")) {
       const references::Reference& reference = references.get(entry["reference"]);
       input.half_width = reference.uncertainty.at(0);
-      if (!reference.printed.empty()) {
+      if (!reference.printed.empty())
         input.why = "half a unit in the last place of '" + reference.printed[0] + "'";
-      }
     } else {
       input.half_width = entry.number("half_width");
     }
