@@ -143,8 +143,9 @@ class Selector {
         if (is_enough) selection_.change += change;
         return is_enough;
       };
-      // Second-order theory neglects shortening by rotation, which is of the order of the rotation.
-      // It saves load steps if axial forces approach a buckling load.
+      // Second-order theory neglects the shortening of a rotated member; relative to the
+      // deflection, this is of the order of the rotation. Near a buckling load it needs fewer load
+      // steps than large displacement.
       constexpr double kManySteps = 0.1;
       const Deflection size = deflection(*overview);
       if (!try_theory(single, Effect::geometric_stiffening, linear, kForCoarseModel) &&

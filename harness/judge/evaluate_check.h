@@ -25,7 +25,8 @@ struct CheckContext {
   const References& references;
   /// Returns the quantities of another variant of the case; null if there are none.
   std::function<const Quantities*(const std::string& variant)> variant;
-  /// Null: trammel. For another solver, a missing quantity is "not given" instead of an error.
+  /// Null if the numbers are those of trammel. A quantity that another solver does not return
+  /// is "not given" instead of an error.
   const results::SolverIdentity* other_solver = nullptr;
 };
 

@@ -35,7 +35,8 @@ void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Ch
                                                    TrackedQuantities tracked,
                                                    results::Number element_order = {});
 
-/// A quantity whose convergence along a sweep is studied, with the reference of its exact values.
+/// A quantity whose convergence along a sweep is studied, with the stored reference that gives its
+/// exact values.
 
 struct TrackedQuantity {
   std::string quantity, statistic;

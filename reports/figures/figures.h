@@ -52,7 +52,8 @@ namespace trammel::reports {
 /// Up to eight mode shapes or deformed shapes of a run, one panel each.
 [[nodiscard]] std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run);
 
-/// Difference of each check of a family divided by its tolerance, without known discrepancies.
+/// Difference of each check of a family from its reference, divided by the tolerance. Known
+/// discrepancies are left out.
 /// @param titles  of the cases, by id
 [[nodiscard]] std::optional<Figure> tolerance_figure(
     const std::string& family, const std::map<std::string, std::string>& titles,

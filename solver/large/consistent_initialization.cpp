@@ -57,7 +57,7 @@ class ConsistentInitialization {
     std::ostringstream message;
     message << "no consistent " << what << " at the start, time " << state_.t
             << " s: the largest constraint residual is " << rigid_constraint_residual()
-            << " times the model size or 1 rad";
+            << " (lengths relative to the model size, angles in rad)";
     return {Status::not_converged, message.str()};
   }
 

@@ -263,8 +263,9 @@ double mode_backward_error(const System& system, const SparseMatrix& added, cons
   return rows.backward_error();
 }
 
-/// Returns the number of missing or superfluous modes. A stable state is checked below the last
-/// clear gap. An unstable state must have as many modes as the rank of the mass matrix.
+/// Returns the number of missing or superfluous modes. For a stable state, the modes below the
+/// last clear gap between frequencies are counted by a factorization. An unstable state must have
+/// as many modes as the rank of the mass matrix.
 double miscounted_modes(const GyroscopicPencil& pencil, const GyroscopicModes& modes, bool stable) {
   const VectorXd& w = modes.omega;
   if (stable) {
