@@ -76,12 +76,12 @@ struct Option {
 /// Accepts a number from `least` to `most`. CLI::Range would print limits such as 1e-10 as 0.
 CLI::Validator within(double least, double most) {
   const std::string limits = shortest_decimal(least) + " to " + shortest_decimal(most);
-  const auto complaint = [=](std::string& word) -> std::string {
+  const auto message_of = [=](std::string& word) -> std::string {
     double value = 0;
     const bool fits = CLI::detail::lexical_cast(word, value) && value >= least && value <= most;
     return fits ? "" : "expected a number from " + limits + " (got " + printable(word) + ")";
   };
-  return {complaint, limits};
+  return {message_of, limits};
 }
 
 const std::vector<Option>& all_options() {

@@ -11,10 +11,10 @@ BOOST_AUTO_TEST_SUITE(discretization_error)
 using namespace trammel;
 using namespace trammel::harness;
 using testing::cantilever;
-using testing::complaint;
 using testing::contains;
 using testing::document_of;
 using testing::Folder;
+using testing::input_error_message;
 
 namespace {
 
@@ -102,6 +102,28 @@ BOOST_AUTO_TEST_CASE(default_mesh_is_accurate_and_a_coarse_one_warns) {
   BOOST_TEST_REQUIRE(!warnings.empty());
   BOOST_TEST(contains(warnings.front(), "frequency_Hz[3, 4 and 5]"));
   BOOST_TEST(contains(warnings.front(), "/model/manipulator/links/elements"));
+}
+
+BOOST_AUTO_TEST_CASE(short_half_waves_lie_outside_the_asymptotic_range) {
+  Json json = cantilever();
+  json["model"]["elements"] = 8;  // the companion has 4 elements, which resolve two half waves
+  for (const int count : {2, 4}) {
+    json["analysis"] = {{"modes", {{"count", count}}}};
+    BOOST_TEST(estimated(json).of("frequency_Hz").asymptotic == (count == 2));
+  }
+}
+
+BOOST_AUTO_TEST_CASE(motion_without_a_step_controls_its_error) {
+  Json json = vibrating_cantilever();
+  json["analysis"]["transient"].erase("step_s");
+  const Folder folder;
+  const auto motion = [&] {
+    return patched(load_case(folder.write(json)), kBaseVariant).value()["analysis"]["transient"];
+  };
+  BOOST_TEST(motion()["error_control"]["relative"] == 1e-4);
+  BOOST_TEST(motion()["step_s"] == 1e-4);
+  json["analysis"]["transient"]["step_s"] = 1e-3;
+  BOOST_TEST(!motion().contains("error_control"));
 }
 
 BOOST_AUTO_TEST_CASE(nodal_values_of_linear_statics_are_exact) {

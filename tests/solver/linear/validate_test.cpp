@@ -25,7 +25,7 @@ Model valid_model() {
   return model;
 }
 
-std::string input_error_message(const std::function<void(Model&)>& spoil) {
+std::string model_error_message(const std::function<void(Model&)>& spoil) {
   Model model = valid_model();
   spoil(model);
   try {
@@ -33,21 +33,21 @@ std::string input_error_message(const std::function<void(Model&)>& spoil) {
   } catch (const ModelError& error) {
     return error.what();
   }
-  return "no complaint";
+  return "no error";
 }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(valid_model_is_accepted) {
-  BOOST_TEST(input_error_message([](Model&) {}) == "no complaint");
+  BOOST_TEST(model_error_message([](Model&) {}) == "no error");
   const auto thin = [](Model& m) { m.nodes[2].position = {0.5, 3e-12}; };  // area of 1.5e-12 m^2
-  BOOST_TEST(input_error_message(thin) == "no complaint");
+  BOOST_TEST(model_error_message(thin) == "no error");
 }
 
 BOOST_AUTO_TEST_CASE(middle_node_may_not_fold_its_triangle_at_a_corner) {
   // Moves a middle node along its side and toward the third node, by fractions of these distances.
   const auto moved = [](std::size_t k, double along, double inwards) {
-    return input_error_message([&](Model& m) {
+    return model_error_message([&](Model& m) {
       const auto corner = [&](std::size_t i) { return m.nodes[i % 3].position; };
       for (std::size_t i = 0; i < 3; ++i) {
         m.triangles[0].nodes[3 + i] = static_cast<Index>(m.nodes.size());
@@ -59,11 +59,11 @@ BOOST_AUTO_TEST_CASE(middle_node_may_not_fold_its_triangle_at_a_corner) {
   };
   for (std::size_t k = 0; k < 3; ++k) {
     for (const double sign : {-1, 1}) {
-      BOOST_TEST(moved(k, sign * 0.24, 0) == "no complaint");  // det = 1 -+ 4 along at the ends
+      BOOST_TEST(moved(k, sign * 0.24, 0) == "no error");  // det = 1 -+ 4 along at the ends
       BOOST_TEST(moved(k, sign * 0.26, 0) ==
                  "triangle 0 has mid-side nodes that fold it over itself");
     }
-    BOOST_TEST(moved(k, 0, 0.45) == "no complaint");  // det = 1 - 2 inwards on all of the side
+    BOOST_TEST(moved(k, 0, 0.45) == "no error");  // det = 1 - 2 inwards on all of the side
     BOOST_TEST(moved(k, 0, 0.55) == "triangle 0 has mid-side nodes that fold it over itself");
   }
 }
@@ -75,13 +75,13 @@ BOOST_AUTO_TEST_CASE(triangle_folded_at_a_middle_node_is_refused) {
     for (const Vector2d& p : {Vector2d(0.9, -0.05), Vector2d(0.5, 0.25), Vector2d(0, 0.5)})
       m.nodes.push_back({"", p});
   };
-  BOOST_TEST(input_error_message(folded) ==
+  BOOST_TEST(model_error_message(folded) ==
              "triangle 0 has mid-side nodes that fold it over itself");
 }
 
 BOOST_AUTO_TEST_CASE(invalid_models_are_refused_with_the_reason) {
   const auto says = [](const std::string& expected, const std::function<void(Model&)>& spoil) {
-    BOOST_TEST(input_error_message(spoil) == expected);
+    BOOST_TEST(model_error_message(spoil) == expected);
   };
   says("member AB has no length", [](Model& m) {
     m.nodes[1].position = {0, 0};
