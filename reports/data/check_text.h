@@ -4,6 +4,7 @@
 #include <map>
 #include <string>
 
+#include "harness/results/check_groups.h"
 #include "reports/data/results.h"
 
 /// Status of checks, and the numbers of checks as text.
@@ -48,12 +49,6 @@ inline constexpr std::array<StatusStyle, 8> kStatusStyles = {{
 /// Returns the status of the end of a run. A run that is singular or did not converge passes if it
 /// has checks and all of them pass, because its case then expects this end.
 [[nodiscard]] CheckStatus check_status(const Run& run);
-
-using results::CheckGroup;
-using results::group_checks;
-using results::size_of_difference;
-using results::tolerance_fraction;
-using results::worse;
 
 /// Number of checks of each status.
 using Counts = std::map<CheckStatus, std::size_t>;
