@@ -1,4 +1,3 @@
-#include "harness/analysis/analyze_study.h"
 #include "harness/results/result_fields.h"
 
 namespace trammel::harness {
@@ -9,11 +8,10 @@ StepResult analyze_comparison(const Document& document, const References& refere
   for (const auto& [name, pair] : comparison.entries()) {
     const references::Reference& minuend = references.get(pair["compared"]);
     const references::Reference& subtrahend = references.get(pair["baseline"]);
-    if (minuend.unit != subtrahend.unit || minuend.values.size() != subtrahend.values.size()) {
+    if (minuend.unit != subtrahend.unit || minuend.values.size() != subtrahend.values.size())
       throw pair.error("expected two references with equal units and numbers of values (got " +
                        std::to_string(minuend.values.size()) + " in " + minuend.unit + ", " +
                        std::to_string(subtrahend.values.size()) + " in " + subtrahend.unit + ")");
-    }
     for (std::size_t i = 0; i < minuend.values.size(); ++i) {
       const double difference = (minuend.values[i] - subtrahend.values[i]) / subtrahend.values[i];
       record.add("relative_difference", name, difference);

@@ -62,10 +62,9 @@ std::vector<double> reference_values(const std::vector<KeptQuantity>& kept, cons
     return std::vector<double>(kept.size(), one.value);
   }
   const references::Reference& reference = references.get(keep["reference"]);
-  if (reference.values.size() != kept.size()) {
+  if (reference.values.size() != kept.size())
     throw keep["reference"].error("expected a reference of " + std::to_string(kept.size()) +
                                   " values (got " + std::to_string(reference.values.size()) + ")");
-  }
   return reference.values;
 }
 

@@ -70,19 +70,17 @@ Effects read_names(const JsonView& names, const EffectScope& scope, const Effect
   Effects chosen = scope.required;
   for (const auto& [number, place] : names.entries()) {
     const auto effect = solver::find_effect(place.get<std::string>());
-    if (!scope.applicable.has(*effect)) {
+    if (!scope.applicable.has(*effect))
       throw place.error("this effect is not applicable ('" + std::string(solver::name_of(*effect)) +
                         "': " + describe_missing(*effect, scope, rules) + ")");
-    }
     chosen = chosen.with(*effect);
   }
   for (const Effect effect : chosen.list()) {
     for (const Effect carrier : scope.applicable.list()) {
       const bool carried = scope.dependents[static_cast<std::size_t>(carrier)].has(effect);
-      if (carried && !chosen.has(carrier)) {
+      if (carried && !chosen.has(carrier))
         throw names.error("expected '" + std::string(solver::name_of(carrier)) + "' with '" +
                           std::string(solver::name_of(effect)) + "', which requires it");
-      }
     }
   }
   if (!(scope.completed(chosen) == chosen)) {

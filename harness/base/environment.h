@@ -21,7 +21,7 @@ namespace trammel::harness {
 /// Returns the content hash of a file, or an empty string if the file cannot be read.
 [[nodiscard]] std::string file_hash(const std::filesystem::path& file);
 
-/// Returns the content hash of this program.
+/// Returns a hash that identifies this program by the linker's build id.
 [[nodiscard]] std::string program_hash();
 
 }  // namespace trammel::harness

@@ -33,10 +33,9 @@ std::string table_cell(const Json& cell, const Column& column) {
 
 /// Returns true if a spreadsheet would interpret the text as a formula.
 bool is_formula(const std::string& text) {
-  const char first = text.empty() ? ' ' : text[0], second = text.size() > 1 ? text[1] : ' ';
-  const bool letter = std::isalpha(static_cast<unsigned char>(second)) != 0 || second == '(';
-  return first == '=' || first == '+' || first == '@' || first == '\t' || first == '\r' ||
-         (first == '-' && letter);
+  char* end = nullptr;
+  (void)std::strtod(text.c_str(), &end);
+  return text.find_first_of("=+-@\t\r") == 0 && *end != '\0';
 }
 
 std::string csv_cell(const Json& cell) {
@@ -81,7 +80,7 @@ void Rows::print(std::ostream& out, const std::string& indent) const {
     for (const std::string& cell : cells) width = std::max(width, width_of(cell));
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const std::string space(width - width_of(cells[i]), ' ');
-      lines[i] += (c > 0 ? "  " : "") + (right ? space + cells[i] : cells[i] + space);
+      lines[i] += (lines[i] == indent ? "" : "  ") + (right ? space + cells[i] : cells[i] + space);
     }
   }
   for (std::string& line : lines) out << line.erase(line.find_last_not_of(' ') + 1) << '\n';

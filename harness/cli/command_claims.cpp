@@ -6,7 +6,6 @@
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 #include "harness/base/rows.h"
-#include "harness/base/text.h"
 #include "harness/cli/commands.h"
 #include "harness/results/result_fields.h"
 #include "harness/run/claims.h"
@@ -51,13 +50,13 @@ void print_item(const results::PaperItem& item, const Json& claims) {
   std::cout << wrapped(item.reason, "    ") << wrapped(item.note, "    ");
 }
 
-/// Returns the runs of stored results with their series.
-std::vector<Run> stored_runs(const std::string& name) {
-  results::Results stored = read_summary(results_path(name));
-  for (Run& run : stored.runs)
-    if (!run.stored.empty() && !load_stored_data(run, stored.store))
-      throw InputError(name + ": expected the store of these results (got no file of the run " +
-                       run.case_id + ":" + run.variant + ")");
+/// Returns the stored runs of all cases with their series.
+std::vector<Run> stored_runs(const std::string& name, const std::vector<Case>& cases) {
+  results::Results stored = load_results(results_path(name));
+  for (const Case& one : cases)
+    if (std::ranges::find(stored.runs, one.id(), &Run::case_id) == stored.runs.end())
+      throw InputError(
+          name + ": expected results of all cases that the claims use (missing: " + one.id() + ")");
   return std::move(stored.runs);
 }
 
@@ -67,10 +66,10 @@ int claims_command(const CommandOptions& options, const Renderers& /*renderers*/
   const Document document = load_claims();
   RunOptions run_options;
   run_options.jobs = options.jobs;
+  const std::vector<Case> cases = cases_of(document, Catalogue().load());
   const results::Claims claims = evaluate_claims(
-      document, options.word.empty() ? run_with_progress(cases_of(document, Catalogue().load()),
-                                                         References(), run_options)
-                                     : stored_runs(options.word));
+      document, options.word.empty() ? run_with_progress(cases, References(), run_options)
+                                     : stored_runs(options.word, cases));
   if (options.json) {
     std::cout << format_json(results::to_json(claims));
   } else {

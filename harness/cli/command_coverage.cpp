@@ -40,7 +40,7 @@ int coverage_command(const CommandOptions& options, const Renderers& /*renderers
   std::vector<CoverageRow> rows = evidence_coverage(Catalogue().load(), References());
   add_reasons(rows);
   if (!options.word.empty()) {
-    const results::Results results = load_results(options.word);
+    const results::Results results = load_results(results_path(options.word));
     if (!results.missing.empty()) std::cerr << options.word << ": " << results.missing << '\n';
     count_series(results, rows);
   }

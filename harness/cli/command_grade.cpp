@@ -5,7 +5,6 @@
 #include <iostream>
 #include <map>
 
-#include "harness/base/errors.h"
 #include "harness/base/find_or_add.h"
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
@@ -13,7 +12,6 @@
 #include "harness/base/text.h"
 #include "harness/cli/commands.h"
 #include "harness/grade/grade.h"
-#include "harness/input/catalogue.h"
 #include "harness/printing/printing.h"
 #include "harness/results/run_grade.h"
 #include "harness/run/results.h"

@@ -264,7 +264,7 @@ class CommandLine {
   static std::string expected_command(const std::string& word,
                                       std::vector<std::string> names = {}) {
     if (word.empty()) return "expected a command (see trammel --help)";
-    const std::string topics = names.empty() ? "" : ", or " + join(names, "or");
+    const std::string topics = names.empty() ? "" : " or one of the topics " + join(names, "and");
     for (const CommandEntry& command : kCommands) names.emplace_back(command.name);
     return "expected a command" + topics + " (got '" + printable(word) + "')" +
            did_you_mean(word, names);
@@ -339,7 +339,8 @@ int run_command_line(const std::vector<std::string>& arguments, const Renderers&
       const std::string text = words.empty() ? "" : help_text("topic " + words.front());
       std::cout << text << (text.empty() ? "" : "\n");
       if (!text.empty()) return 0;
-      if (!words.empty() && !CommandLine::is_command(words.front()))
+      if (!words.empty() && !words.front().starts_with('-') &&
+          !CommandLine::is_command(words.front()))
         throw InputError("trammel help: " + CommandLine::expected_command(words.front(), kTopics));
       words.emplace_back("--help");
     }

@@ -8,7 +8,6 @@
 #include "harness/analysis/analysis.h"
 #include "harness/analysis/registry.h"
 #include "harness/analysis/size_estimate.h"
-#include "harness/base/environment.h"
 #include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 #include "harness/base/rows.h"

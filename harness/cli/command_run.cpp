@@ -16,7 +16,6 @@
 #include "harness/input/catalogue.h"
 #include "harness/input/document.h"
 #include "harness/printing/printing.h"
-#include "harness/results/run_grade.h"
 #include "harness/results/unfinished_folder.h"
 #include "harness/run/claims.h"
 #include "harness/run/results.h"

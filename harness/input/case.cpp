@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <regex>
 #include <set>
 #include <tuple>
 
@@ -141,27 +142,40 @@ std::string Case::variant_title(const std::string& variant) const {
 
 namespace {
 
-/// Adds error control to a motion that states no step, and its first or largest step. If a sweep
-/// varies the step, nothing is added.
+/// Adds error control, and the first or largest step, to a motion that states no step. Modal
+/// superposition has no step error. Extrapolation requires equal steps, as does elastodynamics with
+/// large displacement, which "effects" may select.
+/// @throws InputError  if a sweep or a study varies the step, which must then be stated.
 void add_default_steps(Document& document) {
-  constexpr double kStep = 1e-3;  // relative to the duration
+  const Json& json = document.value();
   const Json control = {{"error_control", {{"relative", 1e-4}}}};
-  const Json& whole = document.value();
-  if (whole.value("sweeps", Json()).dump().find("step_s\"") != std::string::npos) return;
   for (const auto& [kind, duration, tolerance] :
        {std::tuple("large-motion", "end_time_s", Json{{"tolerance", 1e-6}}),
         std::tuple("transient", "duration_s", control),
         std::tuple("elastodynamics", "duration_s", control)}) {
-    const JsonPointer place = JsonPointer("/analysis") / kind;
-    if (!whole.contains(place) || whole.at(place).contains("step_s")) continue;
-    const Json& motion = whole.at(place);
-    const bool is_exact = motion.value("modal_superposition", false) ||
-                          motion.value("method", Json()) == "modal-superposition";
-    const bool is_stated = is_exact || motion.contains(tolerance.begin().key());
-    Json patch = Json::object();
-    patch[place] = is_stated ? Json::object() : tolerance;
-    if (motion.contains(duration)) patch[place]["step_s"] = kStep * motion[duration].get<double>();
-    document.apply_patch("default steps", "", patch);
+    for (const char* root : {"/analysis", "/analysis/study/analysis"}) {
+      const JsonPointer place = JsonPointer(root) / kind;
+      if (!json.contains(place) || json.at(place).contains("step_s")) continue;
+      const Json& motion = json.at(place);
+      const std::string text = json.value("sweeps", Json()).dump() + json["analysis"].dump();
+      if (std::regex_search(text, std::regex("[/\"]step_s\"")))
+        throw document.error(place.to_string(),
+                             "expected the key 'step_s', because a sweep or study varies it");
+      const bool has_equal_steps =
+          motion.value("modal_superposition", false) || motion.value("extrapolated", false) ||
+          motion.value("method", Json()) == "modal-superposition" ||
+          (json.contains("effects") && kind == std::string("elastodynamics"));
+      Json patch = Json::object();
+      patch[place] =
+          has_equal_steps || motion.contains(tolerance.begin().key()) ? Json::object() : tolerance;
+      if (motion.contains(duration)) {
+        const double step = kDefaultStep * motion[duration].get<double>();
+        patch[place]["step_s"] = step;
+        if (duration == std::string("end_time_s") && !motion.contains("output_step_s"))
+          patch[place]["output_step_s"] = step;
+      }
+      document.apply_patch(document.origin("").file, "", patch);
+    }
   }
 }
 

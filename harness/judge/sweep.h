@@ -37,7 +37,6 @@ void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Ch
 
 /// A quantity whose convergence along a sweep is studied, with the stored reference that gives its
 /// exact values.
-
 struct TrackedQuantity {
   std::string quantity, statistic;
   std::vector<std::size_t> index, reference_index;  ///< selected entries; empty: all

@@ -183,7 +183,7 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
   if (!(options.time.end > options.time.start))
     throw analysis.error("the trajectory requires at least two points (got one)");
   if (!analysis.has("step_s")) {
-    options.time.step = 1e-3 * (options.time.end - options.time.start);
+    options.time.step = kDefaultStep * (options.time.end - options.time.start);
   } else if (options.elastic_inertia) {
     require_step_count(analysis["step_s"], options.time.end - options.time.start);
   }

@@ -181,7 +181,7 @@ void print_summary(const results::Results& results) {
   std::cout << fmt::format(", {} with {}: {} pass, {} known discrepancies, {} fail",
                            count_of(checks, "check"), count_of(entries, "number"), verdicts["pass"],
                            verdicts["known discrepancy"], verdicts["fail"]);
-  for (const char* rare : {"changed discrepancy", "error", "not run", "recorded"})
+  for (const char* rare : {"changed discrepancy", "error", "not run", "not given", "not judged"})
     if (verdicts[rare] > 0) std::cout << ", " << verdicts[rare] << ' ' << rare;
   const auto bad = std::ranges::count(results.runs, results::Status::error, &results::Run::status);
   if (bad > 0) std::cout << "; " << bad << " with status error";

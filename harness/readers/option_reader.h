@@ -33,8 +33,8 @@ void require_step_count(const JsonView& step, double duration);
 /// @throws InputError  if times decrease or the two lists differ in length.
 [[nodiscard]] solver::LoadHistory read_load_history(const JsonView& analysis);
 
-/// Reads "scheme" (newmark by default), "step_s" and "error_control": {"relative", "absolute",
-/// "finest_level"}.
+/// Reads "scheme" (newmark by default), "step_s" (0 if it is absent) and "error_control":
+/// {"relative", "absolute", "finest_level"}.
 [[nodiscard]] solver::TransientOptions read_time_options(const JsonView& analysis);
 
 /// Reads the key "damping" of an analysis; no damping if it is absent.

@@ -1,6 +1,7 @@
 #include "harness/results/check_groups.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -19,6 +20,12 @@ int severity(const Check& check) {
 
 Number judged_number(const Check& check) {
   return check.measure == "bound" ? check.computed : check.difference;
+}
+
+/// Returns the judged number, with the opposite sign for a lower bound.
+double beyond(const Check& check) {
+  const double number = judged_number(check).value_or(0);
+  return check.tolerance && !check.tolerance->high ? -number : number;
 }
 
 }  // namespace
@@ -50,8 +57,7 @@ bool worse(const Check& a, const Check& b) {
     return size_of_difference(a) > size_of_difference(b);
   const double share_a = tolerance_fraction(a), share_b = tolerance_fraction(b);
   if (share_a != share_b) return share_a > share_b;
-  const bool is_lower_bound = a.tolerance && !a.tolerance->high;  // a limit of zero has no fraction
-  return is_lower_bound ? judged_number(a) < judged_number(b) : judged_number(a) > judged_number(b);
+  return beyond(a) > beyond(b);  // limits of zero have no fractions
 }
 
 const Check& CheckGroup::worst() const {

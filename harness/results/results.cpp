@@ -316,7 +316,10 @@ std::string verdict_text(const Check& check) {
   const bool changed = check.verdict == Verdict::fail;
   if (check.known_discrepancy() && (changed || check.verdict == Verdict::pass))
     return changed ? "changed discrepancy" : "known discrepancy";
-  return check.verdict == Verdict::not_run ? "not run" : to_string(check.verdict);
+  if (check.verdict == Verdict::recorded) return "not judged";
+  std::string text = to_string(check.verdict);
+  std::ranges::replace(text, '-', ' ');
+  return text;
 }
 std::string to_string(Status status) {
   return detail::name_of(status);

@@ -37,9 +37,13 @@ bool is_failure(Grade grade) {
 
 const Check* decisive_check(const Run& run) {
   const Check* decisive = nullptr;
+  const auto rank = [](const Check& check) {
+    return std::pair(check.verdict == Verdict::fail, check.difference.has_value());
+  };
   for (const Check& check : run.checks) {
-    const bool is_judged = check.verdict == Verdict::pass || check.verdict == Verdict::fail;
-    if (is_judged && check.difference && (decisive == nullptr || worse(check, *decisive)))
+    if (check.verdict != Verdict::pass && check.verdict != Verdict::fail) continue;
+    if (decisive == nullptr || rank(check) > rank(*decisive) ||
+        (rank(check) == rank(*decisive) && worse(check, *decisive)))
       decisive = &check;
   }
   return decisive;

@@ -33,8 +33,8 @@ inline constexpr std::array<Grade, 10> kAllGrades = {
 /// Returns true if the grade counts against the code: off, broken, crashed or timed out.
 [[nodiscard]] bool is_failure(Grade grade);
 
-/// Returns the most informative check: the most severe one that is judged and has a
-/// difference; null if there is none.
+/// Returns the most informative check: a failing one, else one with a difference, of these the most
+/// severe; null if no check is judged.
 [[nodiscard]] const Check* decisive_check(const Run& run);
 
 }  // namespace trammel::results

@@ -287,7 +287,7 @@ PaperItem read_item(const std::string& id, const JsonView& place, const Json& cl
   return item;
 }
 
-/// Returns "12 checks pass, 6 do not agree (as recorded)", or "computed, not judged".
+/// Returns "12 checks pass and 6 known discrepancies", or "computed, not judged".
 std::string verdict_of(const results::Results& results, const PaperItem::Counterpart& counterpart) {
   int passed = 0, discrepancies = 0, other = 0;
   bool computed = false;

@@ -16,7 +16,6 @@
 #include "harness/judge/evaluate_check.h"
 #include "harness/run/results.h"
 #include "harness/run/run_store.h"
-#include "harness/run/shards.h"
 #include "harness/studies/accuracy_search.h"
 #include "harness/studies/validation_uncertainty.h"
 

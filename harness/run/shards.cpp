@@ -7,7 +7,6 @@
 #include "harness/base/json_file.h"
 #include "harness/base/text.h"
 #include "harness/results/results.h"
-#include "harness/run/stored_results.h"
 
 namespace trammel::harness {
 namespace {

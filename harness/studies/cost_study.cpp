@@ -9,7 +9,6 @@
 #include "harness/base/statistic.h"
 #include "harness/base/text.h"
 #include "harness/input/catalogue.h"
-#include "harness/judge/sweep.h"
 
 namespace trammel::harness {
 namespace {

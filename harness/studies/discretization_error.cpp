@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 #include "harness/analysis/effect_changes.h"
 #include "harness/base/statistic.h"
@@ -176,8 +174,7 @@ class ErrorScales {
   ErrorScales(const Document& document, const AnalysisResult& own)
       : own_(own.quantities), kind_(discretized_analysis(document)) {
     if (!document.value().contains("model")) return;
-    model_ = first_model(read_case_model(document));
-    const ModelScales model = scales_of(model_);
+    const ModelScales model = scales_of(first_model(read_case_model(document)));
     scales_ = change_scales(own_, model);
     if (!kind_.starts_with("large-") && kind_ != "modes") return;
     for (const auto& [kind, size] : {std::pair("displacement", model.length), {"rotation", 1.0}})
@@ -204,23 +201,6 @@ class ErrorScales {
       return is_curve(name) ? largest : 1e-6 * largest;
     return std::max(largest, found->second);
   }
-  /// Returns the highest frequency at which elements that are `ratio` times as long are at most
-  /// half as long as a half wave of bending or extension [Hz].
-  [[nodiscard]] double resolved_frequency(double ratio) const {
-    double lowest = std::numeric_limits<double>::infinity();
-    for (const solver::Member& member : model_.members) {
-      const solver::Section& section = member.section;
-      const double size =
-                       ratio * member_length(model_, member) / static_cast<double>(member.elements),
-                   wave_number = std::numbers::pi / 2 / size,
-                   bending =
-                       std::pow(wave_number, 2) * std::sqrt(section.EI / section.mass_per_length),
-                   extension = wave_number * std::sqrt(section.EA / section.mass_per_length);
-      if (section.EI > 0) lowest = std::min(lowest, bending / (2 * std::numbers::pi));
-      lowest = std::min(lowest, extension / (2 * std::numbers::pi));
-    }
-    return lowest;
-  }
   /// Returns the relative round-off of quantities for which it is unknown, as left by iterations
   /// and steps.
   [[nodiscard]] double roundoff() const {
@@ -233,7 +213,6 @@ class ErrorScales {
   static constexpr double kPositionRoundoff = 1e-11;
   const Quantities& own_;
   std::string kind_;
-  solver::Model model_;
   std::map<std::string, double> scales_;
 };
 
@@ -275,9 +254,6 @@ ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other, E
   const ErrorScales scales(document, own);
   ErrorBands bands;
   const bool by_shape = has_shapes(own) && has_shapes(other);
-  const double resolved = source == ErrorSource::mesh
-                              ? scales.resolved_frequency(companion.finer ? companion.ratio : 1)
-                              : std::numeric_limits<double>::infinity();
   for (const auto& [name, quantity] : own.quantities) {
     const auto found = other.quantities.find(name);
     if (!is_estimated(name) || found == other.quantities.end()) continue;
@@ -297,16 +273,14 @@ ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other, E
           scales.roundoff() * std::max(scale, std::abs(values[i])) +
           (i < quantity.roundoff.size() ? quantity.roundoff[i] * std::abs(values[i]) : 0);
       const bool is_nodal = !order && difference <= 100 * roundoff;
-      const bool is_coarse =
-          difference > kLargeDifference * std::max(std::abs(values[i]), scale) ||
-          (quantity_group(name) == "frequency" && std::abs(values[i]) > resolved);
-      const double p = is_coarse ? std::min(order.value_or(2), 2.0) : order.value_or(2);
+      const bool is_large = difference > kLargeDifference * std::max(std::abs(values[i]), scale);
+      const double p = is_large ? std::min(order.value_or(2), 2.0) : order.value_or(2);
       const double power = std::pow(companion.ratio, p);
       band.half_width[i] = roundoff + (is_nodal ? difference
                                                 : kSafetyFactor * difference *
                                                       (companion.finer ? power : 1) / (power - 1));
       if (!is_nodal) band.order = p;
-      band.asymptotic = band.asymptotic && !is_coarse;
+      band.asymptotic = band.asymptotic && !is_large;
     }
     bands.emplace(name, std::move(band));
   }

@@ -46,9 +46,8 @@ using ErrorBands = std::map<std::string, ErrorBand>;
 /// Returns bands from two levels.
 /// The band about the fine numbers has the half width U = 3 |fine - coarse| / (r^p - 1), and that
 /// about the coarse numbers is r^p times as wide (P. J. Roache, J. Fluids Eng. 116, 1994). If the
-/// difference exceeds a tenth of the number, or if a half wave of a mode spans fewer than two
-/// coarse elements, p is at most 2. If the theory is exact, U is the difference plus round-off.
-/// Modes are matched by their shapes if both results have them.
+/// difference exceeds a tenth of the number, p is at most 2. If the theory is exact, U is the
+/// difference plus round-off. Modes are matched by their shapes if both results have them.
 [[nodiscard]] ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other,
                                      ErrorSource source, const Companion& companion);
 

@@ -1,7 +1,6 @@
 #include <exception>
 
 #include "harness/analysis/analysis.h"
-#include "harness/base/errors.h"
 #include "harness/base/json_file.h"
 #include "harness/base/processes.h"
 #include "harness/base/stopwatch.h"

@@ -15,9 +15,9 @@ namespace trammel::reports {
 enum class CheckStatus {
   passes,
   known_discrepancy,
-  changed_discrepancy,
   not_judged,
   fails,
+  changed_discrepancy,
   error,
   not_run,
   not_given
@@ -40,6 +40,8 @@ inline constexpr std::array<StatusStyle, 8> kStatusStyles = {{
     {CheckStatus::not_run, "not run", "not-run", "–", 3},
     {CheckStatus::not_given, "not given", "not-run", "·", 3},
 }};
+static_assert(kStatusStyles.back().status == static_cast<CheckStatus>(kStatusStyles.size() - 1));
+static_assert(kStatusStyles[4].status == static_cast<CheckStatus>(4));
 [[nodiscard]] const StatusStyle& style_of(CheckStatus status);
 
 /// Returns true for a check that fails, that has left its recorded range, or that has no result.

