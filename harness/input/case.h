@@ -34,9 +34,6 @@ inline constexpr const char* kBaseVariant = "base";
 /// @param catalogue  contains the cases that can be extended by name
 [[nodiscard]] Case load_case(const std::filesystem::path& file, const Catalogue& catalogue);
 
-/// Default of the first or largest step of a motion, relative to the duration.
-inline constexpr double kDefaultStep = 1e-3;
-
 /// Returns the case with the variant's patch applied. The result has no "variants", and its
 /// "description" is that of the variant.
 /// @throws InputError  for an unknown name, or if the patched case violates the schema.

@@ -10,6 +10,9 @@
 
 namespace trammel::harness {
 
+/// Default of the first or largest step of a motion, relative to the duration.
+inline constexpr double kDefaultStep = 1e-3;
+
 /// Names of an enumeration's values in a case, in the order of the values.
 template <class Enum>
 inline constexpr std::array<const char*, 0> kWords{};
