@@ -114,7 +114,7 @@ const Refusal kRefusals[] = {
     {"", "expected a command (see trammel --help)"},
     {"rn", "expected a command (got 'rn'); did you mean 'run'?"},
     {"rn --help", "expected a command (got 'rn'); did you mean 'run'?"},
-    {"help verdict", "effects or accuracy (got 'verdict'); did you mean 'verdicts'?"},
+    {"help verdict", "effects and accuracy (got 'verdict'); did you mean 'verdicts'?"},
     {"run variants.json:agian", "(got 'agian'); did you mean 'again'?"},
     {"run", "expected a case or a label (see trammel run --help)"},
     {"run --nonsense x", "The following argument was not expected: --nonsense"},
