@@ -329,6 +329,12 @@ BOOST_AUTO_TEST_CASE(worst_entry_of_a_long_array_is_reported) {
   all = bench.judge_all();
   BOOST_TEST((all[0].verdict == Verdict::error));
   BOOST_TEST(all[0].index.value() == 500U);
+  bench.check["bound"] = {{"at_least", 1}, {"why", "w"}};
+  values.assign(631, 2);
+  values[7] = 1.1;
+  BOOST_TEST(bench.judge_all()[0].index.value() == 7U);
+  bench.check["bound"]["at_most"] = 2.9;
+  BOOST_TEST(bench.judge_all()[0].index.value() == 7U);
 }
 
 BOOST_AUTO_TEST_CASE(statistics_have_the_named_value) {

@@ -100,7 +100,7 @@ BOOST_AUTO_TEST_CASE(mass_matrices_carry_the_mass_of_the_member) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(consistent_mass_has_the_inertia_of_a_rod) {
+BOOST_AUTO_TEST_CASE(mass_matrices_have_the_inertia_of_a_rod) {
   const double m = kSection.mass_per_length * kLength;
   const Vector6d turn = rigid_motion(0, 0, 1, 0.4);
   for (const BeamTheory theory : kTheories) {
@@ -109,6 +109,9 @@ BOOST_AUTO_TEST_CASE(consistent_mass_has_the_inertia_of_a_rod) {
     const Matrix6d M = world(frame_mass(kSection, theory, MassMatrix::consistent, kLength), 0.4);
     BOOST_TEST(turn.dot(M * turn) == m * kLength * kLength / 3 + rotary,
                boost::test_tools::tolerance(1e-13));
+    const Matrix6d lumped = frame_mass(kSection, theory, MassMatrix::lumped, kLength);
+    BOOST_TEST(lumped(2, 2) == rotary / 2);
+    BOOST_TEST(lumped(5, 5) == rotary / 2);
   }
 }
 

@@ -140,13 +140,16 @@ BOOST_AUTO_TEST_CASE(section_forces_balance_the_loads_in_the_bent_shape) {
       1e-11);
 }
 
-BOOST_AUTO_TEST_CASE(free_motion_is_named) {
+BOOST_AUTO_TEST_CASE(free_motion_is_named) {  // and a model without coordinates has one point
   Model model = beam(unit_section(), 1, 2);
   model.supports = {pin(0)};
   model.loads = {{1, {0, 1, 0}}};
   const StaticPath path = follow_static_path(GeometricallyExactSystem(model));
   BOOST_TEST((path.outcome.status == Status::singular));
   BOOST_TEST(path.outcome.reason.find("free motion") != std::string::npos);
+  Model fixed = beam(unit_section(), 1, 1);
+  fixed.supports = {clamp(0), clamp(1)};
+  BOOST_TEST(follow_static_path(GeometricallyExactSystem(fixed)).points.size() == 1U);
 }
 
 BOOST_AUTO_TEST_SUITE_END()
