@@ -110,8 +110,7 @@ BOOST_AUTO_TEST_CASE(mass_matrices_have_the_inertia_of_a_rod) {
     BOOST_TEST(turn.dot(M * turn) == m * kLength * kLength / 3 + rotary,
                boost::test_tools::tolerance(1e-13));
     const Matrix6d lumped = frame_mass(kSection, theory, MassMatrix::lumped, kLength);
-    BOOST_TEST(lumped(2, 2) == rotary / 2);
-    BOOST_TEST(lumped(5, 5) == rotary / 2);
+    BOOST_TEST(lumped(2, 2) + lumped(5, 5) == rotary);
   }
 }
 
