@@ -95,10 +95,7 @@ BOOST_AUTO_TEST_CASE(assembled_mass_and_inertia_are_printed_or_by_density) {
       ManipulatorDesign design = by_density;
       if (printed) {
         for (auto* links : {&design.proximal, &design.distal}) {
-          for (LinkDesign& link : *links) {
-            link.mass = 0.0234;
-            link.inertia = 0.00078;
-          }
+          for (LinkDesign& link : *links) link.mass = 0.0234, link.inertia = 0.00078;
         }
         design.platform.mass = 0.1205;
       }
@@ -121,6 +118,8 @@ BOOST_AUTO_TEST_CASE(assembled_mass_and_inertia_are_printed_or_by_density) {
       BOOST_TEST(twice_the_energy({1, 0, 0}) == 6 * link_mass + plate.mass, tolerance(1e-12));
       BOOST_TEST(twice_the_energy({0, 1, 0}) == 6 * link_mass + plate.mass, tolerance(1e-12));
       BOOST_TEST(twice_the_energy({0, 0, 1}) == inertia, tolerance(1e-12));
+      const auto massless = restrict_effects(design, Effects::all().without(Effect::link_mass));
+      BOOST_TEST(!massless.proximal[0].inertia.has_value());
     }
   }
 }
