@@ -245,8 +245,7 @@ void solve_blocks(const Task& task, std::vector<Solver> solvers) {
   std::vector<std::future<void>> threads;
   for (Solver& solver : solvers)
     threads.push_back(std::async(std::launch::async, work, std::ref(solver)));
-  // Wait for all threads before an exception is thrown.
-  for (const std::future<void>& thread : threads) thread.wait();
+  // If one throws, the destructors of the others wait for their threads.
   for (std::future<void>& thread : threads) thread.get();
   for (const Solver& solver : solvers) {
     task.result.counters += solver.counters;
