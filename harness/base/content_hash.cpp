@@ -8,21 +8,6 @@
 #include "harness/base/json_file.h"
 
 namespace trammel::harness {
-namespace {
-
-/// Appends the ELF notes of the first loaded object, which is the program itself. One of them is
-/// the build id. This is a callback of dl_iterate_phdr.
-int append_notes(dl_phdr_info* object, std::size_t, void* notes) {
-  for (int i = 0; i < object->dlpi_phnum; ++i) {
-    const ElfW(Phdr)& part = object->dlpi_phdr[i];
-    // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader reports addresses as integers
-    const char* at = reinterpret_cast<const char*>(object->dlpi_addr + part.p_vaddr);
-    if (part.p_type == PT_NOTE) static_cast<std::string*>(notes)->append(at, part.p_memsz);
-  }
-  return 1;
-}
-
-}  // namespace
 
 std::string content_hash(const std::string& text) {
   return boost::uuids::to_string(boost::uuids::name_generator_sha1(boost::uuids::ns::oid())(text));
@@ -37,8 +22,20 @@ std::string file_hash(const std::filesystem::path& file) {
 }
 
 std::string program_hash() {
-  std::string notes;
-  dl_iterate_phdr(append_notes, &notes);
+  dl_phdr_info program{};  // of the first loaded object, which is the program itself
+  // The callback of this C function must not throw, so that it only copies.
+  const auto copy_first = [](dl_phdr_info* object, std::size_t, void* copy) {
+    *static_cast<dl_phdr_info*>(copy) = *object;
+    return 1;
+  };
+  dl_iterate_phdr(copy_first, &program);
+  std::string notes;  // one of the ELF notes is the build id
+  for (int i = 0; i < program.dlpi_phnum; ++i) {
+    const ElfW(Phdr)& segment = program.dlpi_phdr[i];
+    // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader reports addresses as integers
+    const char* start = reinterpret_cast<const char*>(program.dlpi_addr + segment.p_vaddr);
+    if (segment.p_type == PT_NOTE) notes.append(start, segment.p_memsz);
+  }
   return content_hash(notes);
 }
 

@@ -164,6 +164,8 @@ ProcessOutcome reap(const Child& child) {
 /// Runs the task in the child. Signals that stop the program are handled by the parent.
 [[noreturn]] void compute(const ProcessTask& task, std::size_t memory_bytes, int out) noexcept {
   end_without_memory(kOutOfMemory, "");
+  // An exception would leave incomplete JSON values, whose destructor reads a null pointer.
+  std::set_new_handler([] { _exit(kOutOfMemory); });
   const rlimit cpu{task.cpu_limit_s, task.cpu_limit_s + 1};
   setrlimit(RLIMIT_CPU, &cpu);
   alarm(kHangTimeoutFactor * task.cpu_limit_s);
