@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "harness/base/find_or_add.h"
 #include "harness/base/statistic.h"
@@ -100,6 +102,33 @@ std::vector<std::string> error_row(const ErrorEstimate& estimate,
               (estimate.asymptotic ? "" : " (not in the asymptotic range)")};
 }
 
+/// Returns the difference from each printed number and its standard uncertainties (ASME V&V 20),
+/// grouped by variant and reference, in percent of the printed number.
+TextTable uncertainty_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
+  TextTable table{
+      "Validation uncertainty",
+      {"Quantity", ">Printed D", ">E", ">u_num", ">u_input", ">u_D", ">u_val", "Dominant input"}};
+  for (const Run* run : runs) {
+    std::string last;
+    if (!run->uncertainty) continue;
+    for (const Comparison& c : run->uncertainty->comparisons) {
+      if (!c.expected || !c.u_val) continue;
+      const auto percent = [&](Number value, bool sign) {
+        return value ? relative(*value / std::abs(*c.expected), 2, sign) : "";
+      };
+      if (std::exchange(last, c.check) != c.check)
+        table.rows.push_back({info.variant_title(run->variant) + ", " + c.check});
+      const QuantityLabel label = parse_quantity(c.quantity);
+      const std::string name = to_text(label) + " " + std::to_string(c.index + 1);
+      table.rows.push_back({axis_label(name, label.unit), significant(*c.expected, 4),
+                            percent(c.difference, true), percent(c.u_num, false),
+                            percent(c.u_input, false), percent(c.u_reference, false),
+                            percent(c.u_val, false), c.dominant_input});
+    }
+  }
+  return table;
+}
+
 bool selects_effects(const Run* run) {
   return std::ranges::any_of(
       run->effects, [](const EffectRow& effect) { return effect.cumulative_change.has_value(); });
@@ -139,9 +168,11 @@ Data variant_tables(const CaseInfo& info, const std::vector<const Run*>& runs) {
   });
 }
 
-void set_run_tables(Data& data, const std::vector<const Run*>& runs) {
-  Data errors(false), probabilities = list(), effects(false);
+void set_run_tables(Data& data, const CaseInfo& info, const std::vector<const Run*>& runs) {
+  Data errors(false), probabilities = list(), effects(false), uncertainty(false);
   std::vector<std::string> excluded;
+  const TextTable comparisons = uncertainty_table(info, runs);
+  if (!comparisons.rows.empty()) uncertainty = table_data(comparisons);
   const auto chosen = std::ranges::find_if(runs, selects_effects);
   if (chosen != runs.end()) effects = table_data(effects_table(**chosen));
   const auto estimated =
@@ -166,6 +197,7 @@ void set_run_tables(Data& data, const std::vector<const Run*>& runs) {
   }
   set(data, {{"errors", errors},
              {"effects", effects},
+             {"uncertainty", uncertainty},
              {"has_probabilities", probabilities.is_non_empty_list()},
              {"probabilities", object({{"tables", probabilities}})},
              {"has_excluded", !excluded.empty()},

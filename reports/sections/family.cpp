@@ -116,7 +116,7 @@ Data case_section(const CaseInfo& info, const Family& family, const Results& res
              {"has_variant_tables", !info.tables.empty()},
              {"variant_tables", object({{"tables", variant_tables(info, runs)}})},
              {"csv", "checks/" + slug(info.id) + ".csv"}});
-  set_run_tables(data, runs);
+  set_run_tables(data, info, runs);
   return data;
 }
 

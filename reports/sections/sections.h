@@ -104,8 +104,9 @@ struct StudyFigures {
 /// Returns the tables that a case requests: variants down, quantities and timings across.
 [[nodiscard]] Data variant_tables(const CaseInfo& info, const std::vector<const Run*>& runs);
 
-/// Sets tables of the first run with estimated discretization errors, of the first run that
-/// selected its effects, and of the probabilities of readings. A table without rows is false.
-void set_run_tables(Data& data, const std::vector<const Run*>& runs);
+/// Sets tables of all validation uncertainties, of the first run with estimated discretization
+/// errors, of the first run that selected its effects, and of the probabilities of readings. A
+/// table without rows is false.
+void set_run_tables(Data& data, const CaseInfo& info, const std::vector<const Run*>& runs);
 
 }  // namespace trammel::reports
