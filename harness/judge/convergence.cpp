@@ -103,8 +103,7 @@ class ConvergenceStudy {
 
   /// Expected converged value from a level and the previous ones, with its safety factor.
   struct Expected {
-    double value = kNaN;
-    double factor = 3;
+    double value = kNaN, factor = 3;
   };
 
   /// Richardson extrapolation with one order.

@@ -93,8 +93,7 @@ int run(const std::string& kind, Index size) {
 }
 
 struct Cost {
-  double seconds = 0;
-  double megabytes = 0;
+  double seconds = 0, megabytes = 0;
 };
 
 Cost measure_cost(const std::string& kind, Index size) {

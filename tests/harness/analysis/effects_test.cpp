@@ -201,6 +201,15 @@ BOOST_AUTO_TEST_CASE(sudden_start_keeps_stiff_parts) {
   BOOST_TEST(choice.chosen.has(Effect::platform_flexibility));
 }
 
+/// The bound r^2 + 2 zeta r on the inertia forces of a slow path needs no computation of a motion.
+BOOST_AUTO_TEST_CASE(slower_circle_has_no_inertia_by_its_frequency) {
+  Document slower = patched(load_named_case("scene-slow-circle"), "base");
+  slower.apply_patch("test", "",
+                     {{"model", {{"trajectory", {{"circle", {{"angular_speed_rad_s", 0.3}}}}}}}});
+  EffectChoice choice = choose_effects(slower, read_case_model(slower));
+  BOOST_TEST(!choice.automatic->of(Effect::inertia).is_measured);
+}
+
 /// Along a path, the geometrically exact theory requires fixed time steps and driven actuators.
 BOOST_AUTO_TEST_CASE(motion_beyond_every_theory_is_reported) {
   Document document = patched(load_named_case("scene-slow-circle"), "ten-newton");

@@ -35,24 +35,15 @@ Beam some_beam() {
 }
 
 large_motion::RigidLink some_link() {
-  large_motion::RigidLink link;
-  link.offset = Vector2d(0.3, -0.4);
-  return link;
+  return {{}, Vector2d(0.3, -0.4)};
 }
 
 SlidingJoint some_slider() {
-  SlidingJoint joint;
-  joint.normal = Vector2d(-0.6, 0.8);
-  joint.offset = Vector2d(0.2, 0.5);
-  return joint;
+  return {{}, Vector2d(-0.6, 0.8), Vector2d(0.2, 0.5)};
 }
 
 LineSpringElement some_spring() {
-  LineSpringElement spring;
-  spring.offset = Vector2d(0.7, 0.2);
-  spring.initial_elongation = 0.1;
-  spring.flexibility = 0.01;
-  return spring;
+  return {{}, Vector2d(0.7, 0.2), /*initial_elongation=*/0.1, /*flexibility=*/0.01};
 }
 
 /// Returns the residual of the constraint rows and its gradient.

@@ -19,6 +19,7 @@ BOOST_AUTO_TEST_CASE(derivatives_of_single_links_add_up) {
   }
   const FrequencySensitivity s =
       frequency_sensitivity(coarse_design(), {0.27, 0.13, 0.05}, parameters, 6);
+  BOOST_TEST(s.counters.factorizations > 0);
   for (Index n = 0; n < 6; ++n) {
     BOOST_TEST(s.sets[static_cast<std::size_t>(n)].count == 1);
     const double together = s.derivative(n, 0);
@@ -75,17 +76,6 @@ BOOST_AUTO_TEST_CASE(cut_set_keeps_its_lowest_derivative) {
   }
 }
 
-BOOST_AUTO_TEST_CASE(straight_limb_has_no_derivative) {
-  ManipulatorDesign design = coarse_design();
-  const Pose pose{0.25, 0.144, 0};
-  const Posture posture = inverse_kinematics(design.geometry, pose);
-  const double r = (posture.C[0] - design.geometry.base[0]).norm();
-  design.geometry.proximal[0] = design.geometry.distal[0] = r / 2;
-  const FrequencySensitivity s = frequency_sensitivity(design, pose, {one_length(0, true)}, 4);
-  BOOST_TEST((s.outcome.status == Status::singular));
-  BOOST_TEST(s.outcome.reason.find("straight") != std::string::npos);
-}
-
 BOOST_AUTO_TEST_CASE(modes_lost_to_round_off_do_not_crash) {
   // Free actuators near a folded limb: eigenvalues without vectors were once read out of bounds.
   ManipulatorDesign design = coarse_design();
@@ -122,8 +112,7 @@ BOOST_AUTO_TEST_CASE(map_covers_the_reach_and_equals_single_poses) {
 BOOST_AUTO_TEST_CASE(boundary_of_the_reach_has_a_singular_limb) {
   ManipulatorGeometry geometry = coarse_design().geometry;
   geometry.distal = {0.15, 0.2, 0.18};
-  std::size_t all = 0;
-  std::size_t points = 0;
+  std::size_t all = 0, points = 0;
   for (const Polyline& arc : workspace_boundary(geometry, 0.2, 360)) {
     all += arc.size();
     for (const Vector2d& P : arc) {
