@@ -10,7 +10,7 @@ struct Visit {
   std::string document, console;
 };
 
-/// @throws std::runtime_error if there is no browser or it fails
+/// Loads a page. @throws std::runtime_error  if there is no browser or the browser fails
 [[nodiscard]] Visit visit(const std::filesystem::path& page);
 
 /// Loads a page in a frame of this width, because windows cannot be as narrow as a phone. All

@@ -31,7 +31,7 @@ std::string near(const std::string& text, std::size_t at) {
   return " near \"" + text.substr(at, 60) + "\"";
 }
 
-/// Returns true if the & at this place starts an entity.
+/// Returns true if the & at position `at` starts an entity.
 bool is_entity(const std::string& text, std::size_t at) {
   const std::size_t end = text.find(';', at);
   if (end == std::string::npos || end - at < 2 || end - at > 8) return false;
