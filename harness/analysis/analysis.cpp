@@ -68,7 +68,7 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   return result;
 }
 
-/// Records the numbers and changes by which effects were selected, so that checks can use them.
+/// Records the dimensionless numbers and changes by which effects were selected, for use by checks.
 void record_evidence(const EffectChoice& choice, Recorder& record) {
   if (!choice.automatic) return;
   for (const solver::Effect effect : solver::Effects::all().list()) {

@@ -5,17 +5,17 @@
 #include "harness/analysis/case_effects.h"
 #include "harness/statics_modes/step_result.h"
 
-/// Runs one computation: maps a case with its patches to numbers.
+/// Runs one computation: computes the quantities that the analysis of a case defines.
 namespace trammel::harness {
 
-/// Optional outputs in addition to the numbers.
+/// Optional outputs of an analysis in addition to the computed quantities.
 struct AnalysisOptions {
-  bool drawing = true;  ///< nodes, members and shapes, for the report
+  bool drawing = true;  ///< compute the drawing for the report
 };
 
 struct AnalysisResult : StepResult {
   Quantities quantities;
-  std::vector<results::EffectRow> effects;  ///< effects of the computation and their reasons
+  std::vector<results::EffectRow> effects;  ///< effects, with reasons
 };
 
 /// Runs the analysis of a case.
@@ -26,15 +26,15 @@ struct AnalysisResult : StepResult {
 /// Returns the counters with their names, as results store them.
 [[nodiscard]] results::Counters named_counters(const solver::Counters& counters);
 
-/// Returns the only key of "analysis": "modes", "statics", ...
+/// Returns the name of the analysis of a case, the only key of "analysis": "modes", "statics", ...
 [[nodiscard]] std::string analysis_kind(const Document& document);
 
 /// Sets the rounding mode (of <cfenv>) of the solver in this process and in processes that it
-/// forks. Reading, checking and printing continue to round to nearest.
+/// forks. Reading of cases, checks and output continue to round to nearest.
 void set_solver_rounding(int mode);
 
-/// Adds a warning if det J_x changes its sign between two points of a manipulator's path that are
-/// themselves far from any singularity.
+/// Adds a warning if the determinant of the parallel Jacobian changes its sign between two points
+/// of a manipulator's path. The path then crosses a singularity that no point of the path shows.
 void warn_of_crossed_singularity(const CaseModel& case_model, std::vector<Warning>& warnings);
 
 }  // namespace trammel::harness

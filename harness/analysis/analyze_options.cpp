@@ -14,7 +14,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Counts of the outcomes of all combinations, by the names of their quantities.
+/// Counts of the outcomes of all combinations of options, by the name of the recorded quantity.
 using OptionCounts = std::map<std::string, double>;
 
 OptionCounts no_outcomes() {
@@ -22,8 +22,7 @@ OptionCounts no_outcomes() {
           {"refused", 0},   {"not_finite", 0}, {"unexplained", 0}};
 }
 
-/// Largest difference between results that must agree, relative to their round-off. Absent if there
-/// are no such results.
+/// Quantity: largest difference of results that must agree, relative to their round-off bounds.
 constexpr const char* kDifference = "result_difference_over_roundoff";
 
 void disagree(double by, OptionCounts& counts) {
@@ -31,15 +30,15 @@ void disagree(double by, OptionCounts& counts) {
   largest = std::max(largest, by);
 }
 
-/// Options that are tested for one kind of analysis.
+/// Combinations of options that are tested for one analysis.
 struct Options {
-  std::vector<Json> combinations;  ///< patches of the analysis
-  bool must_agree = false;         ///< no combination may change a number
+  std::vector<Json> combinations;  ///< patches of the analysis, one per combination
+  bool must_agree = false;         ///< if true, no combination may change a number
   /// Words that the reason of a failed convergence must contain.
   std::vector<std::string> required_terms;
 };
 
-/// Combines the values of all options under "vary"; each combination starts from "set".
+/// Returns all combinations of the option values under "vary", each added to the options "set".
 std::vector<Json> combinations_of(const JsonView& place) {
   std::vector<Json> found = {place.has("set") ? place["set"].json() : Json::object()};
   if (!place.has("vary")) return found;
@@ -66,8 +65,8 @@ Options options_of(const JsonView& place, const std::string& kind) {
   return options;
 }
 
-/// Returns the largest difference relative to the round-off bounds of both results. Quantities
-/// without a round-off bound are skipped.
+/// Returns the largest difference of two results, relative to the sum of their round-off bounds.
+/// Quantities without a round-off bound are skipped.
 double max_relative_difference(const Quantities& a, const Quantities& b) {
   double largest = 0;
   for (const auto& [name, added] : a) {
@@ -115,16 +114,16 @@ void count(const AnalysisResult& result, const std::vector<std::string>& require
   }
 }
 
-/// Identifies a computation. Variants that differ only in what a combination overwrites have the
-/// same key.
+/// Returns a key that identifies a computation. Variants that differ only in options that a
+/// combination overwrites have the same key.
 std::string computation_key(const Document& document) {
   Json whole = document.value();
   for (const char* text : {"title", "description"}) whole.erase(text);
   return whole.dump();
 }
 
-/// Runs every combination of options on one computation.
-/// @param seen  keys of the case's computations; each computation runs once
+/// Runs one computation with every combination of options.
+/// @param seen  keys of the computations of the case, each of which runs only once
 void run_combinations(const Document& document, const JsonView& place, const References& references,
                       std::set<std::string>& seen, OptionCounts& counts) {
   const std::string kind = analysis_kind(document);
@@ -144,18 +143,18 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
       if (!first) {
         first = std::move(result);
       } else if (result.outcome.status != first->outcome.status) {
-        // largest finite number, because infinite numbers are not recorded
+        // The largest finite number is recorded, because infinite numbers are omitted.
         disagree(std::numeric_limits<double>::max(), counts);
       } else {
         disagree(max_relative_difference(first->quantities, result.quantities), counts);
       }
     } catch (const InputError&) {
-      ++counts["refused"];  // with an error message, like any invalid input
+      ++counts["refused"];  // an invalid combination ends with an error message
     }
   }
 }
 
-/// Returns the computations of a variant: the variant itself, or the selected levels of its study.
+/// Returns the computations of a variant: the variant, or the selected levels if it is a study.
 std::vector<Document> computations_of(const Document& document, const JsonView& choice) {
   if (analysis_kind(document) != "study") return {document};
   std::vector<Document> found;

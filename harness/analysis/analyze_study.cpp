@@ -12,7 +12,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns the case with the inner analysis in place of the study.
+/// Returns the case of a study with the inner analysis in place of the study.
 Document with_inner_analysis(Document document) {
   const Json inner = document.value().at("analysis").at("study").at("analysis");
   const Origin written = document.origin("/analysis/study/analysis");
@@ -25,13 +25,14 @@ double status_code(solver::Status status) {
   return status == solver::Status::solved ? 0 : status == solver::Status::singular ? 1 : 2;
 }
 
-/// Number with its relative round-off error, which is negative if unknown.
+/// Number recorded by a study, with its relative round-off error, which is -1 if unknown.
 struct KeptQuantity {
   double value = kNaN, roundoff = -1;
 };
 
-/// Returns the number that is kept of a quantity.
-/// @throws InputError  if the quantity does not exist or 'index' or 'statistic' is missing.
+/// Returns the number of a quantity that a study records.
+/// @throws InputError  if the quantity does not exist, or has several numbers and neither 'index'
+/// nor 'statistic' selects one.
 KeptQuantity number_of(const Quantities& quantities, const std::string& name,
                        const JsonView& keep) {
   const auto found = quantities.find(name);
@@ -68,8 +69,8 @@ std::vector<double> reference_values(const std::vector<KeptQuantity>& kept, cons
   return reference.values;
 }
 
-/// Records the relative errors, their ratios to the predicted round-off and the parameter of the
-/// least error.
+/// Records the relative errors of a quantity at all parameter values, their ratios to the predicted
+/// round-off error, and the parameter with the smallest error.
 void record_errors(const std::string& name, const std::vector<KeptQuantity>& kept,
                    const std::vector<double>& parameter, const JsonView& keep,
                    const References& references, Recorder& record) {
@@ -95,7 +96,7 @@ void record_errors(const std::string& name, const std::vector<KeptQuantity>& kep
   if (keep.has("reference") && !std::isnan(best)) record.add("min_error_at", name, best);
 }
 
-/// Returns a level for each point of the model's trajectory. Its parameter is the time.
+/// Returns a case for each point of the model's trajectory, with the time as the parameter.
 std::vector<Level> trajectory_levels(const Document& document, const JsonView& study) {
   const CaseModel case_model = read_case_model(document);
   if (!case_model.path) throw study["trajectory"].error("this key requires /model/trajectory");

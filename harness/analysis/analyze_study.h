@@ -5,23 +5,24 @@
 
 namespace trammel::harness {
 
-/// Runs another analysis at each value of a parameter. Every recorded quantity has one number per
+/// Runs another analysis for each value of a parameter. Every recorded quantity has one number per
 /// value.
 AnalyseCase analyze_study;
 
-/// Runs every combination of some options on the variants and levels of other cases. Records
-/// outcomes, non-finite numbers, incomplete reasons, and differences between results that must
+/// Runs other cases with every combination of some options of their analyses. Records the numbers
+/// of outcomes, non-finite results and incomplete reasons, and differences of results that must
 /// agree.
 AnalyseCase analyze_options;
 
-/// Records relative_difference and difference_percent between pairs of references, by name.
+/// Records the quantities relative_difference and difference_percent for pairs of references.
 AnalyseCase analyze_comparison;
 
-/// Records stored probabilities of readings of a model (log_evidence, class_count,
-/// class_entropy_bits, ...). Each quantity has one number per discrepancy, for each printed row.
+/// Records stored probabilities of readings (interpretations) of a published model: log_evidence,
+/// class_count, class_entropy_bits, ... Each has one number per assumed discrepancy, for each
+/// printed row.
 AnalyseCase analyze_model_probabilities;
 
-/// Returns the levels of a study, each with the inner analysis in place of the study.
+/// Returns a case for each parameter value of a study. Its analysis is the inner analysis.
 [[nodiscard]] std::vector<Level> study_levels(const Document& document);
 
 }  // namespace trammel::harness

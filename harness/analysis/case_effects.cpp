@@ -20,7 +20,7 @@ JsonView analysis_place(const Document& document) {
   return JsonView(document)["analysis"][analysis_kind(document)];
 }
 
-/// Returns the value that the analysis has for the key of an effect, if any.
+/// Returns the value of the key by which the analysis switches an effect; empty without the key.
 std::optional<JsonView> find_key(const Document& document, const EffectKey& effect_key) {
   std::optional<JsonView> place = analysis_place(document);
   for (const char* key : effect_key.place) {
@@ -29,7 +29,7 @@ std::optional<JsonView> find_key(const Document& document, const EffectKey& effe
   return place;
 }
 
-/// Returns the effects of a case without "effects": those that the parts and the analysis define.
+/// Returns the effects of a case without the key "effects", as defined by model and analysis.
 Effects stated_effects(const Document& document, const EffectScope& scope) {
   Effects stated = scope.applicable;
   if (!scope.required.has(Effect::large_displacement))
@@ -47,7 +47,7 @@ const char* describe_missing(Effect effect, const EffectScope& scope, const Effe
   return known ? scope.no_large_displacement : rules.describe_missing(effect);
 }
 
-/// Builds one row per effect.
+/// Returns one row per effect with its state and the reason.
 /// @param reason  reason for the state of effects that are applicable but not required
 std::vector<results::EffectRow> effect_rows(const EffectScope& scope, Effects chosen,
                                             const EffectRules& rules, const std::string& reason) {
@@ -65,7 +65,7 @@ std::vector<results::EffectRow> effect_rows(const EffectScope& scope, Effects ch
   return rows;
 }
 
-/// Reads names of effects, which the schema has checked.
+/// Returns the effects with these names, which the schema has validated.
 Effects read_names(const JsonView& names, const EffectScope& scope, const EffectRules& rules) {
   Effects chosen = scope.required;
   for (const auto& [number, place] : names.entries()) {

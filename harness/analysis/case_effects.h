@@ -11,15 +11,15 @@
 
 namespace trammel::harness {
 
-/// Effects of a case.
+/// Physical effects, such as rotary inertia, with which a case is computed.
 struct EffectChoice {
   solver::Effects chosen = solver::Effects::all();
-  std::optional<double> tolerance;  ///< tolerance of the automatic selection
+  std::optional<double> tolerance;  ///< tolerance of the automatic selection; empty without it
   /// State of every effect; empty if the analysis has no effects.
   std::vector<results::EffectRow> rows;
   std::optional<EffectSelection> automatic;  ///< result of the automatic selection
 
-  /// @returns true if large displacement, which the analysis cannot compute, exceeds the tolerance
+  /// @returns true if large displacement, which the analysis lacks, exceeds the tolerated change
   [[nodiscard]] bool is_beyond_tier() const {
     return automatic && automatic->beyond_tier.value_or(0) > *tolerance;
   }
@@ -28,16 +28,16 @@ struct EffectChoice {
 /// Returns true if the case's analysis supports the selection of effects.
 [[nodiscard]] bool supports_effects(const Document& document);
 
-/// Returns the effects that apply to the complete scene, and those that its analysis requires.
+/// Returns the effects that are applicable to a case, and the effects that its analysis requires.
 [[nodiscard]] EffectScope effect_scope(const Document& document, const CaseModel& case_model);
 
-/// Reads "effects": names, or {"auto": {"tolerance": ...}}. Without this key, the effects follow
-/// from the keys of the parts and of the analysis.
-/// @param case_model  the complete scene, with all effects
-/// @throws InputError  for an effect that is not applicable to the scene.
+/// Reads the key "effects" of a case: names, or {"auto": {"tolerance": ...}}. Without this key, the
+/// effects follow from the keys of the model and of the analysis.
+/// @param case_model  model of the case with all effects
+/// @throws InputError  for an effect that is not applicable to the case.
 [[nodiscard]] EffectChoice choose_effects(const Document& document, const CaseModel& case_model);
 
-/// Returns the case with "effects" set to the names of these effects.
+/// Returns the case with the key "effects" set to the names of the given effects.
 [[nodiscard]] Document with_effects(const Document& document, solver::Effects effects);
 
 }  // namespace trammel::harness

@@ -86,10 +86,10 @@ std::optional<Quantities> CoarseScene::compute(Effects effects, std::size_t step
     if (result.outcome.solved()) return record.take_quantities();
     outcome = outcome_at_path_point(scene_, step, result.outcome);
   } catch (const solver::ModelError& error) {
-    // The model may be invalid without the effect. In the first run, the full model is invalid.
+    // Without an effect, the model may be invalid. In the first run, the model has all effects.
     if (runs_.size() == 1) throw;
     outcome = {solver::Status::singular, error.what()};
-  } catch (const InputError& error) {  // for example, fewer modes than damping ratios
+  } catch (const InputError& error) {  // fewer modes than damping ratios, for example
     if (runs_.size() == 1) throw;
     outcome = {solver::Status::singular, error.what()};
   }

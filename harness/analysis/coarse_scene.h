@@ -9,7 +9,7 @@
 #include "harness/analysis/effect_changes.h"
 #include "harness/analysis/registry.h"
 
-/// Coarse models of a scene, and the work of computations computed from their counters.
+/// Coarse models of a case (scene), and estimated work of computations from their counters.
 namespace trammel::harness {
 
 /// Returns the scene with at most `elements` elements per member and three triangles in a platform.
@@ -23,7 +23,7 @@ namespace trammel::harness {
 /// weights are medians of measured times over the random scenes of the tests.
 [[nodiscard]] double work_of(const solver::Counters& counters, double unknowns);
 
-/// Scene on a coarse mesh. Caches its results for sets of effects at steps of its path.
+/// Scene on a coarse mesh. Caches the results for each set of effects at each step of the path.
 class CoarseScene {
  public:
   CoarseScene(const AnalysisKind& kind, const JsonView& analysis, const CaseModel& scene,
@@ -34,16 +34,17 @@ class CoarseScene {
         model_(first_model(scene_)),
         size_(scales_of(model_)) {}
 
-  /// Returns the largest relative change between two sets of effects; infinite without a solution.
+  /// Returns the largest relative change of the results at the steps if the effects `all` are
+  /// replaced by `effects`. The change is infinite without a solution.
   [[nodiscard]] double change(solver::Effects all, solver::Effects effects,
                               const std::set<std::size_t>& steps);
-  /// Returns the results at the steps, in order; empty if one of the steps has no solution.
+  /// Returns the results at all given steps; empty if one of the steps has no solution.
   [[nodiscard]] std::optional<Quantities> along(solver::Effects effects,
                                                 const std::set<std::size_t>& steps);
 
   [[nodiscard]] const ModelScales& size() const { return size_; }
   [[nodiscard]] const solver::Model& model() const { return model_; }
-  solver::Outcome outcome;  ///< last unsuccessful outcome
+  solver::Outcome outcome;  ///< last outcome without a solution
   solver::Counters counters;
 
  private:

@@ -10,7 +10,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns the y component of a vector, given the name of its x component; else null.
+/// Returns the y component of the vector whose x component has the name `name`; null for others.
 const Quantity* second_component(const Quantities& all, const std::string& name) {
   const std::size_t place = name.find("_x_");
   if (place == std::string::npos) return nullptr;
@@ -18,8 +18,8 @@ const Quantity* second_component(const Quantities& all, const std::string& name)
   return found == all.end() ? nullptr : &found->second;
 }
 
-/// Returns the magnitudes of a quantity's values. For an x component, these are the magnitudes of
-/// the vector.
+/// Returns the magnitudes of a quantity's values. For the x component of a vector, returns the
+/// magnitudes of the vector.
 std::vector<double> magnitudes(const Quantities& all, const std::string& name) {
   std::vector<double> size = all.at(name).values;
   const Quantity* second = second_component(all, name);
@@ -59,8 +59,8 @@ std::string quantity_group(const std::string& quantity) {
 }
 
 std::map<std::string, double> change_scales(const Quantities& full, const ModelScales& model) {
-  // Floor that hides round-off: thousands of steps leave about 1e-11 of the scale. Every permitted
-  // tolerance is much larger than 1e-7.
+  // Relative floor of the scales. It hides the round-off error of thousands of steps, about 1e-11.
+  // Every permitted tolerance is much larger than 1e-7.
   constexpr double kRoundoff = 1e-7;
   std::map<std::string, double> scale;
   for (const auto& [name, quantity] : full) {

@@ -12,25 +12,25 @@ namespace trammel::harness {
 /// Returns the distance between the end nodes of a member [m].
 [[nodiscard]] double member_length(const solver::Model& model, const solver::Member& member);
 
-/// Magnitudes that loads and stiffness of a model imply. They bound the round-off error of a group
-/// of quantities whose values are all zero up to round-off. Zero if unknown.
+/// Magnitudes estimated from loads and stiffness of a model; zero if unknown. They scale changes of
+/// quantities whose values are all zero up to round-off.
 struct ModelScales {
-  double length = 0;        ///< diameter of the nodes about their mean, independent of the axes [m]
-  double force = 0;         ///< sum of the magnitudes of all loads, moments over the length [N]
-  double displacement = 0;  ///< elongation of the stiffest member under that force, over the length
-                            ///< [m]
+  double length = 0;  ///< twice the largest distance of a node from the mean [m]
+  double force = 0;   ///< sum of the magnitudes of loads, and of moments / length [N]
+  /// Elongation of a bar of this length with the largest axial stiffness under this force [m].
+  double displacement = 0;
 };
 [[nodiscard]] ModelScales scales_of(const solver::Model& model);
 
-/// Returns the scale of the changes of each group of quantities: its largest value, but at least
-/// the round-off error that forces and displacements of the model cause.
+/// Returns the scale of the changes of each group of quantities, such as forces. The scale is the
+/// largest value of the group, or the round-off error of the group if that is larger.
 [[nodiscard]] std::map<std::string, double> change_scales(const Quantities& full,
                                                           const ModelScales& model);
-/// Largest change of each kind of quantity. "displacement", "rotation", "force", "moment" and
-/// "stress" are relative to the largest value of the kind. "frequency" is relative to each
-/// frequency. The two components of a vector are compared as one vector. The change is infinite if
-/// modes are lost. Quantities of other kinds are not compared, nor are quantities that only one
-/// side has, such as rotations of a rigid platform.
+/// Largest relative change of each group of quantities, by the name of the group. Changes of
+/// "displacement", "force", "stress" and similar groups are relative to the largest value of the
+/// group. Changes of "frequency" are relative to each frequency, and infinite if modes are missing.
+/// The two components of a vector are compared as one vector. Quantities without a group are not
+/// compared, nor are quantities of one result only, such as rotations of a rigid platform.
 using Changes = std::map<std::string, LargestDifference>;
 [[nodiscard]] Changes changes_between(const Quantities& full, const Quantities& other,
                                       const ModelScales& model);

@@ -12,7 +12,7 @@ using solver::Effect;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Returns the highest first angular frequency of the members as cantilevers [rad/s].
+/// Returns the highest of the first angular frequencies of all members as cantilevers [rad/s].
 double highest_first_frequency(const solver::Model& model) {
   double highest = 0;
   for (const solver::Member& member : model.members) {
@@ -25,7 +25,7 @@ double highest_first_frequency(const solver::Model& model) {
   return highest;
 }
 
-/// Returns the largest number of half waves in a member that vibrates with an angular frequency.
+/// Returns the largest number of bending half waves in a member at an angular frequency [rad/s].
 double half_waves_at(const solver::Model& model, double omega) {
   double most = 1;
   for (const solver::Member& member : model.members) {
@@ -46,12 +46,12 @@ ResponseScale response_scale(const std::string& analysis_name, const JsonView& a
   scale.loads_stiffen =
       analysis_name == "statics" || analysis_name == "modes" || analysis_name == "large-motion";
   if (analysis_name == "modes") {
-    scale.phase = scale.platform = 0.5;  // a frequency changes by half as much as a stiffness
+    scale.phase = scale.platform = 0.5;  // f is proportional to the root of a stiffness
     scale.half_waves +=
         static_cast<double>((analysis.get<solver::Index>("count", 1) - 1) / members);
   } else if (analysis_name == "harmonic") {
-    // Next to a resonance, a change is amplified as much as damping allows. A grid of frequencies
-    // rarely contains the peak itself. The limits cover the random scenes of the tests.
+    // Near a resonance, only damping limits the amplification of a change. The sampled frequencies
+    // rarely contain the peak. The limits cover the random scenes of the tests.
     constexpr double kLeast = 30, kMost = 300;
     const double omega = 2 * std::numbers::pi * analysis.number("to_Hz");
     const auto damping = analysis.find("damping");
@@ -69,11 +69,11 @@ ResponseScale response_scale(const std::string& analysis_name, const JsonView& a
 }
 
 EffectNumbers effect_numbers(const solver::Model& model, const ResponseScale& scale) {
-  /// Ratios of the change of the results to the dimensionless numbers of platform and joints. They
-  /// bound the changes of nearly all random scenes of the tests.
+  /// Ratios of the change of the results to the dimensionless numbers of platform and joints. These
+  /// ratios bound the changes in nearly all random scenes of the tests.
   constexpr double kOfPlatform = 17, kOfJoint = 3;
-  /// A cantilever buckles at a quarter of pi^2 E I / L^2. The relative change of a frequency is
-  /// half that of the stiffness.
+  /// Ratio of the change of a frequency to the number of geometric stiffening. A cantilever buckles
+  /// at a quarter of pi^2 E I / L^2, and a frequency changes by half as much as the stiffness.
   constexpr double kOfStiffening = 2;
   double shear = 0, rotary = 0, axial = 0, joint = 0, bending = 0, membrane = kInfinite;
   double softest = kInfinite;
@@ -103,7 +103,7 @@ EffectNumbers effect_numbers(const solver::Model& model, const ResponseScale& sc
   };
   const double load =
       size.force * size.length * size.length / (std::numbers::pi * std::numbers::pi * softest);
-  // Loads near the buckling load of a cantilever amplify every change.
+  // Loads near the buckling load of a cantilever amplify the change by every effect.
   const double of_buckling = scale.loads_stiffen ? 4 * load : 0;
   const double factor = of_buckling < 0.95 ? scale.phase / (1 - of_buckling) : kInfinite;
   set(Effect::axial_flexibility, axial, kInfinite);  // a frame may carry its loads by axial forces

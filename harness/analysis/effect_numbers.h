@@ -6,22 +6,21 @@
 #include "harness/analysis/effect_changes.h"
 #include "harness/analysis/registry.h"
 
-/// Dimensionless numbers in closed form, by which effects are removed without a computation.
+/// Closed-form dimensionless numbers by which negligible effects are found without a computation.
 namespace trammel::harness {
 
-/// Wave number and duration of the responses that an analysis resolves.
+/// Wave number and duration of the responses of an analysis, which determine the effect numbers.
 struct ResponseScale {
-  double half_waves = 1;  ///< number of half waves per member
+  double half_waves = 1;  ///< number of bending half waves per member
   /// Phase angle of the vibration over which a relative change of a frequency accumulates [rad].
   double phase = 1;
-  double platform = 1;         ///< phase angle for a change of the platform's stiffness [rad]
+  double platform = 1;         ///< `phase` for changes of the platform's stiffness [rad]
   bool loads_stiffen = false;  ///< true if the axial forces of loads change the stiffness
 };
 
 struct EffectNumber {
-  std::optional<double> value;  ///< defined by `describe_number`
-  /// Estimated relative change of the results without the effect. Infinite if the number gives no
-  /// bound.
+  std::optional<double> value;  ///< dimensionless number, see `describe_number`
+  /// Estimated relative change of the results without the effect; infinite without a bound.
   double change;
 };
 
@@ -30,9 +29,9 @@ using EffectNumbers = std::array<EffectNumber, solver::kEffectCount>;
 [[nodiscard]] ResponseScale response_scale(const std::string& analysis_name,
                                            const JsonView& analysis, const solver::Model& model);
 
-/// Computes the numbers of shear, rotary inertia, joint compliance and platform flexibility. In
-/// modes of a frame at rest, it also computes the number of geometric stiffening.
-/// The wave number of n half waves in a member is k = n pi / L, and the numbers are
+/// Computes the dimensionless numbers of axial flexibility, shear, rotary inertia, joint
+/// compliance, platform flexibility and geometric stiffening. The wave number of n half waves in a
+/// member is k = n pi / L, and the numbers are
 ///   shear:            E I k^2 / (kappa G A)
 ///   rotary inertia:   (k r)^2
 ///   joint compliance: E I k / c

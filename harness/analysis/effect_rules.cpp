@@ -14,8 +14,8 @@ namespace {
 using solver::Effect;
 using solver::Effects;
 
-/// Definition of an effect's dimensionless number, and the reasons for its absence in statics,
-/// modes, elastodynamics and other motion.
+/// Formula of an effect's dimensionless number, and the reasons why the effect is not applicable to
+/// statics, modes, elastodynamics and other motions.
 struct EffectWords {
   const char* number;
   std::array<const char*, 4> missing;
@@ -87,7 +87,7 @@ bool is_loaded(const solver::Model& model) {
   return on_members || !model.loads.empty() || !model.edge_loads.empty();
 }
 
-/// Effects of a vibration analysis.
+/// Returns the effects of an analysis of vibration.
 EffectScope inertia_scope(const solver::Model& model) {
   EffectScope scope;
   scope.applicable = solver::applicable_effects(model).with(Effect::inertia);
@@ -104,8 +104,8 @@ EffectScope modes_at_rest_scope(const solver::Model& model) {
   return scope;
 }
 
-/// Effects in a rotating frame. Gravity, if present, is required because the rotating frame always
-/// includes it.
+/// Returns the effects of modes in a rotating frame. Gravity, if present, is required: it cannot be
+/// omitted.
 EffectScope rotating_scope(const JsonView& rotating, const solver::Model& model) {
   EffectScope scope = inertia_scope(model);
   scope.applicable = scope.applicable.with(Effect::geometric_stiffening);
@@ -124,8 +124,7 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   const Effects with_velocity = Effects().with(Effect::damping).with(Effect::gyroscopic);
   if (damping.mass != 0 || damping.stiffness != 0)
     scope.applicable = scope.applicable.with(Effect::damping);
-  // Inextensible links rotate, and constraints that rotate with them cost more than axial
-  // flexibility.
+  // Axial flexibility is required, because constraints of rotating inextensible links cost more.
   if (scope.applicable.has(Effect::axial_flexibility))
     scope.required = Effects().with(Effect::axial_flexibility);
   scope.no_large_displacement =
@@ -137,8 +136,7 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   return scope;
 }
 
-/// Returns true if something other than members has mass. Otherwise the mass of members is required
-/// for vibration.
+/// Returns true if point masses or plates have mass. Else, vibration requires mass of members.
 bool has_mass_of_other_parts(const solver::Model& model) {
   return std::ranges::any_of(model.masses,
                              [](const solver::PointMass& one) { return one.mass > 0; }) ||
@@ -154,8 +152,8 @@ EffectScope vibration_scope(const JsonView& analysis, const solver::Model& model
   return scope;
 }
 
-/// Effects of a harmonic analysis. Damping is required: it alone bounds a resonance peak, and
-/// points near the resonance do not show the peak's height.
+/// Returns the effects of a harmonic analysis. Damping is required, because only damping bounds a
+/// resonance peak, whose height the sampled frequencies do not show.
 EffectScope harmonic_scope(const JsonView& analysis, const solver::Model& model) {
   EffectScope scope = vibration_scope(analysis, model);
   if (scope.applicable.has(Effect::damping)) scope.required = scope.required.with(Effect::damping);

@@ -26,7 +26,7 @@ using solver::Effects;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Largest fraction of the remaining tolerance that a change measured on a coarse model may use.
-/// The second applies near the buckling load, where a coarse mesh is less accurate.
+/// kForSecondOrder applies near the buckling load, where a coarse mesh is less accurate.
 constexpr double kForCoarseModel = 0.95, kForSecondOrder = 0.8;
 
 class Selector {
@@ -59,7 +59,7 @@ class Selector {
  private:
   [[nodiscard]] double rest() const { return tolerance_ - selection_.change; }
 
-  /// Returns the chosen set without an effect and without its dependents.
+  /// Returns the chosen effects without one effect and without its dependents.
   [[nodiscard]] Effects without(Effect effect) const {
     return scope_.without(selection_.chosen, effect);
   }
@@ -68,8 +68,8 @@ class Selector {
     return selection_.chosen.has(effect) && !scope_.required.has(effect);
   }
 
-  /// Removes an effect from the set `full` if the resulting `change` is at most the given share of
-  /// the remaining tolerance.
+  /// Removes an effect from the chosen effects if the resulting `change` from the set `full` is at
+  /// most the fraction `share` of the remaining tolerance.
   bool try_without(Effect effect, Effects full, double change, double share, bool is_measured) {
     EffectEvidence& evidence = selection_.of(effect);
     evidence.is_measured = is_measured;
@@ -80,8 +80,8 @@ class Selector {
     return true;
   }
 
-  /// Removes a meshed platform first, then effects in ascending order of their change. Stops when
-  /// the sum exceeds their share of the tolerance.
+  /// Removes effects by dimensionless numbers: first a meshed platform, then effects in ascending
+  /// order of their change, if the sum of changes is within a fraction of the tolerance.
   void apply_numbers(const ResponseScale& scale) {
     const EffectNumbers numbers = effect_numbers(model_, scale);
     const auto change_of = [&](Effect effect) {
@@ -122,9 +122,9 @@ class Selector {
   }
 
   /// Compares linear theory with large displacement on one element per member, which is exact in
-  /// linear theory for prismatic members. Then compares second-order theory on four elements per
-  /// member, which reproduce buckling. On a path, the comparison uses the extremes of linear
-  /// theory. Other steps are added if the change there exceeds the tolerance.
+  /// linear theory for prismatic members. Then compares second-order theory with large displacement
+  /// on four elements per member, which reproduce buckling. On a path, only the steps with extreme
+  /// results of linear theory are compared. Steps with a change beyond the tolerance are added.
   void select_in_statics() {
     CoarseScene single(kind_, analysis_, scene_, 1), finer(kind_, analysis_, scene_, 4);
     const Effects all = selection_.chosen, linear = without(Effect::geometric_stiffening);
@@ -143,9 +143,9 @@ class Selector {
         if (is_enough) selection_.change += change;
         return is_enough;
       };
-      // Second-order theory neglects the shortening of a rotated member; relative to the
-      // deflection, this is of the order of the rotation. Near a buckling load it needs fewer load
-      // steps than large displacement.
+      // Second-order theory neglects the shortening of a rotated member. Relative to the
+      // deflection, the shortening is of the order of the rotation. Second-order theory saves load
+      // steps only near a buckling load.
       constexpr double kManySteps = 0.1;
       const Deflection size = deflection(*overview);
       if (!try_theory(single, Effect::geometric_stiffening, linear, kForCoarseModel) &&
@@ -156,7 +156,7 @@ class Selector {
     add_cost(finer.counters, finer.model());
   }
 
-  /// Returns the largest change at the steps. Adds the steps at which the change proves too large.
+  /// Returns the largest relative change at `steps`. Adds steps at which the change is too large.
   double change_along(CoarseScene& coarse, Effects all, Effects effects,
                       const std::set<std::size_t>& every, std::set<std::size_t>& steps) const {
     for (;;) {
@@ -172,7 +172,7 @@ class Selector {
 
   struct Deflection {
     double rotation = 0;     ///< largest rotation of nodes and of chords [rad]
-    double compression = 0;  ///< largest axial force over the buckling load of a cantilever
+    double compression = 0;  ///< largest axial force / buckling load of a cantilever
   };
 
   [[nodiscard]] Deflection deflection(const Quantities& quantities) const {
@@ -198,7 +198,7 @@ class Selector {
     return size;
   }
 
-  /// Returns the steps at which displacements and forces are largest.
+  /// Returns the step with the largest displacement and the step with the largest force.
   static std::set<std::size_t> extremes(const Quantities& quantities) {
     std::map<std::string, std::pair<double, std::size_t>> largest;
     for (const auto& [name, quantity] : quantities) {
@@ -213,8 +213,8 @@ class Selector {
     return steps;
   }
 
-  /// Selects gyroscopic terms, which make the eigenvalue problem quadratic, and then stiffening by
-  /// rotation.
+  /// Removes, if the tolerance permits it, gyroscopic terms, which make the eigenvalue problem
+  /// quadratic, and then geometric stiffening by rotation.
   void select_in_rotation() {
     const auto members = std::max<solver::Index>(std::ssize(model_.members), 1);
     CoarseScene coarse(kind_, analysis_, scene_,
@@ -231,8 +231,7 @@ class Selector {
     add_cost(coarse.counters, coarse.model());
   }
 
-  /// Computes the first frequency and damping at the start of the motion, on a mesh of one element
-  /// per link.
+  /// Computes first frequency and damping ratio at the start of a motion, on one element per link.
   ResponseScale scale_of_motion() {
     if (const auto history = analysis_.find("load_history")) {
       throw history->error(
@@ -244,7 +243,7 @@ class Selector {
     coarse_model_ = build_model(coarse, 0);
     options_ = read_elastodynamics(analysis_, coarse);
     const solver::ModalSolution modes =
-        // three may be rigid-body modes
+        // up to three are rigid-body modes
         solver::solve_modes(solver::assemble(coarse_model_), {.count = 4});
     add_cost(modes.counters, coarse_model_);
     selection_.outcome = modes.outcome;
@@ -266,7 +265,7 @@ class Selector {
     return {.phase = phase, .platform = phase};
   }
 
-  /// @returns true if a vibration persists; a change of its frequency then shifts its phase
+  /// @returns true if a vibration persists; a change of its frequency then shifts the phase
   [[nodiscard]] bool vibrates() const {
     return from_rest_ || frequency_ratio_ * frequency_ratio_ > 0.1;
   }
@@ -286,10 +285,9 @@ class Selector {
     return velocity > 0 ? acceleration / velocity : 0;
   }
 
-  /// Selects inertia by the frequency of the path, and large displacement by equilibria of the
-  /// coarse model at the extremes of the motion.
+  /// Removes inertia, large displacement, gyroscopic terms and damping if the tolerance permits it.
   void select_in_motion() {
-    /// Relative change by large displacement above which linear theory is meaningless.
+    /// Relative change by large displacement above which results of linear theory are meaningless.
     constexpr double kLost = 0.5;
     CoarseScene coarse(kind_, analysis_, scene_, 1);
     select_inertia(coarse);
@@ -303,7 +301,7 @@ class Selector {
         selection_.chosen = scope_.applicable;
       }
     }
-    // With large displacement, gyroscopic terms have no additional cost.
+    // Large displacement contains gyroscopic terms without additional cost.
     if (!selection_.chosen.has(Effect::large_displacement) &&
         selection_.chosen.has(Effect::inertia)) {
       measure_without(coarse, Effect::gyroscopic);
@@ -312,8 +310,8 @@ class Selector {
     add_cost(coarse.counters, coarse.model());
   }
 
-  /// Selects inertia by the frequency of the path. If this is inconclusive, measures the motion of
-  /// the coarse model.
+  /// Removes inertia if the path is slow compared with the first frequency. If this bound is
+  /// inconclusive, measures the change of the motion of the coarse model.
   void select_inertia(CoarseScene& coarse) {
     constexpr double kSurelyWithin = 0.25, kSurelyBeyond = 10;
     const double r = frequency_ratio_, bound = r * r + 2 * damping_ * r;
@@ -327,7 +325,7 @@ class Selector {
     }
   }
 
-  /// Removes an effect from a motion if linear theory on the coarse mesh permits it.
+  /// Removes an effect of a motion if the change in linear theory on the coarse mesh permits it.
   void measure_without(CoarseScene& coarse, Effect effect) {
     if (!can_leave_out(effect)) return;
     const auto linear = [&](Effects set) {
@@ -338,13 +336,12 @@ class Selector {
       selection_.change += change;
   }
 
-  /// Returns the change by large displacement.
-  /// From a quasi-static start, it is measured on the motion without vibration at the extremes of
-  /// linear theory. This motion includes loads, weight and nominal inertia.
-  /// From a sudden start, it is measured on the first part of the motion. It grows with time while
-  /// the vibration persists.
+  /// Returns the relative change of a motion by large displacement. If the motion starts
+  /// quasi-statically, the change is measured on the equilibria at the times with extreme results.
+  /// These equilibria include loads, weight and nominal inertia. If the motion starts suddenly, the
+  /// change is measured on the first part of the motion. It grows with time during the vibration.
   std::optional<double> change_of_theory() {
-    /// The amplitude of a vibration about the quasi-static response is twice the change.
+    /// A vibration doubles the quasi-static change (kSwing). kShortened is the simulated fraction.
     constexpr double kSwing = 2, kShortened = 0.125;
     solver::ElastodynamicsOptions options = options_;
     const bool moves = selection_.chosen.has(Effect::inertia);
@@ -380,7 +377,7 @@ class Selector {
       for (const solver::StaticSolution& state : solution.state)
         StateRecorder(coarse_model_, "elastodynamics").record({state}, record);
       return record.take_quantities();
-    } catch (const solver::ModelError&) {  // the theory does not support what the options request
+    } catch (const solver::ModelError&) {  // the theory does not support these options
       return std::nullopt;
     }
   }
@@ -392,7 +389,7 @@ class Selector {
   double tolerance_;
   solver::Model model_;
   EffectSelection selection_;
-  // Data of a motion along a path.
+  // The following data are only used for a motion along a path.
   solver::Model coarse_model_;
   solver::ElastodynamicsOptions options_;
   double damping_ = 0, frequency_ratio_ = 0, phase_ = 1, lasting_ = 0;

@@ -5,21 +5,21 @@
 
 #include "harness/analysis/registry.h"
 
-/// Selects the effects that a scene requires within a tolerance.
+/// Selects the physical effects that the results of a case require within a tolerance.
 ///
 /// Cheap effects change coefficients but neither sizes nor steps: axial flexibility, shear, rotary
 /// inertia, joint compliance, the mass of links and gravity. They are removed by closed-form
-/// numbers, without any computation. In case of doubt they remain.
+/// dimensionless numbers, without any computation. In case of doubt they remain.
 ///
 /// Expensive effects are large displacement, geometric stiffening, inertia with damping, gyroscopic
-/// terms and a meshed platform. They are measured on a coarse model if the measurement costs less
-/// than it may save. The effect with the largest saving is measured first. Otherwise their numbers
-/// decide.
+/// terms and a meshed platform. Their changes of the results are measured on a coarse model if this
+/// costs less than it may save. The effect with the largest saving is measured first. Without a
+/// measurement, dimensionless numbers decide.
 namespace trammel::harness {
 
-/// Evidence for one effect.
+/// Evidence for the importance of one effect.
 struct EffectEvidence {
-  std::optional<double> number;      ///< dimensionless
+  std::optional<double> number;      ///< dimensionless number of the effect
   std::optional<double> own;         ///< relative change of the results without this effect only
   std::optional<double> cumulative;  ///< relative change without this effect and those removed
                                      ///< before it
@@ -32,9 +32,9 @@ struct EffectSelection {
                             ///< remains
   solver::Effects chosen;
   std::array<EffectEvidence, solver::kEffectCount> evidence;
-  /// Relative change from all effects to the chosen set: sum of measurements and bounds.
+  /// Relative change of the results from all to the chosen effects: sum of measurements and bounds.
   double change = 0;
-  /// Relative change by large displacement if the analysis cannot compute that effect.
+  /// Relative change by large displacement, if the analysis cannot compute that effect.
   std::optional<double> beyond_tier;
   double work = 0;  ///< work of the selection, as defined by `work_of` in coarse_scene.h
 

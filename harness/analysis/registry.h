@@ -8,24 +8,23 @@
 #include "harness/input/reference_library.h"
 #include "harness/statics_modes/step_result.h"
 
-/// Registry of every analysis with its names, functions, requirements and effects.
+/// Table of all analyses with their names, functions, requirements and effects.
 namespace trammel::harness {
 
 struct AnalysisKind {
-  const char* name;  ///< key below "analysis"
+  const char* name;  ///< key of the case below "analysis"
   std::variant<std::monostate, AnalyseStep*, AnalysePath*> of_scene = {};
   bool needs_manipulator = false;
   const EffectRules* effects = nullptr;  ///< null: the analysis does not support effects
-  /// Used if `of_scene` is empty or the case has no "model".
+  /// Function that replaces `of_scene` if `of_scene` is empty or the case has no "model".
   AnalyseCase* of_case = nullptr;
-  const char* without_model = "";  ///< description of the model in that case
-  /// Residuals that a solution must have before it counts as solved. Empty if the analysis solves
-  /// no equation.
+  const char* without_model = "";  ///< description of the model for `of_case`
+  /// Residuals that must be small for the status "solved"; empty if no equation is solved.
   std::vector<solver::Residual> evidence = {};
-  /// Warns if a path crosses a parallel singularity between two of its points.
+  /// If true, warns if a path crosses a parallel singularity between two of its points.
   bool warns_of_crossing = false;
-  /// True if the analysis determines the times of its results, so that these are not the times of
-  /// the points of the path.
+  /// True if the analysis determines the times of its results. If false, they are the times of the
+  /// points of the path.
   bool has_own_times = false;
 
   [[nodiscard]] bool needs_model(const Document& document) const;
@@ -33,11 +32,11 @@ struct AnalysisKind {
 
 [[nodiscard]] const std::vector<AnalysisKind>& analysis_kinds();
 
-/// Returns the analysis with that name.
-/// @throws std::out_of_range  for a name that the schema does not have.
+/// Returns the analysis with the name `name`.
+/// @throws std::out_of_range  for an unknown name, which the schema of cases excludes.
 [[nodiscard]] const AnalysisKind& find_analysis(const std::string& name);
 
-/// Returns the names in one phrase: "statics, modes or elastodynamics".
+/// Returns the names of all analyses with selectable effects: "statics, modes or elastodynamics".
 [[nodiscard]] std::string analyses_with_effects();
 
 }  // namespace trammel::harness

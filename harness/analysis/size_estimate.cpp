@@ -11,16 +11,16 @@
 namespace trammel::harness {
 namespace {
 
-// Bytes per item, measured with a margin (size_estimate_test). A coordinate counts in model,
-// matrices and states. An entry of a factor counts during the factorization. A number is recorded,
-// written as JSON and drawn.
+// Bytes per item, measured with a margin (size_estimate_test). Coordinates require memory in the
+// model, matrices and states. Entries of a factor require memory during the factorization. Numbers
+// are recorded, written as JSON and drawn.
 constexpr double kCoordinate = 2500, kEntry = 24, kNumber = 44;
-/// Bytes per number of a map, which is rounded and drawn, and per number of samples from JSON.
+/// Bytes per number of a map, which is rounded and drawn, and per number of samples read from JSON.
 constexpr double kMapNumber = 90, kSampleNumber = 500;
-/// Bytes per number of a frequency response, which is only recorded.
+/// Bytes per recorded number of a frequency response.
 constexpr double kResponseNumber = 22;
 
-/// Returns the bytes of a coordinate relative to those of statics, which checks and draws most.
+/// Returns the memory per coordinate of an analysis, relative to that of statics, the largest.
 double share_of(const std::string& kind, const JsonView& analysis, bool in_plane) {
   if (kind == "manufactured") return 0.5;
   if (kind != "harmonic" || in_plane) return 1;
@@ -38,7 +38,7 @@ class Estimator {
     if (kind == "grnn") numbers_ = 50;
     if (root_.has("model")) count_model(root_["model"]);
     if (kind == "study") {
-      if (analysis.get("trajectory", false)) {  // one document per point
+      if (analysis.get("trajectory", false)) {  // the study has one case per point
         add(path_, points_ * 20 * static_cast<double>(document_.value().dump().size()));
       }
     } else {

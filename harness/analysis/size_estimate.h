@@ -7,21 +7,21 @@
 
 namespace trammel::harness {
 
-/// Upper estimate of the size of one computation. It uses the case only, before anything is built.
+/// Upper estimate of the size of one computation, from the case file only.
 struct SizeEstimate {
   double coordinates = 0;  ///< number of coordinates of the model before constraints
-  /// Number of non-zeros of a factor of the stiffness matrix, in a fill-reducing order.
+  /// Number of non-zeros of the factor of the stiffness matrix, in a fill-reducing order.
   double non_zeros = 0;
   double bytes = 0;   ///< memory of the entire computation
-  std::string cause;  ///< pointer to the key that causes the largest part
+  std::string cause;  ///< JSON pointer of the key that causes the most memory
 };
 
 /// Estimates the size from the coordinates, dense solutions, modes, samples, points of paths and
-/// cells of grids. A factor has 12 non-zeros per coordinate of members. A mesh of n coordinates has
-/// 16 log2(n) per coordinate, by nested dissection in the plane (George 1973).
+/// cells of grids. The factor of a frame has 12 non-zeros per coordinate. The factor of a plane
+/// mesh of n coordinates has 16 log2(n) per coordinate, by nested dissection (George 1973).
 [[nodiscard]] SizeEstimate estimate_size(const Document& document);
 
-/// Rejects a computation that is too large.
+/// Rejects a computation that requires too much memory.
 /// @throws InputError  at the key that causes the size, if the estimate exceeds `max_memory` or a
 ///     factor has more entries than 32 bits can count.
 void require_fits(const Document& document,

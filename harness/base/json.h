@@ -10,7 +10,7 @@ namespace trammel::harness {
 using Json = nlohmann::ordered_json;
 using JsonPointer = Json::json_pointer;
 
-/// Returns null if the number is missing or not finite, because JSON cannot represent it.
+/// Returns a number as JSON; null if the number is missing or infinite, which JSON cannot express.
 [[nodiscard]] inline Json number_or_null(Number value) {
   return value ? Json(*value) : Json(nullptr);
 }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxDepth = 100;
 
-/// Builds the document while reading, and throws at the first error.
+/// Builds a JSON document while reading, and throws at the first error.
 class StrictReader : public nlohmann::json_sax<Json> {
  public:
   explicit StrictReader(std::string name) : name_(std::move(name)) {}
@@ -47,7 +47,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
       throw InputError(name_, (pointer() / name).to_string(),
                        "expected every key once (got '" + printable(name) + "' twice)");
     }
-    // operator[] would search all keys again, which is_known has already done.
+    // `is_known` has already searched all keys, and operator[] would search them again.
     auto& container = static_cast<Json::object_t::Container&>(members);
     make_room(container);
     member_ = &container.emplace_back(name, nullptr).second;
@@ -60,7 +60,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
     const std::string what = error.what();
     const std::string head = "parse error at ";
     const std::size_t place = what.find(head);
-    if (place == std::string::npos) {  // out of range: a number
+    if (place == std::string::npos) {  // the error is a number out of range
       throw InputError(name_, here(), "expected a number within the range of a double" + got);
     }
     const std::size_t start = place + head.size();  // "line 1, column 5: ..."
@@ -101,7 +101,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
   [[nodiscard]] static std::string last_step(const Json& open) {
     return open.is_object() ? std::prev(open.end()).key() : std::to_string(open.size() - 1);
   }
-  /// Returns the pointer of the next value.
+  /// Returns the JSON pointer of the next value to be read.
   [[nodiscard]] std::string here() const {
     if (open_.empty()) return "";
     const Json& last = *open_.back();
@@ -135,7 +135,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
   Json root_;
   Json* member_ = nullptr;   ///< value of the key read last
   std::vector<Json*> open_;  ///< open objects and arrays, from the root inward
-  std::vector<std::unordered_set<std::string>> keys_;  ///< keys of each object; empty if it has few
+  std::vector<std::unordered_set<std::string>> keys_;  ///< keys of each open object; empty for few
 };
 
 }  // namespace
@@ -143,7 +143,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
 Json parse_json(const std::string& text, const std::string& name) {
   StrictReader reader(name);
   Json::sax_parse(text, &reader);
-  // The parser would stop at a null character.
+  // The parser would ignore all text after a null character.
   if (const std::size_t at = text.find('\0'); at != std::string::npos)
     throw InputError(name + ": expected no null character (got '\\u0000' at byte " +
                      std::to_string(at + 1) + ")");

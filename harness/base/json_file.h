@@ -8,7 +8,7 @@
 namespace trammel::harness {
 
 /// Returns the content of a file.
-/// @throws InputError  if it cannot be read, is not a regular file or exceeds 256 MiB.
+/// @throws InputError  if the file cannot be read, is not a regular file or exceeds 256 MiB.
 [[nodiscard]] std::string read_text(const std::filesystem::path& file);
 
 /// Reads one JSON document strictly: UTF-8, no duplicate keys, no number beyond a double.
@@ -19,15 +19,15 @@ namespace trammel::harness {
 /// Reads a JSON document from a text in memory; messages show `name` as the file.
 [[nodiscard]] Json parse_json(const std::string& text, const std::string& name);
 
-/// Reads CBOR (RFC 8949). It is faster than `Json::from_cbor`, which copies growing objects.
+/// Reads CBOR (RFC 8949) as JSON. `Json::from_cbor` is slower, because it copies growing objects.
 [[nodiscard]] Json parse_cbor(const std::string& bytes);
 
 /// Formats JSON for people and for diffs: objects over several lines, flat arrays on one line.
-/// @param deepest  deeper values are on one line, and so are objects one level above them
+/// @param deepest  level of nesting beyond which values are on one line, objects one level earlier
 [[nodiscard]] std::string format_json(const Json& json, std::size_t deepest = 1000);
 
-/// Writes the complete file or nothing: into a temporary file in the same folder, which is then
-/// renamed. Pipes and devices are written directly.
+/// Writes the complete file or nothing: the text is written into a temporary file in the same
+/// folder, which is then renamed. Pipes and devices are written directly.
 /// @throws InputError  if the folder or file cannot be written.
 void write_file(const std::filesystem::path& file, const std::string& text);
 

@@ -30,7 +30,7 @@ class Number {
   void reset() { value_ = kMissing; }
 
   friend bool operator==(Number a, Number b) { return std::is_eq(a <=> b); }
-  /// Missing numbers are equal, and less than all present ones.
+  /// Compares two numbers. Missing numbers are equal, and less than all present numbers.
   friend std::partial_ordering operator<=>(Number a, Number b) {
     if (a.has_value() && b.has_value()) return *a <=> *b;
     return a.has_value() <=> b.has_value();

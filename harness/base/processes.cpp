@@ -50,8 +50,8 @@ constexpr bool kLimitsMemory = true;
 int status_without_memory = 0;
 const char* line_without_memory = "";
 std::terminate_handler otherwise = nullptr;
-/// An allocation failure inside a noexcept function, such as a directory iterator, terminates
-/// without a current exception. This flag records it.
+/// Records an allocation failure. Inside a noexcept function, such as a directory iterator, the
+/// program terminates without a current exception.
 std::atomic<bool> found_no_memory{false};
 
 [[noreturn]] void end_by_exception() {
@@ -61,7 +61,7 @@ std::atomic<bool> found_no_memory{false};
   } catch (const std::bad_alloc&) {
     std::fputs(line_without_memory, stderr);
     _exit(status_without_memory);
-  } catch (...) {  // reported by the terminate handler
+  } catch (...) {  // `otherwise` reports all other errors
   }
   otherwise();
   std::abort();
@@ -74,7 +74,7 @@ void limit(__rlimit_resource resource, std::size_t most) {
   setrlimit(resource, &both);
 }
 
-/// Replaces this process by a program that inherits only its folder and its output.
+/// Replaces this process by an external program, which inherits only working folder and output.
 [[noreturn]] void become(const std::vector<char*>& words, const std::string& folder,
                          const ProgramLimits& limits, int out) noexcept {
   setsid();
@@ -90,7 +90,7 @@ void limit(__rlimit_resource resource, std::size_t most) {
   close_range(STDERR_FILENO + 1, ~0U, 0);
   setenv("TMPDIR", folder.c_str(), 1);
   const bool there = chdir(folder.c_str()) == 0;
-  // This limit is set last, because this process may itself use more, as under a sanitizer.
+  // The memory limit is set last, because this process may exceed it, as under a sanitizer.
   if (limits.memory_bytes > 0) limit(RLIMIT_AS, limits.memory_bytes);
   if (there) execv(words.front(), words.data());
   dprintf(STDERR_FILENO, "not started: %s\n", std::strerror(errno));
@@ -99,7 +99,7 @@ void limit(__rlimit_resource resource, std::size_t most) {
 
 struct Child {
   pid_t process = -1;
-  int output = -1;  ///< read end of the pipe
+  int output = -1;  ///< read end of the pipe from the child
   std::size_t task = 0;
   unsigned cpu_limit_s = 0;
   std::size_t kept_bytes = std::string::npos;  ///< length of the tail of the output that is kept
@@ -107,9 +107,9 @@ struct Child {
   Stopwatch watch = {};
 };
 
-/// Forks a child that ends with this process.
+/// Forks a child process that is killed when this process ends.
 /// @param run  called in the child with the write end of the pipe; it does not return.
-/// @returns the child, without a process if the system has no room; errno contains the reason
+/// @returns the child; without a process if the fork failed, for the reason in errno
 Child start_child(const std::function<void(int out)>& run) {
   Child child;
   std::array<int, 2> ends{};
@@ -132,8 +132,8 @@ Child start_child(const std::function<void(int out)>& run) {
   return child;
 }
 
-/// Reads available output.
-/// @returns whether more output may follow
+/// Reads available output of a child process.
+/// @returns true if more output may follow
 bool drain(Child& child) {
   std::array<char, 65536> buffer;  // not initialized: zeros would cost more than most answers
   const ssize_t n = read(child.output, buffer.data(), buffer.size());
@@ -147,7 +147,6 @@ double seconds_of(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-/// Waits for the end of a child.
 ProcessOutcome reap(const Child& child) {
   int status = 0;
   rusage used{};
@@ -161,7 +160,7 @@ ProcessOutcome reap(const Child& child) {
           seconds_of(used.ru_utime) + seconds_of(used.ru_stime)};
 }
 
-/// Runs the task in the child. Signals that stop the program are handled by the parent.
+/// Runs a task in a child process. The parent process handles signals that stop the program.
 [[noreturn]] void compute(const ProcessTask& task, std::size_t memory_bytes, int out) noexcept {
   end_without_memory(kOutOfMemory, "");
   // An exception would leave incomplete JSON values, whose destructor reads a null pointer.
@@ -240,15 +239,15 @@ Termination await(Child& child, const fs::path& folder, const ProgramLimits& lim
 pid_t parent_of(const fs::path& process) {
   std::string text;
   std::getline(std::ifstream(process / "stat"), text);
-  const auto name_end = text.rfind(')');  // a name may contain any character
+  const auto name_end = text.rfind(')');  // process names may contain ')'
   int parent = 0;
   if (name_end != std::string::npos)
     (void)std::sscanf(text.c_str() + name_end + 1, " %*c %d", &parent);
   return parent;
 }
 
-/// Running processes. During its lifetime, SIGINT and SIGTERM are read here instead of ending the
-/// program.
+/// Pool of running child processes. While it exists, SIGINT and SIGTERM do not end the program;
+/// `wait` returns them.
 class ProcessPool {
  public:
   ProcessPool() {
@@ -274,9 +273,9 @@ class ProcessPool {
 
   [[nodiscard]] std::size_t size() const { return children_.size(); }
 
-  /// @returns whether the system has room for another process; if not, errno contains the reason
+  /// @returns true if the process was started; if false, errno contains the reason
   bool start(std::size_t number, const ProcessTask& task, std::size_t memory_bytes) {
-    Child child = start_child([&](int out) {  // frees descriptors for the child
+    Child child = start_child([&](int out) {  // closes unused file descriptors
       for (const Child& other : children_) close(other.output);
       close(signals_);
       compute(task, memory_bytes, out);
@@ -288,7 +287,7 @@ class ProcessPool {
     return true;
   }
 
-  /// Reads available answers.
+  /// Reads available answers of the child processes.
   /// @returns the signal if one was received, else 0
   int wait(const std::function<void(std::size_t, const ProcessOutcome&)>& ended,
            const std::function<void()>& waiting) {

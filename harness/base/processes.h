@@ -11,16 +11,16 @@
 namespace trammel::harness {
 
 struct ProcessTask {
-  std::function<std::string()> work;  ///< returns the answer
-  unsigned cpu_limit_s = 0;           ///< processor time; at least 1
+  std::function<std::string()> work;  ///< computes the answer of the task
+  unsigned cpu_limit_s = 0;           ///< limit of processor time; at least 1
 };
 
-/// Result of a process.
+/// Result of a child process: the way it ended, its answer and its computing times.
 struct ProcessOutcome {
   enum class Termination { answered, timed_out, out_of_memory, disk_full, crashed, not_started };
   Termination termination = Termination::not_started;
-  /// Answer of a function, or the reason for its absence. For a program, the last 64 KiB of
-  /// standard output and error.
+  /// Answer of a function, or the reason why there is no answer. For a program, this is the end of
+  /// its standard output and error, at most 64 KiB.
   std::string text;
   int status = 0;  ///< exit status, signal number, or errno if the process was not started
   double wall_s = 0, cpu_s = 0;
@@ -28,21 +28,21 @@ struct ProcessOutcome {
 
 struct ProcessOptions {
   unsigned at_once = 1;  ///< maximum number of simultaneous processes
-  /// Address space of each process; 0: no limit, as always under sanitizers.
+  /// Address space of each process; 0: no limit. Processes under sanitizers have no limit.
   std::size_t memory_bytes = 0;
   std::function<void()> waiting = {};  ///< called about once a second while processes run
 };
 
 /// Sets the exit status and the line on standard error for an allocation failure that no code
-/// catches. JSON allocates in a destructor, which cannot throw.
+/// catches, such as a failure in a destructor of the JSON library.
 void end_without_memory(int status, const char* line);
 
-/// Returns the memory limit of this process: the one set by `run_in_processes`, else half of the
+/// Returns the memory limit of this process: the limit set by `run_in_processes`, else half of the
 /// smallest of machine memory, cgroup limit and address space.
 [[nodiscard]] std::size_t memory_limit_bytes();
 
 /// Runs each task in a process forked from this one, which must have a single thread. If the system
-/// has no room for another process, running processes are awaited first.
+/// cannot start another process, a running process is awaited first.
 /// @param ended  called in this process when a task ends, in any order
 /// @returns SIGINT or SIGTERM if it was received, else 0. After a signal, running tasks are killed
 ///   and the others are not started.
@@ -50,15 +50,15 @@ void end_without_memory(int status, const char* line);
     const std::vector<ProcessTask>& tasks, const ProcessOptions& options,
     const std::function<void(std::size_t task, const ProcessOutcome& outcome)>& ended);
 
-/// Runs one function in a separate process with these limits.
+/// Runs one function in a separate process with the limits of `options`.
 /// @throws Interrupted  if SIGINT or SIGTERM was received.
 [[nodiscard]] ProcessOutcome run_limited(const ProcessTask& task, const ProcessOptions& options);
 
-/// Limits of a program that is not part of trammel.
+/// Resource limits of an external program.
 struct ProgramLimits {
   double wall_s = 120;
   std::size_t memory_bytes = 0;  ///< address space of each process; 0: no limit
-  /// Limit of each file, and of all files of the folder.
+  /// Limit of the size of each file, and of all files of the folder together.
   std::size_t disk_bytes = std::size_t{1} << 30;
 };
 
@@ -75,7 +75,7 @@ void adopt_descendants();
 /// Kills every child of this process, including descendants that become its children.
 void end_descendants();
 
-/// Returns the size of all files below a folder. Counting stops above `enough`.
+/// Returns the size of all files below a folder [bytes]. Counting stops above `enough`.
 [[nodiscard]] std::size_t folder_bytes(const std::filesystem::path& folder, std::size_t enough);
 
 /// From now on, SIGINT and SIGTERM end the program with exit status 128 + signal, after printing

@@ -30,8 +30,8 @@ struct NameAndUnit {
 /// Returns true if a quantity is a count, which has no order of convergence.
 [[nodiscard]] bool is_count(const std::string& name);
 
-/// Returns true if a quantity describes the accuracy of others (round-off, residuals). Such a
-/// quantity has no limit under refinement; smaller is better.
+/// Returns true if a quantity is an error measure (round-off, residual). Under mesh refinement,
+/// such a quantity does not converge to a limit.
 [[nodiscard]] bool is_diagnostic(const std::string& name);
 
 }  // namespace trammel::harness

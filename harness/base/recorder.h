@@ -11,7 +11,7 @@
 
 namespace trammel::harness {
 
-/// Collects quantities. Each call appends one number, so that a path yields one number per point.
+/// Collects the quantities of an analysis. Each call appends one number: one per point of a path.
 class Recorder {
  public:
   /// @param item  part of the model, written after the colon of the name; empty: none
@@ -25,23 +25,23 @@ class Recorder {
   template <class Number>
   requires std::is_arithmetic_v<Number>
   void add(const std::string& name, Number value) { add(name, "", static_cast<double>(value)); }
-  /// Adds one number for each item.
+  /// Adds one number for each part of the model.
   template <class Items, class Values>
   void add_each(const std::string& name, const Items& items, const Values& values) {
     auto value = std::begin(values);
     for (const auto& item : items) add(name, item, *value++);
   }
-  /// Records a missing number, such as a gap between curves or a study level without solution. It
-  /// is written as null. A check fails only if it requires this number.
+  /// Records a missing number, such as a break in a curve or a study level without solution. It is
+  /// written as null. A check fails only if it requires this number.
   void add_gap(const std::string& name, const std::string& item) {
     quantity_of(name, item).values.push_back(std::numeric_limits<double>::quiet_NaN());
   }
-  /// Adds a number, or a gap if it is NaN.
+  /// Adds a number. NaN is recorded as a missing number.
   void add_or_gap(const std::string& name, const std::string& item, double value) {
     std::isnan(value) ? add_gap(name, item) : add(name, item, value);
   }
-  /// Returns the name of the first quantity with a non-finite number that is not a gap; empty if
-  /// there is none.
+  /// Returns the name of the first quantity with an infinite or undefined number that was not
+  /// recorded as missing; empty if there is none.
   [[nodiscard]] const std::string& not_finite() const { return not_finite_; }
   [[nodiscard]] Quantities take_quantities() { return std::move(quantities_); }
 
@@ -69,7 +69,7 @@ class EnergyRecorder {
     largest_kinetic_ = std::max(largest_kinetic_, kinetic);
   }
   [[nodiscard]] double largest_kinetic() const { return largest_kinetic_; }
-  /// Returns the largest change divided by the largest kinetic energy; 0 without motion.
+  /// Returns the largest change of total energy over the largest kinetic energy; 0 without motion.
   [[nodiscard]] double drift() const {
     return largest_kinetic_ > 0 ? change_ / largest_kinetic_ : 0;
   }

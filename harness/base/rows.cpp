@@ -13,7 +13,6 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns the number of UTF-8 characters.
 std::size_t width_of(const std::string& text) {
   return static_cast<std::size_t>(std::ranges::count_if(
       text, [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));

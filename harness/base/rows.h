@@ -8,7 +8,7 @@
 
 namespace trammel::harness {
 
-/// A column of rows: its key in JSON and CSV, and its heading in a table for a terminal.
+/// Column of a table: its key in JSON and CSV, and its heading on a terminal.
 struct Column {
   std::string key, head;
   int digits;    ///< significant digits in the table; 0: print only the length of a list
@@ -33,7 +33,7 @@ class Rows {
 
   /// Prints a table with aligned columns, without columns that have no values.
   void print(std::ostream& out, const std::string& indent = "") const;
-  /// Returns an array of objects.
+  /// Returns the rows as a JSON array with one object per row.
   [[nodiscard]] Json json() const;
   /// Returns a line of keys, then a line for each row (RFC 4180), with all digits of the numbers.
   [[nodiscard]] std::string csv() const;
@@ -47,11 +47,11 @@ class Rows {
 /// a formula starts with an apostrophe. Control characters other than line breaks become spaces.
 [[nodiscard]] std::string csv_text(const std::string& text);
 
-/// Breaks a text at spaces to a width and indents each line.
+/// Breaks a text at spaces into lines of limited width, and indents each line.
 [[nodiscard]] std::string wrapped(const std::string& text, const std::string& indent,
                                   std::size_t width = 96);
 
-/// Returns "1 case", "2 cases".
+/// Returns a count with its noun in the singular or plural: "1 case", "2 cases".
 [[nodiscard]] std::string count_of(std::size_t count, const std::string& noun);
 
 }  // namespace trammel::harness

@@ -7,12 +7,12 @@
 
 namespace trammel::harness {
 
-/// Returns a statistic of numbers. NaN propagates.
+/// Returns a statistic of numbers; NaN if there are none or one of them is not finite.
 /// @param name  "max", "min", "max_abs", ... as in the schema
 [[nodiscard]] double statistic_of(const std::string& name, const std::vector<double>& values);
 
 /// Returns the median; for an even count, the upper of the two middle values.
-/// @param values  at least one
+/// @param values  at least one number
 [[nodiscard]] double upper_median(std::vector<double> values);
 
 /// Returns the largest absolute value; 0 for an empty list.
@@ -23,8 +23,8 @@ struct LargestDifference {
   std::size_t index = 0;
 };
 
-/// Returns the largest |a - b| / scale over all entries. Equal entries differ by 0 for any scale.
-/// The result is infinite if the lengths differ, a value is NaN, or a scale is 0.
+/// Returns the largest |a[i] - b[i]| / scale(i) of two lists and its index. Equal numbers differ by
+/// 0. The result is infinite if the lengths differ, a value is NaN, or a scale is 0.
 [[nodiscard]] LargestDifference largest_difference(const std::vector<double>& a,
                                                    const std::vector<double>& b,
                                                    const std::function<double(std::size_t)>& scale);

@@ -35,7 +35,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& candidates) {
   if (word.size() > 200) return {};
-  // Common words for a key with a different spelling.
+  // Users often write "entries" or "entry" for the key "index".
   if ((word == "entries" || word == "entry") && contains(candidates, std::string("index")))
     return "index";
   std::string best;

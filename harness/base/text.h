@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-/// Text functions for messages.
 namespace trammel::harness {
 
 /// Returns the candidate closest to a misspelled word; empty if none is close.
@@ -16,17 +15,16 @@ namespace trammel::harness {
 [[nodiscard]] std::string did_you_mean(const std::string& word,
                                        const std::vector<std::string>& candidates);
 
-/// Returns "expected X (got 'name'); did you mean 'y'?".
+/// Returns the message for an unknown name: "expected X (got 'name'); did you mean 'y'?".
 [[nodiscard]] std::string unknown_name(const std::string& expected, const std::string& name,
                                        const std::vector<std::string>& candidates);
 
-/// Returns "'word'".
 [[nodiscard]] std::string quoted(const std::string& word);
 
 /// Returns a word quoted so that a shell reads it unchanged.
 [[nodiscard]] std::string shell_quoted(const std::string& word);
 
-/// Returns "a, b or c".
+/// Returns items as a list in a sentence: "a, b or c", where `last` is "or".
 [[nodiscard]] std::string join(const std::vector<std::string>& items, const std::string& last);
 
 /// Returns the shortest decimal number that is read back as the same double.
@@ -35,10 +33,10 @@ namespace trammel::harness {
 /// Formats a number with "%.*g"; returns "-" if it is not finite.
 [[nodiscard]] std::string rounded(double value, int digits = 6);
 
-/// Returns "12.3 %" for 0.123.
+/// Formats a fraction as a percentage: "12.3 %" for 0.123.
 [[nodiscard]] std::string percent(double share);
 
-/// Replaces bytes that a terminal or a line cannot show by '?' and truncates long text.
+/// Replaces control characters and non-ASCII bytes of a text by '?' and truncates long text.
 [[nodiscard]] std::string printable(std::string text, std::size_t length = 60);
 
 /// Formats a message as one line: control characters become JSON escapes, and words longer than 120

@@ -22,7 +22,7 @@ Elapsed measure(const std::function<void()>& work, int runs) {
   return {watch.cpu_s() / runs, watch.wall_s() / runs};
 }
 
-/// Returns the number of computations in a measurement. Also warms up.
+/// Calls a function to warm up and returns the number of calls for a measurement of `shortest_s`.
 int runs_for(const std::function<void()>& work, double shortest_s) {
   work();
   const double once = std::max(measure(work, 1).cpu_s, 1e-7);

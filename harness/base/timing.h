@@ -9,14 +9,14 @@
 namespace trammel::harness {
 
 struct TimingOptions {
-  int repeats = 7;         ///< minimum number for meaningful quartiles
+  int repeats = 7;         ///< number of measurements; 7 is the minimum for quartiles
   std::uint64_t seed = 1;  ///< seed of the random order of measurements
   /// Minimum duration of a measurement [s]. A shorter computation is repeated within the
   /// measurement, which returns the mean time.
   double shortest_s = 2e-3;
 };
 
-/// Processor time of one computation. Medians are taken over the repeats.
+/// Computing times of one computation. Medians are taken over the repeated measurements.
 struct Timing {
   std::vector<double> cpu_s;  ///< processor times of one computation, one per repeat
   double median_s = 0;
@@ -24,16 +24,16 @@ struct Timing {
   int runs_each = 1;  ///< number of computations in a measurement
 };
 
-/// Time of one computation relative to another.
+/// Computing time of one computation divided by that of another computation.
 struct RelativeTime {
   double median = 0;
-  /// Interval that contains the true median with a probability of at least 98 %, for any
-  /// distribution of the times (sign test). For seven repeats it spans all ratios.
+  /// Interval that contains the true median of the ratio with a probability of at least 98 %, for
+  /// any distribution of the times (sign test). For seven repeats it spans all ratios.
   double low = 0, high = 0;
 };
 
-/// Compares times repeat by repeat, because both times of a repeat were measured under the same
-/// machine load.
+/// Returns the median ratio of two times. Ratios are computed for each repeat, because both times
+/// of a repeat were measured under the same machine load.
 /// @param first, step  selects the repeats first, first + step, ...; by default all repeats
 [[nodiscard]] RelativeTime relative_time(const std::vector<double>& times,
                                          const std::vector<double>& baseline, std::size_t first = 0,
@@ -46,14 +46,14 @@ struct RelativeTime {
                                                    const TimingOptions& options,
                                                    const std::function<void()>& done);
 
-/// Measured time of one evaluation of a function. No check judges it.
+/// Time of one evaluation of a function, measured for information and not checked.
 struct EvaluationTime {
-  std::string name;             ///< words joined by '_'
+  std::string name;             ///< name of the function, with '_' between words
   double wall_s = 0;            ///< time of one evaluation [s]
   std::size_t evaluations = 0;  ///< number of evaluations in the average
 };
 
-/// Averages over enough rounds to fill a few hundredths of a second.
+/// Measures the mean time of one evaluation. Rounds are repeated for at least 0.02 s.
 /// @param round  performs `evaluations` evaluations
 [[nodiscard]] EvaluationTime time_evaluation(const std::string& name, std::size_t evaluations,
                                              const std::function<void()>& round);

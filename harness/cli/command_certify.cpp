@@ -76,7 +76,7 @@ void print_certificate(const Json& certificate) {
   }
 }
 
-/// Requires the same input, because results of different inputs differ for that reason alone.
+/// Requires results of the same case files, because other inputs also change results.
 void require_same_cases(const std::vector<Case>& cases, const std::filesystem::path& file,
                         const results::Results& stored) {
   for (const Case& one : cases) {
@@ -102,7 +102,7 @@ int certify_command(const CommandOptions& options, const Renderers& /*renderers*
   const Certification certificate = certify(configurations);
   const bool any = std::ranges::any_of(certificate.rows,
                                        [](const ConfigurationRow& row) { return row.checks > 0; });
-  if (!any) throw InputError("no selected case has a check");
+  if (!any) throw InputError("no selected case has a check; expected a case with checks");
   const Json json = results::to_json(certificate);
   if (options.json) {
     std::cout << format_json(json, 2);

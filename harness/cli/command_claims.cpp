@@ -14,7 +14,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns ": 0.99998 (circle-load)" or ": 0.0051 ... 0.0079 m (circle-load)".
+/// Returns measured values as text: ": 0.99998 (circle-load)" or ": 0.0051 ... 0.0079 m (statics)".
 std::string measured(const results::ClaimInterpretation& interpretation) {
   if (interpretation.entries.empty()) return "";
   const auto [low, high] =
@@ -50,7 +50,7 @@ void print_item(const results::PaperItem& item, const Json& claims) {
   std::cout << wrapped(item.reason, "    ") << wrapped(item.note, "    ");
 }
 
-/// Returns the stored runs of all cases with their series.
+/// Reads the stored runs of all cases, with all recorded values.
 std::vector<Run> stored_runs(const std::string& name, const std::vector<Case>& cases) {
   results::Results stored = load_results(results_path(name));
   for (const Case& one : cases)

@@ -26,10 +26,10 @@ using results::ComparedSide;
 using results::Number;
 using results::SideComparison;
 
-/// Heading of estimated discretization errors.
+/// Table heading of estimated discretization errors.
 constexpr const char* kErrorHead = "+- [%]";
 
-/// Computes one variant without its refinements.
+/// Computes one variant of a case, without its mesh refinements.
 Side side_of(const Case& given, const std::string& variant) {
   const References references;
   RunOptions options;
@@ -73,7 +73,7 @@ std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
   return sides;
 }
 
-/// Returns the sides: results files, each read once, or cases.
+/// Returns the sides to be compared: results files, each read once, or computed cases.
 std::vector<Side> sides_of(const std::vector<std::string>& names) {
   std::vector<Side> sides;
   std::vector<std::string> others;
@@ -87,14 +87,14 @@ std::vector<Side> sides_of(const std::vector<std::string>& names) {
   }
   if (sides.empty()) return sides_of_cases(names);
   if (!others.empty()) {
-    (void)load_named_case(split_case_name(others.front()).first);  // reports its error
+    (void)load_named_case(split_case_name(others.front()).first);  // throws if this is no case
     throw InputError("expected either cases or results files (got both)");
   }
   if (sides.size() < 2) throw InputError("expected at least two results files (got one)");
   return sides;
 }
 
-/// Prints computing time next to accuracy.
+/// Prints the computing time and the accuracy of each side of a comparison.
 void print_sides(const SideComparison& comparison) {
   std::vector<Column> columns = {{"label", "side"},
                                  {"runs"},
@@ -165,7 +165,7 @@ void print_numbers(const ComparedRun& run, const SideComparison& comparison) {
     (number.changed ? changed : same).insert(number.quantity);
     if (!number.changed) continue;
     for (Number& value : number.values)
-      if (value && std::abs(*value) <= number.noise) value = 0;  // only round-off
+      if (value && std::abs(*value) <= number.noise) value = 0;  // within round-off error
     add_row({number.quantity, number.entries > 1 ? Json(number.index) : Json()}, number, table);
   }
   if (!table.empty()) table.print(std::cout);

@@ -22,7 +22,7 @@ std::string note(const Convergence& found, std::size_t k) {
   return found.in_asymptotic_range[k] ? "asymptotic" : "";
 }
 
-/// Describes the order, the fitted law and the extrapolated value of the levels.
+/// Describes the results of a refinement study: order, fitted error law and extrapolated value.
 std::string conclusion(const Convergence& found) {
   std::vector<std::string> parts;
   if (found.theory_order)

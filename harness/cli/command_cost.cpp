@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the studies of the catalogue with that name or of that family.
+/// Returns the cost studies of the catalogue whose name or family is `word`.
 std::vector<fs::path> studies_named(const std::string& word, std::vector<std::string>& known) {
   std::vector<fs::path> found;
   for (const fs::path& file : cost_study_files()) {

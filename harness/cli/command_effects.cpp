@@ -26,7 +26,7 @@ double ratio(double part, double full) {
   return full > 0 ? part / full : 0;
 }
 
-/// Columns of a set of effects: its change from the full model, time, and counted work.
+/// Table columns of a model without some effects: its change from the full model, time and work.
 const std::vector<Column> kRunColumns = {"left_out",
                                          {"status", ""},
                                          {"change", "change [%]", 3, 100},
@@ -57,7 +57,7 @@ Rows own_contributions(const EffectStudy& study) {
   return rows;
 }
 
-/// Keys of `results::EffectScene`.
+/// Table columns of the effects selected in a case, with the keys of `results::EffectScene`.
 const std::vector<Column> kSceneColumns = {"scene",
                                            "analysis",
                                            "chosen",
@@ -96,8 +96,8 @@ Json study_json(const std::string& id, const std::string& analysis, const Effect
   return json;
 }
 
-/// @returns whether the change is within the tolerance, also for large displacement if the analysis
-///   cannot represent it
+/// @returns true if the omitted effects change the results by at most the tolerance. This includes
+/// large displacement if the analysis cannot represent it.
 bool holds(const EffectStudy& study) {
   return study.within_tolerance() && !study.choice.is_beyond_tier();
 }
@@ -131,7 +131,7 @@ void print_study(const EffectStudy& study) {
                    study.full.outcome.reason + ")");
 }
 
-/// Writes results.json and the page of these scenes.
+/// Writes results.json and a page with the effects selected in these cases.
 void write_scenes(std::vector<results::EffectScene> scenes, const CommandOptions& options,
                   const Renderers& renderers) {
   results::Results results = results_of({}, {}, References());
@@ -149,7 +149,7 @@ struct EffectCase {
   Document document;
 };
 
-/// Returns the cases whose analysis has effects.
+/// Returns the cases with these labels whose analysis supports a selection of effects.
 std::vector<EffectCase> effect_cases(const std::vector<std::string>& labels,
                                      const std::string& variant) {
   std::vector<EffectCase> cases;
@@ -188,7 +188,7 @@ int print_one(const EffectCase& scene, const CommandOptions& options) {
   return holds(study) ? 0 : 1;
 }
 
-/// Returns the scene of a case, possibly from the store; none if the full model has no solution.
+/// Returns the effects of a case, possibly from the store; none if the full model has no solution.
 EffectScenes scenes_of(const EffectCase& given, const std::filesystem::path& store, bool resume) {
   const auto measure = [&] {
     const EffectStudy study = study_effects(given.document, {.repeats = 3});

@@ -37,7 +37,7 @@ bool is_control(const Case& one) {
   return contains(labels, "control");
 }
 
-/// Returns the reason why no check of a run decides.
+/// Returns the reason why the checks of a run do not decide about its grade.
 std::string reason_of(const results::Run& run, Grade grade) {
   if (!run.reason.empty()) return run.reason;
   for (const results::Check& check : run.checks)
@@ -106,7 +106,7 @@ int grade_command(const CommandOptions& options, const Renderers& renderers) {
   results::Results found =
       results_of(run_cases(cases, references, run_options), cases, references, run_options.store);
   found.solver = solver_name(found.runs, options.adapter, adapter.words.front());
-  found.uncertainty_coverage.reset();  // it applies only to trammel's own refinements
+  found.uncertainty_coverage.reset();  // valid only for refinements by trammel
   const auto file = write_results(found, options.out);
   renderers.junit(found, std::filesystem::path(options.out) / "junit.xml");
   const auto page = renderers.codes({file}, options.out);

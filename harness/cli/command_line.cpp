@@ -59,9 +59,9 @@ std::string help_text(const std::string& section) {
 
 using Options = CommandOptions;
 
-/// An option of one or several commands.
+/// Command-line option that one or several commands support.
 struct Option {
-  std::string flags;  ///< flags; without a dash: a positional argument
+  std::string flags;  ///< names on the command line; without a dash: positional argument
   std::variant<bool Options::*, int Options::*, unsigned Options::*, std::size_t Options::*,
                double Options::*, std::string Options::*, std::vector<std::string> Options::*>
       member;
@@ -170,18 +170,16 @@ const std::vector<Option>& all_options() {
   return options;
 }
 
-/// Pairs of options that exclude each other.
 constexpr std::pair<const char*, const char*> kExclusive[] = {
     {"--shard", "--store"}, {"--errors", "--no-errors"}, {"--csv", "--json"}};
 
 struct CommandEntry {
   const char* name;
   Command* run;
-  const char* options;  ///< names in the order of the help; '!': required
+  const char* options;  ///< names of options in the order of the help; '!': required
   const char* out = "trammel-results";
 };
 
-/// Commands in the order of the help.
 constexpr CommandEntry kCommands[] = {
     {"list", list_command, "pattern --label --label-any --json"},
     {"describe", describe_command, "case! --json"},
@@ -215,7 +213,6 @@ constexpr CommandEntry kCommands[] = {
     {"history", history_command, "file! --json"},
 };
 
-/// Returns version, commit and libraries, one per line.
 std::string version_text() {
   const Json all = environment();
   std::string text = "trammel " TRAMMEL_VERSION "\ncommit " + all["commit"].get<std::string>();
@@ -226,7 +223,6 @@ std::string version_text() {
 
 const std::vector<std::string> kTopics = {"cases", "verdicts", "effects", "accuracy"};
 
-/// Parser and dispatcher of the command line.
 class CommandLine {
  public:
   /// @param first  the first argument. If it names a command, only that command is defined;
@@ -244,7 +240,7 @@ class CommandLine {
     const std::string first = arguments.empty() ? "" : arguments.front();
     if (!is_command(first) && !first.starts_with('-'))
       throw InputError("trammel: " + expected_command(first));
-    // CLI11 takes the arguments from the back and keeps the unused ones.
+    // CLI11 takes the arguments from the back of the vector and keeps unused arguments in it.
     std::vector<std::string> stack(arguments.rbegin(), arguments.rend());
     try {
       app_.parse(stack);
@@ -260,7 +256,7 @@ class CommandLine {
                                [&](const CommandEntry& command) { return name == command.name; });
   }
 
-  /// @param names  further names that are expected
+  /// @param names  names of help topics, which are allowed in addition to commands
   static std::string expected_command(const std::string& word,
                                       std::vector<std::string> names = {}) {
     if (word.empty()) return "expected a command (see trammel --help)";
@@ -292,7 +288,7 @@ class CommandLine {
     command_ = [this, &command] { return command.run(options_, renderers_); };
   }
 
-  /// @param name  name in `all_options`; '!': required
+  /// @param name  name of an option in `all_options`; a final '!' marks a required option
   void add_option(std::string name, CLI::App* sub) {
     const bool is_required = name.ends_with('!');
     if (is_required) name.pop_back();
@@ -331,7 +327,7 @@ void require_drawing(const Renderers& renderers) {
 int run_command_line(const std::vector<std::string>& arguments, const Renderers& renderers) {
   const PrintableStream out(std::cout), err(std::cerr);
   end_on_signals("trammel: interrupted; the same command starts from the beginning\n");
-  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit of the file size fails instead
+  std::signal(SIGXFSZ, SIG_IGN);  // writing beyond the file size limit then fails
   try {
     std::vector<std::string> words = arguments;
     if (!words.empty() && words.front() == "help") {
@@ -357,8 +353,7 @@ int run_command_line(const std::vector<std::string>& arguments, const Renderers&
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::system_error& error) {  // a full disk, or a folder instead of a file
-    std::cerr << "expected files and processes that the system grants: " << one_line(error.what())
-              << '\n';
+    std::cerr << "expected sufficient rights and disk space: " << one_line(error.what()) << '\n';
     return 2;
   } catch (const std::exception& error) {
     std::cerr << "trammel: internal error: " << one_line(error.what()) << '\n';

@@ -12,7 +12,7 @@ struct SideComparison;
 
 namespace trammel::harness {
 
-/// Functions of the reports that the harness calls: they render results as a page or a JUnit file.
+/// Functions of the report module, which render results as a page or a JUnit file.
 struct Renderers {
   std::function<std::filesystem::path(const results::Results& results,
                                       const std::filesystem::path& folder)>
@@ -23,12 +23,12 @@ struct Renderers {
   std::function<std::filesystem::path(const std::vector<std::filesystem::path>& results,
                                       const std::filesystem::path& folder)>
       codes;
-  /// Writes a comparison with its curves into one file.
+  /// Writes a comparison of results, with overlaid curves, as a page into one file.
   std::function<void(const results::SideComparison& comparison, const std::filesystem::path& file)>
       comparison;
 };
 
-/// Message of an interrupted command that has a store.
+/// Message printed if a command is interrupted whose finished computations are stored.
 inline constexpr const char* kInterrupted =
     "trammel: interrupted; with --resume the same command computes the rest\n";
 
@@ -39,8 +39,7 @@ void require_drawing(const Renderers& renderers);
 /// Runs the program.
 /// @param arguments  the command line without the program's name.
 /// @returns 0 if every check passes, 1 if a check failed, 2 for bad usage or input, 3 for an
-/// internal
-///   error.
+/// internal error.
 /// @throws std::bad_alloc  if memory is exhausted.
 [[nodiscard]] int run_command_line(const std::vector<std::string>& arguments,
                                    const Renderers& renderers);

@@ -84,7 +84,6 @@ std::string describe_check(const Check& check) {
              : text;
 }
 
-/// Prints title, source and remarks of a reference.
 void print_reference(const CitedReference& cited) {
   const auto& [reference, source] = cited;
   std::cout << "  " << reference.id << "  (" << to_string(reference.kind) << ", "
@@ -146,7 +145,7 @@ void describe_sweeps(const Case& given) {
   }
 }
 
-/// Returns a row for each value.
+/// Returns a table with one row for each value of the references.
 Rows value_rows(const std::vector<CitedReference>& all) {
   Rows rows({"id", "title", "kind", "unit", "index", "value", "uncertainty", "printed", "source",
              "place", "notes"});
@@ -192,7 +191,6 @@ void print_values(const CitedReference& cited) {
   table.print(std::cout, "  ");
 }
 
-/// Returns the quantities of every analysis.
 Rows analysis_rows() {
   Rows rows({"analysis", "quantity", "unit", "meaning"});
   for (const AnalysisKind& kind : analysis_kinds())
@@ -202,7 +200,7 @@ Rows analysis_rows() {
   return rows;
 }
 
-/// Returns the meaning of a quantity of the case. In a study it may belong to the studied analysis.
+/// Returns the meaning of a quantity of a case. In a study, it may belong to the inner analysis.
 std::string meaning_of(const std::string& name, const Document& document) {
   const std::string analysis = analysis_kind(document);
   const auto* found = results::find_quantity_definition(name, analysis);
@@ -214,7 +212,6 @@ std::string meaning_of(const std::string& name, const Document& document) {
   return found == nullptr ? "" : found->meaning;
 }
 
-/// Computes a case and returns its quantities.
 Rows quantity_rows(const Case& given) {
   const Document document = patched(given, kBaseVariant);
   Rows rows({"quantity", "entries", "unit", "meaning"});

@@ -25,7 +25,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns whether a call names neither cases nor labels.
+/// Returns true if the options contain neither cases nor labels.
 bool is_catalogue(const CommandOptions& options) {
   return options.words.empty() && options.labels.empty() && options.any_labels.empty();
 }
@@ -104,14 +104,14 @@ void print_run_errors(const std::vector<Run>& runs) {
   std::vector<std::string> told;
   for (const Run& run : runs) {
     if (run.fault == results::Fault::none) continue;
-    // Variants of one case often have the same error.
+    // Variants of one case often have the same error, which is printed once.
     if (contains(told, run.reason)) continue;
     told.push_back(run.reason);
     std::cerr << run.reason << '\n';
   }
 }
 
-/// Selects the named cases and those with the labels, or the full catalogue if there are neither.
+/// Selects the cases with the given names or labels; the catalogue if there are neither.
 Selection select(const CommandOptions& options) {
   const Catalogue catalogue;
   if (is_catalogue(options)) return load(catalogue.runnable_files(), catalogue);
@@ -138,16 +138,16 @@ Selection select(const CommandOptions& options) {
 }
 
 /// Runs each function in a separate process. The functions write their results into the store.
-/// @returns whether all of it was completed
+/// @returns true if all functions were completed
 bool do_in_processes(const std::vector<std::function<void()>>& work, unsigned jobs,
                      const std::string& items) {
-  constexpr unsigned kLimit = 3600;  // [s]; each computation in it has a separate limit
+  constexpr unsigned kLimit = 3600;  // [s]; the computations of a function have separate limits
   std::vector<ProcessTask> tasks;
   for (const auto& one : work) {
     const auto done = [&one] {
       try {
         one();
-      } catch (const InputError&) {  // reported by the reader of the store
+      } catch (const InputError&) {  // reported when the missing result is needed
         return std::string("not done");
       }
       return std::string();
@@ -173,7 +173,7 @@ bool is_results_file(const std::string& name) {
   try {
     return !read_if_results(name).is_null();
   } catch (const InputError&) {
-    return false;  // reported when it is read as a case
+    return false;  // the error is reported when the file is read as a case
   }
 }
 
@@ -216,7 +216,7 @@ Json selection_of(const CommandOptions& options) {
           {"variant", options.variant}};
 }
 
-/// Computes a part of the selection without judging it.
+/// Computes one shard of the selected cases. The checks are evaluated after the shards are merged.
 int compute_shard(const CommandOptions& options) {
   const Shard shard = parse_shard(options.shard);
   const Selection selection = select(options);
@@ -325,7 +325,7 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
   const std::size_t stored = std::ranges::count_if(options.words, is_results_file);
   if (stored > 0) {
     if (stored < options.words.size() || !options.labels.empty() || !options.any_labels.empty())
-      throw InputError("expected either cases or existing results files");
+      throw InputError("expected either cases or existing results files (got both)");
     return report_results(options, renderers);
   }
   require_drawing(renderers);

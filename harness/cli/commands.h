@@ -17,7 +17,7 @@
 /// Commands of the program. Each reads its options, prints its results and returns the exit status.
 namespace trammel::harness {
 
-/// Options of a command line. A command ignores those that it does not declare.
+/// Options of a command line. A command ignores options that it does not declare.
 struct CommandOptions {
   std::vector<std::string> words;       ///< positional arguments: cases, files, folders, names
   std::string word;                     ///< single positional argument of commands that have one
@@ -25,16 +25,16 @@ struct CommandOptions {
   std::vector<std::string> any_labels;  ///< labels of which a case must have at least one
   std::string variant;
   unsigned jobs = std::max(1U, std::thread::hardware_concurrency());
-  std::string out;    ///< folder; a file for `export` and `solve`; empty: standard output
-  std::string store;  ///< folder; empty: a subfolder of `out`
+  std::string out;    ///< output folder (`export`, `solve`: file); empty: standard output
+  std::string store;  ///< folder of stored computations; empty: OUT/store
   bool resume = false, fresh = false;
-  bool any_machine = false;  ///< with --resume: also reuses times of another machine
+  bool any_machine = false;  ///< with --resume, reuse times of other machines
   std::size_t memory_bytes = memory_limit_bytes();  ///< memory limit of one run; 0: none
   bool json = false, csv = false;
   bool quiet = false;  ///< prints only runs that fail, and the summary
 
   std::string shard;    ///< "K/N" for `run`: the K-th of N shards
-  std::string history;  ///< SQLite file to which the call is added; empty: none
+  std::string history;  ///< SQLite file for verdicts and times; empty: none
   bool vtk = false;
 
   std::string html;  ///< for `compare`: file of the page; empty: none
@@ -48,8 +48,8 @@ struct CommandOptions {
   bool all_errors = false, no_errors = false;
   double warn_above = 0.01;  ///< relative discretization error above which a warning is printed
   double accuracy = 0;       ///< relative error for the search of mesh and step; 0: no search
-  std::vector<std::string> quantities;  ///< quantities considered by the search
-  double time_limit_s = 120;            ///< time limit of the search
+  std::vector<std::string> quantities;  ///< quantities that the search must make accurate
+  double time_limit_s = 120;            ///< time limit of this search [s]
 
   double tolerance = 0.01;  ///< permitted relative change of the results, for `effects`
 
@@ -77,22 +77,22 @@ Command cost_command, effects_command;
 Command claims_command, paper_command, coverage_command;
 Command export_command, solve_command, grade_command;
 
-/// Returns the named cases and those with the labels, or the full catalogue if there are neither.
-/// @throws InputError  if one of them cannot be read.
+/// Returns the cases with the given names or labels; the catalogue if there are neither.
+/// @throws InputError  if a case cannot be read.
 [[nodiscard]] std::vector<Case> select_cases(const CommandOptions& options);
 
-/// Splits "portal-frame:lumped" into a case and its variant, "" without one. A colon in the name of
-/// a folder or of an existing file does not separate a variant.
+/// Splits "CASE:VARIANT" into case and variant; the variant is empty if there is none. A colon in
+/// the name of a folder or of an existing file does not separate a variant.
 [[nodiscard]] std::pair<std::string, std::string> split_case_name(const std::string& name);
 
-/// Returns the results file for a name: the file itself, or results.json in the folder.
+/// Returns the results file for a path: the path itself, or results.json if the path is a folder.
 [[nodiscard]] std::filesystem::path results_path(const std::string& name);
 /// Returns the JSON of a results file, or null if the file contains no results.
 /// @throws InputError  if a file named *.json cannot be read
 [[nodiscard]] Json read_if_results(const std::filesystem::path& file);
 
-/// Returns the folder of stored computations.
-/// @throws InputError  if a link would lead out of `out`.
+/// Returns the folder of stored computations: `store` if it is not empty, else OUT/store.
+/// @throws InputError  if OUT/store is a symbolic link, which could lead out of OUT.
 [[nodiscard]] std::filesystem::path store_folder(const std::string& out, const std::string& store);
 
 /// Writes results.json, junit.xml (if there are runs) and the pages, completely or not at all.
@@ -100,21 +100,21 @@ Command export_command, solve_command, grade_command;
 [[nodiscard]] std::filesystem::path write_pages(const results::Results& results,
                                                 const std::string& out, const Renderers& renderers);
 
-/// Returns functions that measure the quick sweep of each study of the catalogue into the store.
+/// Returns functions that measure the quick sweep of each cost study and store the results.
 /// @throws InputError  from the functions, with the message that `quick_cost` reports for the study
 [[nodiscard]] std::vector<std::function<void()>> quick_cost_work(const References& references,
                                                                  const std::filesystem::path& store,
                                                                  bool resume);
 
-/// Returns functions that measure the selection of effects in each scene of the catalogue.
+/// Returns functions that measure the selection of effects in each suitable case of the catalogue.
 [[nodiscard]] std::vector<std::function<void()>> effect_scene_work(
     const std::filesystem::path& store, bool resume);
 
-/// Returns the scenes of the catalogue as stored in results.json.
+/// Returns these measurements for all cases of the catalogue, as stored in results.json.
 [[nodiscard]] std::vector<results::EffectScene> catalogue_effect_scenes(
     const std::filesystem::path& store, bool resume);
 
-/// Returns the quick sweep of every study of the catalogue as stored in results.json.
+/// Returns the quick sweeps of all cost studies of the catalogue, as stored in results.json.
 /// @param error_messages  receives a line for each study that could not be measured
 [[nodiscard]] results::CostStudies quick_cost(const References& references,
                                               const std::filesystem::path& store, bool resume,

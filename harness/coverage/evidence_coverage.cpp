@@ -19,7 +19,7 @@ namespace {
 using results::CoverageRow;
 using Kinds = std::set<std::string>;
 
-/// Walks through the schema, alone or together with a document.
+/// Collects all features of the case schema, or the features that a document uses.
 class FeatureWalk {
  public:
   FeatureWalk() : root_(load_schema("case")) {}
@@ -35,7 +35,7 @@ class FeatureWalk {
   }
 
  private:
-  /// @param value  null: all values allowed by the rule
+  /// @param value  part of the document; null: all values that the schema rule allows
   void visit(const SchemaRule& stated, const Json* value, const std::string& context) {
     if (const SchemaRule* reference = keyword(stated, "$ref")) {
       const std::string path = string_of(*reference);
@@ -82,7 +82,7 @@ class FeatureWalk {
   std::set<std::string> seen_;
 };
 
-/// Returns the key below "analysis".
+/// Returns the kind of analysis, which is the key below "analysis".
 std::string analysis_name(const Json& document) {
   const Json& analysis = document.at("analysis");
   return analysis.empty() ? "" : analysis.begin().key();
@@ -124,7 +124,7 @@ std::string kind_of(references::ReferenceKind kind) {
   }
 }
 
-/// Returns the kind of evidence that a check provides; empty: none.
+/// Returns the kind of evidence that a check provides; empty if it provides no evidence.
 std::string kind_of(const Check& check, const Document& document, const References& references) {
   const bool only_shown = check.role == Role::validation && check.windows.empty();
   if (check.negative_control || only_shown || check.expectation == Expectation::known_discrepancy)
@@ -143,8 +143,8 @@ std::string kind_of(const Check& check, const Document& document, const Referenc
   return analysis == "manufactured" ? "manufactured" : "self-consistency";
 }
 
-/// Returns "modes: frequency_Hz"; for a study, with the analysis that it repeats. Empty: the
-/// quantity belongs to no analysis.
+/// Returns the row of a quantity, such as "modes: frequency_Hz"; empty if the quantity is not
+/// defined for the analysis.
 std::string quantity_row(const std::string& quantity, const std::string& analysis) {
   const auto* definition = results::find_quantity_definition(quantity, analysis);
   return definition == nullptr ? "" : analysis + ": " + definition->name;

@@ -9,17 +9,17 @@
 #include "harness/input/reference_library.h"
 #include "harness/results/results.h"
 
-/// Coverage of the program's features by evidence, grouped by the kind of evidence.
+/// Coverage of the features of the case schema by kinds of evidence, such as published values.
 namespace trammel::harness {
 
-/// A key ("slider.rail"), or a value of an enumeration ("beam = timoshenko"), below "model",
-/// "analysis" and "effects". Keys inside a definition of the schema carry its name.
+/// Features that a case uses below "model", "analysis" and "effects": keys ("slider.rail") and
+/// values ("beam = timoshenko"). Keys of a schema definition start with its name.
 using CaseFeatures = std::set<std::string>;
 
 /// Returns all features that a case can use.
 [[nodiscard]] CaseFeatures features_of_schema();
 
-/// @param document  resolved document that satisfies the schema
+/// Returns the features used by a document with all patches applied, which satisfies the schema.
 [[nodiscard]] CaseFeatures features_of(const Json& document);
 
 /// Computes the coverage from the catalogue's data alone. There is a row for each key and value of
@@ -29,8 +29,8 @@ using CaseFeatures = std::set<std::string>;
 /// A check of a case counts for the quantity that it judges, and for all features used by the model
 /// and the analysis. The kinds of evidence are:
 /// - "exact": closed form or independent derivation
-/// - "published"
-/// - "manufactured"
+/// - "published": values printed in publications
+/// - "manufactured": manufactured solutions
 /// - "code": another code
 /// - "self-consistency": bounds, and comparisons of the solver with itself
 ///
@@ -39,11 +39,10 @@ using CaseFeatures = std::set<std::string>;
                                                                   const References& references);
 
 /// Adds the reasons for missing independent evidence from cases/schema/without_evidence.json.
-/// @throws InputError  if it contains a reason for an unknown feature or for one with such
-///   evidence.
+/// @throws InputError  if the file contains a reason for an unknown or a verified feature.
 void add_reasons(std::vector<results::CoverageRow>& rows);
 
-/// Counts the series of each quantity in the runs, and those judged by a check.
+/// Counts the runs that record each quantity, and those in which a passed check judges it.
 void count_series(const results::Results& results, std::vector<results::CoverageRow>& rows);
 
 }  // namespace trammel::harness

@@ -27,14 +27,14 @@ JsonView analysis_place(const Document& document) {
   return JsonView(document)["analysis"][analysis_kind(document)];
 }
 
-/// Returns true if the analysis is one of the manipulator along its path. The manipulator is
-/// exported unchanged, with its mechanism as an addition.
+/// Returns true for analyses of the manipulator along a path. They export the manipulator unchanged
+/// and add a description of its mechanism.
 bool is_of_mechanism(const std::string& kind) {
   return kind == "kinematics" || kind == "inverse-dynamics" || kind == "forward-dynamics" ||
          kind == "elastodynamics";
 }
 
-/// Returns true for a network whose samples are in the case, so that it has no model to export.
+/// Returns true for a neural network with samples in the case, which has no model to export.
 bool is_of_samples(const Document& document) {
   return analysis_kind(document) == "grnn" && analysis_place(document).has("samples");
 }
@@ -44,7 +44,8 @@ void require_exportable(const Document& document) {
                                 "large-motion", "harmonic", "transient"};
   const JsonView place = analysis_place(document);
   if (!contains(kinds, analysis_kind(document)))
-    throw place.error("the analysis " + analysis_kind(document) + " cannot be exported");
+    throw place.error("the analysis " + analysis_kind(document) +
+                      " cannot be exported; expected another one, such as statics or modes");
   const JsonView root(document);
   if (root.has("model") && root["model"].has("trajectory"))
     throw root["model"]["trajectory"].error("a trajectory cannot be exported; expected 'pose'");
@@ -194,11 +195,11 @@ Json mechanism_json(const CaseModel& case_model) {
   return {{"bodies", bodies}, {"joints", joints}, {"path", path}};
 }
 
-/// Returns the mechanism. For elastodynamics, it includes the elastic model at the first point of
-/// the path.
+/// Returns the bodies, joints and path of the mechanism. For elastodynamics, the result includes
+/// the elastic model at the first point of the path.
 Json mechanism_of(const Document& document) {
   const CaseModel case_model = read_case_model(document);
-  if (!case_model.manipulator) throw analysis_place(document).error("expected a manipulator");
+  if (!case_model.manipulator) throw analysis_place(document).error("requires a 'manipulator'");
   Json mechanism = mechanism_json(case_model);
   if (analysis_kind(document) == "elastodynamics") {
     mechanism["elastic_model"] = with_model_errors(document, [&] {
@@ -208,7 +209,7 @@ Json mechanism_of(const Document& document) {
   return mechanism;
 }
 
-/// Lists the named nodes, which are recorded by default, because all exported nodes have names.
+/// Lists the nodes that are recorded by default, because unnamed nodes have names after the export.
 void name_recorded_nodes(const solver::Model& model, Json& analysis) {
   if (!analysis.contains("large-motion") || analysis["large-motion"].contains("nodes")) return;
   Json& names = analysis["large-motion"]["nodes"] = Json::array();

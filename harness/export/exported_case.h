@@ -27,7 +27,7 @@ struct ExportChoice {
 /// @throws InputError  if the variant, sweep or level does not exist.
 [[nodiscard]] Document chosen_document(const Case& given, const ExportChoice& choice);
 
-/// Scene as its analysis uses it, with its effects. Driven actuators are not locked.
+/// Model of a case for export, with the effects of its analysis. Driven actuators are not locked.
 struct ExportedScene {
   solver::Model model;
   solver::large_motion::LargeMotionModel joints;
@@ -43,18 +43,18 @@ struct ExportedScene {
 /// @throws InputError  as `exported_scene`, and if a case file cannot express a part or a quantity.
 [[nodiscard]] Json export_case(const Case& given, const ExportChoice& choice);
 
-/// Writes the linear matrices of a scene into a folder. A scene of a large-displacement analysis is
-/// linearized at zero load.
-///   K.mtx, M.mtx      stiffness and mass of the free coordinates q.
-///   C.mtx             Rayleigh damping, if the analysis has it.
-///   T.mtx             u = T q.
-///   f.mtx             loads on q.
-///   coordinates.csv   meaning of each entry of u.
+/// Writes the linear matrices of a case into a folder. A case with large displacement is linearized
+/// at zero load.
+///   K.mtx, M.mtx      stiffness and mass matrix for the free coordinates q.
+///   C.mtx             Rayleigh damping matrix, if the analysis has Rayleigh damping.
+///   T.mtx             matrix that yields all coordinates u = T q.
+///   f.mtx             loads on the free coordinates q.
+///   coordinates.csv   motion and node of each coordinate in u.
 ///   mesh.vtu          mesh.
 ///
 /// The format is Matrix Market in SI units. Symmetric matrices are stored as their lower triangles.
 /// @throws InputError  if the folder cannot be written, or for springs along a line and follower
-///     loads, which have no matrices.
+///   loads, which have no matrices.
 void write_matrices(const Document& document, const ExportedScene& scene,
                     const std::filesystem::path& folder);
 
@@ -62,13 +62,13 @@ void write_matrices(const Document& document, const ExportedScene& scene,
 /// has a name and sections are numbers. Tapered members become chains of uniform members, and edge
 /// loads become nodal loads.
 
-/// Names that a built model does not keep.
+/// Names of materials and loads in the case, which a built model does not contain.
 struct WrittenNames {
   std::vector<std::pair<std::string, solver::Material>> materials;
-  std::vector<std::string> loads;  ///< names of the first entries of `Model::loads`
+  std::vector<std::string> loads;  ///< names of the first loads in `Model::loads`
 };
 
-/// Returns the value of a case's "model".
+/// Returns a model in the form of the key "model" of a case file.
 /// @param model  without the linear constraints of its sliders, which are in `joints`
 /// @throws ModelError  if a case file cannot express a part, or two parts have the same name.
 [[nodiscard]] Json model_json(solver::Model model,

@@ -55,7 +55,7 @@ bool nearly(double a, double b) {
   return std::abs(a - b) <= 4 * solver::kEps * std::abs(b);
 }
 
-/// Materials and sections of a built model as entries of a case file, each stored once by name.
+/// Materials and sections of a built model as objects of a case file, each stored once by name.
 class SectionTable {
  public:
   /// @param known  named materials of the case, which are reused for sections that they match to
@@ -68,7 +68,7 @@ class SectionTable {
   [[nodiscard]] std::string name_of(const solver::Section& section);
   [[nodiscard]] std::string name_of(const solver::Material& material);
 
-  /// Returns the materials that a part uses.
+  /// Returns the materials that are used by a section or plate.
   [[nodiscard]] std::vector<std::pair<std::string, solver::Material>> materials() const;
   [[nodiscard]] const Json& sections() const { return sections_; }
 
@@ -134,9 +134,9 @@ std::vector<std::pair<std::string, solver::Material>> SectionTable::materials() 
   return used;
 }
 
-/// Writes the fields of a part as the JSON object that `FieldReader` reads.
+/// Writes the fields of a part of the model as the JSON object that `FieldReader` reads.
 struct FieldWriter {
-  const std::vector<std::string>& node;  ///< names, by index
+  const std::vector<std::string>& node;  ///< names of nodes, by index
   SectionTable& table;
   Json json = Json::object();
 
@@ -196,12 +196,12 @@ struct FieldWriter {
   }
 };
 
-/// Parts of one kind, by name. Uses a set of names, because a lookup in Json is linear.
+/// JSON objects below one key of a model, such as "members". The set of names speeds up lookups.
 class Parts {
  public:
   explicit Parts(const char* kind) : kind_(kind) {}
 
-  /// Adds a part under its name, or under the kind with the next number if the name is empty.
+  /// Adds a part of the model. A part without a name is named by key and number, such as "loads-2".
   void add(std::string name, Json part) {
     if (name.empty()) name = kind_ + ("-" + std::to_string(json_.size() + 1));
     solver::require(names_.insert(name).second,
@@ -286,7 +286,7 @@ class ModelWriter {
     return std::move(writer.json);
   }
 
-  /// @param names  names of the first parts, whose type has no names
+  /// @param names  names of the first parts, if their C++ type does not contain a name
   template <class T>
   void add(const char* kind, const std::vector<T>& parts,
            const std::vector<std::string>& names = {}) {
@@ -372,7 +372,7 @@ class ModelWriter {
   const Model& model_;
   const WrittenNames& names_;
   SectionTable table_;
-  std::vector<std::string> node_;  ///< unique names
+  std::vector<std::string> node_;  ///< unique names of the nodes
   Json parts_ = Json::object();
 };
 

@@ -44,7 +44,7 @@ struct Grid {
   double time = 0;
 };
 
-/// Writes a collection and the files that it lists.
+/// Writes a PVD file and the VTU files that it lists.
 void write_collection(const std::filesystem::path& folder, const std::string& name,
                       const std::vector<Grid>& grids) {
   if (grids.empty()) return;

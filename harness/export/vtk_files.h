@@ -7,7 +7,6 @@
 
 #include "harness/results/run_results.h"
 
-/// Writes files for VTK and ParaView.
 namespace trammel::harness {
 
 /// Cell of a grid. The type is a number of VTK: 3 line, 5 triangle, 7 polygon, 22 six-node

@@ -25,9 +25,9 @@ using results::Status;
 using Ending = ProcessOutcome::Termination;
 
 constexpr int kCannot = 4;  // exit status of an adapter whose code does not support the case
-constexpr std::size_t kMaxKeptBytes = std::size_t{16} << 20;  // of the folder of a call
+constexpr std::size_t kMaxKeptBytes = std::size_t{16} << 20;  // maximum size of files kept per call
 
-/// Returns the last line that is not blank, as a suffix of a message.
+/// Returns the last non-blank line of a program's output, as a suffix of a message.
 std::string last_line(const std::string& output) {
   std::string line, last;
   for (std::istringstream lines(output); std::getline(lines, line);)
@@ -107,8 +107,8 @@ void call(const Adapter& adapter, const fs::path& folder, const Json& json, Run&
   if (fs::is_directory(folder, error)) write_file(folder / "output.txt", outcome.text);
 }
 
-/// Computes the sweeps whose orders are checked, level by level. A level without a solution stays
-/// empty.
+/// Computes the sweeps whose orders of convergence are checked, level by level. A level without a
+/// solution stays empty.
 std::vector<results::Sweep> swept(const Adapter& adapter, const fs::path& folder, const Case& owner,
                                   const std::string& variant, const Document& document,
                                   const std::vector<Check>& checks, Run& run) {
@@ -184,7 +184,7 @@ OtherSolver solver_of(const Adapter& adapter) {
     if (run.is_solved() && with_sweeps && run.solver.element_order)
       run.sweeps = swept(adapter, folder, owner, variant, document, checks, run);
   };
-  // The wall time limits an adapter. This CPU limit ends it if the wall-clock watcher has failed.
+  // The wall time limits an adapter. This limit of processor time applies if the supervision fails.
   solver.time_limit_s = static_cast<unsigned>(std::min(64 * adapter.limits.wall_s + 1, 1e7));
   return solver;
 }
@@ -193,8 +193,8 @@ namespace {
 
 constexpr std::uintmax_t kMaxAnswerBytes = std::uintmax_t{64} << 20;
 
-/// Returns the requested quantity with that name. Another quantity of trammel is accepted as an
-/// addition.
+/// Returns name, unit and length of a requested quantity. For other quantities that trammel
+/// defines, returns only the unit.
 Json asked_quantity(const Json& asked, const std::string& name, const InputError& unknown) {
   const Json& all = asked.at("quantities");
   const auto found =
@@ -228,7 +228,7 @@ void read_adapter_answer(const std::filesystem::path& file, const Json& asked, R
   const std::string name = file.filename().string();
   std::error_code error;
   const auto bytes = std::filesystem::file_size(file, error);
-  if (error) throw InputError(name, "", "the adapter has not written this file");
+  if (error) throw InputError(name, "", "the adapter has not written this file; expected a result");
   if (bytes > kMaxAnswerBytes)
     throw InputError(name, "", "the file is too large; expected at most 64 MiB");
   const Json json = parse_json(read_text(file), name);

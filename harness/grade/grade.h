@@ -13,7 +13,7 @@ namespace trammel::harness {
 
 struct Adapter {
   std::vector<std::string> words;  ///< program and arguments
-  std::filesystem::path folder;    ///< parent of a separate folder for each call
+  std::filesystem::path folder;    ///< contains one folder for each call
   ProgramLimits limits;            ///< limits of one call of the adapter
 };
 

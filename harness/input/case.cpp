@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the keys that a case inherits from another one: the computation, but not its judgment.
+/// Returns the keys that a case inherits from an extended case: the computation, but no checks.
 Json inherited(const Json& base) {
   Json inherited_keys = Json::object();
   for (const char* key : {"model", "analysis", "effects", "variants", "sweeps", "uncertainty"}) {
@@ -36,20 +36,20 @@ Json inherited(const Json& base) {
   return inherited_keys;
 }
 
-/// Applies the file over all cases that it extends, outermost first.
+/// Applies the extended cases, starting with the most remote one, and then the case file itself.
 void apply_with_bases(Document& document, const fs::path& file, const Catalogue& catalogue,
                       std::vector<fs::path> seen) {
   const Json json = read_json(file);
-  if (!json.is_object()) throw InputError(file.string(), "", "expected an object");
+  if (!json.is_object()) throw InputError(file.string(), "", "expected a case as JSON object");
   seen.push_back(fs::weakly_canonical(file));
   if (const auto extends = json.find("extends"); extends != json.end()) {
     if (!extends->is_string())
       throw InputError(file.string(), "/extends", "expected the name or the file of a case");
     const fs::path base = catalogue.find_base_case(extends->get<std::string>(), file);
     if (contains(seen, fs::weakly_canonical(base))) {
-      throw InputError(
-          file.string(), "/extends",
-          "the case extends itself, directly or through others; expected another case");
+      throw InputError(file.string(), "/extends",
+                       "the case extends itself, directly or through other cases; expected a case "
+                       "that does not extend this case");
     }
     apply_with_bases(document, base, catalogue, seen);
   }
@@ -61,11 +61,11 @@ void check_variant_names(const Case& given) {
   const JsonView root(given.document);
   for (const auto& [name, variant] : root.entries("variants")) {
     if (name == kBaseVariant)
-      throw variant.error("the name 'base' is reserved for the case itself");
+      throw variant.error("the name 'base' denotes the case without patch; expected another name");
   }
 }
 
-/// Requires each indicator of the stress suite to be a check of the case.
+/// Requires that each indicator of the key "stress_suite" is the name of a check of the case.
 void check_indicators(const Case& given) {
   const JsonView root(given.document);
   if (!root.has("stress_suite")) return;
@@ -79,12 +79,12 @@ void check_indicators(const Case& given) {
 }
 
 InputError no_such_place(const JsonView& pointer, const std::string& guess) {
-  return pointer.error("expected a pointer to a value of the case, as /model/elements (got '" +
+  return pointer.error("expected a pointer to a value of the case, such as /model/elements (got '" +
                        printable(pointer.get<std::string>()) + "')" + guess);
 }
 
-/// Returns the schema violation of adding a key at a pointer. A key that replaces a default, such
-/// as /model/elements, is no violation.
+/// Returns the schema violation caused by adding a key at a JSON pointer; empty if the key is
+/// allowed. Optional keys with a default value, such as /model/elements, are allowed.
 std::optional<SchemaFault> schema_error_of_new_key(const Json& document, const JsonPointer& pointer,
                                                    const Json& value) {
   const SchemaFault nowhere{pointer.to_string(), ""};
@@ -142,10 +142,10 @@ std::string Case::variant_title(const std::string& variant) const {
 
 namespace {
 
-/// Adds error control, and the first or largest step, to a motion that states no step. Modal
-/// superposition has no step error. Extrapolation requires equal steps, as does elastodynamics with
-/// large displacement, which "effects" may select.
-/// @throws InputError  if a sweep or a study varies the step, which must then be stated.
+/// Adds a default time step and error control to a motion analysis that states no time step. The
+/// error control is omitted if all steps must be equal: in modal superposition, extrapolation, and
+/// elastodynamics with "effects", which may select large displacement.
+/// @throws InputError  if a sweep or a study varies a time step that the case does not state.
 void add_default_steps(Document& document) {
   const Json& json = document.value();
   const Json control = {{"error_control", {{"relative", 1e-4}}}};
@@ -250,11 +250,11 @@ std::vector<Level> levels(const Document& variant, const JsonView& sweep) {
   const JsonView values = sweep["values"];
   const bool by_patches = sweep.has("patches");
   if (by_patches == sweep.has("pointers"))
-    throw sweep.error("expected exactly one of 'pointers' and 'patches'");
+    throw sweep.error("expected exactly one of 'pointers' and 'patches' (got both or neither)");
   if (by_patches && sweep["patches"].size() != values.size()) {
     throw sweep["patches"].error("expected one patch for each of the " +
                                  std::to_string(values.size()) + " values (got " +
-                                 std::to_string(sweep["patches"].size()) + ")");
+                                 std::to_string(sweep["patches"].size()) + " patches)");
   }
   std::vector<Level> found;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -278,14 +278,14 @@ namespace {
 
 using Lengths = std::set<std::pair<double, std::string>>;  // lengths [m] with their pointers
 
-/// Warns about the largest length if it is more than a hundred times the next one.
+/// Warns about the largest length if it is more than a hundred times the second largest length.
 void warn_of_millimeters(const Lengths& lengths, std::vector<std::string>& warnings) {
   if (lengths.size() < 2) return;
   const auto& [largest, place] = *lengths.rbegin();
   const double next = std::next(lengths.rbegin())->first;
   if (next > 0 && largest > 100 * next)
     warnings.push_back(place + " is " + shortest_decimal(largest) +
-                       " m, more than 100 times all others; is it in millimeters?");
+                       " m, more than 100 times all other lengths; is the number in millimeters?");
 }
 
 }  // namespace
@@ -298,7 +298,7 @@ std::vector<std::string> unit_warnings(const Document& document) {
     const bool is_angle = place.ends_with("_rad") && !place.ends_with("per_rad");
     if (is_angle && value.is_number() && std::abs(value.get<double>()) > 2 * std::numbers::pi)
       warnings.push_back("/model" + place + " is " + shortest_decimal(value.get<double>()) +
-                         " rad, more than a turn; is it in degrees?");
+                         " rad, more than a full turn; is the number in degrees?");
   }
   Lengths nodes, links;
   const Json members = model.value("members", Json::object());

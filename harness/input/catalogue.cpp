@@ -22,7 +22,7 @@ bool is_no_case(std::string_view path_below) {
                              [&](std::string_view room) { return path_below.starts_with(room); });
 }
 
-/// Rejects names that would leave the catalogue's folder.
+/// Returns true if a text can be the name of a case, and is not a path.
 bool is_name(const std::string& text) {
   return text.find('/') == std::string::npos && !text.empty() && text.front() != '.';
 }
@@ -41,12 +41,12 @@ Catalogue::Catalogue(const fs::path& folder) : files_(references::json_files(fol
       files_, [](const auto& a, const auto& b) { return a.first == b.first; });
   if (twice == files_.end()) return;
   throw InputError(twice[1].second, "/id",
-                   "expected a unique name of the case (another one is " + twice->second + ")");
+                   "expected a unique name of the case (got it also in " + twice->second + ")");
 }
 
 bool Catalogue::has_analysis(const fs::path& file, int depth) const {
   const Json json = read_json(file);
-  if (!json.is_object()) return true;  // malformed: load_case reports it
+  if (!json.is_object()) return true;  // load_case reports the malformed file
   if (json.contains("analysis")) return true;
   if (!json.contains("extends") || !json["extends"].is_string() || depth > 20) return false;
   return has_analysis(find_base_case(json["extends"].get<std::string>(), file), depth + 1);
@@ -80,7 +80,7 @@ fs::path Catalogue::find_case(const std::string& name_or_file) const {
   const bool looks_like_file = !is_name(name_or_file) || file.extension() == ".json";
   if (looks_like_file && fs::exists(file, error)) return file;
   if (fs::path found = by_name(name_or_file); !found.empty()) return found;
-  if (looks_like_file) throw InputError(name_or_file + ": expected a readable file");
+  if (looks_like_file) throw InputError(name_or_file + ": expected a readable file (not found)");
   throw InputError(unknown_name("a case of the catalogue or a file", name_or_file, names()));
 }
 
@@ -115,7 +115,9 @@ std::vector<Case> Catalogue::load(const std::vector<std::string>& labels,
         throw InputError(
             unknown_name("a label of the catalogue", label, {known.begin(), known.end()}));
   if (chosen.empty() && !known.empty())
-    throw InputError("no case of the catalogue has this combination of labels");
+    throw InputError(
+        "no case of the catalogue has this combination of labels; expected labels "
+        "that a case has in common");
   return chosen;
 }
 

@@ -9,28 +9,29 @@
 
 namespace trammel::harness {
 
-/// The case files below a folder, listed once.
+/// Catalogue of all case files below a folder. The folder is searched once, on construction.
 class Catalogue {
  public:
-  /// Lists the catalogue of the installation.
+  /// Lists the case files of the installation.
   Catalogue();
-  /// @throws InputError  with both files, if two folders contain a case of the same name.
+  /// @throws InputError  if two case files have the same name. The message contains both paths.
   explicit Catalogue(const std::filesystem::path& folder);
 
-  /// Returns the files that can be run, by name. A file without an analysis, direct or inherited,
-  /// exists only to be extended.
+  /// Returns the case files with an analysis, sorted by name. Files that neither state nor inherit
+  /// an analysis serve only as a base of other cases.
   [[nodiscard]] std::vector<std::filesystem::path> runnable_files() const;
 
   /// Returns the file of a case, given its name in the catalogue or its path.
-  /// @throws InputError  with the nearest name, if there is none.
+  /// @throws InputError  if the case does not exist. The message suggests the most similar name.
   [[nodiscard]] std::filesystem::path find_case(const std::string& name_or_file) const;
 
-  /// Returns the file of "extends" in `from`: relative to that file, or a name of the catalogue.
-  /// @throws InputError  if there is none.
+  /// Returns the case file to which the key "extends" of the file `from` refers, by a path relative
+  /// to `from` or by a name in the catalogue.
+  /// @throws InputError  if the case file does not exist.
   [[nodiscard]] std::filesystem::path find_base_case(const std::string& name_or_file,
                                                      const std::filesystem::path& from) const;
 
-  /// Returns the cases that have all `labels` and at least one of `any_labels`, if there are any.
+  /// Returns the cases with all `labels` and, unless `any_labels` is empty, one of `any_labels`.
   /// @throws InputError  for a label that no case has, or if no case is selected.
   [[nodiscard]] std::vector<Case> load(const std::vector<std::string>& labels = {},
                                        const std::vector<std::string>& any_labels = {}) const;

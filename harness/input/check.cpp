@@ -21,7 +21,7 @@ void require_variant(const JsonView& place, const std::vector<std::string>& vari
   throw place.error(unknown_name("a variant of the case", name, variants));
 }
 
-/// Returns the only one of the keys that is present.
+/// Returns the present key. Exactly one of the alternative `keys` must be present.
 std::string exactly_one(const JsonView& place, const std::vector<std::string>& keys) {
   std::string found;
   int count = 0;
@@ -38,7 +38,7 @@ std::string exactly_one(const JsonView& place, const std::vector<std::string>& k
 }
 
 void read_tolerance(const JsonView& place, Check& check) {
-  const bool relative = place.has("relative");  // the schema allows one of the two
+  const bool relative = place.has("relative");  // the schema requires 'relative' or 'absolute'
   const double limit = place.number(relative ? "relative" : "absolute");
   check.measure = relative ? Measure::relative : Measure::absolute;
   check.windows = {{-limit, limit}};
@@ -48,15 +48,15 @@ void read_tolerance(const JsonView& place, Check& check) {
 
 void read_bound(const JsonView& place, Check& check) {
   if (!place.has("at_most") && !place.has("at_least"))
-    throw place.error("a bound requires 'at_most', 'at_least' or both");
+    throw place.error("a bound requires 'at_most', 'at_least' or both (got neither)");
   check.measure = Measure::value;
   check.windows = {{place.get("at_least", -kUnlimited), place.get("at_most", kUnlimited)}};
   if (check.windows[0].low > check.windows[0].high)
-    throw place.error("'at_least' is larger than 'at_most'");
+    throw place.error("'at_least' is larger than 'at_most'; expected a non-empty interval");
   check.why = place.text("why");
 }
 
-/// Returns the settings of a sweep that apply to this quantity alone.
+/// Returns the settings of a sweep for one quantity, such as the theoretical order of convergence.
 Json followed(const Json& sweep, const std::string& quantity) {
   return sweep.value("quantities", Json::object()).value(quantity, Json::object());
 }
@@ -74,14 +74,16 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
   const Json& sweep = sweeps.at(order.sweep);
   const Json own = followed(sweep, quantity);
   if (!sweep.contains("theory_order") && !own.contains("theory_order"))
-    throw place["sweep"].error("an 'order' check requires a sweep that states 'theory_order'");
+    throw place["sweep"].error(
+        "an 'order' check requires a sweep with the key 'theory_order' (the named one has none)");
   order.of_errors = own.value("is_error", false);
   if (exactly_one(place, {"within", "two_term_within"}) == "within") {
     order.within = place.number("within");
   } else {
     order.two_term_within = place.number("two_term_within");
     if (!sweep.contains("lower_order"))
-      throw place["sweep"].error("'two_term_within' requires a sweep that states 'lower_order'");
+      throw place["sweep"].error(
+          "'two_term_within' requires a sweep with the key 'lower_order' (the named one has none)");
   }
   order.meshes = place.get("min_meshes", std::size_t{3});
   if (const auto wave = place.find("wave_number")) {
@@ -89,7 +91,7 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
                          wave->number("at_most"), wave->pointer()};
   }
   if (const auto term = place.find("leading_term")) {
-    if (!order.wave_number) throw term->error("'leading_term' requires 'wave_number'");
+    if (!order.wave_number) throw term->error("'leading_term' requires the key 'wave_number'");
     order.leading_term = {term->number("coefficient"), term->number("within"),
                           term->get<std::string>("share", ""), term->pointer()};
   }
@@ -97,7 +99,7 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
   return order;
 }
 
-/// Rejects a known discrepancy that allows zero, because it could never be detected as resolved.
+/// Rejects a known discrepancy whose range contains zero, because agreement would go unnoticed.
 void require_discrepancy(const JsonView& place, const Check& check) {
   const bool is_difference =
       check.measure == Measure::relative || check.measure == Measure::absolute;
@@ -106,8 +108,8 @@ void require_discrepancy(const JsonView& place, const Check& check) {
       std::ranges::all_of(check.windows, [](const Window& window) { return window.contains(0); });
   if (everywhere) {
     throw place.error(
-        "expected a window without 0: a known discrepancy whose window contains 0 "
-        "cannot be detected as resolved");
+        "expected a window without 0 for a known discrepancy: if the window contains 0, "
+        "agreement cannot be detected");
   }
 }
 
@@ -147,7 +149,7 @@ void read_expectation(const JsonView& place, Check& check) {
   const std::string measure = key.substr(0, key.find('_'));
   const bool is_value = measure == key;
   if (is_value != place.has("within")) {
-    throw place.error(is_value ? "'" + key + "' requires 'within'"
+    throw place.error(is_value ? "'" + key + "' requires 'within', the half width of the range"
                                : "'within' requires '" + measure + "' (got '" + key + "')");
   }
   check.measure = static_cast<Measure>(std::ranges::find(kMeasures, measure) - kMeasures.begin());
@@ -162,26 +164,28 @@ void require_target(const JsonView& place, const Check& check) {
   const int targets = (check.reference.empty() ? 0 : 1) +
                       (check.against_variant.empty() && check.against_quantity.empty() ? 0 : 1);
   if (targets > 1)
-    throw place.error("'reference' excludes 'against_variant' and 'against_quantity'");
+    throw place.error("'reference' excludes 'against_variant' and 'against_quantity' (got both)");
   if (check.against_quantity == check.quantity && check.against_variant.empty())
     throw place["against_quantity"].error(
         "a quantity cannot be compared with itself; expected another quantity");
   if (!check.reference_index.empty() && check.reference.empty())
-    throw place["reference_index"].error("'reference_index' requires 'reference'");
+    throw place["reference_index"].error("'reference_index' requires 'reference' (got none)");
   const bool of_errors = check.order && check.order->of_errors;
   const bool needs = !of_errors && (check.order || check.measure != Measure::value);
   if (needs && targets == 0)
-    throw place.error("this check requires 'reference', 'against_variant' or 'against_quantity'");
+    throw place.error(
+        "the check has no value to compare with: it requires 'reference', 'against_variant' or "
+        "'against_quantity'");
   if (!needs && targets > 0) {
     throw place.error("expected no 'reference', 'against_variant' or 'against_quantity': " +
                       std::string(of_errors ? "the quantity is itself an error"
                                             : "a bound limits the value itself"));
   }
   if (check.order && !of_errors && check.reference.empty())
-    throw place.error("'order' requires 'reference' with the exact values");
+    throw place.error("'order' requires 'reference', a reference with the exact values");
 }
 
-/// Reads the criterion of the check, which depends on its role.
+/// Reads the criterion of a check: "expect" for a validation, else "tolerance", "bound" or "order".
 void read_criterion(const JsonView& place, const Document& document, Check& check) {
   if (check.role == Role::validation) {
     for (const char* key : {"tolerance", "bound", "order"}) {
@@ -195,7 +199,8 @@ void read_criterion(const JsonView& place, const Document& document, Check& chec
     if (place.has("expect")) read_expectation(place["expect"], check);
     return;
   }
-  if (place.has("expect")) throw place["expect"].error("'expect' requires the role validation");
+  if (place.has("expect"))
+    throw place["expect"].error("'expect' requires the role 'validation' (got another role)");
   const std::string key = exactly_one(place, {"tolerance", "bound", "order"});
   if (key == "tolerance") read_tolerance(place[key], check);
   if (key == "bound") read_bound(place[key], check);
@@ -226,7 +231,7 @@ Check read_check(const std::string& name, const JsonView& place, const Document&
       check.negative_control->index = index->get<std::size_t>();
     check.why = control->text("why");
   }
-  // The description of a variant is stated once and applies to all its checks.
+  // The description of a variant is part of the reason for each of its known discrepancies.
   const auto variant_text = JsonView(document).get<std::string>("description", "");
   if (check.expectation == Expectation::known_discrepancy && !variant_text.empty())
     check.why = variant_text + " " + check.why;
@@ -237,12 +242,12 @@ bool applies(const JsonView& place, const std::string& variant,
              const std::vector<std::string>& variants) {
   if (place.has("against_variant")) {
     require_variant(place["against_variant"], variants);
-    // A variant is not compared with itself.
     const auto quantity = place.text("quantity");
     if (place.text("against_variant") == variant &&
         place.get("against_quantity", quantity) == quantity) {
       if (variants.size() == 1)
-        throw place["against_variant"].error("the case has no other variant to compare with");
+        throw place["against_variant"].error(
+            "the case has no other variant to compare with; expected a case with variants");
       return false;
     }
   }

@@ -5,11 +5,11 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns a value without the null members of its objects.
+/// Returns a JSON value without those members of objects that are null.
 Json without_nulls(const Json& value) {
   if (!value.is_object()) return value;
   Json kept = Json::object();
-  // operator[] would make the cost quadratic in the number of keys.
+  // Members are appended, because operator[] would make the cost quadratic in the number of keys.
   Json::object_t::Container& members = kept.get_ref<Json::object_t&>();
   members.reserve(value.size());
   for (const auto& item : value.items())

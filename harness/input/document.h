@@ -13,36 +13,36 @@ namespace trammel::harness {
 /// File and JSON pointer at which the user wrote a value.
 struct Origin {
   std::string file, pointer;
-  /// `pointer` leads to the value of a sweep that replaces the value at this place.
+  /// True if `pointer` refers to a value of a sweep, which replaces the value in the document.
   bool is_value = false;
 };
 
-/// Composes two merge patches that apply one after the other. Unlike a document, a patch keeps its
-/// nulls.
+/// Combines two merge patches into one: `patch`, followed by `later`. Nulls are kept, because they
+/// remove keys when the combined patch is applied.
 void compose(Json& patch, const Json& later);
 
 /// A JSON document made of layers, each a merge patch (RFC 7386) over the previous ones. It records
 /// the file of each value, so that messages refer to the place written by the user.
 class Document {
  public:
-  /// Returns a document without further layers, which keeps its nulls.
+  /// Returns a document of one JSON value. Nulls are kept and do not remove keys.
   [[nodiscard]] static Document from_json(const std::string& file, const Json& json);
 
-  /// Applies a patch. A null removes a key, except inside "variants", which are patches themselves.
-  /// @param origin  pointer to the patch in `file`; empty: the complete file
+  /// Applies a merge patch. A null removes its key, except inside "variants", which has patches.
+  /// @param origin  JSON pointer of the patch in `file`; empty if the patch is the complete file
   void apply_patch(const std::string& file, const std::string& origin, const Json& patch);
-  /// Applies a patch that the file states as one number of a sweep. Errors refer to that number.
+  /// Applies a patch built from one value of a sweep. Error messages refer to this value in `file`.
   void apply_value_patch(const std::string& file, const std::string& origin, const Json& patch);
 
   [[nodiscard]] const Json& value() const { return value_; }
 
-  /// Returns the place where the value at `pointer`, or its innermost container, was last written.
+  /// Returns file and pointer at which the value, or else its innermost object, was last written.
   [[nodiscard]] Origin origin(const std::string& pointer) const;
 
-  /// Returns an error for `pointer`, with the file and pointer at which the value was written.
+  /// Returns an error at a value, with the file and pointer at which the value was written.
   [[nodiscard]] InputError error(const std::string& pointer, const std::string& message) const;
 
-  /// @throws InputError  if the document violates the schema of that name.
+  /// @throws InputError  if the document violates the schema with this name.
   void validate(const std::string& schema) const;
 
  private:
@@ -55,10 +55,10 @@ class Document {
   std::vector<Layer> layers_;
 };
 
-/// A violation of a schema and its place.
+/// Violation of a JSON schema and its position in the document.
 struct SchemaFault {
   std::string pointer;  ///< JSON pointer into the document; empty: the document itself
-  std::string message;  ///< "expected ... (got ...)"
+  std::string message;  ///< text of the form "expected ... (got ...)"
 };
 
 /// Returns the most deeply nested violation; empty if the document satisfies the schema.

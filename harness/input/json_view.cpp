@@ -3,7 +3,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns the pointer of a member. The pointer is parsed only if the key needs an escape.
+/// Returns the JSON pointer of a key. `pointer` is parsed only if the key contains '~' or '/'.
 std::string extended(const std::string& pointer, const std::string& key) {
   if (key.find_first_of("~/") != std::string::npos) return (JsonPointer(pointer) / key).to_string();
   return pointer + "/" + key;

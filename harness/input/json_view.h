@@ -10,10 +10,10 @@
 
 namespace trammel::harness {
 
-/// Default of the first or largest step of a motion, relative to the duration.
+/// Default ratio of the (first or largest) time step of a motion to the duration of the motion.
 inline constexpr double kDefaultStep = 1e-3;
 
-/// Names of an enumeration's values in a case, in the order of the values.
+/// Words that denote the values of an enumeration in case files, in the order of the enumeration.
 template <class Enum>
 inline constexpr std::array<const char*, 0> kWords{};
 
@@ -26,11 +26,11 @@ class JsonView {
   [[nodiscard]] bool has(const std::string& key) const;
   [[nodiscard]] JsonView operator[](const std::string& key) const;
   [[nodiscard]] JsonView operator[](std::size_t index) const;
-  /// Returns the value of a key if it is present.
+  /// Returns the value of a key; empty if the key is absent.
   [[nodiscard]] std::optional<JsonView> find(const std::string& key) const;
   /// Returns the entries of an object with their names, or of an array with their indices as names.
   [[nodiscard]] std::vector<std::pair<std::string, JsonView>> entries() const;
-  /// Returns the entries of the value of a key; none if the key is missing.
+  /// Returns the entries of the object or array at a key; none if the key is missing.
   [[nodiscard]] std::vector<std::pair<std::string, JsonView>> entries(const std::string& key) const;
   [[nodiscard]] std::size_t size() const { return json_->size(); }
 
@@ -52,7 +52,7 @@ class JsonView {
     return (*this)[key].get<std::string>();
   }
 
-  /// Returns one or several indices; none if the key is missing.
+  /// Returns the indices stated at a key as one number or a list; none if the key is missing.
   [[nodiscard]] std::vector<std::size_t> indices(const std::string& key) const;
 
   [[nodiscard]] const Json& json() const { return *json_; }

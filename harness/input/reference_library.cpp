@@ -25,7 +25,7 @@ bool is_in_catalogue(const fs::path& folder) {
   return !inside.empty() && *inside.begin() != "..";
 }
 
-/// Returns the file with the user's references of a case. Cases of the catalogue have none.
+/// Returns references.json next to a user's case; empty for cases of the catalogue.
 std::string own_file(const fs::path& case_file) {
   const fs::path folder = fs::absolute(case_file).parent_path();
   if (is_in_catalogue(folder) || case_file.filename() == kOwnFile) return {};
@@ -36,7 +36,7 @@ std::string place_of(const std::string& file, const std::string& id) {
   return file + "#/" + id;
 }
 
-/// Splits a place into file and id.
+/// Splits the place "FILE#/ID" of a reference into file and id.
 std::pair<std::string, std::string> parts_of(const std::string& place) {
   const std::size_t end = place.rfind("#/");
   if (end == std::string::npos) return {place, ""};
@@ -69,8 +69,8 @@ const std::vector<references::JsonMember>& References::members(const std::string
   Family& split = family(file);
   if (!split.members) split.members = references::json_members(split.file.text);
   if (!split.members) {
-    (void)read_json(file);  // reports the line, or the duplicate key
-    throw InputError(file, "", "expected an object");
+    (void)read_json(file);  // throws with the line or key of the fault
+    throw InputError(file, "", "expected an object with one key per reference or source");
   }
   return *split.members;
 }
@@ -119,7 +119,9 @@ std::string References::find_in_catalogue(const std::string& id) const {
 
 CitedReference References::read(const std::string& place) const {
   const auto [file, id] = parts_of(place);
-  if (!has(file, id)) throw InputError(file, "/" + id, "the file has no reference with this id");
+  if (!has(file, id))
+    throw InputError(file, "/" + id,
+                     "the file has no reference with this id; expected a key of the file");
   const auto common = find_member(members(file), references::kCommon);
   std::string text = "{";
   if (common) text.append("\"common\":").append(*common).append(1, ',');
@@ -128,7 +130,7 @@ CitedReference References::read(const std::string& place) const {
   try {
     json = parse_json(text, file);
   } catch (const InputError&) {
-    (void)read_json(file);  // reports the line in the file
+    (void)read_json(file);  // throws with the line in the file
     throw;
   }
   if (const auto schema_error = find_schema_fault(json, "reference"))

@@ -13,38 +13,38 @@
 
 namespace trammel::harness {
 
-/// A reference together with its source.
+/// Reference values and their bibliographic source.
 struct CitedReference {
   references::Reference reference;
   references::Source source;
 };
 
-/// References by id, each read once: from references.json next to the case file, else from the
-/// catalogue. The place of a reference is its file and its JSON pointer: "FILE#/ID".
+/// Library of reference values by id. Each reference is read once: from references.json next to the
+/// case file, else from the catalogue. The place of a reference is the text "FILE#/ID".
 class References {
  public:
   /// @param id  value of a document that is the id of a reference
   /// @throws InputError  if the reference is missing, is defined in two files, or is malformed.
   [[nodiscard]] const references::Reference& get(const JsonView& id) const;
 
-  /// Reads the reference at a place.
-  /// @throws InputError  if it is missing or malformed.
+  /// Reads the reference at a place "FILE#/ID".
+  /// @throws InputError  if the reference is missing or malformed.
   const references::Reference& add(const std::string& place) const;
 
-  /// Returns the places of the catalogue's references by id.
-  /// @throws InputError  if a file is malformed or contains an id of another file.
+  /// Returns the place "FILE#/ID" of every reference in the catalogue, by id.
+  /// @throws InputError  if a file is malformed or two files contain the same id.
   [[nodiscard]] std::map<std::string, std::string> catalogue() const;
 
-  /// Returns a hash for each place requested so far; empty for places without a reference.
+  /// Returns the content hash of each requested reference, by place; empty for missing references.
   [[nodiscard]] std::map<std::string, std::string> hashes() const;
-  /// Returns the hash of a reference, including the data shared by its family.
+  /// Returns the content hash of a reference, including data shared by the references of its file.
   [[nodiscard]] std::string hash(const std::string& place) const;
 
-  /// Returns all references requested so far, by id.
+  /// Returns all references that have been requested, by id.
   [[nodiscard]] std::map<std::string, CitedReference> used() const;
 
  private:
-  /// A file with a family of references, read once and split on first use.
+  /// Text of a file with several references. The text is split into references on first use.
   struct Family {
     references::FileText file;
     std::optional<std::vector<references::JsonMember>> members;
@@ -62,14 +62,14 @@ class References {
   [[nodiscard]] const std::vector<references::JsonMember>& members(const std::string& file) const;
   [[nodiscard]] bool exists(const std::string& file) const;
   [[nodiscard]] bool has(const std::string& file, const std::string& id) const;
-  /// Returns the place of a case's reference.
-  /// @throws InputError  if there is none.
+  /// Returns the place "FILE#/ID" of the reference that a case names.
+  /// @throws InputError  if no reference has this name.
   [[nodiscard]] std::string find(const std::string& name, const std::string& case_file,
                                  const JsonView& id) const;
-  /// Returns the source of a key: from the bibliography next to the reference's file, else from
-  /// that of the catalogue.
+  /// Returns the bibliographic source with a key: from the bibliography in the folder of the
+  /// reference's file, else from the bibliography of the catalogue.
   [[nodiscard]] references::Source source(const std::string& key, const std::string& file) const;
-  /// Returns the place of a reference of the catalogue, or "" if there is none.
+  /// Returns the place "FILE#/ID" of a reference of the catalogue; empty if no file has the id.
   [[nodiscard]] std::string find_in_catalogue(const std::string& id) const;
   [[nodiscard]] CitedReference read(const std::string& place) const;
 
@@ -78,7 +78,7 @@ class References {
   mutable std::map<std::string, Family> families_;
   mutable std::map<std::pair<std::string, std::string>, std::string> places_;  // by case and id
   mutable std::map<std::string, CitedReference> read_;                         // by place
-  mutable std::set<std::string> absent_;  // places that were searched without success
+  mutable std::set<std::string> absent_;  // places without a reference
 };
 
 }  // namespace trammel::harness

@@ -41,13 +41,13 @@ bool is_whole(const Json& value) {
   return std::trunc(value.get<double>()) == value.get<double>();
 }
 
-/// Returns true if a value has one of the types of a rule.
+/// Returns true if a JSON value has a type that the schema rule allows.
 bool has_type(const Json& value, const SchemaRule& rule) {
   return keyword(rule, "type") == nullptr || allows_type(rule, value.type_name()) ||
          (is_whole(value) && allows_type(rule, "integer"));
 }
 
-/// Returns true if a value satisfies one keyword, except its type and the rules of nested values.
+/// Returns true if a JSON value satisfies a keyword. The type and nested values are not examined.
 bool obeys(const Json& value, std::string_view name, const SchemaRule& limit) {
   if (name == "enum") {
     return std::any_of(limit.Begin(), limit.End(),
@@ -108,7 +108,7 @@ class Checker {
     return false;
   }
 
-  /// Returns the target of "$ref", cached.
+  /// Returns the rule to which "$ref" refers. The result is cached.
   const SchemaRule& meant(const SchemaRule& stated) {
     const SchemaRule*& rule = meant_[&stated];
     if (rule == nullptr) rule = &resolved(root_, stated);
@@ -155,7 +155,7 @@ class Checker {
     if (deepest_.value == &value) deepest_.rules.push_back(&rule);
   }
 
-  /// Step into a member or an item.
+  /// Step of a path: the key of an object's member, or the index of an array's item.
   struct Step {
     const std::string* key = nullptr;
     std::size_t index = 0;

@@ -22,13 +22,13 @@ const SchemaRule* keyword(const SchemaRule& rule, const char* name) {
 
 const SchemaRule& load_schema(const std::string& name) {
   static std::map<std::string, std::pair<std::string, SchemaDocument>> loaded;
-  auto& [text, document] = loaded[name];  // its strings point into the text
+  auto& [text, document] = loaded[name];  // strings of the parsed document point into the text
   if (document.IsNull()) {
     const auto file = data_root() / "cases" / "schema" / (name + ".schema.json");
-    // White space is skipped in aligned blocks of 16 bytes, which may begin at the last byte.
+    // RapidJSON reads aligned blocks of 16 bytes, which may extend beyond the last character.
     text = read_text(file) + std::string(16, '\0');
     if (document.ParseInsitu(text.data()).HasParseError())
-      throw InputError(file.string() + ": expected JSON");
+      throw InputError(file.string() + ": the schema cannot be parsed; expected JSON");
   }
   return document;
 }
@@ -52,7 +52,7 @@ namespace {
 
 using Rules = std::vector<const SchemaRule*>;
 
-/// Collects the rules of a schema node, with references and alternatives resolved.
+/// Collects the rules of a schema node after resolving "$ref" and "anyOf".
 void open(const SchemaRule& root, const SchemaRule& stated, Rules& rules) {
   const SchemaRule& rule = resolved(root, stated);
   const SchemaRule* any = keyword(rule, "anyOf");
@@ -135,7 +135,7 @@ std::string describe_value(const Json& value) {
   return printable(value.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-/// Returns the keys that an object may have; empty if it may have any.
+/// Returns the keys that an object may have; empty if any key is allowed.
 std::vector<std::string> allowed_keys(const Rules& rules) {
   std::vector<std::string> keys;
   for (const SchemaRule* rule : rules) {
@@ -154,7 +154,7 @@ std::string all_quoted(std::vector<std::string> names, const char* last) {
   return join(names, last);
 }
 
-/// Returns the keys that are present: "(got 'a' and 'b')".
+/// Returns the keys of an object as text for messages: "(got 'a' and 'b')".
 std::string got_keys(const Json& object) {
   std::vector<std::string> keys;
   for (const auto& item : object.items()) keys.push_back(item.key());
@@ -168,7 +168,7 @@ std::string pointer_to(const std::vector<std::string>& path) {
   return pointer.to_string();
 }
 
-/// Returns the keys that an object must have, including those required by its other keys.
+/// Returns the required keys of an object, including those on which its other keys depend.
 std::vector<std::string> needed_keys(const Json& object, const SchemaRule& rule) {
   std::vector<std::string> keys;
   const auto add = [&](const SchemaRule& names) {

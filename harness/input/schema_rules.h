@@ -1,6 +1,6 @@
 #pragma once
 
-#if defined(__SSE2__)  // RapidJSON then reads 16 bytes at a time
+#if defined(__SSE2__)  // RapidJSON processes 16 bytes at a time
 #define RAPIDJSON_SSE2
 #endif
 #include <rapidjson/document.h>
@@ -39,27 +39,27 @@ using SchemaPool = rapidjson::MemoryPoolAllocator<SchemaAllocator>;
 using SchemaRule = rapidjson::GenericValue<rapidjson::UTF8<>, SchemaPool>;
 using SchemaDocument = rapidjson::GenericDocument<rapidjson::UTF8<>, SchemaPool, SchemaAllocator>;
 
-/// Returns the value of a keyword, or null.
+/// Returns the value of a keyword of a JSON schema, such as "minimum"; null if it is absent.
 [[nodiscard]] const SchemaRule* keyword(const SchemaRule& rule, const char* name);
 
 /// Loads a schema of cases/schema. Each schema is read once per process.
-/// @throws InputError  if there is no such schema.
+/// @throws InputError  if the schema does not exist.
 [[nodiscard]] const SchemaRule& load_schema(const std::string& name);
 
-/// Returns the target of "$ref", or the rule itself if it has no "$ref".
+/// Returns the schema rule to which "$ref" refers, or the rule itself if it has no "$ref".
 [[nodiscard]] const SchemaRule& resolved(const SchemaRule& root, const SchemaRule& rule);
 
-/// Returns true if "type" is, or includes, the given type.
+/// Returns true if the keyword "type" of a schema rule allows the given JSON type.
 [[nodiscard]] bool allows_type(const SchemaRule& rule, const char* type);
 
-/// A value and the rules that it violates; for anyOf, the rules of all alternatives.
+/// JSON value and the schema rules that it violates. For anyOf, these are the rules of all options.
 struct BrokenRules {
   const Json* value = nullptr;
-  std::vector<std::string> path;  ///< keys and indices from the root
+  std::vector<std::string> path;  ///< keys and indices that lead from the root to the value
   std::vector<const SchemaRule*> rules;
 };
 
-/// Describes what the schema expects.
+/// Returns the position of a violation, and a message with the expected and the given value.
 /// @param schema  root of the schema document
 [[nodiscard]] SchemaFault describe_violation(const SchemaRule& schema, const BrokenRules& broken);
 

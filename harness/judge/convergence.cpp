@@ -11,7 +11,7 @@ namespace {
 
 using results::Number;
 
-/// Relative tolerance of an order, for agreement between neighbors and with theory.
+/// Relative tolerance for agreement of an order with theory, or with that of the adjacent level.
 constexpr double kOrderTolerance = 0.1;
 
 bool orders_agree(double order, double other) {
@@ -28,7 +28,7 @@ double relative(double value, double reference) {
 double order_of_three(const std::vector<double>& v, const std::vector<double>& h, std::size_t k) {
   const double ratio = (v[k - 2] - v[k - 1]) / (v[k - 1] - v[k]);
   if (!std::isfinite(ratio) || ratio <= 0) return kNaN;
-  // Sizes are scaled by h1 so that large p do not overflow.
+  // Sizes are scaled by h1 so that powers with a large p do not overflow.
   const double coarse = h[k - 2] / h[k - 1];
   const double fine = h[k] / h[k - 1];
   const auto excess = [&](double p) {
@@ -43,12 +43,12 @@ double order_of_three(const std::vector<double>& v, const std::vector<double>& h
   return 0.5 * (low + high);
 }
 
-/// Returns the order between two levels from their errors.
+/// Returns the observed order of convergence from the errors on two levels.
 double order_of_errors(double coarse, double fine, double h_coarse, double h_fine) {
   return std::log(coarse / fine) / std::log(h_coarse / h_fine);
 }
 
-/// Analyzes the convergence of the levels that have a value.
+/// Analyzes the convergence of a series of values. Levels without a value are skipped.
 class ConvergenceStudy {
  public:
   explicit ConvergenceStudy(Convergence& series) : series_(series) {
@@ -92,8 +92,8 @@ class ConvergenceStudy {
     for (std::size_t k = 2; k < count(); ++k) observed_[k] = order_of_three(v_, h_, k);
   }
 
-  /// Returns true if three values converge no faster than with order zero, such as the stress at a
-  /// reentrant corner. They have no limit.
+  /// Returns true if the values on three levels converge no faster than with order zero. They have
+  /// no limit, such as the stress at a reentrant corner.
   [[nodiscard]] bool diverges(std::size_t k) const {
     if (k < 2) return false;
     const double before = std::abs(v_[k - 1] - v_[k - 2]), last = std::abs(v_[k] - v_[k - 1]);
@@ -101,17 +101,17 @@ class ConvergenceStudy {
     return last * std::log(h_[k - 2] / h_[k - 1]) >= before * std::log(h_[k - 1] / h_[k]);
   }
 
-  /// Expected converged value from a level and the previous ones, with its safety factor.
+  /// Converged value extrapolated from a level and the previous levels, with its safety factor.
   struct Expected {
     double value = kNaN, factor = 3;
   };
 
-  /// Richardson extrapolation with one order.
+  /// Returns the limit by Richardson extrapolation of levels k - 1 and k with one order.
   [[nodiscard]] double extrapolated(std::size_t k, double order) const {
     return v_[k] + (v_[k] - v_[k - 1]) / (std::pow(h_[k - 1] / h_[k], order) - 1);
   }
 
-  /// Returns true if theory predicts this order for the level.
+  /// Returns true if the order agrees with theory, or lies between two theoretical orders that mix.
   [[nodiscard]] bool is_theoretical_order(double order) const {
     if (!series_.theory_order || std::isnan(order)) return false;
     if (!series_.lower_order) return orders_agree(order, *series_.theory_order);
@@ -126,7 +126,7 @@ class ConvergenceStudy {
     if (!series_.theory_order)
       return {extrapolated(k, std::isnan(seen) ? 1 : std::max(0.5, seen)), 3};
     const double lowest = series_.lower_order.value_or(*series_.theory_order);
-    // Two levels have no observed order; Roache's factor for the theoretical order applies.
+    // Two levels have no observed order. The theoretical order applies, with Roache's factor 3.
     if (k == 1) return {extrapolated(k, lowest), 3};
     // The values oscillate, so that they have no observed order.
     if (std::isnan(seen)) return {extrapolated(k, std::min(1.0, lowest)), 3};
@@ -137,7 +137,7 @@ class ConvergenceStudy {
       if (std::isfinite(value)) return {value, 1.25};
     }
     if (is_theoretical_order(seen)) return {extrapolated(k, *series_.theory_order), 1.25};
-    // An order above theory does not persist under refinement, so it is not used.
+    // An observed order above theory does not persist under refinement, so theory limits the order.
     return {extrapolated(k, std::clamp(seen, std::min(0.5, lowest), lowest)), 3};
   }
 
@@ -149,8 +149,7 @@ class ConvergenceStudy {
       const auto [value, factor] = expected(k);
       gci_[k] = factor * std::abs((value - v_[k]) / v_[k]) + roundoff_[k];
       factor_[k] = factor;
-      // The extrapolated value is taken from the level with the smallest change, including
-      // round-off.
+      // The extrapolated value with the smallest change between levels and round-off is used.
       const double from = std::isfinite(before) ? before : v_[k];
       const double change = std::abs(value - from) + roundoff_[k] * std::abs(value);
       before = value;
@@ -174,7 +173,7 @@ class ConvergenceStudy {
     }
   }
 
-  /// Fits the two-term law to the errors if two orders mix.
+  /// Fits the two-term law a h^p + b h^q to the errors if two orders of convergence mix.
   /// @returns whether two orders mix
   bool fit_two_orders() {
     if (!series_.theory_order || !series_.lower_order) return false;
@@ -197,7 +196,8 @@ class ConvergenceStudy {
     in_range_.assign(count(), false);
     at_floor_.assign(count(), false);
     for (std::size_t k = 0; k < count(); ++k) {
-      const double clear = series_.is_error ? 1.0 : error_[k];  // roundoff_ is relative to v_
+      // Because roundoff_ is relative to v_.
+      const double clear = series_.is_error ? 1.0 : error_[k];
       at_floor_[k] = clear <= kRoundoffMargin * roundoff_[k];
     }
     if (fit_two_orders()) return;
@@ -245,7 +245,7 @@ using results::TwoTermLaw;
 
 namespace {
 
-/// Fits a and b of the two-term law to the levels first, first + 1, ... by least squares of
+/// Fits a and b of the two-term law to selected levels by least squares of
 ///   1 = (a h^p + b h^q) / error.
 class Fit {
  public:
@@ -302,7 +302,7 @@ std::optional<TwoTermLaw> fit_two_terms(const std::vector<double>& h,
 
 double extrapolate_two_terms(const std::array<double, 3>& h, const std::array<double, 3>& v,
                              const TwoTermOrders& law) {
-  // Differences eliminate the limit, then b: v_i - v_2 = a (h_i^p - h_2^p) + b (h_i^q - h_2^q).
+  // Differences eliminate the limit: v_i - v_2 = a (h_i^p - h_2^p) + b (h_i^q - h_2^q).
   const double fine = h[2];
   const auto p = [&](std::size_t i) { return std::pow(h[i] / fine, law.p) - 1; };
   const auto q = [&](std::size_t i) { return std::pow(h[i] / fine, law.q) - 1; };

@@ -23,42 +23,42 @@ using results::Convergence;
                                                   const results::Numbers& error,
                                                   const std::vector<bool>& chosen);
 
-/// Largest relative misfit of the two-term law on the levels that it is fitted to.
+/// Largest allowed relative misfit of the two-term error law on the levels used for its fit.
 inline constexpr double kTwoTermTolerance = 0.05;
 
-/// Minimum ratio of an error to its round-off error. Below it, round-off error hides the
+/// Minimum ratio of an error to its round-off error. Below this ratio, round-off error hides the
 /// discretization error.
 inline constexpr double kRoundoffMargin = 100;
 
-/// Required fraction of levels whose band contains the exact value (hit rate). The bands claim a
-/// coverage of about 95 %.
+/// Required fraction of refinement levels whose uncertainty band contains the exact value (hit
+/// rate). The bands claim a coverage of about 95 %.
 inline constexpr double kMinHitRate = 0.95;
-/// Limit of the median ratio of band width to error. It is Roache's larger safety factor, which
-/// applies if no observed order is close to theory.
+/// Limit of the median ratio of uncertainty band to true error. The limit is Roache's larger safety
+/// factor, which applies if no observed order is close to theory.
 inline constexpr double kMaxMedianRatio = 3;
-/// Minimum number of levels for a judgment of the bands. With fewer levels, a single band without
-/// the exact value would decide the result.
+/// Minimum number of levels for a judgment of the uncertainty bands. With fewer levels, a single
+/// band without the exact value would decide the result.
 inline constexpr std::size_t kMinLevels = 100;
 
-/// Compares the bands of numerical uncertainty with exact values: the hit rate, and the width
-/// relative to the error. The width matters because an excessively wide band always contains the
-/// exact value. Levels without a band, or with an exact value of 0, are excluded. The median ratio
-/// includes levels with an error above 100 times round-off.
+/// Compares uncertainty bands (grid convergence index) with exact values: the hit rate, and the
+/// band width relative to the error. The width matters because an excessively wide band always
+/// contains the exact value. Levels without a band, or with an exact value of 0, are excluded. The
+/// median ratio includes levels with an error above 100 times round-off.
 [[nodiscard]] results::UncertaintyCoverage summarize_numerical_uncertainty(
     const std::vector<results::Run>& runs);
 
-/// Errors that are the sum of two powers, a h^p + b h^q. Examples are bending elements of order 4
-/// joined by linear axial interpolation of order 2, and Timoshenko elements, in which shear
-/// dominates on short elements. Between the two ranges no single order is observed.
+/// Errors that are the sum of two powers, a h^p + b h^q. Examples are beam elements with bending of
+/// order 4 and linear axial interpolation of order 2, and Timoshenko elements, in which shear
+/// dominates on short elements. Between coarse and fine meshes no single order is observed.
 
 struct TwoTermOrders {
   double p = 4, q = 2;  ///< orders, p > q > 0
 };
 
-/// Fits the law by least squares of the relative residuals over the usable levels. Coarse levels
-/// with further error terms are removed one by one until the law fits the others within `within`.
-/// At least one level more than coefficients remains.
-/// @param error   signed, one per level, coarse to fine.
+/// Fits the law a h^p + b h^q by least squares of the relative residuals over the usable levels.
+/// Coarse levels with further error terms are removed one by one until the largest relative
+/// residual is at most `within`. At least three levels remain.
+/// @param error   signed error of each level, coarse to fine.
 /// @param usable  false if an error is missing or dominated by round-off.
 /// @return empty for fewer than three usable levels
 [[nodiscard]] std::optional<results::TwoTermLaw> fit_two_terms(const std::vector<double>& h,

@@ -12,7 +12,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Maximum number of entries that are reported singly. For more, only the worst is reported.
+/// Maximum number of entries that are reported singly. Of more entries, only the worst is reported.
 constexpr std::size_t kMaxEntries = 16;
 
 /// Reason why a check cannot be judged.
@@ -27,7 +27,7 @@ std::vector<std::string> names_of(const Quantities& quantities) {
   return names;
 }
 
-/// Lists the available quantities without their parts: " (known here: frequency_Hz and ...)".
+/// Lists the available quantities, up to the colon: " (known here: frequency_Hz and ...)".
 std::string known_kinds(const Quantities& quantities) {
   constexpr std::size_t most = 12;
   std::vector<std::string> kinds;
@@ -66,10 +66,10 @@ std::vector<double> pick(const std::vector<double>& values, const std::vector<st
   return picked;
 }
 
-/// Numbers to compare, entry by entry.
+/// Computed and expected numbers of a check, one per entry.
 struct ComparedValues {
   std::vector<double> computed;
-  std::vector<double> expected;  ///< expected values; empty if the check compares with nothing
+  std::vector<double> expected;  ///< expected values; empty if the check is a bound
   /// Absolute uncertainty of each expected value; empty if there is none.
   std::vector<double> uncertainty;
 };
@@ -133,7 +133,7 @@ std::string outside(const Check& check, double value, const Window& window) {
   return where;
 }
 
-/// Returns the window widened on both sides by half a unit of the last digit printed by a solver.
+/// Returns the tolerance window, widened on both sides by half a unit of the solver's last digit.
 Window widened(const Window& window, const Check& check, const CheckResult& entry, int digits) {
   if (*entry.computed == 0) return window;
   const double leading = std::floor(std::log10(std::abs(*entry.computed)));
@@ -143,7 +143,7 @@ Window widened(const Window& window, const Check& check, const CheckResult& entr
   return {window.low - half_unit, window.high + half_unit};
 }
 
-/// Judges one entry, whose computed and expected values are set.
+/// Sets the verdict of an entry, whose computed and expected values are set, by its tolerance.
 void evaluate_entry(const Check& check, const Window* window, double uncertainty,
                     CheckResult& entry) {
   const double expected = check.has_target() ? *entry.expected : 0;
@@ -168,7 +168,7 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
     return;
   }
   entry.tolerance = {window->low, window->high, check.symmetric};
-  // Single entries of a known discrepancy may agree if the window contains zero.
+  // Single entries of a known discrepancy may agree if the tolerance window contains zero.
   if (entry.expectation == Expectation::known_discrepancy && window->contains(0) &&
       (check.measure == Measure::relative || check.measure == Measure::absolute)) {
     entry.expectation = Expectation::agrees;
@@ -221,7 +221,7 @@ std::vector<CheckResult> evaluate_computed(const Check& check, const CheckContex
   }
 }
 
-/// Returns a pass if the worst entry has the outcome required by the negative control.
+/// Judges a negative control: it passes if the worst entry has the required verdict and message.
 CheckResult judge_control(const Check& check, const std::vector<CheckResult>& entries) {
   CheckResult control = worst_of(entries).front();
   const NegativeControl& asked = *check.negative_control;
@@ -236,7 +236,7 @@ CheckResult judge_control(const Check& check, const std::vector<CheckResult>& en
                                       asked.index ? fmt::format(" of entry {}", *asked.index) : "",
                                       asked.message, found);
   control.verdict = holds ? Verdict::pass : Verdict::fail;
-  control.expectation = Expectation::agrees;  // a control has no known discrepancy
+  control.expectation = Expectation::agrees;  // a known discrepancy is no verdict of a control
   return control;
 }
 

@@ -9,12 +9,12 @@
 #include "harness/input/reference_library.h"
 #include "harness/judge/convergence.h"
 
-/// Evaluation of checks.
+/// Evaluation of checks, which compare computed quantities with expected values or bounds.
 namespace trammel::harness {
 
 using results::Verdict;
 
-/// Judgment of one entry of a check, or of a check without entries.
+/// Judgment of one entry of the checked quantity, or of a check that cannot be evaluated.
 using CheckResult = results::Check;
 
 /// Data needed to judge a run's checks.
@@ -25,26 +25,24 @@ struct CheckContext {
   const References& references;
   /// Returns the quantities of another variant of the case; null if there are none.
   std::function<const Quantities*(const std::string& variant)> variant;
-  /// Null if the numbers are those of trammel. A quantity that another solver does not return
-  /// is "not given" instead of an error.
+  /// Solver that computed the quantities; null for trammel. For a quantity that another solver does
+  /// not return, the verdict is "not given" instead of an error.
   const results::SolverIdentity* other_solver = nullptr;
 };
 
-/// Creates a judgment with the check's name, role and reasons. Its verdict is an error until it is
-/// set.
+/// Creates a judgment with the check's name, role and reasons, and with the verdict error.
 [[nodiscard]] CheckResult start_check_result(const Check& check);
 /// Creates a judgment with the verdict error and this message.
 [[nodiscard]] CheckResult failed_check_result(const Check& check, const std::string& message);
 
-/// Returns the reference whose id is at this pointer of the document.
+/// Returns the reference whose id is at this JSON pointer of the case document.
 [[nodiscard]] const references::Reference& find_reference(const CheckContext& context,
                                                           const std::string& pointer);
 
-/// Returns true unless the verdict is pass, recorded or not given.
+/// Returns true if the verdict fails a run: any verdict except pass, recorded and not given.
 [[nodiscard]] bool fails_gate(Verdict verdict);
 
-/// Returns one judgment per entry. For a long array, only the worst entry is returned, with a
-/// note.
+/// Returns one judgment per entry of the quantity, but only the worst entry of a long array.
 [[nodiscard]] std::vector<CheckResult> evaluate_check(const Check& check,
                                                       const CheckContext& context);
 

@@ -14,7 +14,7 @@ namespace {
 /// Refinement of one entry of the quantity, with the constants of its theoretical error.
 struct Entry {
   const Convergence& found;
-  double wave_number = kNaN;  ///< multiplied by the length of the swept member
+  double wave_number = kNaN;  ///< wave number times length of the refined member
   double share = 1;
 };
 
@@ -36,8 +36,8 @@ class OrderCheckEvaluator {
     meshes_ = static_cast<std::size_t>(std::ranges::count(qualifies_, true));
   }
 
-  /// Judges the requested criteria. For another solver it judges only the order, because the other
-  /// criteria contain constants of trammel's elements.
+  /// Judges the requested criteria. For another solver, judges only the order, because leading term
+  /// and extrapolation depend on trammel's elements.
   [[nodiscard]] std::vector<CheckResult> run() const {
     if (is_other_solver_) {
       CheckResult check_result = order();
@@ -58,7 +58,7 @@ class OrderCheckEvaluator {
     return fine && found_.error[k].has_value() && !found_.at_roundoff_floor[k];
   }
 
-  /// Reports the reason if the levels are insufficient for a judgment.
+  /// Returns true, with a message, if the levels are insufficient for a judgment of the order.
   bool lacks_asymptotic_range(CheckResult& check_result) const {
     if (found_.broken) {
       check_result.message = "a refined level has no finite value";
@@ -129,8 +129,7 @@ class OrderCheckEvaluator {
     return check_result;
   }
 
-  /// Computes the largest relative distance of the law from an error, over the meshes used in the
-  /// fit.
+  /// Judges the largest relative deviation of the two-term law from the errors used in its fit.
   [[nodiscard]] CheckResult two_term() const {
     CheckResult check_result = start("", "two-term", "1");
     check_result.expected = 0;

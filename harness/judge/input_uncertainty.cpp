@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kStep = 1.0 / 16;
 
-/// Returns a number in [0, 1); std::uniform_real_distribution differs between libraries.
+/// Returns a random number in [0, 1), identical in all libraries unlike standard distributions.
 double uniform(std::mt19937_64& generator) {
   return static_cast<double>(generator() >> 11) * 0x1p-53;
 }
@@ -98,7 +98,7 @@ using results::ValidationVerdict;
 constexpr double kRepeated = 1e-6;
 
 void compare(const Comparison& c, ValidationVerdict& v) {
-  // std::hypot of three numbers may lose a NaN.
+  // The square root is used, because std::hypot of three numbers may ignore a NaN.
   v.u_val =
       std::sqrt(*c.u_num * *c.u_num + *v.u_input * *v.u_input + *c.u_reference * *c.u_reference);
   const double noise = kCoverageFactor * *v.u_val;
@@ -121,7 +121,7 @@ std::size_t end_of_repeated(std::span<const Comparison> row, std::size_t first) 
 
 struct Spread {
   double low, high;
-  bool beyond_digits;  ///< wider than the printed digits allow
+  bool beyond_digits;  ///< the range exceeds the uncertainty of the printed digits
 };
 
 Spread printed(std::span<const Comparison> equal) {

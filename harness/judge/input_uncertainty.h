@@ -14,8 +14,8 @@
 /// Source: JCGM 100:2008 (GUM) 4.3.7 and 5.1; JCGM 101:2008 for the sampling.
 namespace trammel::harness {
 
-/// Returns the outputs for given input offsets (unit of each input); empty if the model has no
-/// solution.
+/// Function that returns the outputs of the model for given offsets of the inputs, in the unit of
+/// each input. Its result is empty if the model has no solution.
 using Response = std::function<std::optional<std::vector<double>>(const std::vector<double>&)>;
 
 /// First-order uncertainty:
@@ -27,7 +27,7 @@ using Response = std::function<std::optional<std::vector<double>>(const std::vec
 [[nodiscard]] std::optional<std::vector<std::vector<double>>> uncertainty_by_derivatives(
     const Response& response, const std::vector<double>& half_widths);
 
-/// Uncertainty from variation of all inputs together, including nonlinearity.
+/// Uncertainty of the outputs if all inputs vary together; it includes nonlinearity.
 struct SampledUncertainty {
   std::vector<double> standard;  ///< standard deviation of each output
   int samples = 0;               ///< number of solved samples
@@ -41,13 +41,13 @@ struct SampledUncertainty {
                                                          const std::vector<double>& half_widths,
                                                          int count, std::uint64_t seed);
 
-/// Validation comparison after ASME V&V 20-2009. The difference E = S - D is compared with the
-/// uncertainties due to discretization, inputs and printed digits of the reference.
+/// Validation comparison after ASME V&V 20-2009. The difference E = S - D of simulation and
+/// reference is compared with the uncertainties due to discretization, inputs and printed digits.
 
 inline constexpr const char* kWithinUncertainty = "within-uncertainty";
 inline constexpr const char* kModelError = "model-error";
 inline constexpr const char* kReferenceInconsistent = "reference-inconsistent";
-/// A number is missing, so that no conclusion is drawn.
+/// Verdict if a number is missing, so that no conclusion is drawn.
 inline constexpr const char* kUndecided = "undecided";
 
 inline constexpr double kCoverageFactor = 2;
@@ -58,7 +58,7 @@ inline constexpr double kCoverageFactor = 2;
 /// If symmetry of the model implies a repeated value (equal within 1e-6), the reference must repeat
 /// it. If the reference prints values that differ by more than its digits allow, and the model's
 /// value is between them, the reference contradicts itself: no model with this symmetry can match
-/// it. If the model's value is outside their range, the model has an error in any case.
+/// it. If the model's value is outside the printed range, the verdict is a model error.
 void evaluate_validation_row(std::span<results::Comparison> row);
 
 }  // namespace trammel::harness

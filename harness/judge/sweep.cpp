@@ -10,7 +10,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Maximum number of tracked array entries if no selection is given.
+/// Maximum number of entries of a quantity that are tracked if the case selects no entries.
 constexpr std::size_t kMaxTrackedEntries = 16;
 
 void add_everything_else(const Sweep& sweep, std::vector<TrackedQuantity>& tracked_quantities) {
@@ -24,7 +24,7 @@ void add_everything_else(const Sweep& sweep, std::vector<TrackedQuantity>& track
   }
 }
 
-/// Returns the value of a level for one entry, with its round-off error.
+/// Returns the value of one entry of a quantity on one level, with the round-off error.
 std::pair<double, double> entry_of(const Quantities& quantities,
                                    const TrackedQuantity& tracked_quantity, std::size_t index) {
   const auto found = quantities.find(tracked_quantity.quantity);
@@ -135,7 +135,7 @@ std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& documen
     for (std::size_t position = 0; position < chosen.size(); ++position) {
       Convergence series =
           track_entry(sweep, place, tracked_quantity, chosen[position], position, element_order);
-      // A zero, such as the frequency of a rigid motion, has no relative error.
+      // An exact value of zero, such as the frequency of a rigid motion, has no relative error.
       if ((series.exact == 0.0 && !series.is_error) || !changes(series)) continue;
       found.push_back(analyze_convergence(std::move(series)));
     }

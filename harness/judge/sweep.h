@@ -9,26 +9,26 @@
 #include "harness/input/reference_library.h"
 #include "harness/judge/convergence.h"
 
-/// Refinement sweeps: a computation repeated on successive levels.
+/// Refinement sweeps: a computation is repeated with successively finer discretizations (levels).
 namespace trammel::harness {
 
 using results::Sweep;
 
-/// Returns the element size h of a swept number, up to a common factor.
-/// @param measures  meaning of the number: "elements" per length, "halvings" or "size"
+/// Returns the element size h for a value of the refined parameter, up to a common factor.
+/// @param measures  meaning of the parameter: "elements" per length, "halvings" of h, or "size"
 [[nodiscard]] double element_size(const std::string& measures, double parameter);
 
-/// Selection of the quantities of a sweep that are tracked.
+/// Selection of the quantities of a sweep whose convergence is studied (tracked quantities).
 enum class TrackedQuantities {
-  named,  ///< quantities named by the sweep, else those named by the checks
+  named,  ///< quantities that the sweep lists, else quantities of the checks
   all     ///< every quantity that changes with the level
 };
 
-/// Removes quantities that are not tracked as `named`.
+/// Removes the quantities that TrackedQuantities::named does not select from a sweep.
 void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Check>& checks);
 
 /// Returns the convergence study of each tracked entry of a sweep.
-/// @param element_order  order of another solver, which replaces the orders of the sweep
+/// @param element_order  order of another solver's elements, which replaces the theoretical order
 [[nodiscard]] std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& document,
                                                    const std::vector<Check>& checks,
                                                    const References& references,
@@ -39,22 +39,22 @@ void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Ch
 /// exact values.
 struct TrackedQuantity {
   std::string quantity, statistic;
-  std::vector<std::size_t> index, reference_index;  ///< selected entries; empty: all
+  std::vector<std::size_t> index, reference_index;  ///< selected entries; empty: all entries
   const references::Reference* reference = nullptr;
-  bool is_error = false;  ///< the values are themselves errors
+  bool is_error = false;  ///< true: the values of the quantity are errors
   std::optional<double> theory = std::nullopt;
 };
 
-/// Returns the quantities named by the "quantities" of a sweep.
+/// Returns the quantities that the key "quantities" of a sweep lists.
 [[nodiscard]] std::vector<TrackedQuantity> quantities_of_sweep(const JsonView& quantities,
                                                                const References& references);
 
-/// Returns the quantities of the checks, each once. A check with exact values precedes one without.
+/// Returns the quantities of the checks, each once. A check with exact values replaces one without.
 [[nodiscard]] std::vector<TrackedQuantity> quantities_of_checks(const Document& document,
                                                                 const std::vector<Check>& checks,
                                                                 const References& references);
 
-/// Returns true if a reference can measure the discretization error: its kind is exact or computed.
+/// Returns true if a reference (proved, exact or computed) can measure the discretization error.
 [[nodiscard]] bool is_exact(const references::Reference& reference);
 
 }  // namespace trammel::harness

@@ -17,7 +17,7 @@ results::UncertaintyCoverage summarize_numerical_uncertainty(
     if (found.exact.value_or(0) == 0) return;
     for (std::size_t k = 0; k < found.gci.size(); ++k) {
       if (!found.gci[k]) continue;
-      // The band is relative to the value; the error is relative to the exact value.
+      // The GCI is relative to the computed value; the error is relative to the exact value.
       const double scaled_gci = *found.gci[k] * std::abs(*found.values[k] / *found.exact);
       ++summary.levels;
       summary.covered += scaled_gci >= *found.error[k] ? 1 : 0;

@@ -4,8 +4,8 @@
 #include "harness/statics_modes/step_result.h"
 #include "solver/manipulator/elastodynamics.h"
 
-/// Analyzes motion: kinematics, response in time and frequency, dynamics of the manipulator,
-/// networks.
+/// Analyses of motion: kinematics, response in time and frequency, dynamics of the manipulator, and
+/// neural networks that approximate the dynamics.
 namespace trammel::harness {
 
 /// Computes inverse kinematics, distances from singularities and the torques that balance the
@@ -17,14 +17,14 @@ AnalyseStep analyze_transient;
 
 /// Computes amplitudes of the steady response over a range of frequencies, and their peaks.
 AnalyseStep analyze_harmonic;
-/// Computes geometrically exact motion in large displacement.
+/// Computes the motion of a model with large displacement by geometrically exact elements.
 AnalysePath analyze_large_motion;
 
 /// Computes torques, angles, powers and energies of the rigid manipulator along its path.
 AnalysePath analyze_inverse_dynamics;
 
-/// Integrates the motion of the rigid manipulator under constant torques or those of the path's
-/// inverse dynamics.
+/// Integrates the motion of the rigid manipulator under constant torques or under the torques of
+/// the inverse dynamics along the path.
 AnalysePath analyze_forward_dynamics;
 
 /// Computes the elastic vibration about the nominal motion along the path. Records deflection and
@@ -33,17 +33,17 @@ AnalysePath analyze_forward_dynamics;
 AnalysePath analyze_elastodynamics;
 
 /// Evaluates a general regression neural network on samples of the inverse dynamics along the path.
-/// Records smoothing, predictions, errors, skill and times.
+/// Records the smoothing parameter, predictions, errors, skill and computing times.
 AnalysePath analyze_grnn;
-/// Evaluates the network on samples of the case, and records predictions at its queries.
+/// Evaluates such a network on samples in the case, and records predictions for the case's queries.
 AnalyseCase analyze_grnn_samples;
 
-/// Reads the options that the analysis states, independent of the scene and its effects.
+/// Reads the options of elastodynamics that do not depend on the model and its effects.
 [[nodiscard]] solver::ElastodynamicsOptions read_motion_options(const JsonView& analysis);
 
-/// Reads the motion of an elastodynamics case, with the scene's effects.
-/// @throws InputError  if the scene has parts besides the manipulator or the trajectory has no
-///     time.
+/// Reads the motion of an elastodynamics case, with the chosen effects.
+/// @throws InputError  if the model has parts besides the manipulator or the trajectory has no
+///   time.
 [[nodiscard]] solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
                                                                 const CaseModel& case_model);
 

@@ -74,8 +74,8 @@ solver::ElastodynamicsSolution solve(const solver::ElastodynamicsOptions& option
                             : solver::solve_elastodynamics(options);
 }
 
-/// Records the change of the solution by half the step. If the platform is at rest, also records
-/// the true integration error, by modal superposition.
+/// Records the change of the deflection if the time step is halved. If the platform is at rest,
+/// also records the true integration error, by comparison with modal superposition.
 void record_step_errors(solver::ElastodynamicsOptions options, bool large_displacement,
                         const solver::ElastodynamicsSolution& solution, Recorder& record) {
   if (!options.elastic_inertia || options.modal_superposition) return;
@@ -101,18 +101,18 @@ void record_damping(const solver::RayleighDamping& damping, const solver::System
   record.add_or_gap("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
 }
 
-/// Records the quantities that predict the importance of effects, and the statistics of the
-/// integration.
+/// Records dimensionless numbers that predict the importance of effects, and integration
+/// statistics.
 void record_summary(const solver::ElastodynamicsSolution& solution, Recorder& record) {
   const solver::ElastodynamicsEffects& effects = solution.effects;
   const solver::TransientSummary& summary = solution.summary;
-  if (summary.accepted > 0) {  // neither quasi-static nor a superposition of modes
+  if (summary.accepted > 0) {  // neither quasi-static motion nor modal superposition
     record.add("steps", summary.accepted);
     record.add("rejected_steps", summary.rejected);
     record.add("smallest_step_s", summary.smallest_step);
     record.add("largest_step_s", summary.largest_step);
   }
-  if (std::isnan(effects.first_frequency)) return;  // quasi-static, or with large displacement
+  if (std::isnan(effects.first_frequency)) return;  // none for quasi-static or large motion
   if (summary.accepted > 0) record.add("step_residual", summary.largest_residual);
   record.add("first_frequency_Hz", effects.first_frequency);
   record.add("damping_ratio", effects.damping_ratio);
@@ -122,7 +122,7 @@ void record_summary(const solver::ElastodynamicsSolution& solution, Recorder& re
   record.add("transformation_rate_number", effects.gyroscopic);
 }
 
-/// Draws moments of the motion: the nominal pose and the deflections of links and platform from it.
+/// Draws the motion at selected times: the nominal pose and the deflections of links and platform.
 void draw_motion(const CaseModel& case_model, const solver::ElastodynamicsSolution& solution,
                  Drawing& drawing) {
   std::vector<Eigen::VectorXd> q;
@@ -150,7 +150,7 @@ solver::ElastodynamicsOptions read_motion_options(const JsonView& analysis) {
 
 solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
                                                   const CaseModel& case_model) {
-  // The restrictions of rigid-link dynamics apply here, too.
+  // Checks the restrictions of rigid-link dynamics, which apply to elastodynamics as well.
   static_cast<void>(read_rigid_manipulator(analysis, case_model));
   if (!case_model.path)
     throw analysis.error("elastodynamics requires a model with 'trajectory' (got 'pose')");

@@ -79,7 +79,7 @@ StepResult analyze_forward_dynamics(const JsonView& analysis, const CaseModel& c
     record.add("motion_velocity_x_m_per_s", moved.velocity.x());
     record.add("motion_velocity_y_m_per_s", moved.velocity.y());
     record.add("motion_velocity_phi_rad_per_s", moved.velocity.z());
-    if (given) continue;  // the torques do not belong to the path
+    if (given) continue;  // stated torques do not belong to the path
     const solver::TrajectoryPoint& nominal = case_model.motion[step];
     record.add("position_error_m",
                std::hypot(moved.pose.x - nominal.pose.x, moved.pose.y - nominal.pose.y));

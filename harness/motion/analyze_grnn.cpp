@@ -30,20 +30,20 @@ inline constexpr std::array kWords<solver::Split> = {"first", "interleaved", "sh
 namespace {
 
 struct GrnnOutput {
-  std::string quantity;  ///< angle or velocity; empty for the samples of a case
+  std::string quantity;  ///< "angle" or "velocity"; empty for samples of a case
   std::string unit;      ///< suffix of the quantity's name, such as "_rad"; empty if it has no unit
-  std::string item;      ///< A1, ... or the number of the column
+  std::string item;      ///< active joint A1, A2 or A3, or the number of the column
 };
 
 struct GrnnSamples {
-  Eigen::MatrixXd inputs;           ///< sample x input
-  Eigen::MatrixXd outputs;          ///< sample x output
+  Eigen::MatrixXd inputs;           ///< one row per sample
+  Eigen::MatrixXd outputs;          ///< one row per sample
   std::vector<GrnnOutput> columns;  ///< meaning of each column of the outputs
 };
 
 /// Samples of the paper (Section 4.3). Inputs are the torques of the inverse dynamics at each point
-/// of the scene's path. Outputs are the angles and velocities of the active joints. Angles are
-/// continuous across pi.
+/// of the path. Outputs are the angles and velocities of the active joints. Angles are continuous
+/// across pi.
 struct PathSamples {
   solver::Outcome outcome;  ///< outcome of the first point without a solution
   GrnnSamples samples;
@@ -56,9 +56,10 @@ Eigen::MatrixXd read_rows(const JsonView& rows) {
   Eigen::MatrixXd matrix(static_cast<solver::Index>(rows.size()),
                          static_cast<solver::Index>(columns));
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Json& row = rows.json()[i];  // avoids a JsonView per row, of up to 100,000 rows
+    const Json& row = rows.json()[i];  // avoids up to 100,000 objects JsonView
     if (row.size() != columns)
-      throw rows[i].error("expected " + std::to_string(columns) + " numbers as in the first row");
+      throw rows[i].error("expected " + std::to_string(columns) +
+                          " numbers as in the first row (got another count)");
     for (std::size_t j = 0; j < columns; ++j)
       matrix(static_cast<solver::Index>(i), static_cast<solver::Index>(j)) = row[j].get<double>();
   }
@@ -143,7 +144,7 @@ void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamp
       }).outcome;
 }
 
-/// Sets the smoothing: the given value, or the one with the least error of cross-validation.
+/// Sets the smoothing parameter: the stated value, or that with the least cross-validation error.
 void choose_sigma(const JsonView& analysis, solver::Grnn& network, Recorder& record) {
   if (analysis.has("sigma") == analysis.has("spread") && analysis.has("sigma"))
     throw analysis.error("expected at most one of 'sigma' and 'spread' (got both)");
@@ -194,13 +195,13 @@ struct OutputScales {
     for (solver::Index j = 0; j < outputs.cols(); ++j) {
       const Eigen::ArrayXd centered = outputs.col(j).array() - outputs.col(j).mean();
       deviation(j) = std::sqrt(centered.square().mean());
-      if (range(j) == 0) range(j) = deviation(j) = 1;  // a constant output
+      if (range(j) == 0) range(j) = deviation(j) = 1;  // no division by 0 for a constant output
     }
   }
 };
 
-/// Returns the root mean square over rows and outputs. Each output is divided by its standard
-/// deviation.
+/// Returns the root mean square of the errors of all samples and outputs. The errors of each output
+/// are divided by its standard deviation.
 double rms(const Eigen::MatrixXd& error, const OutputScales& scales) {
   const Eigen::MatrixXd relative = error * scales.deviation.cwiseInverse().asDiagonal();
   return std::sqrt(relative.squaredNorm() / static_cast<double>(relative.size()));
@@ -228,7 +229,7 @@ void record_part(const std::string& part, const std::vector<solver::Index>& whic
 /// Records the skill against two trivial predictors: the mean of the training samples, and the
 /// nearest sample.
 ///   skill = 1 - (rms error / rms error of the trivial predictor)^2
-/// A perfect prediction has skill 1. One that is no better than the trivial predictor has skill 0.
+/// A perfect prediction has skill 1. A prediction as good as the trivial predictor has skill 0.
 void record_skill(const solver::Grnn& network, const GrnnSamples& samples,
                   const std::vector<solver::Index>& which, double error, const OutputScales& scales,
                   Recorder& record) {
@@ -246,8 +247,8 @@ void record_skill(const solver::Grnn& network, const GrnnSamples& samples,
   against("nearest", 1e-300);
 }
 
-/// Measures predictions at every point of the path, in a batch and one by one. Compares them with
-/// the computations that they replace. These are the motion at the next point from the torques, and
+/// Measures the computing time of predictions at every point of the path, in a batch and one by
+/// one. Also measures the replaced computations: the motion at the next point from the torques, and
 /// the torques from the motion.
 std::vector<EvaluationTime> time_against_solving(const solver::Grnn& network,
                                                  const solver::RigidManipulator& manipulator,
@@ -365,7 +366,7 @@ StepResult analyze_grnn(const JsonView& analysis, const CaseModel& case_model, b
   if (spline) {
     constexpr solver::Index kFewest = 4;
     if (train < kFewest)
-      throw analysis["train"].error("a spline requires at least 4 training points");
+      throw analysis["train"].error("a spline requires at least 4 training points (got fewer)");
     predicted = spline_over_time(case_model, samples.outputs, parts.training);
   } else {
     network = solver::make_grnn(rows(samples.inputs, parts.training),

@@ -22,7 +22,7 @@ class HarmonicScene {
         high(analysis.number("to_Hz")),
         points(static_cast<std::size_t>(analysis.get<solver::Index>("points", 101))),
         damped_(case_model.effects.has(solver::Effect::damping) && analysis.has("damping")) {
-    if (case_model.path) throw analysis.error("expected 'pose' (got 'trajectory')");
+    if (case_model.path) throw analysis.error("requires a model with 'pose' (got 'trajectory')");
     if (!(high > low)) throw analysis["to_Hz"].error("expected a frequency above 'from_Hz'");
     ReducedSystem reduced = reduced_system(
         analysis, solver::assemble(build_model(case_model, step), case_model.effects),
@@ -39,7 +39,7 @@ class HarmonicScene {
     outcome = reduced.outcome.solved() ? response->outcome() : reduced.outcome;
   }
 
-  /// Records a gap at a resonance without damping.
+  /// Records the response at a frequency; a missing number at a resonance without damping.
   void record_at(std::size_t point, Recorder& record, StepResult& result) const {
     const double share = static_cast<double>(point) / static_cast<double>(points - 1);
     const double frequency = low + (high - low) * share;
@@ -94,7 +94,7 @@ class HarmonicScene {
     return std::nullopt;
   }
 
-  /// Draws the shape in phase with the load, and the shape a quarter period later, at a frequency.
+  /// Draws the deformation in phase with the load, and a quarter period later, at a frequency.
   void draw_at(double frequency, Drawing& drawing) const {
     const Eigen::VectorXcd q = response->at(frequency);
     if (q.size() == 0) return;
@@ -111,7 +111,7 @@ class HarmonicScene {
   solver::Outcome outcome;
 
  private:
-  /// Records the peak of an output, or a gap at an unbounded resonance.
+  /// Records the peak of an output, or a missing number at an unbounded resonance.
   /// @param resonances  natural frequencies within the range [Hz]
   /// @returns the frequency of the peak
   double record_peak(const std::vector<double>& resonances, const Output& output,
@@ -131,7 +131,7 @@ class HarmonicScene {
     return found.frequency;
   }
 
-  /// Returns true if the amplitude grows as 1 / distance near a frequency.
+  /// Returns true for a resonance, near which the amplitude grows as 1 / distance in frequency.
   [[nodiscard]] bool is_pole(double frequency, const Output& output) const {
     const double unit = frequency > 0 ? frequency : high;
     const auto size_at = [&](double distance) {

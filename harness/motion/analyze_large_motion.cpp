@@ -26,7 +26,7 @@ struct Angle {
   double start = 0;
 };
 
-/// Outputs that are recorded at each output time.
+/// Nodes and angles that are recorded at each output time.
 struct OutputSelection {
   std::vector<solver::Index> nodes;
   solver::Index seen_from = -1;
@@ -72,7 +72,7 @@ solver::TransientOptions read_large_motion_options(const JsonView& analysis) {
     options.scheme.conserves_energy = true;
     if (analysis.has("spectral_radius"))
       throw analysis["spectral_radius"].error(
-          "this key requires the integrator 'generalized-alpha'");
+          "this key requires the integrator 'generalized-alpha' (got 'energy-momentum')");
   }
   options.end = analysis.number("end_time_s");
   options.step = analysis.number("step_s");
@@ -96,7 +96,7 @@ Eigen::MatrixX3d observed_from(solver::Index eye, const solver::Model& model,
                                const Eigen::MatrixX3d& motion) {
   Eigen::MatrixX3d relative = motion.rowwise() - motion.row(eye);
   const double turn = motion(eye, 2), c = std::cos(turn), s = std::sin(turn);
-  // cos(turn) - 1 by the half angle, without cancellation.
+  // Computes cos(turn) - 1 by the half angle, which avoids cancellation.
   const double less = -2 * std::sin(turn / 2) * std::sin(turn / 2);
   for (solver::Index node = 0; node < relative.rows(); ++node) {
     const Eigen::Vector2d arm =
@@ -109,7 +109,7 @@ Eigen::MatrixX3d observed_from(solver::Index eye, const solver::Model& model,
   return relative;
 }
 
-/// Returns the reactions in the directions that supports hold, and NaN in the others.
+/// Returns the reactions in the supported directions, and NaN in the other directions.
 Eigen::MatrixX3d support_reactions(const GeometricallyExactSystem& system, const State& state) {
   Eigen::MatrixX3d reaction = reactions(system, state);
   for (std::size_t i = 0; i < system.model().supports.size(); ++i)
@@ -119,7 +119,7 @@ Eigen::MatrixX3d support_reactions(const GeometricallyExactSystem& system, const
   return reaction;
 }
 
-/// Records each state that the integrator passes to it.
+/// Records the outputs at each state that the integrator reports.
 class MotionRecorder {
  public:
   MotionRecorder(const GeometricallyExactSystem& system, OutputSelection selection,

@@ -30,18 +30,18 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Motion of a model at its sample times.
+/// Computed motion of a model at the sample times.
 struct MotionHistory {
   solver::Outcome outcome;
   solver::Evidence evidence;
   solver::Counters counters;
   std::vector<double> time;         ///< [s]
-  std::vector<double> load_factor;  ///< factor of the loads (without weight) at those times
+  std::vector<double> load_factor;  ///< factor of the loads (without weight) at each time
   /// Filtered factors of loads and weight, 2 x time, for the delayed strains under
   /// stiffness-proportional damping. Otherwise empty.
   Eigen::MatrixXd followed_factor;
-  Eigen::MatrixXd q, v, a;         ///< free coordinate x time
-  solver::ViscousDamping damping;  ///< damping of the motion
+  Eigen::MatrixXd q, v, a;         ///< one row per coordinate, one column per time
+  solver::ViscousDamping damping;  ///< Rayleigh and modal damping
   std::int64_t steps = 0;          ///< number of time steps; 0 for modal superposition
 };
 
@@ -205,7 +205,7 @@ class Motion {
     return damped_ ? read_damping(transient_, modes) : solver::HarmonicDamping();
   }
 
-  /// Adds the damping to the equation. Returns false if the modes for modal damping are not found.
+  /// Adds the damping to the equation of motion. Returns false if the modes for it are not found.
   bool damp(solver::EquationOfMotion& equation) {
     solver::HarmonicDamping damping = stated_damping();
     if (damping.modal_ratio.empty()) {
@@ -221,8 +221,8 @@ class Motion {
     return true;
   }
 
-  /// Adds the damping to the equation.
-  /// @param omega, shape  modes, at least those with a damping ratio
+  /// Adds Rayleigh and modal damping to the equation of motion.
+  /// @param omega, shape  frequencies and shapes of modes, at least those with a damping ratio
   void damp(const solver::HarmonicDamping& damping, const Eigen::VectorXd& omega,
             const Eigen::MatrixXd& shape, solver::EquationOfMotion& equation) {
     equation.C = solver::damping_matrix(damping.rayleigh, system_.M, system_.K);
@@ -262,7 +262,7 @@ class Motion {
     add_evidence(equation);
   }
 
-  /// Adds the evidence of modal superposition at the samples.
+  /// Adds the equilibrium residuals of modal superposition at the sample times as evidence.
   void add_evidence(solver::EquationOfMotion& equation) {
     load_.apply_to(equation);
     solver::MotionEvidence evidence(equation);
@@ -299,7 +299,7 @@ double unrepresented_velocity(const JsonView& transient, const solver::System& f
   return whole > 0 ? std::sqrt(std::max(0.0, 1 - kinetic_energy(reduced) / whole)) : 0;
 }
 
-/// Computes the motion for the key "transient", with damping if the effects include it.
+/// Computes the motion for the key "transient", with damping if it is one of the effects.
 /// @throws InputError  if the history or the damping is invalid.
 MotionHistory compute_motion(const JsonView& transient, const solver::System& system,
                              solver::Effects effects) {
@@ -311,7 +311,7 @@ MotionHistory compute_motion(const JsonView& transient, const solver::System& sy
   }
 }
 
-/// Returns displacements and velocities of a sample, and section forces if an output requires them.
+/// Returns the state of a model at one sample time, with section forces if an output requires them.
 ModelState state_of(const solver::System& system, const MotionHistory& motion,
                     const std::optional<solver::LateStrain>& late, solver::Index sample,
                     bool with_forces) {
@@ -323,7 +323,7 @@ ModelState state_of(const solver::System& system, const MotionHistory& motion,
     elastic.acceleration =
         system.T * (motion.a.col(sample) + damping_acceleration(motion.damping, system.M, v));
     elastic.load_factor = motion.load_factor[solver::to_size(sample)];
-    elastic.constraint_forces = constraint_forces(system, elastic);  // damping also acts on them
+    elastic.constraint_forces = constraint_forces(system, elastic);  // these forces include damping
     elastic.u = system.T * motion.q.col(sample);
     if (late) late->set_loads(motion.q.col(sample), motion.followed_factor.col(sample), elastic);
     postprocess(system, elastic, state);
@@ -344,7 +344,7 @@ void record_peaks(const MotionHistory& motion, const std::vector<Output>& output
   }
 }
 
-/// An error of 1 % of the initial velocity is invisible in a plot of the motion.
+/// Warns if a reduced basis omits over 1 % of the initial velocity. Less is invisible in a plot.
 void warn_of_basis(double missing, std::vector<Warning>& warnings) {
   constexpr double kNoticed = 0.01;
   if (!(missing > kNoticed)) return;
@@ -369,7 +369,7 @@ void draw_motion(const solver::System& system, const MotionHistory& motion, Draw
 
 StepResult analyze_transient(const JsonView& analysis, const CaseModel& case_model,
                              std::size_t step, bool draw, Recorder& record) {
-  if (case_model.path) throw analysis.error("expected 'pose' (got 'trajectory')");
+  if (case_model.path) throw analysis.error("requires a model with 'pose' (got 'trajectory')");
   if (analysis.has("reduction") && analysis.has("rotating_frame"))
     throw analysis["reduction"].error("not allowed with 'rotating_frame'");
   solver::System assembled = solver::assemble(build_model(case_model, step), case_model.effects);

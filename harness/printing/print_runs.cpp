@@ -18,8 +18,8 @@ namespace {
 using results::Number;
 using results::Numbers;
 
-/// Returns the number of digits that distinguish the ends of a range from each other and from the
-/// judged number.
+/// Returns the number of digits required to distinguish the printed limits of a check from each
+/// other and from the judged number.
 int digits_of(const results::Check& check) {
   constexpr int kLeast = 3, kMost = 12;
   if (!check.tolerance || check.tolerance->symmetric) return kLeast;
@@ -53,7 +53,7 @@ std::string error_text(const results::Run& run, const std::string& quantity) {
   return fmt::format("+- {:.2g} %{}", 100 * largest, found->asymptotic ? "" : " (coarse)");
 }
 
-/// Prints all values of short quantities and the range of others.
+/// Prints the values of each quantity, or their range if there are more than six.
 void print_quantities(const results::Run& run) {
   constexpr std::size_t kMostValues = 6;
   Rows table({"quantity", "entries", {"values", "", 8}, {"discretization"}});

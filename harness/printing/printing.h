@@ -13,25 +13,24 @@ namespace trammel::harness {
 [[nodiscard]] std::vector<Column> check_columns();
 [[nodiscard]] std::vector<Json> check_cells(const results::Check& check, bool with_index = true);
 
-/// Prints status, warnings and the worst entry of each check; for a run without checks, its
-/// quantities.
+/// Prints status, warnings and the worst value of each check of a run. For a run without checks,
+/// prints its quantities.
 void print_run(const results::Run& run);
 
 /// Prints the discretizations tried in the search for an accuracy, with their estimated errors.
 void print_search(const results::ErrorEstimates& errors);
-/// Prints the validation comparison (ASME V&V 20) of a run as a table, if it has one.
+/// Prints the validation comparisons (ASME V&V 20) of a run as a table, if there are any.
 void print_validation(const results::Run& run);
 
-/// Prints hit rate and width of the numerical uncertainty bands in one line, if exact values exist.
+/// Prints how often the numerical uncertainty (GCI) covers exact values, and how wide it is.
 void print_numerical_uncertainty(const results::Results& results);
 
-/// Prints the numbers of runs, verdicts and validation comparisons.
 void print_summary(const results::Results& results);
 
-/// Prints the effects of a case. Automatic effects also show numbers, changes and reasons.
+/// Prints the effects of a case; for automatic effects, also numbers, changes and reasons.
 void print_effects(const EffectChoice& choice);
 
-/// Returns "axial-flexibility, shear and gravity", or "none".
+/// Returns the names of effects as a list: "axial-flexibility, shear and gravity", or "none".
 [[nodiscard]] std::string effect_names(solver::Effects effects);
 
 }  // namespace trammel::harness

@@ -175,7 +175,7 @@ std::optional<Json> step_patch(const Document& document, Refine refine) {
     patch["step_s"] = longer * analysis["step_s"].get<double>();
   }
   Json all = patch_at(document.value(), place, patch);
-  if (const auto sampling = sampling_of(document)) {  // peaks are those of samples
+  if (const auto sampling = sampling_of(document)) {  // peak values are determined from samples
     const auto intervals = refined(sampling->intervals, refine);
     const bool fits = intervals && *intervals <= kMaxSamples;
     if (!fits && kind == "harmonic") return std::nullopt;

@@ -13,7 +13,7 @@
 
 namespace trammel::harness {
 
-/// Looks up a name.
+/// Returns the entry of a map with a name that the case states.
 /// @param what  text for the message: "a node", "a section"
 /// @throws InputError  at `place`, with the nearest name, if the name is unknown.
 template <class T>
@@ -26,17 +26,16 @@ template <class T>
   throw place.error(unknown_name("the name of " + what, name, names));
 }
 
-/// Looks up a name given in the document.
 template <class T>
 [[nodiscard]] const T& look_up(const std::map<std::string, T>& named, const JsonView& name,
                                const std::string& what) {
   return look_up(named, name.get<std::string>(), name, what);
 }
 
-/// Sides of meshed blocks that form an edge.
+/// Edge of plates, composed of sides of meshed blocks.
 struct Edge {
   struct Piece {
-    solver::Index plate = -1;  ///< the only plate at this side; -1: the side is in the interior
+    solver::Index plate = -1;  ///< index of the plate; -1 if there are blocks on both sides
     /// Nodes in order, including midside nodes. The plate is to the left of this sequence.
     std::vector<solver::Index> nodes;
     bool six_nodes = false;
@@ -44,12 +43,12 @@ struct Edge {
   std::vector<Piece> pieces;
 };
 
-/// Named parts of a planar model.
 struct SymbolTable {
   std::map<std::string, solver::Index> node;
   std::map<std::string, solver::Material> material;
   std::map<std::string, solver::Section> section;
-  std::map<std::string, std::string> section_shape;  ///< section -> "rectangle", "circle" or ""
+  std::map<std::string, std::string>
+      section_shape;  ///< shapes by section: "rectangle", "circle", ""
   std::map<std::string, Edge> edge;
 
   [[nodiscard]] solver::Index find_node(const JsonView& name) const {
@@ -60,10 +59,10 @@ struct SymbolTable {
 template <class T>
 concept ScalarField = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// Reads the members of a place that satisfies its schema. Members of absent keys remain unchanged.
+/// Reads the fields of a structure from a JSON object. A field without a key remains unchanged.
 class FieldReader {
  public:
-  /// @param symbols  null for parts that do not refer to others
+  /// @param symbols  named parts to which the object may refer; null if it refers to none
   explicit FieldReader(JsonView place, const SymbolTable* symbols = nullptr)
       : place_(std::move(place)), symbols_(symbols) {}
 
@@ -86,7 +85,7 @@ class FieldReader {
   static void read(const JsonView& place, Eigen::Ref<Eigen::Vector2d> pair) {
     pair << place[0].get<double>(), place[1].get<double>();
   }
-  /// Accepts a word instead of a number; the number is then computed.
+  /// Reads a number. A word instead of a number leaves `value` empty, and the number is computed.
   static void read(const JsonView& place, std::optional<double>& value) {
     value.reset();
     if (place.json().is_number()) value = place.get<double>();
@@ -104,7 +103,7 @@ class FieldReader {
   static void read(const JsonView& place, solver::Joint<Kind>& joint) {
     read_connection(place, joint.kind, joint.stiffness);
   }
-  /// Reads one value for all entries, or one value per entry.
+  /// Reads an array of N values, or a single value that applies to all N entries.
   template <class T, std::size_t N>
   static void read(const JsonView& place, std::array<T, N>& values) {
     for (std::size_t i = 0; i < N; ++i) read(place.json().is_array() ? place[i] : place, values[i]);
@@ -133,7 +132,7 @@ class FieldReader {
   const SymbolTable* symbols_;
 };
 
-/// Reads a part by the list of its fields.
+/// Reads a part of a model, such as a spring. Its `fields` function lists the keys.
 template <class T>
 [[nodiscard]] T read_part(const JsonView& place, const SymbolTable* symbols = nullptr) {
   T part{};
@@ -142,7 +141,7 @@ template <class T>
   return part;
 }
 
-/// Reads the parts below an optional key. `check(place, part)` may reject a part.
+/// Reads all parts below an optional key, such as "springs". `check(place, part)` may reject one.
 template <class T, class Check = void (*)(const JsonView&, const T&)>
 [[nodiscard]] std::vector<T> read_parts(
     const JsonView& model, const char* key, const SymbolTable& symbols,
@@ -165,19 +164,19 @@ template <class T, class Check = void (*)(const JsonView&, const T&)>
 }
 
 /// Plates consist of explicit triangles or of meshed blocks. A block is a quadrilateral between
-/// four named nodes. If an edge names the path between two of them, the side may be an elliptic
-/// arc, and it can be loaded and supported. A named node at the position of a mesh node becomes
-/// part of the mesh. Blocks, plates and frames that touch are therefore connected.
+/// four named nodes. An edge contains sides of blocks; it can be loaded and supported, and its
+/// sides may be elliptic arcs. A named node at the position of a mesh node becomes part of the
+/// mesh. Blocks, plates and frames that touch are therefore connected.
 
 /// Adds plates, triangles and mesh nodes to `structure`, and edges to `symbols`.
-/// @param model  the place /model
+/// @param model  the JSON object /model of the case
 /// @throws InputError  if a name is unknown or the geometry is impossible.
 void read_plates(const JsonView& model, SymbolTable& symbols, solver::Model& structure);
 
 /// Returns the nodes on an edge, each once.
 [[nodiscard]] std::vector<solver::Index> nodes_of(const Edge& edge);
 
-/// Reads a traction on an edge.
+/// Reads a traction or normal stress on an edge of a plate.
 void read_edge_load(const JsonView& place, const SymbolTable& symbols, solver::Model& structure);
 
 /// Requires that every named node of a meshed model is connected to an element, body or spring.

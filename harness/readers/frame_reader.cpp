@@ -24,10 +24,12 @@ Shape read_shape(const JsonView& section) {
       (section.has("rectangle") ? 1 : 0) + (section.has("circle") ? 1 : 0) + (plain ? 1 : 0);
   if (ways != 1 || (plain && !(section.has("area_m2") && section.has("second_moment_m4")))) {
     throw section.error(
-        "expected exactly one of 'rectangle', 'circle', and 'area_m2' with 'second_moment_m4'");
+        "expected exactly one of 'rectangle', 'circle', and 'area_m2' with 'second_moment_m4' "
+        "(got none, several or an incomplete pair)");
   }
   if (!plain && section.has("half_depth_m"))
-    throw section["half_depth_m"].error("'half_depth_m' requires 'area_m2'");
+    throw section["half_depth_m"].error(
+        "'half_depth_m' requires 'area_m2' (got 'rectangle' or 'circle')");
   if (section.has("rectangle")) {
     const double t = section["rectangle"].number("thickness_m");
     const double w = section["rectangle"].number("width_m");
@@ -87,7 +89,7 @@ solver::Member read_member(const std::string& name, const JsonView& place,
     throw place["nodes"].error("expected two nodes at different positions (got the same position)");
   member.end_section = member.section;
   if (place.has("taper") && !place.has("end_section"))
-    throw place["taper"].error("'taper' requires 'end_section'");
+    throw place["taper"].error("'taper' requires 'end_section' (section at the second node)");
   if (place.has("end_section")) {
     reader.optional("end_section", member.end_section);
     member.taper = read_taper(place, symbols);
@@ -122,14 +124,14 @@ void require_others(const JsonView& place, const solver::RigidBody& body) {
   const auto same = std::ranges::find(body.attached, body.reference);
   if (same == body.attached.end()) return;
   throw place["nodes"][static_cast<std::size_t>(same - body.attached.begin())].error(
-      "the reference node of a rigid body cannot be among its 'nodes'");
+      "the reference node of a rigid body cannot be among its 'nodes'; expected another node");
 }
 
 void add_pin(const JsonView& place, const Pin& pin, solver::Model& model) {
   const double apart = (model.nodes[solver::to_size(pin.nodes[0])].position -
                         model.nodes[solver::to_size(pin.nodes[1])].position)
                            .norm();
-  constexpr double kRoundoff = 1e-12;  // of computed coordinates, relative to the model's size
+  constexpr double kRoundoff = 1e-12;  // round-off of coordinates over the model's size
   if (apart > kRoundoff * solver::box_diagonal(model)) {
     throw place["nodes"].error("the nodes of a pin require the same position (got a distance of " +
                                shortest_decimal(apart) + " m)");
@@ -146,7 +148,9 @@ void require_force(const JsonView& load) {
 void support_edge(const JsonView& place, const solver::Support& all, const Edge& edge,
                   solver::Model& model) {
   if (all.fixed[2])
-    throw place.error("an edge cannot support 'rotation', because the nodes of plates have none");
+    throw place.error(
+        "an edge cannot support 'rotation', because nodes of plates have no rotation; expected "
+        "'x' or 'y'");
   for (const solver::Index node : nodes_of(edge)) {
     solver::Support support{all.name, node, all.fixed};
     for (const solver::Support& other : model.supports) {
@@ -157,7 +161,7 @@ void support_edge(const JsonView& place, const solver::Support& all, const Edge&
   }
 }
 
-/// Reads supports of nodes first, so that they keep their reactions on a supported edge.
+/// Reads supports of nodes before those of edges. Nodes of a supported edge keep their reactions.
 void read_supports(const JsonView& model, const SymbolTable& symbols, solver::Model& structure) {
   for (const bool of_edges : {false, true}) {
     for (const auto& [name, place] : model.entries("supports")) {
@@ -178,13 +182,13 @@ void read_supports(const JsonView& model, const SymbolTable& symbols, solver::Mo
 
 void read_load(const JsonView& place, const SymbolTable& symbols, solver::Model& model) {
   if (place.has("node") == place.has("edge"))
-    throw place.error("expected exactly one of 'node' and 'edge'");
+    throw place.error("expected exactly one of 'node' and 'edge' (got both or neither)");
   const bool on_edge = place.has("edge");
   for (const char* key : {"force_N", "moment_N_m", "traction_Pa", "normal_Pa"}) {
     const bool of_edge = std::string(key).ends_with("_Pa");
     if (!place.has(key) || of_edge == on_edge) continue;
     throw place[key].error("'" + std::string(key) + "' requires '" + (of_edge ? "edge" : "node") +
-                           "'");
+                           "'; expected forces on a 'node' or tractions on an 'edge'");
   }
   if (on_edge && !place.has("traction_Pa") && !place.has("normal_Pa"))
     throw place.error("the load is empty; expected 'traction_Pa' or 'normal_Pa'");
@@ -223,15 +227,15 @@ solver::large_motion::LargeMotionModel read_joint_elements(const JsonView& model
                                                            const SymbolTable& symbols) {
   using namespace solver::large_motion;
   LargeMotionModel joints;
-  joints.sliders = read_parts<Slider>(model, "sliders", symbols,
-                                      [](const JsonView& place, const Slider& slider) {
-                                        if (slider.rail == slider.node)
-                                          throw place["rail"].error("'rail' and 'node' are equal");
-                                      });
+  joints.sliders = read_parts<Slider>(
+      model, "sliders", symbols, [](const JsonView& place, const Slider& slider) {
+        if (slider.rail == slider.node)
+          throw place["rail"].error("'rail' and 'node' are equal; expected two nodes");
+      });
   joints.line_springs = read_parts<LineSpring>(model, "axial_springs", symbols);
   joints.follower_loads = read_parts<FollowerLoad>(
       model, "follower_loads", symbols, [](const JsonView& place, const FollowerLoad&) {
-        if (!place.has("node")) throw place.error("the load requires 'node'");
+        if (!place.has("node")) throw place.error("the follower load requires the key 'node'");
         require_force(place);
       });
   return joints;
@@ -265,7 +269,7 @@ Structure read_structure(const JsonView& model, const std::vector<solver::Node>&
 
 namespace {
 
-/// Position at s in [0, 1] along a chain.
+/// Positions along a chain of members, for a parameter s from 0 to 1.
 class ChainPath {
  public:
   ChainPath(const MemberChain& chain, const Eigen::Vector2d& start, const Eigen::Vector2d& end)

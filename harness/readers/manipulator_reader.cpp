@@ -88,7 +88,6 @@ solver::Spline read_spline(const JsonView& spline) {
   return solver::make_spline(times, poses, spline.get("ends", solver::SplineEnds::natural));
 }
 
-/// Reads a circle, a line, a rest-to-rest motion, or a spline through poses.
 solver::Path read_path(const std::string& kind, const JsonView& place) {
   if (kind == "circle") return read_circle(place);
   if (kind == "spline") return read_spline(place);

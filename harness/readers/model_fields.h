@@ -10,8 +10,8 @@
 #include "solver/manipulator/trajectory.h"
 #include "solver/model/model.h"
 
-/// Keys and members of the parts of a planar model, each listed once. `FieldReader`, the writer of
-/// exported cases and a test that compares them with the schema use the same list:
+/// JSON keys and C++ members of the parts of a planar model, each listed once. `FieldReader`, the
+/// writer of exported cases and a test that compares them with the schema use the same list:
 ///
 ///   io.required(key, member);   always written
 ///   io.defaulted(key, member);  optional in the schema, and always written
@@ -44,11 +44,9 @@ template <>
 inline constexpr std::array kWords<solver::SplineEnds> = {"natural", "at-rest", "periodic"};
 template <>
 inline constexpr std::array kWords<solver::EigenMethod> = {"automatic", "dense", "sparse"};
-/// Axial flexibility of a member.
 enum class Axial { flexible, inextensible };
 template <>
 inline constexpr std::array kWords<Axial> = {"flexible", "inextensible"};
-/// Motions of a node.
 enum class NodeMotion { x, y, rotation };
 template <>
 inline constexpr std::array kWords<NodeMotion> = {"x", "y", "rotation"};
@@ -112,7 +110,7 @@ void fields(Io& io, solver::Spring& spring) {
   io.defaulted("rotational_stiffness_N_m_per_rad", spring.stiffness.z());
 }
 
-/// Two nodes at the same position that move together.
+/// Pin: two nodes at the same position that move together and rotate independently.
 struct Pin {
   std::string name;
   std::array<solver::Index, 2> nodes{};

@@ -12,32 +12,32 @@
 
 namespace trammel::harness {
 
-/// Planar part of a case's model.
+/// Planar structure of a case, without a manipulator.
 struct Structure {
   solver::Model model;
-  /// Sliders, springs along a line and follower loads.
+  /// Sliders, line springs and follower loads of the case.
   solver::large_motion::LargeMotionModel joints;
 };
 
 /// Reads the nodes of a planar model and the parts that connect them. Indices start after `before`.
-/// @param model  the place /model
+/// @param model  the JSON object /model of the case
 /// @param before  existing nodes of the manipulator
 /// @throws InputError  if a name is unknown or the geometry is impossible.
 [[nodiscard]] Structure read_structure(const JsonView& model,
                                        const std::vector<solver::Node>& before);
 
-/// Reads the place /model/manipulator.
+/// Reads the manipulator at /model/manipulator of a case.
 /// @throws InputError  if its geometry is meaningless.
 [[nodiscard]] solver::ManipulatorDesign read_manipulator(const JsonView& manipulator);
 
-/// A single pose at rest, or the points of a path.
+/// Motion of the platform: a single pose at rest, or the sampled points of a path.
 struct PlatformMotion {
   std::optional<solver::Path> path;
   std::vector<solver::TrajectoryPoint> points;
 };
 
 /// Reads /model/pose or /model/trajectory.
-/// @param model  the place /model
+/// @param model  the JSON object /model of the case
 /// @throws InputError  if a pose is out of reach.
 [[nodiscard]] PlatformMotion read_platform_motion(const JsonView& model,
                                                   const solver::ManipulatorGeometry& geometry);
@@ -47,7 +47,7 @@ struct PlatformMotion {
 struct MemberChain {
   /// The members are chords of a counterclockwise circle about this point [m].
   std::optional<Eigen::Vector2d> arc_center;
-  std::array<bool, 3> held{};  ///< x, y and rotation of every intermediate node
+  std::array<bool, 3> held{};  ///< supported motions (x, y, rotation) of all inner nodes
 
   [[nodiscard]] bool needed() const { return arc_center || held[0] || held[1] || held[2]; }
 };
@@ -55,7 +55,7 @@ struct MemberChain {
 /// Adds a chain of `member.elements` members in place of `member`, with unnamed intermediate nodes
 /// and their supports.
 /// @param start, end  positions of the member's nodes [m].
-/// @param first_node  index in the model of the next node of `structure.nodes`.
+/// @param first_node  index of the first intermediate node in the complete model.
 /// @throws ModelError  if the two ends have different distances from the center of an arc.
 void add_chain(const solver::Member& member, const MemberChain& chain, const Eigen::Vector2d& start,
                const Eigen::Vector2d& end, solver::Index first_node, solver::Model& structure);

@@ -38,7 +38,7 @@ solver::TimeScheme scheme_of(const std::string& name, const JsonView& numbers) {
 
 std::size_t count_of(const JsonView& modal, std::optional<solver::Index> known) {
   if (!modal.has("modes"))
-    throw modal.error("a single 'ratio' requires 'modes', the number of modes");
+    throw modal.error("a single 'ratio' requires 'modes', the number of modes (not present)");
   const JsonView stated = modal["modes"];
   if (!stated.json().is_string()) return stated.get<std::size_t>();
   if (known) return static_cast<std::size_t>(*known);
@@ -133,7 +133,8 @@ solver::DesignParameter read_design_parameter(const JsonView& parameter) {
   if (read.kind > Kind::poisson_ratio) {
     for (const char* key : {"links", "platform"})
       if (parameter.has(key))
-        throw parameter[key].error("this property does not refer to links or to the platform");
+        throw parameter[key].error(
+            "this property does not refer to links or to the platform; expected no selection");
     return read;
   }
   read.platform = parameter.get("platform", false);
@@ -149,12 +150,13 @@ solver::DesignParameter read_design_parameter(const JsonView& parameter) {
   const bool platform_has = read.kind != Kind::length && read.kind != Kind::width;
   if (read.platform && !platform_has)
     throw parameter["platform"].error(
-        "'platform' requires the property thickness, E, density or Poisson's ratio");
+        "'platform' requires the property thickness, E, density or Poisson's ratio (got a length "
+        "or width)");
   const auto any = [](const std::array<bool, 3>& selected) {
     return std::ranges::count(selected, true) > 0;
   };
   if (!any(read.proximal) && !any(read.distal) && !read.platform)
-    throw parameter.error("the parameter selects neither a link nor the platform");
+    throw parameter.error("expected at least one link or the platform (got neither)");
   return read;
 }
 
@@ -258,11 +260,13 @@ void read_history(const JsonView& analysis, const solver::Model& built,
     large_motion.load_history = [law](double t) { return law(t)[0]; };
   }
   if (const auto stated = analysis.find("load_history")) {
-    if (analysis.has("load_ramp_s")) throw stated->error("not allowed with 'load_ramp_s'");
+    if (analysis.has("load_ramp_s"))
+      throw stated->error("'load_history' is not allowed with 'load_ramp_s'; expected one of them");
     const solver::LoadHistory history = read_load_history(analysis);
     for (std::size_t i = 1; i < history.time.size(); ++i) {
       if (history.time[i] > history.time[i - 1]) continue;
-      throw(*stated)["time_s"][i].error("the factor jumps; expected a continuous function");
+      throw(*stated)["time_s"][i].error(
+          "the factor jumps; expected a continuous function, with increasing times");
     }
     large_motion.load_history = [history](double t) { return history.at(t); };
     large_motion.load_breakpoints = history.bends();

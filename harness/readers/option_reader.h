@@ -13,23 +13,23 @@
 #include "solver/motion/harmonic.h"
 #include "solver/motion/transient.h"
 
-/// Options shared by several analyses.
+/// Readers of options that several analyses have in common.
 namespace trammel::harness {
 
-/// Reads a word or an object with one key: "newmark" (average acceleration), "linear-acceleration",
+/// Reads a scheme of time integration: "newmark" (average acceleration), "linear-acceleration",
 /// {"newmark": {"beta", "gamma"}}, {"hht": {"alpha"}}, {"generalized-alpha": {"spectral_radius"}}.
 /// @throws InputError  if the numbers are not parameters of a valid scheme.
 [[nodiscard]] solver::TimeScheme read_time_scheme(const JsonView& scheme);
 
-/// Limits the number of steps to ten million.
+/// Limits the number of time steps to ten million.
 /// @param step  value of the case that is a time step
 /// @throws InputError  if the duration contains more steps.
 void require_step_count(const JsonView& step, double duration);
 
-/// Reads {"mass_per_s": w1, "stiffness_s": w2}; no damping if it is absent.
+/// Reads Rayleigh damping w1 M + w2 K: {"mass_per_s": w1, "stiffness_s": w2}; none by default.
 [[nodiscard]] solver::RayleighDamping read_rayleigh(const std::optional<JsonView>& damping);
 
-/// Reads "load_history": {"time_s", "factor"}; the factor is 1 if it is absent.
+/// Reads the load factor over time, "load_history": {"time_s", "factor"}; constant 1 by default.
 /// @throws InputError  if times decrease or the two lists differ in length.
 [[nodiscard]] solver::LoadHistory read_load_history(const JsonView& analysis);
 
@@ -38,35 +38,34 @@ void require_step_count(const JsonView& step, double duration);
 [[nodiscard]] solver::TransientOptions read_time_options(const JsonView& analysis);
 
 /// Reads the key "damping" of an analysis; no damping if it is absent.
-/// @param modes  number of modes meant by "all", if it is known.
+/// @param modes  number of modes of the model, to which "all" refers; empty if it is unknown.
 /// @throws InputError  for "all" with an unknown number of modes, for more ratios than modes, or
 ///   for meaningless numbers.
 [[nodiscard]] solver::HarmonicDamping read_damping(
     const JsonView& analysis, std::optional<solver::Index> modes = std::nullopt);
 
-/// Reads the key "eigensolver" of an analysis: automatic, dense or sparse.
 [[nodiscard]] solver::EigenMethod read_eigen_method(const JsonView& analysis);
 
-/// Reads {"property": "length", "links": ["A1-B1", ...], "platform": false}.
-/// @throws InputError  if the parameter is not a number: the length or width of a platform alone.
+/// Reads a design parameter: {"property": "length", "links": ["A1-B1", ...], "platform": false}.
+/// @throws InputError  if the selected links or platform do not have this property.
 [[nodiscard]] solver::DesignParameter read_design_parameter(const JsonView& parameter);
 
-/// Returns "sensitivity_Hz_per_m", with the unit of the parameter.
+/// Returns the name of the sensitivity to a parameter, with its unit: "sensitivity_Hz_per_m".
 [[nodiscard]] std::string sensitivity_name(solver::DesignParameter::Kind kind);
 
-/// Adds the drives of a large-statics or large-motion analysis. For large motion, also adds
-/// damping, load history and initial state.
+/// Add prescribed motions ("drives") to a model of large statics or large motion. For large motion,
+/// `read_history` adds damping, load history and initial velocities.
 /// @throws InputError  if a name is unknown.
 void read_drives(const JsonView& analysis, const solver::Model& built,
                  solver::large_motion::LargeMotionModel& large_motion);
 void read_history(const JsonView& analysis, const solver::Model& built,
                   solver::large_motion::LargeMotionModel& large_motion);
 
-/// Reads a function of time: position, velocity and acceleration.
+/// Reads a law of motion, which returns position, velocity and acceleration at a time.
 [[nodiscard]] solver::large_motion::TimeFunction read_law(const JsonView& law);
 
-/// Returns the node of a name.
-/// @throws InputError  if there is none.
+/// Returns the index of the node with a name.
+/// @throws InputError  if no node has this name.
 [[nodiscard]] solver::Index find_node(const JsonView& name, const solver::Model& built);
 
 }  // namespace trammel::harness

@@ -42,7 +42,7 @@ solver::Triangle read_triangle(const JsonView& place, const SymbolTable& symbols
   for (std::size_t i = 0; i < place.size(); ++i) triangle.nodes[i] = symbols.find_node(place[i]);
   const double area = twice_area(structure, triangle);
   if (area == 0) throw place.error("expected a triangle with an area (got collinear points)");
-  if (area < 0) {  // clockwise: swap two corners, and the sides with them
+  if (area < 0) {  // clockwise: swaps two corners and their sides
     std::swap(triangle.nodes[1], triangle.nodes[2]);
     std::swap(triangle.nodes[3], triangle.nodes[5]);
   }
@@ -52,7 +52,7 @@ solver::Triangle read_triangle(const JsonView& place, const SymbolTable& symbols
 /// Reads the curve of an edge; empty for a straight edge.
 std::optional<solver::Ellipse> read_curve(const JsonView& edge) {
   if (edge.has("ellipse") && edge.has("circle"))
-    throw edge.error("expected at most one of 'ellipse' and 'circle'");
+    throw edge.error("expected at most one of 'ellipse' and 'circle' (got both)");
   if (const auto circle = edge.find("circle")) {
     const double radius = circle->number("radius_m");
     return solver::Ellipse{read_point((*circle)["center_m"]), {radius, radius}};
@@ -80,7 +80,8 @@ class Outline {
           throw entry.second.error("this node equals the previous one; expected another node");
         if (!curve_.emplace(ends, curve).second)
           throw entry.second.error(
-              "the side from the previous node to this one already belongs to an edge");
+              "the side from the previous node to this one already belongs to an edge; expected "
+              "each side in one edge only");
       }
     }
   }
@@ -107,7 +108,7 @@ class Outline {
   std::map<Ends, std::optional<solver::Ellipse>> curve_;
 };
 
-/// Sides of the blocks of all plates, by their corners.
+/// Sides of the meshed blocks of all plates, found by their corner nodes.
 class Sides {
  public:
   /// @param piece  side of the block; the plate is to the left of its sequence of nodes
@@ -184,7 +185,7 @@ void mesh_plate(const JsonView& place, const SymbolTable& symbols, const Outline
 void read_plate(const std::string& name, const JsonView& place, const SymbolTable& symbols,
                 const Outline& outline, solver::Model& structure, Sides& sides) {
   if (place.has("triangles") == place.has("blocks"))
-    throw place.error("expected exactly one of 'triangles' and 'blocks'");
+    throw place.error("expected exactly one of 'triangles' and 'blocks' (got both or neither)");
   const auto plate = static_cast<solver::Index>(structure.plates.size());
   structure.plates.push_back(read_part<solver::Plate>(place, &symbols));
   structure.plates.back().name = name;
@@ -203,7 +204,8 @@ Edge find_edge(const JsonView& place, const std::vector<solver::Index>& corners,
     const std::vector<Edge::Piece>* found = sides.find(corners[i], corners[i + 1]);
     if (found == nullptr)
       throw place["nodes"][i + 1].error(
-          "no side of a block connects the previous node with this one");
+          "no side of a block connects the previous node with this one; expected the two corners "
+          "of one side");
     edge.pieces.push_back(found->front());
     // A side between two blocks has no outward normal, so that no plate is stored.
     if (found->size() > 1) edge.pieces.back().plate = -1;

@@ -10,7 +10,7 @@
 namespace trammel::results {
 namespace {
 
-/// Severity of each verdict, in the order of `Verdict`.
+/// Severity of each verdict of a check, in the order of the enumeration `Verdict`; 5 is the worst.
 constexpr std::array kSeverity = {0, 4, 5, 3, 2, 3};
 
 int severity(const Check& check) {
@@ -22,7 +22,8 @@ Number judged_number(const Check& check) {
   return check.measure == "bound" ? check.computed : check.difference;
 }
 
-/// Returns the judged number, with the opposite sign for a lower bound.
+/// Returns the number that the check judges. Its sign is reversed for a lower bound, so that the
+/// worse of two checks has the larger result.
 double beyond(const Check& check) {
   const double number = judged_number(check).value_or(0);
   return check.tolerance && !check.tolerance->high ? -number : number;
@@ -57,7 +58,7 @@ bool worse(const Check& a, const Check& b) {
     return size_of_difference(a) > size_of_difference(b);
   const double share_a = tolerance_fraction(a), share_b = tolerance_fraction(b);
   if (share_a != share_b) return share_a > share_b;
-  return beyond(a) > beyond(b);  // limits of zero have no fractions
+  return beyond(a) > beyond(b);  // if both limits are zero, the fractions are equal
 }
 
 const Check& CheckGroup::worst() const {

@@ -4,28 +4,29 @@
 
 #include "harness/results/run_results.h"
 
-/// Checks of a run and their order by severity.
+/// Checks of a run, which compare computed with expected values, by name and by severity.
 namespace trammel::results {
 
-/// Returns the difference of a check divided by its tolerance: 1 at the limit, infinity if there is
-/// no number. If the tolerance is a range, the result is the distance of the difference from the
-/// middle of the range, divided by half of its width. A bound judges the value itself.
+/// Returns the difference between computed and expected value, divided by the tolerance. The result
+/// is 1 at the limit, and infinity without a number. If the tolerance is a range, the result is the
+/// distance of the difference from the middle of the range, divided by half of the range's width.
+/// If the check is a bound, the computed value replaces the difference.
 [[nodiscard]] double tolerance_fraction(const Check& check);
 
-/// Returns the magnitude of the difference, or |ratio - 1| if the check measures a ratio.
+/// Returns the magnitude of a check's difference, or |ratio - 1| if the check measures a ratio.
 [[nodiscard]] double size_of_difference(const Check& check);
 
-/// Returns true if `a` is more severe than `b`: error, fail, without result, not judged, known
-/// discrepancy, pass. At equal severity, it compares the sizes of two known discrepancies, and
-/// otherwise the fractions of the tolerance.
+/// Returns true if check `a` is more severe than check `b`. The verdicts in descending severity
+/// are: error, fail, without result, not judged, known discrepancy, pass. Of two known
+/// discrepancies, the larger difference is more severe. Otherwise `tolerance_fraction` decides.
 [[nodiscard]] bool worse(const Check& a, const Check& b);
 
-/// Checks of one run with the same name and quantity, in their order.
+/// Checks of one run that have the same name and the same quantity, in the order of the run.
 struct CheckGroup {
   std::vector<const Check*> checks;
 
   [[nodiscard]] const Check& front() const { return *checks.front(); }
-  /// Returns the most severe entry.
+  /// Returns the most severe check of the group.
   [[nodiscard]] const Check& worst() const;
 };
 [[nodiscard]] std::vector<CheckGroup> group_checks(const Run& run);

@@ -7,30 +7,30 @@
 
 #include "harness/results/run_results.h"
 
-/// Cost section of results.json: settings of one computation with measured error and time.
+/// Section "cost" of results.json: error and processor time of a computation with several settings.
 namespace trammel::results {
 
-/// Result of one computation with a setting. Only stores contain it.
+/// Result of a computation with one setting in a separate process. It is not part of results.json.
 struct SandboxedRun {
   enum class Termination { failed, solved, timed_out };
   Termination termination = Termination::failed;
-  std::string reason;                                     ///< reason of a failure
-  std::vector<std::vector<double>> values;                ///< one list per observed quantity
-  std::map<std::string, std::vector<double>> quantities;  ///< all quantities, if none is observed
+  std::string reason;                                     ///< reason why the computation failed
+  std::vector<std::vector<double>> values;                ///< values of each observed quantity
+  std::map<std::string, std::vector<double>> quantities;  ///< all quantities, if none is selected
   Counters counters;
   double cpu_s = 0;
 };
 
-/// Norms of the relative error over all observed values.
+/// Norms of the relative errors of all observed values: maximum, root mean square and mean.
 struct ErrorNorms {
   Number max, rms, mean;
-  /// @param norm  name of a member
+  /// @param norm  "max", "rms" or "mean"
   [[nodiscard]] Number get(const std::string& norm) const;
 };
 
 struct SettingTime {
-  std::vector<double> cpu_s;  ///< processor time of one computation, per repeat
-  /// Time relative to the baseline: interval that contains the median with a probability of 98 %.
+  std::vector<double> cpu_s;  ///< processor time of each repeat of the computation
+  /// Limits of the 98 % confidence interval of the median time, relative to the baseline.
   double relative_low = 0, relative_high = 0;
   double wall_median_s = 0;
   std::size_t runs_per_measurement = 0;
@@ -38,20 +38,20 @@ struct SettingTime {
 
 struct CostSetting {
   std::string curve, curve_title, title, status, reason;
-  Number value;                      ///< value of the parameter along the curve
-  std::optional<ErrorNorms> errors;  ///< error norms of the first output
-  /// Errors of each output; empty if the setting does not compute it. Only stores contain them.
+  Number value;  ///< parameter that varies along the curve, such as the number of elements
+  std::optional<ErrorNorms> errors;  ///< error norms of the study's first output
+  /// Error norms of each output that the setting computes. They are not part of results.json.
   std::vector<std::optional<ErrorNorms>> output_errors;
-  double cpu_s = 0;  ///< median, or time of the only trial
-  Number relative;   ///< median time, relative to the baseline
+  double cpu_s = 0;  ///< median of the repeats, or time of the first run
+  Number relative;   ///< median time divided by that of the baseline setting
   std::optional<SettingTime> time;
   Counters counters;
   bool pareto_optimal = false;
 
-  /// Returns true if the setting has an error and a time that are used.
+  /// Returns true if the error and the time of the setting were measured.
   [[nodiscard]] bool measured() const { return status == "measured"; }
-  /// Returns true if the setting failed, diverged or timed out. The figure shows such settings in a
-  /// strip at its edge.
+  /// Returns true if the setting failed, diverged or timed out. The figure of error and time shows
+  /// such settings in a strip at its edge.
   [[nodiscard]] bool without_result() const {
     return status == "failed" || status == "diverged" || status == "timed-out";
   }
@@ -59,24 +59,27 @@ struct CostSetting {
 
 struct CheapestSetting {
   double error = 0;
-  /// Number of the setting; empty: no setting reaches the error.
+  /// Index of the fastest setting with at most this error; empty if no setting reaches the error.
   std::optional<std::size_t> setting;
-  std::vector<std::size_t> tied;  ///< settings whose time does not differ significantly
+  std::vector<std::size_t> tied;  ///< settings that are not significantly slower
 };
 
-/// Agreement of the Pareto fronts of two measurements; in a study, of odd and even repeats.
+/// Agreement between the Pareto fronts of two measurements, such as the odd and even repeats.
 struct Repeatability {
-  std::size_t on_both_fronts = 0, on_either_front = 0;  ///< numbers of settings
-  std::size_t same_cheapest = 0, target_errors = 0;  ///< target errors reached by both measurements
-  /// |ln| of the ratio of the times needed for an accuracy, over all errors of both fronts that
-  /// both measurements reach. The value is a fraction: 0.1 is 10 %.
+  /// Numbers of settings on the Pareto fronts of both measurements, and of at least one.
+  std::size_t on_both_fronts = 0, on_either_front = 0;
+  /// Number of target errors with the same fastest setting in both measurements, and number of
+  /// target errors that both measurements reach.
+  std::size_t same_cheapest = 0, target_errors = 0;
+  /// Relative difference between the times that the two measurements need for the same error, over
+  /// all errors of both fronts that both measurements reach. The value is a fraction: 0.1 is 10 %.
   Number median_difference, largest_difference;
 };
 
 /// Result of a study for one of its outputs, or for all of them together.
 struct CostOutput {
   std::string title, scale;
-  std::vector<Number> errors;  ///< of each setting, in the norm of the study; empty: no output
+  std::vector<Number> errors;  ///< error of each setting (study's norm); empty without the output
   std::vector<CheapestSetting> cheapest;
 };
 
@@ -87,8 +90,8 @@ struct CostStudy {
   double wall_s = 0;
   std::vector<CheapestSetting> cheapest;
   Repeatability repeatability;
-  std::vector<CostOutput> outputs;  ///< only for several outputs; the last entry covers all of them
-  /// Hashes of the references by file. Only stores contain them.
+  std::vector<CostOutput> outputs;  ///< if the study has several; the last entry combines all
+  /// Hash of each reference file that was used. The hashes are not part of results.json.
   std::map<std::string, std::string> references;
 
   /// Returns the error of a setting in the study's norm.

@@ -27,11 +27,11 @@ using Json = nlohmann::ordered_json;
 using harness::Number;
 using harness::Numbers;
 
-/// Form of the output. summary: text without the fields kept in a store. store: all fields, with
-/// arrays of numbers as bytes.
+/// Form of written JSON. text: without `store_only` fields. summary: without `stored` fields, which
+/// the run store contains. store: all fields, with arrays of numbers as bytes.
 enum class Form { text, summary, store };
 
-/// Place of a value in a document. Its JSON pointer is built only for a message.
+/// Location of a value in a JSON document. Its JSON pointer is built only for an error message.
 struct Place {
   const Place* parent = nullptr;
   std::string key;
@@ -41,8 +41,8 @@ struct Place {
   [[noreturn]] void fail(const std::string& expected) const;
 };
 
-/// required: always written, and an error if absent. optional: omitted if empty. stored: an
-/// optional field that summaries omit. store_only: an optional field that texts omit.
+/// Rules for a field. required: always written, and an error if absent. optional: omitted if empty.
+/// stored: optional, omitted in the form `summary`. store_only: optional, written only in `store`.
 enum class Presence { required, optional, stored, store_only };
 
 template <class Struct, class Member>
@@ -63,7 +63,7 @@ template <class Struct, class Member>
 constexpr Field<Struct, Member> required(const char* key, Member Struct::*member) {
   return {key, member, Presence::required};
 }
-/// The value of an absent field is empty, or the first value of an enumeration.
+/// Declares a field that may be absent. Its member is then empty, or the first enumeration value.
 template <class Struct, class Member>
 constexpr Field<Struct, Member> optional(const char* key, Member Struct::*member) {
   return {key, member, Presence::optional};
@@ -78,7 +78,7 @@ constexpr Field<Struct, Member> store_only(const char* key, Member Struct::*memb
   return {key, member, Presence::store_only};
 }
 
-/// The field is omitted if it equals the default that `value` computes from the preceding fields.
+/// Declares a field that is omitted if it equals the default computed from the preceding fields.
 template <class Struct, class Member>
 constexpr UsualField<Struct, Member> usual(const char* key, Member Struct::*member,
                                            Member (*value)(const Struct& fields_before)) {
@@ -86,18 +86,18 @@ constexpr UsualField<Struct, Member> usual(const char* key, Member Struct::*memb
 }
 
 struct None {};
-/// The fields of a struct, in the order of the document.
+/// Fields of a struct, in the order in which they are written.
 template <class Struct>
 inline constexpr None kFields{};
 /// Names of an enumeration's values: an array of pairs (name, value).
 template <class Enum>
 inline constexpr None kNames{};
-/// Member used as the key when several structs are stored in an object instead of an array.
+/// Member whose value is the key if several structs are written as a JSON object, not as an array.
 template <class Struct>
 inline constexpr None kKeyMember{};
 
-/// Declares the fields of a struct, which is named S among them. TRAMMEL_REQUIRED(name, quantity)
-/// declares fields whose keys are the names of the members.
+/// Declares the fields of a struct, named S in the declarations. TRAMMEL_REQUIRED(name, quantity)
+/// declares required fields whose keys are the names of the members.
 #define TRAMMEL_FIELDS(Struct, ...)            \
   template <>                                  \
   inline constexpr auto kFields<Struct> = [] { \
@@ -138,11 +138,11 @@ inline constexpr bool is_map = false;
 template <class T>
 inline constexpr bool is_map<std::map<std::string, T>> = true;
 using Pair = std::pair<double, double>;
-/// Types whose arrays are stored as bytes.
+/// Types whose arrays are written as bytes in the form `store`.
 template <class T>
 inline constexpr bool is_packed =
     std::is_same_v<T, double> || std::is_same_v<T, Number> || std::is_same_v<T, Pair>;
-/// Types of a named value, which is a member of an object.
+/// True for a pair of a name and a value, which is written as a member of a JSON object.
 template <class T>
 inline constexpr bool is_named = false;
 template <class T>
@@ -207,7 +207,7 @@ template <class T>
 Json object_to_json(const T& value, Form form) {
   Json json = Json::object();
   auto& members = json.template get_ref<Json::object_t&>();
-  // A vector that grows would copy all members.
+  // Memory is reserved, because a growing vector copies all members.
   members.reserve(std::tuple_size_v<std::decay_t<decltype(kFields<T>)>>);
   const auto write = [&](const auto& field) {
     if (!is_left_out(field, value, form))
@@ -231,14 +231,14 @@ void object_from_json(const Json& json, const Place& place, T& value) {
 
 constexpr std::size_t kBytes = sizeof(double);
 
-/// Returns the bits of the number two positions earlier. In a list of pairs (x, y), this is the
-/// same coordinate of the previous pair.
+/// Returns the bits of the number two positions before index i. In a list of pairs (x, y), that
+/// number is the same coordinate of the previous pair.
 inline std::uint64_t bits_before(const double* numbers, std::size_t i) {
   return i < 2 ? 0 : std::bit_cast<std::uint64_t>(numbers[i - 2]);
 }
 
-/// Returns the differences of the bits of each number from the number two positions earlier. The
-/// lowest bytes of all differences come first, because runs of similar bytes compress best.
+/// Returns the differences between the bits of each number and of the number two positions earlier.
+/// The lowest bytes of all differences come first, because runs of similar bytes compress best.
 template <class Entry>
 Json packed(const std::vector<Entry>& values) {
   const auto* const numbers = reinterpret_cast<const double*>(values.data());
@@ -249,15 +249,15 @@ Json packed(const std::vector<Entry>& values) {
     for (std::size_t b = 0; b < kBytes; ++b)
       bytes[b * count + i] = static_cast<std::uint8_t>(step >> (8 * b));
   }
-  // Json::binary() sets the type before it allocates; if allocation fails, it destroys a null
-  // pointer.
+  // The constructor is used, because Json::binary() sets the type before it allocates memory. If
+  // the allocation fails, a null pointer is destroyed.
   return Json(Json::binary_t(std::move(bytes)));
 }
 
 template <class Entry>
 void unpack(const Json& json, const Place& place, std::vector<Entry>& values) {
   const auto& bytes = json.get_binary();
-  if (bytes.size() % sizeof(Entry) != 0) place.fail("the bytes of numbers");
+  if (bytes.size() % sizeof(Entry) != 0) place.fail("the bytes of complete numbers");
   values.resize(bytes.size() / sizeof(Entry));
   auto* const numbers = reinterpret_cast<double*>(values.data());
   const std::size_t count = bytes.size() / kBytes;
@@ -276,7 +276,7 @@ Json list_to_json(const std::vector<Entry>& values, Form form) {
   Json json = has_key<Entry> || is_named<Entry> ? Json::object() : Json::array();
   if constexpr (is_named<Entry>) json.template get_ref<Json::object_t&>().reserve(values.size());
   for (const auto& entry : values) {
-    if constexpr (is_named<Entry>) {  // json[name] would compare all previous names
+    if constexpr (is_named<Entry>) {  // json[name] would be slow: it compares all previous names
       json.template get_ref<Json::object_t&>().emplace_back(entry.first,
                                                             to_json(entry.second, form));
     } else if constexpr (has_key<Entry>) {
@@ -314,7 +314,7 @@ template <class Enum>
 const char* name_of(Enum value) {
   for (const auto& [name, known] : kNames<Enum>)
     if (known == value) return name;
-  throw std::logic_error("a value without a name");
+  throw std::logic_error("an enumeration value has no name");
 }
 
 template <class Enum>
@@ -330,7 +330,7 @@ void enum_from_json(const Json& json, const Place& place, Enum& value) {
   place.fail(expected);
 }
 
-/// Reads (x, y); a coordinate that is not finite is null.
+/// Reads a pair (x, y), in which null represents a coordinate that is not finite.
 inline void pair_from_json(const Json& json, const Place& place, Pair& value) {
   Numbers numbers;
   if (!json.is_array() || json.size() != 2) place.fail("two numbers");
@@ -340,7 +340,7 @@ inline void pair_from_json(const Json& json, const Place& place, Pair& value) {
 
 }  // namespace detail
 
-/// Converts a value to JSON. In texts, numbers that are not finite become null.
+/// Converts a value to JSON. Except in the form `store`, numbers that are not finite become null.
 template <class T>
 Json to_json(const T& value, Form form) {
   if constexpr (detail::has_fields<T>) {
@@ -366,7 +366,7 @@ Json to_json(const T& value, Form form) {
   }
 }
 
-/// @throws std::runtime_error  with the pointer of an absent value or of a wrong type.
+/// @throws std::runtime_error  with the JSON pointer of a value that is absent or of a wrong type.
 template <class T>
 void from_json(const Json& json, const Place& place, T& value) {
   if constexpr (detail::has_fields<T>) {

@@ -10,8 +10,9 @@ namespace trammel::results {
 
 namespace {
 
-/// Reads quantities.txt: analyses in brackets ([+ ...] adds analyses), then a line for each
-/// quantity that all of them compute. "+peak_" adds the peak of each quantity.
+/// Reads the table quantities.txt. A line in brackets lists analyses, or adds them to the previous
+/// list ([+ ...]). Each line below defines a quantity that all these analyses compute. "+peak_" in
+/// the brackets also defines the largest magnitude of each quantity, with this prefix.
 std::vector<QuantityDefinition> read_table() {
   std::vector<QuantityDefinition> all;
   std::vector<std::string> analyses;

@@ -7,8 +7,8 @@
 namespace trammel::results {
 
 struct QuantityDefinition {
-  /// Name, followed by a colon and its kind of part in capitals: displacement_x_m:NODE. The last
-  /// words before the colon are the unit.
+  /// Name of the quantity with its unit at the end, then a colon and the type of object to which
+  /// the quantity belongs, in capitals: displacement_x_m:NODE.
   std::string name;
   std::vector<std::string> analyses;
   std::string meaning;
@@ -19,10 +19,10 @@ struct QuantityDefinition {
 
 [[nodiscard]] const std::vector<QuantityDefinition>& quantity_definitions();
 
-/// Finds a definition.
-/// @param name  name of a result, with or without its part.
-/// @param analysis  such as "statics"; empty: any.
-/// @returns nullptr if no such analysis computes it.
+/// Finds the definition of a quantity.
+/// @param name  name of a computed quantity, with or without the object after the colon.
+/// @param analysis  analysis that computes the quantity, such as "statics"; empty: any analysis.
+/// @returns nullptr if no such analysis computes the quantity.
 [[nodiscard]] const QuantityDefinition* find_quantity_definition(const std::string& name,
                                                                  const std::string& analysis);
 

@@ -6,7 +6,7 @@
 #include "harness/results/results.h"
 #include "harness/results/side_comparison.h"
 
-/// Fields of all result structs. The same list is used for writing and reading.
+/// Keys and members of all structs of results.json. Writing and reading use the same list.
 namespace trammel::results {
 
 template <>
@@ -35,7 +35,7 @@ inline constexpr std::array kNames<Fault> = {std::pair{"none", Fault::none},
                                              std::pair{"input", Fault::input},
                                              std::pair{"internal", Fault::internal}};
 
-/// t: the difference is within +-t. [low, high]: it is between these limits; null is an open end.
+/// Writes the tolerance of a difference: t for +-t, or [low, high], in which null means no limit.
 template <>
 inline Json to_json(const Tolerance& tolerance, Form) {
   if (tolerance.symmetric) return to_json(tolerance.high);
@@ -50,7 +50,7 @@ inline void from_json(const Json& json, const Place& place, Tolerance& tolerance
     return;
   }
   Numbers ends;
-  if (!json.is_array() || json.size() != 2) place.fail("a number or two");
+  if (!json.is_array() || json.size() != 2) place.fail("a number or two numbers");
   from_json(json, place, ends);
   tolerance = {ends[0], ends[1], false};
 }
@@ -116,8 +116,9 @@ TRAMMEL_FIELDS(RowProbabilities, TRAMMEL_REQUIRED(row, reference, unit, discrepa
 TRAMMEL_FIELDS(ExcludedReadings, TRAMMEL_REQUIRED(reason, first, readings));
 TRAMMEL_FIELDS(ModelProbabilities, TRAMMEL_REQUIRED(rows, excluded));
 
-/// In texts, an object of arrays of values. In the store, name, values and round-off errors in
-/// turn, because an object would compare the names of hundreds of quantities.
+/// Writes the quantities of a run. The form `store` is an array with the name, values and round-off
+/// errors of each quantity in turn, because an object would compare hundreds of names. The other
+/// forms are objects with an array of values for each quantity.
 template <>
 inline Json to_json(const harness::Quantities& quantities, Form form) {
   Json json = form == Form::store ? Json::array() : Json::object();
@@ -168,7 +169,7 @@ TRAMMEL_FIELDS(Run, required("case", &S::case_id),
                TRAMMEL_STORED(uncertainty, effects, model_probabilities, drawing),
                TRAMMEL_OPTIONAL(stored),
                TRAMMEL_STORE_ONLY(sweeps, references, machine, solver, fault));
-/// A run without a file in the store contains all fields.
+/// Writes a run. If the run has no file in the store, even a summary contains its series.
 template <>
 inline Json to_json(const Run& run, Form form) {
   return detail::object_to_json(run,

@@ -17,7 +17,7 @@ namespace {
 void complete(Convergence& study, const Place& place) {
   const std::size_t levels = study.parameter.size();
   for (std::size_t i = 0; i < levels; ++i) {
-    // Levels without a number are numbered.
+    // A level without a value of the parameter is numbered, from 1.
     if (!study.parameter[i]) study.parameter[i] = static_cast<double>(i + 1);
   }
   const auto fit = [&](auto& column, const char* key) {
@@ -61,7 +61,7 @@ void require_consistent(const Drawing& drawing, const Place& place) {
     for (std::size_t i = 0; i < entries.size(); ++i) {
       const Place entry_place{&list_place, std::to_string(i)};
       if ((entries[i].*member).size() != nodes)
-        Place{&entry_place, member_key}.fail("one pair of numbers a node, " +
+        Place{&entry_place, member_key}.fail("one pair of numbers per node, " +
                                              std::to_string(nodes));
     }
   };
@@ -86,11 +86,11 @@ void require_consistent(const CostStudy& study, const Place& place) {
   for (const CostOutput& output : study.outputs) {
     check(output.cheapest, outputs);
     if (output.errors.size() != count)
-      Place{&outputs, "errors"}.fail(std::to_string(count) + " numbers, one a setting");
+      Place{&outputs, "errors"}.fail(std::to_string(count) + " numbers, one per setting");
   }
 }
 
-/// Sets missing titles to the names.
+/// Sets missing titles of figures and tables, and a missing family, to the id.
 void complete(CaseInfo& info) {
   const auto complete_title = [](auto& entry) {
     if (entry.title.empty()) entry.title = entry.id;
@@ -171,7 +171,7 @@ void share_texts(Json& json, const SharedTexts& shared) {
   if (!texts.empty()) json[shared.list] = std::move(texts);
 }
 
-/// Replaces indices by the shared texts.
+/// Replaces the indices in JSON objects by the texts of the shared list.
 void give_texts(Json& json, const SharedTexts& shared) {
   if (!json.is_object() || !json.contains(shared.list)) return;
   const Place root;
@@ -195,7 +195,7 @@ void complete(Results& results) {
   for (std::size_t i = 0; i < results.runs.size(); ++i) {
     Run& run = results.runs[i];
     const Place place{&runs, std::to_string(i)};
-    // Otherwise the page could not name the case.
+    // The report requires the title of the case.
     if (std::ranges::none_of(results.cases,
                              [&](const CaseInfo& info) { return info.id == run.case_id; }))
       Place{&place, "case"}.fail("a case listed under /cases");
@@ -238,7 +238,7 @@ Results read_results(const std::filesystem::path& file) {
   } catch (const Json::parse_error& error) {
     throw std::runtime_error(file.string() + ": not JSON at byte " + std::to_string(error.byte));
   } catch (const Json::out_of_range&) {
-    throw std::runtime_error(file.string() + ": /: a number that a double cannot hold");
+    throw std::runtime_error(file.string() + ": /: a number outside the range of double precision");
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(file.string() + ": " + error.what());
   }
@@ -286,7 +286,7 @@ std::string CaseInfo::variant_title(const std::string& variant) const {
 
 const CaseInfo& Results::case_info(const std::string& id) const {
   const CaseInfo* found = find_id(cases, id);
-  if (!found) throw std::logic_error("no case " + id);
+  if (!found) throw std::logic_error("the results do not contain the case " + id);
   return *found;
 }
 

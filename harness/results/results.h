@@ -11,8 +11,8 @@
 #include "harness/results/cost_results.h"
 #include "harness/results/run_results.h"
 
-/// Contents of results.json as plain values in the same order. The harness writes the file and the
-/// reports read it. The source defines the keys as fields; cases/schema/results.schema.json
+/// Contents of results.json as structs, in the order of the file. The harness writes the file and
+/// the reports read it. result_fields.h defines the keys; cases/schema/results.schema.json
 /// documents the file.
 namespace trammel::results {
 
@@ -24,17 +24,17 @@ struct Environment {
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
 };
 
-/// A plot requested by a case: quantities `y` over the quantity `x`, for some of its variants.
+/// A plot requested by a case: quantities `y` over the quantity `x`, for some variants of the case.
 struct PlotRequest {
   struct Line {
     std::string title, x, y;
   };
   std::string id, title, x, caption;
   std::vector<std::string> y, variants;
-  std::vector<std::string> log = {};  ///< axes with a logarithmic scale of magnitudes
-  /// Quantity shown as colors over x and the only y (a map); empty: curves.
+  std::vector<std::string> log = {};  ///< axes ("x", "y") with a logarithmic scale of magnitudes
+  /// Quantity of a map, shown as colors over `x` and the single `y`; empty: the plot shows curves.
   std::string value = {};
-  std::vector<Line> lines = {};  ///< drawn on a map
+  std::vector<Line> lines = {};  ///< curves that are drawn on the map
   [[nodiscard]] bool is_log(const std::string& axis) const;
 };
 
@@ -42,18 +42,18 @@ struct PlotRequest {
 /// divided by another timing.
 struct ColumnRequest {
   std::string id, title, quantity, timing, over_timing;
-  std::string statistic;  ///< statistic of the quantity; empty: its first entry
+  std::string statistic;  ///< statistic of the quantity; empty: first value of the quantity
 };
 
-/// A table with a row for each variant (all, if none is named) and one number per column.
+/// A table requested by a case, with a row for each of `variants` (empty: all variants).
 struct TableRequest {
   std::string id, title, caption;
   std::vector<ColumnRequest> columns;
   std::vector<std::string> variants;
 };
 
-/// Place of a case in the stress suite: an item, and the checks that indicate the accuracy of the
-/// solution.
+/// Item number of a case in the stress suite of numerically difficult problems, and the names of
+/// the checks that indicate the accuracy of the solution.
 struct StressSuiteEntry {
   int item = 0;
   std::vector<std::string> indicators;
@@ -81,7 +81,7 @@ struct Reference {
   std::vector<std::string> printed, errata;
 };
 
-/// Coverage of the numerical uncertainty (GCI) over all refinements with exact values.
+/// Fraction of refinement levels whose grid convergence index (GCI) contains the exact value.
 struct UncertaintyCoverage {
   std::size_t levels = 0, covered = 0, min_levels = 0;
   Number coverage, min_coverage;
@@ -89,7 +89,7 @@ struct UncertaintyCoverage {
   bool passes = false;
 };
 
-/// One number used by an interpretation of a claim.
+/// One computed number by which an interpretation of a claim is judged.
 struct ClaimEntry {
   std::string case_id, variant, name;
   double value = 0;
@@ -100,20 +100,20 @@ struct ClaimInterpretation {
   std::vector<ClaimEntry> entries;
 };
 
-/// A claim of the publication under examination. Verdicts are words.
+/// A claim of the publication under examination. Its verdict is a text such as "confirmed".
 struct Claim {
   std::string id, claim, place, verdict, expected, conclusion, undecidable;
   std::vector<ClaimInterpretation> interpretations;
 };
 
-/// An equation, table, figure or statement of the publication, with its counterparts.
+/// An equation, table, figure or statement of the publication, with the cases that reproduce it.
 struct PaperItem {
   struct Counterpart {
-    /// Empty: all variants, all quantities, no figure.
+    /// Case, variant (empty: all), quantity (empty: all) and figure (empty: none).
     std::string case_id, variant, quantity, figure;
     std::string verdict;  ///< verdict in words
   };
-  std::string id, section, what;  ///< "equation-14"
+  std::string id, section, what;  ///< example of an id: "equation-14"
   std::vector<Counterpart> shown_by = {};
   std::vector<std::string> claims = {};
   std::string reason = {};  ///< reason for a missing counterpart, or for the absence of a judgment
@@ -122,36 +122,36 @@ struct PaperItem {
 
 struct Claims {
   std::string title;
-  bool as_recorded = false;  ///< every verdict equals the recorded one
+  bool as_recorded = false;  ///< true if every verdict equals the expected one
   std::vector<Claim> claims;
   std::vector<PaperItem> items = {};
 };
 
-/// Kinds of evidence for a feature of the program.
+/// Kinds of verification evidence for a feature of the program, such as a key of the case file.
 struct CoverageRow {
-  std::string group, feature;  ///< "key", "pair" or "quantity"
+  std::string group, feature;  ///< the group is "key", "pair" or "quantity"
   std::vector<std::string> evidence = {};
-  std::string reason = {};  ///< reason for the lack of independent evidence
-  /// For a quantity: number of series in the runs, and number of judged ones.
+  std::string reason = {};  ///< reason why independent evidence is missing
+  /// For a quantity: number of its series in all runs, and number of series that a check judges.
   int series = 0, judged = 0;
 
-  /// Returns true if there is evidence other than bounds and the solver's agreement with itself.
+  /// Returns true if the feature has evidence other than bounds and self-consistency of the solver.
   [[nodiscard]] bool is_verified() const;
 };
 
-/// Automatic selection of effects in one scene.
+/// Automatic selection of physical effects for one case (scene), compared with all effects.
 struct EffectScene {
-  std::string scene, analysis, chosen;  ///< the case, its kind of analysis, names of effects
-  double tolerance = 0;                 ///< requested [-]
-  double change = 0;     ///< largest relative change of the results from all to the chosen effects
-  bool minimal = false;  ///< no chosen effect can be omitted
-  double whole_s = 0, chosen_s = 0, deciding_s = 0;  ///< processor time [s]
-  /// Counted work of the selection and of the chosen effects, relative to that of all effects.
+  std::string scene, analysis, chosen;  ///< case, analysis, names of the selected effects
+  double tolerance = 0;                 ///< requested relative tolerance [-]
+  double change = 0;  ///< largest relative change of the results from all to the selected effects
+  bool minimal = false;  ///< true if no selected effect can be omitted within the tolerance
+  double whole_s = 0, chosen_s = 0, deciding_s = 0;  ///< time [s]: all, selected effects, selection
+  /// Counted work of the selection and of the run with selected effects, relative to all effects.
   double work_ratio = 0;
-  double deciding_work_ratio = 0;  ///< counted work of the selection alone
+  double deciding_work_ratio = 0;  ///< relative work of the selection alone
   /// Relative change of the results from half the elements to all elements.
   Number mesh_change;
-  /// Change due to large displacement, if the analysis cannot represent it [-].
+  /// Relative change due to large displacement, if the analysis cannot represent that effect [-].
   Number beyond_tier;
 };
 
@@ -160,7 +160,7 @@ struct Solver {
   std::string name, version, command;
 };
 
-/// Totals of one call of the program, for the history.
+/// Totals of one call of `trammel run`, as recorded in the history.
 struct HistoryCall {
   std::int64_t id = 0;
   std::string date, commit, machine;
@@ -169,9 +169,9 @@ struct HistoryCall {
   [[nodiscard]] bool green() const { return failures == 0; }
 };
 
-/// Change between the last green call before the newest one and the newest one.
+/// Change of a verdict or number from the last call without failures (green) to the newest call.
 struct HistoryChange {
-  std::string name;  ///< run, check and entry; or the run alone for its counted work
+  std::string name;  ///< name of run, check and entry; for counted work, of the run
   std::string verdict_before, verdict;
   Number before, after;
   std::string commit, date;  ///< commit and date of the first call with the change
@@ -186,47 +186,47 @@ struct HistoryDrift {
 };
 
 struct History {
-  std::vector<HistoryCall> calls;      ///< oldest first
-  std::int64_t since = 0;              ///< the green call used as the baseline of changes; 0: none
-  std::vector<HistoryChange> changes;  ///< verdicts first
-  std::vector<HistoryChange> work;     ///< changes of counted work, exact
+  std::vector<HistoryCall> calls;  ///< oldest first
+  std::int64_t since = 0;  ///< id of the green call that is the baseline of changes; 0: none
+  std::vector<HistoryChange> changes;  ///< changes of verdicts first, then of values
+  std::vector<HistoryChange> work;     ///< changes of counted work (exact)
   std::vector<HistoryDrift> drifts;    ///< drifts, largest first
 };
 
 struct Results {
-  int format = 2;  ///< version 1 has no discretization errors
+  int format = 2;  ///< version of the format; version 1 has no discretization errors
   Environment environment;
   std::vector<CaseInfo> cases;
   std::vector<Reference> references;
   std::vector<Run> runs;
   std::optional<Solver> solver;  ///< solver that computed the runs; empty: trammel
   std::optional<UncertaintyCoverage> uncertainty_coverage;
-  std::optional<CostStudies> cost;  ///< accuracy and computing time, if measured
+  std::optional<CostStudies> cost;  ///< cost studies (accuracy and computing time), if measured
   std::optional<Claims> claims;
-  std::vector<CoverageRow> coverage;  ///< coverage by evidence in the complete catalogue
+  std::vector<CoverageRow> coverage;  ///< evidence for each feature in the complete catalogue
   std::vector<EffectScene> effect_scenes;
-  std::optional<History> history;  ///< its newest call produced these results
+  std::optional<History> history;  ///< earlier calls; the newest call produced these results
   std::string store;               ///< folder of stored runs, relative to the file's folder
   std::string missing;             ///< message about data missing from the store; not written
 
   [[nodiscard]] const CaseInfo& case_info(const std::string& id) const;
-  /// @returns nullptr for an unknown or empty id.
+  /// @returns the reference with this id; nullptr for an unknown or empty id.
   [[nodiscard]] const Reference* reference(const std::string& id) const;
 };
 
-/// Maximum number of entries of a quantity in a summary.
+/// Maximum number of values of a quantity in a summary, which omits longer quantities.
 inline constexpr std::size_t kSummaryEntries = 1;
 
-/// Writes shared names, reasons, citations and notes once, under /names, /reasons, /citations and
-/// /notes. The objects that share them contain an index.
+/// Converts results to JSON. Names, reasons, citations and notes are written once, in the lists
+/// /names, /reasons, /citations and /notes. Other objects contain indices into these lists.
 /// @param summary  omits the series, drawings and studies of runs, which a store contains.
 [[nodiscard]] nlohmann::ordered_json to_json(const Results& results, bool summary = false);
 
-/// Sets missing titles to the names.
+/// Sets missing titles to the ids, and requires that the results are consistent.
 /// @throws std::runtime_error  with the JSON pointer of an inconsistent value.
 void complete(Results& results);
 
-/// Reads complete results, except data of runs kept in a store.
+/// Reads results, except for data of runs that only the store contains.
 /// @throws std::runtime_error  with the JSON pointer of an absent or inconsistent value, or of a
 /// wrong type.
 [[nodiscard]] Results read_results(nlohmann::ordered_json json);

@@ -5,12 +5,12 @@
 
 #include "harness/results/run_results.h"
 
-/// Grade of a run in one word, for the comparison of codes.
+/// Grade of a run in one word, for the comparison of finite element codes.
 namespace trammel::results {
 
-/// off: a check fails. broken: the answer cannot be judged. cannot: the code does not support the
-/// case. not_exported: the protocol does not support the case. not_given: the code does not compute
-/// the quantities. not_judged: no check passes or fails.
+/// agrees: all judged checks pass. off: a check fails. broken: the answer cannot be judged. cannot:
+/// the code does not support the case. not_exported: the export format does not support the case.
+/// not_given: the code does not compute the quantities. not_judged: no check passes or fails.
 enum class Grade {
   agrees,
   off,
@@ -28,13 +28,13 @@ inline constexpr std::array<Grade, 10> kAllGrades = {
     Grade::cannot, Grade::not_exported, Grade::not_given, Grade::not_judged, Grade::not_run};
 
 [[nodiscard]] Grade grade_of(const Run& run);
-/// "agrees", "off", "broken", "crashed", "timed out", "cannot", ...
+/// Returns the grade as text: "agrees", "off", "broken", "crashed", "timed out", "cannot", ...
 [[nodiscard]] std::string to_string(Grade grade);
 /// Returns true if the grade counts against the code: off, broken, crashed or timed out.
 [[nodiscard]] bool is_failure(Grade grade);
 
-/// Returns the most informative check: a failing one, else one with a difference, of these the most
-/// severe; null if no check is judged.
+/// Returns the most informative check. Failing checks come first, then checks with a difference,
+/// then the most severe check. Returns null if no check passes or fails.
 [[nodiscard]] const Check* decisive_check(const Run& run);
 
 }  // namespace trammel::results

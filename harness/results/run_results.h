@@ -18,11 +18,11 @@ namespace trammel::results {
 using harness::Number;
 using harness::Numbers;
 
-/// recorded: a validation without an expectation. not_given: another solver does not compute the
-/// quantity. These two never fail a run.
+/// Verdict of a check. recorded: a validation without an expectation. not_given: another solver
+/// does not compute the quantity. The verdicts recorded and not_given never fail a run.
 enum class Verdict { pass, fail, error, not_run, recorded, not_given };
 enum class Expectation { agrees, known_discrepancy, none };
-/// Status of a run. The last four apply only to other solvers.
+/// Status of a run. The last four values apply only to solvers other than trammel.
 enum class Status {
   solved,
   singular,
@@ -38,15 +38,15 @@ enum class Status {
 enum class Fault { none, input, internal };
 
 /// Allowed range of a difference: +-high for a plain tolerance, [low, high] for a range or a bound.
-/// A missing end is unbounded.
+/// If low or high is missing, the range is unbounded on that side.
 struct Tolerance {
   Number low, high;
-  bool symmetric = false;  ///< written as one number
+  bool symmetric = false;  ///< true: written as one number t for +-t
 };
 
 struct Check {
   std::string name, title, quantity, unit, reference, role, measure, why, message;
-  /// Empty if the check compares single entries with a reference.
+  /// Judged statistic (empty: single entries); variant and quantity to compare with (or empty).
   std::string statistic, against_variant, against_quantity;
   std::optional<int> index;  ///< index of the entry, from 0
   Number computed, expected, difference;
@@ -54,48 +54,48 @@ struct Check {
   Expectation expectation = Expectation::agrees;
   Verdict verdict = Verdict::error;
 
-  /// Returns true if the disagreement is recorded with a reason.
+  /// Returns true if the case records that the check disagrees, with a reason.
   [[nodiscard]] bool known_discrepancy() const {
     return expectation == Expectation::known_discrepancy;
   }
 };
 
-/// Fitted law of the error: error = a h^p + b h^q.
+/// Law of the discretization error, fitted over the element size h: error = a h^p + b h^q.
 struct TwoTermLaw {
-  Numbers coefficients;        ///< a, b
-  Number max_relative_misfit;  ///< largest |law / error - 1| over the levels used
+  Numbers coefficients;        ///< coefficients a and b
+  Number max_relative_misfit;  ///< largest |law / error - 1| over the fitted levels
   std::vector<bool> used;
 };
 
-/// One number refined over one parameter, coarse to fine: its identity and the results of the
-/// refinement. All vectors have one entry per level.
+/// Convergence of one computed number during the refinement of one parameter. All vectors have one
+/// entry per level of refinement, from coarse to fine.
 struct Convergence {
   std::string sweep, quantity, statistic;
-  std::string reference;  ///< reference of the exact value
+  std::string reference;  ///< id of the reference with the exact value
   int index = 0;
-  Numbers parameter;         ///< the swept number
-  Numbers values, roundoff;  ///< the round-off is relative
-  std::vector<double> size;  ///< h, up to a common factor; not written
+  Numbers parameter;         ///< refined parameter, such as elements
+  Numbers values, roundoff;  ///< values, and relative round-off
+  std::vector<double> size;  ///< element size h, up to a common factor; not written
   Number exact;
   bool is_error = false;  ///< the values are themselves errors and `exact` is 0; not written
   Number theory_order;
   /// A second, lower order that dominates on fine meshes: error = a h^theory + b h^lower.
   Number lower_order;
 
-  Numbers error;  ///< errors relative to the exact value, or else to the extrapolated one
-  Numbers order;  ///< observed between a level and the previous one
-  /// Levels with an error above 100 times the round-off error and an order within a tenth of a
-  /// neighbor's. If two orders mix, the two-term law must fit the error instead.
+  Numbers error;  ///< error relative to the exact value, or else to `richardson`
+  Numbers order;  ///< observed order between a level and the previous level
+  /// True for levels with an error above 100 times the round-off error and an order within 10 % of
+  /// a neighboring level's order. If two orders mix, the two-term law must fit the error instead.
   std::vector<bool> in_asymptotic_range;
-  std::vector<bool> at_roundoff_floor;  ///< error at most 100 times the round-off error
-  Number fitted_order;                  ///< slope over the asymptotic range
+  std::vector<bool> at_roundoff_floor;  ///< true: error at most 100 times the round-off
+  Number fitted_order;                  ///< slope log error / log h in the asymptotic range
   Number richardson;                    ///< extrapolated value; missing if the values diverge
   std::optional<TwoTermLaw> two_term;   ///< law of the relative error, if two orders mix
   /// Grid convergence index: relative half-width of the interval expected to contain the converged
-  /// value. It uses the values alone and includes round-off error. Missing if the values diverge.
+  /// value. It does not use the exact value. It includes round-off. Missing if the values diverge.
   Numbers gci;
-  /// Roache's safety factor of the index: 1.25 if the observed order is within a tenth of theory,
-  /// else 3. With two orders, within a tenth of the range between them.
+  /// Roache's safety factor of the index: 1.25 if the observed order is within 10 % of theory, else
+  /// 3. If two orders mix, theory is the range between the two orders.
   Numbers safety_factor;
   bool broken = false;  ///< a level after the first finite one has no finite value; not written
 };
@@ -114,41 +114,42 @@ struct Sweep {
 /// An input known to a limited number of digits, as stated by the case.
 struct UncertainInput {
   std::string name, why;
-  std::vector<std::string> pointers;  ///< JSON pointers to its values, which change together
-  /// Half-width of the uniform distribution, in the unit of these values.
+  /// JSON pointers of the numbers in the case that are this input.
+  std::vector<std::string> pointers;
+  /// Half-width of the uniform distribution of the input, in the unit of the input.
   Number half_width;
-  bool nominal = false;  ///< a round design value, uncertain only in `all_inputs`
+  bool nominal = false;  ///< a round design value, uncertain only in Comparison::all_inputs
 };
 
-/// Verdict of a comparison after ASME V&V 20.
+/// Verdict of a validation comparison after ASME V&V 20.
 struct ValidationVerdict {
-  /// Uncertainty due to the inputs: by derivatives, and by sampling.
+  /// Standard uncertainty due to the inputs, computed by derivatives and by sampling.
   Number u_input, u_input_sampled;
-  Number u_val;         ///< sqrt(u_num^2 + u_input^2 + u_reference^2)
-  Numbers interval;     ///< interval of the model error at about 95 %: E -+ 2 u_val
-  std::string verdict;  ///< one of the words of judge/input_uncertainty.h
+  Number u_val;         ///< validation uncertainty sqrt(u_num^2 + u_input^2 + u_reference^2)
+  Numbers interval;     ///< interval of the model error with 95 % confidence: E -+ 2 u_val
+  std::string verdict;  ///< one of the verdicts in judge/input_uncertainty.h
   std::string conclusion;
 };
 
-/// Comparison of one entry with the paper after ASME V&V 20: E = S - D and its uncertainty. All
-/// uncertainties are standard uncertainties in the quantity's unit.
+/// Comparison of a computed value S with a printed value D after ASME V&V 20: error E = S - D and
+/// its uncertainty. All uncertainties are standard uncertainties in the quantity's unit.
 struct Comparison : ValidationVerdict {
   std::string check, quantity, unit, reference;
   std::string dominant_input;  ///< input with the largest contribution; empty: none
   int index = 0;
   Number simulation, expected, difference;  ///< S, D, E
   Number u_num, u_reference;  ///< uncertainty due to discretization, and to the printed digits of D
-  Number dominant_share;      ///< fraction of u_input squared
-  /// Signed standard contribution of each input.
+  Number dominant_share;      ///< fraction of u_input^2 due to `dominant_input`
+  /// Signed contribution of each input to u_input.
   std::vector<std::pair<std::string, Number>> contributions;
-  /// The paper's other rows for this entry, minus `expected`. They do not influence the verdict.
+  /// Differences of other printed values of this entry from `expected`. The verdict ignores them.
   Numbers spread;
-  /// Verdict with nominal inputs as uncertain as their printed digits.
+  /// Verdict if nominal design values are as uncertain as their printed digits.
   ValidationVerdict all_inputs;
 };
 
 struct Uncertainty {
-  std::vector<UncertainInput> inputs;  ///< inputs that this variant has as numbers
+  std::vector<UncertainInput> inputs;  ///< uncertain inputs that are numbers in this variant
   int samples = 0, failed = 0, samples_all_inputs = 0, failed_all_inputs = 0;
   std::vector<Comparison> comparisons;
 };
@@ -170,11 +171,11 @@ struct Pose {
   std::string label;
   std::vector<Point> nodes;  ///< positions of the nodes of the drawing [m]
   Number time_s = {};        ///< time of a snapshot of a motion
-  /// Displacement of each node from the pose [m]; empty: none.
+  /// Displacement of each node from `nodes` [m]; empty: no displacement.
   std::vector<Point> displacement = {};
 };
 
-/// Contents of a picture of the model: mesh, joints and shapes.
+/// Drawing of the model: mesh (nodes, members, triangles), joints, and deformed or mode shapes.
 struct Drawing {
   std::vector<Point> nodes;
   std::vector<std::vector<int>> members, triangles;
@@ -191,11 +192,11 @@ struct Cost {
   Number uncertainty_wall_s;  ///< time of the validation comparison, not included in wall_s
   std::vector<harness::EvaluationTime> timings;
 
-  /// Returns the sum of all counters.
+  /// Returns the counted work, which is the sum of all counters.
   [[nodiscard]] std::size_t work() const;
 };
 
-/// One effect in a run, with the reason for its state.
+/// One physical effect in a run, such as rotary inertia, and the reason why it is active or not.
 struct EffectRow {
   std::string name, number_definition, why;
   bool applicable = false, active = false;
@@ -205,14 +206,14 @@ struct EffectRow {
   Number cumulative_change;  ///< relative change without this effect and those already removed
 };
 
-/// Estimated discretization error of a quantity: half-widths of bands about its values.
+/// Estimated discretization error of a quantity: half-widths of error bands about its values.
 struct ErrorEstimate {
   std::string quantity;
   Numbers relative;  ///< relative to each value or to `scale`, whichever is larger; a curve has a
                      ///< single entry
-  /// Largest value of its kind over the structure [unit]; missing: each value itself.
+  /// Largest value of similar quantities of the structure [unit]; missing: each value is its scale.
   Number scale;
-  Number order;  ///< lowest order of the active parts; missing: the values are exact in theory
+  Number order;  ///< lowest order of all discretizations; missing: the values are exact in theory
   /// If false, the mesh is too coarse for `order`, so that a lower order is used.
   bool asymptotic = true;
   std::string setting;  ///< JSON pointer of the setting with the largest effect on the error
@@ -221,9 +222,9 @@ struct ErrorEstimate {
   [[nodiscard]] Number half_width(std::size_t index, double value) const;
 };
 
-/// A discretization tried in the search for a requested accuracy.
+/// Mesh and time step tried in the search for a requested accuracy.
 struct AccuracyStep {
-  std::string setting;  ///< "8 elements, step 0.001 s"
+  std::string setting;  ///< for example "elements 8, step 0.001"
   Number error;         ///< largest estimated relative error of the requested quantities
   double cpu_s = 0;
 };
@@ -232,10 +233,10 @@ struct AccuracyStep {
 /// of the input and of the model are not included.
 struct ErrorEstimates {
   std::vector<ErrorEstimate> quantities;
-  std::string companions;  ///< "half the elements; twice the step"
+  std::string companions;  ///< for example "half the elements; twice the step"
   std::string reason;      ///< reason for a missing estimate; empty: there is an estimate
   Counters counters;       ///< counted work of the companions
-  /// Search for --accuracy, coarse to fine; the last entry is the run.
+  /// Discretizations tried for the option --accuracy, coarse to fine; the last one is this run.
   std::vector<AccuracyStep> search;
 
   /// @returns nullptr if the quantity has no estimate.
@@ -247,7 +248,7 @@ struct ReadingClass {
   std::string title;  ///< title of the most probable reading of the class
   int readings = 0;
   Number probability;
-  Numbers values;  ///< its best prediction, in the row's unit
+  Numbers values;  ///< best prediction of the class [unit of the row]
 };
 
 struct FurtherNumber {
@@ -265,7 +266,7 @@ struct RowProbabilities {
   std::vector<FurtherNumber> further_numbers;
 };
 
-/// Meaningless combinations of choices, grouped by the reason.
+/// Readings that are excluded because their combination of modeling choices is meaningless.
 struct ExcludedReadings {
   std::string reason, first;
   int readings = 0;
@@ -280,15 +281,14 @@ struct ModelProbabilities {
 struct SolverIdentity {
   std::string name, version;
   Number element_order;       ///< order of convergence in the element size
-  std::optional<int> digits;  ///< significant digits in its output
+  std::optional<int> digits;  ///< significant digits that the solver prints
 };
 
-/// Results of one computation and their judgment. The store and the process of the computation use
-/// the same fields.
+/// Results of one computation and their judgment. The run store contains the same fields.
 struct Run {
   std::string case_id, variant, reason;
   Status status = Status::not_run;
-  /// Residuals that decide whether the run is solved, each relative to the magnitude of its terms.
+  /// Relative residuals that decide whether the run is solved, by name.
   std::vector<std::pair<std::string, Number>> residuals;
   std::vector<std::string> warnings;
   harness::Quantities quantities;
@@ -300,18 +300,18 @@ struct Run {
   std::optional<ModelProbabilities> model_probabilities;
   std::optional<Drawing> drawing;
   Cost cost;
-  /// File of the run store with its series, drawing and studies; empty: the results contain them.
+  /// File of the run store with series, drawing and studies; empty: this struct contains them.
   std::string stored;
 
-  // Only in the store. Sweeps are removed after they have been judged.
+  // The following members are written only in the store. Sweeps are removed after their judgment.
   std::vector<Sweep> sweeps;
-  std::map<std::string, std::string> references;  ///< hashes by the place of a reference
+  std::map<std::string, std::string> references;  ///< hash of each reference, by its location
   std::string machine;                            ///< machine of the time measurements
   SolverIdentity solver;                          ///< solver that computed the run; empty: trammel
 
-  Fault fault = Fault::none;  ///< origin of the status error
+  Fault fault = Fault::none;  ///< origin of the error, if the status is `error`
 
-  // Not written.
+  // The following members are not written.
   int interrupted_by = 0;   ///< signal that prevented the computation
   bool was_stored = false;  ///< true if an earlier call computed the run
 
@@ -323,7 +323,7 @@ struct Run {
   [[nodiscard]] Number half_width(const std::string& name, std::size_t index) const;
 };
 
-/// Returns the difference of `computed` from `expected`; missing if a check does not compare.
+/// Returns the difference between `computed` and `expected`; missing if the check is a bound.
 [[nodiscard]] Number difference_of(const Check& check);
 /// Returns the verdict in words. A known discrepancy that has left its recorded range is a changed
 /// discrepancy.

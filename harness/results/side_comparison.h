@@ -5,14 +5,14 @@
 
 #include "harness/results/results.h"
 
-/// Comparison of several sides, number by number: variants, cases, or results of other dates,
-/// machines and codes. Every list of values has one entry per side.
+/// Comparison of several sides, number by number. A side is a variant, a case, or the results of
+/// one date, machine or code. Every list of values has one entry per side.
 namespace trammel::results {
 
 /// Values of one number, or of the frequency of a set of modes, on each side.
 struct ComparedValue {
-  Numbers values;  ///< value on each side; missing if the side has none
-  /// Change from the first side [%]; missing if that value is zero up to round-off.
+  Numbers values;  ///< value on each side; missing if the side lacks it
+  /// Change from the first side [%]; missing if the first value is zero up to round-off.
   Numbers percent;
   /// Half-width of the band of the discretization error on each side [unit]; missing without an
   /// estimate.
@@ -20,30 +20,30 @@ struct ComparedValue {
   double noise = 0;  ///< differences up to this value are round-off
   /// Largest difference from the first side, relative to the largest value of the series.
   double share = 0;
-  bool changed = false;  ///< the difference exceeds the noise
+  bool changed = false;  ///< true if the largest difference exceeds `noise`
 };
 
-/// An entry of a quantity. Short quantities list all entries, long ones only the entry with the
-/// largest difference.
+/// A compared entry of a quantity. All entries of a short quantity are compared, but only the entry
+/// with the largest difference of a long quantity.
 struct ComparedNumber : ComparedValue {
   std::string quantity;
-  std::size_t index = 0, entries = 1;  ///< index from 0, and number of entries
+  std::size_t index = 0, entries = 1;  ///< index from 0; number of entries of the quantity
 };
 
 /// A set of modes of the first side, and the modes of the other sides with a similar shape.
 struct ComparedModes : ComparedValue {
-  /// Numbers of the modes, from 1; empty: no mode has a similar shape.
+  /// Mode numbers (from 1) on each side; empty: no mode of the side has a similar shape.
   std::vector<std::vector<std::size_t>> modes;
-  Numbers last;   ///< highest frequencies of sets that have split
-  Numbers alike;  ///< similarity of the shapes; 1: identical
+  Numbers last;   ///< highest frequency of a set that has split
+  Numbers alike;  ///< similarity of the mode shapes; 1: identical
 };
 
 struct ComparedRun {
   std::string name;
   std::vector<ComparedNumber> numbers;  ///< compared numbers, largest change first
   std::vector<ComparedModes> modes;
-  std::vector<std::string> remarks;  ///< quantities missing on some sides; changed verdicts
-  double share = 0;                  ///< largest share of the compared numbers
+  std::vector<std::string> remarks;  ///< texts about missing quantities and changed verdicts
+  double share = 0;                  ///< largest `share` of the compared numbers
   bool changed = false;
   CaseInfo info;          ///< case of the first side; not written
   std::vector<Run> runs;  ///< run of each side, with its series if they are drawn; not written
@@ -52,17 +52,17 @@ struct ComparedRun {
 struct ComparedSide {
   std::string label, commit, date, processor, solver;
   std::size_t runs = 0;
-  /// Sums over the runs that all sides have.
+  /// Processor time and work of one side, summed over the runs that all sides have.
   double cpu_s = 0;
   std::size_t work = 0;                ///< element evaluations, factorizations, solves and steps
   Number relative_time;                ///< processor time relative to the first side
-  Number median_error, largest_error;  ///< errors relative to references that all sides have
+  Number median_error, largest_error;  ///< relative errors of references that all sides use
 };
 
 struct SideComparison {
   std::string conclusion;
   std::vector<ComparedSide> sides;
-  std::size_t same = 0, within_noise = 0, changed = 0;  ///< numbers of runs; same: bit for bit
+  std::size_t same = 0, within_noise = 0, changed = 0;  ///< numbers of runs; same: equal bits
   std::vector<ComparedRun> runs;                        ///< runs that differ, largest change first
 };
 

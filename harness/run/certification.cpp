@@ -13,7 +13,7 @@ namespace {
 constexpr double kAllDigits = 16;
 constexpr double kClear = 10;  ///< ratio of tolerance to noise below which a tolerance is tight
 
-/// Returns whether the solver has determined the state of the system.
+/// Returns true if the solver solved the run, or determined that it is singular or not convergent.
 bool has_answer(const results::Run& run) {
   using results::Status;
   return run.status == Status::solved || run.status == Status::singular ||
@@ -33,7 +33,8 @@ double agreeing_digits(double a, double b) {
   return std::isfinite(difference) ? std::clamp(-std::log10(difference), 0.0, kAllDigits) : 0;
 }
 
-/// Records the tolerance of an entry if it is tight. The worst entry of a check counts.
+/// Adds the tolerance of a check entry to `tight` if it is less than kClear times the noise. Of the
+/// entries of a check, only the entry with the smallest ratio of tolerance to noise is kept.
 void add_tight_tolerance(const DiffRow& row, const std::string& configuration,
                          std::vector<TightTolerance>& tight) {
   const results::Check &before = *row.before->check, &after = *row.after->check;
@@ -53,7 +54,7 @@ void compare(const Entries& first, const Configuration& other, Certification& re
   ConfigurationRow total{other.name, 0, 0, kAllDigits, kAllDigits, {}};
   const Entries entries = entries_of(other.results);
   std::vector<double> digits;
-  // State of the current run, to which the following checks belong.
+  // State of the current run. The rows of its checks follow the row of the run.
   bool is_known = false, ends_equally = false;
   for (const DiffRow& row : pair_entries(first, entries)) {
     bool flipped = false;
@@ -61,7 +62,7 @@ void compare(const Entries& first, const Configuration& other, Certification& re
       is_known = row.before != nullptr;
       ends_equally = row.in_both() && row.before->verdict == row.after->verdict;
       flipped = is_known && (!ends_equally || !has_answer(*row.after->run));
-    } else if (is_known && !row.in_both()) {  // only counted if the run ends differently
+    } else if (is_known && !row.in_both()) {  // listed only if the runs end equally
       ++total.missing;
       flipped = ends_equally;
     } else if (is_known) {

@@ -5,8 +5,8 @@
 
 #include "harness/results/results.h"
 
-/// Sensitivity of verdicts and numbers to conditions that should not matter: rounding, compiler,
-/// optimization.
+/// Certification: sensitivity of verdicts and numbers to conditions that should not influence them,
+/// such as rounding mode, compiler and optimization.
 namespace trammel::harness {
 
 /// Results of the same cases under other conditions, such as another rounding mode or compiler.
@@ -17,33 +17,33 @@ struct Configuration {
 
 struct ConfigurationRow {
   std::string name;
-  std::size_t checks = 0, missing = 0;  ///< judged in both configurations; judged in only one
-  /// Digits of a judged number that agree with the first configuration.
+  std::size_t checks = 0, missing = 0;  ///< checks judged in both configurations; in only one
+  /// Number of digits of a judged number that agree with the first configuration.
   double fewest_digits = 16, median_digits = 16;
-  std::string least_certain;  ///< number with the fewest equal digits
+  std::string least_certain;  ///< name of the number with the fewest equal digits
 };
 
-/// A verdict of a check "case:variant name[index]", or the status of a run "case:variant", that is
-/// missing or differs from the first configuration. Also a status without an answer in any
-/// configuration, with its reason.
+/// Verdict of a check "case:variant name[index]", or status of a run "case:variant", that is
+/// missing or differs from the first configuration. A status without an answer, such as a crash, is
+/// also listed, with its reason.
 struct VerdictFlip {
   std::string configuration, check, from, to;
 };
 
-/// A tolerance less than ten times the variation of the difference between configurations.
+/// Tolerance of a check that is less than ten times the change of the judged difference (noise).
 struct TightTolerance {
-  std::string check, configuration;  ///< "case:variant name" of the check, for its worst entry
-  /// Tolerance, and variation between configurations, in the measure of the check.
+  std::string check, configuration;  ///< check: "case:variant name"
+  /// Tolerance, and change of the judged difference from the first to another configuration.
   double tolerance = 0, noise = 0;
 };
 
 struct Certification {
   std::vector<ConfigurationRow> rows;
   std::vector<VerdictFlip> flips;
-  std::vector<TightTolerance> tight;  ///< tightest first
+  std::vector<TightTolerance> tight;  ///< smallest ratio of tolerance to noise first
 };
 
-/// Compares every judged entry of the first configuration with the other configurations.
+/// Compares judged numbers and verdicts of the first configuration with all other configurations.
 [[nodiscard]] Certification certify(const std::vector<Configuration>& configurations);
 
 }  // namespace trammel::harness

@@ -23,26 +23,26 @@ using results::PaperItem;
 
 constexpr const char* kClaimsFile = "varalakshmi-2017.json";
 
-// Verdicts of interpretations.
+// Verdicts of the interpretations of a claim.
 constexpr const char *kConfirms = "confirms", *kContradicts = "contradicts",
                      *kConfirmsInPart = "confirms in part", *kInconclusive = "inconclusive",
                      *kNotMeasured = "not measured";
-// Verdicts of claims; kNotMeasured is another one.
+// Verdicts of claims, in addition to kNotMeasured.
 constexpr const char *kConfirmed = "confirmed", *kConfirmedInPart = "confirmed in part",
                      *kContradicted = "contradicted", *kCannotBeDecided = "cannot be decided";
 
 using Verdicts = std::set<std::string>;
 
-/// An interpretation during evaluation.
+/// Interpretation of a claim, with data needed only during its evaluation.
 struct Interpretation : results::ClaimInterpretation {
-  bool incomplete = false;  ///< a required run or number is missing
+  bool incomplete = false;  ///< true: a required run or number is missing
 };
 
-/// Values that confirm or contradict. If one window is missing, it is the complement of the other.
+/// Ranges of values that confirm or contradict a claim. For other values, `otherwise` applies.
 struct Rule {
   std::optional<Window> confirms, contradicts;
   std::string otherwise = kInconclusive;
-  bool jointly = false;  ///< all entries of a check together have one verdict
+  bool jointly = false;  ///< if true, all entries of a check share one verdict
 
   [[nodiscard]] std::string verdict_of_value(double value) const {
     if (confirms && confirms->contains(value)) return kConfirms;
@@ -151,8 +151,8 @@ void add_quantity(const JsonView& interpretation, const Run& run, Interpretation
   }
 }
 
-/// Returns the verdicts of the entries. If entries count jointly, each check has one verdict: it
-/// confirms if all of its entries confirm, and contradicts if one contradicts.
+/// Returns the verdicts of the entries. If the rule is joint, each check has one verdict: the check
+/// confirms if all its entries confirm, and contradicts if one entry contradicts.
 Verdicts verdicts_of(const Rule& rule, const std::vector<results::ClaimEntry>& entries) {
   std::map<std::string, std::string> by_check;
   for (std::size_t i = 0; i < entries.size(); ++i) {
@@ -258,7 +258,7 @@ void require_member(const JsonView& place, const Json& object, const std::string
   throw place.error("expected a " + what + " (got '" + printable(name) + "')");
 }
 
-/// Sets the identifier of the case and validates the other names of the counterpart.
+/// Sets the id of the case that reproduces an item, and validates variant, figure and quantity.
 void complete_counterpart(const JsonView& place, const Catalogue& catalogue,
                           PaperItem::Counterpart& counterpart) {
   const Case shown = load_case(catalogue.find_case(counterpart.case_id), catalogue);
@@ -287,7 +287,8 @@ PaperItem read_item(const std::string& id, const JsonView& place, const Json& cl
   return item;
 }
 
-/// Returns "12 checks pass and 6 known discrepancies", or "computed, not judged".
+/// Returns the verdict on the case that reproduces an item: "12 checks pass and 6 known
+/// discrepancies", or "computed, not judged".
 std::string verdict_of(const results::Results& results, const PaperItem::Counterpart& counterpart) {
   int passed = 0, discrepancies = 0, other = 0;
   bool computed = false;

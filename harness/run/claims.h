@@ -7,25 +7,25 @@
 #include "harness/run/run.h"
 
 /// Claims and items (equations, tables, figures) of a publication. Each claim has a verdict by the
-/// rules of cases/paper/claims/. Each item has the cases that reproduce it.
+/// rules in cases/paper/claims/. Each item lists the cases that reproduce it.
 namespace trammel::harness {
 
-/// Returns 0 if every verdict is the recorded one, else 1.
+/// Returns 0 if every verdict of a claim equals the expected verdict, else 1.
 [[nodiscard]] int exit_status(const results::Claims& claims);
 
 /// Loads the claims of the catalogue, cases/paper/claims/varalakshmi-2017.json.
 /// @throws InputError  if the file cannot be read or violates its schema.
 [[nodiscard]] Document load_claims();
 
-/// Returns the cases used by the interpretations of claims, by name or by the references of their
-/// checks.
-/// @param catalogue  all cases
+/// Returns the cases that the interpretations of claims use. An interpretation names a case, or a
+/// check or reference that occurs in the case.
+/// @param catalogue  all cases of the catalogue
 [[nodiscard]] std::vector<Case> cases_of(const Document& claim_set,
                                          const std::vector<Case>& catalogue);
 
-/// Evaluates claims. Interpretations of cases that were not run are ignored. A claim is not
-/// measured if no interpretation remains, or if a number of a computed case is missing.
-/// @throws InputError  if a rule contradicts itself.
+/// Evaluates claims. Interpretations of cases that were not run are ignored. The verdict is "not
+/// measured" if no interpretation remains, or if a number of a computed case is missing.
+/// @throws InputError  if a rule is invalid, for example if its ranges overlap.
 [[nodiscard]] results::Claims evaluate_claims(const Document& claim_set,
                                               const std::vector<Run>& runs);
 
@@ -35,7 +35,7 @@ namespace trammel::harness {
 [[nodiscard]] std::vector<results::PaperItem> load_paper_items(const Document& claim_set,
                                                                const Catalogue& catalogue);
 
-/// Sets the judgment of each counterpart from its checks.
+/// Sets the verdict of each case that reproduces an item, from the checks of the case.
 void judge_paper_items(const results::Results& results, std::vector<results::PaperItem>& items);
 
 }  // namespace trammel::harness

@@ -28,23 +28,23 @@ using results::Number;
 using results::Numbers;
 using results::SideComparison;
 using Runs =
-    std::vector<const results::Run*>;  ///< runs of one name, one per side; null if a side has none
+    std::vector<const results::Run*>;  ///< runs with the same name, one per side; null: missing
 
 /// Values below this fraction of the largest value of their series are zero up to round-off.
 constexpr double kRoundoff = 1e-9;
-/// Upper limit of a stated relative round-off. Larger stated values are not round-off.
+/// Upper limit of the relative round-off that a run states. Larger values are not round-off.
 constexpr double kLargestRoundoff = 1e-6;
-constexpr std::size_t kFewEntries = 6;  ///< up to this number, all entries are listed
+constexpr std::size_t kFewEntries = 6;  ///< longer quantities show only the most changed entry
 constexpr std::size_t kDrawnRuns = 8;   ///< maximum number of runs with stored series
 
-/// Returns the group of quantities that share a scale: all quantities of a unit. Poses are compared
-/// with poses, and each dimensionless quantity with itself.
+/// Returns the group of quantities that share a scale: all quantities of a unit. Poses, and each
+/// dimensionless quantity, have separate groups.
 std::string series_of(const std::string& name) {
   const std::string unit = unit_of(name), head = name.substr(0, name.find(':'));
   return unit == "1" || head.rfind("pose_", 0) == 0 ? head : unit;
 }
 
-/// Returns the largest magnitude of each series over all sides.
+/// Returns the largest magnitude of each group of quantities over all sides.
 std::map<std::string, double> series_scales(const Runs& runs) {
   std::map<std::string, double> scales;
   for (const results::Run* run : runs)
@@ -54,8 +54,8 @@ std::map<std::string, double> series_scales(const Runs& runs) {
   return scales;
 }
 
-/// Returns the relative round-off that a run states for an entry, in refinements or as a separate
-/// quantity.
+/// Returns the relative round-off error that a run states for an entry, in a refinement or as the
+/// quantity frequency_roundoff.
 double stated_roundoff(const results::Run& run, const std::string& name, std::size_t i) {
   double stated = 0;
   const auto take = [&](const Numbers& numbers) {
@@ -70,19 +70,19 @@ double stated_roundoff(const results::Run& run, const std::string& name, std::si
   return stated;
 }
 
-/// Orders runs and numbers by their change, largest first.
+/// Order of runs and of numbers by their relative change, largest first.
 constexpr auto changed_more = [](const auto& a, const auto& b) {
   return std::pair(a.changed, a.share) > std::pair(b.changed, b.share);
 };
 
-/// Returns infinity if only one of the numbers is present.
+/// Returns the distance of two numbers: infinity if one is missing, 0 if both are missing.
 double distance(const Number& a, const Number& b) {
   if (a && b) return std::abs(*b - *a);
   return a || b ? std::numeric_limits<double>::infinity() : 0;
 }
 
-/// Sets the change and the percentages of a number whose values and `noise` are set.
-/// @param scale  largest value of the series
+/// Sets share, percentages and `changed` of a number from its values and its noise.
+/// @param scale  largest value of the group of quantities
 void set_change(ComparedValue& value, double scale) {
   const Number first = value.values.front();
   value.percent.assign(value.values.size(), Number());
@@ -115,8 +115,7 @@ ComparedNumber compare_entry(const std::string& name, std::size_t i, const Runs&
   return found;
 }
 
-/// Compares all entries of a short quantity; of a long one, only the entry with the largest
-/// difference.
+/// Compares all entries of a short quantity, but only the most different entry of a long quantity.
 std::vector<ComparedNumber> compare_entries(const std::string& name, const Runs& runs,
                                             double scale) {
   const std::vector<double>& first = *runs.front()->quantity(name);
@@ -140,7 +139,7 @@ void add_numbers(const Runs& runs, const std::vector<std::string>& labels, Compa
     for (const auto& quantity : run->quantities)
       if (!is_diagnostic(quantity.first)) names.insert(quantity.first);
   const std::map<std::string, double> scales = series_scales(runs);
-  std::map<std::string, std::vector<std::string>> absent;  // by the sides without the quantity
+  std::map<std::string, std::vector<std::string>> absent;  // quantities by the sides that lack them
   for (const std::string& name : names) {
     std::vector<std::string> without, sizes;
     for (std::size_t s = 0; s < runs.size(); ++s) {
@@ -160,7 +159,7 @@ void add_numbers(const Runs& runs, const std::vector<std::string>& labels, Compa
     found.remarks.push_back("not in " + sides + ": " + join(missing, "and"));
 }
 
-/// Returns the drawn modes if both sides draw the same nodes.
+/// Returns the modes of a run from its drawing, if the run `like` draws the same nodes.
 std::optional<SampledModes> drawn_modes(const results::Run& run, const results::Run& like) {
   const std::vector<double>* frequency = run.quantity("frequency_Hz");
   if (!run.drawing || !like.drawing || frequency == nullptr) return std::nullopt;
@@ -171,7 +170,7 @@ std::optional<SampledModes> drawn_modes(const results::Run& run, const results::
     const auto hertz = [&](std::size_t k) { return Number((*frequency)[k]).value_or(0); };
     return hertz(i) - hertz(i - 1) <= 1e-6 * hertz(i);
   };
-  // A set of repeated modes that is drawn in part does not span its subspace.
+  // A partly drawn set of modes of equal frequency is dropped, because it does not span its space.
   if (count < frequency->size())
     while (count > 0 && repeats(count)) --count;
   SampledModes modes;
@@ -187,8 +186,7 @@ std::optional<SampledModes> drawn_modes(const results::Run& run, const results::
   return modes;
 }
 
-/// Returns true if recomputed modes are those of the run, and not those of a rotating or loaded
-/// model.
+/// Returns true if recomputed modes have the run's frequencies, unlike for rotating, loaded models.
 bool are_of(const SampledModes& modes, const results::Run& run) {
   const std::vector<double>& known = *run.quantity("frequency_Hz");
   for (std::size_t i = 0; i < known.size(); ++i)
@@ -216,7 +214,7 @@ std::vector<std::size_t> from_one(std::vector<std::size_t> numbers) {
   return numbers;
 }
 
-/// Matches the modes of all sides with those of the first; empty if they cannot be matched.
+/// Matches the modes of all sides with the modes of the first side; empty if shapes are missing.
 std::vector<ComparedModes> compare_modes(const Runs& runs,
                                          const std::vector<const Document*>& documents) {
   std::vector<ComparedModes> rows;
@@ -257,8 +255,8 @@ std::vector<ComparedModes> compare_modes(const Runs& runs,
   return rows;
 }
 
-/// Compares frequencies by mode shape instead of by number, if they have changed or belong to
-/// variants.
+/// Compares the frequencies of modes with similar shapes instead of equal numbers, if frequencies
+/// have changed or the sides are variants.
 void match_by_shape(const Runs& runs, const std::vector<const Document*>& documents,
                     ComparedRun& found) {
   const auto by_number = [](const ComparedNumber& number) {
@@ -276,7 +274,7 @@ void match_by_shape(const Runs& runs, const std::vector<const Document*>& docume
   if (!found.modes.empty()) std::erase_if(found.numbers, by_number);
 }
 
-/// Adds remarks about different statuses, and about at most three different verdicts per side.
+/// Adds remarks about changed statuses of runs, and about at most three changed verdicts per side.
 void add_verdicts(const Runs& runs, const std::vector<std::string>& labels, ComparedRun& found) {
   Entries first;
   add_entries(*runs.front(), found.name, first);
@@ -330,7 +328,7 @@ ComparedRun compare_runs(const std::string& name, const Runs& runs,
   return found;
 }
 
-/// Returns the relative errors of a run against references, by check entry.
+/// Returns the errors of a run relative to reference values, by the name of the check entry.
 std::map<std::string, double> errors_of(const std::string& name, const results::Run& run) {
   Entries entries;
   add_entries(run, name, entries);
@@ -345,7 +343,7 @@ std::map<std::string, double> errors_of(const std::string& name, const results::
   return errors;
 }
 
-/// Computes the errors of the sides against the references that all of them have.
+/// Computes median and largest error of each side, over the reference values that all sides use.
 void compare_errors(const std::vector<std::map<std::string, double>>& all,
                     std::vector<ComparedSide>& sides) {
   std::vector<std::vector<double>> errors(sides.size());
@@ -374,7 +372,7 @@ ComparedSide side_of(const Side& side) {
   return found;
 }
 
-/// Returns "frequency of mode 3 by +12 % (81.2 to 91.1 Hz)".
+/// Returns a text such as "frequency of mode 3 by +12 % (81.2 to 91.1 Hz)".
 std::string words_of(const ComparedValue& value, const std::string& name, const std::string& unit,
                      const std::vector<ComparedSide>& sides) {
   const Number from = value.values.front();
@@ -391,7 +389,7 @@ std::string words_of(const ComparedValue& value, const std::string& name, const 
                      number(*worst), unit == "1" ? "" : " " + unit);
 }
 
-/// Returns the largest change in a run: of a mode, else of a number, else a remark.
+/// Returns a text about the largest change of a run: of a mode, else of a number, else a remark.
 std::string most_changed(const ComparedRun& run, const std::vector<ComparedSide>& sides) {
   const auto mode = std::ranges::max_element(
       run.modes, {}, [](const ComparedModes& m) { return m.changed ? m.share : -1; });
@@ -405,7 +403,7 @@ std::string most_changed(const ComparedRun& run, const std::vector<ComparedSide>
   return words_of(number, number.quantity + entry, unit_of(number.quantity), sides);
 }
 
-/// Summarizes the changes of runs with the same names.
+/// Summarizes the changes between runs with the same names.
 std::string conclusion_of_runs(const SideComparison& comparison) {
   const std::size_t all = comparison.same + comparison.within_noise + comparison.changed;
   const std::string same =
@@ -435,7 +433,7 @@ std::string conclusion_of_variants(const SideComparison& comparison) {
                      sides.front().label, count, all, most_changed(run, sides));
 }
 
-/// Groups the runs of all sides by name. Variants computed in this call form one group.
+/// Groups the runs of all sides by name. Variants this call computed the side form one group.
 std::map<std::string, Runs> runs_by_name(std::vector<Side>& sides) {
   std::map<std::string, Runs> by_name;
   for (std::size_t s = 0; s < sides.size(); ++s)
@@ -448,7 +446,7 @@ std::map<std::string, Runs> runs_by_name(std::vector<Side>& sides) {
   return by_name;
 }
 
-/// Loads series from the store. If a run has lost its series, all runs are compared without them.
+/// Loads the series of runs from the store. If the store lacks one, all series are removed.
 /// @returns the number of runs without stored series
 std::size_t load_series(std::vector<results::Run>& runs, const std::vector<Side>& sides) {
   std::size_t lost = 0;

@@ -8,19 +8,19 @@
 #include "harness/results/results.h"
 #include "harness/results/side_comparison.h"
 
-/// Compares the judgments in two results. The commands `compare`, `certify` and `history` show
-/// selected rows.
+/// Compares verdicts and numbers of two sets of results. The commands `compare`, `certify` and
+/// `history` print the result.
 namespace trammel::harness {
 
-/// A run, or an entry of one of its checks.
+/// A comparable item of results: a run, or one judged entry of one of its checks.
 struct Entry {
   std::string verdict;    ///< verdict of the check, or status of the run
   results::Number value;  ///< computed value
   double noise = 0;       ///< differences up to this value are round-off
   const results::Run* run = nullptr;
-  const results::Check* check = nullptr;  ///< check of the entry; null: the entry is the run itself
+  const results::Check* check = nullptr;  ///< check of the entry; null: the entry is a run
 
-  /// Returns true if the verdict differs, or the value by more than the noise of both.
+  /// Returns true if the verdicts differ, or if the values differ by more than the larger noise.
   [[nodiscard]] bool differs(const Entry& other) const;
 };
 
@@ -28,14 +28,14 @@ struct Entry {
 /// report only their worst entry (bounds, comparisons with a variant) have no index.
 using Entries = std::map<std::string, Entry>;
 
-/// @param name  name of the run
+/// @param name  name of the run, such as "case:variant"
 void add_entries(const results::Run& run, const std::string& name, Entries& entries);
-/// Returns entries that point into the results.
+/// Returns all entries of the results, which must outlive the entries.
 [[nodiscard]] Entries entries_of(const results::Results& results);
 /// Returns "case:variant".
 [[nodiscard]] std::string name_of(const results::Run& run);
 
-/// The same entry in two results; null in a result without this entry.
+/// The same entry in two sets of results; null if a set does not contain the entry.
 struct DiffRow {
   std::string name;
   const Entry *before = nullptr, *after = nullptr;
@@ -44,22 +44,22 @@ struct DiffRow {
   [[nodiscard]] bool is_run() const { return (before ? before : after)->check == nullptr; }
 };
 
-/// Returns all entries of both results by name. A run precedes its checks.
+/// Pairs the entries of two sets of results by name. A run precedes its checks.
 [[nodiscard]] std::vector<DiffRow> pair_entries(const Entries& before, const Entries& after);
 
 /// One side of a comparison: results of runs.
 struct Side {
   std::string label;
   results::Results results;
-  /// Set for a single run of a variant computed now. Such runs are compared in spite of different
-  /// names, and their mode shapes are compared at stations along the members. Otherwise, runs of
-  /// the same name are compared, and mode shapes are compared by the drawings.
+  /// Case of a single run that this call has computed. Such runs are compared in spite of different
+  /// names, and their mode shapes at stations along the members. Without a case, runs of the same
+  /// name are compared, and mode shapes by the drawings.
   std::optional<Document> document;
 };
 
-/// Compares all sides with the first. Round-off is the value stated by refinements and checks, and
-/// at least 1e-9 of the largest number of its series.
-/// @param series  keeps the series and drawings of the runs with the largest changes
+/// Compares all sides with the first side. Differences up to the round-off error are ignored. Runs
+/// state this error, but it is at least 1e-9 of the largest number of the series.
+/// @param series  if true, the result contains the series of the runs with the largest changes
 [[nodiscard]] results::SideComparison compare_sides(std::vector<Side> sides, bool series);
 
 }  // namespace trammel::harness

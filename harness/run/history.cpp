@@ -28,7 +28,7 @@ PRAGMA user_version = 1;)";
 
 using Row = std::vector<Json>;
 
-/// An SQLite file.
+/// Connection to an SQLite file that contains a history.
 class Database {
  public:
   Database(const fs::path& file, bool create) : file_(file.string()) {
@@ -47,8 +47,8 @@ class Database {
 
   void execute(const char* sql) { check(sqlite3_exec(handle_, sql, nullptr, nullptr, nullptr)); }
 
-  /// Executes one statement with these values.
-  /// @returns its rows
+  /// Executes one SQL statement with `values` as its parameters.
+  /// @returns the rows of the result
   std::vector<Row> query(const char* sql, const Row& values = {}) {
     sqlite3_stmt* prepared = nullptr;
     check(sqlite3_prepare_v2(handle_, sql, -1, &prepared, nullptr));
@@ -65,8 +65,8 @@ class Database {
   }
   [[nodiscard]] std::int64_t last_id() const { return sqlite3_last_insert_rowid(handle_); }
 
-  /// Requires a history or an empty file.
-  /// @returns whether there are tables
+  /// Requires that the file contains a history or no tables.
+  /// @returns whether the file contains a history
   bool has_tables() {
     const Json format = query("PRAGMA user_version").front().front();
     const bool is_empty = query("SELECT count(*) FROM sqlite_master").front().front() == 0;
@@ -120,9 +120,9 @@ bool is_failure(const results::Check& check) {
          check.verdict == results::Verdict::not_run;
 }
 
-using Course = std::vector<std::pair<std::int64_t, Entry>>;  ///< entries in the order of the calls
+using Course = std::vector<std::pair<std::int64_t, Entry>>;  ///< records of one entry: call, state
 
-/// @param sql  selects name, call, verdict, value and noise, in the order of the calls
+/// @param sql  query for name, call, verdict, value and noise, in the order of the calls
 std::map<std::string, Course> courses_of(Database& database, const char* sql) {
   std::map<std::string, Course> courses;
   for (const Row& row : database.query(sql)) {
@@ -157,7 +157,7 @@ void add_call(Database& database, const results::Results& results) {
                   failures, all_new ? Json(cpu_s) : Json(), work});
 }
 
-/// Returns the state of all entries at a call: for each, the last record that is not newer.
+/// Returns the state of all entries at a call: for each entry, the last record up to this call.
 Entries entries_at(const std::map<std::string, Course>& courses, std::int64_t call) {
   Entries entries;
   for (const auto& [name, course] : courses)
@@ -166,7 +166,7 @@ Entries entries_at(const std::map<std::string, Course>& courses, std::int64_t ca
   return entries;
 }
 
-/// Adds entries that have changed, including those missing from a run.
+/// Adds records of check entries that have changed or are missing from a run.
 void write_entries(Database& database, const results::Results& results, std::int64_t call) {
   const auto insert = [&](const std::string& name, const char* sql, Row values) {
     database.query("INSERT OR IGNORE INTO name (text) VALUES (?)", {name});
@@ -186,7 +186,7 @@ void write_entries(Database& database, const results::Results& results, std::int
       insert(row.name, "INSERT INTO entry SELECT ?, id, ?, ?, ? FROM name WHERE text = ?",
              {entry.verdict, number_or_null(entry.value), entry.noise});
   }
-  for (const results::Run& run : results.runs)  // a stored run was measured by an earlier call
+  for (const results::Run& run : results.runs)  // an earlier call recorded a stored run
     if (!run.was_stored)
       insert(name_of(run), "INSERT INTO cost SELECT ?, id, ?, ? FROM name WHERE text = ?",
              {run.cost.cpu_s, run.cost.work()});
@@ -204,7 +204,7 @@ std::vector<HistoryCall> calls_of(Database& database) {
   return calls;
 }
 
-/// Returns the changes since a call, each with the first later call that had the change.
+/// Returns the changes since a call. Each change has date and commit of the first call with it.
 std::vector<HistoryChange> changes_since(std::int64_t since,
                                          const std::map<std::string, Course>& courses,
                                          const std::vector<HistoryCall>& calls) {
@@ -226,7 +226,7 @@ std::vector<HistoryChange> changes_since(std::int64_t since,
 }
 
 std::vector<HistoryDrift> drifts_of(const std::map<std::string, Course>& courses) {
-  constexpr std::size_t kLeast = 3;      // steps
+  constexpr std::size_t kLeast = 3;      // minimum number of steps
   constexpr double kLargestStep = 0.01;  // relative; a larger step is not a slow drift
   std::vector<HistoryDrift> drifts;
   for (const auto& [name, course] : courses) {

@@ -17,7 +17,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns true if the process of "process NUMBER" no longer exists.
+/// Returns true if the process of the text "process NUMBER" no longer exists.
 bool is_gone(const std::string& holder) {
   const int process = std::atoi(holder.substr(holder.find(' ') + 1).c_str());
   return process > 0 && kill(process, 0) != 0 && errno == ESRCH;
@@ -31,7 +31,7 @@ OutputLock::OutputLock(const fs::path& folder) : folder_(folder), file_(folder /
   std::error_code error;
   fs::create_directories(folder, error);
   acquire();
-  fs::remove_all(folder_ / results::kUnfinishedFolder, error);  // left by a call that was killed
+  fs::remove_all(folder_ / results::kUnfinishedFolder, error);  // files of a killed call
   const std::string holder = "process " + std::to_string(getpid());
   if (write(descriptor_, holder.data(), holder.size()) != static_cast<ssize_t>(holder.size()))
     throw InputError("--out " + folder_.string() + ": expected a writable folder");
@@ -42,7 +42,7 @@ OutputLock::~OutputLock() {
     std::error_code ignored;
     fs::remove(file_, ignored);
     fs::remove_all(folder_ / results::kUnfinishedFolder, ignored);
-  } catch (const std::bad_alloc&) {  // the next call removes the remaining files
+  } catch (const std::bad_alloc&) {  // the next call removes all remaining files
   }
   close(descriptor_);
 }
@@ -57,7 +57,7 @@ void OutputLock::acquire() {
       close(descriptor_);
       std::string holder;
       std::getline(std::ifstream(file_), holder);
-      // The process was killed; its children release the lock when they end.
+      // The process was killed. The lock is released when its child processes end.
       if (is_gone(holder) && ++waits < 100) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         continue;
@@ -70,7 +70,7 @@ void OutputLock::acquire() {
       close(descriptor_);
       throw InputError("--out " + folder_.string() + ": .trammel-lock is not a regular file");
     }
-    // The previous holder may have removed the file after it was opened here.
+    // The previous owner of the lock may have removed the file after this process opened it.
     if (fstat(descriptor_, &mine) == 0 && lstat(file_.c_str(), &there) == 0 &&
         mine.st_ino == there.st_ino && ftruncate(descriptor_, 0) == 0)
       return;

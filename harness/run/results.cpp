@@ -24,8 +24,8 @@ Status status_of(solver::Status status) {
   return Status::error;
 }
 
-/// Rounds displacements of moments and shapes. Seven digits are sufficient for drawing, and also
-/// for matching, because the error of the overlap is of second order.
+/// Rounds the displacements in poses and mode shapes to seven digits. They suffice for drawing, and
+/// for matching of modes, because the error of the overlap is of second order.
 void round_drawing(results::Drawing& drawing) {
   const auto round = [](std::vector<results::Point>& points) {
     for (auto& [x, y] : points) x = static_cast<float>(x), y = static_cast<float>(y);
@@ -105,7 +105,7 @@ results::Results results_of(std::vector<Run> runs, const std::vector<Case>& case
   for (const Run& run : runs) {
     const bool is_known = std::ranges::any_of(
         out.cases, [&](const results::CaseInfo& info) { return info.id == run.case_id; });
-    // A case that could not be read is also reported.
+    // A case that could not be read is missing from `cases`, so that its id is added.
     if (!is_known) {
       results::CaseInfo unread;
       unread.id = unread.title = run.case_id;

@@ -10,28 +10,28 @@
 
 namespace trammel::harness {
 
-/// Copies the result of an analysis into its run.
+/// Copies status, quantities, effects, drawing and cost of an analysis into its run.
 void record_result(AnalysisResult result, Run& run);
 
-/// Returns the runs with their cases, references and environment.
-/// @param store  folder in which the runs are stored
+/// Returns the contents of results.json: the runs with their cases, references and environment.
+/// @param store  folder of the run store
 [[nodiscard]] results::Results results_of(std::vector<Run> runs, const std::vector<Case>& cases,
                                           const References& references,
                                           const std::filesystem::path& store = {});
 
-/// Returns the hash of the case with all cases that it extends, as in its `CaseInfo`.
+/// Returns the hash of a case with all cases that it extends, for CaseInfo::hash.
 [[nodiscard]] std::string case_hash(const Case& given);
 
-/// History of calls in an SQLite file. It has a row for each call, with the time and counted work
-/// of each computed run. Verdict and value of each check entry are added if they differ from the
-/// previous call.
+/// History of the calls of `trammel run` in an SQLite file. It contains totals of each call, and
+/// time and counted work of each computed run. Verdict and value of a check entry are added if they
+/// differ from the previous call.
 
 using results::History;
 using results::HistoryCall;
 using results::HistoryChange;
 using results::HistoryDrift;
 
-/// Adds a call.
+/// Adds the results of a call to the history.
 /// @throws InputError  if the file is not such a history or cannot be written.
 void append_history(const std::filesystem::path& file, const results::Results& results);
 

@@ -26,7 +26,7 @@ using results::Status;
 
 namespace {
 
-/// A computation to run, either requested or needed by a check of another variant.
+/// A variant to be computed, either requested or needed by a check of another variant.
 struct Task {
   const Case* owner = nullptr;
   Document document;
@@ -35,11 +35,12 @@ struct Task {
   bool studies = true;  ///< compute refinements and validation uncertainty
   bool errors = false;  ///< estimate discretization errors
   std::vector<std::string> input_warnings;
-  AccuracyRequest accuracy = {0, {}, 0};  ///< requested accuracy; 0: none
+  AccuracyRequest accuracy = {0, {}, 0};  ///< accuracy 0: no search
   Run run;
 };
 
-/// Returns true if the run ended without an answer, as by a crash. A later call may succeed.
+/// Returns true if the run ended without an answer, for example by a crash. It is not stored,
+/// because a later call may succeed.
 bool has_broken(const Run& run) {
   return run.status == Status::error || run.status == Status::crashed ||
          run.status == Status::timed_out;
@@ -51,7 +52,7 @@ void mark_failed(Run& run, const std::string& reason, Fault fault) {
   run.fault = fault;
 }
 
-/// Runs work and records its failure in the run.
+/// Executes `work` and records an exception as the failure of the run.
 template <class Work>
 void run_guarded(Run& run, const Work& work) {
   try {
@@ -59,7 +60,7 @@ void run_guarded(Run& run, const Work& work) {
   } catch (const InputError& error) {
     mark_failed(run, error.what(), Fault::input);
   } catch (const std::bad_alloc&) {
-    throw;  // the process reports how it ended
+    throw;  // the parent process reports lack of memory
   } catch (const std::exception& error) {
     mark_failed(run, std::string("internal error: ") + error.what(), Fault::internal);
   }
@@ -108,7 +109,7 @@ std::vector<Task> prepare_all(const std::vector<Case>& cases, const std::string&
   return tasks;
 }
 
-/// Computes the task, with its discretization errors if they are requested.
+/// Computes the solution of a task, and estimates its discretization errors if requested.
 void compute_with_errors(Task& task, const References& references) {
   if (task.requested && task.accuracy.accuracy > 0) {
     AccuracySearch search = search_accuracy(task.document, task.accuracy, references);
@@ -163,7 +164,7 @@ std::string answer_of(Task task, const RunOptions& options) {
   return to_bytes(task.run);
 }
 
-/// Returns the case's limit of processor time [s].
+/// Returns the limit of the processor time of a case [s].
 unsigned time_limit_s(const Document& document) {
   constexpr double kDefault = 120, kLongest = 1e7;
   return static_cast<unsigned>(
@@ -192,7 +193,7 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
     case Termination::not_started:
       expected("", "a system that can start another process");
       break;
-    case Termination::disk_full:  // a limit of other programs only
+    case Termination::disk_full:  // only programs of other solvers have this limit
     case Termination::crashed:
       mark_failed(
           task.run,
@@ -201,14 +202,14 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
   }
 }
 
-/// Returns the part of the request, besides the case, that determines the stored result.
+/// Returns the options that, together with the case, determine the stored result.
 std::string request_of(const Task& task) {
   if (task.accuracy.accuracy == 0) return task.errors ? "errors" : "";
   return shortest_decimal(task.accuracy.accuracy) + " " + join(task.accuracy.quantities, " ");
 }
 
-/// Computes the tasks that are missing from the store. Tasks that were interrupted most often go
-/// last, so that a long run does not block the others.
+/// Computes the tasks that are missing from the store. Tasks that were interrupted most often are
+/// computed last, so that a long run does not block other runs.
 /// @returns the signal that ended the computation early, else 0
 int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
   std::vector<std::pair<Task*, std::filesystem::path>> open;
@@ -259,7 +260,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
                           });
 }
 
-/// Judges the final status of the computation in a separate check, unless it is trivial.
+/// Adds a check of the status of the run, unless the expected and actual status are "solved".
 /// @returns whether the computation ended as the case expects
 bool evaluate_status_check(const Task& task, Run& run) {
   const std::string expected = task.document.value().value("expect_status", "solved");
@@ -278,8 +279,7 @@ bool evaluate_status_check(const Task& task, Run& run) {
   return status == expected;
 }
 
-/// Judges the verdicts of the V&V 20 comparisons in a separate check, which requires the recorded
-/// verdicts.
+/// Adds a check that the ASME V&V 20 comparisons have the verdicts that the case records.
 void evaluate_validation_verdicts(const Check& check, Run& run) {
   if (check.validation_verdicts.empty()) return;
   CheckResult result = start_check_result(check);
@@ -334,7 +334,7 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
         run.is_solved()
             ? evaluate_check(check, context)
             : std::vector{failed_check_result(check, "no solution: " + to_string(run.status))};
-    // A regression check protects only trammel; other solvers do not fail it.
+    // A regression check compares with earlier results of trammel, so other solvers do not fail it.
     for (CheckResult& result : judged)
       if (options.solver.compute && check.role == Role::regression &&
           result.verdict == Verdict::fail)
@@ -343,7 +343,7 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
   }
   if (!options.solver.compute && run.is_solved())
     for (const Check& check : task.checks) evaluate_validation_verdicts(check, run);
-  // Orders that are wrong on purpose are excluded from the summary of the method.
+  // Negative controls contain wrong orders on purpose. The summary of uncertainty excludes them.
   if (std::ranges::any_of(task.checks,
                           [](const Check& check) { return check.negative_control.has_value(); }))
     run.convergence.clear();

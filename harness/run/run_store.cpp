@@ -24,9 +24,9 @@
 namespace trammel::harness {
 namespace {
 
-constexpr unsigned long long kMaxBytes = 1ULL << 30U;  ///< largest size of uncompressed data
+constexpr unsigned long long kMaxBytes = 1ULL << 30U;  ///< maximum size of uncompressed data
 
-/// @throws std::bad_alloc  if zstd reports a failed allocation.
+/// @throws std::bad_alloc  if zstd could not allocate memory.
 bool failed(std::size_t result) {
   if (ZSTD_getErrorCode(result) == ZSTD_error_memory_allocation) throw std::bad_alloc();
   return ZSTD_isError(result) != 0;
@@ -36,7 +36,7 @@ std::string compressed(const std::string& bytes) {
   const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
                                                                      &ZSTD_freeCCtx);
   if (!context) throw std::bad_alloc();
-  // Higher levels save at most 2 %, because most bytes are digits of doubles.
+  // Higher levels save at most 2 % of the size, because most bytes are digits of doubles.
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, 3);
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
   std::string out(ZSTD_compressBound(bytes.size()), '\0');
@@ -83,8 +83,8 @@ std::string text_of_json(const Json& json) {
   return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Returns the stored value if the file is complete, of this version and valid. Otherwise computes
-/// the value and stores it if it is valid.
+/// Returns the value from the file `name` if the file is complete and the value is valid. Otherwise
+/// computes the value, and stores it if it is valid.
 template <class Kept>
 Kept find_or_compute(const std::filesystem::path& store, const std::string& name, bool resume,
                      const std::function<bool(const Kept&)>& is_valid,
@@ -130,12 +130,12 @@ std::string name_of(const CostStudy& study, const TimingOptions& timing) {
   return name_of(text_of_json(all));
 }
 
-/// Returns the file with one byte for each call that has started the computation of that file.
+/// Returns the path of a file with one byte for each call that started the computation of `file`.
 std::filesystem::path started(std::filesystem::path file) {
   return file.replace_extension(".started");
 }
 
-/// Returns the cases used by an analysis of other cases.
+/// Returns the cases that the analysis "options" of a case computes; empty for other analyses.
 Json tried_cases(const Document& document) {
   Json tried = Json::object();
   if (analysis_kind(document) != "options") return tried;

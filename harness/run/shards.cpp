@@ -42,7 +42,7 @@ Json read_shard(const fs::path& folder) {
   return shard;
 }
 
-/// @returns the shards by number
+/// @returns folders of the shards by shard number
 std::map<std::size_t, fs::path> require_all(const std::vector<fs::path>& folders,
                                             std::map<fs::path, Json>& shards) {
   std::map<std::size_t, fs::path> places;

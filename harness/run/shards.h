@@ -7,8 +7,8 @@
 #include "harness/base/json.h"
 #include "harness/run/run.h"
 
-/// Parts (shards) of a long call of `run` that are computed separately, each into its own store,
-/// and the union of these stores.
+/// Parts (shards) of a long call of `run`, which are computed separately, each into a separate
+/// store, and the union of these stores.
 namespace trammel::harness {
 
 /// Parses "2/8", the second of eight shards.
@@ -20,7 +20,7 @@ namespace trammel::harness {
 void write_shard(const std::filesystem::path& folder, const Shard& shard, const Json& selection,
                  const ShardRuns& done);
 
-/// Files of a shard, in addition to those of a run.
+/// Names of the file and of the store in the folder of a finished shard.
 inline constexpr const char* kShardFile = "shard.json";
 inline constexpr const char* kStoreFolder = "store";
 

@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the file of the judged studies, which is next to the file of the computation.
+/// Returns the file of the convergence studies, which is next to the file of the run.
 fs::path judged_file(const fs::path& stored) {
   return fs::path(stored).replace_extension(".judged.cbor");
 }
@@ -25,7 +25,7 @@ results::Number as_number(double value) {
   return value;
 }
 
-/// Returns the final folder of a report. The report may still be in its temporary folder.
+/// Returns the final folder of a report, which is written in a temporary folder below it.
 fs::path place_of(const fs::path& folder) {
   return folder.filename() == results::kUnfinishedFolder ? folder.parent_path() : folder;
 }

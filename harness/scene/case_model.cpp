@@ -32,7 +32,7 @@ bool mentions(const std::string& text, const std::string& label) {
 /// Names of the parts in quantities. Two parts with the same name would overwrite each other.
 class PartNames {
  public:
-  /// @throws InputError  if another part has the name; the message contains the pointers of both
+  /// @throws InputError  if another part has this name. The message contains both JSON pointers.
   void claim(const std::string& name, const JsonView& place) {
     const auto [other, is_new] = pointers_.emplace(name, place.pointer());
     if (is_new) return;
@@ -48,7 +48,7 @@ class PartNames {
 /// @param bare  model of the manipulator alone, without the other parts of the case
 void check_part_names(const JsonView& model, const solver::Model& bare) {
   PartNames names;
-  names.claim("total", model);  // the sum over all parts
+  names.claim("total", model);  // "total" denotes the sum over all parts
   if (const auto manipulator = model.find("manipulator")) {
     names.claim("platform", *manipulator);
     for (const solver::Member& member : bare.members) names.claim(member.name, *manipulator);
@@ -111,7 +111,7 @@ solver::Model build_model(const CaseModel& case_model, std::size_t step) {
                           !case_model.joint_elements.follower_loads.empty();
   if (only_large)
     throw solver::ModelError(
-        "line springs and follower loads require large-statics or large-motion");
+        "line springs and follower loads require large-statics or large-motion (got another one)");
   return model;
 }
 

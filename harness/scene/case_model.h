@@ -14,18 +14,18 @@
 
 namespace trammel::harness {
 
-/// Contents of the "model" of a case, which can be built at each of its poses.
+/// Key "model" of a case in the form from which a planar model is built at each pose of its path.
 struct CaseModel {
   std::optional<solver::ManipulatorDesign> manipulator;
   /// Motion of the platform: one pose at rest, or the points of the path.
   std::vector<solver::TrajectoryPoint> motion;
-  std::optional<solver::Path> path;  ///< if present, every quantity has one number per point
-  /// Everything but the manipulator. Its indices count the manipulator's nodes first.
+  std::optional<solver::Path> path;  ///< if present, quantities have one number per point
+  /// Parts other than the manipulator. Node indices start after the nodes of the manipulator.
   solver::Model structure;
   /// Sliders, line springs and follower loads, which linear analysis supports only in part.
   solver::large_motion::LargeMotionModel joint_elements;
   solver::Effects effects = solver::Effects::all();  ///< effects that `build_model` keeps
-  /// If true, statics with large displacement are computed to six digits and without evidence.
+  /// If true, statics with large displacement are estimated to six digits, without residual checks.
   bool estimates_large_displacement = false;
 
   [[nodiscard]] std::size_t steps() const { return path ? motion.size() : 1; }
@@ -37,31 +37,31 @@ struct CaseModel {
 ///     a combination of keys is invalid.
 [[nodiscard]] CaseModel read_case_model(const Document& document);
 
-/// Builds the planar model for linear analysis at a pose of the path, with the scene's effects.
-/// Sliders become linear constraints. The step is 0 without a path.
-/// @throws ModelError  if the scene has line springs or follower loads.
+/// Builds the planar model for linear analysis at a point of the path (0 without a path), with the
+/// chosen effects. Sliders become linear constraints.
+/// @throws ModelError  if the case has line springs or follower loads.
 [[nodiscard]] solver::Model build_model(const CaseModel& case_model, std::size_t step);
 
-/// Builds the planar model for large motion, which uses sliders, line springs and follower loads
-/// separately.
+/// Builds the planar model for large motion, in which sliders, line springs and follower loads are
+/// not part of the model.
 [[nodiscard]] solver::Model build_bare_model(const CaseModel& case_model, std::size_t step);
 
-/// Converts the error of a model that the solver refused into an input error at the part that its
-/// message names.
+/// Converts an error of the solver about an invalid model into an input error. The input error
+/// refers to the part of the case that the message names.
 [[nodiscard]] InputError model_error(const Document& document, const solver::ModelError& error);
 
-/// Interface between a scene and the analysis of the rigid manipulator.
+/// Input of the analyses of the rigid manipulator.
 
-/// Names of the manipulator's parts in quantities.
+/// Names of joints and bodies of the manipulator, as they occur in names of quantities.
 inline const std::vector<std::string> kActiveJoints = {"A1", "A2", "A3"},
                                       kElbows = {"B1", "B2", "B3"},
                                       kBodies = {"A1-B1", "A2-B2", "A3-B3",   "B1-C1",
                                                  "B2-C2", "B3-C3", "platform"};
 
-/// Reads the bodies of the scene's manipulator, and gravity.
-/// @throws InputError  without a manipulator, or if the scene has parts that rigid dynamics would
-///     ignore. These are members, plates, bodies, masses, springs, supports and loads that are not
-///     on the platform.
+/// Reads the bodies of the manipulator, and gravity.
+/// @throws InputError  without a manipulator, or if the case has parts that rigid dynamics would
+///   ignore. These are members, plates, bodies, masses, springs, supports and loads that are not on
+///   the platform.
 [[nodiscard]] solver::RigidManipulator read_rigid_manipulator(const JsonView& analysis,
                                                               const CaseModel& case_model);
 

@@ -11,7 +11,8 @@ namespace {
 constexpr std::size_t kMaxNodesWithMidpoints = 1500;
 constexpr std::size_t kPointsPerMember = 12;
 constexpr std::size_t kMaxMovedNodes = 6000;  ///< maximum number of nodes over all moments
-constexpr double kShownShare = 0.8;           ///< required fraction of the way of the coordinates
+/// Minimum path length of the drawn coordinates, as a fraction of their path length in all samples.
+constexpr double kShownShare = 0.8;
 
 /// Returns the number of straight pieces by which an element is drawn.
 std::size_t pieces(const solver::System& system, const solver::FrameElement& element) {

@@ -18,7 +18,6 @@ using results::Drawing;
   return {position.x(), position.y()};
 }
 
-/// Largest number of nodes that a picture can show.
 inline constexpr std::size_t kMaxDrawnNodes = 4000;
 
 /// Adds triangles, rigid bodies and joints to a drawing that begins with all nodes of the model.
@@ -52,8 +51,8 @@ void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawin
 [[nodiscard]] Eigen::Vector2d displacement_along(const solver::FrameElement& element,
                                                  const Eigen::VectorXd& u, double s);
 
-/// Draws a rigid manipulator at the first point of its path, and at further moments if there are
-/// any.
+/// Draws a rigid manipulator at the first point of its path and, if the path has several points, at
+/// further times.
 [[nodiscard]] Drawing draw_manipulator(const solver::ManipulatorGeometry& geometry,
                                        const std::vector<solver::TrajectoryPoint>& motion);
 

@@ -17,8 +17,8 @@ using solver::Model;
 using Of = Observable::Of;
 using State = ModelState;
 
-/// Returns an entry of a matrix with a row for each node or member; NaN if the state does not have
-/// the matrix.
+/// Returns a component of a result for a node or member; NaN if the analysis has not computed the
+/// result.
 template <auto matrix, Index component>
 double entry(const Model&, const State& state, const ModelPart& part) {
   const Index row = part.items.front();
@@ -51,7 +51,7 @@ double bending_stress(const Model& model, const State& state, const ModelPart& p
   return resultant<2>(model, state, part) / modulus;
 }
 
-/// Returns the sum over the supports of one name. An edge has several supports, one per node.
+/// Returns the sum of the reactions of all supports with one name, such as the supports of an edge.
 template <Index component>
 double reaction(const Model&, const State& state, const ModelPart& part) {
   double sum = state.reaction(part.items.front(), component);
@@ -149,7 +149,7 @@ ModelPart find_part(const JsonView& place, const Model& model, Of of, const std:
                     " after the colon (got '" + printable(name) + "')" + did_you_mean(name, all));
 }
 
-/// Returns the rows of the table that an analysis has.
+/// Returns the observables that an analysis records.
 std::vector<const Observable*> observables_of(const std::string& analysis) {
   std::vector<const Observable*> rows;
   for (const Observable& one : kObservables)

@@ -7,33 +7,33 @@
 #include "harness/input/json_view.h"
 #include "solver/linear/statics.h"
 
-/// Table of the quantities of a model's parts as functions of its state. An analysis records its
-/// states by this table, and the key "outputs" selects rows of it. results/quantities.txt documents
-/// each row and the kinds of analysis that have it.
+/// Table of the quantities of nodes, members, supports and plates as functions of a model's state.
+/// Analyses record states by this table, and the key "outputs" selects quantities.
+/// results/quantities.txt documents each quantity and the kinds of analysis that have it.
 namespace trammel::harness {
 
 /// State of a model at one moment, or amplitudes of its vibration. An analysis sets the members
 /// that its quantities need.
 struct ModelState : solver::StaticSolution {
-  Eigen::MatrixX3d velocity = {}, acceleration = {};  ///< model node x (x, y, rotation)
+  Eigen::MatrixX3d velocity = {}, acceleration = {};  ///< one row (x, y, rotation) per node
   Eigen::MatrixX3d relative = {};  ///< displacement relative to a node that moves and rotates
 };
 
 /// Named node, member, end of a member, plate or set of supports.
 struct ModelPart {
   std::string name;
-  std::vector<solver::Index> items;  ///< nodes, members, supports, or triangles of the plate
-  solver::Index end = 0;             ///< end of the member, 0 or 1
+  std::vector<solver::Index> items;  ///< indices of nodes, members, supports or triangles
+  solver::Index end = 0;             ///< index of the member's end, 0 or 1
 };
 
 struct Observable {
   enum class Of { node, member, member_end, support, plate };
   const char* name;
   Of of;
-  /// Returns NaN if the part has no such quantity.
+  /// Function that computes the quantity of a part; NaN if the part does not have the quantity.
   double (*value)(const solver::Model&, const ModelState&, const ModelPart&);
-  bool is_force = false;     ///< computed from forces, whose round-off error applies
-  bool is_optional = false;  ///< parts with the value NaN are omitted
+  bool is_force = false;     ///< has the round-off error of forces
+  bool is_optional = false;  ///< omitted for parts with the value NaN
 };
 
 /// Records the observables of an analysis for all parts of a model, which must outlive the
@@ -46,7 +46,7 @@ class StateRecorder {
                 const std::vector<std::string>& without = {},
                 const std::vector<solver::Index>* nodes = nullptr);
 
-  /// @param displacement_roundoff, force_roundoff  relative; negative: unknown
+  /// @param displacement_roundoff, force_roundoff  relative round-off errors; negative: unknown
   void record(const ModelState& state, Recorder& record, double displacement_roundoff = -1,
               double force_roundoff = -1) const;
 
@@ -69,10 +69,9 @@ struct Output {
   }
 };
 
-/// Returns true if the outputs need section forces.
 [[nodiscard]] bool needs_forces(const std::vector<Output>& outputs);
 
-/// Reads the outputs.
+/// Reads the quantities that the key "outputs" selects.
 /// @throws InputError  for an unknown quantity or a part that the model does not have.
 [[nodiscard]] std::vector<Output> read_outputs(const JsonView& outputs, const solver::Model& model);
 

@@ -18,7 +18,7 @@ void require_joints(const JsonView& place, const solver::ManipulatorDesign& desi
       throw place.error("tracking requires 'locked' active joints, which it then drives");
     if (design.elbow[i].kind != solver::ElbowKind::hinged ||
         design.platform_joint[i].kind != solver::PlatformJointKind::hinged) {
-      throw place.error("tracking requires hinged elbow joints and platform joints");
+      throw place.error("tracking requires hinged elbow joints and platform joints (got others)");
     }
   }
 }

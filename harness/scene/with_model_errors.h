@@ -4,8 +4,8 @@
 
 namespace trammel::harness {
 
-/// Returns the result of `work`.
-/// @throws InputError  by `model_error`, if the solver refuses the model.
+/// Calls `work` and returns its result.
+/// @throws InputError  (see `model_error`) if the solver refuses the model.
 template <class Work>
 auto with_model_errors(const Document& document, const Work& work) {
   try {

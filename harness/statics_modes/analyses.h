@@ -14,24 +14,23 @@ AnalyseStep analyze_statics;
 /// Computes geometrically exact statics, at each load factor or along the full path.
 AnalyseStep analyze_large_statics;
 
-/// Computes the multiples of all loads together at which the model buckles, and the forces at these
-/// multiples.
+/// Computes the load factors, common to all loads, at which the model buckles, and critical forces.
 AnalyseStep analyze_buckling;
 
-/// Computes natural frequencies, at rest, under the model's loads or in a rotating frame. Along a
+/// Computes natural frequencies at rest, under the model's loads or in a rotating frame. Along a
 /// path there is one quantity per mode, frequency_Hz:1 ... The modes of a manipulator without other
-/// parts follow its pose (solver/manipulator/pose_modes.h). Any other modes are computed at each
-/// point.
+/// parts are computed for all poses together (solver/manipulator/pose_modes.h). Other modes are
+/// computed at each point.
 AnalysePath analyze_modes;
 
 /// Computes derivatives of the natural frequencies with respect to parameters of the manipulator's
 /// design.
 AnalysePath analyze_sensitivity;
 
-/// Computes the first frequency and one derivative over the workspace, at each orientation.
+/// Computes the first frequency and its derivative over the workspace, for each platform angle.
 AnalysePath analyze_sensitivity_map;
 
-/// Computes relative error norms of a manufactured solution on one mesh. Needs no scene.
+/// Computes relative error norms of a manufactured solution on one mesh.
 AnalyseCase analyze_manufactured;
 
 }  // namespace trammel::harness

@@ -12,7 +12,7 @@ solver::BucklingOptions read_buckling_options(const JsonView& analysis) {
   return {analysis.get<solver::Index>("count", 3), read_eigen_method(analysis)};
 }
 
-/// Records the forces on nodes at a load factor: critical_force_N:NAME.
+/// Records the magnitudes of the nodal forces at a critical load factor: critical_force_N:NAME.
 void record_forces(const JsonView& analysis, const std::string& mode, double factor,
                    double roundoff, Recorder& record) {
   const JsonView model = JsonView(analysis.document())["model"];

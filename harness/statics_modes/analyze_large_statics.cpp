@@ -42,7 +42,7 @@ void record_point(const GeometricallyExactSystem& system, const PathPoint& point
   if (point.unstable_directions >= 0) record.add("unstable_directions", point.unstable_directions);
 }
 
-/// Records frequencies about a point of the path. For several points, the names include the mode.
+/// Records frequencies about a point of the load path; one quantity per mode for several points.
 void record_vibration(const GeometricallyExactSystem& system, const PathPoint& point,
                       solver::Index count, bool several, StepResult& result, Recorder& record) {
   const auto found = solver::large_motion::small_vibration(system, point.state, count);
@@ -60,7 +60,6 @@ void record_events(const std::vector<PathEvent>& events, Recorder& record) {
   }
 }
 
-/// Records the Newton iterations of the last solution.
 void record_newton(const solver::large_motion::NewtonResult& newton, Recorder& record) {
   for (std::size_t i = 0; i < newton.correction.size(); ++i) {
     record.add("newton_iteration", i + 1);
@@ -92,7 +91,7 @@ StepResult analyze_large_statics(const JsonView& analysis, const CaseModel& case
   solver::large_motion::StaticPathOptions options = read_large_statics_options(analysis);
   if (options.keep_points && (case_model.path || factors.size() > 1))
     throw analysis["whole_path"].error("'whole_path' requires one pose and one load factor");
-  // Small vibration reports a free part as a mode of 0 Hz; otherwise its position is undetermined.
+  // Small vibration reports an unsupported part as a mode of 0 Hz; in statics it has no position.
   options.keep_free_parts = analysis.get("vibration_modes", solver::Index{0}) > 0;
   solver::Model model = build_bare_model(case_model, step);
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
@@ -102,7 +101,7 @@ StepResult analyze_large_statics(const JsonView& analysis, const CaseModel& case
   StepResult result;
   if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
   std::vector<PathPoint> recorded_points;
-  std::vector<PathEvent> events;  // of the longest path
+  std::vector<PathEvent> events;  // critical points up to the largest load factor
   const double longest = *std::ranges::max_element(factors);
   for (const double factor : factors) {
     options.target = factor;

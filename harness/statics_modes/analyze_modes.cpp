@@ -31,7 +31,7 @@ void require_absent(const JsonView& analysis, const char* key, const char* other
   throw analysis[key].error(std::string("not allowed with '") + other_key + "': " + reason);
 }
 
-/// Returns the system in the coordinates that the analysis requests.
+/// Returns the system, reduced to fixed-interface modes if the analysis has the key "reduction".
 solver::System condensed(const JsonView& analysis, const CaseModel& case_model,
                          solver::System system) {
   if (!analysis.has("reduction")) return system;
@@ -42,7 +42,7 @@ solver::System condensed(const JsonView& analysis, const CaseModel& case_model,
   if (analysis["reduction"].has("modes"))
     throw analysis["reduction"].error(
         "this analysis requires a reduction by 'fixed_interface_modes' (got 'modes')");
-  // Loads do not affect these modes.
+  // The reduction omits the loads, because they do not affect modes without prestress.
   return solver::reduce_members(
       system, analysis["reduction"].get<solver::Index>("fixed_interface_modes", 0));
 }
@@ -58,7 +58,7 @@ solver::ModalSolution modes_of(const JsonView& analysis, const CaseModel& case_m
   return solver::solve_prestressed_modes(system, options);
 }
 
-/// @param path  records one quantity per mode
+/// @param path  true if there is a path; frequencies are then recorded as one quantity per mode
 void record_modes(const Eigen::VectorXd& frequency, const Eigen::VectorXd& roundoff, bool path,
                   Recorder& record) {
   for (solver::Index i = 0; i < frequency.size(); ++i) {
@@ -82,7 +82,7 @@ std::optional<Drawing> draw_modes(const CaseModel& case_model, const solver::Sys
   return drawing;
 }
 
-/// Returns the translations of all nodes of the mesh. Each column has length 1.
+/// Returns the nodal translations of each mode shape as a column of length 1.
 Eigen::MatrixXd unit_translations(const solver::System& system, const Eigen::MatrixXd& shape) {
   const Eigen::MatrixXd u = system.T * shape;
   const auto& nodes = system.coordinates.node;
@@ -121,10 +121,10 @@ class ShapeTracker {
   }
 
  private:
-  Eigen::MatrixXd last_;  ///< translation x mode of the first point, with its current shape
+  Eigen::MatrixXd last_;  ///< current shapes (translation x mode of the first point)
 };
 
-/// Returns the real shape at the instant when the largest component reaches its amplitude.
+/// Returns the shape of a complex mode at the instant when its largest component has its amplitude.
 Eigen::VectorXd snapshot(const Eigen::VectorXcd& shape) {
   solver::Index largest = 0;
   shape.cwiseAbs().maxCoeff(&largest);
@@ -132,7 +132,7 @@ Eigen::VectorXd snapshot(const Eigen::VectorXcd& shape) {
   return (turn * shape).real();
 }
 
-/// Reads the options of the case, except for the effects and the speed.
+/// Reads the options of modes in a rotating frame, except for the effects and the speed.
 solver::RotatingOptions read_rotating_options(const JsonView& modes) {
   const JsonView rotating = modes["rotating"];
   solver::RotatingOptions options;
@@ -236,8 +236,8 @@ bool is_condensable(const solver::ManipulatorDesign& design) {
           !design.platform.six_nodes);
 }
 
-/// Returns true if the modes follow the pose. This requires a manipulator on a path, without other
-/// parts, at rest and without loads that stiffen it.
+/// Returns true if the modes of all poses are computed together. This requires a manipulator on a
+/// path, without other parts, at rest and without loads that stiffen it.
 bool follows_pose(const JsonView& analysis, const CaseModel& case_model) {
   const solver::Model& others = case_model.structure;
   const auto& joints = case_model.joint_elements;
@@ -289,7 +289,7 @@ StepResult analyze_modes(const JsonView& analysis, const CaseModel& case_model, 
   const bool tracks = analysis.get("track_shapes", false);
   if (tracks) {
     require_absent(analysis, "rotating", "track_shapes", "a rotating frame requires one 'pose'");
-    if (!case_model.path) throw analysis["track_shapes"].error("requires a trajectory");
+    if (!case_model.path) throw analysis["track_shapes"].error("requires a trajectory (got none)");
   } else if (follows_pose(analysis, case_model)) {
     return analyze_modes_of_poses(analysis, case_model, draw, record);
   }

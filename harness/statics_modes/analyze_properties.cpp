@@ -10,7 +10,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Mass, center of mass, and moment of inertia about it.
+/// Mass, center of mass, and moment of inertia about the center of mass.
 struct Body {
   double mass = 0;
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
@@ -27,8 +27,8 @@ Body join(const Body& a, const Body& b) {
   return both;
 }
 
-/// Returns the body of a member's uniform elements. Includes the rotary inertia of the
-/// cross-section if the theory has it.
+/// Returns mass, center and inertia of a member, whose elements have constant sections. Includes
+/// the rotary inertia of the cross-section if the beam theory has it.
 Body body_of(const solver::Model& model, const solver::Member& member) {
   const Eigen::Vector2d start = model.nodes[solver::to_size(member.nodes[0])].position;
   const Eigen::Vector2d end = model.nodes[solver::to_size(member.nodes[1])].position;
@@ -47,7 +47,7 @@ Body body_of(const solver::Model& model, const solver::Member& member) {
   return whole;
 }
 
-/// Integrates over a six-node triangle, whose sides may be curved.
+/// Returns mass and center of a six-node triangle by integration, because its sides may be curved.
 Body body_of_six_nodes(const solver::Model& model, const solver::Triangle& triangle) {
   const solver::Plate& plate = model.plates[solver::to_size(triangle.plate)];
   Body whole;

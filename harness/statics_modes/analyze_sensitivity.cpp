@@ -27,7 +27,7 @@ std::vector<Named> read_parameters(const JsonView& analysis, const CaseModel& ca
   return read;
 }
 
-/// Computes derivatives by differences: extrapolated, or one quotient if the method has a step.
+/// Computes derivatives by finite differences: extrapolated, or one quotient if a step is stated.
 FrequencyDifferences differences_of(const std::optional<JsonView>& method,
                                     const CaseModel& case_model,
                                     const solver::DesignParameter& parameter, solver::Index count) {

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Results for one orientation. The paper's "sensitivity" may be that at the center, the mean or
-/// the largest one.
+/// Results for one orientation. The paper's "sensitivity" may be the value at the center, the mean
+/// or the maximum over the workspace.
 struct Reading {
   double center_frequency = kNaN,
          center = kNaN;                       ///< sensitivity at the central position
@@ -37,15 +37,15 @@ void record_curves(const std::string& name, const std::string& item,
   }
 }
 
-/// Rounds to seven digits, which suffices for a map and halves its size.
+/// Rounds a number to seven digits, which suffices for a map and halves the size of its data.
 double for_map(double value) {
   if (value == 0) return value;
   const double unit = std::pow(10.0, std::floor(std::log10(std::abs(value))) - 6);
   return std::round(value / unit) * unit;
 }
 
-/// Reads the map of one orientation.
-/// @param positions  also record each position
+/// Evaluates and records the sensitivity map of one orientation.
+/// @param positions  true to record each position of the map
 Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
                  const std::string& item, double margin, bool positions, Recorder& record) {
   Reading reading{.mean_frequency = 0, .mean = 0, .largest = 0};
@@ -53,7 +53,7 @@ Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
   for (solver::Index j = 0; j < map.grid.rows; ++j) {
     for (solver::Index i = 0; i < map.grid.columns; ++i) {
       const double rate = map.derivative(j, i);
-      if (!std::isfinite(rate)) continue;  // out of reach, or on the boundary of the reach
+      if (!std::isfinite(rate)) continue;  // outside or on the boundary of the workspace
       if (positions) {
         const solver::Pose pose = map.grid.pose(j, i);
         record.add("position_x_m", item, for_map(pose.x));
@@ -73,7 +73,7 @@ Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
   return reading;
 }
 
-/// Records the increase in magnitude from the first orientation to each of the others.
+/// Records the increase in magnitude from the first orientation to each further orientation.
 void record_rises(const std::vector<Reading>& readings, Recorder& record) {
   const auto rise = [&](const char* name, const char* item, double Reading::*number) {
     const double first = std::abs(readings.front().*number);

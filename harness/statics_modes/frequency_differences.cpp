@@ -21,7 +21,7 @@ using solver::Pose;
 using solver::Vector2d;
 using Kind = DesignParameter::Kind;
 
-/// Calls visit(value) for each number of links, platform and joints that the parameter names.
+/// Calls visit(value) for each value that the parameter denotes in links, platform and joints.
 template <class Visit>
 void for_each_value(ManipulatorDesign& design, const DesignParameter& parameter, Visit&& visit) {
   const Kind kind = parameter.kind;
@@ -92,7 +92,7 @@ class Differences {
   }
 
  private:
-  /// Computes the frequencies of the design itself.
+  /// Computes the frequencies of the unchanged design.
   VectorXd begin() {
     VectorXd all = frequencies(0);
     result_.frequency = all.head(std::min(count_, all.size()));
@@ -136,8 +136,8 @@ class Differences {
     return rate;
   }
 
-  /// Returns a step that is at most the requested one. Ten such steps stay within reach, and each
-  /// set of frequencies stays away from its neighbor.
+  /// Returns a finite-difference step of at most `step`. Ten such steps keep the manipulator within
+  /// reach, and adjacent sets of frequencies remain separate.
   double first_step(const VectorXd& all, double step) {
     while (!within_reach(10 * step) || !within_reach(-10 * step)) step /= 2;
     const double fastest = central(1e-3 * step).cwiseAbs().maxCoeff();
@@ -177,7 +177,7 @@ class Differences {
   const DesignParameter& parameter_;
   Index count_;
   std::vector<FrequencySet> sets_;
-  VectorXd error_estimate_;  // of the extrapolation [Hz / unit]
+  VectorXd error_estimate_;  // error of the extrapolation [Hz / unit]
   FrequencyDifferences result_;
 };
 

@@ -22,8 +22,8 @@ struct DesignInPose {
                                      const solver::Pose& pose,
                                      const solver::DesignParameter& parameter, double change);
 
-/// Returns the parameter's value [its unit]: the largest of its numbers, or 0 if the design has
-/// none. For the orientation it returns 1 rad, because an angle has no natural zero.
+/// Returns the value of a parameter: the largest value of the selected parts, or 0 if no part has
+/// it. For the orientation it returns 1 rad, because an angle has no natural zero.
 [[nodiscard]] double parameter_value(const solver::ManipulatorDesign& design,
                                      const solver::DesignParameter& parameter);
 
@@ -32,7 +32,7 @@ struct FrequencyDifferences {
   solver::Outcome outcome;
   solver::Evidence evidence;   ///< residuals of the modes of all designs
   Eigen::VectorXd frequency;   ///< natural frequencies of the original design, ascending [Hz]
-  Eigen::VectorXd derivative;  ///< [Hz / unit]; repeated frequencies as in FrequencySensitivity
+  Eigen::VectorXd derivative;  ///< [Hz / unit], ordered as in FrequencySensitivity
   solver::Counters counters;
 };
 
@@ -41,7 +41,7 @@ struct FrequencyDifferences {
 /// adjacent frequencies apart and the limbs within reach.
 /// The branches of a repeated frequency are smooth. Therefore the lowest branch for p + h continues
 /// the highest branch for p - h.
-/// @param relative_step  first step over the value of the parameter, unless that is too large
+/// @param relative_step  first step over the value of the parameter; reduced if it is too large
 /// @throws ModelError  as `build_manipulator`.
 [[nodiscard]] FrequencyDifferences differentiate_frequencies(
     const solver::ManipulatorDesign& design, const solver::Pose& pose,

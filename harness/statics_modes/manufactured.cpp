@@ -26,7 +26,7 @@ inline constexpr std::array kWords<mms::ShearStrain> = {"none", "from-bending", 
 
 namespace {
 
-/// Records residuals of (K - omega^2 M) q = f, with newly assembled matrices.
+/// Adds the residuals of (K - omega^2 M) q = f, with newly assembled matrices, to the evidence.
 void add_evidence(const solver::System& system, double omega, ManufacturedSolution& solution) {
   const Eigen::VectorXd u = system.T * solution.q;
   solver::RowBalance<double> rows(system);
@@ -163,7 +163,7 @@ BeamTestResult run_beam_test(const BeamTest& test) {
 
 namespace {
 
-/// Amplitude of the field. Its value is arbitrary, because every error is relative.
+/// Amplitude of the manufactured solution. Its value is arbitrary, because every error is relative.
 constexpr double kAmplitudePerLength = 1e-3;
 
 MembraneTest read_membrane(const JsonView& place) {
@@ -194,14 +194,14 @@ BeamTest read_beam(const JsonView& place) {
           place.get("distortion", 0.0)};
 }
 
-/// Error in some norm, of the solution or of its derivatives of order `derivative`.
+/// Norm of the error of the solution, or of its derivatives of order `derivative`.
 struct ErrorNorm {
   const char* name;
   double error;
   int derivative;
 };
 
-/// Records the error norms. Their round-off grows by the number of cells with each derivative.
+/// Records the error norms. Their round-off error grows by the number of cells per derivative.
 StepResult record_norms(const ManufacturedSolution& solution, solver::Index cells, bool draw,
                         std::initializer_list<ErrorNorm> norms, Recorder& record) {
   StepResult result{solution.outcome, solution.counters, solution.evidence};

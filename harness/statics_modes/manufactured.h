@@ -31,12 +31,12 @@ struct MembraneTestResult {
   solver::MembraneErrors errors;
 };
 
-/// Solves a membrane test.
+/// Solves a manufactured membrane problem and computes its errors.
 /// @throws ModelError  if the mesh is invalid.
 [[nodiscard]] MembraneTestResult run_membrane_test(const MembraneTest& test);
 
 struct BeamTest {
-  /// Exact solution along the direction (4, 3) / 5, which excites all coordinates.
+  /// Exact solution of a beam along the direction (4, 3) / 5, so that all coordinates are excited.
   references::manufactured::BeamProblem problem;
   solver::Index cells = 1;
   double distortion = 0;  ///< displacement of inner mesh nodes, relative to the size of a cell
@@ -47,7 +47,7 @@ struct BeamTestResult {
   solver::BeamErrors errors;
 };
 
-/// Solves a beam test.
+/// Solves a manufactured beam problem and computes its errors.
 /// @throws ModelError  if the mesh is invalid.
 [[nodiscard]] BeamTestResult run_beam_test(const BeamTest& test);
 

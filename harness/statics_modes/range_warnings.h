@@ -36,8 +36,8 @@ void warn_of_strain(const solver::Model& model, const solver::StaticSolution& so
 inline constexpr double kMaxAmplification = 10;
 void warn_of_amplification(const solver::StaticSolution& solution, std::vector<Warning>& warnings);
 
-/// Limit of the wave number of an element, which bends as a cubic. With beta^4 = w^2 m / EI, a half
-/// wave of the bending vibration is pi / beta long. At the limit an element is half of a half wave.
+/// Limit of the dimensionless wave number beta l of an element with cubic deflection. A half wave
+/// of bending has the length pi / beta, with beta^4 = w^2 m / EI. The limit is half of a half wave.
 inline constexpr double kMaxWaveNumber = 1.5708;
 /// Warns if the elements are too long for the highest mode.
 /// @param frequency  highest of the reported modes [Hz]
@@ -49,7 +49,7 @@ void warn_of_wave_length(const solver::System& system, double frequency,
 inline constexpr double kMaxTaperRatio = 1.5;
 void warn_of_taper(const solver::Model& model, std::vector<Warning>& warnings);
 
-/// Warns if round-off exceeds a thousandth of a frequency.
+/// Warns if the round-off error of a frequency exceeds a thousandth of the frequency.
 /// @param of_frequency  relative round-off error
 void warn_of_roundoff(double of_frequency, std::vector<Warning>& warnings);
 

@@ -11,7 +11,7 @@ namespace trammel::harness {
 /// Selects whether the weight of the parts acts in addition to the loads.
 enum class Weight : std::uint8_t { acts, left_out };
 
-/// System in the coordinates that an analysis requests.
+/// System of equations, possibly reduced to component modes or natural modes.
 struct ReducedSystem {
   solver::Outcome outcome;  ///< outcome of computing the modes to which the system is reduced
   solver::System system;

@@ -21,7 +21,7 @@ void record_frequencies(const Eigen::VectorXd& frequency, const Eigen::VectorXd&
 
 namespace {
 
-/// Keeps the first drawing. Drawings of later points of the path are added to it as moments.
+/// Keeps the drawing of the first point of a path, and adds those of later points as poses in time.
 void add_moment(const CaseModel& case_model, std::size_t step, Drawing found,
                 std::optional<Drawing>& all) {
   if (!all) all = std::move(found);

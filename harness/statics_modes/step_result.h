@@ -30,8 +30,8 @@ struct StepResult {
   std::optional<results::ModelProbabilities> model_probabilities = std::nullopt;
 };
 
-/// Signatures of an analysis: at one step of the scene's path, along the full path, and of a case
-/// without a scene.
+/// Signatures of an analysis: at one step of the path, along the full path, and of a case without a
+/// model.
 using AnalyseStep = StepResult(const JsonView& analysis, const CaseModel& case_model,
                                std::size_t step, bool draw, Recorder& record);
 using AnalysePath = StepResult(const JsonView& analysis, const CaseModel& case_model, bool draw,
@@ -47,16 +47,16 @@ using AnalyseCase = StepResult(const Document& document, const References& refer
 inline constexpr solver::Index kMaxDrawnShapes = 12;
 
 /// Returns the label of a mode: "mode 3, 12.5 Hz".
-/// @param number  value of the mode in that unit
+/// @param number  frequency or load factor of the mode, in the unit `unit`
 [[nodiscard]] std::string mode_label(solver::Index mode, double number, const char* unit);
 
-/// Records frequencies and growth rates of modes about a state. For several states, the names
-/// include the mode.
+/// Records frequencies and growth rates of vibration about one or several states. For several
+/// states, there is one quantity per mode, whose name includes the number of the mode.
 /// @param roundoff  relative round-off error of each frequency; empty if unknown
 void record_frequencies(const Eigen::VectorXd& frequency, const Eigen::VectorXd& growth_rate,
                         bool several, Recorder& record, const Eigen::VectorXd& roundoff = {});
 
-/// Returns the outcome of a step. Its reason contains the point of the path.
+/// Returns the outcome of one point of the path, with the number of the point in its reason.
 [[nodiscard]] solver::Outcome outcome_at_path_point(const CaseModel& case_model, std::size_t step,
                                                     solver::Outcome outcome);
 

@@ -11,10 +11,10 @@ namespace trammel::harness {
 
 /// Warning that belongs to a solved result: a quantity is outside its validity range.
 struct Warning {
-  std::string quantity;  ///< "the largest rotation"
+  std::string quantity;  ///< subject of the text: "the largest rotation"
   double value = 0;
-  std::string unit;     ///< "" or " rad"
-  std::string meaning;  ///< validity range and its reason
+  std::string unit;     ///< unit with a leading space: " rad"
+  std::string meaning;  ///< validity range of the quantity and its reason
 
   [[nodiscard]] std::string text() const {
     return quantity + " is " + rounded(value, 3) + unit + ": " + meaning;

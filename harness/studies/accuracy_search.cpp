@@ -21,7 +21,7 @@ bool is_asked(const std::string& name, const std::vector<std::string>& names) {
   });
 }
 
-/// Returns a patch that requests the same recorded times for every time step.
+/// Returns a patch that keeps the times at which results are recorded if the time step changes.
 Json fixed_outputs(const Document& document) {
   const std::string kind = discretized_analysis(document), place = analysis_pointer(document);
   const Json& analysis = document.value().at(JsonPointer(place));
@@ -31,7 +31,7 @@ Json fixed_outputs(const Document& document) {
   return patch_at(document.value(), place + "/output_step_s", analysis["step_s"]);
 }
 
-/// Returns the description of a setting: "8 elements, step 0.001 s".
+/// Returns the description of a discretization: "elements 8, step 0.001".
 std::string setting_of(const Document& document) {
   std::string text;
   const Json& json = document.value();
@@ -52,7 +52,7 @@ std::string setting_of(const Document& document) {
   return text;
 }
 
-/// Returns bands with the safety factor 1.25 instead of 3 where three levels show the order of
+/// Returns error bands with the safety factor 1.25 instead of 3 if three levels show the order of
 /// theory (Roache 1998, Verification and Validation in Computational Science and Engineering, 5.9).
 ErrorBands narrowed(ErrorBands bands, const ErrorBands& coarser, double ratio) {
   constexpr double kFactor = 1.25 / 3, kNearOrder = 0.5;
@@ -105,7 +105,7 @@ class Search {
 
   void coarsen() {
     if (!has(ErrorSource::mesh) && !has(ErrorSource::step))
-      throw current_.error("/analysis", "the case has no mesh or step to be refined");
+      throw current_.error("/analysis", "the case has no mesh and no time step to be refined");
     for (auto patch = mesh_patch(current_, Refine::coarser); patch;
          patch = mesh_patch(current_, Refine::coarser))
       current_.apply_patch("coarser mesh", "", *patch);
@@ -115,7 +115,7 @@ class Search {
     current_.apply_patch("recorded times", "", outputs_);
   }
 
-  /// Returns whether twice the step is no longer than the interval of the recorded times.
+  /// Returns true if twice the time step is at most the interval between recorded times.
   [[nodiscard]] bool may_be_longer() const {
     const Json& analysis = current_.value().at(JsonPointer(analysis_pointer(current_)));
     return !analysis.contains("output_step_s") || !analysis.contains("step_s") ||
@@ -123,7 +123,7 @@ class Search {
                (1 + 1e-9) * analysis["output_step_s"].get<double>();
   }
 
-  /// Removes samples between those of the case, which refinements have added.
+  /// Removes the samples that refinements have added between the samples of the case.
   void keep_requested_samples() {
     if (!sampling_) return;
     const auto factor = sampling_of(current_)->intervals / sampling_->intervals;
@@ -156,8 +156,8 @@ class Search {
     return true;
   }
 
-  /// Finds the coarsest setting with a solution: its mesh has enough modes, and its time scheme
-  /// converges.
+  /// Refines the setting until the case has a solution. A mesh may be too coarse for the requested
+  /// number of modes, and a time scheme may not converge.
   void solve_coarsest() {
     for (int i = 0; i < kMaxRefinements; ++i) {
       try {
@@ -172,8 +172,8 @@ class Search {
         if (const auto finer = companion_of(current_, source, Refine::finer))
           current_ = finer->document;
     }
-    throw current_.error("/analysis",
-                         "the case has no solution for any of the meshes and steps: " + reason_);
+    throw current_.error(
+        "/analysis", "the case has no solution for any mesh and step of the search: " + reason_);
   }
 
   void choose_quantities() {
@@ -215,7 +215,7 @@ class Search {
                                                                       : ErrorSource::step;
   }
 
-  /// @returns true if the result has become more accurate, or may have
+  /// @returns true if the search can continue with a finer mesh or step
   bool refine(ErrorSource source) {
     const auto finer = companion_of(current_, source, Refine::finer);
     const double before = error_by(source);
@@ -224,7 +224,7 @@ class Search {
       return false;
     }
     const AnalysisResult coarse = found_.result;
-    if (!solve(finer->document)) {  // for example, explicit steps on a finer mesh
+    if (!solve(finer->document)) {  // for example, an explicit scheme on a finer mesh
       if (source == ErrorSource::mesh && has(ErrorSource::step)) return refine(ErrorSource::step);
       found_.errors.reason = "with " + finer->words + " there is no solution: " + reason_;
       return false;
@@ -246,12 +246,12 @@ class Search {
   const AccuracyRequest& request_;
   const References& references_;
   Document current_;
-  Json outputs_;  // patch of the recorded times
+  Json outputs_;  // patch that keeps the recorded times
   std::optional<Sampling> sampling_;
   Stopwatch watch_;
   AccuracySearch found_;
   std::vector<std::string> asked_;
-  std::map<ErrorSource, ErrorBands> bands_, two_levels_;  // with factors from three and two levels
+  std::map<ErrorSource, ErrorBands> bands_, two_levels_;  // bands from three and from two levels
   solver::Counters counters_;
   std::string reason_;
   double cpu_s_ = 0;

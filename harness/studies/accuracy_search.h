@@ -11,31 +11,30 @@ namespace trammel::harness {
 
 struct AccuracyRequest {
   double accuracy = 1e-3;  ///< largest relative error, > 0
-  /// Names of quantities, or their parts before the colon. If empty: frequencies, load factors,
-  /// displacements and positions, or all quantities if there are none of these.
+  /// Names of quantities, with or without the part after the colon. If empty: frequencies, load
+  /// factors, displacements and positions, or all quantities if the case computes none of these.
   std::vector<std::string> quantities;
   double time_limit_s = 120;  ///< limit of the processor time of the search
 };
 
 struct AccuracySearch {
-  std::vector<Document> tried;  ///< coarse to fine; the last one is chosen
+  std::vector<Document> tried;  ///< all settings, coarse to fine; the last one is chosen
   AnalysisResult result;        ///< result of the chosen setting
   results::ErrorEstimates errors;
-  std::vector<std::string> asked;  ///< names of the requested quantities; empty: all
+  std::vector<std::string> asked;  ///< names of the quantities that must be accurate; empty: all
   bool reached = false;
 };
 
-/// Refines the case until the error estimate is below the request. Starts from one element per
-/// member and four times the step, and refines the source of the larger error. Beam theory and kind
-/// of statics are kept. Each level serves as the companion of the next one, so that no computation
-/// is made for an estimate only.
+/// Refines mesh and time step until the estimated error is at most `accuracy`. Starts from one
+/// element per member and four times the step, and refines the source of the larger error. Beam
+/// theory and analysis are kept. Each level also serves for the error estimate of the next level.
 /// @throws InputError  if the case has no mesh or steps, no solution or no such quantity.
 [[nodiscard]] AccuracySearch search_accuracy(const Document& document,
                                              const AccuracyRequest& request,
                                              const References& references);
 
-/// Returns the settings of a search as a study. Errors are measured against twice the elements and
-/// half the step of the last setting.
+/// Returns the settings of a search as a cost study. The reference solution has twice the elements
+/// and half the step of the last setting.
 [[nodiscard]] CostStudy cost_study_of_search(const Case& given, const std::string& variant,
                                              const AccuracySearch& search,
                                              const AccuracyRequest& request);

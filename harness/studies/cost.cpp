@@ -16,7 +16,7 @@ namespace {
 using results::CostSetting;
 using results::ErrorNorms;
 
-/// Returns the number by which the error of an entry is divided.
+/// Returns the divisor that makes the error of an entry relative.
 double divisor(double reference_solution, double largest, const Scale& scale) {
   if (scale.kind == Scale::Kind::number) return scale.number;
   const bool by_entry = scale.kind == Scale::Kind::entry && reference_solution != 0;
@@ -43,7 +43,7 @@ std::vector<double> relative_errors(const std::vector<double>& found,
   return errors;
 }
 
-/// Returns the observations of one output.
+/// Returns the values of the quantities that belong to one output of the study.
 Observations values_of(const Observations& all, const std::vector<ObservedQuantity>& observed,
                        std::size_t output) {
   Observations values;
@@ -52,7 +52,7 @@ Observations values_of(const Observations& all, const std::vector<ObservedQuanti
   return values;
 }
 
-/// Returns the errors of a setting for each output.
+/// Returns the error norms of a setting for each output of the study.
 std::vector<std::optional<ErrorNorms>> output_errors(const CostStudy& study, const Setting& setting,
                                                      const Observations& found,
                                                      const Observations& reference_solution) {
@@ -90,7 +90,7 @@ Observations compute_reference_solution(const CostStudy& study, const References
   return sandboxed.values;
 }
 
-/// Returns the measured setting without its times.
+/// Returns the setting with its error and status, and without repeated measurements of time.
 CostSetting classify_run(const SandboxedRun& sandboxed, const Setting& setting,
                          const Observations& reference_solution, const CostStudy& study) {
   CostSetting measured;
@@ -127,7 +127,7 @@ bool is_computed(const CostSetting& setting) {
   return setting.measured() || setting.status == "reference";
 }
 
-/// @param output  empty: the largest error of all outputs
+/// @param output  index of the output; empty: the largest error of all outputs
 std::optional<double> error_of(const CostSetting& setting, const std::string& norm,
                                std::optional<std::size_t> output) {
   const auto get = [&](const std::optional<ErrorNorms>& error) {
@@ -175,7 +175,7 @@ std::vector<results::CheapestSetting> cheapest_settings(const std::vector<CostPo
   return all;
 }
 
-/// Returns the description of a study, without settings.
+/// Returns the results of a study before measurement: titles and descriptions without settings.
 results::CostStudy describe(const CostStudy& study) {
   results::CostStudy out;
   out.id = study.id;

@@ -12,9 +12,9 @@
 namespace trammel::harness {
 
 /// Returns the norms of the relative errors over all observed entries.
-/// @param reference_solution  as many values as `found`; empty lists if the values are errors
-///     themselves.
-/// @throws std::runtime_error  if the lengths differ, or the scale is zero.
+/// @param reference_solution  as many values as `found`; an empty list for a quantity whose values
+///     are errors themselves.
+/// @throws std::runtime_error  if the numbers of values differ, or a scale is zero.
 [[nodiscard]] results::ErrorNorms error_norms(const Observations& found,
                                               const Observations& reference_solution,
                                               const Scale& scale);
@@ -25,7 +25,7 @@ inline constexpr double kDivergedError = 10;
 /// Returns the measured settings as points of error and time. The error is that of one output in
 /// the study's norm, or the largest of all outputs if `output` is empty. Settings that lack an
 /// error or diverge are omitted.
-/// @param first, step  repeats that count, as in `relative_time`
+/// @param first, step  first repeat and step between repeats that are used, as in `relative_time`
 [[nodiscard]] std::vector<CostPoint> cost_points(const results::CostStudy& study,
                                                  std::optional<std::size_t> output = 0,
                                                  std::size_t first = 0, std::size_t step = 1);
@@ -35,16 +35,16 @@ struct CostOptions {
   std::function<void(std::size_t done, std::size_t all)> progress;
 };
 
-/// Measures a study.
+/// Measures error and processor time of all settings of a study.
 /// @throws InputError  if the reference solution or the baseline cannot be computed.
 [[nodiscard]] results::CostStudy measure_study(const CostStudy& study, const CostOptions& options,
                                                const References& references);
 
-/// Derives times relative to the baseline, the Pareto front and the conclusion from errors and
-/// times.
+/// Computes times relative to the baseline, the Pareto front and the conclusion of a measured
+/// study.
 void derive_results(results::CostStudy& measured);
 
-/// Returns the results about accuracy and computing time for results.json.
+/// Returns the section "cost" of results.json from measured studies.
 [[nodiscard]] results::CostStudies cost_results(std::vector<results::CostStudy> studies,
                                                 SweepExtent extent, const TimingOptions& timing);
 

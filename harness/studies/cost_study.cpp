@@ -36,7 +36,7 @@ std::vector<double> exact_values(const JsonView& place, const std::string& quant
   return values;
 }
 
-/// Returns the index of the quantity's output in the study.
+/// Returns the index of the output to which a quantity of the study belongs.
 std::size_t output_number(const JsonView& study, const JsonView& place) {
   if (!place.has("output")) return 0;
   std::size_t number = 0;
@@ -66,7 +66,7 @@ std::vector<ObservedQuantity> read_observed(const JsonView& study, const JsonVie
   return observed;
 }
 
-/// Opens the case of a study or curve. Paths are relative to the study's file.
+/// Loads the case of a study or of one of its curves. Paths are relative to the study's file.
 Document open_case(const JsonView& study, const JsonView& part) {
   const JsonView name = part.has("case") ? part["case"] : study["case"];
   const Origin written = study.document().origin(name.pointer());
@@ -77,7 +77,7 @@ Document open_case(const JsonView& study, const JsonView& part) {
   } catch (const InputError& error) {
     throw name.error(error.what());
   }
-  // A curve with another case starts from its base variant, not from that of the study.
+  // A curve with another case starts from the base variant of that case.
   const bool own = part.has("case");
   const std::string otherwise =
       own ? kBaseVariant : study.get<std::string>("variant", kBaseVariant);
@@ -98,8 +98,8 @@ Document start_of(const JsonView& study, const JsonView& part) {
   return document;
 }
 
-/// Fills in a value: "{} elements a link" with 4 becomes "4 elements a link", and with 1 becomes "1
-/// element a link".
+/// Inserts a value into a title: "{} elements a link" becomes "4 elements a link", or "1 element a
+/// link".
 std::string named(const std::string& each, double value) {
   const std::size_t at = each.find("{}");
   if (at == std::string::npos) return each + " " + shortest_decimal(value);
@@ -166,7 +166,7 @@ std::size_t find_baseline(const JsonView& place, const std::vector<Setting>& set
   return static_cast<std::size_t>(found - settings.begin());
 }
 
-/// Reads a scale and returns it with its description.
+/// Reads the scale of an output's errors. Returns the scale and its description.
 std::pair<Scale, std::string> read_scale(const JsonView& output) {
   const auto place = output.find("scale");
   if (place && place->json().is_object()) {

@@ -11,23 +11,23 @@
 #include "harness/input/reference_library.h"
 #include "harness/results/cost_results.h"
 
-/// Studies of the computing time that accuracy requires. Settings of one computation are measured
-/// against one reference solution.
+/// Studies of the computing time that an accuracy requires. The results of one computation with
+/// several settings are compared with one reference solution.
 namespace trammel::harness {
 
 /// Quantity whose error is measured.
 struct ObservedQuantity {
   std::string quantity;
-  std::string addend;              ///< another quantity, added entry by entry; empty: none
+  std::string addend;              ///< quantity that is added to each entry; empty: none
   std::string statistic;           ///< reduces the entries to one number; empty: the entries
                                    ///< themselves
   std::vector<std::size_t> index;  ///< selected entries; empty: all
   bool is_error = false;           ///< the values are relative errors
-  /// Exact values from a reference; empty: the study's reference solution applies.
+  /// Exact values; if empty, errors are relative to the study's reference solution.
   std::vector<double> exact;
-  std::size_t output = 0;  ///< index among the study's outputs
+  std::size_t output = 0;  ///< index of its output in CostStudy::outputs
 
-  /// Returns true if the quantity needs the study's reference solution.
+  /// Returns true if errors of the quantity require the study's reference solution.
   [[nodiscard]] bool needs_reference_solution() const { return !is_error && exact.empty(); }
 };
 
@@ -35,23 +35,23 @@ struct ObservedQuantity {
 using Observations = std::vector<std::vector<double>>;
 
 /// Extracts the observed quantities.
-/// @throws std::runtime_error  with the name of a quantity that is missing. Also throws for a
-///     number of entries other than the index or the exact values require.
+/// @throws std::runtime_error  if a quantity is missing, or if its number of entries does not match
+///     the index or the exact values.
 [[nodiscard]] Observations extract_observations(const Quantities& quantities,
                                                 const std::vector<ObservedQuantity>& observed);
 
-/// One setting of a computation: a case or variant with the patches of a point on a curve.
+/// One setting of a computation, such as a mesh: a case or variant with the patches of the setting.
 struct Setting {
-  std::string curve, curve_title;  ///< curve of the setting in the figure
-  std::string title;               ///< title with the value: "consistent mass, 4 elements a link"
+  std::string curve, curve_title;  ///< curve to which the setting belongs
+  std::string title;               ///< for example "consistent mass, 4 elements a link"
   std::optional<double> value;     ///< value of the parameter along the curve
   Document document;
   std::vector<ObservedQuantity> observed;
 };
 
-/// Divisor of an error.
+/// Divisor that makes an error relative.
 struct Scale {
-  /// Magnitude of the entry, largest magnitude of the quantity, largest of all quantities, or a
+  /// Divisor: magnitude of the entry, largest magnitude of the quantity or of all quantities, or a
   /// fixed number.
   enum class Kind { entry, quantity, largest, number } kind = Kind::entry;
   double number = 0;
@@ -60,36 +60,36 @@ struct Scale {
 /// Quantities whose errors share one scale, for example the position of P or the torques of the
 /// drives.
 struct StudyOutput {
-  std::string title;  ///< empty if there is only one output
+  std::string title;  ///< empty if the study has a single output
   Scale scale;
   std::string scale_description;
 };
 
 struct CostStudy {
   std::string id, family, title, description;
-  std::vector<Setting> settings;  ///< curve by curve, coarse to fine
+  std::vector<Setting> settings;  ///< settings of all curves, each coarse to fine
   std::optional<Setting>
       reference_solution;             ///< used if the observed quantities have no exact values
   std::string reference_description;  ///< description of the solution that errors are measured
                                       ///< against
-  std::size_t baseline = 0;           ///< index among the settings
-  /// Outputs. The first one defines figure, front and conclusion, and every setting has it. The
-  /// others are optional.
+  std::size_t baseline = 0;           ///< index of the setting to which times are relative
+  /// The first output defines the figure, the Pareto front and the conclusion, and every setting
+  /// computes it. Other outputs are optional.
   std::vector<StudyOutput> outputs{1};
-  std::string norm = "max";  ///< name of a member of results::ErrorNorms
+  std::string norm = "max";  ///< "max", "rms" or "mean"
   int time_limit_s = 60;
 };
 
-/// Extent of the values of the curves.
+/// All values of the parameters (full), or a short selection (quick).
 enum class SweepExtent { full, quick };
 
-/// Loads a study.
+/// Loads a cost study from a file.
 /// @throws InputError  if the file or a patched setting violates its schema, or a case or value
 ///     does not exist.
 [[nodiscard]] CostStudy load_cost_study(const std::filesystem::path& file, SweepExtent extent,
                                         const References& references);
 
-/// Returns a study of the case or variant, named after it, without settings.
+/// Returns a study without settings, named after the case or variant.
 [[nodiscard]] CostStudy empty_study(const Case& given, const std::string& variant);
 
 /// Returns true if a file contains a study, not a case.
@@ -100,18 +100,17 @@ enum class SweepExtent { full, quick };
 
 using results::SandboxedRun;
 
-/// Computes a setting once, in a separate process. The process is ended when it exceeds its
+/// Computes a setting once, in a separate process. The process is ended at the limit of its
 /// processor time, so that endless loops and crashes are contained.
-/// @param waiting  called about once a second until then
+/// @param waiting  called about once a second until the process ends
 [[nodiscard]] SandboxedRun run_sandboxed(const Setting& setting, int time_limit_s,
                                          const References& references,
                                          const std::function<void()>& waiting = {});
 
 /// Returns the refinements of a case as a study, with a curve for each named sweep, or all sweeps
-/// if none is named.
-/// The observed quantities are those of the sweeps, or else those of the checks. Their errors are
-/// measured against references of kind exact or computed, or else against the finest level of the
-/// first sweep. The baseline is the coarsest level of all.
+/// if none is named. The observed quantities are those of the sweeps, or else those of the checks.
+/// Their errors are measured against references of kind exact or computed, or else against the
+/// finest level of the first sweep. The baseline is the coarsest level of the first sweep.
 /// @throws InputError  if the case has no such sweep, or nothing can be measured.
 [[nodiscard]] CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
                                              const std::vector<std::string>& sweeps,

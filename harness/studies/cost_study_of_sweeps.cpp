@@ -8,7 +8,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns the exact values of a quantity, one per entry.
+/// Returns the exact values of a quantity, one per entry; empty without an exact reference.
 std::vector<double> exact_values(const TrackedQuantity& tracked) {
   if (tracked.reference == nullptr || !is_exact(*tracked.reference)) return {};
   const references::Reference& reference = *tracked.reference;
@@ -21,8 +21,8 @@ std::vector<double> exact_values(const TrackedQuantity& tracked) {
   return values;
 }
 
-/// Returns the checks that compare a quantity along the refinement. Counts and checks with bounds
-/// only are omitted.
+/// Returns the checks whose quantities converge under refinement. Checks of counts and checks that
+/// only state bounds are omitted.
 std::vector<Check> comparisons(const Document& document, const std::string& variant,
                                const std::vector<std::string>& variants) {
   std::vector<Check> checks;

@@ -16,8 +16,8 @@ namespace {
 using results::ErrorEstimate;
 using results::ErrorEstimates;
 
-constexpr double kSafetyFactor = 3;       // for two levels, whose order is not observed
-constexpr double kLargeDifference = 0.1;  // of levels outside the asymptotic range
+constexpr double kSafetyFactor = 3;       // Roache's factor if the order is not observed
+constexpr double kLargeDifference = 0.1;  // relative; outside of the asymptotic range
 constexpr std::size_t kMaxEntries = 12;   // a quantity with more entries is a curve, with one error
                                           // for all
 
@@ -39,7 +39,7 @@ bool is_exact(const Document& document) {
          !document.value()["model"].contains("manipulator");
 }
 
-/// Returns true if the key has the value anywhere in the model.
+/// Returns true if a member `key` of the JSON object, at any depth, equals `value`.
 bool has_value(const Json& json, const std::string& key, const Json& value) {
   if (!json.is_object()) return false;
   for (const auto& [name, entry] : json.items())
@@ -47,13 +47,13 @@ bool has_value(const Json& json, const std::string& key, const Json& value) {
   return false;
 }
 
-/// Returns the order of the mesh; empty if nodal values are exact.
+/// Returns the order of convergence in the element size; empty if nodal values are exact.
 std::optional<double> mesh_order(const Document& document) {
   const Json& model = document.value()["model"];
   const std::string kind = discretized_analysis(document);
   const auto any = [&](const char* key, const char* value) { return has_value(model, key, value); };
-  // Peaks over frequency and equilibria in large rotation converge more slowly than modes. The
-  // axial force of a distributed load is constant in each element.
+  // Harmonic peaks and equilibria in large rotation converge with order 2, modes with order 4.
+  // Buckling under gravity has order 2, because axial force is constant in each element.
   bool is_second = kind == "harmonic" || kind == "large-statics" || model.contains("plates") ||
                    any("kind", "triangles");
   if (kind != "statics")
@@ -70,7 +70,7 @@ std::optional<double> mesh_order(const Document& document) {
   return 4;
 }
 
-/// Returns the order of the step, or the power of the tolerance.
+/// Returns the order of convergence in the time step, or the power of the integrator's tolerance.
 double step_order(const Document& document) {
   const Json& analysis = document.value().at(JsonPointer(analysis_pointer(document)));
   if (discretized_analysis(document) == "forward-dynamics") return 8.0 / 9;  // adaptive Runge-Kutta
@@ -83,8 +83,8 @@ double step_order(const Document& document) {
   return 2;
 }
 
-/// Returns the index of the entry of the other series at the same time or frequency, for each
-/// entry. The index is empty if there is no such entry.
+/// Returns, for each entry of a series, the index of the entry of the other series at the same time
+/// or frequency. The index is empty if the other series has no such entry.
 std::vector<std::optional<std::size_t>> aligned(const Quantities& own, const Quantities& other,
                                                 std::size_t size, std::size_t other_size) {
   std::vector<std::optional<std::size_t>> places(size);
@@ -104,7 +104,7 @@ std::vector<std::optional<std::size_t>> aligned(const Quantities& own, const Qua
   return places;
 }
 
-/// Returns the displacements of modes at the nodes of the drawing whose indices are `nodes`.
+/// Returns the displacements of the drawn modes at the nodes with these indices in the drawing.
 SampledModes sampled(const AnalysisResult& result, const std::vector<std::size_t>& nodes) {
   SampledModes modes;
   modes.frequency = result.quantities.at("frequency_Hz").values;
@@ -120,8 +120,8 @@ SampledModes sampled(const AnalysisResult& result, const std::vector<std::size_t
   return modes;
 }
 
-/// Returns the matching mode of the other result for each mode; empty for no match or several
-/// matches.
+/// Returns, for each mode, the index of the mode of the other result with the same shape. The index
+/// is empty if no mode matches.
 std::vector<std::optional<std::size_t>> matched_modes(const AnalysisResult& own,
                                                       const AnalysisResult& other) {
   const auto& a = own.drawing->nodes;
@@ -155,8 +155,8 @@ bool has_shapes(const AnalysisResult& result) {
          result.quantities.contains("frequency_Hz");
 }
 
-/// Returns true if a quantity converges on fine meshes. Coordinates, counts and measures of quality
-/// do not.
+/// Returns true if a quantity converges under refinement. Coordinates, counts and measures of
+/// accuracy do not converge.
 bool is_estimated(const std::string& name) {
   const std::string head = name.substr(0, name.find(':'));
   static const std::vector<std::string> others = {
@@ -168,7 +168,7 @@ bool is_estimated(const std::string& name) {
   return !is_diagnostic(name) && !is_count(head) && std::ranges::none_of(others, is_other);
 }
 
-/// Lower bounds of the scales that errors of quantities are relative to.
+/// Scales by which errors of quantities are divided to obtain relative errors.
 class ErrorScales {
  public:
   ErrorScales(const Document& document, const AnalysisResult& own)
@@ -181,18 +181,18 @@ class ErrorScales {
       scales_[kind] = std::max(scales_[kind], kPositionRoundoff * size);
   }
 
-  /// Returns true for a series over time or a path, and for quantities with too many entries to
-  /// report each error.
+  /// Returns true for a series over time or a path, and for quantities with many entries. Only
+  /// their largest error is reported.
   [[nodiscard]] bool is_curve(const std::string& name) const {
     const std::size_t size = own_.at(name).values.size();
     const auto time = own_.find("time_s");
     const bool is_series = time != own_.end() && time->second.values.size() == size && size > 1;
     return quantity_group(name) != "frequency" && (size > kMaxEntries || is_series);
   }
-  /// Returns the scale of a quantity's error: the largest value of its kind over the structure. For
-  /// a curve, the scale is at least its largest value. Errors of frequencies, load factors and
-  /// other numbers are relative to each number. Frequencies of rigid motions are relative to a
-  /// small fraction of the highest frequency.
+  /// Returns the scale of a quantity's error, such as the largest displacement of the structure for
+  /// displacements. For a curve, the scale is at least its largest value. Errors of frequencies,
+  /// load factors and other numbers are relative to each number, but at least to 1e-6 of the
+  /// largest number.
   [[nodiscard]] double of(const std::string& name) const {
     const std::string kind = quantity_group(name.starts_with("steady_") ? name.substr(7) : name);
     const double largest = max_abs(own_.at(name).values);
@@ -201,15 +201,14 @@ class ErrorScales {
       return is_curve(name) ? largest : 1e-6 * largest;
     return std::max(largest, found->second);
   }
-  /// Returns the relative round-off of quantities for which it is unknown, as left by iterations
-  /// and steps.
+  /// Returns the assumed relative round-off error. It is larger for iterations and steps.
   [[nodiscard]] double roundoff() const {
     return kind_ == "statics" || kind_ == "modes" || kind_ == "buckling" ? 1e-12 : 1e-9;
   }
 
  private:
-  /// Round-off error of displacements that are differences of positions, over the length of the
-  /// model, and of rotations.
+  /// Round-off error of rotations, and of displacements computed as differences of positions,
+  /// relative to the length of the model.
   static constexpr double kPositionRoundoff = 1e-11;
   const Quantities& own_;
   std::string kind_;
@@ -243,7 +242,7 @@ std::optional<Companion> companion_of(const Document& document, ErrorSource sour
 std::optional<double> order_of(const Document& document, ErrorSource source,
                                const std::string& quantity) {
   if (source == ErrorSource::mesh) return mesh_order(document);
-  // The accuracy of a peak among samples depends on the distance between samples.
+  // A peak among samples has at most order 2 in the distance between samples.
   const double order = step_order(document);
   return quantity.starts_with("peak_") ? std::min(order, 2.0) : order;
 }
@@ -362,7 +361,7 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& o
   }
   if (bands.empty() && found.reason.empty() && !is_exact(document))
     found.reason = "the analysis has neither a mesh nor steps";
-  if (bands.empty() && found.reason.empty()) {  // the computation is its own companion
+  if (bands.empty() && found.reason.empty()) {  // round-off is the only error
     found.companions = "none: springs, bars and rigid bodies have no mesh";
     bands[ErrorSource::mesh] = error_bands(own, own, ErrorSource::mesh, {document, false, 2, ""});
   }

@@ -14,15 +14,16 @@ namespace trammel::harness {
 
 enum class ErrorSource { mesh, step };
 
-/// Computation on the next coarser or the next finer level.
+/// Second computation with a coarser or finer mesh or step, for the error estimate of the first.
 struct Companion {
   Document document;
   bool finer = false;
   double ratio = 2;   ///< ratio of element sizes, steps or tolerances
   std::string words;  ///< description, for example "half the elements"
 };
-/// Returns the requested companion, or the finer one if a count cannot be halved. Returns nothing
-/// if the analysis has no mesh or no steps.
+/// Returns the companion with half the elements or twice the step (or the opposite for
+/// Refine::finer). If the number of elements cannot be halved, the companion is finer. Returns
+/// nothing if the analysis has no mesh or no steps.
 [[nodiscard]] std::optional<Companion> companion_of(const Document& document, ErrorSource source,
                                                     Refine refine = Refine::coarser);
 
@@ -30,12 +31,12 @@ struct Companion {
 /// Mesh: 4 for straight prismatic members with a consistent mass. 2 for a lumped mass, tapered
 /// members, chords of arcs and triangles (J. S. Archer, J. Struct. Div. ASCE 89, 1963).
 /// Step: 2 for time schemes, 1 for Newmark's with numerical damping. For an adaptive scheme of
-/// order p, the error is proportional to the tolerance to the power p/(p + 1).
-/// Empty: in theory, nodal values are exact.
+/// order p, the error is proportional to the tolerance to the power p/(p + 1). The result is empty
+/// if nodal values are exact in theory.
 [[nodiscard]] std::optional<double> order_of(const Document& document, ErrorSource source,
                                              const std::string& quantity);
 
-/// Bands about the numbers of a quantity, with a confidence of about 95 %.
+/// Bands of the discretization error about the values of a quantity, with 95 % confidence.
 struct ErrorBand {
   std::vector<double> half_width;  ///< [unit]
   std::optional<double> order;
@@ -43,25 +44,26 @@ struct ErrorBand {
 };
 using ErrorBands = std::map<std::string, ErrorBand>;
 
-/// Returns bands from two levels.
-/// The band about the fine numbers has the half width U = 3 |fine - coarse| / (r^p - 1), and that
-/// about the coarse numbers is r^p times as wide (P. J. Roache, J. Fluids Eng. 116, 1994). If the
-/// difference exceeds a tenth of the number, p is at most 2. If the theory is exact, U is the
-/// difference plus round-off. Modes are matched by their shapes if both results have them.
+/// Returns error bands from the results of two levels. The band about the fine value has the half
+/// width U = 3 |fine - coarse| / (r^p - 1), with the ratio r of element sizes or steps and the
+/// order p (P. J. Roache, J. Fluids Eng. 116, 1994). The band about the coarse value is r^p times
+/// as wide. If the difference exceeds 10 % of the value, p is at most 2. If the theory is exact, U
+/// is the difference plus round-off. Modes are matched by their shapes if both results have them.
 [[nodiscard]] ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other,
                                      ErrorSource source, const Companion& companion);
 
-/// Returns the relative errors of a solved computation from its bands, added as magnitudes over the
-/// sources.
+/// Returns the relative errors of a solved computation: the sums of the half widths due to mesh and
+/// step, divided by the scales of the values.
 [[nodiscard]] std::vector<results::ErrorEstimate> relative_errors(
     const Document& document, const AnalysisResult& own,
     const std::map<ErrorSource, ErrorBands>& bands);
-/// Computes the companions of a solved computation and returns the error estimates.
+/// Computes the companions of a solved computation and returns its estimated errors.
 [[nodiscard]] results::ErrorEstimates estimate_errors(const Document& document,
                                                       const AnalysisResult& own,
                                                       const References& references);
 
-/// Returns warnings of quantities whose error is above the limit, with the setting to change.
+/// Returns warnings about quantities whose estimated error exceeds the limit. Each warning names
+/// the setting to be refined.
 [[nodiscard]] std::vector<std::string> error_warnings(const results::ErrorEstimates& errors,
                                                       double limit);
 

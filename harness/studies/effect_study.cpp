@@ -32,7 +32,7 @@ class Study {
                            Json{{"effects", {{"auto", {{"tolerance", study_.tolerance}}}}}});
     scene_ = read_case_model(automatic_);
     size_ = scales_of(first_model(scene_));
-    (void)solver::assemble(first_model(scene_));  // refuses an invalid model
+    (void)solver::assemble(first_model(scene_));  // throws for an invalid model
     study_.scope = effect_scope(document_, scene_);
   }
 
@@ -94,8 +94,8 @@ class Study {
     return effects;
   }
 
-  /// Measures the sets in turns and in random order, so that a slowdown of the machine affects all
-  /// sets.
+  /// Measures the times of the sets of effects in turns and in random order, so that a slowdown of
+  /// the machine affects all sets.
   void measure_time() {
     std::vector<EffectRun*> runs = {&study_.full, &study_.chosen};
     for (EffectRun& run : study_.without_one) runs.push_back(&run);

@@ -7,21 +7,21 @@
 #include "harness/analysis/effect_changes.h"
 #include "harness/input/document.h"
 
-/// Measures effects: compares the scene with all effects, with the selected ones, and without each
-/// effect.
+/// Measures physical effects, such as rotary inertia: compares the results of a case (scene) with
+/// all effects, with the selected effects, and without each effect.
 namespace trammel::harness {
 
-/// Run of the scene with a set of effects.
+/// Results of the scene with one set of effects.
 struct EffectRun {
   solver::Effects effects, left_out;
   solver::Outcome outcome;
   Quantities quantities;
   solver::Counters counters;
-  double work = 0;   ///< see `work_of`
+  double work = 0;   ///< counted work, see `work_of` in coarse_scene.h
   Changes changes;   ///< changes of the results, relative to the scene with all effects
-  double cpu_s = 0;  ///< median of the repeats; of one run without repeats
+  double cpu_s = 0;  ///< median of the repeats, or time of a single run
 
-  /// Returns the largest change; infinite without a solution.
+  /// Returns the largest relative change of the results; infinite without a solution.
   [[nodiscard]] double change() const { return max_change(changes).value; }
 };
 
@@ -30,18 +30,18 @@ struct EffectStudy {
   EffectChoice choice;
   double tolerance = 0;
   EffectRun full, chosen;
-  /// Change of the results of the chosen set from half the elements to all elements. It exceeds the
-  /// error of the mesh. Empty if no member has two elements.
+  /// Relative change of the results with the chosen effects from half the elements to all elements.
+  /// The change exceeds the error of the mesh. It is empty if no member has two elements.
   std::optional<double> mesh_change;
   double deciding_cpu_s = 0;
   std::vector<EffectRun> without_one;     ///< the full set without each effect: separate
                                           ///< contributions
-  std::vector<EffectRun> without_chosen;  ///< the chosen set without each removable effect
+  std::vector<EffectRun> without_chosen;  ///< the chosen effects without each removable effect
 
   [[nodiscard]] bool within_tolerance() const { return chosen.change() <= tolerance; }
-  /// @returns true if no expensive effect of the chosen set can be removed
+  /// @returns true if the tolerance does not permit removal of an expensive chosen effect
   [[nodiscard]] bool is_minimal() const;
-  /// Returns the work of the selection and of the chosen set, relative to that of the full set.
+  /// Returns the work of the selection and of the run with chosen effects, relative to all effects.
   [[nodiscard]] double work_ratio() const {
     return (choice.automatic->work + chosen.work) / full.work;
   }
@@ -52,8 +52,8 @@ struct EffectStudyOptions {
   int repeats = 7;  ///< number of timed runs of each set, after one warm-up; 0: no times
 };
 
-/// Studies the effects of a case.
-/// @param document  a case whose analysis has effects; its tolerance overrides that of the options
+/// Measures the effects in a case.
+/// @param document  a case whose analysis has effects; its tolerance overrides that of `options`
 /// @throws InputError  if the analysis has no effects or the model is invalid.
 [[nodiscard]] EffectStudy study_effects(const Document& document,
                                         const EffectStudyOptions& options);

@@ -17,12 +17,12 @@ namespace {
 using Places = std::map<std::string, std::vector<Eigen::Vector2d>>;  ///< name of a point ->
                                                                      ///< displacement of each mode
 
-/// Number of additional modes, so that the last set of repeated frequencies is complete.
+/// Number of additional modes, so that the last set of equal frequencies is complete.
 constexpr solver::Index kExtraModes = 4;
 constexpr int kStations = 8;
-/// Relative distance below which frequencies form one set.
+/// Relative distance below which adjacent frequencies form one set.
 constexpr double kRepeatedTolerance = 1e-6;
-/// Overlap below which two sets do not match.
+/// Overlap (squared cosine between shapes) below which two sets of modes do not match.
 constexpr double kMinOverlap = 0.5;
 
 void sample_nodes(const solver::System& system, const Eigen::VectorXd& u, Places& places) {
@@ -80,7 +80,7 @@ std::vector<std::vector<std::size_t>> sets_of(const std::vector<double>& frequen
   return sets;
 }
 
-/// Returns an orthonormal basis of the set's shapes.
+/// Returns an orthonormal basis of the mode shapes of a set.
 Eigen::MatrixXd basis(const SampledModes& modes, const std::vector<std::size_t>& set) {
   Eigen::MatrixXd shapes(modes.shape.rows(), static_cast<solver::Index>(set.size()));
   for (std::size_t k = 0; k < set.size(); ++k) {
@@ -134,13 +134,13 @@ std::vector<ModeMatch> match_modes(const SampledModes& a, const SampledModes& b)
       pairs.emplace_back(overlap, i, j);
     }
   }
-  // The most similar pairs come first. Pairs with equal overlap keep the order of their
+  // The most similar pairs of sets come first. Pairs with equal overlap remain in the order of
   // frequencies.
   std::ranges::stable_sort(
       pairs, [](const auto& x, const auto& y) { return std::get<0>(x) > std::get<0>(y); });
   std::vector<ModeMatch> matches;
-  // A set matches as many modes as it contains. Two modes that are split because the other model
-  // lacks the symmetry both match their common set.
+  // A set matches as many modes as it contains. If asymmetry splits a repeated frequency of the
+  // other model, both split modes match the set of the repeated frequency.
   std::vector<std::size_t> room_a, room_b;
   for (const auto& set : sets_a) {
     matches.push_back({set, {}, 0});

@@ -8,14 +8,14 @@
 /// Matches the modes of two models by their shapes, not by their numbers.
 namespace trammel::harness {
 
-/// Modes sampled at the points that two models have in common.
+/// Mode shapes of one model, sampled at the points that two models have in common.
 struct SampledModes {
   std::vector<double> frequency;  ///< natural frequencies, ascending [Hz]
   Eigen::MatrixXd shape;          ///< displacement at common points x mode
 };
 
-/// Samples the modes of both cases at nodes with the same names and at stations along members with
-/// the same names. Between nodes, the cubic shape functions of the beam interpolate.
+/// Samples the modes of both cases at nodes with equal names and at stations along members with
+/// equal names. At stations, the displacement is interpolated by the cubic beam shape functions.
 /// @throws InputError  if a case has no modes or is singular.
 [[nodiscard]] std::pair<SampledModes, SampledModes> sample_modes(const Document& a,
                                                                  const Document& b);
@@ -23,8 +23,8 @@ struct SampledModes {
 /// Set of modes of one model and the most similar set of the other model. Frequencies within a
 /// relative distance of 1e-6 form one set, because their single shapes are arbitrary.
 struct ModeMatch {
-  /// Modes of each model. The list b is empty if no set is similar. Several single modes of a may
-  /// share one set of b.
+  /// Indices of modes of the models a and b. The list b is empty if no set is similar. Several
+  /// single modes of model a may match one set of b.
   std::vector<std::size_t> a, b;
   /// Mean squared cosine of the angles between the two subspaces. For single modes it is the modal
   /// assurance criterion (R. J. Allemang, D. L. Brown, IMAC 1982).

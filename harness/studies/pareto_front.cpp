@@ -12,7 +12,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns a factor as text: "1.7", "43", "7900".
+/// Returns a factor as text with two digits: "1.7", "43", "7900".
 std::string times(double factor) {
   if (factor < 100) return rounded(factor, 2);
   const double unit = std::pow(10, std::floor(std::log10(factor)) - 1);
@@ -25,7 +25,7 @@ std::set<std::size_t> settings_of(const std::vector<CostPoint>& points) {
   return settings;
 }
 
-/// Returns the tied settings as text: "'fine' or 'finer' or one of 3 more".
+/// Returns equally fast settings as text: "'fine' or 'finer' or one of 3 more".
 std::string alternatives(std::size_t setting, const std::vector<std::size_t>& tied,
                          const std::vector<std::string>& titles) {
   std::string text = fmt::format("'{}'", titles[setting]);
@@ -35,8 +35,8 @@ std::string alternatives(std::size_t setting, const std::vector<std::size_t>& ti
   return text;
 }
 
-/// Describes the cost of more accuracy than that of `first`.
-/// @param fine  the cheapest point with an error of at most 1e-6
+/// Describes the time that a higher accuracy than that of the point `first` requires.
+/// @param fine  the fastest point with an error of at most 1e-6
 /// @param best  the most accurate point
 std::string describe_finest(const CostPoint& first, const std::optional<CostPoint>& fine,
                             const CostPoint& best, const std::vector<std::string>& titles) {
@@ -109,7 +109,7 @@ results::Repeatability compare_pareto_fronts(const std::vector<CostPoint>& a,
   agreement.on_both_fronts = in_a.size() + in_b.size() - either.size();
   std::vector<double> differences;
   const auto look = [&](double error) {
-    // Settings whose errors differ only slightly count as equal.
+    // Settings whose errors differ by less than kParetoTolerance count as equally accurate.
     const double within = (1 + kParetoTolerance) * error;
     const auto at_a = cheapest(front_a, within), at_b = cheapest(front_b, within);
     if (at_a && at_b) differences.push_back(std::abs(std::log(at_a->time / at_b->time)));

@@ -8,53 +8,52 @@
 
 #include "harness/results/cost_results.h"
 
-/// Pareto front of accuracy and computing time.
+/// Pareto front of accuracy and computing time: settings that no other setting surpasses in both.
 namespace trammel::harness {
 
 struct CostPoint {
   std::size_t setting = 0;
   double error = 0;                ///< relative error
   double time = 0;                 ///< median time, relative to the baseline setting
-  double low = time, high = time;  ///< interval of that time
+  double low = time, high = time;  ///< confidence interval of the time
 };
 
-/// Replacement for an error of zero: the resolution of a double.
+/// Smallest error of a point. It replaces an error of zero, and equals the resolution of a double.
 inline constexpr double kMinError = std::numeric_limits<double>::epsilon();
 
-/// Relative difference below which times and errors count as equal. The median of seven repeats has
-/// no better resolution, and a smaller gain of accuracy is useless. Of settings with equal times,
-/// the front contains the more accurate one. Of settings that are equal in both, it contains the
-/// first one of the study.
+/// Relative difference below which times and errors count as equal. The median time of seven
+/// repeats has no better resolution. Of settings with equal times, the Pareto front contains the
+/// more accurate one. If the errors are also equal, it contains the first setting of the study.
 inline constexpr double kParetoTolerance = 0.05;
 
-/// Returns true if a point belongs to the setting.
+/// Returns true if one of the points belongs to the setting.
 [[nodiscard]] bool has_setting(const std::vector<CostPoint>& points, std::size_t setting);
 
-/// Returns the cheapest point with at most that error.
+/// Returns the fastest point whose error is at most `error`.
 [[nodiscard]] std::optional<CostPoint> cheapest(const std::vector<CostPoint>& points, double error);
 
-/// Returns the settings with at most that error whose times are indistinguishable from the
-/// cheapest. Their intervals of time overlap, or nearly do.
+/// Returns the settings with at most this error that are not significantly slower than the fastest
+/// setting: the confidence intervals of the times overlap, or nearly do.
 [[nodiscard]] std::vector<std::size_t> tied_settings(const std::vector<CostPoint>& points,
                                                      double error);
 
-/// Returns the points that are cheapest for the error of some point, or for a slightly larger
-/// error; cheapest first.
+/// Returns the Pareto front, fastest point first. For each given point, it contains the fastest
+/// point whose error is not larger than that of the given point, up to kParetoTolerance.
 [[nodiscard]] std::vector<CostPoint> find_pareto_front(const std::vector<CostPoint>& points);
 
-/// Returns the errors in the table of cheapest settings.
+/// Returns the target errors for which the report lists the fastest settings.
 [[nodiscard]] const std::vector<double>& target_errors();
 
-/// Compares two measurements of the same settings.
+/// Compares the Pareto fronts of two measurements of the same settings.
 [[nodiscard]] results::Repeatability compare_pareto_fronts(const std::vector<CostPoint>& a,
                                                            const std::vector<CostPoint>& b);
 
 /// Returns an error as text: "1 %", "1e-6".
 [[nodiscard]] std::string error_text(double error);
 
-/// Describes the front in one or two sentences.
-/// @param titles    of the settings
-/// @param baseline  the setting that times are relative to
+/// Describes the Pareto front in one or two sentences.
+/// @param titles    titles of the settings
+/// @param baseline  index of the setting to which times are relative
 [[nodiscard]] std::string describe_pareto_front(const std::vector<CostPoint>& points,
                                                 const std::vector<std::string>& titles,
                                                 std::size_t baseline);

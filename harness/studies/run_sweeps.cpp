@@ -8,7 +8,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Requires levels from coarse to fine. Element sizes must be positive.
+/// Requires that refinement levels are ordered from coarse to fine, with positive element sizes.
 void check_levels(const JsonView& place, const std::vector<Level>& levels) {
   const std::string measures = place.get<std::string>("refinement_by", "elements");
   double before = std::numeric_limits<double>::infinity();

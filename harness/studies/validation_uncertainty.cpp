@@ -15,12 +15,11 @@ using results::Comparison;
 using results::Number;
 using results::UncertainInput;
 
-/// Ratio of a band of about 95 % to a standard uncertainty. The error lies on one side of the
-/// computed value, near the edge of the band. Source: ASME V&V 20-2009, section 2 (k = 1.1 to
-/// 1.15).
+/// Ratio of the 95 % half width of the discretization error to its standard uncertainty. The error
+/// is one-sided and close to the half width. Source: ASME V&V 20-2009, section 2 (k = 1.1 to 1.15).
 constexpr double kGciToStandard = 1.15;
 
-/// Entry of a quantity of the run that is compared with an entry of a reference.
+/// Entry of a computed quantity that is compared with an entry of a reference.
 struct Place {
   const Check* check = nullptr;
   std::size_t index = 0, reference_index = 0;
@@ -54,7 +53,8 @@ double value_at(const Quantities& quantities, const Place& place) {
   return found->second.values[place.index];
 }
 
-/// Returns the document with each number at the pointers changed by `move`.
+/// Returns the case document with each number at the JSON pointers replaced by the result of
+/// `move`.
 Document moved(const Document& document, const std::vector<std::string>& pointers,
                const std::function<double(double)>& move) {
   Document copy = document;
@@ -142,7 +142,7 @@ class ValidationStudy {
     return entry;
   }
 
-  /// Returns the values of all places with some inputs moved; empty without a solution.
+  /// Returns the values of all compared entries for a changed case; empty without a solution.
   [[nodiscard]] std::optional<std::vector<double>> values_of(const Document& document) const {
     try {
       const AnalysisResult result = analyze(document, references_, {false});
@@ -154,11 +154,11 @@ class ValidationStudy {
       }
       return values;
     } catch (const InputError&) {
-      return std::nullopt;  // out of reach, or no longer a valid mechanism
+      return std::nullopt;  // pose out of reach, or invalid mechanism
     }
   }
 
-  /// Sets the discretization error of each place as a standard uncertainty.
+  /// Sets the standard uncertainty of each compared entry due to the discretization error.
   void take_errors(const results::ErrorEstimates& errors) {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       const auto* found = errors.find(places_[i].check->quantity);
@@ -169,14 +169,14 @@ class ValidationStudy {
     }
   }
 
-  /// Inputs that vary, with the response of the model to their offsets.
+  /// Inputs that are varied, and the response of the model to offsets of these inputs.
   struct Variation {
     std::vector<const UncertainInput*> inputs;
     std::vector<double> half_widths;
     Response response;
   };
 
-  /// @param literal  also varies nominal inputs, as if their printed digits were uncertain
+  /// @param literal  if true, also varies nominal inputs, as if their printed digits were uncertain
   [[nodiscard]] Variation vary(bool literal) const {
     Variation found;
     for (const UncertainInput& input : study_.inputs) {
@@ -236,7 +236,7 @@ class ValidationStudy {
     draw(true, "samples_all_inputs", study_.samples_all_inputs, study_.failed_all_inputs);
   }
 
-  /// Evaluates each check. The entries of a check are one row of the reference.
+  /// Evaluates the comparisons of each check. The entries of a check form one row of the reference.
   void evaluate_check() {
     for (auto first = study_.comparisons.begin(); first != study_.comparisons.end();) {
       const auto end = std::find_if(first, study_.comparisons.end(), [&](const Comparison& entry) {

@@ -21,9 +21,9 @@ Real characteristic(const BeamEnds& ends, const Real& b) {
 }
 
 /// Bending vibration of a clamped-clamped beam of constant thickness and width b exp(-2 a x), whose
-/// equations have constant coefficients. Its solutions are exp(a x) {cosh z x, sinh z x}, whose
-/// deflection and rotation vanish at both ends. With r^2 = I/A, P = z^2 - a^2, kG = kappa G / rho
-/// and e = E / rho:
+/// equations have constant coefficients. Solutions are exp(a x) {cosh z x, sinh z x}. Deflection
+/// and rotation vanish at both ends. With r^2 = I/A, P = z^2 - a^2, kG = kappa G / rho and e = E /
+/// rho:
 ///
 ///   Euler-Bernoulli:  P^2 = w^2 / (e r^2)
 ///   Timoshenko:       (kG P + w^2)(e r^2 P - kG + w^2 r^2) = -kG^2 P
@@ -31,7 +31,7 @@ struct Beam {
   Real L, a, r2, e, kG;  ///< kG = 0: Euler-Bernoulli
 };
 
-/// Returns both values of P, the smaller one first.
+/// Returns both roots P of the equation of an exponential beam, the smaller one first.
 std::array<Real, 2> exponents(const Beam& beam, const Real& w2) {
   if (beam.kG == 0) {
     const Real P = sqrt(w2 / (beam.e * beam.r2));
@@ -44,9 +44,10 @@ std::array<Real, 2> exponents(const Beam& beam, const Real& w2) {
   return {(-half - root) / A, (-half + root) / A};
 }
 
-/// Rows: deflection and rotation at both ends. Columns: the four solutions. For Timoshenko beams
-/// the deflection is F' - a F and the rotation (P + w^2/kG) F, where F is a potential. For
-/// Euler-Bernoulli beams F is the deflection, and F' + a F is its slope.
+/// Returns the determinant of the clamped-clamped exponential beam, which vanishes at natural
+/// frequencies. Rows: deflection and rotation at both ends. Columns: the four solutions. For
+/// Timoshenko beams the deflection is F' - a F and the rotation (P + w^2/kG) F, where F is a
+/// potential. For Euler-Bernoulli beams F is the deflection, and F' + a F is its slope.
 Real characteristic(const Beam& beam, const Real& w) {
   const Real w2 = w * w;
   const auto P = exponents(beam, w2);
@@ -55,7 +56,7 @@ Real characteristic(const Beam& beam, const Real& w) {
     const Real z2 = P[i] + beam.a * beam.a;
     const auto [C, S] = wave_functions(z2, beam.L);
     const Real unit = z2 > 0 ? Real(1 / cosh(sqrt(z2) * beam.L)) : Real(1);
-    // value and derivative of C (column 2 i) and S (column 2 i + 1) at both ends
+    // value and derivative of C = cosh z x (column 2 i) and S (column 2 i + 1) at both ends
     const std::array<std::array<Real, 4>, 2> f = {{{unit, 0, C, z2 * S}, {0, unit, S, C}}};
     for (int j = 0; j < 2; ++j) {
       for (int end = 0; end < 2; ++end) {
@@ -72,11 +73,11 @@ Real characteristic(const Beam& beam, const Real& w) {
 }
 
 /// Bending vibration of a clamped-free Euler-Bernoulli beam of rectangular section whose depth and
-/// width vary linearly. It is solved by Rayleigh and Ritz with s^2 x^k, k = 0 ... 31, where s runs
-/// from 0 to 1 along the beam and x = 2 s - 1. A is of second and I of fourth degree, so that all
-/// integrals are sums of fractions.
+/// width vary linearly. The Rayleigh-Ritz method solves it with the functions s^2 x^k, k = 0 ...
+/// 31, where s runs from 0 to 1 along the beam and x = 2 s - 1. The area A is of second and the
+/// moment of inertia I of fourth degree in x, so that all integrals are sums of fractions.
 ///
-/// Coefficients of 1, x, x^2, ... with x = 2 s - 1.
+/// Coefficients of 1, x, x^2, ...
 using Polynomial = std::vector<Real>;
 
 Polynomial operator*(const Polynomial& a, const Polynomial& b) {
@@ -86,14 +87,14 @@ Polynomial operator*(const Polynomial& a, const Polynomial& b) {
   return c;
 }
 
-/// d/ds = 2 d/dx
+/// Returns dp/ds = 2 dp/dx of a polynomial p in x = 2 s - 1.
 Polynomial derivative(const Polynomial& p) {
   Polynomial d;
   for (std::size_t k = 1; k < p.size(); ++k) d.push_back(2 * Real(k) * p[k]);
   return d;
 }
 
-/// Returns the integral over 0 <= s <= 1.
+/// Returns the integral of a polynomial in x = 2 s - 1 over 0 <= s <= 1.
 Real integral(const Polynomial& p) {
   Real sum = 0;
   for (std::size_t k = 0; k < p.size(); k += 2) sum += p[k] / Real(k + 1);
@@ -105,8 +106,9 @@ Polynomial line(const Real& ratio) {
   return {(1 + ratio) / 2, (ratio - 1) / 2};
 }
 
-/// Returns 1/w, descending, of `n` functions s^2 x^k for a beam of unit E I, rho A and length: the
-/// singular values of L_K^-1 L_M, with K = L_K L_K^T and M = L_M L_M^T.
+/// Returns the Ritz values 1/w of a tapered cantilever with `n` functions s^2 x^k, descending, for
+/// unit E I, rho A and length. They are the singular values of L_K^-1 L_M, with K = L_K L_K^T and M
+/// = L_M L_M^T.
 RealVector ritz_periods(const Polynomial& depth, const Polynomial& width, std::size_t n) {
   const Polynomial A = depth * width, I = A * depth * depth;
   std::vector<Polynomial> shape(n), bend(n);

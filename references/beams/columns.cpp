@@ -17,7 +17,6 @@ namespace {
 /// Stability, 2nd ed., chapter 2). End loads are P = x^2 EI/L^2, where x depends on the ends:
 ///
 ///   clamped-free cos x = 0, pinned-pinned sin x = 0, clamped-pinned tan x = x,
-///
 ///   clamped-clamped sin(x/2) (tan(x/2) - x/2) = 0.
 ///
 /// The weight of a clamped-free column is q L = (9/4) j^2 EI/L^2 with J_{-1/3}(j) = 0.
@@ -32,14 +31,14 @@ using Complex = boost::multiprecision::number<
     boost::multiprecision::complex_adaptor<boost::multiprecision::cpp_bin_float_50::backend_type>,
     boost::multiprecision::et_off>;
 
-/// Follower loads of a cantilever, both along its tangent: a force p at its tip and a load q per
-/// length.
+/// Follower loads along the tangent of a cantilever: a force p at the tip and a load q per length.
 struct Follower {
   Real p, q;
 };
 
-/// Characteristic function for real or complex W: the determinant of w = w' = 0 at x = 1. A power
-/// series with x from the tip and w'' = w''' = 0 at x = 0 solves
+/// Returns the characteristic function of a cantilever under follower loads for real or complex W.
+/// It is the determinant of the clamping conditions w = w' = 0 at x = 1. A power series with x from
+/// the tip and w'' = w''' = 0 at x = 0 solves
 ///
 ///   w'''' + (p + q x) w'' = W^2 w.
 template <class T>
@@ -60,7 +59,7 @@ T follower_determinant(const T& W, const Follower& load) {
   return value[0] * slope[1] - value[1] * slope[0];
 }
 
-/// Returns the minimum of the characteristic function between its two lowest roots, and the W at
+/// Returns the minimum of the characteristic function between its two lowest roots W, and the W at
 /// which it occurs. The minimum is 0 if the roots meet, and positive beyond the flutter load.
 std::pair<Real, Real> lowest_value(const Follower& load) {
   const auto determinant = [&](const Real& W) { return follower_determinant(W, load); };
@@ -80,7 +79,8 @@ Real flutter_load(bool spread) {
   return low;
 }
 
-/// Returns the complex root beyond the flutter load, by Newton's method from the minimum.
+/// Returns the complex root W of the characteristic function beyond the flutter load. Newton's
+/// method starts from the minimum of the function.
 Complex complex_root(const Follower& load) {
   Complex W(lowest_value(load).second, Real(1));
   const Complex step(Real(1e-20));
@@ -113,7 +113,7 @@ Real load_parameter(const Real& tip_angle) {
   return root * root;
 }
 
-/// Returns the requested columns of the table: all, dimensionless, or one, with lengths in m.
+/// Returns all columns of a dimensionless table, or that of "output", in m if it is a length.
 std::vector<Real> columns(const Arguments& arguments, const std::vector<Real>& table,
                           const std::array<const char*, 3>& names,
                           const std::array<bool, 3>& is_length) {
@@ -142,7 +142,7 @@ std::vector<Real> becks_column_program(const Arguments& arguments) {
     return {flutter_load(spread) * EI / (spread ? Real(L * L * L) : Real(L * L))};
   const Real parameter = arguments.positive("load_parameter");
   const Follower load = spread ? Follower{0, parameter} : Follower{parameter, 0};
-  const bool beyond = lowest_value(load).first > 0;  // the two lowest roots are complex
+  const bool beyond = lowest_value(load).first > 0;  // flutter: the two lowest roots are complex
   if (beyond != (output == "growth-rate"))
     arguments.fail("load_parameter", std::string("expected a load ") +
                                          (beyond ? "below" : "above") + " the flutter load");

@@ -4,13 +4,14 @@
 #include "references/beams/programs.h"
 #include "references/numerics/dense.h"
 
-/// Equilibria of a plane chain of straight elastic pieces, welded to each other, at any
-/// displacement. They are found by shooting with Taylor series of degree 30 along the pieces, and
-/// Newton's method in extended precision. Source: E. Reissner, On one-dimensional finite-strain
-/// beam theory, ZAMP 23, 1972, 795-804.
+/// Large-displacement equilibria of a plane chain of straight elastic beams, welded to each other.
+/// They are found by shooting with Taylor series of degree 30 along the beams, and Newton's method
+/// in extended precision. Source: E. Reissner, On one-dimensional finite-strain beam theory, ZAMP
+/// 23, 1972, 795-804.
 ///
-/// A section has the angle t, and the part that follows exerts the force F and the moment m on it.
-/// Without EA a piece is inextensible, without GA it has no shear. With a = (cos t, sin t) and
+/// A section has the angle t. The part of the chain after the section exerts the force F and the
+/// moment m on it. Without EA a beam is inextensible, without GA it has no shear. With a = (cos t,
+/// sin t) and
 /// b = (-sin t, cos t):
 ///
 ///   t' = t0' + m/EI,  r' = (1 + F.a/EA) a + (F.b/GA) b,  m' = -r' x F.
@@ -49,7 +50,7 @@ struct Chain {
   int steps = 8;
 };
 
-/// Advances a section by the length h along a piece.
+/// Advances the section `at` by the distance h along a beam of the chain.
 void advance(const Chain& chain, const Real& h, Section& at) {
   Series x{}, y{}, angle{}, moment{}, c{}, s{}, tangential{}, normal{}, turn{};
   x[0] = at.x, y[0] = at.y, angle[0] = at.angle, moment[0] = at.moment;
@@ -72,7 +73,7 @@ void advance(const Chain& chain, const Real& h, Section& at) {
   at.angle = sum_at(angle, h), at.moment = sum_at(moment, h);
 }
 
-/// Returns the section after each node by integration from the start.
+/// Returns the section after each node of the chain by integration from its start.
 /// @param unknown  angle or moment, Fx and Fy of the first section, then the load factor
 std::vector<Section> shoot(const Chain& chain, const RealVector& unknown) {
   Section at{chain.nodes[0][0],
@@ -100,8 +101,8 @@ std::vector<Section> shoot(const Chain& chain, const RealVector& unknown) {
   return sections;
 }
 
-/// Returns the residuals at the end of the chain: for x, y and rotation, the displacement if it is
-/// fixed, and otherwise the force or moment.
+/// Returns the residuals of the conditions at the end of the chain for x, y and rotation: the
+/// displacement if it is fixed, and otherwise the force or moment.
 RealVector end_residual(const Chain& chain, const RealVector& unknown) {
   const Section end = shoot(chain, unknown).back();
   RealVector missing(3);
@@ -124,8 +125,8 @@ RealMatrix jacobian(const F& f, RealVector at, Eigen::Index columns) {
   return J;
 }
 
-/// Returns the residuals at the end, and the determinant of their Jacobian. The determinant
-/// vanishes at a limit point, where the load is stationary.
+/// Returns the residuals at the end of the chain, and the determinant of their Jacobian. The
+/// determinant vanishes at a limit point, where the load is stationary.
 RealVector limit_point_residual(const Chain& chain, const RealVector& unknown) {
   RealVector value(4);
   value << end_residual(chain, unknown),
@@ -133,14 +134,14 @@ RealVector limit_point_residual(const Chain& chain, const RealVector& unknown) {
   return value;
 }
 
-/// Solves f = 0 by Newton's method for the first n unknowns, with n the number of equations.
+/// Solves the n equations f = 0 by Newton's method for the first n unknowns.
 template <class F>
 void find_equilibrium(const Arguments& arguments, const F& f, RealVector& unknown) {
   for (int iteration = 0; iteration < 40; ++iteration) {
     const RealVector value = f(unknown);
     const RealMatrix J = jacobian(f, unknown, value.size());
     const RealVector correction =
-        solve(J, value, "no equilibrium is found by Newton's method", Real(1e-60));
+        solve(J, value, "the equations of equilibrium are singular", Real(1e-60));
     if (!isfinite(correction.sum())) break;
     unknown.head(value.size()) -= correction;
     const Real size =

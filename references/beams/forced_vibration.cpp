@@ -24,7 +24,7 @@ const double kPi = std::acos(-1.0);
 ///
 ///   a = n pi/L,  s = a - rho w_n^2/(kappa G a).
 ///
-/// Mode with its contributions to the static displacement and stress at mid-span.
+/// Mode of vibration with its contributions to the static displacement and stress at mid-span.
 struct Mode {
   double w, damping;            ///< circular frequency [rad/s], damping ratio
   double displacement, stress;  ///< static contributions [m], [Pa]
@@ -57,7 +57,7 @@ std::vector<Mode> modes(const Arguments& arguments) {
       const double s = a - rho * w2 / (kG * a);
       const double mass = L / 2 * rho * area * (1 + r2 * s * s);
       const double force = load * 2 * L / (n * kPi);
-      const double sign = n % 4 == 1 ? 1 : -1;  // of the sine at mid-span
+      const double sign = n % 4 == 1 ? 1 : -1;  // sign of sin(a x) at mid-span
       const double share = sign * force / (mass * w2);
       const double w = std::sqrt(w2);
       result.push_back({w, rayleigh ? rayleigh_alpha / (2 * w) + rayleigh_beta * w / 2 : ratio,
@@ -67,8 +67,8 @@ std::vector<Mode> modes(const Arguments& arguments) {
   return result;
 }
 
-/// Returns the sum of share * f(mode) over all modes. It adds the highest modes first, because
-/// their contributions are the smallest.
+/// Returns the sum of f(mode), multiplied by the static contribution `share` of the mode, over all
+/// modes. It adds the highest modes first, because their contributions are the smallest.
 template <class T>
 T sum(const std::vector<Mode>& modes, double Mode::*share, const std::function<T(const Mode&)>& f) {
   T total = 0;
@@ -88,7 +88,7 @@ double amplitude(const std::vector<Mode>& modes, double Mode::*share, double w) 
 ///
 ///   y = 1 - exp(-d w t)(cos(v t) + d w/v sin(v t)).
 ///
-/// For d > 1, the overdamped solution replaces it.
+/// For d > 1, the response is the overdamped solution.
 double step_response(const Mode& mode, double t) {
   const double d = mode.damping;
   if (d < 1) {
@@ -165,7 +165,7 @@ std::vector<Real> deep_beam_program(const Arguments& arguments) {
 ///
 ///   x = -(m e/M) (cos a(t) - cos w t - w int_0^t cos a(s) sin w(t - s) ds).
 ///
-/// Gauss' rule of 20 points on panels of 0.01 s computes the integral.
+/// Gauss' rule of 20 points in intervals of 0.01 s computes the integral.
 std::vector<Real> run_up_program(const Arguments& arguments) {
   const Real w = arguments.positive("angular_frequency_rad_s"),
              T = arguments.positive("duration_s");

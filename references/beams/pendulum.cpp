@@ -6,7 +6,7 @@
 
 namespace trammel::references {
 
-/// The plane pendulum of any amplitude by Jacobi's elliptic functions.
+/// Computes the motion of a plane pendulum of any amplitude by Jacobi's elliptic functions.
 std::vector<Real> pendulum_program(const Arguments& arguments) {
   const Real length = arguments.positive("length_m");
   const Real w = sqrt(arguments.positive("gravity_m_s2") / length);
@@ -20,7 +20,7 @@ std::vector<Real> pendulum_program(const Arguments& arguments) {
   for (const Real& time : arguments.numbers("times_s")) {
     const Real half = k * boost::math::jacobi_cd(Real(abs(k)), Real(w * time));  // sin(theta/2)
     if (output == "tension") {
-      // 3 cos theta - 2 cos theta_0, by the sines of the half angles.
+      // The tension is g (3 cos theta - 2 cos theta_0), computed from the sines of the half angles.
       values.push_back(arguments.positive("gravity_m_s2") * (1 - 6 * half * half + 4 * k * k));
       continue;
     }
@@ -30,9 +30,9 @@ std::vector<Real> pendulum_program(const Arguments& arguments) {
   return values;
 }
 
-/// The chain of N four-bar loops of the IFToMM benchmark A02: 2 N + 1 equal uniform rods of length
-/// l, of which N + 1 rotate about fixed pivots and N link them, all parallelograms. Its only
-/// coordinate theta from the upper vertical obeys
+/// Motion of the chain of N four-bar loops of the IFToMM benchmark A02. It consists of 2 N + 1
+/// equal uniform rods of length l: N + 1 rods rotate about fixed pivots, and N rods couple them to
+/// N parallelograms. The angle theta of the rods from the upper vertical satisfies
 ///
 ///   theta'' = a sin theta,  a = (g/l) ((N + 1)/2 + N) / ((N + 1)/3 + N).
 ///

@@ -15,7 +15,8 @@ Real bessel(bool second_kind, int n, const Real& x) {
   return second_kind ? boost::math::cyl_neumann(n, x) : boost::math::cyl_bessel_j(n, x);
 }
 
-/// Bessel function Z(k r) and its first two derivatives with respect to r.
+/// Returns the Bessel function J_n(k r) or Y_n(k r) and its first two derivatives with respect to
+/// r.
 std::array<Real, 3> radial(bool second_kind, int n, const Real& k, const Real& r) {
   const Real x = k * r;
   const Real value = bessel(second_kind, n, x);
@@ -23,23 +24,24 @@ std::array<Real, 3> radial(bool second_kind, int n, const Real& k, const Real& r
   return {value, k * slope, k * k * ((n * n / (x * x) - 1) * value - slope / x)};
 }
 
-/// In-plane vibration of a free annular plate in plane stress, n waves around (A. E. H. Love, A
-/// Treatise on the Mathematical Theory of Elasticity, 4th ed., chapter XXII). The potentials phi
-/// and psi are J_n and Y_n of a r and b r. For n = 0 radial and torsional motions are found in one
-/// list. With a = w/c_p, c_p^2 = E/(rho (1 - nu^2)), b = w/c_s and c_s^2 = G/rho:
+/// In-plane vibration of a free annular plate in plane stress with n waves around its circumference
+/// (A. E. H. Love, A Treatise on the Mathematical Theory of Elasticity, 4th ed., chapter XXII). The
+/// potentials phi and psi are J_n and Y_n of a r and b r. For n = 0 the frequencies of radial and
+/// torsional motions form one list. With a = w/c_p, c_p^2 = E/(rho (1 - nu^2)), b = w/c_s and c_s^2
+/// = G/rho:
 ///
 ///   u_r = phi' + n psi/r,  u_t = -n phi/r - psi'.
 ///
 /// The stresses vanish at both radii:
 ///
 ///   s_r ~ phi'' + nu (phi'/r - n^2 phi/r^2) + (1 - nu) n (psi/r)'.
-///
 ///   t_rt ~ -2 n (phi/r)' - (psi'' - psi'/r + n^2 psi/r^2).
 struct Annulus {
   Real inner, outer, c_p, c_s, nu;
 };
 
-/// Rows: s_r and t_rt at both radii, times r^2; columns: phi by J, Y, psi by J, Y.
+/// Returns the determinant that vanishes at natural frequencies. Rows: s_r r^2 and t_rt r^2 at both
+/// radii. Columns: phi = J_n, phi = Y_n, psi = J_n, psi = Y_n.
 Real characteristic(const Annulus& annulus, int n, const Real& w) {
   const Real& nu = annulus.nu;
   Eigen::Matrix<Real, 4, 4> m;
@@ -57,7 +59,8 @@ Real characteristic(const Annulus& annulus, int n, const Real& w) {
   return m.determinant();
 }
 
-/// Returns pairs of the number n of waves around the plate and the index k >= 1 of the frequency.
+/// Returns pairs of the number n of waves around the plate and the index k >= 1 of the frequency
+/// among the modes with n waves.
 std::vector<std::pair<int, int>> wanted_modes(const Arguments& arguments) {
   std::vector<std::pair<int, int>> wanted;
   for (const Json& mode : arguments["modes"]) {
@@ -82,7 +85,7 @@ std::vector<Real> annular_membrane_program(const Arguments& arguments) {
   }
   const auto wanted = wanted_modes(arguments);
   const Real step = annulus.c_s / annulus.outer / 50;
-  std::map<int, int> counts;  // waves -> number of frequencies
+  std::map<int, int> counts;  // number n of waves -> number of frequencies to compute
   for (const auto& [n, k] : wanted) counts[n] = std::max(counts[n], k);
   std::map<int, std::vector<Real>> roots;
   for (const auto& [n, count] : counts) {
@@ -95,19 +98,20 @@ std::vector<Real> annular_membrane_program(const Arguments& arguments) {
   return values;
 }
 
-/// The corner of a plate between a clamped and a free side, where displacements grow like r^l:
+/// Returns the exponent l of the displacements r^l in the corner of a plate between a clamped and a
+/// free side:
 ///
 ///   sin^2(l w) = (1 + k)^2/(4 k) - l^2 sin^2(w)/k.
 ///
 /// The angle between the sides is w; k = (3 - nu)/(1 + nu) in plane stress, 3 - 4 nu in plane
-/// strain. On even meshes energies, displacements and frequencies converge with h^(2 l) if the
-/// elements are of a higher order. Source: M. L. Williams, Stress singularities resulting from
+/// strain. On uniform meshes, energies, displacements and frequencies converge with h^(2 l) if the
+/// order of the elements is higher. Source: M. L. Williams, Stress singularities resulting from
 /// various boundary conditions in angular corners of plates in extension, J. Appl. Mech. 19, 1952.
 std::vector<Real> wedge_exponent_program(const Arguments& arguments) {
   const std::vector<Real> a = arguments.numbers("clamped_side", 2);
   const std::vector<Real> b = arguments.numbers("free_side", 2);
   const Real product = sqrt((a[0] * a[0] + a[1] * a[1]) * (b[0] * b[0] + b[1] * b[1]));
-  if (product == 0) arguments.fail("clamped_side", "expected two sides that have a direction");
+  if (product == 0) arguments.fail("clamped_side", "expected directions that are not zero");
   const Real angle = acos(Real((a[0] * b[0] + a[1] * b[1]) / product));
   const Real nu = arguments.number("nu");
   const bool stress = arguments.choice("plane", "stress", {"stress", "strain"}) == "stress";

@@ -8,23 +8,20 @@
 
 /// Bending vibration of a uniform Euler-Bernoulli cantilever on a hub that rotates steadily
 /// (A. D. Wright et al., J. Appl. Mech. 49, 1982, 197-202), by power series about the hub in
-/// extended precision. x is over L, and the hub ratio is r = R/L. The speed, the frequency and the
-/// tension of the undeformed beam are
+/// extended precision. x is the distance from the hub over the length L, and r = R/L is the hub
+/// ratio. The speed, the frequency and the tension of the undeformed beam are
 ///
 ///   eta = Omega sqrt(rho A L^4/EI),  mu = w sqrt(rho A L^4/EI),
-///
 ///   t = eta^2 ((1 - x^2)/2 + r (1 - x)).
 ///
 /// Flap (out of the plane of rotation), and lag (in the plane) of an axially rigid beam:
 ///
 ///   V'''' - (t V')' - mu^2 V = 0,
-///
 ///   V'''' - (t V')' - (mu^2 + eta^2) V = 0.
 ///
 /// Lag with the Coriolis coupling to axial motion U, s = EA L^2/EI:
 ///
 ///   V'''' - (t V')' - (mu^2 + eta^2) V - 2 eta mu U = 0,
-///
 ///   s U'' + (mu^2 + eta^2) U + 2 eta mu V = 0.
 namespace trammel::references {
 
@@ -34,15 +31,14 @@ struct RotatingBeam {
   Real eta = 0;
   Real hub_ratio = 0;
   bool in_plane = false;
-  std::optional<Real> axial_ratio;  ///< s; in the plane only, none: axially rigid
+  std::optional<Real> axial_ratio;  ///< s, for lag only; none: axially rigid
 };
 
-/// V'', V''' and U' of one solution at the tip. They vanish for a vibration mode.
+/// V'', V''' and U' at the tip for one solution. All three vanish for a vibration mode.
 using Tip = std::array<Real, 3>;
 
 /// Returns the tip values of the solution that starts at the clamped hub with V'' = a, V''' = b and
 /// U' = c.
-/// @param start  a, b, c
 Tip tip_of_series(const RotatingBeam& beam, const Real& mu, const Tip& start) {
   const Real eta2 = beam.eta * beam.eta;
   const Real at_hub = Real(1) / 2 + beam.hub_ratio;  // tension over eta^2: at_hub - r x - x^2/2
@@ -65,8 +61,7 @@ Tip tip_of_series(const RotatingBeam& beam, const Real& mu, const Tip& start) {
                       U[k + 2] * k2};
     for (int i = 0; i < 3; ++i) tip[i] += step[i];
     largest = std::max({largest, Real(abs(step[1])), Real(abs(step[2]))});
-    // Powers whose exponents differ modulo four can decouple, so that four successive terms must be
-    // small.
+    // Powers whose exponents differ modulo four can decouple. Four successive terms must be small.
     const bool small = abs(step[0]) + abs(step[1]) + abs(step[2]) < Real(1e-60) * largest;
     small_terms = small ? small_terms + 1 : 0;
     if (small_terms == 4) break;
@@ -84,10 +79,10 @@ Real characteristic(const RotatingBeam& beam, const Real& mu) {
   return m.determinant();
 }
 
-/// Returns the first `count` values of mu.
+/// Returns the first `count` natural frequencies mu of a rotating beam.
 std::vector<Real> rotating_beam_roots(const RotatingBeam& beam, int count) {
-  // Both solutions grow like exp(eta sqrt(r + 1/2)) and become nearly proportional, so that their
-  // determinant loses log10 of this factor in digits.
+  // The solutions grow like exp(eta sqrt(r + 1/2)) and become nearly proportional. Their
+  // determinant therefore loses log10 of this factor in digits.
   if (beam.eta * sqrt(beam.hub_ratio + Real(0.5)) > 69) {
     throw DerivationError("the beam rotates too fast: round-off exceeds fifty digits");
   }

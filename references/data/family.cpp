@@ -42,7 +42,7 @@ class Scanner {
   }
   [[nodiscard]] bool is_at_end() { return !is_at('\0') && place_ == text_.size(); }
 
-  /// Advances the position past the string that starts there.
+  /// Advances the position past the string that starts at the position.
   bool pass_string() {
     ++place_;
     while ((place_ = text_.find('"', place_)) != std::string_view::npos) {
@@ -86,7 +86,7 @@ bool less(const JsonMember& a, const JsonMember& b) {
 
 constexpr std::string_view kEnding = ".json";
 
-/// Calls `see` with the folder and the name of each JSON file below `folder`.
+/// Calls `see` with the folder and the name of each JSON file in a folder and its subfolders.
 template <typename See>
 void walk(const std::string& folder, const See& see) {
   const std::unique_ptr<DIR, int (*)(DIR*)> open(opendir(folder.c_str()), closedir);
@@ -173,7 +173,7 @@ Json with_common(const Json& common, Json reference) {
 std::map<std::string, Json> read_family(const std::string& file) {
   std::ifstream in(file);
   if (!in) throw ReferenceError(file + ": cannot be read");
-  std::vector<std::set<std::string>> keys;  // of the open objects, from the root inwards
+  std::vector<std::set<std::string>> keys;  // keys of the open objects, from the root inward
   std::string id;
   const auto refuse_repeated_keys = [&](int, Json::parse_event_t event, const Json& parsed) {
     if (event == Json::parse_event_t::object_start) keys.emplace_back();

@@ -9,36 +9,36 @@
 #include <utility>
 #include <vector>
 
-/// Family files hold the references of one family of cases, each under its id. Common keys are
-/// stated once.
+/// Reads family files. A family file contains the references of one family of cases, each under its
+/// id. Keys that most references have in common are stated once.
 namespace trammel::references {
 
-/// Key of a family file that contains the keys that its references have in common.
+/// Key of the object in a family file that contains the keys that its references have in common.
 inline constexpr std::string_view kCommon = "common";
 
 /// Returns true if a key of a family file is the id of a reference.
 [[nodiscard]] bool is_reference_id(std::string_view key);
 
-/// Member of a JSON object, as text.
+/// Member of a JSON object: key and value as texts.
 struct JsonMember {
-  std::string_view key;  ///< without quotes
+  std::string_view key;  ///< key without quotes
   std::string_view value;
 };
 
 /// Splits a JSON object into its members. It does not parse their values, because a case needs few
 /// references of a family.
-/// @returns the members by key; nothing if the text is not an object, or if a key is repeated.
+/// @returns the members, sorted by key; no value if the text is no object or a key is repeated.
 [[nodiscard]] std::optional<std::vector<JsonMember>> json_members(std::string_view text);
 
 /// Returns the first key of an object and those that follow a line "  },". These are all keys of a
 /// family file in its usual form. This takes a tenth of the time of `json_members`.
 [[nodiscard]] std::vector<std::string_view> keys_of_blocks(std::string_view text);
 
-/// Returns the value of a key, or nothing.
+/// Returns the value of a key, or no value if there is no member with this key.
 [[nodiscard]] std::optional<std::string_view> find_member(const std::vector<JsonMember>& members,
                                                           std::string_view key);
 
-/// Adds to a reference the keys that only its family states, and merges their derivations.
+/// Adds to a reference the common keys of its family that it does not have. Derivations are merged.
 [[nodiscard]] nlohmann::json with_common(const nlohmann::json& common, nlohmann::json reference);
 
 /// Reads the references of a family file by id.

@@ -18,14 +18,14 @@ using Field = Eigen::Matrix3d;
 /// Function of x with its first four derivatives.
 using Shape = autodiff_fvar<double, 4>;
 
-/// Returns exp(k s) with its first two derivatives in s. Its parts are sines and cosines if k is
-/// imaginary.
+/// Returns exp(k s) with its first two derivatives in s. For imaginary k, its real and imaginary
+/// parts are cosines and sines.
 Eigen::Vector3cd exponential(std::complex<double> k, double s) {
   return std::exp(k * s) * Eigen::Vector3cd(1, k, k * k);
 }
 
-/// Displacements u and v of a membrane at a point [m]. Each is a sum of products of a function of x
-/// and a function of y.
+/// Returns the displacements u and v of a membrane at a point [m]. Each is a sum of products of a
+/// function of x and a function of y.
 std::array<Field, 2> displacement(const MembraneProblem& problem, double x, double y) {
   const double a = problem.amplitude, p = 1 / problem.length, q = 1 / problem.height;
   const auto sine = [](double k, double s) { return exponential({0, k}, s).imag().eval(); };
@@ -54,20 +54,21 @@ std::array<Field, 2> displacement(const MembraneProblem& problem, double x, doub
                one.transpose() * (0.4 * Y + 0.9 * square(q, y).transpose()))};
 }
 
-/// Bending shape of a beam [m]. It vanishes together with its first derivative at x = 0.
+/// Returns the bending displacement of a beam [m]. It vanishes together with its first derivative
+/// at x = 0.
 Shape bending_shape(const BeamProblem& problem, double x) {
   const Shape xi = make_fvar<double, 4>(x) / problem.length;
   if (problem.field == BeamField::cubic) return problem.amplitude * xi * xi * (1 - 0.4 * xi);
   return problem.amplitude * (exp(xi) - 1 - xi + (1 - cos(3 * xi)) / 4);
 }
 
-/// Axial shape of a beam [m]. It vanishes at x = 0.
+/// Returns the axial displacement of a beam [m]. It vanishes at x = 0.
 Shape axial_shape(const BeamProblem& problem, double x) {
   const Shape xi = make_fvar<double, 4>(x) / problem.length;
   return problem.amplitude / 2 * (problem.field == BeamField::cubic ? xi : Shape(sin(2 * xi)));
 }
 
-/// Independent shear angle of a beam [rad]. It vanishes at x = 0.
+/// Returns the independent shear angle of a beam [rad]. It vanishes at x = 0.
 Shape shear_angle(const BeamProblem& problem, double x) {
   const Shape xi = make_fvar<double, 4>(x) / problem.length;
   return problem.amplitude / (2 * problem.length) * sin(2 * xi);

@@ -11,8 +11,8 @@ namespace trammel::references::manufactured {
 
 /// Membranes in plane stress on the rectangle 0 <= x <= length, 0 <= y <= height.
 enum class MembraneField {
-  clamped,         ///< trigonometric; vanishes on all four sides, body force alone
-  cantilever,      ///< trigonometric and exponential; vanishes on x = 0, tractions on the others
+  clamped,         ///< trigonometric; zero on all four sides, only body forces
+  cantilever,      ///< trigonometric and exponential; zero at x = 0, tractions on other sides
   uniform_strain,  ///< linear displacement: the patch test of three-node triangles
   linear_strain,   ///< quadratic displacement: the patch test of six-node triangles
 };
@@ -38,11 +38,11 @@ struct MembraneState {
 
 [[nodiscard]] MembraneState evaluate(const MembraneProblem& problem, double x, double y);
 
-/// Returns the displacements that are fixed at a point of the outline; the field is zero there.
+/// Returns true for each of u and v that is fixed at a point of the boundary, where it is zero.
 [[nodiscard]] std::array<bool, 2> fixed_displacements(const MembraneProblem& problem, double x,
                                                       double y);
 
-/// Beams along 0 <= x <= length, clamped at x = 0 and loaded at the far end by (N, V, M) there.
+/// Beams along 0 <= x <= length, clamped at x = 0 and loaded by (N, V, M) at the other end.
 enum class BeamField {
   smooth,  ///< exponential and trigonometric
   cubic,   ///< requires no transverse load; prismatic elements represent it exactly
@@ -50,7 +50,7 @@ enum class BeamField {
 
 enum class ShearStrain {
   none,          ///< Euler-Bernoulli: the section stays normal, no rotary inertia
-  from_bending,  ///< Timoshenko under transverse load alone (statically no distributed moment)
+  from_bending,  ///< Timoshenko: shear angle that requires no static distributed moment
   independent,   ///< Timoshenko: an independent shear angle, supported by a distributed moment
 };
 
@@ -67,7 +67,8 @@ struct BeamProblem {
   double omega = 0;               ///< [rad/s]
 };
 
-/// Axes of the beam: x along it, y to its left. N = EA u', M = EI θ', V = kappa GA (v' - θ), or
+/// State of a beam at a point in its axes: x along the beam, y to its left. N = EA u', M = EI θ', V
+/// = kappa GA (v' - θ), or
 /// -M' without shear.
 struct BeamState {
   double axial, deflection, rotation;               ///< u, v [m], θ [rad]

@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 /// Names of the kinds of references, in the order of ReferenceKind.
 constexpr std::array kKinds = {"proved", "exact", "computed", "paper", "code"};
 
-/// @param place  "file: /id"
+/// @param place  location of the reference for the message, "file: /id"
 [[noreturn]] void fail(const std::string& place, const std::string& pointer,
                        const std::string& expected) {
   throw ReferenceError(place + pointer + ": expected " + expected);
@@ -59,7 +59,7 @@ std::vector<double> expand(const Json& stated, const std::string& place, const c
   if (!numbers.is_array() || numbers.size() != count ||
       !std::all_of(numbers.begin(), numbers.end(), is_half_width))
     fail(place, pointer,
-         "a number of at least 0, or " + std::to_string(count) + " of them, one per value");
+         "a number of at least 0, or " + std::to_string(count) + " such numbers, one per value");
   return numbers.get<std::vector<double>>();
 }
 
@@ -83,7 +83,8 @@ std::vector<double> read_uncertainty(const Json& json, const Reference& referenc
     fail(place, "", "'uncertainty', or 'printed' digits that imply it");
   std::vector<double> half_widths;
   for (std::size_t i = 0; i < reference.printed.size(); ++i) {
-    // Printed digits that are corrected or in another unit do not determine the uncertainty.
+    // If the value differs from the printed digits (corrected, or in another unit), these do not
+    // determine the uncertainty.
     const double read = std::strtod(reference.printed[i].c_str(), nullptr);
     if (std::abs(read - reference.values[i]) > 1e-12 * std::abs(read)) {
       fail(place, "/printed/" + std::to_string(i),
@@ -161,7 +162,7 @@ Reference read_reference(const Json& json, const std::string& file, const std::s
     fail(place, "",
          std::string("'derivation' for a reference of kind '") + to_string(read.kind) + "'");
   if (proved && read.printed.empty())
-    fail(place, "", "'printed', the digits proved, for a reference of kind 'proved'");
+    fail(place, "", "the proved digits in 'printed' for a reference of kind 'proved'");
   read.uncertainty = read_uncertainty(json, read, place);
   return read;
 }

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-/// A reference: numbers from outside with their provenance, as stored in references/values.
+/// References: numbers from independent sources with their provenance, stored in references/values.
 namespace trammel::references {
 
 enum class ReferenceKind { proved, exact, computed, paper, code };
@@ -19,8 +19,8 @@ struct Reference {
   std::vector<double> values;
   std::vector<double> uncertainty;   ///< absolute half width, one per value, same unit
   std::string source;                ///< key into references/bibliography.json
-  std::string place;                 ///< place in the source: "Table 2, row 1"
-  std::vector<std::string> printed;  ///< as printed, if the source prints them
+  std::string place;                 ///< location in the source, such as "Table 2, row 1"
+  std::vector<std::string> printed;  ///< digits printed in the source; may be empty
   std::string derivation;            ///< program and arguments in words; empty if none
   std::vector<std::string> errata;   ///< errors of the source, with evidence
   std::string notes;
@@ -38,7 +38,7 @@ class ReferenceError : public std::runtime_error {
 };
 
 /// Reads a reference with all its keys, also those that its family has in common.
-/// @param file  file in messages
+/// @param file  name of the file in messages
 /// @throws ReferenceError  if a key is missing or of the wrong type, if lengths differ, or if a
 ///                         printed number is not the value. It is also thrown if neither digits nor
 ///                         an uncertainty are stated.
@@ -56,7 +56,7 @@ struct Source {
 };
 
 /// Reads a member of a bibliography, {"key": {"text": "...", "doi": "..."}}.
-/// @param place  "file: /key" in messages
+/// @param place  location in messages, "file: /key"
 /// @throws ReferenceError  if the member has no 'text' or 'doi'.
 [[nodiscard]] Source read_source(std::string_view json, const std::string& place);
 

@@ -12,17 +12,15 @@
 ///   k^4 + (g + r - T/EI) k^2 + g r - w^2 rho A / EI = 0.
 ///
 /// A prestressed Euler-Bernoulli member has the tension T, which adds T v' to the force V below.
-/// Even and odd motions about mid-span decouple. C is cos(k x) or cosh, and S is sin or sinh of k x
-/// over k, with x from mid-span. Even motions:
+/// Even and odd motions about mid-span decouple. C is cos(k x) or cosh(k x), and S is sin(k x) / k
+/// or sinh(k x) / k, with x from mid-span. Even motions:
 ///
 ///   v = C,      psi = (k^2 + g) S,  M = EI (k^2 + g) C.
-///
 ///   V = -(k^2 + g)(EI k^2 + w^2 rho I) S.
 ///
 /// Odd motions:
 ///
 ///   v = k^2 S,  psi = (k^2 + g) C,  M = EI (k^2 + g) k^2 S.
-///
 ///   V = -(k^2 + g)(EI k^2 + w^2 rho I) C.
 ///
 /// Hyperbolic pairs are divided by cosh(k L/2), which avoids overflow.
@@ -30,15 +28,15 @@ namespace trammel::references {
 
 namespace {
 
-/// Stiffness of motions even and odd about mid-span: forces (N, V, M) at the right end over the
-/// displacements (u, v, psi) there.
+/// Dynamic stiffness of a member for motions even and odd about mid-span. It relates the forces (N,
+/// V, M) at the right end to the displacements (u, v, psi) of this end.
 template <class T>
 struct MemberStiffness {
   Eigen::Matrix<T, 3, 3> even = Eigen::Matrix<T, 3, 3>::Zero(), odd = even;
-  int clamped_below = 0;  ///< frequencies below w with both ends clamped
+  int clamped_below = 0;  ///< number of clamped frequencies below w
 };
 
-/// Returns the number of n >= 1 with n pi / L < k.
+/// Returns the number of integers n >= 1 with n pi / L < k, for the wave number k.
 template <class T>
 int waves_below(const T& k, const T& length) {
   using std::ceil;
@@ -47,7 +45,7 @@ int waves_below(const T& k, const T& length) {
 }
 
 /// Returns the bending part of a member's dynamic stiffness at w^2, for motions even and odd about
-/// mid-span, and the number of clamped frequencies below w.
+/// mid-span, and the number of its frequencies below w with both ends clamped.
 template <class T>
 MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const T& load_factor) {
   using std::sqrt;
@@ -58,11 +56,11 @@ MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const 
   const T p = (g + r - tension / m.EI) / 2;
   const T q = g * r - w2 * m.mass / m.EI;
   const T root = sqrt(p * p - q);
-  // Roots k^2: `below` < 0 is oscillatory, `above` only beyond the cut-on frequency of shear waves.
-  // Both formulas avoid cancellation.
+  // Two roots: `below` < 0 is oscillatory, `above` only beyond the cut-on frequency of shear waves.
+  // The formulas avoid cancellation.
   const T below = p >= 0 ? T(-p - root) : T(q / (root - p));
   const T above = p >= 0 ? T(q / below) : T(root - p);
-  // Each of the two solutions is a column.
+  // The solutions with the roots `above` and `below` are the columns of these matrices.
   Eigen::Matrix<T, 2, 2> even_motion, even_force, odd_motion, odd_force;
   for (int i = 0; i < 2; ++i) {
     const T k2 = i == 0 ? above : below;
@@ -81,8 +79,8 @@ MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const 
   MemberStiffness<T> result;
   result.even.template bottomRightCorner<2, 2>() = even_force * even_motion.inverse();
   result.odd.template bottomRightCorner<2, 2>() = odd_force * odd_motion.inverse();
-  // The number of frequencies below w with pinned ends is known. Clamping both rotations reduces it
-  // by the number of negative eigenvalues of the rotational stiffness.
+  // The number of frequencies of the member below w with pinned ends is known. Clamping both
+  // rotations reduces it by the number of negative eigenvalues of the rotational stiffness.
   int pinned = waves_below(T(sqrt(-below)), m.length);
   if (above < 0) pinned += 1 + waves_below(T(sqrt(-above)), m.length);
   result.clamped_below = pinned - (result.even(2, 2) < 0 ? 1 : 0) - (result.odd(2, 2) < 0 ? 1 : 0);
@@ -111,8 +109,8 @@ MemberStiffness<T> member_stiffness(const MemberData<T>& m, const T& w2, const T
   return result;
 }
 
-/// Returns the 6 x 6 matrix of (u1, v1, psi1, u2, v2, psi2) in the member's axes. Motions u and v
-/// have the same sign at both ends if they are even, psi the opposite sign.
+/// Returns the 6 x 6 dynamic stiffness of a member for (u1, v1, psi1, u2, v2, psi2) in its axes. In
+/// an even motion u and v are equal at both ends, and psi has opposite signs.
 template <class T>
 Eigen::Matrix<T, 6, 6> member_matrix(const MemberStiffness<T>& s) {
   Eigen::Matrix<T, 6, 6> K;

@@ -10,8 +10,8 @@
 
 /// Dynamic stiffness matrix D(w) of a frame in its free coordinates, and the Wittrick-Williams
 /// count J(w) of its natural frequencies below w (W. H. Wittrick, F. W. Williams, Q. J. Mech. Appl.
-/// Math. 24, 1971, 263-284). With J0(w) the number of frequencies below w of the members with
-/// clamped ends, and s the number of negative pivots of D:
+/// Math. 24, 1971, 263-284). J0(w) is the number of frequencies below w of the members with clamped
+/// ends, and s is the number of negative pivots of D:
 ///
 ///   J(w) = J0(w) + s(D(w)).
 namespace trammel::references {
@@ -41,14 +41,14 @@ class DynamicStiffness {
     int clamped_below = 0;  ///< J0
     T log_determinant = 0;  ///< log |det D|
   };
-  /// @param w  > 0 [rad/s]
-  /// @param load_factor  multiplies the tension of every member
+  /// @param w  circular frequency > 0 [rad/s]
+  /// @param load_factor  factor of the tension of every member
   [[nodiscard]] Count count(const T& w, const T& load_factor = T(1)) const;
 
  private:
   struct TransformedMember {
     MemberData<T> data;
-    Eigen::SparseMatrix<T> transformation;  ///< displacements at its ends, in its axes, from q
+    Eigen::SparseMatrix<T> transformation;  ///< from q to end displacements in member axes
   };
 
   void transform_members(const Frame& frame, const FrameCoordinates& coordinates);
@@ -56,8 +56,8 @@ class DynamicStiffness {
   void add_springs(const Frame& frame, const FrameCoordinates& coordinates);
 
   std::vector<TransformedMember> members_;
-  Matrix<T> stiffness_;  ///< of springs
-  Matrix<T> inertia_;    ///< of point masses and member ends
+  Matrix<T> stiffness_;  ///< stiffness of springs
+  Matrix<T> inertia_;    ///< inertia of point masses and member ends
 };
 
 extern template class DynamicStiffness<double>;

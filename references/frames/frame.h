@@ -6,11 +6,12 @@
 
 #include "references/numerics/arguments.h"
 
-/// Planar frame for the derivations: SI units, world axes, nodes and members by index.
+/// Planar frame for derivations of references, in SI units and world axes. Nodes and members are
+/// identified by their indices.
 namespace trammel::references {
 
-/// Properties of a section. Axial and shear stiffness are stored as compliances, so that rigid is
-/// 0.
+/// Properties of a cross section. Axial and shear stiffness are stored as compliances, which are 0
+/// for rigid sections.
 struct FrameSection {
   Real axial_compliance = 0;  ///< 1 / EA [1/N]; 0: inextensible
   Real EI = 0;                ///< [N m^2]
@@ -18,8 +19,8 @@ struct FrameSection {
   Real mass = 0;              ///< rho A [kg/m]
   Real rotary_inertia = 0;    ///< rho I [kg m]; 0: Euler-Bernoulli
   Real area = 0;              ///< [m^2]
-  Real modulus = 0;           ///< I over the distance of the outermost fiber [m^3]
-  Real tension = 0;           ///< axial force in the state about which it vibrates [N]
+  Real modulus = 0;           ///< section modulus [m^3]
+  Real tension = 0;           ///< axial force of the prestressed state [N]
 };
 
 struct FrameMaterial {
@@ -28,10 +29,10 @@ struct FrameMaterial {
   Real nu = 0;   ///< [-]
 };
 
-/// Reads where[key]: "E_Pa", "rho_kg_m3" and "nu".
+/// Reads a material from where[key] with "E_Pa", "rho_kg_m3" and "nu".
 [[nodiscard]] FrameMaterial read_material(const Arguments& where, const std::string& key);
 
-/// Returns a section with the compliances and inertias of all theories.
+/// Returns a section with all compliances and inertias, whatever beam theory uses them.
 /// @param half_depth  distance of the outermost fiber from the axis; 0 if it is unknown [m].
 [[nodiscard]] FrameSection elastic_section(const FrameMaterial& material, const Real& area,
                                            const Real& second_moment, const Real& half_depth,
@@ -52,8 +53,8 @@ enum class Fixity { welded, hinged, sprung };
 
 struct FrameEnd {
   Fixity fixity = Fixity::welded;
-  Real stiffness = 0;  ///< of the spring between end and node [N m/rad]; sprung only
-  Real inertia = 0;    ///< rotates with the member's end [kg m^2]
+  Real stiffness = 0;  ///< rotational spring between end and node [N m/rad]
+  Real inertia = 0;    ///< moment of inertia fixed to the member end [kg m^2]
 };
 
 struct FrameMember {
@@ -61,7 +62,7 @@ struct FrameMember {
   std::array<int, 2> nodes{};
   FrameSection section;
   std::array<FrameEnd, 2> ends{};
-  std::array<Real, 2> load{};  ///< per unit length, world axes [N/m]
+  std::array<Real, 2> load{};  ///< load per unit length, world axes [N/m]
 };
 
 struct FrameNode {
@@ -77,12 +78,12 @@ struct FrameBody {
 struct FrameMass {
   int node = 0;
   Real mass = 0;     ///< [kg]
-  Real inertia = 0;  ///< about the center of mass [kg m^2]
+  Real inertia = 0;  ///< moment of inertia about the center of mass [kg m^2]
   std::array<Real, 2> offset{};
 };
 
 struct FrameSpring {
-  std::array<int, 2> nodes{-1, -1};  ///< second -1: the ground
+  std::array<int, 2> nodes{-1, -1};  ///< the second is -1 for the ground
   std::array<Real, 3> stiffness{};   ///< x, y [N/m], rotation [N m/rad]
 };
 
@@ -96,8 +97,7 @@ struct FrameLoad {
   std::array<Real, 3> force{};  ///< Fx, Fy [N], moment [N m]
 };
 
-/// Reads where[key]: "welded" or "locked", "hinged" or "free", or {"spring_N_m_per_rad": k}.
-/// @param value  where[key], or an entry of it
+/// Reads a joint: "welded" or "locked", "hinged" or "free", or {"spring_N_m_per_rad": k}.
 /// @throws DerivationError  with the JSON pointer, if the value is none of these.
 [[nodiscard]] FrameEnd read_end(const Json& value, const Arguments& where, const std::string& key);
 
@@ -105,7 +105,7 @@ struct FrameLoad {
 struct RotationConstraint {
   int node = 0;
   Real share = 0;
-  std::vector<std::array<int, 2>> ends;  ///< member, 0 (start) or 1 (end)
+  std::vector<std::array<int, 2>> ends;  ///< member, and 0 (start) or 1 (end)
 };
 
 struct Frame {
@@ -123,15 +123,13 @@ struct Frame {
   [[nodiscard]] int find_member(const std::string& name) const;  ///< -1 if there is none
 };
 
-/// Length and direction cosines of a member.
 struct MemberAxis {
   Real length, cosine, sine;
 };
 [[nodiscard]] MemberAxis member_axis(const Frame& frame, const FrameMember& member);
 
-/// The frame of the arguments: "model" (as a case file's), or "manipulator" with "pose" (x_m, y_m,
-/// phi_rad) and "loads".
-/// @throws DerivationError  with the JSON pointer.
+/// Returns the frame of the arguments "model" (as in a case file), or "manipulator" with "pose"
+/// (x_m, y_m, phi_rad) and "loads".
 [[nodiscard]] Frame frame_from_arguments(const Arguments& arguments);
 
 }  // namespace trammel::references

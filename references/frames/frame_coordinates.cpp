@@ -6,7 +6,7 @@ namespace trammel::references {
 
 namespace {
 
-/// Returns the nodes that have a rotation, because a part of the frame rotates with them.
+/// Returns true for each node that has a rotation, because a part of the frame rotates with it.
 std::vector<bool> nodes_with_rotation(const Frame& frame) {
   std::vector<bool> has_rotation(frame.nodes.size(), false);
   for (const FrameMember& member : frame.members) {
@@ -113,7 +113,7 @@ void FrameCoordinates::solve(const std::vector<Row>& equations) {
     for (const auto& [column, coefficient] : equations[i]) C(i, column) = coefficient;
   }
   Eigen::FullPivLU<RealMatrix> lu(C);
-  lu.setThreshold(Real(1e-30));  // equations may be linearly dependent
+  lu.setThreshold(Real(1e-30));  // limit of pivots; equations may be linearly dependent
   N_ = lu.dimensionOfKernel() > 0 ? RealMatrix(lu.kernel()) : RealMatrix(size_, 0);
   N_ = (N_.array().abs() < Real(1e-40)).select(Real(0), N_);
 }

@@ -7,13 +7,13 @@
 #include "references/frames/frame.h"
 #include "references/numerics/dense.h"
 
-/// Coordinates of a frame: x, y and (if a part rotates with the node) the rotation of each node,
+/// Coordinates u of a frame: x, y and (if a part rotates with the node) the rotation of each node,
 /// and the rotation of each hinged or sprung member end. Supports, rigid bodies, inextensible
-/// members and sums of rotations are equations C u = 0, solved by elimination with full pivoting: u
-/// = N q.
+/// members and sums of rotations are equations C u = 0. Elimination with full pivoting solves them:
+/// u = N q.
 namespace trammel::references {
 
-/// A spring between two entries of u. Its force is +s on `from` and -s on `to`.
+/// Spring between two coordinates. Its force is +s on the coordinate `from` and -s on `to`.
 struct SpringElement {
   int from, to;  ///< from -1: the ground
   Real stiffness;
@@ -26,9 +26,9 @@ class FrameCoordinates {
   /// @throws DerivationError  if a member has no length.
   FrameCoordinates(const Frame& frame, bool constrain_inextensible);
 
-  [[nodiscard]] int size() const { return size_; }                        ///< of u
-  [[nodiscard]] int free() const { return static_cast<int>(N_.cols()); }  ///< of q
-  [[nodiscard]] const RealMatrix& N() const { return N_; }                ///< u x q
+  [[nodiscard]] int size() const { return size_; }                        ///< size of u
+  [[nodiscard]] int free() const { return static_cast<int>(N_.cols()); }  ///< size of q
+  [[nodiscard]] const RealMatrix& N() const { return N_; }                ///< matrix of u = N q
 
   /// Index in u of motion 0 (x), 1 (y) or 2 (rotation) of a node; -1 if it has no rotation.
   [[nodiscard]] int node_index(int node, int motion) const { return node_[node][motion]; }
@@ -38,7 +38,7 @@ class FrameCoordinates {
   [[nodiscard]] const std::array<int, 6>& member_indices(int member) const {
     return member_[member];
   }
-  /// Returns the springs between nodes and those of sprung member ends.
+  /// Returns the springs between nodes and the springs at member ends.
   [[nodiscard]] std::vector<SpringElement> springs(const Frame& frame) const;
 
  private:

@@ -13,7 +13,7 @@ Arguments object_at(const Arguments& parent, const std::string& key) {
   return {parent.has(key) ? parent[key] : Json::object(), parent.pointer(key)};
 }
 
-/// Returns the objects of parent[key] with their names.
+/// Returns the objects in the JSON object parent[key] with their names.
 std::vector<std::pair<std::string, Arguments>> objects_of(const Arguments& parent,
                                                           const std::string& key,
                                                           const std::vector<std::string>& known) {
@@ -54,7 +54,7 @@ Sections read_sections(const Arguments& model) {
   return result;
 }
 
-/// Returns the nodes that are named at a key, by one name or a list.
+/// Returns the indices of the nodes that a key contains as one name or a list of names.
 std::vector<int> nodes_at(const Frame& frame, const Arguments& object, const std::string& key) {
   const Json& names = object[key];
   std::vector<int> nodes;
@@ -77,7 +77,7 @@ FrameMember read_member(const Frame& frame, const Sections& sections, const std:
   member.section = member_section(section->second, object);
   member.section.tension = object.number("axial_force_N", 0);
   if (member.section.shear_compliance > 0 && member.section.tension != 0) {
-    object.fail("axial_force_N", "only an Euler-Bernoulli member is derived with an axial force");
+    object.fail("axial_force_N", "requires an Euler-Bernoulli member");
   }
   if (object.has("ends")) {
     const Json& ends = object["ends"];

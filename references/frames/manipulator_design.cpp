@@ -6,23 +6,23 @@ namespace {
 
 /// Returns the vertices of an equilateral triangle about a center, at 210, 330 and 90 degrees.
 std::vector<Point2<Real>> triangle(const Point2<Real>& center, const Real& side) {
-  const Real height = side / (2 * sqrt(Real(3)));  // of the center above the first edge
+  const Real height = side / (2 * sqrt(Real(3)));  // distance of the center from the first edge
   return {{center[0] - side / 2, center[1] - height},
           {center[0] + side / 2, center[1] - height},
           {center[0], center[1] + 2 * height}};
 }
 
-/// Returns true if a mass or an inertia is a number instead of "from-density" or "from-mass".
+/// Returns true if the mass or inertia of a key is a number, not "from-density" or "from-mass".
 bool is_given(const Arguments& object, const std::string& key) {
   return object.has(key) && object[key] != "from-density" && object[key] != "from-mass";
 }
 
-/// Returns a given mass [kg] or inertia [kg m^2], or the computed one.
+/// Returns the mass [kg] or inertia [kg m^2] of a key if it is a number, otherwise `computed`.
 Real given_or(const Arguments& object, const std::string& key, const Real& computed) {
   return is_given(object, key) ? object.positive(key) : computed;
 }
 
-/// Returns the data of the proximal or of the distal links.
+/// Returns the data of the proximal or distal links of a manipulator.
 Arguments links_of_kind(const Arguments& manipulator, const char* kind) {
   Json links = manipulator["links"];
   if (links.contains(kind)) links.merge_patch(Json(links[kind]));
@@ -64,7 +64,7 @@ void read_platform(const Arguments& manipulator, ManipulatorNumbers& result) {
     result.limbs[i].corner = corners[i];
     for (std::size_t c = 0; c < 2; ++c) center[c] += corners[i][c] / 3;
   }
-  Real squares = 0;  // of the distances of the corners from the center of mass
+  Real squares = 0;  // sum over the distances of the corners from the center of mass
   for (const auto& corner : corners) {
     const Real x = corner[0] - center[0], y = corner[1] - center[1];
     squares += x * x + y * y;
@@ -131,7 +131,7 @@ ManipulatorNumbers read_manipulator_numbers(const Arguments& manipulator) {
   const FrameMaterial m = read_material(manipulator, "material");
   const Arguments proximal = links_of_kind(manipulator, "proximal");
   const Arguments distal = links_of_kind(manipulator, "distal");
-  const Real side = manipulator.positive("base_side_m", 1);  // if there are no points
+  const Real side = manipulator.positive("base_side_m", 1);  // without base_m
   const auto base = manipulator.has("base_m")
                         ? manipulator.points("base_m", 3)
                         : triangle({side / 2, side / (2 * sqrt(Real(3)))}, side);

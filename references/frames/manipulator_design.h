@@ -7,7 +7,7 @@
 /// Data of a planar 3-RRR in the format of "manipulator" in case files:
 /// base_side_m or base_m.
 /// links: proximal_length_m and distal_length_m (one or three each), thickness_m, width_m, mass_kg,
-/// inertia_kg_m2, beam, shear_coefficient, axial; proximal and distal contain differing values.
+/// inertia_kg_m2, beam, shear_coefficient, axial; proximal and distal replace these values.
 /// platform: side_m or vertices_m, thickness_m, mass_kg, inertia_kg_m2.
 /// material, platform_material, joints (active, elbow and platform, equal in all limbs),
 /// working_mode.
@@ -23,8 +23,8 @@ template <class Number>
   return {c * v[0] - s * v[1], s * v[0] + c * v[1]};
 }
 
-/// Returns the elbow of a limb: an intersection of the circles about A and C. For mode -1, it lies
-/// clockwise of the line A C.
+/// Returns the elbow of a limb: an intersection of the circles of the links about A and C. For mode
+/// -1, the elbow is on the clockwise side of the line from A to C.
 /// @throws DerivationError  if the circles do not intersect.
 template <class Number>
 [[nodiscard]] Point2<Number> elbow(const Point2<Number>& A, const Point2<Number>& C,
@@ -33,7 +33,7 @@ template <class Number>
   const Number dy = C[1] - A[1];
   const Number r2 = dx * dx + dy * dy;
   const Real squares = proximal * proximal - distal * distal;
-  const Number along = (squares + r2) / (Real(2) * r2);  // of A C
+  const Number along = (squares + r2) / (Real(2) * r2);  // fraction of the line A C
   const Number height2 = Real(proximal * proximal) / r2 - along * along;
   if (height2 < Real(0)) throw DerivationError("a limb cannot reach its platform joint");
   const Number across = Real(mode) * sqrt(height2);
@@ -44,13 +44,13 @@ struct LinkNumbers {
   Real length = 0;
   Real mass = 0;
   bool has_inertia = false;  ///< the inertia is given; if false, it is that of a thin rod
-  Real center = 0;           ///< of mass, from the first joint along the link
+  Real center = 0;           ///< distance of the center of mass from the first joint
   Real inertia = 0;          ///< about the center of mass [kg m^2]
   FrameSection section;
 };
 
 struct LimbNumbers {
-  Point2<Real> base;    ///< A
+  Point2<Real> base;    ///< position of A
   Point2<Real> corner;  ///< C from P, in platform axes
   int mode = -1;        ///< side of the elbow, as in `elbow`
   LinkNumbers proximal, distal;
@@ -59,24 +59,23 @@ struct LimbNumbers {
 struct ManipulatorNumbers {
   std::array<LimbNumbers, 3> limbs;
   Real platform_mass = 0;
-  Real platform_inertia = 0;     ///< about its center of mass
-  Point2<Real> platform_center;  ///< of mass, from P, in platform axes
+  Real platform_inertia = 0;     ///< moment of inertia about the center of mass
+  Point2<Real> platform_center;  ///< center of mass, from P, in platform axes
   Point2<Real> gravity = {0, 0};
 };
 
-/// @throws DerivationError  with the JSON pointer.
 [[nodiscard]] ManipulatorNumbers read_manipulator_numbers(const Arguments& manipulator);
 
-/// arguments["manipulator"], all of whose keys are known.
+/// Returns arguments["manipulator"]. Its keys must be known.
 [[nodiscard]] Arguments manipulator_arguments(const Arguments& arguments);
 
-/// The planar 3-RRR with a rigid platform as a frame, by its own closed-form inverse kinematics:
+/// Returns a planar 3-RRR with a rigid platform as a frame. Closed-form inverse kinematics is used:
 /// each B_i is an intersection of the circles of radius |A_i B_i| about A_i and |B_i C_i| about
-/// C_i, on the side of the working mode. Nodes A1-A3, B1-B3, C1-C3, P; members A1-B1 ..., B1-C1
-/// ....
+/// C_i, on the side of the working mode. Nodes A1-A3, B1-B3, C1-C3, P; members A1-B1, B1-C1, ...
 ///
-/// The numbers are those of `read_manipulator_numbers`; platform kind "rigid"; joints active locked
-/// / free / spring, elbow and platform welded / hinged / spring, platform also eq25-mean, eq25-sum.
+/// The numbers are those of `read_manipulator_numbers`. The platform has the kind "rigid". Joints:
+/// active locked, free or spring; elbow and platform welded, hinged or spring; platform eq25-mean
+/// or eq25-sum.
 /// @throws DerivationError  with the JSON pointer, or if a limb cannot reach.
 [[nodiscard]] Frame manipulator_frame(const Arguments& manipulator, const Arguments& pose);
 

@@ -9,8 +9,7 @@ namespace trammel::references {
 
 namespace {
 
-/// Returns the load per unit length with the weight, in the member's axes: along it, then to its
-/// left.
+/// Returns the load per unit length with the weight along the axis of a member and to its left.
 std::array<Real, 2> member_load(const Frame& frame, const FrameMember& member) {
   const MemberAxis axis = member_axis(frame, member);
   const Real x = member.load[0] + member.section.mass * frame.gravity[0];
@@ -26,8 +25,8 @@ struct Equations {
 };
 
 /// Integrates products of the force diagrams of a member over its length. Rows: diagrams of a unit
-/// N, V and M at the start. Columns: the same, then the diagram of the distributed load. Four Gauss
-/// points integrate these polynomials exactly.
+/// N, V and M at the start. Columns: these diagrams, then the diagram of the distributed load. Four
+/// Gauss points integrate these polynomials exactly.
 Eigen::Matrix<double, 3, 4> compliances(const FrameSection& section,
                                         const std::array<Real, 2>& load, const Real& length) {
   const auto q_u = static_cast<double>(load[0]), q_w = static_cast<double>(load[1]);
@@ -54,7 +53,7 @@ void add_member(const Frame& frame, int index, const FrameCoordinates& coordinat
   const MemberAxis axis = member_axis(frame, member);
   const auto load = member_load(frame, member);
   const Real L = axis.length;
-  Eigen::Matrix<Real, 3, 3> axes;  // world forces of a unit N, V and M
+  Eigen::Matrix<Real, 3, 3> axes;  // world forces of unit N, V, M
   axes << axis.cosine, -axis.sine, 0, axis.sine, axis.cosine, 0, 0, 0, 1;
   Eigen::Matrix<Real, 6, 3> forces;
   forces << axes, -axes;
@@ -109,7 +108,7 @@ Equations equations(const Frame& frame, const FrameCoordinates& coordinates) {
   return e;
 }
 
-/// Minimizes the complementary energy: solves Phi f + B^T N q = -phi0 and N^T (B f + p) = 0.
+/// Minimizes the complementary energy by the equations Phi f + B^T N q = -phi0, N^T (B f + p) = 0.
 /// @returns the internal forces f, then the free displacements q.
 RealVector minimize_complementary_energy(const Equations& e, const RealMatrix& N) {
   const RealMatrix G = N.transpose() * e.B;
@@ -118,7 +117,7 @@ RealVector minimize_complementary_energy(const Equations& e, const RealMatrix& N
   RealVector load(system.rows());
   load << -e.phi0, -N.transpose() * e.p;
   return solve(system, load,
-               "the frame can move freely, or a rigid part's forces are not determined",
+               "the frame can move freely, or the forces of a rigid part are undetermined",
                Real(1e-35));
 }
 
@@ -163,7 +162,7 @@ void add_member_outputs(const Frame& frame, const FrameCoordinates& coordinates,
   }
 }
 
-/// Returns all outputs by name.
+/// Returns all outputs of the statics of a frame by name.
 Values outputs(const Frame& frame) {
   const FrameCoordinates coordinates(frame, false);
   const FrameStatics statics = unit_load_statics(frame);

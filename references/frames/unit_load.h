@@ -14,8 +14,9 @@
 /// The complementary energy is minimal among all forces in equilibrium (Castigliano, Engesser). The
 /// multipliers of the equations of equilibrium are the displacements. There is no stiffness matrix.
 ///
-/// Along a member, x from start to end, w to the left: N tension, V = kappa GA (w' - psi) the force
-/// along w on the face toward +x, M = EI psi'; so V' = -q_w and M' = -V.
+/// Along a member, x points from start to end, and w to the left. N is the tension. V = kappa GA
+/// (w' - psi) is the force along w on the face toward +x, and M = EI psi'. Therefore V' = -q_w and
+/// M' = -V.
 namespace trammel::references {
 
 struct MemberForces {
@@ -23,19 +24,20 @@ struct MemberForces {
 };
 
 struct FrameStatics {
-  RealVector displacement;    ///< of every coordinate of FrameCoordinates(frame, false)
-  RealVector residual_force;  ///< force on each coordinate without that of the support
+  RealVector displacement;    ///< of each coordinate of FrameCoordinates(frame, false)
+  RealVector residual_force;  ///< force on each coordinate without reactions
   std::vector<MemberForces> members;
 };
 
-/// @throws DerivationError  if the frame can move freely, or its forces are not determined.
+/// Computes the exact statics of a frame.
+/// @throws DerivationError  if the frame can move freely, or its forces are undetermined.
 [[nodiscard]] FrameStatics unit_load_statics(const Frame& frame);
 
-/// Arguments: model (or manipulator and pose, with loads), outputs (array of names). Names:
-/// displacement_x_m:NODE, displacement_y_m:NODE, rotation_rad:NODE, end_rotation_rad:MEMBER.start,
-/// reaction_x_N:NODE, reaction_y_N:NODE, reaction_moment_N_m:NODE, axial_force_N:MEMBER.start,
-/// bending_moment_N_m:MEMBER.end. Values: one per output, in the unit at the end of its name.
-/// @throws DerivationError  if a name is none of these, or if the frame has no such part.
+/// Computes outputs of the exact statics of a frame. Names of outputs: displacement_x_m:NODE,
+/// displacement_y_m:NODE, rotation_rad:NODE, end_rotation_rad:MEMBER.start, reaction_x_N:NODE,
+/// reaction_y_N:NODE, reaction_moment_N_m:NODE, axial_force_N:MEMBER.start,
+/// bending_moment_N_m:MEMBER.end. The unit is at the end of the name.
+/// @throws DerivationError  if an output is unknown, or if the frame has no such node or member.
 [[nodiscard]] std::vector<Real> frame_statics_program(const Arguments& arguments);
 
 }  // namespace trammel::references

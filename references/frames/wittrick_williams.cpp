@@ -13,13 +13,13 @@ namespace trammel::references {
 
 namespace {
 
-/// Returns a bracket of relative width 1e-8 about the passage `index`, found in double precision:
+/// Returns a bracket of relative width 1e-8 about the root `index`, computed in double precision:
 /// the count is less than `index` at its lower end, and at least `index` at its upper end.
 std::pair<Real, Real> coarse_bracket(const CountingFunction& f, int index) {
   double lo = f.lo;
   double hi = f.hi;
   for (int i = 0; f.coarse(hi) < index; ++i) {
-    if (i > 60) throw DerivationError("the root count stays below " + std::to_string(index));
+    if (i > 60) throw DerivationError("fewer than " + std::to_string(index) + " roots were found");
     lo = hi;
     hi *= 2;
   }
@@ -30,20 +30,20 @@ std::pair<Real, Real> coarse_bracket(const CountingFunction& f, int index) {
   return {Real(lo) * (1 - Real(1e-9)), Real(hi) * (1 + Real(1e-9))};
 }
 
-/// Widens the bracket until the count in extended precision agrees with it.
+/// Widens a bracket until the count in extended precision shows that it contains the root.
 void confirm_bracket(const CountingFunction& f, int index, Real& lo, Real& hi) {
   for (Real relative_width = Real(1e-8); f.fine(lo).below >= index; relative_width *= 10) {
     lo *= 1 - std::min(relative_width, Real(0.5));
-    if (lo < Real(f.lo) * Real(1e-3)) throw DerivationError("the root count is never zero");
+    if (lo < Real(f.lo) * Real(1e-3)) throw DerivationError("the lowest root is too close to zero");
   }
   for (Real relative_width = Real(1e-8); f.fine(hi).below < index; relative_width *= 10)
     hi *= 1 + relative_width;
 }
 
-/// Returns the argument x at which the count reaches `index`. Let m be the number of passages in
-/// the bracket. The m-th root of |det D|, negative if the count is less than `index`, has a simple
-/// root at x. If the bracket contains a clamped frequency of a member, det D has a pole there, and
-/// only the count is bisected.
+/// Returns the argument x at which the count reaches `index`. Let m be the number of roots in the
+/// bracket. The m-th root of |det D|, negative if the count is less than `index`, has a simple root
+/// at x. If the bracket contains a clamped frequency of a member, det D has a pole there, and only
+/// the count is bisected.
 Real refine_root(const CountingFunction& f, int index, const Real& lo, const Real& hi) {
   const auto at_lo = f.fine(lo);
   const auto at_hi = f.fine(hi);
@@ -62,14 +62,14 @@ Real refine_root(const CountingFunction& f, int index, const Real& lo, const Rea
   return (ends.first + ends.second) / 2;
 }
 
-/// Returns the argument at which the count reaches `index` (from 1), to a relative 1e-20.
+/// Returns the argument at which the count reaches `index` >= 1, with a relative error of 1e-20.
 Real counted_root(const CountingFunction& f, int index) {
   auto [lo, hi] = coarse_bracket(f, index);
   confirm_bracket(f, index, lo, hi);
   return refine_root(f, index, lo, hi);
 }
 
-/// Returns the frame with the axial forces due to its loads.
+/// Returns the frame with the axial forces of its members that its loads cause.
 Frame with_axial_forces(Frame frame) {
   const FrameStatics statics = unit_load_statics(frame);
   for (std::size_t i = 0; i < frame.members.size(); ++i) {
@@ -86,8 +86,8 @@ Frame with_axial_forces(Frame frame) {
   return frame;
 }
 
-/// Returns approximately (10 for pi^2) the smallest load factor at which a member with pinned ends
-/// buckles.
+/// Returns approximately the smallest load factor at which a member with pinned ends buckles. The
+/// factor pi^2 is rounded to 10.
 Real buckling_scale(const Frame& frame) {
   Real scale = 0;
   for (const FrameMember& member : frame.members) {
@@ -205,7 +205,7 @@ std::vector<Real> frame_buckling_program(const Arguments& arguments) {
   const Frame frame = with_axial_forces(frame_from_arguments(arguments));
   const DynamicStiffness<double> coarse(frame);
   const DynamicStiffness<Real> fine(frame);
-  const Real w = frequency_scale(frame) * Real(1e-11);  // its square changes a factor by 1e-22
+  const Real w = frequency_scale(frame) * Real(1e-11);  // w^2 changes a load factor by 1e-22
   const auto coarse_w = static_cast<double>(frequency_scale(frame)) * 1e-3;
   if (fine.count(w, Real(1e-6) * buckling_scale(frame)).below > 0) {
     throw DerivationError("the frame can move freely");

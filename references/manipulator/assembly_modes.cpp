@@ -5,12 +5,12 @@
 #include "references/numerics/jet.h"
 #include "references/numerics/real.h"
 
-/// All poses of a planar 3-RRR at given angles of its actuators, and the proof that there are no
-/// more (J.-P. Merlet, Parallel Robots, 2nd ed., 2006, section 4.3). With the elbows B_i, the
-/// joints c_i of the platform and D_i = B_i - R(phi) c_i, P is on three circles about D_i.
-/// Eliminating x and y leaves a trigonometric polynomial Q(phi) of degree 3, with at most six
-/// zeros. By Bernstein the k-th derivative is at most 3^k max|Q|. Intervals are halved until each
-/// is shown to have none, one or, on either side of an extremum, two.
+/// Computes all poses of a planar 3-RRR at given angles of its actuators, and proves that no other
+/// poses exist (J.-P. Merlet, Parallel Robots, 2nd ed., 2006, section 4.3). With the elbows B_i,
+/// the joints c_i of the platform and D_i = B_i - R(phi) c_i, the platform's point P is on three
+/// circles about D_i. Eliminating x and y leaves a trigonometric polynomial Q(phi) of degree 3,
+/// with at most six zeros. By Bernstein the k-th derivative is at most 3^k max|Q|. Intervals are
+/// halved until each is shown to have no zero, one or, on both sides of an extremum, two.
 namespace trammel::references {
 
 namespace {
@@ -26,15 +26,15 @@ struct Limbs {
   std::vector<Real> distal;
 };
 
-/// Returns D_i.
+/// Returns D_i, the center of the circle about which limb i can move P at the orientation phi.
 template <class T>
 Point2<T> center(const Limbs& limbs, std::size_t i, const T& phi) {
   const Point2<T> joint = rotated(limbs.joint[i], phi);
   return {T(limbs.elbow[i][0]) - joint[0], T(limbs.elbow[i][1]) - joint[1]};
 }
 
-/// Returns (P - D_1) times the determinant, and the determinant, at the intersection of the lines
-/// through the common points of the circles.
+/// Returns (P - D_1) d and d. P is the intersection of two lines, each through the common points of
+/// two circles about D_i, and d is the determinant of the equations of the lines.
 template <class T>
 std::pair<Point2<T>, T> meeting(const Limbs& limbs, const T& phi) {
   std::array<Point2<T>, 2> a;
@@ -83,15 +83,15 @@ struct Search {
     return Q(limbs, Jet<Real>(phi, Real(1), Real(0)));
   }
 
-  /// Adds the zero of an interval in which Q is monotonic. A zero at the common end of two
-  /// intervals is added once.
+  /// Adds the zero of Q in an interval in which Q is monotonic, if there is one. A zero at the
+  /// common end of two intervals is added once.
   void add_crossing(const Real& from, const Real& to) {
     if ((at(from) < 0) == (at(to) < 0)) return;
     zeros.push_back(refined_root([&](const Real& phi) { return at(phi); }, from, to));
   }
 
-  /// Adds the zeros of an interval in which Q' is monotonic, on both sides of the extremum if there
-  /// is one.
+  /// Adds the zeros of Q in an interval in which Q' is monotonic. If Q has an extremum, zeros on
+  /// both sides of it are added.
   void add_crossings(const Real& from, const Real& to) {
     if ((jet(from).rate < 0) == (jet(to).rate < 0)) return add_crossing(from, to);
     const Real extremum = refined_root([&](const Real& phi) { return jet(phi).rate; }, from, to);
@@ -101,7 +101,7 @@ struct Search {
     add_crossing(extremum, to);
   }
 
-  /// Adds all zeros between two angles.
+  /// Adds all zeros of Q between two angles.
   void find(const Real& from, const Real& to) {
     const Real h = (to - from) / 2, middle = from + h;
     const Jet<Real> q = jet(middle);
@@ -121,7 +121,7 @@ std::vector<Real> all_zeros(const Arguments& arguments, const Limbs& limbs) {
   const Real h = 2 * pi<Real>() / kPoints;
   Real largest = 0;
   for (int i = 0; i < kPoints; ++i) largest = std::max(largest, Real(abs(Q(limbs, Real(h * i)))));
-  // Between the points, |Q| exceeds the largest sample by at most 3 max|Q| h/2.
+  // Between two samples at the distance h, |Q| exceeds the largest sample by at most 3 max|Q| h/2.
   Search search{arguments, limbs, largest / (1 - 3 * h / 2), {}};
   search.find(-pi<Real>(), pi<Real>());
   return search.zeros;

@@ -6,14 +6,14 @@
 #include "references/numerics/integration.h"
 #include "references/numerics/real.h"
 
-/// Motion of the rigid planar 3-RRR along a path or under constant torques, by name.
+/// Quantities of the motion of a rigid planar 3-RRR along a path or under constant torques.
 namespace trammel::references {
 
 namespace {
 
 using Motion = std::array<Jet<Real>, 3>;
 
-/// Quantities of the motion at one instant, by name.
+/// Quantities of the motion at one time, by name.
 class Instant {
  public:
   Instant(const ManipulatorNumbers& manipulator, const Motion& motion, const PlanarWrench& wrench)
@@ -38,7 +38,7 @@ class Instant {
   [[nodiscard]] Real value(const std::string& name) const {
     const auto found = values_.find(name);
     if (found == values_.end()) throw DerivationError("/outputs: '" + name + "': no such quantity");
-    return abs(found->second) < Real("1e-40") ? Real(0) : found->second;  // round-off alone
+    return abs(found->second) < Real("1e-40") ? Real(0) : found->second;  // only round-off
   }
 
  private:
@@ -89,7 +89,7 @@ class Instant {
   }
 
   /// Adds the distances from singularities. The rows of the matrix are the Pluecker coordinates of
-  /// the distal links; moments about P are divided by the radius of the platform.
+  /// the distal links. Moments about P are divided by the platform radius.
   void add_singularities() {
     Real squares = 0;
     for (const LimbNumbers& limb : m_.limbs)
@@ -121,7 +121,7 @@ class Instant {
 };
 
 /// Returns the accelerations of the platform under given torques. The torques depend linearly on
-/// the accelerations, so that four inverse problems suffice.
+/// the three accelerations, so that four solutions of the inverse dynamics suffice.
 RealVector accelerations(const ManipulatorNumbers& m, const PlanarWrench& wrench,
                          const std::vector<Real>& torque, const std::array<Real, 6>& state) {
   const auto torques_at = [&](int moving) {
@@ -141,8 +141,7 @@ RealVector accelerations(const ManipulatorNumbers& m, const PlanarWrench& wrench
   return solve(A, b, "the pose is singular");
 }
 
-/// Computes the motion under constant torques at each of the times, with 16 steps from time to
-/// time.
+/// Computes the motion under constant torques at the times, with 16 steps between two times.
 std::vector<Motion> driven_motions(const ManipulatorNumbers& m, const PlanarWrench& wrench,
                                    const std::vector<Real>& torque, const Motion& start,
                                    const std::vector<Real>& times) {
@@ -182,7 +181,7 @@ Real absolute_work(const ManipulatorNumbers& m, const Arguments& trajectory,
   for (int k = 1; k <= kIntervals; ++k) {
     const Real to = period * k / kIntervals, now = power(to);
     const Real zero = (before < 0) != (now < 0) ? refined_root(power, from, to) : to;
-    // Ten points on a 64th of a turn integrate the smooth power to about 30 digits.
+    // Ten Gauss points on a 64th of a turn integrate the smooth power to about 30 digits.
     using Gauss = boost::math::quadrature::gauss<Real, 10>;
     work += abs(Gauss::integrate(power, from, zero));
     if (zero < to) work += abs(Gauss::integrate(power, zero, to));

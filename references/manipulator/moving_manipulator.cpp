@@ -20,14 +20,14 @@ namespace {
 ///
 ///   m W^T (W q.. + 2 W. q. + W.. q + r..) + J e (theta.. + phi..) + K(t) q = h(t) F.
 ///
-/// The acceleration of the center of mass in the nominal motion is r... The paper omits W. and W..
-/// (`rate_terms` false). The equations are integrated by Fehlberg's method of order 8 in steps of
-/// 0.25 ms.
+/// Dots are time derivatives, and r.. is the acceleration of the center of mass in the nominal
+/// motion. The paper omits W. and W.. (`rate_terms` false). The equations are integrated by
+/// Fehlberg's method of order 8 in steps of 0.25 ms.
 using State = std::array<Real, 6>;  // u_x, u_y, theta and their rates
 using Three = std::array<Real, 3>;
 
-/// A limb at one pose: derivative of its elongation with respect to q, stiffness k, and lever arm
-/// of its tension about A.
+/// Data of a limb at one pose: derivative of its elongation with respect to q, stiffness k, and
+/// lever arm of its axial force about A.
 struct Limb {
   Three stretch;
   Real stiffness, lever;
@@ -59,7 +59,7 @@ class Platform {
   }
 
   /// Computes the derivative dx of the state x at the time t.
-  /// @param factor  load factor h(t), which multiplies the wrench
+  /// @param factor  load factor h(t), which multiplies the load on the platform
   void rate(const State& x, State& dx, const Real& t, const Real& factor) const {
     const auto pose = platform_motion(trajectory_, t);
     const Real m = numbers_.platform_mass, J = numbers_.platform_inertia;
@@ -75,8 +75,8 @@ class Platform {
       const Real tension = one.stiffness * stretch(one, x);
       for (std::size_t c = 0; c < 3; ++c) f[c] -= tension * one.stretch[c];
     }
-    // Moment balance about the center of mass. It uses the mass matrix with the coefficients m,
-    // -m s_y, m s_x and J + m s^2.
+    // The moment balance about the center of mass solves the equations of motion. The coefficients
+    // of their mass matrix are m, -m s_y, m s_x and J + m s^2.
     const Real turn = (f[2] - (s[0] * f[1] - s[1] * f[0])) / J;
     dx = {x[3], x[4], x[5], f[0] / m + s[1] * turn, f[1] / m - s[0] * turn, turn};
   }
@@ -111,7 +111,8 @@ class Platform {
 struct History {
   std::vector<Real> time, factor;
 
-  /// Returns the load factor at t, on the linear segment of the history that contains `within`.
+  /// Returns the load factor at t, from the linear segment of the load history that contains
+  /// `within`.
   [[nodiscard]] Real at(const Real& t, const Real& within) const {
     const auto next = std::ranges::upper_bound(time, within);
     if (next == time.begin()) return factor.front();
@@ -138,22 +139,23 @@ void advance(const Platform& platform, const History& history, const Real& from,
 ///
 ///   p(s, t) = p_nominal(s, t) + R(t) N(s) d(t).
 ///
-/// Jet differentiates p twice by time. The virtual work of the inertia forces is
+/// The class Jet differentiates p twice with respect to time. The virtual work of the inertia
+/// forces is
 ///
 ///   int N^T diag(rho A, rho A, rho I) (R^T p'', theta'') ds.
 ///
 /// The damping forces are b M times the velocities of the displacements in world axes. Fehlberg's
 /// method of order 8 integrates the equations.
 ///
-/// u_x, u_y, theta of P; then for each limb u_x, u_y of B and the rotations of the proximal link's
-/// end, of the distal link's start and of its end.
+/// Coordinates: u_x, u_y, theta of P; then for each limb u_x, u_y of B and the rotations of the
+/// proximal link's end, of the distal link's start and of the distal link's end.
 constexpr std::size_t kCoordinates = 18, kOfPlatform = 3, kOfLimb = 5;
 using Coordinates = Eigen::Matrix<Real, kCoordinates, 1>;
 using SystemState = std::array<Real, 2 * kCoordinates>;
 using SystemMotion = std::array<Jet<Real>, kCoordinates>;
 using Six = Eigen::Matrix<Real, 6, 1>;
 
-/// Returns a displacement with the damping force per mass added to its acceleration.
+/// Returns a displacement whose acceleration includes the damping force per unit mass.
 Jet<Real> damped(const Jet<Real>& u, const Real& damping) {
   return {u.value, u.rate, u.acceleration + damping * u.rate};
 }
@@ -163,10 +165,10 @@ Jet<Real> damped(const Jet<Real>& u, const Real& damping) {
 /// @param phi  shear parameter 12 EI/(kappa G A L^2)
 std::array<Six, 3> interpolation(const Real& x, const Real& length, const Real& phi) {
   const Real g = 1 / (1 + phi), y = 1 - x;
-  const auto lift = [&](const Real& z) {  // v due to v at the end z = 0
+  const auto lift = [&](const Real& z) {  // v of a unit displacement v at z = 0
     return Real(g * (1 - 3 * z * z + 2 * z * z * z + phi * (1 - z)));
   };
-  const auto swing = [&](const Real& z) {  // v due to the rotation at the end z = 0
+  const auto swing = [&](const Real& z) {  // v of a unit rotation at z = 0
     return Real(g * length * z * (1 - z) * (1 - z + phi / 2));
   };
   const auto tilt = [&](const Real& z) { return Real(g * (1 - z) * (1 - 3 * z + phi)); };
@@ -176,7 +178,7 @@ std::array<Six, 3> interpolation(const Real& x, const Real& length, const Real& 
            {0, -shear, tilt(x), 0, shear, tilt(y)}}};
 }
 
-/// Nominal motion of a link: its first joint, and its direction.
+/// Nominal motion of a link: position of its first joint, and its direction.
 struct LinkPose {
   LinkPose(const PointJet& start, const PointJet& end, const Real& length)
       : from(start),
@@ -194,7 +196,7 @@ class Link {
     for (std::size_t p = 0; p < N_.size(); ++p) N_[p] = interpolation(Real(p) / 6, length_, phi);
   }
 
-  /// Computes the inertia and damping forces at the nodes, in world axes.
+  /// Computes the inertia and damping forces of a link at its nodes, in world axes.
   /// @param u  displacements of the nodes in world axes: x, y and rotation at the start and the end
   [[nodiscard]] Six forces(const LinkPose& pose, std::array<Jet<Real>, 6> u,
                            const Real& damping) const {
@@ -241,7 +243,7 @@ class Links {
   }
 
   /// Solves the equations of motion for the accelerations.
-  /// @param torques  receives the torques of the base on the proximal links
+  /// @param torques  if not null, receives the torques of the base on the proximal links
   [[nodiscard]] SystemMotion solved(const SystemState& x, const Real& t,
                                     std::array<Real, 3>* torques = nullptr) const {
     const Nominal now = nominal(t);
@@ -292,7 +294,7 @@ class Links {
     return now;
   }
 
-  /// Returns inertia and damping forces minus loads, for each coordinate.
+  /// Returns the inertia and damping forces minus the loads for each coordinate of the manipulator.
   [[nodiscard]] Coordinates residual(const Nominal& now, const SystemMotion& q,
                                      std::array<Real, 3>* torques = nullptr) const {
     Coordinates r = platform_residual(now, q);
@@ -314,8 +316,8 @@ class Links {
     return r;
   }
 
-  /// Returns the residual of the platform's equation of motion, with damping. Its center of mass
-  /// has the distance s from P.
+  /// Returns the residual of the platform's equation of motion, with damping. The vector s points
+  /// from P to its center of mass.
   [[nodiscard]] Coordinates platform_residual(const Nominal& now, const SystemMotion& q) const {
     const PointJet s = rotated(numbers_.platform_center, now.pose[2]);
     const Jet<Real> turn = damped(q[2], damping_);
@@ -338,8 +340,8 @@ class Links {
   std::vector<std::array<Link, 2>> links_;
 };
 
-/// Returns the states at the times. For a rotation of about 1 rad, twelve steps of order 8 have an
-/// error of 1e-13.
+/// Returns the states of a manipulator at the times. For a rotation of about 1 rad, twelve steps of
+/// order 8 have an error of 1e-13.
 std::vector<SystemState> states(const Links& links, const std::vector<Real>& times) {
   constexpr int kSteps = 4;  // steps between two successive times
   const auto rate = [&](const SystemState& x, SystemState& dx, const Real& t) {

@@ -15,7 +15,7 @@ namespace {
 
 using Rows = std::vector<std::vector<Real>>;
 
-/// Torques, and angles and velocities of the active joints, at one time.
+/// Training sample: torques, and angles and velocities of the active joints, at one time.
 struct Sample {
   std::vector<Real> torques, joints;
 };
@@ -34,7 +34,7 @@ Sample sample_at(const ManipulatorNumbers& manipulator, const Arguments& traject
   return sample;
 }
 
-/// @param inputs, outputs  one row per sample
+/// Returns the estimate at `query`. `inputs` and `outputs` have one row per sample.
 std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
                                   const std::vector<Real>& query, const Real& sigma) {
   std::vector<Real> squared_distance;

@@ -7,11 +7,11 @@ namespace trammel::references {
 
 namespace {
 
-/// Unknowns: of each limb the forces of base on proximal link, of proximal on distal link, of
-/// distal link on platform, and the torque of the base on the proximal link.
+/// Columns of the unknowns of a limb: the forces of the base on the proximal link (at A), of the
+/// proximal on the distal link (at B), of the distal link on the platform (at C), and the torque.
 enum Unknown : int { at_A = 0, at_B = 2, at_C = 4, torque = 6, per_limb = 7 };
 
-/// The three equations of one body: force balance, and moments about its center of mass.
+/// Equations of motion of one body: force balance, and moment balance about its center of mass.
 class Body {
  public:
   Body(RealMatrix& A, RealVector& b, std::size_t row, const PointJet& center)

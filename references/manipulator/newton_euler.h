@@ -6,34 +6,34 @@
 #include "references/numerics/jet.h"
 
 /// Inverse dynamics of the planar 3-RRR by the laws of Newton and Euler for each of its seven
-/// bodies: 21 equations for the forces in the nine joints and the three torques. Jet differentiates
-/// the motions. The derivation uses no Lagrangian, no Jacobian and no mass matrix.
+/// bodies: 21 equations for the forces in the nine joints and the three torques. The class Jet
+/// differentiates the motions. The derivation uses no Lagrangian, no Jacobian and no mass matrix.
 namespace trammel::references {
 
 struct PlanarWrench {
-  Real x = 0, y = 0, moment = 0;  ///< on the platform, at P
+  Real x = 0, y = 0, moment = 0;  ///< load on the platform at P [N, N m]
 };
 
 using PointJet = Point2<Jet<Real>>;
 
-/// Centers of mass of a link between its joints, and of the platform.
+/// Return the center of mass of a link between its joints, or of the platform.
 [[nodiscard]] PointJet mass_center(const LinkNumbers& link, const PointJet& from,
                                    const PointJet& to);
 [[nodiscard]] PointJet mass_center(const ManipulatorNumbers& manipulator,
                                    const std::array<Jet<Real>, 3>& motion);
 
-/// Direction of the line from one point to another, with its derivatives.
+/// Returns the angle of the line from one point to another, with its time derivatives.
 [[nodiscard]] Jet<Real> direction(const PointJet& from, const PointJet& to);
 
-/// A_i, B_i and C_i of a limb.
-/// @param motion  of the platform: x, y of P and its orientation, with their derivatives
+/// Returns the joints A_i, B_i and C_i of a limb.
+/// @param motion  x, y of P and orientation of the platform, with their time derivatives
 /// @throws DerivationError  if the limb cannot reach.
 [[nodiscard]] std::array<PointJet, 3> limb_joints(const LimbNumbers& limb,
                                                   const std::array<Jet<Real>, 3>& motion);
 
 struct ManipulatorForces {
-  std::array<Real, 3> torque;               ///< of the base on the proximal links
-  std::array<Point2<Real>, 3> on_platform;  ///< of the distal links at C_i
+  std::array<Real, 3> torque;               ///< torques of the base on the proximal links
+  std::array<Point2<Real>, 3> on_platform;  ///< forces of the distal links at C_i
 };
 
 /// Computes the forces between platform and limbs, and the torques of the base on the three

@@ -55,15 +55,15 @@ Knots read_knots(const Arguments& spline) {
   return knots;
 }
 
-/// Slopes at the knots of the cubic spline in Hermite's form: the second derivative is continuous
-/// at the inner knots, and the slopes at the ends are prescribed.
+/// Returns the slopes of a cubic spline at its knots, for Hermite's form. The second derivative is
+/// continuous at the inner knots, and `ends` prescribes a condition at both ends.
 RealVector slopes(const std::vector<Real>& t, const std::vector<Real>& y, const std::string& ends) {
   const std::size_t n = t.size();
   RealMatrix A = RealMatrix::Zero(n, n);
   RealVector b = RealVector::Zero(n);
   const auto h = [&](std::size_t k) { return Real(t[k + 1] - t[k]); };
   const auto chord_slope = [&](std::size_t k) { return Real((y[k + 1] - y[k]) / h(k)); };
-  // Second derivative to the left of the end of interval `k` equals that at the start of `l`.
+  // The second derivatives at the end of interval `k` and at the start of interval `l` are equal.
   const auto smooth = [&](std::size_t row, std::size_t k, std::size_t l) {
     A(row, k) += 2 / h(k);
     A(row, k + 1) += 4 / h(k);

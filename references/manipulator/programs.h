@@ -5,66 +5,67 @@
 #include "references/manipulator/newton_euler.h"
 #include "references/numerics/arguments.h"
 
-/// Programs that derive motions of the planar 3-RRR, and estimates of these motions.
+/// Programs that derive motions of the planar 3-RRR, and estimates of these motions. programs.txt
+/// lists their arguments. Only arguments that need an explanation are described in this file.
 namespace trammel::references {
 
-/// Reads "manipulator", as in a case file, and "gravity_m_s2".
+/// Reads a manipulator from the keys "manipulator", as in a case file, and "gravity_m_s2".
 [[nodiscard]] ManipulatorNumbers read_planar_manipulator(const Arguments& arguments);
 
-/// Reads "force_N" and "moment_N_m".
+/// Reads the load on the platform from the keys "force_N" and "moment_N_m".
 [[nodiscard]] PlanarWrench read_wrench(const Arguments& arguments);
 
-/// Returns "trajectory", for `platform_motion`.
+/// Returns the value of the key "trajectory", which `platform_motion` requires.
 [[nodiscard]] Arguments read_trajectory(const Arguments& arguments);
 
 /// Returns x, y and orientation of the platform with their derivatives at a time. Paths have the
-/// format of "trajectory" in case files: circle, line, rest_to_rest or spline. Jet differentiates
-/// the positions.
-/// @throws DerivationError  with the JSON pointer.
+/// format of "trajectory" in case files: circle, line, rest_to_rest or spline. The positions are
+/// differentiated automatically (Jet).
 [[nodiscard]] std::array<Jet<Real>, 3> platform_motion(const Arguments& trajectory,
                                                        const Real& time);
 
-/// Arguments: manipulator (as in a case file; masses and inertias are numbers, or from density),
-/// trajectory (circle | line | rest_to_rest | spline), times_s.
-/// Further arguments: force_N and moment_N_m (on the platform at P; none by default), gravity_m_s2.
+/// Computes torques of the actuators along a path by inverse dynamics. Masses and inertias are
+/// numbers, or follow from the density. The load force_N, moment_N_m acts on the platform at P.
 /// Values: the torque at A1 at every time, then at A2, then at A3 [N m].
 [[nodiscard]] std::vector<Real> manipulator_torques_program(const Arguments& arguments);
 
-/// Arguments: base_m, platform_m (three points [x, y] each), proximal_m, distal_m, angles_rad
-/// (three numbers each), output (count | poses). Values: the number, or x, y, phi of each, by phi.
+/// Computes all poses of the platform at given angles of the actuators, or their number. Arguments:
+/// base_m, platform_m (three points [x, y] each), proximal_m, distal_m, angles_rad (three numbers
+/// each). Values: the number, or x, y, phi of each pose, ascending in phi.
 /// @throws DerivationError  if two poses are equal, or if three poses are too close for the proof.
 [[nodiscard]] std::vector<Real> assembly_modes_program(const Arguments& arguments);
 
-/// Arguments: as for `manipulator_torques_program`, outputs (names of quantities:
-/// active_angle_rad:A1, passive_velocity_rad_per_s:B1, elbow_sine:B1, distal_tension_N:B1-C1,
-/// center_acceleration_x_m_per_s2:A1-B1, center_x_m:platform, kinetic_energy_J, kinetic_power_W,
-/// actuator_power_W, load_power_W, gravity_power_W, torque_N_m:A1, motion_x_m,
-/// parallel_singularity_distance, serial_singularity_distance, cycle_absolute_work_J, ...),
-/// at_rest (true: the path is a series of static poses without weight), torque_N_m (constant
-/// torques at A1, A2, A3, under which it moves from the start of the path). Values: the first
-/// output at all times, then the second.
+/// Computes quantities of the motion along a path or under constant torques. Arguments: those of
+/// `manipulator_torques_program`, outputs (names of quantities: active_angle_rad:A1,
+/// passive_velocity_rad_per_s:B1, elbow_sine:B1, distal_tension_N:B1-C1, center_x_m:platform,
+/// kinetic_energy_J, actuator_power_W, torque_N_m:A1, parallel_singularity_distance,
+/// cycle_absolute_work_J, ...), at_rest (true: the path is a series of static poses without
+/// weight), torque_N_m (constant torques at A1, A2, A3, under which the manipulator moves from the
+/// start of the path). Values: the first output at all times, then the second.
 [[nodiscard]] std::vector<Real> manipulator_motion_program(const Arguments& arguments);
 
-/// Arguments: manipulator, trajectory, force_N and moment_N_m at P, mass_damping_per_s, times_s
-/// (the first is the start, at rest), outputs (displacement_x_m:P, displacement_y_m:B1,
-/// platform_rotation_rad, torque_N_m:A1, ...). Values: the first output at all times, then the
-/// second.
+/// Computes the vibration of a manipulator with soft links that have mass, about its motion along a
+/// path. The load acts at P. The first of times_s is the start, at rest. Outputs:
+/// displacement_x_m:P, displacement_y_m:B1, platform_rotation_rad, torque_N_m:A1, ...
+/// Values: the first output at all times, then the second.
 [[nodiscard]] std::vector<Real> moving_links_program(const Arguments& arguments);
 
-/// Arguments: manipulator, trajectory, force_N and moment_N_m at P, load_history (time_s, factor:
-/// linear between, constant outside), rate_terms, times_s (the first is the start, at rest),
-/// output (displacement_x_m | displacement_y_m | platform_rotation_rad | kinetic_energy_J |
-/// axial_force_N:B1-C1 ... | torque_N_m:A1 ...). Values: of the output at each time.
+/// Computes the vibration of a platform on elastic links without mass, about its motion along a
+/// path. The load acts at P. Its factor load_history (time_s, factor) is linear between the times,
+/// and constant outside. The first of times_s is the start, at rest. Output: displacement_x_m,
+/// displacement_y_m, platform_rotation_rad, kinetic_energy_J, axial_force_N:B1-C1 ... or
+/// torque_N_m:A1 .... Values: the output at each time.
 [[nodiscard]] std::vector<Real> moving_platform_program(const Arguments& arguments);
 
-/// Arguments: inputs, outputs, queries (arrays of rows); sigma, or spread in the convention of
-/// MATLAB's newgrnn, exp(-(0.8326 D / spread)^2). Values: the outputs at each query.
+/// Computes the estimates of a general regression neural network at each query. Arguments: inputs,
+/// outputs, queries (arrays of rows); sigma, or spread in the convention of MATLAB's newgrnn,
+/// exp(-(0.8326 D / spread)^2).
 [[nodiscard]] std::vector<Real> grnn_program(const Arguments& arguments);
 
-/// Arguments: manipulator, trajectory, force_N, moment_N_m, gravity_m_s2 as for torques; step_s,
-/// train (points, from the first), sigma [N m], queries (numbers of points), output (angles |
-/// velocities). Torques by Newton and Euler train angles and velocities of the active joints.
-/// Values: the predictions for A1 at each query, for A2, for A3 [rad or rad/s].
+/// Computes the angles or velocities of the active joints that a general regression neural network
+/// estimates. It is trained with torques by Newton and Euler along the path. Arguments: step_s,
+/// train (points of the path, from the first), sigma [N m], queries (numbers of points).
+/// Values: the estimates for A1 at each query, for A2, for A3 [rad or rad/s].
 [[nodiscard]] std::vector<Real> manipulator_grnn_program(const Arguments& arguments);
 
 }  // namespace trammel::references

@@ -17,7 +17,7 @@ Real decimal(const Json& number) {
   return Real(number.dump());
 }
 
-/// Returns the entries of a list that is not empty. @param is_valid  test of each entry
+/// Returns the converted entries of an array, which must satisfy `is_valid` and not be empty.
 template <class Convert>
 auto read_array(const Arguments& arguments, const std::string& key, const char* entries,
                 bool (Json::*is_valid)() const noexcept, const Convert& convert) {

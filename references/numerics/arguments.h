@@ -9,24 +9,24 @@
 
 #include "references/numerics/real.h"
 
-/// Reads the arguments of a derivation. Each error message has the JSON pointer and the expected
-/// content.
+/// Reads the arguments of a derivation. Each error message contains the JSON pointer of the invalid
+/// value and the expected value.
 namespace trammel::references {
 
 using Json = nlohmann::json;
 
-/// Arguments that a derivation cannot use, or a model that it cannot solve.
+/// Error of a derivation: invalid arguments, or a model that it cannot solve.
 class DerivationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A JSON object whose keys are all known.
+/// Arguments of a derivation: a JSON object without unknown keys.
 class Arguments {
  public:
   using Default = std::optional<Real>;  ///< value of a missing key; none: the key is required
 
-  /// @param pointer  location of the object, for messages.
+  /// @param pointer  JSON pointer to the object, for error messages.
   /// @throws DerivationError  if `object` is not an object, or has a key that is not in `known`.
   Arguments(const Json& object, std::string pointer, const std::vector<std::string>& known);
   /// Creates arguments from an object whose keys are names that the user chooses.
@@ -37,7 +37,7 @@ class Arguments {
   [[nodiscard]] const Json& operator[](const std::string& key) const;
   [[nodiscard]] std::string pointer(const std::string& key) const;
   [[nodiscard]] std::vector<std::string> keys() const;
-  /// The object at a key.
+  /// Returns the object at a key. Its keys must be in `known`.
   [[nodiscard]] Arguments object(const std::string& key,
                                  const std::vector<std::string>& known) const;
 
@@ -51,15 +51,15 @@ class Arguments {
   /// Returns one of `choices`, or `default_value` if the key is missing.
   [[nodiscard]] std::string choice(const std::string& key, const std::string& default_value,
                                    const std::vector<std::string>& choices) const;
-  /// @param size  of the array; 0: any
+  /// @param size  required size of the array; 0: any size
   [[nodiscard]] std::vector<Real> numbers(const std::string& key, std::size_t size = 0) const;
-  /// Rows of numbers of equal length. @param columns  their length; 0: that of the first row
+  /// @param columns  required length of each row; 0: the length of the first row
   [[nodiscard]] std::vector<std::vector<Real>> rows(const std::string& key,
                                                     std::size_t columns = 0) const;
   [[nodiscard]] std::vector<std::array<Real, 2>> points(const std::string& key,
                                                         std::size_t size) const;
   [[nodiscard]] std::array<Real, 2> point(const std::string& key) const;
-  /// Returns the origin if the key is missing.
+  /// Returns a point, which is the origin if the key is missing.
   [[nodiscard]] std::array<Real, 2> point_or_origin(const std::string& key) const;
   [[nodiscard]] std::vector<std::string> texts(const std::string& key) const;
 

@@ -6,16 +6,16 @@
 
 #include "references/numerics/real.h"
 
-/// Ball arithmetic: a number with a radius. The true number lies within the radius, because the
-/// radius includes all round-off errors. Source: F. Johansson, IEEE Trans. Computers 66(8), 2017,
-/// 1281-1292 (Arb).
+/// Ball arithmetic. A ball consists of a number and a radius. The radius bounds the distance to the
+/// true number, because it includes all round-off errors. Source: F. Johansson, IEEE Trans.
+/// Computers 66(8), 2017, 1281-1292 (Arb).
 namespace trammel::references {
 
 class Ball {
  public:
   Ball() { arb_init(x_); }
   Ball(int value) : Ball() { arb_set_si(x_, value); }  // NOLINT(google-explicit-constructor)
-  /// Ball around a number of 50 digits, of radius 1e-45; radius 0 for an integer.
+  /// Creates a ball around a number of 50 digits. The radius is 1e-45, or 0 for an integer.
   explicit Ball(const Real& value);
   Ball(const Ball& other) : Ball() { arb_set(x_, other.x_); }
   Ball& operator=(const Ball& other) {
@@ -24,9 +24,9 @@ class Ball {
   }
   ~Ball() { arb_clear(x_); }
 
-  /// The middle, as an exact number.
+  /// Returns the center of the ball as an exact number.
   [[nodiscard]] Ball middle() const;
-  /// Returns the number with 30 digits: "1.87510406871196116644530824107".
+  /// Returns the number with 30 digits, such as "1.87510406871196116644530824107".
   /// @throws DerivationError  if the ball is wider than a tenth of the last digit.
   [[nodiscard]] std::string digits() const;
   /// Returns the only integer in the ball.
@@ -41,12 +41,12 @@ class Ball {
   Ball& operator+=(const Ball& b) { return *this = *this + b; }
   Ball& operator-=(const Ball& b) { return *this = *this - b; }
 
-  // Returns true or false if the relation is true or false for all numbers of both balls.
+  // Comparisons return true or false if they are true or false for all numbers of both balls.
   /// @throws DerivationError  if the balls overlap.
   friend bool operator<(const Ball& a, const Ball& b) { return decide(a, b, arb_lt, arb_ge); }
   friend bool operator>(const Ball& a, const Ball& b) { return decide(a, b, arb_gt, arb_le); }
   friend bool operator>=(const Ball& a, const Ball& b) { return decide(a, b, arb_ge, arb_lt); }
-  /// Returns true if both are the same exact number.
+  /// Returns true if both balls are the same exact number.
   friend bool operator==(const Ball& a, const Ball& b) {
     return arb_is_exact(a.x_) != 0 && arb_equal(a.x_, b.x_) != 0;
   }

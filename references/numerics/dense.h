@@ -14,8 +14,8 @@ using RealMatrix = Matrix<Real>;
 using RealVector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
 
 /// Solves A x = b by Gaussian elimination with partial pivoting.
-/// @param problem  message of the error
-/// @throws DerivationError  if a pivot is below `min_pivot`, because A is singular then.
+/// @param problem  error message if A is singular
+/// @throws DerivationError  if a pivot is at most `min_pivot`.
 [[nodiscard]] inline RealVector solve(const RealMatrix& A, const RealVector& b, const char* problem,
                                       const Real& min_pivot = Real("1e-40")) {
   const Eigen::PartialPivLU<RealMatrix> lu(A);

@@ -26,7 +26,7 @@ const std::map<std::string, Real (*)(const Real&)>& functions() {
   return table;
 }
 
-/// sum = power (operator power)*, where * and / bind closer than + and -;
+/// Grammar: sum = power (operator power)*, where * and / bind closer than + and -;
 /// power = '-' power | primary ('^' power)?;
 /// primary = number | name | function '(' sum ')' | '(' sum ')'.
 class Parser {
@@ -56,7 +56,7 @@ class Parser {
     return true;
   }
 
-  /// Reads operators of a rank and above: 1 for + and -, 2 for * and /.
+  /// Evaluates operators of at least a rank: rank 1 for + and -, rank 2 for * and /.
   Real operation(int rank) {
     if (rank > 2) return power();
     Real value = operation(rank + 1);

@@ -5,12 +5,11 @@
 
 #include "references/numerics/real.h"
 
-/// Initial value problems in extended precision.
+/// Integration of initial value problems in extended precision.
 namespace trammel::references {
 
-/// Integrates dx/dt = f(x, t) over an interval by Fehlberg's method of order 8.
+/// Integrates dx/dt = f(x, t) over an interval by Fehlberg's method of order 8 with equal steps.
 /// @param rate  function rate(x, dxdt, t), which computes dx/dt
-/// @param steps  number of equal steps
 template <std::size_t n, class Rate>
 void integrate(const Rate& rate, std::array<Real, n>& x, const Real& from, const Real& to,
                int steps) {

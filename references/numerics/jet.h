@@ -2,11 +2,11 @@
 
 #include <cmath>
 
-/// A quantity along a motion with its first and second time derivative. Each operation applies the
-/// rules of differentiation, so that formulas of positions also yield velocities and accelerations.
+/// Quantity of a motion with its first and second time derivative. Each operation applies the rules
+/// of differentiation, so that formulas of positions also yield velocities and accelerations.
 namespace trammel::references {
 
-/// @tparam T  the scalar: Real, or any number with + - * / sqrt, sin and cos.
+/// @tparam T  scalar type: Real, or any number with + - * / sqrt, sin and cos.
 template <class T>
 struct Jet {
   T value = 0, rate = 0, acceleration = 0;
@@ -47,7 +47,7 @@ struct Jet {
   [[nodiscard]] friend bool operator<(const Jet& a, const T& b) { return a.value < b; }
 
  private:
-  /// Returns f(a), given f, f' and f'' at the value of a.
+  /// Returns f(a) with its time derivatives, from f, f' and f'' at the value of a.
   [[nodiscard]] static Jet chain_rule(const Jet& a, const T& f, const T& df, const T& ddf) {
     return {f, df * a.rate, ddf * a.rate * a.rate + df * a.acceleration};
   }

@@ -6,21 +6,20 @@
 #include <functional>
 #include <vector>
 
-/// Extended precision of derived references: 50 decimal digits, rounded to a double at the end.
-/// Roots of characteristic equations in this precision.
+/// Extended precision for derived references: 50 decimal digits. Results are rounded to a double.
+/// Roots of characteristic equations are computed in this precision.
 namespace trammel::references {
 
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float_50::backend_type,
                                            boost::multiprecision::et_off>;
 
-/// pi in the precision of T.
 template <class T>
 [[nodiscard]] T pi() {
   static const T value = acos(T(-1));
   return value;
 }
 
-/// Returns C and S = C integrated from 0 to x, with C = cosh(k x) or cos(|k| x) by the sign of k^2.
+/// Returns C and its integral S from 0 to x. C is cosh(k x) if k^2 > 0, and cos(|k| x) otherwise.
 /// Both are divided by cosh(k x) if k^2 > 0.
 template <class T>
 [[nodiscard]] std::array<T, 2> wave_functions(const T& k2, const T& x) {

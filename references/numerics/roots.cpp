@@ -12,7 +12,7 @@ Real refined_root(const std::function<Real(const Real&)>& f, const Real& lo, con
   const Real f_hi = f(hi);
   if (f_lo == 0) return lo;
   if (f_hi == 0) return hi;
-  if ((f_lo > 0) == (f_hi > 0)) throw DerivationError("no change of sign between the bounds");
+  if ((f_lo > 0) == (f_hi > 0)) throw DerivationError("the function does not change sign");
   std::uintmax_t iterations = 500;
   const auto close = [](const Real& a, const Real& b) {
     return abs(b - a) <= Real(1e-45) * (abs(a) + abs(b));

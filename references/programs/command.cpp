@@ -42,11 +42,11 @@ void print_values(const Comparison& comparison, std::ostream& out) {
   }
   if (comparison.derived.size() > comparison.stored.size()) {
     out << "  " << comparison.derived.size() - comparison.stored.size()
-        << " more derived than stored\n";
+        << " derived values are not stored\n";
   }
 }
 
-/// Prints the values of a proved reference whose digits differ.
+/// Prints the values of a proved reference whose stored digits differ from the proved digits.
 void print_proved(const Comparison& comparison, std::ostream& out) {
   const std::vector<std::string>&stored = comparison.printed, &proved = comparison.proved;
   if (stored.empty()) return;
@@ -72,7 +72,7 @@ bool print_comparison(const Comparison& comparison, std::ostream& out) {
   return comparison.within_uncertainty();
 }
 
-/// @param place  a family file, or FILE:ID for one reference of the file
+/// Prints the comparisons of a family file, or of a single reference (FILE:ID).
 bool print_comparisons(const std::string& place, std::ostream& out) {
   const std::size_t colon = place.rfind(".json:");
   const std::string file = colon == std::string::npos ? place : place.substr(0, colon + 5);
@@ -141,7 +141,7 @@ Comparison compare_with_derivation(const Json& json, const std::string& file,
     if (!result.printed.empty()) result.proved = prove(result.program, derivation["arguments"]);
   } catch (const DerivationError& error) {
     const std::string message = error.what();
-    const bool is_pointer = message.rfind('/', 0) == 0;  // into the arguments
+    const bool is_pointer = message.rfind('/', 0) == 0;  // pointer into the arguments
     throw DerivationError(
         (is_pointer ? derivation.pointer("arguments") : file + ": /" + id + "/derivation: ") +
         message);

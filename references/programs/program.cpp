@@ -24,8 +24,8 @@ Json with_value(Json arguments, const std::vector<std::string>& pointers, const 
   return arguments;
 }
 
-/// Names of a program's arguments: the words of its line "arguments:" in programs.txt, without the
-/// remarks in parentheses.
+/// Returns the names of the arguments of a program: the words of its line "arguments:" in
+/// programs.txt, without the remarks in parentheses.
 std::vector<std::string> argument_names(const std::string& program) {
   static const std::regex remark(R"(\([^()]*\))"), name(R"(\w+)");
   const std::string label = "    arguments: ", text = "\n" + embedded_text("programs.txt");
@@ -47,9 +47,9 @@ std::vector<Real> run_program(const std::string& program, const Json& arguments)
   return program_of(program).run(Arguments(arguments, "", argument_names(program)));
 }
 
-/// Runs another program at each of several values of a parameter, for the exact values of a
-/// parameter study. Arguments: program, arguments, pointers (JSON pointers into the arguments) and
-/// values, or patches (merge patches of the arguments).
+/// Runs another program at each value of a parameter, for the exact results of a parameter study.
+/// Arguments: program, arguments, pointers (JSON pointers into the arguments) and values, or
+/// patches (merge patches of the arguments).
 /// @throws DerivationError  if the arguments have no value at a pointer.
 std::vector<Real> parameter_sweep_program(const Arguments& arguments) {
   const std::string program = arguments.text("program");

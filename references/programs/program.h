@@ -8,56 +8,54 @@
 
 #include "references/numerics/arguments.h"
 
-/// Programs that derive references again, and the command trammel_derive. A reference states its
-/// program and arguments as "derivation": {"program": NAME, "arguments": {...}}.
+/// Programs that derive stored references again, and the command trammel_derive. A reference file
+/// contains the program and its arguments as "derivation": {"program": NAME, "arguments": {...}}.
 namespace trammel::references {
 
 struct Program {
   std::function<std::vector<Real>(const Arguments&)> run;
-  /// Returns the same values as proved enclosures: 30 digits each, the last uncertain by one. Empty
-  /// if there is no proof.
+  /// Returns the values of the program as proved enclosures with 30 digits, the last uncertain by
+  /// one. The function is empty if the program has no proof.
   std::function<std::vector<std::string>(const Arguments&)> prove = {};
 };
 
-/// Returns the program of a name. programs.txt lists what each program derives, the source of its
-/// equation and its arguments.
+/// Returns all programs by name. programs.txt lists the results, equations, sources and arguments.
 [[nodiscard]] const std::map<std::string, Program>& programs();
 
-/// Returns the values of a program, in SI.
-/// @throws DerivationError  unknown program or unusable arguments; the pointer is relative to them.
+/// Returns the values that a program derives from its arguments, in SI units.
+/// @throws DerivationError  unknown program or invalid arguments, with a JSON pointer into these.
 [[nodiscard]] std::vector<double> derive(const std::string& program, const Json& arguments);
 
-/// Prove the values of the programs frame-frequencies and beam-roots.
+/// Return proved values of the programs frame-frequencies and beam-roots, 30 digits each.
 [[nodiscard]] std::vector<std::string> prove_frame_frequencies(const Arguments& arguments);
 [[nodiscard]] std::vector<std::string> prove_beam_roots(const Arguments& arguments);
 
 /// Returns the values that a program proves, 30 digits each.
-/// @throws DerivationError  if it has no proof, and as `derive`.
+/// @throws DerivationError  if the program has no proof, and in the cases of `derive`.
 [[nodiscard]] std::vector<std::string> prove(const std::string& program, const Json& arguments);
 
 struct Comparison {
   std::string id;
-  std::string program;  ///< empty: the file has no derivation
+  std::string program;  ///< empty: the reference has no derivation
   std::string unit;
   std::vector<double> stored;
-  std::vector<double> uncertainty;           ///< absolute, one per value
+  std::vector<double> uncertainty;           ///< absolute uncertainty of each value
   std::vector<double> derived;               ///< empty if there is no derivation
-  std::vector<std::string> printed, proved;  ///< digits stored and proved again, of kind "proved"
+  std::vector<std::string> printed, proved;  ///< stored and derived digits of kind "proved"
 
   /// Returns true if every derived value lies within the stated uncertainty of the stored value,
   /// and if the proved digits are the stored digits.
   [[nodiscard]] bool within_uncertainty() const;
 };
 
-/// Derives a reference again.
-/// @param reference  a reference with the common keys of its family.
+/// Derives the values of a reference again and compares them with the stored values.
+/// @param reference  JSON of the reference with the common keys of its family.
 /// @param file  name of the file in messages.
 /// @throws DerivationError, ReferenceError  with the file and the JSON pointer inside it.
 [[nodiscard]] Comparison compare_with_derivation(const Json& reference, const std::string& file,
                                                  const std::string& id);
 
 /// Runs the command trammel_derive.
-/// @param command_line  its words, without the name of the program.
 /// @returns  the exit status: 0 all values agree, 1 a derived value differs from the stored one,
 ///           2 bad usage or input (one line on `err`), 3 internal error.
 [[nodiscard]] int derive_command(const std::vector<std::string>& command_line, std::ostream& out,

@@ -3,15 +3,15 @@
 #include "references/numerics/ball.h"
 #include "references/programs/program.h"
 
-/// Natural frequencies as proved enclosures: the count of Wittrick and Williams in ball arithmetic
-/// is an integer that no rounding can change. If two counts differ by m, then m frequencies lie
-/// between them. A proof relies on the theorem, on the formulas of `dynamic_stiffness.cpp` and on
-/// Arb.
+/// Natural frequencies as proved enclosures. In ball arithmetic, rounding cannot change the count
+/// of Wittrick and Williams, which is an integer. If the counts at two frequencies differ by m,
+/// then m natural frequencies lie between these. A proof relies on the theorem, on the formulas of
+/// `dynamic_stiffness.cpp` and on Arb.
 namespace trammel::references {
 namespace {
 
-/// Variable x of the search, such as the frequency in Hz: its monotonic function w(x), the circular
-/// frequency, and approximations `near` of x at the first natural frequencies.
+/// Variable x of the search for natural frequencies, such as the frequency in Hz. w(x) is the
+/// circular frequency, and `near` contains approximations of x at the first natural frequencies.
 struct Variable {
   Ball (*w)(const Ball& x);
   std::vector<Real> near;
@@ -42,8 +42,9 @@ class Proof {
 
   [[nodiscard]] int count(const Ball& x) const { return stiffness_.count(variable_.w(x)).below; }
 
-  /// Encloses the next x at which the count increases, by bisection to its 32nd digit. The count
-  /// does not change between the previous enclosure and this one, so that no frequency is missed.
+  /// Encloses the next x at which the count of natural frequencies increases, by bisection to its
+  /// 32nd digit. The count does not change between the previous enclosure and this one, so that no
+  /// frequency is missed.
   /// @param x  approximation of the result
   Passage next(const Ball& x) {
     Ball width = x * Ball(Real("1e-18"));
@@ -52,7 +53,7 @@ class Proof {
     if (count(low) != below_) low = last_;
     if (count(low) != below_) throw DerivationError("a frequency lies below the first estimate");
     for (int i = 0; count(high) <= below_; ++i) {
-      if (i > 5) throw DerivationError("no frequency lies near its approximation");
+      if (i > 5) throw DerivationError("no natural frequency is near its approximate value");
       width = width * 1000;
       high = (x + width).middle();
     }
@@ -69,7 +70,7 @@ class Proof {
 
   DynamicStiffness<Ball> stiffness_;
   const Variable& variable_;
-  int below_;  ///< frequencies below `last_`
+  int below_;  ///< number of natural frequencies below `last_`
   Ball last_;  ///< upper end of the previous enclosure
 };
 

@@ -12,7 +12,7 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr int kMaxTargetDigits = 8;  ///< a target with more digits is rounded
+constexpr int kMaxTargetDigits = 8;  ///< largest number of digits of a target
 
 std::string with_unit(const std::string& number, const std::string& unit) {
   const std::string symbol = display_unit(unit);
@@ -54,8 +54,8 @@ int ratio_digits(double ratio) {
   return distinguishing_digits(ratio, 1) + (ratio > 1 && ratio < 1.1 ? 1 : 0);
 }
 
-/// Returns a limit or a difference as a percentage, as a ratio, or with its unit, as the check
-/// measures it.
+/// Returns a tolerance limit or a difference as text: as a percentage, as a ratio, or with its
+/// unit, depending on the measure of the check.
 std::string measured_text(const Check& check, double x, bool sign) {
   if (check.measure == "relative") return relative(x, 3, sign);
   if (check.measure == "ratio") return trimmed(x, ratio_digits(x));
@@ -82,7 +82,7 @@ std::string check_title(const Check& check) {
 std::string target_text(const Check& check) {
   if (check.measure == "validation") return "as recorded";
   if (!check.expected) return check.measure == "bound" && check.tolerance ? bound_text(check) : "–";
-  // A printed value is shown with all its digits, unless it has too many.
+  // A target with at most kMaxTargetDigits digits is shown with all digits.
   const int own = digits_in(shortest_decimal(*check.expected));
   if (own <= kMaxTargetDigits) return significant(*check.expected, own);
   return significant(*check.expected, digits_for(check));
@@ -105,7 +105,7 @@ std::string difference_text(const Check& check, double difference) {
 
 std::string difference_text(const Check& check) {
   if (check.measure == "bound") {
-    // An upper limit has a used fraction. A range contains the value or does not.
+    // The text for an upper limit is its used fraction; for a range it is "within" or "outside".
     const double used = tolerance_fraction(check);
     if (!std::isfinite(used)) return "–";
     if (check.tolerance->low) return used <= 1 ? "within" : "outside";
@@ -174,7 +174,7 @@ std::string failure_text(const CheckGroup& group) {
 std::string work_counters_text(const Counters& counters) {
   std::string text;
   for (const auto& [name, n] : counters) {
-    if (n == 0 && name == "steps") continue;  // most runs have no steps
+    if (n == 0 && name == "steps") continue;  // omitted, because most runs have no steps
     std::string digits = std::to_string(n);
     for (auto place = static_cast<std::ptrdiff_t>(digits.size()) - 3; place > 0; place -= 3)
       digits.insert(static_cast<std::size_t>(place), "\u202f");

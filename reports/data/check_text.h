@@ -7,11 +7,12 @@
 #include "harness/results/check_groups.h"
 #include "reports/data/results.h"
 
-/// Status of checks, and the numbers of checks as text.
+/// Status of a check (comparison of a computed value with a target), and its values as text.
 namespace trammel::reports {
 
-/// Status of a check on the page. The verdict of a known discrepancy is "pass" while its difference
-/// is in the recorded range. The page shows a separate status, because the numbers do not agree.
+/// Status of a check on the report pages. A check with a known discrepancy has the verdict "pass"
+/// while its difference from the target stays in the recorded range. The page shows a separate
+/// status for it, because the computed value does not agree with the target.
 enum class CheckStatus {
   passes,
   known_discrepancy,
@@ -44,34 +45,34 @@ static_assert(kStatusStyles.back().status == static_cast<CheckStatus>(kStatusSty
 static_assert(kStatusStyles[4].status == static_cast<CheckStatus>(4));
 [[nodiscard]] const StatusStyle& style_of(CheckStatus status);
 
-/// Returns true for a check that fails, that has left its recorded range, or that has no result.
+/// Returns true if a check fails, ends with an error, or has a known discrepancy outside its range.
 [[nodiscard]] bool is_failure(CheckStatus status);
 [[nodiscard]] CheckStatus check_status(const Check& check);
 
-/// Returns the status of the end of a run. A run that is singular or did not converge passes if it
-/// has checks and all of them pass, because its case then expects this end.
+/// Returns the status of the end of a run. A run that ends with a singular matrix or without
+/// convergence passes if it has checks and all checks pass, because its case then expects this end.
 [[nodiscard]] CheckStatus check_status(const Run& run);
 
 /// Number of checks of each status.
 using Counts = std::map<CheckStatus, std::size_t>;
 [[nodiscard]] std::size_t count_of(const Counts& counts, CheckStatus status);
 [[nodiscard]] std::size_t total(const Counts& counts);
-/// Adds the checks of a run. A check counts once, by its worst number.
+/// Counts the checks of a run. A check of several values counts once, with its worst value.
 void add(Counts& counts, const Run& run);
 [[nodiscard]] bool all_checks_pass(const Counts& counts);
 
-// Numbers of a check as text in the cells of a table.
+// Values of a check as text for the cells of a table.
 
 [[nodiscard]] std::string target_text(const Check& check);
 [[nodiscard]] std::string computed_text(const Check& check);
 [[nodiscard]] std::string difference_text(const Check& check);
 [[nodiscard]] std::string tolerance_text(const Check& check);
 
-/// Returns a difference as the check measures it: relative "+26 %", absolute "−3 × 10⁻⁸ N", or as a
-/// ratio "× 1.02".
+/// Returns the difference from the target in the measure of the check: relative "+26 %", absolute
+/// "−3 × 10⁻⁸ N", or as a ratio "× 1.02".
 [[nodiscard]] std::string difference_text(const Check& check, double difference);
 
-/// Returns the comparison of a check with its validation uncertainty; null if there is none.
+/// Returns the comparison of the difference of a check with its validation uncertainty, or null.
 [[nodiscard]] const Comparison* find_comparison(const Run& run, const Check& check);
 
 /// Returns the title of the check, or its name if it has none.
@@ -81,12 +82,12 @@ void add(Counts& counts, const Run& run);
 /// displacement of P, against rigid-platform (m)".
 [[nodiscard]] std::string quantity_text(const Check& check);
 
-/// Returns the name of the checked entry of a quantity: "mode 3", "point 37" or "2". Empty for a
-/// check without an index.
-/// @param entries  number of checked entries of the quantity
+/// Returns a name for one of several values of a quantity: "mode 3", "point 37" or "2". The name is
+/// empty for a check without an index.
+/// @param entries  number of checked values of the quantity
 [[nodiscard]] std::string entry_text(const Check& check, std::size_t entries);
 
-/// Returns the number of failures of a group and its worst entry in one line.
+/// Returns one line about a check that fails: its number of failed values, and the worst value.
 [[nodiscard]] std::string failure_text(const CheckGroup& group);
 
 /// Returns the counted work of a run: "192 element evaluations, 2 factorizations".

@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Ignores SIGPIPE from construction to destruction. If gnuplot closes its pipe, writing to the
-/// pipe then fails instead of ending the program.
+/// Ignores the signal SIGPIPE while an object of this class exists. If gnuplot closes its pipe,
+/// writing to the pipe then fails instead of ending the program.
 class NoBrokenPipe {
  public:
   NoBrokenPipe() : previous_(std::signal(SIGPIPE, SIG_IGN)) {}
@@ -35,7 +35,7 @@ class NoBrokenPipe {
   void (*previous_)(int);
 };
 
-/// Returns the common settings of all figures. Texts are not marked up (noenhanced).
+/// Returns the gnuplot settings of all figures. Texts have no markup (noenhanced).
 std::string preamble(const Figure& figure, const fs::path& svg) {
   std::ostringstream out;
   out << "reset session\n"
@@ -57,10 +57,10 @@ std::string preamble(const Figure& figure, const fs::path& svg) {
   return out.str();
 }
 
-/// Returns attributes with the ranges, pixel positions and labels of both axes. The script of the
-/// page uses them to show the values of a curve at the pointer. Empty if an axis has no label, and
-/// for drawings with equal scales of x and y, which show positions.
-/// @param extent  file of gnuplot: ranges of x and y, then their pixel positions (y from below)
+/// Returns SVG attributes with the ranges, pixel positions and labels of both axes. The script of
+/// the page uses them to show the values of a curve at the pointer. The text is empty if an axis
+/// has no label, or if both axes have the same scale, because such drawings show positions.
+/// @param extent  file by gnuplot with the ranges of x and y, and their pixel positions (y upwards)
 std::string axes_of(const Figure& figure, const fs::path& extent) {
   const auto label = [&](const std::string& start) {
     const std::size_t at = figure.commands.find(start);
@@ -90,7 +90,7 @@ fs::path svg_path(const fs::path& folder, const Figure& figure) {
   return folder / (figure.id + ".svg");
 }
 
-/// Returns the head of the file of a drawing, with a hash of the drawing and of its inputs.
+/// Returns the first lines of an SVG file, with a hash of the drawing and of its inputs.
 std::string head_of(const Figure& figure, const std::string& program, const std::string& svg) {
   const std::string all =
       program + preamble(figure, "/") + figure.commands + figure.title + figure.alt + svg;
@@ -129,8 +129,7 @@ void draw_by_gnuplot(const std::vector<Figure*>& figures, const fs::path& folder
   for (Figure* figure : figures) {
     const fs::path path = svg_path(folder, *figure);
     const std::string drawn = fs::exists(path) ? read_file(path) : "";
-    if (drawn.find("</svg>") ==
-        std::string::npos)  // gnuplot reports no error, for example if the disk is full
+    if (drawn.find("</svg>") == std::string::npos)  // gnuplot does not report write errors
       throw std::system_error(EIO, std::generic_category(),
                               path.string() + ": the drawing is incomplete");
     figure->svg = tidy_svg(drawn, figure->id, figure->title, figure->alt);
@@ -178,8 +177,7 @@ void draw(const std::vector<Figure*>& figures, const fs::path& folder, const fs:
   for (Figure* figure : figures) {
     write_file(svg_path(folder, *figure), head_of(*figure, program, figure->svg) + figure->svg);
     write_file(folder / (figure->id + ".csv"), to_csv(figure->data));
-    if (!figure->moving.empty() &&
-        !figure->is_linked)  // the script of the page animates it, and cannot read other files
+    if (!figure->moving.empty() && !figure->is_linked)  // the script cannot animate linked files
       figure->svg.insert(figure->svg.rfind("</svg>"),
                          "<metadata>" + xml_escaped(figure->moving) + "</metadata>\n");
   }

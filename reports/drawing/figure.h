@@ -11,15 +11,15 @@ namespace trammel::reports {
 /// A figure: commands for gnuplot, its data as a table, and the drawing.
 struct Figure {
   std::string id;       ///< slug for the names of files and the anchor, unique within the report
-  std::string title;    ///< subject
+  std::string title;    ///< subject of the figure
   std::string caption;  ///< plotted data, then the conclusion
   std::string alt;      ///< description of the picture for screen readers
-  int width = 500, height = 360;  ///< of the drawing, before it is scaled to its column [px]
+  int width = 500, height = 360;  ///< size before scaling to the column [px]
   std::string commands;           ///< gnuplot commands of a PlotScript
   Table data;
-  std::string moving = {};  ///< JSON of an animation; empty: not animated
+  std::string moving = {};  ///< JSON of an animation; empty if the figure is not animated
   bool is_linked = false;   ///< the page loads the drawing when it comes into view
-  int number = 0;           ///< on its page, from 1
+  int number = 0;           ///< number on the page, from 1
   std::string svg = {};     ///< the drawing as an element with unique ids
 };
 
@@ -32,8 +32,8 @@ struct Figure {
 
 /// Draws all figures with one gnuplot process. Sets `svg`, and writes <id>.svg and <id>.csv for
 /// each figure into `folder`.
-/// @param former   folder of earlier drawings, which are used again if unchanged; empty: none
-/// @param program  version of this program; drawings of other versions are not used
+/// @param former   folder of earlier drawings, which are reused if unchanged; empty: no reuse
+/// @param program  version of this program; drawings of other versions are not reused
 /// @throws std::runtime_error  if a figure cannot be drawn or written.
 void draw(const std::vector<Figure*>& figures, const std::filesystem::path& folder,
           const std::filesystem::path& former = {}, const std::string& program = {});

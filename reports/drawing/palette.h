@@ -6,8 +6,8 @@
 namespace trammel::reports::palette {
 
 /// Colors of all figures. They are distinguishable with the common types of color blindness and in
-/// gray print (after Okabe and Ito, darkened for thin lines on white). figure.css maps each color
-/// to one for dark pages, so that a new color needs a line there.
+/// gray print (after Okabe and Ito, darkened for thin lines on white). The file figure.css maps
+/// each color to a color for dark pages. A new color needs a line in this file.
 inline constexpr const char* kPaper = "#ffffff";
 inline constexpr const char* kInk = "#1d232b";
 inline constexpr const char* kMuted = "#5b6470";
@@ -20,10 +20,10 @@ inline constexpr const char* kPlate = "#dde6f0";
 
 inline constexpr std::array<const char*, 7> kSeries = {"#1f5fa8", "#c8500a", "#16806a", "#a3478f",
                                                        "#4a9fd4", "#b0830a", "#5b6470"};
-/// Classes of a map, from low to high: light to dark blue.
+/// Colors of the value classes of a map: light blue for low values to dark blue for high values.
 inline constexpr std::array<const char*, 7> kSequence = {"#e3edf7", "#c3d9ee", "#98bfe1", "#6a9fd0",
                                                          "#437eb8", "#265c96", "#123b6b"};
-/// Point types of gnuplot for the series: disc, square, triangle, diamond, ...
+/// Point types of gnuplot for the curves of a figure: disc, square, triangle, diamond, ...
 inline constexpr std::array<int, 7> kFilledPoint = {7, 5, 9, 13, 11, 15, 7};
 inline constexpr std::array<int, 7> kOpenPoint = {6, 4, 8, 12, 10, 14, 6};
 

@@ -10,9 +10,9 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxKeyCharacters = 38;  ///< of a title, so that the key has room for it
+constexpr std::size_t kMaxKeyCharacters = 38;  ///< longer titles do not fit into the key
 
-/// Returns a row of data; empty, which interrupts the line, if a number is not finite.
+/// Returns a data row. If a number is not finite, the row is empty, which interrupts the curve.
 std::string row_text(const std::vector<double>& row) {
   std::string out;
   for (const double x : row) {

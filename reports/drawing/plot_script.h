@@ -14,7 +14,7 @@ namespace trammel::reports {
 /// escapes, so that a path cannot end the string, be expanded or contain a command.
 [[nodiscard]] std::string gnuplot_path(const std::filesystem::path& path);
 
-/// Returns a tic of an axis, with its text and its position, for `set xtics (...)`.
+/// Returns a tick mark with its text and position, for the gnuplot command `set xtics (...)`.
 [[nodiscard]] std::string tic(const std::string& text, double at);
 
 /// Returns at most `max_characters` characters; a shortened text ends with an ellipsis.
@@ -28,27 +28,28 @@ namespace trammel::reports {
 /// `gnuplot_string`, so that they cannot become commands.
 class PlotScript {
  public:
-  /// Rows of points. An empty row interrupts a line.
+  /// Rows of data points. An empty row interrupts a curve.
   using Rows = std::vector<std::vector<double>>;
 
   void command(const std::string& line);
 
-  /// Adds a curve to the current plot if it has rows. A curve without a title is not in the key.
-  /// @param style  follows the data source: "using 1:2 with lines lw 2"
+  /// Adds a curve to the current plot if it has rows. A curve without a title has no entry in the
+  /// legend.
+  /// @param style  gnuplot options of the curve: "using 1:2 with lines lw 2"
   void curve(const Rows& rows, const std::string& style, const std::string& title = "");
 
-  /// Adds an entry of the key without a curve.
+  /// Adds an entry to the key (legend) without a curve.
   void key_entry(const std::string& style, const std::string& title);
 
-  /// Adds a text.
+  /// Adds a text to the plot.
   /// @param place  position and options of gnuplot: "graph 0.1,0.2 left"
   void label(const std::string& text, const std::string& place);
 
-  /// Draws the curves that were added since the last call, at least one.
+  /// Plots the curves that were added since the last call. At least one curve is required.
   void plot();
 
-  /// Places the key below the plot, in as many columns as its texts permit.
-  /// @returns its height [px].
+  /// Places the key (legend) below the plot, in as many columns as the titles permit.
+  /// @returns the height of the key [px].
   int key_below(const std::vector<std::string>& titles);
 
   void range(const std::string& axis, double low, double high);

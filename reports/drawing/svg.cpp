@@ -22,8 +22,8 @@ void replace_all(std::string& text, const std::string& from, const std::string& 
     text.replace(at, from.size(), to);
 }
 
-/// Removes every part from `open` to `close`, including both.
-/// @returns the text between them in the first part.
+/// Removes all parts of a text that start with `open` and end with `close`.
+/// @returns the text between `open` and `close` in the first part.
 std::string cut(std::string& text, const std::string& open, const std::string& close) {
   std::string first;
   for (std::size_t at = text.find(open); at != std::string::npos; at = text.find(open, at)) {
@@ -47,14 +47,15 @@ void shorten_colors(std::string& text) {
   }
 }
 
-/// Attributes that gnuplot repeats for every group. They are set on the root, are defaults, or have
-/// no effect, because every path, point and text has a color.
+/// Removable SVG attributes that gnuplot repeats for every group. Each is set on the root element,
+/// is a default, or has no effect, because every path, point and text has a color.
 constexpr const char* kCommonAttributes =
     R"(fill="none" stroke-linecap="butt" stroke-linecap="round" stroke-linejoin="miter"
        stroke-linejoin="round" stroke-width="1.00" font-family="Helvetica" font-size="15.00"
        color="black" stroke="currentColor" stroke="none" class="gridline" text-anchor="middle")";
 
-/// Simplifies the lines of a path and rounds them to tenths of a unit. Single points are invisible.
+/// Simplifies the lines of an SVG path and rounds coordinates to tenths of a unit. Lines of a
+/// single point are omitted.
 std::string short_path(const std::string& path) {
   using Line = boost::geometry::model::linestring<boost::geometry::model::d2::point_xy<double>>;
   std::string out;
@@ -80,7 +81,7 @@ std::string short_path(const std::string& path) {
   return out;
 }
 
-/// Shortens all paths. Polygons become paths.
+/// Shortens all paths of an SVG drawing, and converts polygons to paths.
 void shorten_paths(std::string& text) {
   const std::string open = " d='";
   replace_all(text, " " + open, open);
@@ -104,7 +105,7 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
-/// Removes empty groups, and the tags of groups without attributes.
+/// Removes empty groups from an SVG drawing, and the tags of groups without attributes.
 std::string without_idle_groups(std::string text) {
   replace_all(text, "<g", "\n<g");
   replace_all(text, "</g>", "\n</g>\n");
@@ -127,8 +128,8 @@ std::string without_idle_groups(std::string text) {
   return out;
 }
 
-/// Returns the definitions of the symbols that `body` uses directly or through other symbols. Each
-/// symbol is defined before the symbols that use it.
+/// Returns the SVG definitions of the symbols that `body` uses directly or through other symbols.
+/// Each symbol is defined before the symbols that use it.
 std::string symbols(const std::string& definitions, const std::string& body) {
   const std::vector<std::string> lines = lines_of(definitions);
   std::string used;
@@ -149,13 +150,13 @@ std::string tidy_svg(const std::string& text, const std::string& id, const std::
   const std::size_t start = text.find("<svg");
   const std::size_t end = text.rfind("</svg>");
   if (start == std::string::npos || end == std::string::npos)
-    throw std::runtime_error("not a complete SVG");
+    throw std::runtime_error("gnuplot: the SVG drawing is incomplete");
   const std::size_t open = text.find('>', start) + 1;
   std::string head = text.substr(start, open - start), body = text.substr(open, end - open);
   const std::string definitions = cut(body, "<defs>", "</defs>");
   cut(body, "<title>", "</title>");
   cut(body, "<desc>", "</desc>");
-  // Groups have ids that repeat in each drawing and are not used.
+  // The ids of groups are removed, because they repeat in each drawing and are not used.
   for (std::size_t at = body.find("<g id="); at != std::string::npos; at = body.find("<g id=", at))
     body.replace(at, body.find('>', at) + 1 - at, "<g>");
   shorten_colors(body);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMinEntries = 3, kMaxEntries = 16;
 
-/// Entries of a run that are compared with one published reference.
+/// Computed values of a run that are compared with the values of one published reference.
 struct PrintedRow {
   std::string reference;
   std::vector<const Check*> entries;
@@ -38,7 +38,7 @@ std::vector<PrintedRow> printed_rows(const Run& run) {
   return rows;
 }
 
-/// Returns the expanded uncertainty of a computed entry from discretization and inputs [unit].
+/// Returns the expanded uncertainty of a computed value from discretization and inputs [unit].
 double uncertainty_of(const Run& run, const Check& check) {
   const Comparison* found = find_comparison(run, check);
   return found ? 2 * std::hypot(found->u_num.value_or(0), found->u_input.value_or(0)) : 0;

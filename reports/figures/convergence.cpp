@@ -16,11 +16,11 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double kSmallestDrawnError = 1e-17;  ///< smaller errors, also zero, are drawn here
+constexpr double kSmallestDrawnError = 1e-17;  ///< smaller errors are drawn at this value
 
 using Sweeps = std::vector<const Convergence*>;
 
-/// Returns the relative errors; without an exact value, the distances from the extrapolated value.
+/// Returns relative errors: from the exact value or, without one, from the extrapolated value.
 Numbers errors_of(const Convergence& c) {
   Numbers errors = c.error;
   const bool given = std::ranges::any_of(errors, &Number::has_value);
@@ -34,7 +34,7 @@ double drawn_error(double error) {
   return std::max(std::abs(error), kSmallestDrawnError);
 }
 
-/// Returns the largest estimate of the round-off error at each level, over all indices.
+/// Returns the largest estimate of the round-off error at each refinement level.
 PlotScript::Rows roundoff_floor(const Sweeps& sweeps) {
   std::map<double, Interval> roundoff;
   for (const Convergence* c : sweeps)
@@ -75,7 +75,7 @@ void draw_series(PlotScript& script, const Convergence& c, std::size_t i, bool a
   script.key_entry("with linespoints lw 1.4 ps 0.8 pt " + solid + color, series_title(c, alone));
 }
 
-/// Returns the range of the errors at each level, over all indices.
+/// Returns the range of the errors at each refinement level.
 std::map<double, Interval> error_ranges(const Sweeps& sweeps) {
   std::map<double, Interval> ranges;
   for (const Convergence* c : sweeps) {
@@ -90,7 +90,7 @@ std::map<double, Interval> error_ranges(const Sweeps& sweeps) {
 void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interval& extent) {
   if (theory <= 0) return;
   const std::map<double, Interval> ranges = error_ranges(sweeps);
-  // There is most room next to the steepest part of the curve.
+  // The triangle has most room next to the steepest part of the curve.
   double steepest = 0;
   auto start = ranges.end();
   for (auto k = ranges.begin(); k != ranges.end() && std::next(k) != ranges.end(); ++k) {
@@ -125,8 +125,8 @@ bool any_asymptotic(const Sweeps& sweeps) {
       sweeps, [](const Convergence* c) { return harness::contains(c->in_asymptotic_range, true); });
 }
 
-/// Reports the fitted orders and the theoretical order. If the theoretical error has terms of two
-/// orders, it reports the misfit of the two-term law instead.
+/// Reports the fitted and the theoretical orders of convergence. If the theoretical error has terms
+/// of two orders, it reports the misfit of the two-term law instead.
 std::string conclusion(const Sweeps& sweeps) {
   const Convergence& first = *sweeps.front();
   const bool mixed = first.lower_order && first.theory_order;

@@ -12,8 +12,8 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double kSmallestDrawnCostError = 1e-16;  ///< smaller errors, also zero, are drawn here
-constexpr double kMargin = 1.3;                    ///< factor between the points and the frame
+constexpr double kSmallestDrawnCostError = 1e-16;  ///< smaller errors are drawn at this value
+constexpr double kMargin = 1.3;                    ///< ratio of axis limits to outermost points
 
 double drawn_error(const CostStudy& study, const CostSetting& setting) {
   return std::max(study.error(setting).value_or(0), kSmallestDrawnCostError);
@@ -38,7 +38,7 @@ Interval times_of(const CostStudy& study) {
   return times;
 }
 
-/// Returns the first setting of each curve (series of settings).
+/// Returns the first setting of each curve (a curve is a series of settings).
 std::vector<const CostSetting*> curves_of(const CostStudy& study) {
   std::vector<const CostSetting*> curves;
   for (const CostSetting& setting : study.settings) {
@@ -67,8 +67,8 @@ void draw_strip(PlotScript& script, const Strip& strip) {
                                 palette::kMuted + "'");
 }
 
-/// Returns the Pareto front as steps: the time of the cheapest setting within each error.
-/// @param right  largest error
+/// Returns the Pareto front as steps: the time of the cheapest setting for each permitted error.
+/// @param right  largest error of the curve
 PlotScript::Rows steps_of(const CostStudy& study, double right) {
   std::vector<std::pair<double, double>> front;
   for (const CostSetting& setting : study.settings)
@@ -83,7 +83,7 @@ PlotScript::Rows steps_of(const CostStudy& study, double right) {
   return rows;
 }
 
-/// @param first  setting of the curve
+/// @param first  first setting of the curve
 void draw_curve(PlotScript& script, const CostStudy& study, const CostSetting& first,
                 std::size_t number, const Strip& strip) {
   PlotScript::Rows points, outside;

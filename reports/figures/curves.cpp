@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::array<const char*, 5> kDashes = {"", "-", "..", "-.", "-.."};
 
-/// A curve: one quantity of one variant.
+/// A curve of a figure: the values of one quantity of one variant.
 struct Series {
   std::string quantity, variant, label;
   std::size_t color, dash;
@@ -31,7 +31,7 @@ double largest_of(const std::vector<double>& values) {
   return largest;
 }
 
-/// Returns the number to draw. A logarithmic axis shows magnitudes, and omits zeros.
+/// Returns the number to draw for a value. A logarithmic axis shows magnitudes and omits zeros.
 Number drawn_number(const Number& value, bool log) {
   if (!value || !log) return value;
   return *value == 0 ? Number() : Number(std::abs(*value));
@@ -60,8 +60,7 @@ bool has_any(const Run& run, const std::vector<std::string>& names) {
   });
 }
 
-/// Returns the part of a quantity's name that distinguishes it from the other quantities of the
-/// plot.
+/// Returns the words that distinguish the name of a quantity from other names in the plot.
 std::string distinguishing_words(const std::string& name, const PlotRequest& request) {
   const QuantityLabel quantity = parse_quantity(name);
   const bool one_label = std::ranges::all_of(
@@ -70,8 +69,7 @@ std::string distinguishing_words(const std::string& name, const PlotRequest& req
 }
 
 /// Returns the requested quantities of the requested variants. Each variant must have at least one
-/// of the quantities, and at least one variant must have each quantity. Units and lengths must
-/// agree.
+/// quantity, and at least one variant must have each quantity. Units and lengths must agree.
 /// @param problem  set to the reason if there is nothing to draw
 std::vector<Series> collect_series(const CaseInfo& info, const PlotRequest& request,
                                    const std::vector<std::string>& variants,
@@ -98,8 +96,8 @@ std::vector<Series> collect_series(const CaseInfo& info, const PlotRequest& requ
       } else if (parse_quantity(y).unit != parse_quantity(request.y.front()).unit) {
         problem = y + " and " + request.y.front() + " differ in unit";
       } else {
-        // Colors distinguish quantities and dashes variants. Of one quantity, both distinguish
-        // variants.
+        // Colors distinguish quantities, and dash patterns variants. If there is only one quantity,
+        // colors and dash patterns distinguish variants.
         const bool many = request.y.size() > 1;
         std::string label = many ? distinguishing_words(y, request) : info.variant_title(variant);
         if (many && variants.size() > 1) label += ", " + info.variant_title(variant);
@@ -117,8 +115,8 @@ std::vector<Series> collect_series(const CaseInfo& info, const PlotRequest& requ
   return series;
 }
 
-/// Returns the words at the end that two texts have in common: "distance" for "serial distance" and
-/// "parallel distance".
+/// Returns the common last words of two texts: "distance" for "serial distance", "parallel
+/// distance".
 std::string common_end(const std::string& a, const std::string& b) {
   std::size_t n = 0;
   while (n < a.size() && n < b.size() && a[a.size() - 1 - n] == b[b.size() - 1 - n]) ++n;
@@ -128,7 +126,7 @@ std::string common_end(const std::string& a, const std::string& b) {
   return space == std::string::npos ? "" : end.substr(space + 1);
 }
 
-/// Returns a label for all quantities: their common words, else "value".
+/// Returns a label for several quantities: the words at the end of all names, or else "value".
 std::string common_words(const std::vector<std::string>& names) {
   if (names.size() == 1) return to_text(parse_quantity(names.front()));
   std::string common = parse_quantity(names.front()).label;
@@ -136,7 +134,7 @@ std::string common_words(const std::vector<std::string>& names) {
   return common.empty() ? "value" : common;
 }
 
-/// Sets the range of an axis to that of the numbers.
+/// Sets the range of an axis to the range of the values of the curves.
 void set_range(PlotScript& script, const std::string& axis,
                const std::vector<const std::vector<double>*>& curves, bool log, double factor) {
   Interval range;
@@ -148,8 +146,8 @@ void set_range(PlotScript& script, const std::string& axis,
   if (!log && range.length() > 0) script.range(axis, range.low, range.high);
 }
 
-/// Returns "Largest magnitude: 8.13 mm (base)." The text has the unit of the axis, but without a
-/// power of ten.
+/// Returns "Largest magnitude: 8.13 mm (base)." The unit is that of the axis, without powers of
+/// ten.
 std::string largest_magnitude_text(const std::vector<Series>& series, const Scale& axis,
                                    const std::string& unit) {
   const Scale scale = axis.unit.starts_with("10") ? Scale{1, unit} : axis;
@@ -186,7 +184,7 @@ std::string dashed(std::size_t variant) {
 }
 
 /// Draws the curves and their key. If quantities and variants both differ, the key has entries for
-/// colors and dashes instead of one for every pair. @returns the height of the key.
+/// colors and dashes, not for every pair. @returns the height of the key.
 int draw_series(PlotScript& script, const std::vector<Series>& series, const CaseInfo& info,
                 const PlotRequest& request, const std::vector<std::string>& variants,
                 std::pair<double, double> factors, const std::vector<const Run*>& runs) {

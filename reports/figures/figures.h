@@ -11,50 +11,52 @@
 /// Functions that plan figures. The figures are numbered and drawn later.
 namespace trammel::reports {
 
-/// Printed values of the references that a run is compared with, and the computed values with their
-/// uncertainty. Empty if the run compares fewer than three entries.
+/// Figure of published values and of the computed values of a run with their uncertainty. Empty if
+/// fewer than three values are compared.
 [[nodiscard]] std::optional<Figure> agreement_figure(const CaseInfo& info, const Results& results,
                                                      const Run& run);
 
-/// Errors along each sweep on logarithmic axes, one figure for each quantity with all its indices.
+/// Figures of the errors of one quantity each in refinement studies (sweeps), on logarithmic axes.
 [[nodiscard]] std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run);
 
-/// Processor time against error on logarithmic axes with the Pareto front. Settings without a
-/// result are in a strip at the right edge.
+/// Figure of processor time against error on logarithmic axes, with the Pareto front. Settings
+/// without a result are in a strip at the right edge.
 [[nodiscard]] Figure cost_figure(const CostStudy& study);
 
-/// @returns nullptr if there is no run of the variant.
+/// Returns the run of a variant, or nullptr if there is no such run.
 [[nodiscard]] const Run* find_run(const std::vector<const Run*>& runs, const std::string& variant);
 
-/// Curves that a case requests. @param problem  set to the reason if the figure cannot be drawn
+/// Figure of curves that a case requests. @param problem  reason if the figure cannot be drawn
 [[nodiscard]] std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& request,
                                                   const std::vector<const Run*>& runs,
                                                   std::string& problem);
 
-/// Automatic selection of effects: obtained change against the tolerance, one point for each scene.
+/// Figures of the automatic selection of effects. A point for each scene (case with candidate
+/// effects) shows the change of the results against the tolerance.
 [[nodiscard]] std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes);
 
-/// Processor time and counted work of calls, relative to the first. Calls with failures are marked.
+/// Figure of processor time and counted work of the calls in a history file, relative to the first
+/// call. Calls with failures are marked.
 [[nodiscard]] Figure history_figure(const History& history);
 
-/// Map that a case requests: classes of a quantity over positions, with lines, for one variant.
+/// Colored map of a quantity over positions for one variant, with lines, that a case requests.
 [[nodiscard]] std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& request,
                                                const std::vector<const Run*>& runs,
                                                std::string& problem);
 
-/// Undeformed mechanism with its joints, drawn over its further poses.
+/// Figure of the undeformed mechanism with its joints, drawn over its further poses.
 [[nodiscard]] std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run);
 
-/// Instants of a motion with magnified deflections. The script of a page animates them. Empty if
-/// there are fewer than two instants.
+/// Figure of instants of a motion with magnified deflections, which the script of a page animates.
+/// Empty if there are fewer than two instants.
 [[nodiscard]] std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run);
 
 /// Up to eight mode shapes or deformed shapes of a run, one panel each.
 [[nodiscard]] std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run);
 
-/// Difference of each check of a family from its reference, divided by the tolerance. Known
-/// discrepancies are left out.
-/// @param titles  of the cases, by id
+/// Figure of the differences of all checks of a family, divided by their tolerances. Known
+/// discrepancies are omitted.
+/// @param titles  titles of the cases, by case id
 [[nodiscard]] std::optional<Figure> tolerance_figure(
     const std::string& family, const std::map<std::string, std::string>& titles,
     const std::vector<const Run*>& runs);

@@ -13,7 +13,7 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxDrawnVariants = 12;  ///< variants of a case with a figure of shapes
+constexpr std::size_t kMaxDrawnVariants = 12;  ///< largest number of figures of shapes of a case
 
 void append(std::vector<Figure>& figures, std::vector<Figure> more) {
   std::ranges::move(more, std::back_inserter(figures));

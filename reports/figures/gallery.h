@@ -9,7 +9,7 @@
 
 namespace trammel::reports {
 
-/// Figures of a case: shown, folded, and reasons of those that could not be drawn.
+/// Figures that a page shows or folds for a case, and reasons for figures that cannot be drawn.
 struct Gallery {
   std::vector<Figure> shown, folded;
   std::vector<std::string> problems;
@@ -23,14 +23,14 @@ struct Family {
   std::vector<Figure> overview;
   std::map<std::string, Gallery> galleries;  ///< by case id
 
-  /// Returns the part of a title that distinguishes the case from the others of the family: "start
-  /// of the circle" for "10 N at P, start of the circle".
+  /// Returns the words of a title that distinguish a case from other cases of its family: "start of
+  /// the circle" for "10 N at P, start of the circle".
   [[nodiscard]] std::string short_title(const CaseInfo& info) const;
 
   [[nodiscard]] std::vector<const Run*> runs_of(const std::string& case_id) const;
 };
 
-/// Returns all families with the cases that were run. Their figures are neither numbered nor drawn.
+/// Returns all families with the cases that were run. The figures are not yet numbered or drawn.
 [[nodiscard]] std::vector<Family> plan_families(const Results& results);
 
 /// Returns the figures of the page of each family and of each case.

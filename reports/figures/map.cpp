@@ -11,7 +11,7 @@ namespace trammel::reports {
 
 namespace {
 
-/// A value at a position, and the index of its color.
+/// Cell of a map: a value at a position, and the index of its color.
 struct Cell {
   double x, y, value;
   std::size_t color = 0;
@@ -55,7 +55,7 @@ Field read_field(const std::vector<double>& x, const std::vector<double>& y,
   return field;
 }
 
-/// Returns limits between classes that have about the same number of cells, rounded to two digits.
+/// Returns limits, rounded to two digits, between value classes with about equally many cells.
 std::vector<double> class_limits(std::vector<double> sorted) {
   std::ranges::sort(sorted);
   const std::size_t classes = palette::kSequence.size();
@@ -70,7 +70,7 @@ std::vector<double> class_limits(std::vector<double> sorted) {
   return limits;
 }
 
-/// Returns boxes (center, then sides) by color. Neighbors of the same color in a row are one box.
+/// Returns the boxes of each color (center, then edges). Neighbors of one color share one box.
 std::vector<PlotScript::Rows> boxes(const Field& field) {
   std::vector<PlotScript::Rows> by_color(palette::kSequence.size());
   for (std::size_t from = 0; from < field.cells.size();) {
@@ -163,8 +163,7 @@ struct ColorClasses {
   [[nodiscard]] std::size_t class_of(double value) const {
     return static_cast<std::size_t>(std::ranges::upper_bound(limits, value) - limits.begin());
   }
-  /// Returns the color of class k. Values far from zero are dark: the highest values, or the lowest
-  /// if no value is positive.
+  /// Returns the color of value class k. High values are dark, or low values if none is positive.
   [[nodiscard]] std::string color(std::size_t k) const {
     return lc(palette::kSequence[negative ? limits.size() - std::min(k, limits.size()) : k]);
   }
@@ -180,7 +179,7 @@ struct ColorClasses {
   bool negative, positive;
 };
 
-/// @returns the height of the key
+/// Draws a map with lines. @returns the height of the key [px]
 int draw_map(PlotScript& script, const PlotRequest& request, const Run& run, const Field& field,
              const ColorClasses& classes) {
   script.command("set size ratio -1");

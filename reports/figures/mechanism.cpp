@@ -52,7 +52,7 @@ void draw_joints(PlotScript& script, const Drawing& drawing, const JointSymbol& 
   script.key_entry("with points pt 6 ps 1 lw 2" + lc(palette::kInk), symbol.words);
 }
 
-/// Writes the names of joints away from the center of the drawing.
+/// Writes the name of each joint on the side away from the center of the drawing.
 void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
   const double cx = 0.5 * (box.x.low + box.x.high);
   const double cy = 0.5 * (box.y.low + box.y.high);
@@ -88,7 +88,7 @@ std::string mechanism_caption(const Box& box, std::size_t poses) {
   return text + ".";
 }
 
-/// Returns the further poses that are not instants of a motion. A separate figure shows the motion.
+/// Returns the poses that are not instants of a motion. A separate figure shows a motion.
 std::vector<const Pose*> overlays_of(const Drawing& drawing) {
   std::vector<const Pose*> overlays;
   for (const Pose& pose : drawing.poses)
@@ -96,7 +96,7 @@ std::vector<const Pose*> overlays_of(const Drawing& drawing) {
   return overlays;
 }
 
-/// @returns the height of the key
+/// Draws further poses. @returns the height of the key [px]
 int draw_overlays(PlotScript& script, Table& data, const std::vector<const Pose*>& overlays,
                   const std::string& base_label, const Drawing& drawing) {
   std::vector<std::string> titles;

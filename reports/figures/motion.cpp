@@ -19,7 +19,7 @@ struct Largest {
   double length = 0, time = 0;
 };
 
-/// @param of  returns the vectors of all nodes at an instant
+/// @param of  function that returns the vectors of all nodes at an instant
 template <class Vectors>
 Largest largest(const std::vector<Pose>& instants, const Vectors& of) {
   Largest found;
@@ -96,7 +96,7 @@ class Panel {
     json["fill"] = renumbered(loops ? edges : drawing.triangles);
   }
 
-  /// Returns x and y of each drawn node. @param of  vectors of all nodes of the drawing
+  /// Returns the components of a vector at each drawn node. @param of  vectors at all nodes
   [[nodiscard]] Coordinates vectors(const std::vector<Point>& of, double factor = 1) const {
     Coordinates numbers(2 * places_.size());
     for (const auto& [node, place] : places_) {
@@ -127,7 +127,7 @@ class Panel {
   std::map<int, int> places_;
 };
 
-/// Returns the differences of each row from the row before.
+/// Replaces each row by its difference from the previous row.
 Json row_differences(std::vector<Coordinates> rows) {
   for (std::size_t k = rows.size(); k-- > 1;)
     std::ranges::transform(rows[k], rows[k - 1], rows[k].begin(), std::minus());
@@ -135,7 +135,7 @@ Json row_differences(std::vector<Coordinates> rows) {
 }
 
 /// Returns the animation of a motion as JSON: the positions at each instant with deflections, and
-/// without deflections if they differ. Each instant has the differences from the previous instant.
+/// without deflections if they differ. Positions are differences from the previous instant.
 std::string moving_poses(const Drawing& drawing, const std::vector<Pose>& instants, double factor,
                          const Box& box, double panel) {
   Panel moving(drawing, box, panel);

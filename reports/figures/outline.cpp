@@ -22,7 +22,7 @@ bool is_straight(const std::vector<double>& from, const Point& p, const Point& t
   return std::abs(ax * by - ay * bx) <= 1e-3 * lengths && ax * bx + ay * by >= 0;
 }
 
-/// Returns whether the corners are in counterclockwise order.
+/// Returns whether the corners of a triangle are in counterclockwise order.
 bool is_counterclockwise(const std::vector<int>& triangle, const std::vector<Point>& nodes) {
   const std::size_t step = triangle.size() / 3;
   const Point &a = nodes[triangle[0]], &b = nodes[triangle[step]], &c = nodes[triangle[2 * step]];
@@ -53,8 +53,8 @@ std::map<std::pair<int, int>, Side> sides(const Drawing& drawing) {
   return found;
 }
 
-/// Returns the sides of only one triangle, joined to closed loops: counterclockwise around a plate,
-/// clockwise around a hole.
+/// Returns the sides that belong to only one triangle, joined to closed loops: counterclockwise
+/// around a plate, clockwise around a hole.
 std::vector<std::vector<int>> outline(const Drawing& drawing) {
   std::multimap<int, std::vector<int>> from;
   for (auto& [_, side] : sides(drawing))
@@ -136,8 +136,8 @@ PlotScript::Rows filled_triangles(const Drawing& drawing, const std::vector<Poin
     }
     return rows_of(closed, nodes);
   }
-  // One polygon goes through all loops and returns to its start after each, so that holes stay
-  // empty.
+  // One polygon passes through all loops and returns to its start after each, so that holes stay
+  // unfilled.
   for (const auto& loop : outline(drawing)) {
     if (closed.empty()) {
       closed.push_back(loop);

@@ -27,8 +27,7 @@ namespace trammel::reports {
 [[nodiscard]] PlotScript::Rows rows_of(const std::vector<std::vector<int>>& lines,
                                        const std::vector<Point>& nodes);
 
-/// Returns closed polygons for filling: the triangles of a coarse mesh, or the outline of a fine
-/// mesh.
+/// Returns closed polygons to be filled: triangles of a coarse mesh, or the outline of a fine mesh.
 [[nodiscard]] PlotScript::Rows filled_triangles(const Drawing& drawing,
                                                 const std::vector<Point>& nodes);
 
@@ -43,36 +42,35 @@ struct Box {
   [[nodiscard]] double height() const { return y.length(); }
   [[nodiscard]] double side() const { return std::max(width(), height()); }  ///< the longer one
 };
-/// @param margin      around the box, relative to its longer side
-/// @param min_aspect  smallest ratio of the sides
+/// @param margin      width of the margin around the points, relative to the longer side
+/// @param min_aspect  smallest ratio of the shorter to the longer side, before the margin
 [[nodiscard]] Box box_around(const std::vector<std::vector<Point>>& sets, double margin,
                              double min_aspect);
 
 /// Returns the smallest number of at least `min_step` that is 1, 2 or 5 times a power of ten.
 [[nodiscard]] double round_step(double min_step);
-/// Sets the ranges of both axes, with the same scale.
+/// Sets the ranges of both axes to the box, with the same scale.
 void frame(PlotScript& script, const Box& box);
 
 /// Returns the height of a drawing of the box, including the axes [px].
 [[nodiscard]] int height_of(const Box& box);
 
-/// Draws members with this line width, and edges with half of it.
+/// Draws members with the line width `width`, and edges of triangles with half this width.
 void draw_body(PlotScript& script, const Drawing& drawing, const std::vector<Point>& nodes,
                const std::string& color, double width, const std::string& title = "");
 
-/// Returns a title, followed by the title of the variant unless it is the base.
+/// Returns the title `what`, followed by the title of the variant if it is not the base variant.
 [[nodiscard]] std::string titled(const std::string& what, const CaseInfo& info, const Run& run);
 
 // Animated drawings are JSON for the script of the page. Coordinates are in tenths of a unit of the
-// drawing, with y downwards, and only contain nodes that are drawn.
+// drawing, with y downwards. They contain only nodes that are drawn.
 
-inline constexpr double kDrawnAmplitude =
-    0.13;  ///< largest deflection, relative to the longer side
+inline constexpr double kDrawnAmplitude = 0.13;  ///< ratio of largest deflection to longer side
 
 [[nodiscard]] bool are_finite(const std::vector<Point>& points);
 
 /// Returns the animation of modes as JSON, with one panel for each mode.
-/// @param factor  of each shape
+/// @param factor  magnification of each mode shape
 /// @param panel   width of a panel [px]
 [[nodiscard]] std::string moving_modes(const Drawing& drawing, const std::vector<double>& factor,
                                        const Box& box, double panel);

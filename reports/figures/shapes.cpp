@@ -83,7 +83,7 @@ std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
 std::string displacements_text(const Drawing& drawing, const std::vector<double>& factors,
                                double side) {
   std::size_t largest = 0;
-  for (std::size_t s = 1; s < factors.size(); ++s)  // the least magnified
+  for (std::size_t s = 1; s < factors.size(); ++s)  // the shape with the smallest magnification
     if (factors[s] > 0 && !(factors[largest] > 0 && factors[largest] <= factors[s])) largest = s;
   if (!(factors[largest] > 0)) return "Nothing is displaced.";
   const std::string of = factors.size() > 1 ? " (" + drawing.shapes[largest].label + ")" : "";

@@ -11,8 +11,8 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double kSmallestDrawnChange = 1e-9;  ///< smaller changes are drawn here
-constexpr double kSceneMargin = 1.3;           ///< factor between the points and the frame
+constexpr double kSmallestDrawnChange = 1e-9;  ///< smaller changes are drawn at this value
+constexpr double kSceneMargin = 1.3;           ///< ratio of axis limits to outermost points
 
 Table table_of(const std::vector<EffectScene>& scenes) {
   Table table;
@@ -24,8 +24,8 @@ Table table_of(const std::vector<EffectScene>& scenes) {
   return table;
 }
 
-/// Reports how many scenes stay within their tolerance, and in how many the selection is minimal.
-/// Reports the time of selecting effects and running over the time of running with all effects.
+/// Reports the numbers of scenes within the tolerance and with a minimal selection of effects.
+/// Reports the time of the selection and the run, relative to a run with all effects.
 std::string conclusion(const std::vector<EffectScene>& scenes) {
   std::size_t within = 0, minimal = 0;
   double all_effects_s = 0, selected_s = 0;

@@ -12,10 +12,10 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double kMinShare = 1e-8;  ///< left edge; smaller fractions are drawn here
-constexpr double kMaxShare = 100;   ///< right edge; larger fractions and errors are drawn here
+constexpr double kMinShare = 1e-8;  ///< left edge, where smaller fractions are drawn
+constexpr double kMaxShare = 100;   ///< right edge, where larger fractions and errors are drawn
 
-/// Checks that are drawn as points on one line.
+/// Checks of a case that are drawn as points on one line.
 struct ToleranceRow {
   std::string label;
   std::vector<std::pair<const Run*, const Check*>> checks;
@@ -38,7 +38,7 @@ bool is_shown(const Check& check) {
          (check.verdict == Verdict::pass && std::isfinite(tolerance_fraction(check)));
 }
 
-/// Returns a row for each case; of a family with one case, a row for each check.
+/// Returns a row for each case, or for each check if the family has only one case.
 std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string>& titles,
                                          const std::vector<const Run*>& runs) {
   const bool one_case = std::ranges::all_of(
@@ -89,8 +89,7 @@ std::string conclusion(const std::vector<ToleranceRow>& rows) {
          "\u202f% of its tolerance (" + worst->label + ").";
 }
 
-/// Sets the y axis and writes each label above the line of its row, so that long labels need no
-/// margin.
+/// Sets the y axis and writes labels above the lines of their rows, so that they need no margin.
 void draw_labels(PlotScript& script, const std::vector<ToleranceRow>& rows) {
   script.command("unset ytics; set border 1; set lmargin 2; set rmargin 3");
   script.command("unset grid; set grid xtics" + lc(palette::kGrid) + " lw 1 lt 1");

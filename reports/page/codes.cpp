@@ -17,7 +17,7 @@ namespace trammel::reports {
 
 namespace {
 
-/// Results of one code with the number of runs of each grade.
+/// Results of one simulation code, and its number of runs of each grade ("agrees", "off", ...).
 struct Code {
   Results results;
   std::string name, version;
@@ -25,12 +25,12 @@ struct Code {
   double wall_s = 0;
 };
 
-/// One variant of a case with its run by each code; null if a code has no such run.
+/// One variant of a case with its run by each code. The run is null if a code did not run it.
 struct Row {
   const CaseInfo* info = nullptr;
   std::string variant;
   std::vector<const Run*> runs;
-  bool other_case = false;  ///< the codes had different versions of the case
+  bool other_case = false;  ///< the codes ran different versions of the case
 };
 
 Code read_code(const std::filesystem::path& file) {
@@ -47,7 +47,7 @@ Code read_code(const std::filesystem::path& file) {
   return code;
 }
 
-/// Returns a row for each variant of a case that a code has run.
+/// Returns a row for each variant of a case that at least one code has run.
 std::vector<Row> plan_rows(const std::vector<Code>& codes) {
   std::vector<Row> rows;
   for (std::size_t c = 0; c < codes.size(); ++c)
@@ -64,7 +64,7 @@ std::vector<Row> plan_rows(const std::vector<Code>& codes) {
   return rows;
 }
 
-/// Returns the same entry of the same check in another run.
+/// Returns the check of `run` with the name, quantity and index of the check `like`, or null.
 const Check* find_check(const Run& run, const Check& like) {
   for (const Check& check : run.checks)
     if (check.name == like.name && check.quantity == like.quantity && check.index == like.index &&
@@ -73,8 +73,8 @@ const Check* find_check(const Run& run, const Check& like) {
   return nullptr;
 }
 
-/// Returns the entry of a check that a code fails worst; if no code fails, the entry that uses the
-/// largest fraction of its tolerance.
+/// Returns the check that represents a row: among the decisive checks of all codes, a failed check,
+/// or else any check, that uses the largest fraction of its tolerance.
 const Check* shown_check(const Row& row) {
   const Check* shown = nullptr;
   const auto rank = [](const Check& check) {
@@ -140,7 +140,7 @@ Data row_data(const Row& row) {
                  {"cells", list_of(row.runs, cell_of)}});
 }
 
-/// Returns the number of runs of each grade, by code.
+/// Returns a table of the codes with their numbers of runs of each grade and their times.
 TextTable codes_table(const std::vector<Code>& codes) {
   std::vector<Grade> grades;
   for (const Grade grade : kAllGrades)

@@ -18,14 +18,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxFigures = 12;  ///< of a run
+constexpr std::size_t kMaxFigures = 12;  ///< largest number of figures of a compared run
 
 std::string percent_text(const Number& percent) {
   return percent ? with_sign(*percent, 3) + "\u202f%" : "";
 }
 
-/// Returns the label of a side with those of its code, commit, date and machine that differ between
-/// the sides.
+/// Returns the label of one of the compared sets of results ("sides"). If code, commit, date or
+/// processor differ between the sides, they follow the label.
 std::string side_text(const SideComparison& comparison, const ComparedSide& side) {
   std::string text = side.label;
   for (const auto member : {&ComparedSide::solver, &ComparedSide::commit, &ComparedSide::date,
@@ -107,10 +107,11 @@ TextTable numbers_table(const ComparedRun& run, const SideComparison& comparison
   return table;
 }
 
-/// Returns the figures that the case requests, then a figure for each other series that differs.
+/// Returns the figures that the case requests, and a figure for each further series of values that
+/// differs between the compared sides.
 std::vector<PlotRequest> requests_of(const ComparedRun& run) {
   std::vector<PlotRequest> requests;
-  std::set<std::string> drawn = {"time_s"};  // the axis of others
+  std::set<std::string> drawn = {"time_s"};  // the x axis of other series
   for (PlotRequest request : run.info.figures) {
     if (!request.value.empty()) continue;
     request.variants.clear();
@@ -130,7 +131,8 @@ std::vector<PlotRequest> requests_of(const ComparedRun& run) {
   return requests;
 }
 
-/// Draws the runs as variants of one case whose titles are the labels of the sides.
+/// Plans figures that show the runs of all sides like variants of one case. The labels of the sides
+/// are the titles of the variants.
 std::vector<Figure> figures_of(const ComparedRun& run, const SideComparison& comparison) {
   if (run.runs.empty()) return {};
   CaseInfo info = run.info;

@@ -15,7 +15,7 @@ namespace trammel::reports {
 
 namespace {
 
-/// Element and type of a test case that does not pass.
+/// XML element and type with which JUnit XML reports a check that does not pass.
 struct Outcome {
   CheckStatus status;
   const char *element, *type;
@@ -29,7 +29,7 @@ constexpr std::array<Outcome, 6> kOutcomes = {{
     {CheckStatus::not_given, "skipped", "not-run"},
 }};
 
-/// Number of test cases, their time, and the number of test cases with each outcome element.
+/// Number of JUnit test cases, their total time, and the number of failures, errors and skips.
 struct Tally {
   std::size_t tests = 0;
   double time_s = 0;
@@ -53,7 +53,7 @@ std::string attributes(Tally tally) {
   return text + attribute("time", std::to_string(tally.time_s));
 }
 
-/// Returns a test case with its outcome and output, and counts it.
+/// Returns the JUnit element of a test case with its outcome and output, and counts it in `tally`.
 std::string testcase(const std::string& classname, const std::string& name, double time_s,
                      CheckStatus status, const std::string& message, const std::string& output,
                      Tally& tally) {
@@ -72,7 +72,7 @@ std::string testcase(const std::string& classname, const std::string& name, doub
   return text + "    </testcase>\n";
 }
 
-/// Returns the worst entry of a check in one line.
+/// Returns one line about the worst value of a check.
 std::string check_message(const CheckGroup& group) {
   const Check& worst = group.worst();
   if (check_status(worst) == CheckStatus::known_discrepancy)
@@ -81,7 +81,7 @@ std::string check_message(const CheckGroup& group) {
   return failure_text(group);
 }
 
-/// Returns all entries of a check, and the reason of its tolerance.
+/// Returns a line for each value of a check, then the reason of the tolerance.
 std::string check_output(const CheckGroup& group) {
   std::string text;
   for (const Check* check : group.checks) {
@@ -116,8 +116,8 @@ std::string properties_of(const Environment& environment) {
   return text + "    </properties>\n";
 }
 
-/// Returns a test case for each run, with the name "status", and for each check of the runs. The
-/// check of an expected ending has the name "expected-status".
+/// Returns the JUnit test suite of a case. It has a test case named "status" for each run, and a
+/// test case for each check. The check of the expected status of a run is named "expected-status".
 std::string suite(const CaseInfo& info, const Results& results, Tally& all) {
   Tally tally;
   std::string body;

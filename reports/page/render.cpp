@@ -13,13 +13,13 @@ namespace trammel::reports {
 
 namespace {
 
-/// Templates that others include.
+/// Templates that other templates can include.
 constexpr std::array<const char*, 17> kPartials = {
     "cell",  "checks", "claims_table", "counts", "families",   "figure",
     "find",  "front",  "head",         "matrix", "matrix_row", "questions",
     "roles", "rows",   "summary",      "table",  "tables"};
 
-/// Typesets the powers of ten between tags, except in code and data.
+/// Typesets the powers of ten in an HTML text, except in code, styles, scripts and metadata.
 std::string with_powers_in_text(const std::string& html) {
   constexpr std::array<std::string_view, 4> kUnchanged = {"code", "style", "script", "metadata"};
   std::string out;
@@ -36,7 +36,7 @@ std::string with_powers_in_text(const std::string& html) {
   return out;
 }
 
-/// Changes the values of an attribute, which are in double quotes.
+/// Applies `change` to all values of an attribute in an HTML text. Values are in double quotes.
 std::string with_attribute(const std::string& html, const std::string& attribute,
                            const std::function<std::string(const std::string&)>& change) {
   const std::string open = " " + attribute + "=\"";

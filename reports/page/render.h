@@ -5,11 +5,12 @@
 
 #include "reports/text/html.h"
 
-/// Templates with data as pages, and the links between pages.
+/// Conversion of templates and their data to HTML pages, and the links between pages.
 namespace trammel::reports {
 
-/// Fills in a template, which may include every other one as {{> name_partial}}. Control characters
-/// that HTML cannot contain become spaces. Numbers such as 1e-6 become 10⁻⁶ in the text.
+/// Returns the page of a template that is filled in with data. Other templates are included with
+/// {{> name_partial}}. Control characters that HTML cannot contain become spaces. Numbers such as
+/// 1e-6 become 10⁻⁶ in the text.
 /// @throws std::logic_error  if the template is not valid.
 [[nodiscard]] std::string render(const std::string& template_name, Data data);
 
@@ -17,7 +18,7 @@ namespace trammel::reports {
 /// that are relative to the page at `page` ("cases/a.html").
 [[nodiscard]] std::string linked_from(const std::string& html, const std::string& page);
 
-/// Returns the values of all href and src attributes.
+/// Returns the values of all href and src attributes of a page.
 [[nodiscard]] std::vector<std::string> targets_in(const std::string& html);
 
 }  // namespace trammel::reports

@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kGenerator = R"(<meta name="generator" content="trammel">)";
 
-/// Returns the pages of an earlier report in the folder, and the files that they link to.
+/// Returns the pages of an earlier report in the folder `out`, and the files to which they link.
 std::vector<fs::path> earlier_files(const fs::path& out) {
   std::set<fs::path> files, pages = {"index.html"};
   while (!pages.empty()) {
@@ -60,12 +60,12 @@ fs::path write_report(const Results& results, const fs::path& out) {
     number_figures(pages);
     std::vector<Figure*> figures;
     for (const auto& page : pages) figures.insert(figures.end(), page.begin(), page.end());
-    // If runs come from the store, drawings that did not change are kept.
+    // If the results include stored runs, unchanged drawings of the earlier report are reused.
     const Environment& from = results.environment;
     draw(figures, part / "figures", from.stored_runs > 0 ? out / "figures" : fs::path(),
          from.trammel + from.commit);
-    // The script reads curves and moves shapes of inlined drawings. Other drawings are loaded when
-    // they come into view.
+    // A drawing is inlined in the page if the script of the page reads its curves or animates its
+    // shapes. Other drawings are loaded when they come into view.
     for (Figure* figure : figures)
       figure->is_linked |=
           figure->moving.empty() && figure->svg.find(" data-axes=") == std::string::npos;

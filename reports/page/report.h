@@ -7,24 +7,24 @@
 #include "harness/results/side_comparison.h"
 #include "reports/data/results.h"
 
-/// Pages and files that the commands write.
+/// HTML pages and JUnit files that the commands of trammel write.
 namespace trammel::reports {
 
 /// Writes a report of complete results into `out`: `index.html`, a page for each family and case,
-/// and figures (SVG) with their data (CSV). The report, together with all files in the folder of
-/// unfinished files, replaces an earlier report at the end. If writing fails, the earlier report
-/// does not change.
-/// @returns the path of the first page.
+/// and figures (SVG) with their data (CSV). Files are first written to a folder of unfinished
+/// files. At the end, all files of this folder replace an earlier report. If writing fails, the
+/// earlier report does not change.
+/// @returns the path of `index.html`.
 std::filesystem::path write_report(const Results& results, const std::filesystem::path& out);
 
-/// Writes a page that compares sides and needs no other file: changes, time and accuracy, modes and
-/// numbers, and curves of the runs that change most.
+/// Writes a self-contained page that compares sets of results ("sides"), such as variants or
+/// results of different dates. It shows time and accuracy, changed modes and numbers, and curves.
 /// @throws std::runtime_error  if a figure cannot be drawn or the file cannot be written
 void write_comparison(const results::SideComparison& comparison, const std::filesystem::path& file);
 
 /// Writes `index.html` into `out`, which compares the results of several codes, case by case. Each
 /// row has the worst check of a case with its expected value. Each cell has the grade of a code,
-/// its difference and its time.
+/// its difference from the expected value, and its computing time.
 /// @returns the path of the page. @throws std::runtime_error  if a results file cannot be read.
 std::filesystem::path write_codes(const std::vector<std::filesystem::path>& results_json,
                                   const std::filesystem::path& out);

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// A page of sections. The keys of their data are the names of their templates.
+/// A page of sections. The key of a section is the name of its data and of its template.
 struct SectionPage {
   const char *path, *title;
   std::vector<const char*> keys;
@@ -35,7 +35,7 @@ const std::vector<SectionPage>& section_pages() {
   return pages;
 }
 
-/// Returns whether a section has content. Sections about trammel itself need the full catalogue.
+/// Returns whether a section has content. Some sections have content for the full catalogue only.
 bool has_content(const Data& index, const std::string& key) {
   const Data* rows = index.get(key)->get("has_rows");
   return rows == nullptr || rows->is_true();
@@ -81,7 +81,7 @@ Data index_data(const Results& results, const std::vector<Family>& families,
        {"families", list_of(families, group)}});
 }
 
-/// Returns the front page and the pages of sections for the contents of every page.
+/// Returns links to the front page and to the pages of sections, for the table of contents.
 Data index_contents(const Data& index) {
   Data out = list();
   out.push_back(object({{"title", "Overview"}, {"link", "index.html"}}));
@@ -91,7 +91,8 @@ Data index_contents(const Data& index) {
   return out;
 }
 
-/// Returns the families for the contents of a page. The cases of the page's family are unfolded.
+/// Returns the families for the table of contents of the page at `path`. The family to which this
+/// page belongs is unfolded, so that its cases are listed.
 Data family_contents(const std::vector<Data>& sections, const std::string& path) {
   return list_of(sections, [&](const Data& section) {
     bool open = text_under(section, "family_link") == path;
@@ -111,8 +112,8 @@ Data family_contents(const std::vector<Data>& sections, const std::string& path)
   });
 }
 
-/// Returns a script with one row for each check of each variant (its worst entry), which the search
-/// of the front page loads. Pages that were opened from a file can load scripts, but not JSON.
+/// Returns the data for the search on the front page: a row for each check of each variant, with
+/// the worst value. The data are a script, because a page from a local file cannot load JSON.
 std::string check_list(const std::vector<Family>& families) {
   Json json = {{"cases", Json::array()}, {"rows", Json::array()}, {"roles", Json::array()}};
   for (const StatusStyle& style : kStatusStyles)
@@ -139,7 +140,7 @@ std::string check_list(const std::vector<Family>& families) {
          ";\n";
 }
 
-/// Returns the title of a page: heading, subtitle, page above it, and status.
+/// Returns template data with the title of a page. Subtitle, parent page and status are empty.
 Data titled(const std::string& title) {
   return object({{"heading", title},
                  {"page_title", title},
@@ -162,7 +163,7 @@ Data titled_by(const Data& section, const char* title) {
   return data;
 }
 
-/// Fills in the template `name` with data under the same name.
+/// Returns the template `name`, filled in with the data of the section under the same name.
 std::string body_of(const std::string& name, const Data& section) {
   return render(name + ".mustache", object({{name, section}}));
 }
@@ -174,7 +175,7 @@ std::string sections_body(const Data& index, const std::vector<const char*>& key
   return body;
 }
 
-/// Returns the front page. Without runs, it has the studies of cost and effects.
+/// Returns the body of the front page. It has the studies of cost and effects if there are no runs.
 std::string index_body(const Data& index) {
   const std::string body = render("index.mustache", index);
   return index.get("has_runs")->is_true() ? body : body + sections_body(index, {"cost", "effects"});

@@ -81,7 +81,7 @@ TextTable probability_table(const RowProbabilities& row, const std::string& vari
   return table;
 }
 
-/// Returns up to eight values, or the range of more.
+/// Returns up to eight values as a list, and more values as a range.
 std::string values_text(const std::vector<double>& values) {
   if (values.size() > kMaxListedValues) {
     const auto [low, high] = std::ranges::minmax(values);

@@ -11,9 +11,9 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxClaim = 90;  ///< characters in the table of claims
+constexpr std::size_t kMaxClaim = 90;  ///< largest number of characters of a claim in the table
 
-/// CSS class and symbol of a verdict. The symbol shows the verdict without color.
+/// CSS class and symbol of a verdict on a claim. The symbol shows the verdict without color.
 struct VerdictStyle {
   const char *verdict, *css_class, *sign;
 };
@@ -30,7 +30,7 @@ constexpr std::array<VerdictStyle, 10> kVerdictStyles = {{
     {"", "not-run", "–"},
 }};
 
-/// Returns the entries together with the text, CSS class and symbol of a verdict.
+/// Returns the template data `entries` together with text, CSS class and symbol of a verdict.
 Data with_verdict(const std::string& verdict, std::initializer_list<Entry> entries) {
   const auto* found =
       std::find_if(kVerdictStyles.begin(), kVerdictStyles.end() - 1,
@@ -120,7 +120,7 @@ Data item_data(const PaperItem& item, const Claims& claims) {
                  {"note", item.note}});
 }
 
-/// Returns the number of claims by verdict.
+/// Returns the number of claims of each verdict as text.
 std::string overview(const Claims& claims) {
   std::string text;
   for (const VerdictStyle& style : kVerdictStyles) {

@@ -6,7 +6,7 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxNamedSettings = 3;  ///< listed settings whose times equal the shortest
+constexpr std::size_t kMaxNamedSettings = 3;  ///< limit of listed settings with the shortest time
 
 /// Returns a time relative to the baseline setting: "2.4 ×".
 std::string times(Number factor) {
@@ -27,7 +27,7 @@ std::string settings_text(const CostStudy& study, const CheapestSetting& cheapes
   return tied > named ? text + " or one of " + std::to_string(tied - named) + " more" : text;
 }
 
-/// Returns a table of the cheapest settings, with a column for each target error.
+/// Returns a table without rows for the cheapest settings, with a column for each target error.
 TextTable cheapest_table(const std::string& title, const std::string& head,
                          const CostStudy& study) {
   TextTable table{title, {head}};
@@ -46,7 +46,7 @@ void add_row(TextTable& table, const std::string& head, const CostStudy& study,
                                 : "none");
 }
 
-/// Returns the cheapest setting for each target error, with its error, time and work.
+/// Returns a table of the cheapest setting for each target error, with its error, time and work.
 TextTable settings_table(const CostStudy& study) {
   TextTable table{
       "Cheapest settings: " + study.title,

@@ -49,7 +49,7 @@ Counts counts_of(const std::vector<const Run*>& runs) {
   return counts;
 }
 
-/// Returns the worst status of many checks and runs.
+/// Returns the worst status of the checks and of the ends of the runs.
 CheckStatus worst_status(const std::vector<const Run*>& runs) {
   Counts counts = counts_of(runs);
   for (const Run* run : runs)
@@ -80,7 +80,7 @@ Data warnings(const CaseInfo& info, const std::vector<const Run*>& runs) {
   return out;
 }
 
-/// Returns the data of a case for the contents and the page of its family.
+/// Returns the data of a case for the table of contents and for the page of its family.
 Data case_entry(const CaseInfo& info, const Family& family) {
   const std::vector<const Run*> runs = family.runs_of(info.id);
   return with_status(worst_status(runs),

@@ -13,26 +13,25 @@ namespace trammel::reports {
 namespace {
 
 constexpr std::size_t kMinRows = 4, kMinColumns = 3, kMaxColumns = 16;
-constexpr std::size_t kMaxUnfoldedMatrixRows = 10;  ///< if there are more than three further rows
-constexpr double kFullColorDifference = 0.4;        ///< relative difference of the darkest color
-constexpr double kTargetReached =
-    0.01;  ///< largest relative difference of a target that is reached
+constexpr std::size_t kMaxUnfoldedMatrixRows = 10;  ///< unfolded rows of a matrix of over 13 rows
+constexpr double kFullColorDifference = 0.4;        ///< relative difference with the darkest color
+constexpr double kTargetReached = 0.01;             ///< largest difference of a reached target
 
-/// A check, and its comparison after ASME V&V 20 if the run has one.
+/// A check, and the comparison of its difference with the validation uncertainty if there is one.
 struct MatrixCell {
   const Check* check = nullptr;
   const Comparison* comparison = nullptr;
 };
 
-/// Checks of one variant, by the index of the checked entry.
+/// Row of a matrix: checks of one variant, by the index of the checked value.
 struct MatrixRow {
   const Run* run;
   std::map<int, MatrixCell> checks;
   double distance = 0;  ///< root mean square of the relative differences
 };
 
-/// Content of one matrix: all variants of a family that have the same check. A different check may
-/// compare the quantity with other values of the same reference.
+/// Content of one matrix: all variants of a family with the same check. Checks are distinguished by
+/// name, because two checks can compare a quantity with different values of one reference.
 struct MatrixSubject {
   std::string reference, quantity, check;
   std::vector<MatrixRow> rows;
@@ -66,8 +65,8 @@ std::vector<MatrixSubject> subjects(const Family& family) {
   return out;
 }
 
-/// Sorts rows with all entries before rows with fewer entries, then by the root mean square of the
-/// differences.
+/// Sorts the rows (variants) by decreasing number of checked values. Rows with equal numbers are
+/// sorted by the root mean square of the relative differences.
 void sort_rows(MatrixSubject& subject) {
   for (MatrixRow& row : subject.rows) {
     double sum = 0;
@@ -110,7 +109,7 @@ Data cell_of(const MatrixCell& cell) {
   return data;
 }
 
-/// Numbers of comparisons by verdict and by dominant input.
+/// Number of comparisons by verdict, and by the input that dominates the validation uncertainty.
 struct Tally {
   std::map<std::string, std::size_t> verdict, dominant;
   std::size_t entries = 0;
@@ -143,8 +142,7 @@ struct Tally {
   }
 };
 
-/// Returns the inputs that contribute most to the validation uncertainty of a row, each with its
-/// largest contribution.
+/// Returns the inputs that dominate the validation uncertainty of a row, with their contributions.
 std::string dominant_text(const MatrixRow& row) {
   std::map<std::string, double> shares;
   for (const auto& [_, cell] : row.checks) {
@@ -162,7 +160,7 @@ std::string entry_word(const MatrixSubject& subject) {
   return subject.quantity.starts_with("frequency") ? "mode" : "entry";
 }
 
-/// Returns for each entry the computed value that is nearest to its target.
+/// Returns for each target the nearest value that any variant computes.
 std::map<int, MatrixCell> nearest_of(const MatrixSubject& subject) {
   std::map<int, MatrixCell> nearest;
   for (const MatrixRow& row : subject.rows)
@@ -194,7 +192,7 @@ std::string most_probable(const std::string& reference, const Results& results) 
   return text.empty() ? text : text + ".";
 }
 
-/// Returns the nearest variant, and the targets that no variant reaches.
+/// Returns the variant with the smallest differences, and the targets that no variant reaches.
 std::string conclusion(const MatrixSubject& subject, const Family& family, const Results& results) {
   const MatrixRow& best = subject.rows.front();
   std::string text = most_probable(subject.reference, results);
@@ -214,7 +212,7 @@ std::string conclusion(const MatrixSubject& subject, const Family& family, const
          (n == 1 ? " " : "s ") + missed + ".";
 }
 
-/// Returns a cell for each target. The cell is empty if `entries` lacks the entry of the target.
+/// Returns a cell for each target. The cell is empty if `entries` has no check of the target.
 Data cells_of(const MatrixSubject& subject, const std::map<int, MatrixCell>& entries) {
   return list_of(subject.targets, [&](const auto& target) {
     const auto found = entries.find(target.first);
@@ -268,7 +266,7 @@ Data matrix_of(const MatrixSubject& subject, const Family& family, const Results
        {"folded_title", shown == rows ? "" : count(rows - shown, "further variant")}});
 }
 
-/// Returns whether a matrix is shown: with many variants, or with validation uncertainties.
+/// Returns whether a matrix is shown. It needs many variants or validation uncertainties.
 bool is_shown(const MatrixSubject& subject) {
   const bool uncertain = std::ranges::any_of(subject.rows, [](const MatrixRow& row) {
     return row.checks.begin()->second.comparison != nullptr;

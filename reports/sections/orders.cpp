@@ -12,10 +12,10 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr double kOrderTolerance = 0.1;         ///< relative, of an order close to theory
-constexpr std::size_t kMaxUnfoldedOrders = 24;  ///< rows of a table that is not folded
+constexpr double kOrderTolerance = 0.1;         ///< relative difference of an order near theory
+constexpr std::size_t kMaxUnfoldedOrders = 24;  ///< largest number of unfolded rows of a table
 
-/// Entries of one quantity along one sweep of one run.
+/// Convergence of all values of one quantity in one refinement study (sweep) of one run.
 using OrderRow = std::vector<const Convergence*>;
 
 std::vector<OrderRow> rows_of(const Run& run) {
@@ -29,7 +29,7 @@ std::vector<OrderRow> rows_of(const Run& run) {
   return rows;
 }
 
-/// Summary of the orders and errors of the entries of a row, or of all rows of a family.
+/// Summary of orders of convergence and errors, of one table row or of all rows of a family.
 struct Findings {
   std::size_t rows = 0, entries = 0;
   Interval order, law;                  ///< fitted orders; relative misfits of two-term laws
@@ -37,7 +37,7 @@ struct Findings {
   Number extrapolated;                  ///< largest relative error of the extrapolated values
   std::size_t fitted = 0, near = 0;     ///< entries with a fitted order, and with one near theory
   std::size_t levels = 0, covered = 0;  ///< levels with a GCI, and those where it covers the error
-  std::vector<double> ratios;           ///< of the GCI over the true error
+  std::vector<double> ratios;           ///< ratios of the GCI to the true error
 
   void add(const OrderRow& row) {
     ++rows;
@@ -60,8 +60,8 @@ struct Findings {
     }
     if (c.exact.value_or(0) != 0) add_bands(c);
   }
-  /// Compares the GCI, which is relative to the computed value, with the error, which is relative
-  /// to the exact value.
+  /// Compares the grid convergence index (GCI), which is relative to the computed value, with the
+  /// error, which is relative to the exact value.
   void add_bands(const Convergence& c) {
     if (c.richardson)
       extrapolated = std::max(extrapolated.value_or(0), std::abs(*c.richardson / *c.exact - 1));

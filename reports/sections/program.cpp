@@ -8,7 +8,6 @@ namespace trammel::reports {
 
 namespace {
 
-/// Returns the computing time of all runs.
 std::string time_text(const Results& results) {
   double wall_s = 0, cpu_s = 0;
   for (const Run& run : results.runs) wall_s += run.cost.wall_s, cpu_s += run.cost.cpu_s;
@@ -19,7 +18,7 @@ std::string time_text(const Results& results) {
 constexpr std::array<const char*, 5> kEvidence = {"exact", "published", "manufactured", "code",
                                                   "self-consistency"};
 
-/// Returns the features of a group, those without independent evidence first.
+/// Returns a table of the features of a group. Features without independent evidence are first.
 Data group_data(const std::vector<CoverageRow>& rows, const std::string& group,
                 const std::string& title) {
   TextTable table{title, {"Feature"}};

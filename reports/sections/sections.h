@@ -9,28 +9,28 @@
 #include "reports/figures/gallery.h"
 #include "reports/text/html.h"
 
-/// Sections of the pages. Each function converts results into the data of a template. A section
-/// without content has a false `has_rows`.
+/// Sections of report pages. Each function converts results into the data of a template. The data
+/// of a section without content have a false `has_rows`.
 namespace trammel::reports {
 
-/// Returns the entries together with the `status_text`, `status_class` and symbol (`sign`) of a
-/// status.
+/// Returns the template data `entries` together with text, CSS class and symbol of a check status
+/// (`status_text`, `status_class`, `sign`).
 [[nodiscard]] Data with_status(CheckStatus status, std::initializer_list<Entry> entries = {});
 
-/// Returns the counts above zero as a list of {n, percent} with their status.
+/// Returns a list of {n, percent}: number of checks of each status that occurs.
 [[nodiscard]] Data counts_list(const Counts& counts);
 
-/// Links relative to the folder of the report.
+/// Return links to the page of a case, a family or a reference, relative to the report folder.
 [[nodiscard]] std::string case_link(const std::string& id);
 [[nodiscard]] std::string family_link(const std::string& id);
 [[nodiscard]] std::string reference_link(const std::string& id);
 
-/// Returns a drawn figure for figure.mustache.
+/// Returns the data of a drawn figure for the template figure.mustache.
 [[nodiscard]] Data figure_data(const Figure& figure);
 
-/// Figures that do not belong to single cases. They are neither numbered nor drawn.
+/// Figures of studies of many cases. `plan_studies` neither numbers nor draws the figures.
 struct StudyFigures {
-  std::vector<Figure> cost;  ///< one for each cost study of the results, in their order
+  std::vector<Figure> cost;  ///< one figure for each cost study of the results
   std::vector<Figure> effects, history;
 
   [[nodiscard]] std::vector<Figure*> all();
@@ -43,10 +43,10 @@ struct StudyFigures {
 /// Studies of accuracy and computing time.
 [[nodiscard]] Data cost_section(const Results& results, const StudyFigures& figures);
 
-/// Automatic selection of effects in the scenes (cases with candidate effects) of the catalogue.
+/// Automatic selection of mechanical effects in the cases with candidate effects (scenes).
 [[nodiscard]] Data effects_section(const StudyFigures& figures);
 
-/// Counted work and time over the calls in a history file, and the number of changed values.
+/// Work and time of the calls of trammel in a history file, and the number of changed values.
 [[nodiscard]] Data history_section(const Results& results, const StudyFigures& figures);
 
 /// Features of the program, each with the types of evidence that verify it.
@@ -58,28 +58,29 @@ struct StudyFigures {
 /// A case with its tables and drawn figures.
 [[nodiscard]] Data case_section(const CaseInfo& info, const Family& family, const Results& results);
 
-/// A family with its common figures and tables, and a line for each case.
+/// A family of cases with its common figures and tables, and a line for each case.
 [[nodiscard]] Data family_section(const Family& family, const Results& results);
 
-/// Returns a matrix for each validation check that has many variants or a validation uncertainty:
-/// variants down, entries across, nearest first.
+/// Returns a matrix for each validation check with many variants or a validation uncertainty.
+/// Variants are rows, with the nearest to the published values first. Checked values are columns.
 [[nodiscard]] Data comparison_matrices(const Family& family, const Results& results);
 
-/// Observed and theoretical orders, and the coverage of the numerical uncertainty.
+/// Observed and theoretical orders of convergence. The section also shows the fraction of
+/// refinement levels on which the numerical uncertainty (GCI) covers the exact value.
 [[nodiscard]] Data orders_section(const Results& results, const std::vector<Family>& families);
 
 /// Provenance of all references.
 [[nodiscard]] Data references_section(const Results& results);
 
-/// Indicators of the stress suite in the order of its items, each with its worst value, bound,
-/// reason and verdict.
+/// Results of the stress suite, which examines numerical stability. Each indicator has its worst
+/// value, bound, reason and verdict.
 [[nodiscard]] Data stress_suite_section(const std::vector<Family>& families);
 
 /// Verdict, failures and counts of all checks.
 [[nodiscard]] Data summary_section(const Results& results, const std::vector<Family>& families);
 
-/// One sheet for an audit: verdict, counts, the largest known discrepancies with their validation
-/// uncertainty, and the number of the others for each reason.
+/// One sheet for an audit: verdict, numbers of checks, the largest known discrepancies with their
+/// validation uncertainty, and the number of discrepancies for each reason.
 [[nodiscard]] Data audit_section(const Results& results, const std::vector<Family>& families,
                                  const Data& summary);
 
@@ -90,23 +91,23 @@ struct StudyFigures {
 [[nodiscard]] Data front_section(const Results& results, const std::vector<Family>& families,
                                  const StudyFigures& figures);
 
-/// Returns the checks of a case if they are few; else the worst entry of each check, and all checks
-/// folded.
+/// Returns the tables of the checks of a case. If there are many checks, one table has the worst
+/// value of each check, and a folded table has all checks.
 [[nodiscard]] Data case_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
                                const Results& results);
 
-/// Returns all checks of a case with all digits.
+/// Returns all checks of a case with all digits, as a table for a CSV file.
 [[nodiscard]] Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs);
 
-/// Differences from the paper with their validation uncertainty (ASME V&V 20), by family.
+/// Differences from published values with their validation uncertainty (ASME V&V 20), by family.
 [[nodiscard]] Data validation_uncertainty_section(const std::vector<Family>& families);
 
-/// Returns the tables that a case requests: variants down, quantities and timings across.
+/// Returns the tables that a case requests. Variants are rows; quantities and times are columns.
 [[nodiscard]] Data variant_tables(const CaseInfo& info, const std::vector<const Run*>& runs);
 
-/// Sets tables of all validation uncertainties, of the first run with estimated discretization
-/// errors, of the first run that selected its effects, and of the probabilities of readings. A
-/// table without rows is false.
+/// Sets tables of all validation uncertainties, of discretization errors and of selected effects
+/// (each from the first run with these data), and of the probabilities of interpretations of the
+/// paper. A table without rows is false.
 void set_run_tables(Data& data, const CaseInfo& info, const std::vector<const Run*>& runs);
 
 }  // namespace trammel::reports

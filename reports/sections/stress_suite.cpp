@@ -8,11 +8,11 @@ namespace trammel::reports {
 
 namespace {
 
-/// Entries of one check over all variants of a case.
+/// Worst value of one check over all variants of a stress case.
 struct Indicator {
   const Check* worst = nullptr;
-  const Run* run = nullptr;  ///< run of the worst entry
-  std::size_t entries = 0;   ///< of all runs together
+  const Run* run = nullptr;  ///< run with the worst value
+  std::size_t entries = 0;   ///< number of checked values of all runs
 };
 
 Indicator worst_of(const std::string& check, const std::vector<const Run*>& runs) {
@@ -29,7 +29,7 @@ Indicator worst_of(const std::string& check, const std::vector<const Run*>& runs
   return found;
 }
 
-/// Returns the row of an indicator. Its value is the worst difference from the reference, or the
+/// Returns the table row of an indicator. It shows the worst difference from the reference, or the
 /// worst computed value if the check is a bound.
 Data row_of(const Indicator& indicator, const CaseInfo& info) {
   const Check& check = *indicator.worst;
@@ -54,8 +54,8 @@ Data missing_row(const std::string& check) {
                                             {"why", ""}});
 }
 
-/// Returns the title without its number: "From 1 to 10,000 elements" for "Stress case 7: from 1 to
-/// 10,000 elements".
+/// Returns the title of a stress case without its number: "From 1 to 10,000 elements" for "Stress
+/// case 7: from 1 to 10,000 elements".
 std::string title_of(const CaseInfo& info) {
   const std::string prefix = "Stress case " + std::to_string(info.stress_suite->item) + ": ";
   if (!info.title.starts_with(prefix)) return info.title;

@@ -14,7 +14,7 @@ namespace trammel::reports {
 
 namespace {
 
-/// Roles of checks with their meanings. The last row is the sum.
+/// Roles of checks with their meanings. The last table row is the sum of all roles.
 constexpr std::array<std::pair<const char*, const char*>, 4> kRoles = {{
     {"verification", "against exact or independent reference solutions"},
     {"validation", "against the published results under examination"},
@@ -31,7 +31,7 @@ Counts counts_of(const Results& results, const std::string& role) {
   return counts;
 }
 
-/// Sets the number of checks of each role and status. Rare statuses without a check have no column.
+/// Sets the table of the number of checks by role and status. Unused rare statuses are omitted.
 void set_roles(Data& data, const Results& results, const Counts& all) {
   Data heads = list(), rows = list();
   std::vector<CheckStatus> columns;
@@ -91,8 +91,7 @@ Data failures(const Results& results, std::size_t& unexpected_endings) {
 /// Published numbers and statements with a known discrepancy. A number counts once, even if several
 /// variants are compared with it.
 struct Targets {
-  std::set<std::tuple<std::string, double, int>>
-      printed;  ///< reference, value, entry of repeated values
+  std::set<std::tuple<std::string, double, int>> printed;  ///< reference, value, index if repeated
   std::set<std::tuple<std::string, std::string, std::string, int>> stated;  ///< case, check, entry
 
   void add(const Run& run, const Check& check, const Results& results) {
@@ -120,7 +119,7 @@ Targets targets_of(const Results& results) {
   return targets;
 }
 
-/// Known discrepancies of all entries of one check in all variants of a case.
+/// Known discrepancies of all values of one check in all variants of a case.
 struct KnownDiscrepancy {
   const CaseInfo* info;
   std::vector<std::pair<const Run*, const Check*>> entries;  ///< largest difference first
@@ -170,7 +169,7 @@ Data known_data(const KnownDiscrepancy& known, const std::string& title, const R
         reasons.size() > 1 ? count(reasons.size() - 1, "further reason") + " on its page" : ""}});
 }
 
-/// Returns the families with known discrepancies, each with its list.
+/// Returns the families that have known discrepancies, each with a list of its discrepancies.
 Data known_by_family(const Results& results, const std::vector<Family>& families) {
   Data out = list();
   for (const Family& family : families) {
@@ -192,7 +191,8 @@ Data known_by_family(const Results& results, const std::vector<Family>& families
   return out;
 }
 
-/// Returns the most frequent reasons with their numbers of entries, and the sum of the others.
+/// Returns the most frequent reasons of discrepancies with their numbers of values, and the number
+/// of values with other reasons.
 Data reasons_of(const std::vector<KnownDiscrepancy>& known) {
   constexpr std::ptrdiff_t kShown = 5;
   std::map<std::string, std::size_t> entries;
@@ -300,7 +300,7 @@ void add_figure(const Figure& figure, const std::string& link, Data& figures) {
   figures.push_back(data);
 }
 
-/// Returns figures of the manipulator, its printed and computed frequencies, and its modes.
+/// Returns three figures: the manipulator, its printed and computed frequencies, and its modes.
 Data manipulator_figures(const std::vector<Family>& families) {
   Data figures = list();
   const auto [info, gallery] = find_main_comparison(families);

@@ -9,10 +9,10 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxUnfoldedChecks = 16;  ///< rows of a case that are not folded
-constexpr std::size_t kMaxEntries = 12;         ///< entries of a check with a row each
+constexpr std::size_t kMaxUnfoldedChecks = 16;  ///< largest number of unfolded rows of a case
+constexpr std::size_t kMaxEntries = 12;         ///< checks with more values have one row
 
-/// Returns the cells of one check. The first row of a group contains the common cells.
+/// Returns the table cells of one value. The first row also has the cells that span all rows.
 Data row_of(const Check& check, const std::string& entry, bool first = true) {
   const bool has_message = check.verdict != Verdict::pass || check.measure == "status";
   return with_status(check_status(check), {{"entry", entry},
@@ -25,22 +25,22 @@ Data row_of(const Check& check, const std::string& entry, bool first = true) {
                                            {"first", first}});
 }
 
-/// Returns the tolerance as text. Empty for a bound, because the column of targets shows its
-/// limits.
+/// Returns the tolerance as text. The text is empty for a bound, because the column of targets
+/// shows the limits of the bound.
 std::string range_text(const Check& check) {
   if (check.measure == "status" || (check.measure == "bound" && !check.expected)) return "";
   return (check.known_discrepancy() ? "expected " : "") + tolerance_text(check);
 }
 
-/// State of a table under construction: the results, and the names of checks with an anchor.
+/// State of a table under construction: the results, and the names of checks that have an anchor.
 struct Rows {
   const Results& results;
   bool is_linked = false;
   std::set<std::string> named = {};
 };
 
-/// Returns one check with its entries, which share name, reference and reason.
-/// @param shared  the entries share the tolerance, too
+/// Returns the data of one check with a row for each value.
+/// @param shared  all rows have the same tolerance
 Data group_of(const Check& check, Rows& table, const Data& rows, bool shared) {
   const bool first = table.is_linked && table.named.insert(check.name).second;
   std::size_t n = rows.list_value().size();
@@ -61,7 +61,7 @@ Data group_of(const Check& check, Rows& table, const Data& rows, bool shared) {
                  {"reference_link", reference ? reference_link(reference->id) : ""}});
 }
 
-/// Returns "largest of 631: point 12", for a check with many entries, of which the worst is shown.
+/// Returns "largest of 631: point 12", for a check of many values, of which the worst is shown.
 std::string worst_entry(const Check& worst, std::size_t entries) {
   const std::string entry = entry_text(worst, entries);
   return "largest of " + std::to_string(entries) + (entry.empty() ? "" : ": " + entry);
@@ -77,8 +77,8 @@ bool same_reason(const Check& a, const Check& b) {
   return a.why == b.why && a.reference == b.reference;
 }
 
-/// Adds a row for each entry of a check, or only its worst entry if there are more than
-/// kMaxEntries. Entries with different reasons are separate groups.
+/// Adds a row for each value of a check, or only for its worst value if there are more than
+/// kMaxEntries. Values with different reasons form separate groups.
 void add_group(Data& groups, const CheckGroup& group, Rows& table) {
   if (group.checks.size() > kMaxEntries) {
     const Check& worst = group.worst();
@@ -111,7 +111,7 @@ Data run_data(const CaseInfo& info, const Run& run, bool many) {
        {"reason", run.reason}});
 }
 
-/// Returns the number of rows that `add_group` adds.
+/// Returns the number of rows that `add_group` adds for all checks of the runs.
 std::size_t rows_in(const std::vector<const Run*>& runs) {
   std::size_t n = 0;
   for (const Run* run : runs)
@@ -120,7 +120,6 @@ std::size_t rows_in(const std::vector<const Run*>& runs) {
   return n;
 }
 
-/// Returns the checks of all runs.
 Data full_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows linked) {
   Data table = list();
   for (const Run* run : runs) {
@@ -135,7 +134,7 @@ Data full_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows 
   return table;
 }
 
-/// Returns the worst entry of each check over all variants.
+/// Returns a table of the worst value of each check over all variants.
 Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows linked) {
   struct Worst {
     const Check* check;

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Blocks the signals that end the program, from construction to destruction.
+/// Blocks the signals that end the program while an object of this class exists.
 class SignalsWait {
  public:
   SignalsWait() {

@@ -7,20 +7,22 @@
 
 #include "harness/base/number.h"
 
-/// Text files, tables as CSV, and templates.
+/// Reading and writing of text files, conversion of tables to CSV, and templates of pages.
 namespace trammel::reports {
 
-/// Returns the text of a file. @throws std::system_error  with the name of the file.
+/// Returns the text of a file. @throws std::system_error  if the file cannot be read.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
-/// Writes a file through a temporary one, so that it is never incomplete. A link is replaced.
-/// @throws std::system_error  with the name of the file.
+/// Writes a temporary file and renames it to `path`, so that `path` is never an incomplete file. If
+/// `path` is a symbolic link, the link is replaced.
+/// @throws std::system_error  if the file cannot be written.
 void write_file(const std::filesystem::path& path, const std::string& text);
 
-/// Moves all files below `from` to the same relative paths below `to`; moves the file `last` after
-/// all others. Then removes `from`, and the files of `obsolete` (below `to`) that were not
-/// replaced. Links are replaced and not followed. Signals that end the program are blocked
-/// meanwhile.
-/// @throws std::system_error  with the name of an obstacle, before any file is moved.
+/// Moves all files below the folder `from` to the same relative paths below `to`; moves the file
+/// `last` after all others. Then removes `from`, and the files of `obsolete` (paths below `to`)
+/// that were not replaced. Symbolic links are replaced and not followed. Signals that end the
+/// program are blocked during the replacement.
+/// @throws std::system_error  before any file is moved, if a folder has the name of a file or a
+/// file has the name of a folder.
 void replace_files(const std::filesystem::path& from, const std::filesystem::path& to,
                    const std::string& last, const std::vector<std::filesystem::path>& obsolete);
 
@@ -35,11 +37,11 @@ struct Table {
 
 [[nodiscard]] Table::Cell cell(harness::Number number);
 
-/// Returns the table as CSV. With all digits, numbers read back as the same doubles. Missing values
-/// are empty. Texts that a spreadsheet would interpret as formulas start with an apostrophe.
+/// Returns the table as CSV. Numbers with all digits read back as the same doubles. Missing values
+/// are empty cells. Texts that a spreadsheet would interpret as formulas start with an apostrophe.
 [[nodiscard]] std::string to_csv(const Table& table);
 
-/// Returns the text of a file of templates/, which is built into the program.
+/// Returns the text of a file of the folder templates/, which is compiled into the program.
 /// @throws std::logic_error  if there is no such file.
 [[nodiscard]] const std::string& template_text(const std::string& name);
 

@@ -8,13 +8,14 @@
 #include <utility>
 #include <vector>
 
-/// Data of templates. Mustache escapes {{name}} and copies {{{name}}} unchanged.
+/// Data for the Mustache templates of pages. Mustache escapes HTML characters in the value of
+/// {{name}} and copies the value of {{{name}}} unchanged.
 namespace trammel::reports {
 
 using Data = kainjow::mustache::data;
 
-/// A name in a template with its value: a text, a truth value, or further data. An empty text
-/// counts as false: {{#name}} skips it, and no outer `name` is used instead.
+/// A variable of a template with its value: a text, a truth value, or nested data. An empty text
+/// becomes false, so that {{#name}} is skipped and no `name` of an outer level is used.
 struct Entry {
   Entry(std::string key, const std::string& text)
       : name(std::move(key)), value(text.empty() ? Data(false) : Data(text)) {}
@@ -30,7 +31,7 @@ inline void set(Data& data, std::initializer_list<Entry> entries) {
   for (const Entry& entry : entries) data.set(entry.name, entry.value);
 }
 
-/// Returns the text under a name; empty if there is none.
+/// Returns the text of a variable of the data; empty if the data have no such text.
 [[nodiscard]] inline std::string text_under(const Data& data, const std::string& name) {
   const Data* found = data.get(name);
   return found != nullptr && found->is_string() ? found->string_value() : "";
@@ -46,7 +47,7 @@ inline void set(Data& data, std::initializer_list<Entry> entries) {
   return Data(Data::type::list);
 }
 
-/// Returns the results of `make` for each item, in order.
+/// Returns a list with the result of `make` for each item, in the order of the items.
 template <typename Range, typename Make>
 [[nodiscard]] Data list_of(const Range& range, Make make) {
   Data out = list();
@@ -60,14 +61,14 @@ template <typename Range>
   return list_of(range, [&](const auto& text) { return object({{"text", text}}); });
 }
 
-/// A table of texts for table.mustache. The first cell of a row is its head; a row of one cell
-/// is the head of the rows below it.
+/// A table of texts for table.mustache. The first cell of a row is the heading of the row. A row of
+/// one cell is a heading of the rows below it.
 struct TextTable {
   std::string title;
-  std::vector<std::string> heads;  ///< '>' in front: a column of numbers
+  std::vector<std::string> heads;  ///< headings of columns; '>' in front marks a column of numbers
   std::vector<std::vector<std::string>> rows = {};
   std::string caption = {};
-  std::map<std::string, std::string> links = {};  ///< of rows, by their heads
+  std::map<std::string, std::string> links = {};  ///< links of rows, by the heading of the row
 };
 
 [[nodiscard]] inline Data table_data(const TextTable& table) {

@@ -44,7 +44,7 @@ std::string scientific(double x, int digits, bool trim) {
 std::string written(double x, int digits, bool trim) {
   if (!std::isfinite(x)) return std::isnan(x) ? "not a number" : (x > 0 ? "∞" : "\u2212∞");
   if (x == 0) return "0";
-  // The exponent is that of the rounded number: 9.9996 with four digits is 10.00.
+  // Rounding can change the decimal exponent: 9.9996 with four digits is 10.00.
   const std::string rounded = format(x, std::chars_format::scientific, digits - 1);
   const int exponent = std::stoi(rounded.substr(rounded.find('e') + 1));
   if (exponent < -4 || exponent >= std::max(6, digits)) return scientific(x, digits, trim);

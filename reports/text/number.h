@@ -8,17 +8,17 @@
 namespace trammel::reports {
 
 // Numbers as text for pages, with a typographic minus sign, powers of ten as 10⁻⁷, and significant
-// digits only. CSV files have full precision (`shortest`).
+// digits only. Numbers in CSV files have full precision (`shortest_decimal`).
 
-/// Returns whether a byte is a control character. Bytes of longer UTF-8 characters are not.
 [[nodiscard]] inline bool is_control(char c) {
   return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
 }
 
-/// Returns `digits` significant digits, with trailing zeros; scientific outside 1e-4 ... 1e6.
+/// Returns a number with `digits` significant digits and trailing zeros. The notation is scientific
+/// below 1e-4 and from 1e6.
 [[nodiscard]] std::string significant(double x, int digits);
 
-/// Returns at most `digits` significant digits, without trailing zeros: 0.002, not 0.002000.
+/// Returns a number with at most `digits` digits and no trailing zeros: 0.002, not 0.002000.
 [[nodiscard]] std::string trimmed(double x, int digits);
 
 /// Returns the number as `trimmed`, with its sign: +0.31, −4.2 × 10⁻⁹.
@@ -27,12 +27,11 @@ namespace trammel::reports {
 /// Returns a relative difference as a percentage; below 1e-5, as a plain number.
 [[nodiscard]] std::string relative(double x, int digits, bool sign);
 
-/// Returns the number of digits that show the difference of two numbers, from 4 to 10; 6 if they
-/// agree in more digits.
+/// Returns the number of significant digits, from 4 to 10, that show the difference of two numbers.
+/// Returns 6 if the numbers agree in more than 10 digits.
 [[nodiscard]] int distinguishing_digits(double a, double b);
 
-/// Significant digits of drawn samples, which resolve less than a pixel. The run store has all
-/// digits.
+/// Significant digits of the points of curves in figures. They resolve less than a pixel.
 inline constexpr int kSampleDigits = 7;
 
 /// Returns the shortest text that reads back as the same double, independent of the locale.
@@ -41,13 +40,13 @@ inline constexpr int kSampleDigits = 7;
 /// Returns the number with at most `digits` significant digits.
 [[nodiscard]] std::string shortest_decimal(double x, int digits);
 
-/// Returns "10⁻⁷".
+/// Returns ten with an exponent in superscript digits, such as "10⁻⁷".
 [[nodiscard]] std::string power_of_ten(int exponent);
 
 /// Replaces numbers such as 1e-6 and 2.1e-09 in a text by 10⁻⁶ and 2.1 × 10⁻⁹.
 [[nodiscard]] std::string with_powers(const std::string& text);
 
-/// Returns "1 check" or "3 checks".
+/// Returns a number with its noun in singular or plural: "1 check" or "3 checks".
 [[nodiscard]] std::string count(std::size_t n, const std::string& singular,
                                 const std::string& plural = "");
 
@@ -65,7 +64,7 @@ inline constexpr int kSampleDigits = 7;
 
 [[nodiscard]] std::string capitalized(std::string text);
 
-/// Returns "3.9 to 4.1", or "4" if both texts are equal.
+/// Returns a range as text: "3.9 to 4.1", or "4" if both limits are equal.
 [[nodiscard]] std::string low_to_high(const std::string& low, const std::string& high);
 
 /// Appends an item to a list, after a separator unless it is the first item.

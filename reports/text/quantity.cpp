@@ -27,7 +27,7 @@ bool takes_prefix(const std::string& unit) {
   return std::ranges::find(plain, unit) != plain.end();
 }
 
-/// Returns whether the subject of a quantity is another quantity, as in
+/// Returns whether the name of another quantity follows the colon in the name of a quantity, as in
 /// relative_error:frequency_Hz.
 bool is_of_a_quantity(const std::string& base) {
   static const std::array<const char*, 4> names = {"relative_error", "roundoff",
@@ -60,7 +60,7 @@ QuantityLabel parse_quantity(const std::string& name) {
   const auto [base, unit] = harness::split_unit(name);
   quantity.unit = display_unit(unit);
   if (colon != std::string::npos) quantity.subject = name.substr(colon + 1);
-  // frequency_Hz:1 is a mode along a path or over a range of speeds.
+  // The number in frequency_Hz:1 is that of a mode along a path or over a range of speeds.
   if (quantity.subject.find_first_not_of("0123456789") == std::string::npos &&
       !quantity.subject.empty()) {
     quantity.subject.insert(0, "mode ");

@@ -19,8 +19,8 @@ struct QuantityLabel {
 /// Converts a unit in the notation of reference files (N m, kg m^2) to a typeset unit (N·m, kg·m²).
 [[nodiscard]] std::string display_unit(const std::string& unit);
 
-/// Factor that scales values of up to `largest` to the range 1 ... 1000, and the scaled unit:
-/// 0.0081 m is 8.1 mm. A unit without prefixes has a power of ten instead.
+/// Factor that scales values to the range 1 ... 1000 if the largest is `largest`, and the scaled
+/// unit: 0.0081 m becomes 8.1 mm. Units without SI prefixes have a power of ten.
 struct Scale {
   double factor = 1;
   std::string unit;

@@ -28,7 +28,7 @@ class Places {
     by_x_.emplace(position.x(), Place{by_x_.size(), node, position});
   }
 
-  /// Returns the first node that was added at the position, or -1.
+  /// Returns the first node that was added within the tolerance of a position, or -1.
   [[nodiscard]] Index find(const Vector2d& position) const {
     const Place* first = nullptr;
     auto at = by_x_.lower_bound(position.x() - tolerance_);
@@ -86,8 +86,8 @@ class Side {
   double turn_ = 0;
 };
 
-/// Returns the parameters of the n + 1 mesh lines. With mid-side nodes it returns 2 n + 1 lines,
-/// where each additional line is halfway between its neighbors.
+/// Returns the coordinates 0 to 1 of the n + 1 mesh lines between n cells. With mid-side nodes,
+/// there are 2 n + 1 lines, where each additional line is halfway between its neighbors.
 std::vector<double> lines(Index cells, double grading, bool with_mid_side_nodes) {
   const double q = cells > 1 ? std::pow(grading, 1.0 / static_cast<double>(cells - 1)) : 1;
   std::vector<double> at = {0};
@@ -191,7 +191,7 @@ class Mesher {
   }
 
   BlockMesh mesh_;
-  Places outer_;             // nodes on the sides of all blocks so far
+  Places outer_;             // nodes on the sides of all blocks added so far
   std::vector<Index> grid_;  // nodes of the current block, row by row
   std::size_t width_ = 0;
 };
@@ -251,7 +251,7 @@ Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate) {
   BlockMesh block = mesh_blocks(
       {{{Vector2d::Zero(), x, size, y}, {}, {mesh.cells, mesh.cells}, {1, 1}}}, mesh.six_nodes);
   const auto distort = [&](Vector2d& position) {
-    // Row and column of the corner.
+    // Column and row of the corner of a cell.
     Vector2d at = (cells * position.cwiseQuotient(size)).array().round();
     const auto i = static_cast<Index>(at.x()), j = static_cast<Index>(at.y());
     const bool inside = i > 0 && j > 0 && i < mesh.cells && j < mesh.cells;

@@ -25,11 +25,11 @@ struct Ellipse {
 /// Quadrilateral block of a mapped mesh.
 struct Block {
   std::array<Vector2d, 4> corners;  ///< counterclockwise [m]
-  /// Side i runs from corner i to corner i + 1; empty: straight.
+  /// Ellipse of each side; empty: straight side. Side i runs from corner i to corner i + 1.
   std::array<std::optional<Ellipse>, 4> sides;
-  /// Numbers of cells along sides 0 and 2, and along sides 1 and 3.
+  /// Numbers of cells in two directions: along sides 0 and 2, and along sides 1 and 3.
   std::array<Index, 2> cells{1, 1};
-  /// Length of the last cell over that of the first, counted from corner 0.
+  /// Length of the last cell over the length of the first cell in each direction, from corner 0.
   std::array<double, 2> grading{1, 1};
 };
 
@@ -37,7 +37,7 @@ struct Block {
 struct BlockMesh {
   bool six_nodes = false;
   std::vector<Vector2d> positions;  ///< [m]
-  /// Counterclockwise; entries 3 to 5 are -1 for three-node triangles.
+  /// Nodes of each triangle, counterclockwise; entries 3 to 5 are -1 for three-node triangles.
   std::vector<std::array<Index, 6>> triangles;
   /// Nodes of each side of each block, from corner to corner, with mid-side nodes:
   /// sides[block][side].
@@ -52,28 +52,25 @@ struct BlockMesh {
 ///   or a grading is not positive.
 [[nodiscard]] BlockMesh mesh_blocks(const std::vector<Block>& blocks, bool six_nodes);
 
-/// Adds the triangles of a mesh and its new nodes (without names) to a model. A mesh node is merged
-/// with a model node if their distance is below 1e-9 of the mesh size. If several model nodes
-/// match, nodes in `corners` have priority, then the first node of the model.
-/// @param model  model to which the mesh is added.
-/// @param plate  index of the plate of the triangles.
-/// @param mesh  mesh of blocks.
-/// @param corners  model nodes at the corners of the blocks.
+/// Adds the triangles of a mesh to the plate with index `plate` of a model, and new nodes without
+/// names. A mesh node is merged with a model node if their distance is below 1e-9 of the mesh size.
+/// If several model nodes match, model nodes in `corners` (block corners) have priority, then the
+/// first node of the model.
 /// @returns the index of the model node for each mesh node.
 std::vector<Index> append_mesh(Model& model, Index plate, const BlockMesh& mesh,
                                const std::vector<Index>& corners = {});
 
 // Meshes for verifying orders of convergence. They are regular, or distorted in a pattern that
-// repeats from cell to cell. Refinement therefore does not smooth out the distortion.
+// repeats after a few cells. Refinement therefore does not smooth out the distortion.
 
-/// Parameters of a mesh of a rectangle with one corner at the origin.
+/// Parameters of a triangle mesh of a rectangle with one corner at the origin.
 struct RectangleMesh {
   double length = 0;  ///< along x, from the origin [m]
   double height = 0;  ///< along y [m]
-  /// Along each side; each cell is split into two triangles with alternating diagonals.
+  /// Cells along each side. Each cell is split into two triangles with alternating diagonals.
   Index cells = 1;
   bool six_nodes = false;
-  double distortion = 0;  ///< displacement of the inner corners [cells]; 0 <= distortion < 0.3
+  double distortion = 0;  ///< displacement of inner corners [cell size]; 0 <= distortion < 0.3
 };
 
 /// Returns a model with one plate, meshed by triangles with the given distortion, without supports
@@ -81,7 +78,7 @@ struct RectangleMesh {
 /// @throws ModelError  if the distortion is outside its range and could invert a triangle.
 [[nodiscard]] Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate);
 
-/// Parameters of a mesh of a straight line.
+/// Parameters of a mesh of members along a straight line.
 struct DistortedLine {
   Vector2d start = Vector2d::Zero();  ///< [m]
   Vector2d end = Vector2d::Zero();    ///< [m]

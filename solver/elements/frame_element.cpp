@@ -6,8 +6,7 @@ namespace trammel::solver {
 namespace {
 
 /// Returns a section whose properties are mix(a, b, n), where a and b are the properties of two
-/// sections. n is the power of the depth with which a property scales: it is proportional to
-/// depth^n width.
+/// sections. A property is proportional to depth^n times width.
 template <class Mix>
 Section mixed(const Section& first, const Section& second, const Mix& mix) {
   Section section;
@@ -21,7 +20,8 @@ Section mixed(const Section& first, const Section& second, const Mix& mix) {
   return section;
 }
 
-/// Interpolates depth and width linearly. The depth is proportional to the radius of gyration.
+/// Returns a section between two sections whose depth and width are interpolated linearly. The
+/// depth is proportional to the radius of gyration.
 Section with_linear_dimensions(const Section& first, const Section& second, double at) {
   const double depth_ratio = std::sqrt(second.EI / second.EA / (first.EI / first.EA));
   const double width_ratio = second.area / first.area / depth_ratio;

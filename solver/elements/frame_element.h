@@ -26,10 +26,10 @@
 ///   antisymmetric bending   θ1 + θ2 - 2 (v2 - v1) / L,
 ///   \f[ k = B^T \operatorname{diag}(EA/L,\ EI/L,\ 3 EI / (L (1 + \Phi)))\, B. \f]
 ///
-/// Energies and forces computed from d keep the significant digits of bending next to a much
-/// stiffer axial part. The entries of k in world axes lose them.
+/// Energies and forces computed from d keep the significant digits of bending even if the axial
+/// stiffness is much larger. The entries of k in world axes lose these digits.
 ///
-/// Functions of T are defined for double and Dual.
+/// Templates over T are defined for double and dual numbers (Dual).
 namespace trammel::solver {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
@@ -52,8 +52,8 @@ template <Real T>
   return 12.0 * section.EI / (section.kappa_GA * length * length);
 }
 
-/// Returns B, 3 x 6, of the element along `direction` (unit vector, world axes). B maps world
-/// degrees of freedom to d [m, rad, rad].
+/// Returns the deformation matrix B, 3 x 6, of an element along `direction` (unit vector, world
+/// axes). B maps degrees of freedom in world axes to deformations d [m, rad, rad].
 template <Real T = double>
 [[nodiscard]] Matrix36<T> frame_deformation_matrix(const Eigen::Vector2<T>& direction,
                                                    const std::type_identity_t<T>& length) {
@@ -76,7 +76,7 @@ template <Real T = double>
   return B;
 }
 
-/// Returns the diagonal stiffness of the three deformations d [N/m, N m, N m].
+/// Returns the diagonal stiffness of the three deformations d of an element [N/m, N m, N m].
 template <Real T>
 [[nodiscard]] Eigen::Vector3<T> frame_rigidity(const SectionOf<T>& section, BeamTheory theory,
                                                const std::type_identity_t<T>& length) {
@@ -84,9 +84,9 @@ template <Real T>
   return {section.EA / length, section.EI / length, 3.0 * section.EI / (length * (1.0 + phi))};
 }
 
-/// Returns the interpolation at the fraction 0 <= xi <= 1 of the length, 3 x 6. The rows are the
-/// axial displacement, the transverse displacement and the rotation of the section. The columns are
-/// the degrees of freedom in element axes.
+/// Returns the interpolation matrix at the fraction 0 <= xi <= 1 of the element length, 3 x 6. The
+/// rows are the axial displacement, the transverse displacement and the rotation of the section.
+/// The columns are the degrees of freedom in element axes.
 /// Source: Friedman & Kosmatka (1993).
 template <Real T>
 [[nodiscard]] Matrix36<T> frame_interpolation(const T& shear_ratio,
@@ -110,10 +110,10 @@ template <Real T>
   return N;
 }
 
-/// Returns the mass matrix in element axes, 6 x 6. The consistent matrix is the integral of rho A
-/// (u^2 + v^2) and, with rotary inertia, of rho I θ^2 over the interpolation. The lumped matrix
-/// assigns half of the mass and of the rotary inertia to each node. Rotations are therefore
-/// massless without rotary inertia.
+/// Returns the mass matrix of an element in element axes, 6 x 6. The consistent matrix is the
+/// integral of rho A (u^2 + v^2) and, with rotary inertia, of rho I θ^2 over the interpolation. The
+/// lumped matrix assigns half of the mass and of the rotary inertia to each node. Rotations are
+/// therefore massless without rotary inertia.
 /// Source: paper Eq. (6, 7); Friedman & Kosmatka (1993).
 template <Real T>
 [[nodiscard]] Matrix6<T> frame_mass(const SectionOf<T>& section, BeamTheory theory, MassMatrix mass,

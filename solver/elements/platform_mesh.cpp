@@ -19,7 +19,7 @@ double twice_area(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return cross(b - a, c - a);
 }
 
-/// Adds the mid-side nodes. Two triangles with a common side share its node.
+/// Adds the mid-side nodes of all triangles. Two triangles share the node of a common side.
 void add_middles(TriangleMesh& mesh) {
   mesh.nodes.reserve(mesh.nodes.size() + 2 * mesh.triangles.size());
   std::unordered_map<Index, Index> middle;  // key: the two end nodes of the side
@@ -72,9 +72,9 @@ const std::array<RulePoint, 7>& radon_rule() {
   return rule;
 }
 
-/// Calls visit(point, area) at the quadrature points of the triangle near the disc around x0.
-/// `area` is the part of the area of the triangle that belongs to the point. The triangle is
-/// divided into pieces that are small compared with the disc. Pieces outside the disc are skipped.
+/// Calls visit(point, area) at the quadrature points of the triangle t near the disc around x0.
+/// `area` is the weight of the point, an area. The triangle is divided into pieces that are small
+/// compared with the disc. Pieces outside the disc are skipped.
 template <class Visit>
 void integrate_near(const Corners& t, const Vector2d& x0, double radius, const Visit& visit) {
   const Vector2d centroid = (t[0] + t[1] + t[2]) / 3;
@@ -97,8 +97,8 @@ void integrate_near(const Corners& t, const Vector2d& x0, double radius, const V
   }
 }
 
-/// Moments of each node within the pin: int N_i phi (1, xi, eta) dA with (xi, eta) = (x - x0) /
-/// radius (platform_mesh.h).
+/// Integrals for the weight of each node i of a pin: int N_i phi (1, xi, eta) dA with (xi, eta) =
+/// (x - x0) / radius (platform_mesh.h).
 using Shares = std::unordered_map<Index, Vector3d>;
 
 void add_shares(const TriangleMesh& mesh, const TriangleMesh::Nodes& nodes, const Vector2d& x0,
@@ -159,7 +159,8 @@ std::vector<std::pair<Index, double>> pin_weights(const TriangleMesh& mesh, cons
   for (const auto& share : shares) weights.emplace_back(share.first, 0.0);
   std::sort(weights.begin(), weights.end());
 
-  // Coefficients (a, b) of the kernel: sum_i w_i (1, (x_i - x0) / radius) = (1, 0, 0).
+  // The coefficients (a, b) of the weights follow from sum_i w_i (1, (x_i - x0) / radius) = (1, 0,
+  // 0).
   Eigen::Matrix3d A = Eigen::Matrix3d::Zero();
   const auto local = [&](Index node) {
     const Vector2d xi = (mesh.nodes[static_cast<std::size_t>(node)] - x0) / radius;

@@ -10,8 +10,8 @@ namespace trammel::solver {
 
 namespace {
 
-/// Returns the derivatives of the shape functions with respect to L_0 and L_1, with L_2 = 1 - L_0 -
-/// L_1.
+/// Returns the derivatives of the shape functions with respect to the area coordinates L_0 and L_1,
+/// with L_2 = 1 - L_0 - L_1.
 Eigen::Matrix<double, 2, 6> local_gradient(bool six_nodes, const Vector3d& L) {
   Eigen::Matrix<double, 2, 6> d = Eigen::Matrix<double, 2, 6>::Zero();
   if (!six_nodes) {

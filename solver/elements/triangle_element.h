@@ -19,8 +19,8 @@
 ///   k = B^T diag(t A E / (2 (1 - nu)), t A G, t A G) B.
 ///
 /// This equals k = t integral B^T D B dA, paper Eq. (8). The six-node triangle sums over the points
-/// of a rule that is exact to degree 4. Its strains are linear, so that degree 2 suffices for
-/// straight sides. Curved sides require the higher degree.
+/// of an integration rule that is exact to degree 4. Its strains are linear, so that degree 2
+/// suffices for straight sides. Curved sides require the higher degree.
 namespace trammel::solver {
 
 template <std::size_t n>
@@ -29,8 +29,9 @@ using TrianglePoints = TriangleNodes<3>;
 template <std::size_t n>
 using TriangleMatrix = Eigen::Matrix<double, static_cast<int>(2 * n), static_cast<int>(2 * n)>;
 
-/// Shape functions at one point. Three nodes have L_i. Six nodes have L_i (2 L_i - 1) at the
-/// corners and 4 L_i L_j at the mid-sides. Entries beyond the number of nodes are 0.
+/// Shape functions of a triangle at one point. With three nodes they are the area coordinates L_i.
+/// With six nodes they are L_i (2 L_i - 1) at the corners and 4 L_i L_j at the mid-side nodes.
+/// Entries beyond the number of nodes are 0.
 /// Source: Zienkiewicz & Taylor, The Finite Element Method, vol. 1.
 struct TriangleInterpolation {
   Index nodes = 3;                       ///< 3 or 6
@@ -42,7 +43,7 @@ struct TriangleInterpolation {
   double area = 0;  ///< absolute value of `signed_area` [m^2]
 };
 
-/// Returns the area coordinates of the corners and of the mid-side nodes.
+/// Returns the area coordinates of the corners and mid-side nodes of a triangle.
 [[nodiscard]] inline std::array<Vector3d, 6> triangle_node_coordinates() {
   return {Vector3d(1, 0, 0),     Vector3d(0, 1, 0),     Vector3d(0, 0, 1),
           Vector3d(0.5, 0.5, 0), Vector3d(0, 0.5, 0.5), Vector3d(0.5, 0, 0.5)};
@@ -53,9 +54,7 @@ struct TriangleInterpolation {
 [[nodiscard]] Eigen::Matrix<double, 6, 1> triangle_shape_functions(const Vector3d& L,
                                                                    bool six_nodes);
 
-/// Evaluates the shape functions of a triangle at one point.
-/// @param nodes  positions of the 3 or 6 nodes [m].
-/// @param at  area coordinates L_0, L_1, L_2 of the corners [-]; their sum is 1.
+/// Evaluates the shape functions of a triangle with 3 or 6 nodes [m] at the area coordinates `at`.
 [[nodiscard]] TriangleInterpolation interpolate(std::span<const Vector2d> nodes,
                                                 const Vector3d& at);
 /// Evaluates the shape functions of a triangle of a model at the area coordinates `at`.
@@ -77,7 +76,7 @@ decltype(auto) visit_nodes(const Model& model, const Triangle& triangle, Visit&&
                               : visit(triangle_nodes<3>(model, triangle));
 }
 
-/// Returns the area [m^2], positive if the points run counterclockwise.
+/// Returns the area of a triangle [m^2], positive if its points run counterclockwise.
 [[nodiscard]] double signed_area(const TrianglePoints& points);
 
 /// Returns the matrix B at a point, which maps coordinates to (exx + eyy, exx - eyy, gxy) [-].
@@ -103,7 +102,8 @@ template <int nodes>
 /// Source: paper Eq. (8).
 [[nodiscard]] Vector3d membrane_stress(const Material& material, const Vector3d& deformation);
 
-/// Stiffness in factored form, k = B^T diag(c) B, with three rows for each integration point.
+/// Stiffness of a triangle in factored form, k = B^T diag(c) B, with three rows per integration
+/// point.
 template <std::size_t n>
 struct TriangleStiffness {
   static constexpr int kRows = n == 3 ? 3 : 18;
@@ -118,7 +118,7 @@ template <std::size_t n>
 [[nodiscard]] TriangleStiffness<n> triangle_stiffness(const TriangleNodes<n>& nodes,
                                                       const Plate& plate);
 
-/// Computes the consistent mass matrix [kg], 2n x 2n:
+/// Computes the consistent mass matrix of a triangle [kg], 2n x 2n:
 ///
 ///   \f[ m = \rho t \int N^T N \, dA. \f]
 ///
@@ -141,8 +141,8 @@ using SideLoad = std::function<Vector2d(const Vector2d& position, const Vector2d
                                                   const std::array<Index, 3>& nodes,
                                                   const SideLoad& load);
 
-/// Returns the consistent nodal forces [N] of a uniform load on a side. The pressure acts along the
-/// normal.
+/// Returns the consistent nodal forces [N] of a uniform traction on a side of a triangle. The
+/// component `normal` acts along the normal of the side.
 [[nodiscard]] std::array<Vector2d, 3> edge_forces(const Model& model, const EdgeLoad& load);
 
 }  // namespace trammel::solver

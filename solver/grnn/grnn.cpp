@@ -102,7 +102,7 @@ const Eigen::ArrayXd& ExcessDistances::compute(const Eigen::Ref<const Eigen::Vec
                                                double reach,
                                                const Eigen::Array<bool, Eigen::Dynamic, 1>* skip) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  // The margin exceeds the round-off error of the squares of a thousand inputs.
+  // Relative margin that exceeds the round-off error of a sum of squares of a thousand inputs.
   constexpr double kRounding = 1e-12;
   const Index count = samples_.rows();
   excess_ = (query(0) - samples_.col(0).array()).square();
@@ -116,7 +116,7 @@ const Eigen::ArrayXd& ExcessDistances::compute(const Eigen::Ref<const Eigen::Vec
   for (first_ = 0; first_ < nearest && !(excess_(first_) <= limit);) ++first_;
   for (last_ = count; last_ > nearest + 1 && !(excess_(last_ - 1) <= limit);) --last_;
 
-  // Samples that are further away keep the squared distance D_i^2, which is at least their excess.
+  // Samples beyond the reach keep the squared distance D_i^2, which is at least their excess.
   auto near = excess_.segment(first_, last_ - first_);
   near.setZero();
   for (Index f = 0; f < samples_.cols(); ++f) {

@@ -7,16 +7,17 @@
 /// General regression neural network (Specht 1991), the estimator of Nadaraya and Watson (1964).
 namespace trammel::solver {
 
-/// Definition of the divisor of each input before distances are computed. A constant input is
-/// divided by 1.
+/// Rule for the scale by which each input is divided before distances are computed. A constant
+/// input is divided by 1.
 enum class InputScaling {
   none,
   deviation,  ///< standard deviation over the samples
   range       ///< largest minus smallest value
 };
 
-/// General regression neural network. It consists of its samples; the smoothing parameter sigma is
-/// the only parameter to train.
+/// General regression neural network. The output Y at an input x is a weighted mean of the outputs
+/// Y_i of all samples with inputs X_i. The smoothing parameter sigma is the only parameter to
+/// train.
 ///
 ///   \f[ Y(x) = \sum_i Y_i w_i \Big/ \sum_i w_i, \quad w_i = e^{-D_i^2 / 2 \sigma^2}, \quad
 ///       D_i^2 = \sum_f ((x_f - X_{if}) / s_f)^2 \f]
@@ -29,33 +30,30 @@ struct Grnn {
   double sigma = 1;         ///< smoothing, in scaled distance [-]
 };
 
-/// Builds a network with a scale computed from the samples.
-/// @param inputs   sample x input.
-/// @param outputs  sample x output.
-/// @param sigma    smoothing, in scaled distance [-].
-/// @param scaling  rule for the scale of the inputs.
+/// Builds a network from samples. The scale of the inputs is computed by the rule `scaling`.
 /// @throws ModelError  if there is no sample, the numbers of samples differ, or a number is not
 ///   finite or too large to be squared.
 [[nodiscard]] Grnn make_grnn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs,
                              double sigma, InputScaling scaling = InputScaling::none);
 
-/// Builds a network with the given scale. If each scale is the bandwidth of its input, use sigma =
-/// 1.
+/// Builds a network with a given scale of each input. If each scale is the kernel bandwidth of its
+/// input, use sigma = 1.
 [[nodiscard]] Grnn make_grnn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs,
                              double sigma, const Eigen::VectorXd& scale);
 
-/// Returns sigma [-] of MATLAB's newgrnn(P, T, spread), which uses exp(-(0.8326 D / spread)^2).
-/// 0.8326 is sqrt(ln 2) to four digits, so that the weight is one half at D = spread.
+/// Returns the sigma [-] that corresponds to the spread of MATLAB's newgrnn(P, T, spread). MATLAB
+/// uses the weights exp(-(0.8326 D / spread)^2) at distance D. 0.8326 is sqrt(ln 2) to four digits,
+/// so that the weight is one half at D = spread.
 [[nodiscard]] double sigma_of_spread(double spread);
 
-/// Returns the outputs for queries. The result is never 0/0, because weights are relative to the
-/// weight of the nearest sample m. They follow from the differences
+/// Returns the outputs of a network for queries (new inputs). The result is never 0/0, because
+/// weights are relative to the weight of the nearest sample m. They follow from the differences
 ///
 ///   D_i^2 - D_m^2 = sum_f (X_mf - X_if) ((x_f - X_if) + (x_f - X_mf)) / scale_f^2,
 ///
-/// which remain accurate far from the samples. The limit for sigma -> 0 is the nearest sample, or
-/// the mean of the samples at that distance. The limit for sigma -> infinity is the mean of all
-/// samples.
+/// which remain accurate far from the samples. The limit for sigma -> 0 is the output of the
+/// nearest sample, or the mean output of several nearest samples. The limit for sigma -> infinity
+/// is the mean output of all samples.
 /// @param network  samples, scale and sigma.
 /// @param queries  query x input.
 /// @return         query x output.
@@ -65,21 +63,22 @@ struct Grnn {
 
 // Kernel weights of a GRNN, shared by prediction and cross-validation.
 
-/// Returns the divisor of each column; 1 for a constant column.
+/// Returns the scale of each column (input) of the samples; 1 for a constant column.
 [[nodiscard]] Eigen::VectorXd scale_of(const Eigen::MatrixXd& columns, InputScaling scaling);
 /// Returns the inputs divided by their scales, sample x input [-].
 [[nodiscard]] inline Eigen::MatrixXd scaled_inputs(const Grnn& network) {
   return network.inputs * network.scale.cwiseInverse().asDiagonal();
 }
 
-/// Computes D_i^2 - D_m^2 >= 0 between every sample i and a query, where m is the nearest sample.
+/// Computes the excess D_i^2 - D_m^2 >= 0 of the squared distance between every sample i and a
+/// query, where m is the sample nearest to the query.
 class ExcessDistances {
  public:
   /// @param samples  sample x input, scaled; must outlive this object.
   explicit ExcessDistances(const Eigen::MatrixXd& samples)
       : samples_(samples), excess_(samples.rows()), last_(samples.rows()) {}
 
-  /// Computes the excess of every sample.
+  /// Computes the excess of every sample for a query.
   /// @param query  scaled input.
   /// @param reach  excess above which a lower bound is sufficient: samples beyond it may get any
   ///   excess that is at least `reach`.
@@ -97,15 +96,13 @@ class ExcessDistances {
   Index first_ = 0, last_;
 };
 
-/// Computes the weights exp(-excess / 2 sigma^2). The weight of the nearest sample is 1 for any
-/// sigma. All weights are at least e^-708, which is a normal number and negligible compared with 1.
-/// @param excess   [count].
-/// @param count    number of samples.
-/// @param sigma    smoothing [-].
-/// @param weights  [count], output.
+/// Computes the weights exp(-excess / 2 sigma^2) of `count` samples. The weight of the nearest
+/// sample is 1 for any sigma. All weights are at least e^-708, which is a normal number and
+/// negligible compared with 1.
 void kernel_weights(const double* excess, Index count, double sigma, double* weights);
 
-/// Returns the excess above which a weight is negligible; infinite if sigma^2 overflows.
+/// Returns the excess above which the weight of a sample is negligible; infinite if sigma^2
+/// overflows.
 [[nodiscard]] double reach_of_kernel(double sigma);
 
 }  // namespace trammel::solver

@@ -20,8 +20,8 @@ void check_sigmas(const Eigen::VectorXd& sigmas) {
           "every sigma must be a positive normal number");
 }
 
-/// Returns 0, 1, ..., shuffled by Fisher-Yates on request. std::shuffle differs between standard
-/// libraries.
+/// Returns the sample indices 0, 1, ..., optionally in the random order of the Fisher-Yates
+/// algorithm. The result of std::shuffle would differ between standard libraries.
 std::vector<Index> order_of(Index samples, bool shuffled, std::uint64_t seed) {
   std::vector<Index> order(to_size(samples));
   std::iota(order.begin(), order.end(), Index{0});
@@ -50,7 +50,7 @@ std::vector<bool> training_mask(Index samples, Index train, Split split, std::ui
   const std::vector<Index> order = order_of(samples, split == Split::shuffled, seed);
   std::vector<bool> trains(order.size(), false);
   for (Index k = 0; k < train; ++k) {
-    // The sample is in the middle of the k-th of `train` equal intervals.
+    // Interleaved samples are in the middle of the k-th of `train` equal intervals.
     const Index rank = split == Split::interleaved ? (2 * k + 1) * samples / (2 * train) : k;
     trains[to_size(order[to_size(rank)])] = true;
   }
@@ -149,8 +149,7 @@ SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,
     return error;
   };
   // Search sigma relative to the middle of the bracket, so that the unit of the inputs does not
-  // matter.
-  // This determines sigma to better than 1e-3.
+  // matter. 12 bits determine sigma to better than 1e-3.
   constexpr int kBits = 12;
   std::uintmax_t evaluations = 100;
   boost::math::tools::brent_find_minima(error_at, std::log(grid(best - 1) / middle),

@@ -6,7 +6,7 @@
 
 #include "solver/grnn/grnn.h"
 
-/// Choice of the smoothing of a GRNN by cross-validation.
+/// Choice of the smoothing parameter sigma of a GRNN by cross-validation.
 namespace trammel::solver {
 
 /// Assignment of samples to folds. Neighbors in a time series are nearly equal. Interleaved or
@@ -16,7 +16,7 @@ enum class FoldOrder { interleaved, shuffled, blocks };
 
 /// Options of a cross-validation.
 struct CrossValidation {
-  Index folds = 0;  ///< 0: leave one out
+  Index folds = 0;  ///< number of folds; 0: leave-one-out, one fold per sample
   FoldOrder order = FoldOrder::interleaved;
   std::uint64_t seed = 1;  ///< used by `shuffled`
 };
@@ -26,7 +26,7 @@ struct CrossValidation {
 /// @throws ModelError  if there are fewer than two folds, or fewer samples than folds.
 [[nodiscard]] std::vector<Index> fold_of_samples(Index samples, const CrossValidation& validation);
 
-/// Choice of the samples that train a network. The others are held out.
+/// Choice of the samples that train a network. The other samples are held out for testing.
 enum class Split {
   first,  ///< first samples in time, as in the paper: the held-out samples require extrapolation
   interleaved,  ///< spread evenly over all samples
@@ -49,24 +49,24 @@ enum class Split {
 
 /// Result of a search for sigma.
 struct SigmaSearch {
-  double sigma = 0;            ///< refined sigma [-]
-  double error = 0;            ///< its cross-validation error [-]
-  bool bracketed = false;      ///< false: the least error is at an end of the grid
-  Eigen::VectorXd grid;        ///< sigmas of the grid, ascending
+  double sigma = 0;        ///< sigma with the least error [-]
+  double error = 0;        ///< cross-validation error of this sigma [-]
+  bool bracketed = false;  ///< false: the least error is at an end of the grid, without refinement
+  Eigen::VectorXd grid;    ///< sigmas of the grid, ascending
   Eigen::VectorXd grid_error;  ///< cross-validation errors on the grid [-]
   Index evaluations = 0;       ///< total number of sigmas evaluated
 };
 
 /// Returns `count` sigmas with equal spacing of their logarithms.
 [[nodiscard]] Eigen::VectorXd logarithmic_grid(double from, double to, Index count);
-/// Returns a grid from a tenth of the median nearest-neighbor distance to the extent of all
-/// samples.
+/// Returns a grid of sigmas from a tenth of the median nearest-neighbor distance to the extent of
+/// all samples.
 [[nodiscard]] Eigen::VectorXd default_grid(const Grnn& network, Index count = 41);
 
 /// Searches the sigma with the least cross-validation error. A grid search as in the paper is
 /// followed by Brent's method in log sigma between the neighbors of the best grid point. If errors
 /// are equal on the grid, the smaller sigma is selected. The result has the least error of all
-/// evaluations. It is a local minimum if there are several.
+/// evaluations. It may be a local minimum if there are several minima.
 /// @throws ModelError  if the grid does not ascend from a positive number, or for the reasons of
 ///   `fold_of_samples`.
 [[nodiscard]] SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,

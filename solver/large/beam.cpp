@@ -9,15 +9,15 @@ namespace {
 constexpr int kNodes = BeamInterpolation::kNodes, kPoints = BeamInterpolation::kPoints;
 using NodeValues = Eigen::Matrix<double, kNodes, 1>;
 using Monomials = Eigen::Matrix<double, 1, kNodes>;
-/// Indices of the rotations among the coordinates.
+/// Indices of the nodal rotations among the coordinates (ux, uy, theta) of the element nodes.
 const auto kTurns = Eigen::seqN(Eigen::fix<2>, Eigen::fix<kNodes>, Eigen::fix<3>);
 
 Monomials monomials(double x) {
   return {1, x, x * x, x * x * x};
 }
 
-/// Computes the table from Lobatto points and Gauss rules of [-1, 1], whose lengths are twice those
-/// of [0, 1].
+/// Computes the shape functions for x in [0, 1]. The Lobatto points and Gauss rules are listed for
+/// the interval [-1, 1], which is twice as long.
 BeamInterpolation make_interpolation() {
   const std::array<double, kNodes> lobatto = {-1, -std::sqrt(0.2), std::sqrt(0.2), 1};
   const std::array<double, kPoints> point = {-std::sqrt(0.6), 0, std::sqrt(0.6)};
@@ -51,7 +51,7 @@ BeamInterpolation make_interpolation() {
   return s;
 }
 
-/// Strains and section axes of a Gauss point.
+/// Strains at a Gauss point. The unit vectors e1 and e2 are normal and parallel to the section.
 struct Strain {
   Vector2d e1, e2;
   double stretch = 0, shear = 0;
@@ -72,8 +72,9 @@ struct Strain {
     shear = e2.dot(slope) - sine;
   }
 
-  /// Sets the entries of node a in the two rows (stretch and shear) of Gauss point g. `slope`
-  /// multiplies displacements, and `value` multiplies the rotation.
+  /// Sets the derivatives of stretch and shear at Gauss point g with respect to the coordinates of
+  /// node a. `slope` multiplies the derivatives by displacements, and `value` the derivatives by
+  /// the rotation.
   void set_rows(int g, int a, double slope, double value, Beam::Gradient& G) const {
     G.block<1, 2>(2 * g, 3 * a) = slope * e1.transpose();
     G(2 * g, 3 * a + 2) = value * shear;
@@ -135,9 +136,9 @@ Beam::Gradient Beam::discrete_gradient(const Coordinates& q0, const Coordinates&
   return D;
 }
 
-/// Uses rotations relative to the first node, so that a common rotation cancels before
-/// multiplication. Otherwise, its round-off error would act as a moment at every node, n^2 eps EI/L
-/// in total for n elements.
+/// Uses rotations relative to the first node, so that a rigid rotation cancels before it is
+/// multiplied by the stiffness. Otherwise, its round-off error would act as a moment at every node.
+/// In a member of length L with n elements, the sum of these moments would be n^2 eps EI/L.
 Beam::Coordinates Beam::forces(const Coordinates& q, const Coordinates& v, double tau) const {
   NodeValues relative = q(kTurns).array() - q[2];
   if (tau != 0) relative.array() += tau * (v(kTurns).array() - v[2]);

@@ -37,7 +37,8 @@ class ConsistentInitialization {
     return {};
   }
 
-  /// Returns the rates G v + dg/dt of the constraints that remain with the best-fitting velocities.
+  /// Returns the residuals G v + dg/dt of the constraint rates for the velocities v that satisfy
+  /// these constraints best.
   VectorXd rate_defect() {
     state_.v.setZero(n_);
     if (!solve_velocities({})) return VectorXd::Zero(m_);
@@ -55,20 +56,20 @@ class ConsistentInitialization {
  private:
   Outcome failed(const std::string& what) const {
     std::ostringstream message;
-    message << "no consistent " << what << " at the start, time " << state_.t
-            << " s: the largest constraint residual is " << rigid_constraint_residual()
+    message << "no consistent initial " << what << " were found at time " << state_.t
+            << " s: the largest residual of rigid constraints is " << rigid_constraint_residual()
             << " (lengths relative to the model size, angles in rad)";
     return {Status::not_converged, message.str()};
   }
 
-  /// Returns the largest residual relative to the model size or 1 rad.
+  /// Returns the largest residual of the rigid constraints relative to the model size or 1 rad.
   double rigid_constraint_residual() const {
     if (m_ == 0) return 0;
     return rigid_.cwiseProduct(constraint_residual_.cwiseQuotient(system_.row_unit()))
         .lpNorm<Eigen::Infinity>();
   }
 
-  /// Solves the linear system for given forces and residuals of the rigid rows.
+  /// Solves the linear equations for given forces and residuals of the rigid constraint rows.
   /// @return false if the matrix is singular.
   bool solve(const VectorXd& force, const VectorXd& row) {
     solution_ << force, -rigid_.cwiseProduct(row);
@@ -76,7 +77,7 @@ class ConsistentInitialization {
     return solution_.allFinite();
   }
 
-  /// Assembles S = M + (fraction of step)^2 K.
+  /// Assembles S = M + (fraction * step)^2 K from the mass matrix M and the tangent stiffness K.
   void assemble(double fraction) {
     const double stiffness = fraction * fraction * step_ * step_;
     matrix_.clear();
@@ -101,7 +102,8 @@ class ConsistentInitialization {
 
   bool solve_velocities(const PrescribedVelocities& given) {
     assemble(1e-3);
-    // The penalty exceeds masses and the stiffness in S, both for unit changes of the coordinates.
+    // Penalties enforce the prescribed velocities. They are 1e6 times the masses and the stiffness
+    // in S, for unit changes of the coordinates.
     const VectorXd& scale = system_.scale();
     VectorXd units = VectorXd::Zero(n_ + m_), rows = units;
     units.head(n_) = scale;
@@ -113,7 +115,7 @@ class ConsistentInitialization {
     if (!matrix_.factor(system_.symmetric())) return false;
     VectorXd penalty_force = VectorXd::Zero(n_);
     for (int i = 0; i < 8; ++i) {
-      // Each pass also corrects the remaining error of the given values.
+      // Each pass increases the penalty forces by the remaining error of the given velocities.
       for (const auto& [k, value] : given) penalty_force[k] += penalty(k) * (value - state_.v[k]);
       State at_rest = state_;
       at_rest.v.setZero();
@@ -123,7 +125,7 @@ class ConsistentInitialization {
       state_.v = solution_.head(n_);
       if (change <= 1e-15 * weighted_rms_norm(system_, state_.v)) break;
     }
-    // Two corrections onto G v + dg/dt = 0 remove the error of the regularization.
+    // Project twice onto G v + dg/dt = 0, which removes the error of the regularized constraints.
     for (int i = 0; i < 2; ++i) {
       system_.constraint_residual(state_, constraint_residual_, constraint_rate_);
       if (!solve(VectorXd::Zero(n_), constraint_rate_)) return false;
@@ -132,7 +134,8 @@ class ConsistentInitialization {
     return true;
   }
 
-  /// Returns the sum of the forces for unit accelerations of all coordinates, in their units.
+  /// Returns the sum of the inertia forces for unit accelerations of all coordinates, scaled by the
+  /// units of the coordinates.
   double mass_scale() {
     State probe = state_;
     VectorXd forces(n_);
@@ -154,8 +157,9 @@ class ConsistentInitialization {
     system_.force_residual(state_, force_residual_);
     if (!solve_with_mass_scaling(0.5, bias)) return false;
     const VectorXd resolved = solution_;
-    // The solution is nearly the exact acceleration. If it exceeds four times that of an implicit
-    // step, the step does not resolve a vibration or a coordinate is massless.
+    // With this negligible stiffness, the solution is nearly the exact acceleration. It is replaced
+    // by the acceleration of an implicit step if it is more than four times as large. In this case,
+    // the step does not resolve a vibration, or a coordinate is massless.
     if (!solve_with_mass_scaling(1e-4, bias) ||
         weighted_rms_norm(system_, solution_.head(n_)) >
             4 * weighted_rms_norm(system_, resolved.head(n_))) {
@@ -167,8 +171,8 @@ class ConsistentInitialization {
     return state_.a.allFinite() && state_.lambda.allFinite();
   }
 
-  /// Removes the residual of the equation of motion that the stiffness in S leaves, while it
-  /// decreases.
+  /// Refines the accelerations while the residual of the equation of motion decreases. The residual
+  /// results from the small stiffness in the matrix S.
   void refine_accelerations() {
     double last = std::numeric_limits<double>::infinity();
     for (int pass = 0; pass < 3; ++pass) {
@@ -187,8 +191,8 @@ class ConsistentInitialization {
     return matrix_.factor(system_.symmetric()) && solve(-force_residual_, bias);
   }
 
-  /// Returns d(G v + dg/dt)/dt without accelerations, by a central difference along the motion. Ten
-  /// digits are sufficient, because the acceleration only starts the integrator.
+  /// Returns d(G v + dg/dt)/dt for zero acceleration, by a central difference along the motion. Ten
+  /// digits are sufficient, because the acceleration is only the start value of the integrator.
   VectorXd acceleration_bias() {
     const double speed = state_.v.size() > 0 ? weighted_rms_norm(system_, state_.v) : 0.0;
     double d = 1e-2 * step_;
@@ -223,12 +227,12 @@ Outcome make_consistent(const ConstrainedSystem& system, State& state,
 
 std::string contradictory_drives(const GeometricallyExactSystem& system, const State& state,
                                  double step) {
-  // Limit of the rate that a drive leaves, relative to the fastest motion; round-off leaves much
-  // less.
+  // Smallest velocity error of a drive that counts as a contradiction, relative to the fastest
+  // motion. Round-off errors are much smaller.
   constexpr double kContradiction = 1e-3;
   const std::vector<Drive>& drives = system.large_motion().drives;
   if (drives.empty() || !state.q.allFinite()) return "";
-  for (const double aside : {0.5, -0.5}) {  // drives may start from rest or stop at this time
+  for (const double aside : {0.5, -0.5}) {  // a drive may start or stop at the time of the state
     State at = state;
     at.t += aside * step;
     at.load = system.load_factor(at.t);
@@ -243,7 +247,7 @@ std::string contradictory_drives(const GeometricallyExactSystem& system, const S
         names += std::string(names.empty() ? "" : ", ") + drives[i].name;
     }
     if (!names.empty())
-      return "; the constraints and the other drives do not admit the motion of " + names;
+      return "; the constraints and other drives do not admit the prescribed motion of " + names;
   }
   return "";
 }
@@ -254,8 +258,8 @@ Outcome make_accelerations_consistent(const ConstrainedSystem& system, State& st
 
 PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& system,
                                              const Eigen::MatrixX3d& node, const VectorXd& member) {
-  // The last value for a coordinate is used. A map would be too slow for motions with damping,
-  // which request these velocities in every iteration.
+  // If parts share a coordinate, the last velocity of this coordinate is used. A map would be too
+  // slow, because damping requires these velocities in every iteration.
   VectorXd values = VectorXd::Constant(system.coordinates(), kNaN);
   const auto set = [&](Index k, double value) {
     if (k >= 0 && k < values.size()) values[k] = value;

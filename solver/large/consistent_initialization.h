@@ -10,35 +10,36 @@
 
 namespace trammel::solver::large_motion {
 
-/// Coordinates and their initial velocities.
+/// Pairs of a coordinate index and the prescribed initial velocity of the coordinate.
 using PrescribedVelocities = std::vector<std::pair<Index, double>>;
 
-/// Makes a state consistent. Positions and velocities are projected onto the rigid constraints.
-/// Among all velocities with the given values, those of least kinetic energy are selected.
-/// Accelerations and multipliers then follow from the equations of motion. Massless coordinates and
-/// vibrations that `step` does not resolve get the acceleration of an implicit step of that size.
-/// @param system  equations.
-/// @param state  t and q are the guess; v, a and lambda are replaced.
-/// @param given  prescribed velocities.
-/// @param step  size of the first step [s].
+/// Makes an initial state satisfy the constraints and the equations of motion. Positions and
+/// velocities are projected onto the rigid constraints. Velocities that are not prescribed minimize
+/// the kinetic energy. Accelerations and Lagrange multipliers follow from the equations of motion.
+/// Massless coordinates, and vibrations that are too fast for `step`, get the acceleration of an
+/// implicit time step.
+/// @param system  equations of motion.
+/// @param state  initial state: t and an estimate of q are given; v, a and lambda are replaced.
+/// @param given  prescribed initial velocities.
+/// @param step  size of the first time step [s].
 [[nodiscard]] Outcome make_consistent(const ConstrainedSystem& system, State& state,
                                       const PrescribedVelocities& given, double step);
 
-/// Returns a clause for the reason of a failure. It lists drives whose motions contradict the
-/// constraints and the other drives, half a step before or after a state. The text is empty if
-/// there are none.
+/// Returns a clause for the error message of a failed analysis. It lists drives whose motions
+/// contradict the constraints or other drives half a time step before or after a state. The clause
+/// is empty if there are no such drives.
 [[nodiscard]] std::string contradictory_drives(const GeometricallyExactSystem& system,
                                                const State& state, double step);
 
-/// Computes the accelerations and multipliers of a state from its positions and velocities.
+/// Computes the accelerations and Lagrange multipliers of a state from its positions and
+/// velocities.
 [[nodiscard]] Outcome make_accelerations_consistent(const ConstrainedSystem& system, State& state,
                                                     double step);
 
-/// Returns velocities of all coordinates for members that move as rigid bars. With
-/// `make_consistent`, a mechanism then starts in motion without vibration.
-/// @param system  equations.
-/// @param node    velocities of each model node (x, y [m/s], rotation [rad/s]).
-/// @param member  angular velocity of each member [rad/s].
+/// Returns velocities of all coordinates for members that move as rigid bars. If a mechanism starts
+/// with these velocities (`make_consistent`), it has no initial vibration. `node` contains the
+/// velocities of each model node (x, y [m/s], rotation [rad/s]), and `member` the angular velocity
+/// of each member [rad/s].
 [[nodiscard]] PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& system,
                                                            const Eigen::MatrixX3d& node,
                                                            const VectorXd& member);

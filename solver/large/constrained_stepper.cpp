@@ -59,7 +59,7 @@ ConstraintGaps MotionResiduals::constraints(const State& state) {
 }
 
 AssemblyBranch::AssemblyBranch(const ConstrainedSystem& system) : system_(system) {
-  constexpr Index kLargest = 64;  // the determinant is dense
+  constexpr Index kLargest = 64;  // largest number of coordinates of a dense determinant
   const Index n = system.coordinates();
   const Index rigid = (system.compliance().array() == 0).count();
   freedom_ = n - rigid;
@@ -91,7 +91,7 @@ double AssemblyBranch::orientation(const State& state) {
   if (freedom_ == 1) {
     const VectorXd rate = state.v.cwiseQuotient(system_.scale());
     const double speed = rate.norm();
-    // A drive also moves the mechanism. Its velocity then has no orientation.
+    // If a drive moves the mechanism, G v is not zero, and the velocity v has no orientation.
     if (speed == 0 || (G.topRows(n - 1) * rate).norm() > 1e-6 * speed) return 0;
     G.bottomRows<1>() = rate.normalized().transpose();
   }
@@ -100,8 +100,8 @@ double AssemblyBranch::orientation(const State& state) {
          static_cast<double>(lu.permutationP().determinant());
 }
 
-/// Monitors the corrections in the iteration of a step: those of the motion, and those of the
-/// positions onto the constraints.
+/// Convergence of the Newton iteration in a time step. It depends on the corrections of the motion
+/// and on the projections of the positions onto the constraints.
 class StepConvergence {
  public:
   void record(double step_correction, double projection) {
@@ -111,12 +111,12 @@ class StepConvergence {
     projection_ = projection;
     ++count_;
   }
-  /// Returns true if the next corrections would be small enough according to their rate of
-  /// convergence, or if they no longer decrease at the level of round-off. All arguments are
-  /// relative to the scale.
+  /// Returns true if the next corrections would be below the limits according to the rate of
+  /// convergence. The result is also true if the corrections stagnate at the level of round-off
+  /// errors. All arguments are norms relative to the scale of the coordinates.
   /// @param acceleration  h^2 beta a, the contribution of the accelerations to the step.
-  /// @param velocity  h v.
-  /// @param position  q.
+  /// @param velocity  h v, the contribution of the velocities to the step.
+  /// @param position  coordinates q.
   /// @param limit  limit of the next correction of the motion.
   [[nodiscard]] bool converged(double acceleration, double velocity, double position,
                                double limit) const {
@@ -139,7 +139,8 @@ class StepConvergence {
   [[nodiscard]] double last() const { return step_correction_ + projection_; }
 
  private:
-  /// Returns the next correction at the same rate of convergence, or this one if it is the first.
+  /// Predicts the next correction from the ratio of the last two. Returns the last correction if it
+  /// is the first one or did not decrease.
   [[nodiscard]] double next_of(double correction, double previous) const {
     return count_ > 1 && correction < previous ? correction * (correction / previous) : correction;
   }
@@ -204,13 +205,14 @@ StepReport ConstrainedStepper::attempt(const Step& step) {
     work_ = A1_ - A0_;
     if (options_.adaptive)
       report.error = scheme_.error_constant * h * h * size(work_) / options_.adaptive->relative;
-    // A path through a singular position keeps its direction for any short step.
+    // A path straight through a singular position changes its orientation with steps of any size.
+    // The change is therefore accepted in very short steps.
     constexpr double kShortest = 1e-3;
     report.leaves_branch = h > kShortest * options_.step && branch_.changes(from_, to_);
     end_step(h);
   }
-  // A0 is restored, because it must not be scaled twice after a rejected step. It is not needed
-  // after an accepted step.
+  // Restore A0, because it would be scaled twice if the step is rejected and repeated. A0 is not
+  // needed after an accepted step.
   A0_ = saved_A0_;
   return report;
 }
@@ -237,14 +239,15 @@ void ConstrainedStepper::advance() {
 }
 
 std::string ConstrainedStepper::describe(const StepReport& report) const {
-  if (report.iterations == 0) return "no correction: the tangent matrix is singular";
+  if (report.iterations == 0) return "no correction was computed: the tangent matrix is singular";
   std::ostringstream text;
-  text << "last correction " << report.residual << " times the model size after "
+  text << "the last correction was " << report.residual << " times the model size after "
        << report.iterations << " iterations";
   return text.str();
 }
 
-/// Iterates with the tangent of an earlier step while it converges, then with exact tangents.
+/// Solves a step by Newton's method with the factored tangent of an earlier step. If this does not
+/// converge, the iteration is repeated with exact tangents.
 StepReport ConstrainedStepper::iterate(const Step& step) {
   StepReport report = newton(step, false);
   if (report.status == Status::solved) return report;
@@ -256,7 +259,8 @@ StepReport ConstrainedStepper::iterate(const Step& step) {
 }
 
 StepReport ConstrainedStepper::newton(const Step& step, bool exact) {
-  // Iterate to full convergence to conserve energy, even if the convergence is slow.
+  // The energy-momentum method has more iterations. It conserves energy only if the iteration
+  // converges fully, which may be slow.
   const int max_iterations = scheme_.keeps_rates ? 20 : 30;
   const Index n = system_.coordinates();
   const double h = step.size;
@@ -311,11 +315,11 @@ double ConstrainedStepper::elastic_row(Index r, double h) const {
   return -(sum - system_.compliance()[r] * to_.lambda[r]) / (1 + tau * per_velocity(h));
 }
 
-/// Corrects positions first, with the residuals of the constraints. Then it corrects the
-/// accelerations, with the rates at the new positions. Both corrections use the same matrix. The
-/// second correction uses the result of the first, so that the corrections decrease quadratically,
-/// even near a singular position. The difference between the corrections is p
-/// (constrained_stepper.h).
+/// Computes one Newton correction of a step. Positions are corrected first, with the residuals of
+/// the constraints. Then the accelerations are corrected, with the rates of the constraints at the
+/// new positions. Both corrections use the same matrix. The second correction uses the result of
+/// the first, so that the corrections decrease quadratically, even near a singular position. The
+/// difference between the corrections is the position correction p (constrained_stepper.h).
 void ConstrainedStepper::correct(double h) {
   const Index n = system_.coordinates(), m = system_.constraints();
   residual(velocity_correction_.head(n));
@@ -356,8 +360,8 @@ bool ConstrainedStepper::has_converged(double h, const StepConvergence& converge
           convergence.last() <= kRoundoffErrors * correction_roundoff(h));
 }
 
-/// Returns the size of a correction that results from round-off errors of constraint forces and
-/// residuals, with arbitrary signs. It limits the accuracy of a small motion under large forces in
+/// Estimates the correction that round-off errors of constraint forces and residuals cause, with
+/// arbitrary signs of these errors. It limits the accuracy of a small motion under large forces in
 /// mutual equilibrium, or near a singular position.
 double ConstrainedStepper::correction_roundoff(double h) const {
   const Index n = system_.coordinates(), m = system_.constraints();
@@ -372,13 +376,14 @@ double ConstrainedStepper::correction_roundoff(double h) const {
 
 namespace {
 
-/// Stepper of the energy-momentum method. During an attempted step, `to_.lambda` is its mean.
+/// Stepper of the energy-momentum method. During an attempted step, `to_.lambda` is the mean of the
+/// multipliers over the step.
 class EnergyMomentum final : public ConstrainedStepper {
  public:
   EnergyMomentum(const GeometricallyExactSystem& system, const TransientOptions& options,
                  const State& start, const Observer& observe)
-      // The residual of Newton's method changes the energy. The iteration therefore continues to a
-      // tenth of the round-off error of the positions.
+      // The remaining residual of Newton's method changes the energy. The iteration therefore
+      // continues to a tenth of the round-off error of the positions.
       : ConstrainedStepper(system, options, start, observe,
                            {.relations = {.beta = 0.5, .gamma = 1},
                             .error_constant = 1.0 / 12,
@@ -434,7 +439,7 @@ bool EnergyMomentum::tangent(double h, bool exact) {
   coefficients.damping = h / 2;
   coefficients.stiffness = h * h / 4;
   coefficients.compliance = 2 / (h * h) / (0.5 + system_.strain_rate_damping() / h);
-  if (exact) {  // near singular positions
+  if (exact) {  // required near singular positions
     system_.discrete_gradient_tangent(from_, to_, midpoint_, coefficients, matrix_);
     return false;
   }
@@ -449,8 +454,8 @@ double EnergyMomentum::elastic_row(Index r, double h) const {
   return -(sum - system_.compliance()[r] * to_.lambda[r]) / (0.5 + rate);
 }
 
-/// Computes multipliers at the end of the step: those of elastic rows from the strain, those of
-/// rigid rows by extrapolation from the means of the steps.
+/// Computes the multipliers at the end of the step. Multipliers of elastic rows follow from the
+/// strain. Those of rigid rows are extrapolated from the mean multipliers of the last two steps.
 void EnergyMomentum::end_step(double h) {
   const double tau = system_.strain_rate_damping();
   const double extrapolation = first_ ? 1.0 : h / (h + last_step_);
@@ -463,7 +468,8 @@ void EnergyMomentum::end_step(double h) {
   }
 }
 
-/// Also accumulates the difference of work and change of energy in the step.
+/// Advances the state, and accumulates the energy error of the step: the change of energy minus the
+/// work.
 void EnergyMomentum::advance() {
   ConstrainedStepper::advance();
   std::swap(previous_mean_lambda_, mean_lambda_);

@@ -6,12 +6,13 @@
 
 #include "solver/large/kkt_matrix.h"
 
-/// Equations of statics and of all time integrators of this tier:
+/// Equations of statics and of all time integrators of geometrically exact models:
 ///
 ///     \f[ M(q) a = f(t, q, v) - G(t, q)^T \lambda, \quad g(t, q) + \tau \dot g = C \lambda, \f]
 ///
-/// with C = diag(c). A row with c = 0 is a rigid constraint (joint, drive, Euler-Bernoulli shear).
-/// A row with c > 0 is elastic (stretch, a spring), and tau is its strain-rate damping.
+/// with constraint rows g, their gradient G, multipliers lambda and compliances C = diag(c). A row
+/// with c = 0 is a rigid constraint (joint, drive, Euler-Bernoulli shear). A row with c > 0 is
+/// elastic (stretch, a spring), and tau is the coefficient of its strain-rate damping.
 namespace trammel::solver::large_motion {
 
 /// State of a constrained system.
@@ -20,13 +21,14 @@ struct State {
   double load = 1;     ///< factor on the loads [-]
   double gravity = 1;  ///< factor on gravity [-]
   VectorXd q;          ///< displacements [m] and rotations [rad] relative to the pose of the model
-  VectorXd v;          ///< velocities [1/s]
-  VectorXd a;          ///< accelerations [1/s^2]
+  VectorXd v;          ///< velocities [m/s, rad/s]
+  VectorXd a;          ///< accelerations [m/s^2, rad/s^2]
   VectorXd lambda;     ///< multipliers: forces [N] or moments [N m] of the constraints
 };
 
-/// Coefficients of S = mass M + damping D + stiffness K, and the factor `compliance` of C. D =
-/// -df/dv and K = d(M a - f + G^T lambda)/dq.
+/// Factors `mass`, `damping` and `stiffness` in the tangent matrix S = mass M + damping D +
+/// stiffness K, where D = -df/dv and K = d(M a - f + G^T lambda)/dq. `compliance` is the factor of
+/// C.
 struct TangentCoefficients {
   double mass = 0;
   double damping = 0;
@@ -45,7 +47,7 @@ struct ElementSizes {
   using Square = Eigen::Matrix<double, N, N>;
 };
 
-/// Interface of the equations.
+/// Interface of the equations of a mechanical system with constraints.
 class ConstrainedSystem {
  public:
   ConstrainedSystem() = default;
@@ -53,7 +55,7 @@ class ConstrainedSystem {
 
   [[nodiscard]] virtual Index coordinates() const = 0;
   [[nodiscard]] virtual Index constraints() const = 0;
-  /// Returns c >= 0 of each row.
+  /// Returns the compliance c >= 0 of each constraint row.
   [[nodiscard]] virtual const VectorXd& compliance() const = 0;
   /// Returns the unit change of each coordinate: the model size [m] or 1 rad.
   [[nodiscard]] virtual const VectorXd& scale() const = 0;
@@ -62,17 +64,17 @@ class ConstrainedSystem {
   /// Returns the unknowns that each element couples, for `KktMatrix`.
   [[nodiscard]] virtual std::vector<std::vector<Index>> blocks() const = 0;
 
-  /// Computes r = M a - f + G^T lambda.
+  /// Computes the residual of the equation of motion, r = M a - f + G^T lambda.
   virtual void force_residual(const State& state, Eigen::Ref<VectorXd> r) const = 0;
-  /// Computes g and dg/dt = G v + partial g / partial t.
+  /// Computes the residuals g of the constraints and dg/dt = G v + partial g / partial t.
   virtual void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
                                    Eigen::Ref<VectorXd> rate) const = 0;
-  /// Fills the matrix, which the caller has cleared.
+  /// Adds the tangent matrix of a state to `matrix`, which the caller has cleared.
   virtual void tangent(const State& state, const TangentCoefficients& coefficients,
                        KktMatrix& matrix) const = 0;
-  /// Returns false if S is not symmetric, as with follower loads.
+  /// Returns false if the tangent matrix is not symmetric, as with follower loads.
   [[nodiscard]] virtual bool symmetric() const { return true; }
-  /// Returns tau [s].
+  /// Returns the coefficient tau of strain-rate damping [s].
   [[nodiscard]] virtual double strain_rate_damping() const { return 0; }
   /// Returns the factor on the loads at time t.
   [[nodiscard]] virtual double load_factor(double) const { return 1; }
@@ -105,9 +107,9 @@ inline VectorXd ConstrainedSystem::row_unit() const {
 
 /// Energies of a state.
 struct Energy {
-  double kinetic = 0;  ///< [J]
-  double strain = 0;   ///< of members, plates and springs [J]
-  double load = 0;     ///< minus the work of gravity and dead loads since the pose of the model [J]
+  double kinetic = 0;  ///< kinetic energy [J]
+  double strain = 0;   ///< strain energy of members, plates and springs [J]
+  double load = 0;  ///< potential of gravity and dead loads relative to the pose of the model [J]
   [[nodiscard]] double total() const { return kinetic + strain + load; }
 };
 

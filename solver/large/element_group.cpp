@@ -7,8 +7,8 @@ namespace trammel::solver::large_motion {
 
 namespace {
 
-/// Returns the stiffness of the elements at each coordinate: EA/h of bars, 12 EI/h^3 and 12 EI/h of
-/// beams, E t of triangles, and the stiffness of springs.
+/// Returns the sum of the element stiffnesses at each coordinate: EA/h of bars, 12 EI/h^3
+/// (translation) and 12 EI/h (rotation) of beams, E t of triangles, and the stiffness of springs.
 Eigen::VectorXd coordinate_stiffness(const Model& model, const LargeMotionModel& large_motion,
                                      const Layout& layout) {
   Eigen::VectorXd stiffness = Eigen::VectorXd::Zero(layout.total);
@@ -39,7 +39,8 @@ Eigen::VectorXd coordinate_stiffness(const Model& model, const LargeMotionModel&
   return stiffness;
 }
 
-/// Returns the sum of the magnitudes of all loads, as forces [N].
+/// Returns the sum of the magnitudes of all nodal loads and of the weight of point masses [N].
+/// Moments are divided by the model size.
 double load_size(const Model& model, const LargeMotionModel& large_motion, double size) {
   double sum = 0, mass = 0;
   const auto add = [&](const Vector3d& load) {
@@ -51,7 +52,7 @@ double load_size(const Model& model, const LargeMotionModel& large_motion, doubl
   return sum + mass * model.gravity.norm();
 }
 
-/// Returns the mean over the positive values, or `none` if there are none.
+/// Returns the mean of the positive values, or `none` if no value is positive.
 double mean_of_positive(const Eigen::VectorXd& values, double none) {
   const Index count = (values.array() > 0).count();
   const double mean = count > 0 ? values.sum() / static_cast<double>(count) : 0.0;
@@ -72,7 +73,8 @@ PenaltyScales::PenaltyScales(const Model& model, const LargeMotionModel& large_m
     return values;
   };
   mean_mass_ = mean_of_positive(of_translations(mass_), 1);
-  // In a model without stiffness, the loads define the scale of the stiffness.
+  // In a model without stiffness, the loads divided by the model size define the scale of
+  // stiffness.
   const double turning = load_size(model, large_motion, size) / size;
   mean_stiffness_ =
       mean_of_positive(of_translations(stiffness_), turning > 0 ? turning : mean_mass_);
@@ -82,8 +84,8 @@ RowScales PenaltyScales::of_row(std::span<const Index> coordinates, double lever
   const bool turns =
       std::ranges::all_of(coordinates, [&](Index k) { return k < 0 || layout_.is_rotation(k); });
   const auto largest = [&](const Eigen::VectorXd& values, double mean) {
-    // `value` is the largest entry of the same type as the row (translation or rotation). `levered`
-    // is that of rotations in a row of displacements.
+    // `value` is the largest value of coordinates of the same type as the row (translation or
+    // rotation). `levered` is the largest value of rotations in a row of displacements.
     double value = 0, levered = 0;
     for (const Index k : coordinates) {
       if (k < 0) continue;
@@ -91,7 +93,7 @@ RowScales PenaltyScales::of_row(std::span<const Index> coordinates, double lever
       kind = std::max(kind, values[k]);
     }
     if (!(value > 0) && lever > 0) {
-      constexpr double kShortest = 1e-3;  // an offset at round-off level is no lever
+      constexpr double kShortest = 1e-3;  // least lever over the model size; less is round-off
       const double length = std::max(lever, kShortest * size_);
       value = levered / (length * length);
     }

@@ -14,46 +14,42 @@
 
 namespace trammel::solver::large_motion {
 
-/// Scales of the parts that a constraint row joins. They determine its penalty rho (`KktMatrix`).
+/// Typical stiffness and mass of the parts that a constraint row joins. They determine the penalty
+/// rho of the row (`KktMatrix`).
 struct RowScales {
   double unit = 1;  ///< unit of the residual: 1 rad if all coordinates are rotations, otherwise the
                     ///< model size [m]
-  double stiffness = 0, mass = 0;  ///< the largest, in the unit of the row; the mean of the model
-                                   ///< if the coordinates have none
+  double stiffness = 0, mass = 0;  ///< largest of the coordinates, in the unit of the row; mean
+                                   ///< of the model if they are zero
 };
 
-/// Computes the scales of constraint rows.
+/// Computes the typical stiffness and mass (`RowScales`) of constraint rows.
 class PenaltyScales {
  public:
-  /// Computes the stiffness and mass of each coordinate.
-  /// @param model  model.
-  /// @param large_motion  additional parts in large motion.
-  /// @param layout  numbering of coordinates.
-  /// @param mass  diagonal of the mass matrix, one entry per coordinate [kg or kg m^2].
-  /// @param size  size of the model [m].
+  /// Computes the stiffness and mass of each coordinate. `mass` is the diagonal of the mass matrix
+  /// [kg or kg m^2], and `size` is the size of the model [m].
   PenaltyScales(const Model& model, const LargeMotionModel& large_motion, const Layout& layout,
                 const Eigen::VectorXd& mass, double size);
 
-  /// Returns the scales of a row. In a row of displacements, rotations count with their lever if
-  /// the displacements have no scale.
-  /// @param coordinates  coordinates of the row.
-  /// @param lever  lever of the rotations of the row, if it also contains displacements [m].
+  /// Returns the scales of a constraint row with the given coordinates. If the displacements in the
+  /// row have no stiffness or mass, the values of the rotations divided by the squared `lever` [m]
+  /// are used.
   [[nodiscard]] RowScales of_row(std::span<const Index> coordinates, double lever) const;
 
  private:
   const Layout& layout_;
   double size_;                ///< size of the model [m]
-  Eigen::VectorXd stiffness_;  ///< of each coordinate [N/m or N m/rad]
-  Eigen::VectorXd mass_;       ///< of each coordinate [kg or kg m^2]
+  Eigen::VectorXd stiffness_;  ///< stiffness of each coordinate [N/m or N m/rad]
+  Eigen::VectorXd mass_;       ///< mass of each coordinate [kg or kg m^2]
   double mean_stiffness_, mean_mass_;
 };
 
-/// Coordinates that an element couples; -1: none.
+/// Indices of the coordinates that an element couples; -1: the ground.
 template <int N>
 using CoordinateIndices = Eigen::Matrix<Index, N, 1>;
 
-/// Returns the values of the coordinates of an element. Coordinates held by supports (beyond the
-/// vector) have 0.
+/// Returns the values of the coordinates of an element. Coordinates held by supports have indices
+/// beyond the vector `values` and the value 0.
 template <int N>
 Eigen::Matrix<double, N, 1> gather(const VectorXd& values, const CoordinateIndices<N>& where) {
   Eigen::Matrix<double, N, 1> local(where.size());
@@ -64,7 +60,7 @@ Eigen::Matrix<double, N, 1> gather(const VectorXd& values, const CoordinateIndic
   return local;
 }
 
-/// Adds the values of an element to those of its free coordinates.
+/// Adds values of an element, such as nodal forces, to those of its free coordinates.
 template <int N>
 void scatter(const Eigen::Matrix<double, N, 1>& local, const CoordinateIndices<N>& where,
              Eigen::Ref<VectorXd> values) {  // NOLINT(performance-unnecessary-value-param)
@@ -75,9 +71,9 @@ void scatter(const Eigen::Matrix<double, N, 1>& local, const CoordinateIndices<N
 
 /// Properties of the constraint rows, and the unknowns that each element couples.
 struct SystemRows {
-  std::vector<std::vector<Index>> blocks;  ///< for each element, used by `KktMatrix`
-  VectorXd compliance;                     ///< c >= 0 of each row
-  VectorXd unit;                           ///< of each row: the model size [m] or 1 rad
+  std::vector<std::vector<Index>> blocks;  ///< unknowns of each element, for `KktMatrix`
+  VectorXd compliance;                     ///< compliance c >= 0 of each row
+  VectorXd unit;  ///< unit of the residual of each row: the model size [m] or 1 rad
 };
 
 /// Elements of one type and their terms in the equations of `GeometricallyExactSystem`. An element
@@ -107,7 +103,8 @@ class ElementGroup {
   void for_each_coordinate(const Function& function) {
     for (CoordinateIndices<N>& where : where_) std::ranges::for_each(where, function);
   }
-  /// Sets the first row. The rows of the groups are numbered in sequence.
+  /// Sets the index of the first row of this group. The rows of all groups are numbered in
+  /// sequence.
   void set_first_row(Index row) { first_row_ = row; }
 
   void append_masses(std::vector<Eigen::Triplet<double>>& masses) const {
@@ -123,10 +120,8 @@ class ElementGroup {
     }
   }
 
-  /// Sets the properties and penalties of the rows from the parts that they join.
-  /// @param free  number of free coordinates; coordinates with larger indices are held by supports.
-  /// @param scales  scales of stiffness and mass.
-  /// @param system  receives the properties of the rows.
+  /// Sets the properties and penalties of the rows in `system` from the parts that they join.
+  /// Coordinates with indices of at least `free` are held by supports.
   void connect(Index free, const PenaltyScales& scales, SystemRows& system) {
     first_block_ = std::ssize(system.blocks);
     for (Index e = 0; e < size(); ++e) {
@@ -149,7 +144,7 @@ class ElementGroup {
     }
   }
 
-  /// Adds -f + G^T lambda with strain-rate damping tau.
+  /// Adds the terms -f + G^T lambda of the equation of motion, with strain-rate damping tau.
   void forces(const State& state, double tau, Eigen::Ref<VectorXd> r) const {
     if constexpr (R == 0 && !kIsElastic && !kIsLoad) return;
     for (Index e = 0; e < size(); ++e) {
@@ -174,7 +169,7 @@ class ElementGroup {
     }
   }
 
-  // Eigen::Ref is a view.
+  // Eigen::Ref is a view, which is passed by value.
   // NOLINTNEXTLINE(performance-unnecessary-value-param)
   void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
                            Eigen::Ref<VectorXd> rate) const {
@@ -203,7 +198,7 @@ class ElementGroup {
     }
   }
 
-  /// Returns the strain energy [J], except that of compliant rows.
+  /// Returns the strain energy [J], without the energy of compliant constraint rows.
   [[nodiscard]] double energy(const State& state) const {
     double sum = 0;
     if constexpr (kIsElastic) {
@@ -213,8 +208,8 @@ class ElementGroup {
     return sum;
   }
 
-  /// Adds forces like `forces` between two states. Their work equals the change of the energy
-  /// exactly.
+  /// Adds element forces between two states, as `forces` does for one state. Their work from the
+  /// first to the second state equals the change of the energy exactly.
   void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda,
                                 double tau, Eigen::Ref<VectorXd> r) const {
     if constexpr (R == 0 && !kIsElastic && !kIsLoad) return;
@@ -231,8 +226,8 @@ class ElementGroup {
     }
   }
 
-  /// Adds the derivative of `discrete_gradient_forces` and of the rows with respect to the second
-  /// state, up to terms of the squared step. `midpoint` has the mean coordinates.
+  /// Adds the derivatives of `discrete_gradient_forces` and of the constraint rows with respect to
+  /// the state `to`, except terms of the squared step. `midpoint` has the mean coordinates.
   void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
                                  double tau, const TangentCoefficients& coefficients,
                                  KktMatrix& matrix) const {

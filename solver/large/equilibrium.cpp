@@ -27,10 +27,10 @@ Equilibrium::Equilibrium(const GeometricallyExactSystem& system, const NewtonOpt
 bool Equilibrium::converged(const std::vector<double>& correction, double displacement) const {
   const std::size_t count = correction.size();
   const double last = correction[count - 1];
-  // The remaining error is the square of the correction. 1e-15 of the model size is therefore
-  // sufficient for any small displacement.
+  // Newton's method converges quadratically: the remaining error is the square of the correction.
+  // 1e-15 of the model size is therefore sufficient for any small displacement.
   if (last <= options_.tolerance * displacement + 1e-15) return true;
-  // Without deflection, the error is round-off over the remaining stiffness near a bifurcation.
+  // Near a bifurcation, corrections stagnate at the round-off error divided by the small stiffness.
   return count > 1 && last < 1e-8 * displacement + 1e-11 && last > 0.3 * correction[count - 2];
 }
 
@@ -141,7 +141,7 @@ double Equilibrium::smallest_eigenpair(VectorXd& shape) {
 }
 
 Equilibrium::FreeMotion Equilibrium::free_motion(const State& state) {
-  constexpr double kDriven = 1e-9;  // fraction of the work of loads along the motion
+  constexpr double kDriven = 1e-9;  // least work of loads over the product of the norms
   FreeMotion found;
   const Index n = system_.coordinates();
   if (n == 0) return found;
@@ -190,7 +190,7 @@ NewtonResult Equilibrium::solve(State& state, double load, const LoadControl& co
   }
   std::ostringstream message;
   message << "Newton's method did not converge at load factor " << load << " in "
-          << result.correction.size() << " iterations; last relative correction "
+          << result.correction.size() << " iterations; last correction relative to the model size "
           << result.correction.back() << ", residual " << result.force_residual.back() << " N m";
   return fail(Status::not_converged, message.str());
 }
@@ -248,11 +248,11 @@ StaticSolution solve_large_statics(const Model& model,
 
 StaticSolution estimate_large_statics(const Model& model,
                                       const large_motion::LargeMotionModel& large_motion) {
-  // Bending and the resulting axial forces correct each other alternately, so that only every
-  // second correction is smaller than the previous one. Fast convergence yields six digits after
-  // ten corrections.
+  // The corrections alternate between bending and the resulting axial forces, so that only every
+  // second correction is smaller than the previous one. If the convergence is fast, ten corrections
+  // yield six digits.
   const large_motion::NewtonOptions options{
-      .max_iterations = 12, .tolerance = 1e-6, .same_state = 1e300};  // never factored again
+      .max_iterations = 12, .tolerance = 1e-6, .same_state = 1e300};  // keeps the first tangent
   const large_motion::GeometricallyExactSystem system(model, large_motion);
   large_motion::Equilibrium equilibrium(system, options);
   large_motion::State state = system.reference_state();

@@ -173,8 +173,9 @@ double GeometricallyExactSystem::nonconservative_work(const State& from, const S
   padded_.head(n) = (from.v + to.v) / 2;
   product_.noalias() = mass_ * padded_;
   work -= h * large_motion_.mass_damping * padded_.head(n).dot(product_.head(n));
-  // The residuals of the rows change by the motion and by the drives. Constraint forces do the work
-  // of the change by the motion.
+  // The residuals of constraint rows change by the motion and by the drives. Constraint forces do
+  // work only on the change by the motion, which is computed with the drives held at the start
+  // time.
   VectorXd before = VectorXd::Zero(parts_.rows), after = before, rate = before;
   State held = to;
   held.t = from.t;

@@ -38,49 +38,50 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   }
   [[nodiscard]] double load_factor(double t) const override;
 
-  // Discrete gradients: forces between two states whose work equals the change of the energy
-  // exactly.
+  // Discrete gradients are forces between two states. Their work between these states equals the
+  // change of the energy exactly.
 
-  /// Computes r = M (v1 - v0) / h - f + D^T lambda, with D (q1 - q0) = g(q1) - g(q0) exactly.
+  /// Computes the residual r = M (v1 - v0) / h - f + D^T lambda of a step of size h. The discrete
+  /// gradient D of the constraints g satisfies D (q1 - q0) = g(q1) - g(q0) exactly.
   void discrete_gradient_residual(const State& from, const State& to, const VectorXd& lambda,
                                   Eigen::Ref<VectorXd> r) const;
-  /// Fills the derivative of r with respect to the second state, up to terms of the squared step.
-  /// It is not symmetric.
+  /// Adds the derivative of `discrete_gradient_residual` with respect to the state `to`, except
+  /// terms of the squared step. The matrix is not symmetric.
   void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
                                  const TangentCoefficients& coefficients, KktMatrix& matrix) const;
   [[nodiscard]] Energy energy(const State& state) const;
   /// Returns the work that changes the energy in a step [J]. It is the work of drives and of loads
-  /// that vary or follow their nodes, minus the energy dissipated by damping.
-  /// @param from  state at the start.
-  /// @param to  state at the end.
-  /// @param lambda  mean multipliers of the step.
+  /// that vary or follow their nodes, minus the energy dissipated by damping. `lambda` are the mean
+  /// multipliers of the step.
   [[nodiscard]] double nonconservative_work(const State& from, const State& to,
                                             const VectorXd& lambda) const;
 
-  /// Sets accelerations of the free coordinates. In statics, their inertia acts in addition to the
-  /// loads.
+  /// Sets accelerations of the free coordinates. In statics, their inertia forces act in addition
+  /// to the loads.
   void set_accelerations(VectorXd accelerations) { accelerations_ = std::move(accelerations); }
-  /// Sets velocities of the free coordinates as a function of time. Mass-proportional damping acts
-  /// on velocities relative to these.
+  /// Sets reference velocities of the free coordinates as a function of time. Mass-proportional
+  /// damping acts on the velocities relative to the reference velocities.
   void set_undamped_velocities(std::function<VectorXd(double)> velocities) {
     undamped_velocities_ = std::move(velocities);
   }
   /// Returns the velocities on which mass-proportional damping acts.
   [[nodiscard]] VectorXd damped_velocities(const State& state) const;
 
-  /// Sets loads, gravity, inertia and drives of statics at a load factor.
+  /// Scales loads, gravity and inertia forces of statics by `load`, which is also the time of
+  /// drives.
   void set_load(State& state, double load) const;
-  /// Computes d(force residual)/d(load factor), including gravity and inertia.
+  /// Computes the derivative of the force residual with respect to the load factor of loads,
+  /// gravity and inertia forces.
   void load_derivative(const State& state, Eigen::Ref<VectorXd> r) const;
 
-  /// Returns the pose of the model at rest without forces, at time 0.
+  /// Returns the state at time 0: the pose of the model at rest, without forces.
   [[nodiscard]] State reference_state() const;
 
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const LargeMotionModel& large_motion() const { return large_motion_; }
   [[nodiscard]] const Layout& layout() const { return layout_; }
   [[nodiscard]] const SystemParts& parts() const { return parts_; }
-  /// Returns the row of the multiplier of a drive.
+  /// Returns the index of the constraint row of a drive, and of its multiplier.
   [[nodiscard]] Index drive_row(Index drive) const {
     return parts_.group<DrivenCoordinate>().first_row(drive);
   }
@@ -89,7 +90,8 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
 
  private:
-  /// Counts the elements of a tangent. @return the coefficients with mass-proportional damping.
+  /// Counts the element evaluations of a tangent matrix. @return the coefficients with
+  /// mass-proportional damping.
   TangentCoefficients begin_tangent(TangentCoefficients coefficients) const;
   void add_torques(double factor, double t, Eigen::Ref<VectorXd> r) const;
 
@@ -99,9 +101,9 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   SystemParts parts_;
   SystemRows rows_;
   VectorXd scale_;
-  Eigen::SparseMatrix<double> mass_;  ///< total x total
-  VectorXd gravity_;                  ///< M times the gravity field, total
-  VectorXd accelerations_;            ///< of statics; empty: none
+  Eigen::SparseMatrix<double> mass_;  ///< mass matrix of all coordinates, free and held
+  VectorXd gravity_;                  ///< weight: M times the gravity field, for all coordinates
+  VectorXd accelerations_;            ///< accelerations for inertia forces in statics; empty: none
   std::function<VectorXd(double)> undamped_velocities_;
   mutable VectorXd padded_, product_;
   mutable std::int64_t element_evaluations_ = 0;

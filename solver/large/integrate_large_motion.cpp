@@ -56,7 +56,8 @@ Index coordinate_of(const GeometricallyExactSystem& system, const InitialVelocit
   return k < system.coordinates() ? k : -1;
 }
 
-/// Returns a given velocity, except `left_out`, that the constraints do not admit, or null.
+/// Returns a prescribed initial velocity that the constraints do not admit, or null. The velocity
+/// `left_out` is not checked.
 const InitialVelocity* refused_velocity(const GeometricallyExactSystem& system, const State& state,
                                         const InitialVelocity* left_out = nullptr) {
   constexpr double kRounding = 1e-6;
@@ -74,7 +75,7 @@ const InitialVelocity* refused_velocity(const GeometricallyExactSystem& system, 
 
 constexpr std::array kVelocityUnits = {" m/s", " m/s", " rad/s"};
 
-/// Describes a given velocity, such as "node B start with 3 m/s along x".
+/// Describes a prescribed velocity, such as "node B start with 3 m/s along x".
 std::string describe_start(const GeometricallyExactSystem& system, const InitialVelocity& initial) {
   constexpr std::array kDirections = {" along x", " along y", ""};
   const auto direction = static_cast<std::size_t>(initial.direction);
@@ -109,7 +110,8 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
   std::ostringstream message;
   message.precision(9);
   message << "the constraints do not let " << describe_start(system, *refused);
-  // The other velocities determine this one. Otherwise it would have been admitted.
+  // The other prescribed velocities determine the refused velocity. Otherwise the constraints would
+  // have admitted the refused velocity.
   State admitted;
   if (!start_without(refused, admitted).solved() || refused_velocity(system, admitted, refused)) {
     message << ", nor do they admit the other given velocities together";
@@ -126,14 +128,14 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
   return {Status::singular, message.str()};
 }
 
-/// Checks the extrapolation to a step of zero. If both runs differ only by their leading error,
-/// their combination satisfies the constraints much better than the two states agree.
+/// Checks if the extrapolated states satisfy the constraints. If errors of second order dominate in
+/// both runs, the residuals of the constraints are much smaller than the difference of the runs.
 Outcome outcome_of_extrapolation(const IntegrationSummary& summary) {
   constexpr double kLimit = 1e-3;
   if (summary.constraints.relative_position <= kLimit) return {};
   std::ostringstream message;
-  message << "the steps are too long to be extrapolated: the combination of both runs violates a "
-             "constraint by "
+  message << "the steps are too long to be extrapolated: the motion extrapolated from two step "
+             "sizes violates a constraint by "
           << summary.constraints.relative_position << " times the model size or 1 rad";
   return {Status::not_converged, message.str()};
 }
@@ -155,12 +157,13 @@ IntegrationSummary integrate(const GeometricallyExactSystem& system, State& stat
   MemberBalance balance;
   Outcome recovered;
   summary = run(system, conserves ? &system : nullptr, state, options, [&](const State& at) {
-    // Unresolved vibrations start with the acceleration of an implicit step.
+    // Skip the first state, because unresolved vibrations start with the acceleration of an
+    // implicit step.
     if (at.t > start && !conserves) balance.add(system, at);
     if (!observe) return;
     if (at.t == start || !conserves) return observe(at);
-    // The multipliers of an energy-momentum step are means, which alternate about those of the
-    // motion.
+    // The multipliers of an energy-momentum step are mean values, which oscillate about the exact
+    // multipliers. Output multipliers therefore follow from positions and velocities.
     State shown = at;
     if (recovered.solved()) recovered = make_accelerations_consistent(system, shown, options.step);
     observe(shown);

@@ -7,26 +7,28 @@
 
 namespace trammel::solver::large_motion {
 
-/// Result of an integration in large motion.
+/// Result of a time integration in large motion.
 struct IntegrationSummary : TransientSummary {
-  ConstraintGaps constraints;  ///< largest at any observed time
+  ConstraintGaps constraints;  ///< largest residuals at the observed times
 };
 
-/// Integrates by generalized-alpha from a consistent state to the end time. `state` becomes the
-/// last state.
+/// Integrates the motion by the generalized-alpha method from a consistent state to the end time.
+/// `state` becomes the last state.
 [[nodiscard]] IntegrationSummary integrate(const ConstrainedSystem& system, State& state,
                                            const TransientOptions& options,
                                            const Observer& observe = {});
 
-/// Integrates from the pose of the model with its initial velocities, also by energy-momentum.
+/// Integrates the motion from the pose of the model with its initial velocities, by the
+/// generalized-alpha or the energy-momentum method.
 [[nodiscard]] IntegrationSummary integrate(const GeometricallyExactSystem& system, State& state,
                                            const TransientOptions& options,
                                            const Observer& observe = {});
 
-/// Integrates with `step` and `step`/2 and extrapolates to remove the common second-order error.
-/// The result has order 3 (order 4 by energy-momentum). The step is fixed, and sample times must be
-/// multiples of it. Observed states contain q, v and lambda only. They satisfy constraints up to
-/// their error. The outcome is not_converged if this error exceeds a thousandth of the model size.
+/// Integrates the motion with `step` and `step`/2 and extrapolates both results, which removes
+/// their error of second order. The result has order 3 (order 4 by energy-momentum). The step is
+/// fixed, and sample times must be multiples of it. Observed states contain q, v and lambda only.
+/// They satisfy the constraints up to the extrapolation error. The outcome is not_converged if this
+/// error exceeds a thousandth of the model size.
 [[nodiscard]] IntegrationSummary integrate_extrapolated(const GeometricallyExactSystem& system,
                                                         State& state,
                                                         const TransientOptions& options,

@@ -7,17 +7,17 @@
 #include "solver/large/large_motion_model.h"
 #include "solver/model/model.h"
 
-/// Joints, springs, bars and masses with the same functions as `Beam`. A constraint row has g and
-/// its gradient G. It has the second derivative times the multipliers, unless this is zero. It has
-/// the discrete gradient D with D (q1 - q0) = g(q1) - g(q0), unless D equals G (O. Gonzalez, J.
-/// Nonlinear Sci. 6, 1996).
+/// Joints, springs, bars and masses with the same functions as `Beam`. A type with constraint rows
+/// g computes g and its gradient G. If the second derivative of g is not zero, the type computes
+/// this derivative times the multipliers. If the discrete gradient D differs from G, the type
+/// computes D with D (q1 - q0) = g(q1) - g(q0) (O. Gonzalez, J. Nonlinear Sci. 6, 1996).
 namespace trammel::solver::large_motion {
 
-/// Rigid constraint rows. Their penalty rho (`KktMatrix`) follows from the parts that they join.
+/// Joint with rigid constraint rows. Their penalty rho (`KktMatrix`) depends on the joined parts.
 template <int Coords, int Count>
 struct Joint : ElementSizes<Coords, Count> {
   using typename ElementSizes<Coords, Count>::Rows;
-  double stiffness_scale = 1, mass_scale = 1;  ///< of the joined parts, for rho [N/m], [kg]
+  double stiffness_scale = 1, mass_scale = 1;  ///< stiffness, mass of the joined parts [N/m], [kg]
 
   [[nodiscard]] Rows compliance() const { return Rows::Zero(); }
   [[nodiscard]] Rows penalty(const TangentCoefficients& coefficients) const {
@@ -26,10 +26,10 @@ struct Joint : ElementSizes<Coords, Count> {
   }
 };
 
-/// Two nodes of a rigid body, u_b - u_a - (R(theta_a) - I) d = 0 (paper Eq. 20-24). Coordinates: ua
-/// (2), theta_a, ub (2).
+/// Rigid link between the nodes a and b of a rigid body, with the vector d from a to b: u_b - u_a -
+/// (R(theta_a) - I) d = 0 (paper Eq. 20-24). The coordinates are ua (2), theta_a, ub (2).
 struct RigidLink : Joint<5, 2> {
-  Vector2d offset = Vector2d::Zero();  ///< d, from a to b without load [m]
+  Vector2d offset = Vector2d::Zero();  ///< d, vector from a to b without load [m]
 
   void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
     const Vector2d normal = perpendicular(offset);
@@ -54,10 +54,10 @@ struct RigidLink : Joint<5, 2> {
   }
 };
 
-/// Node b slides along a line that turns with node a, or is fixed if a is the ground: n(theta_a) .
-/// (x_b - x_a) = const. Coordinates: ua (2), theta_a, ub (2).
+/// Sliding joint of node b on a line with the normal n. The line turns with node a, or is fixed if
+/// a is the ground: n(theta_a) . (x_b - x_a) = const. The coordinates are ua (2), theta_a, ub (2).
 struct SlidingJoint : Joint<5, 1> {
-  Vector2d normal = Vector2d::UnitY();  ///< n of the line without load
+  Vector2d normal = Vector2d::UnitY();  ///< normal n of the line without load
   Vector2d offset = Vector2d::Zero();   ///< x_b - x_a without load [m]
 
   void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
@@ -90,8 +90,8 @@ struct SlidingJoint : Joint<5, 1> {
   }
 };
 
-/// Coordinate that follows a function of time relative to another one or the ground, u - u0 -
-/// law(t) = 0. Coordinates: u, u0.
+/// Coordinate u whose displacement relative to another coordinate u0 or the ground is a given
+/// function of time, u - u0 - law(t) = 0. The coordinates are u, u0.
 struct DrivenCoordinate : Joint<2, 1> {
   TimeFunction law;
 
@@ -99,7 +99,7 @@ struct DrivenCoordinate : Joint<2, 1> {
     residual[0] = q[0] - q[1] - law(t)[0];
     G << 1, -1;
   }
-  /// Returns the partial derivative of g with respect to time.
+  /// Returns the partial derivative of the constraint row g with respect to time.
   [[nodiscard]] Rows time_rate(double t) const { return Rows(-law(t)[1]); }
 };
 
@@ -117,12 +117,12 @@ struct LinearRow : Joint<Eigen::Dynamic, 1> {
   }
 };
 
-/// Spring along the line between two nodes, g = |x_b - x_a| - rest, c = 1/k. c = 0 is a rigid rod.
-/// Coordinates: ua (2), ub (2).
+/// Spring along the line between two nodes. The row g = |x_b - x_a| - rest length has the
+/// compliance c = 1/k; c = 0 is a rigid rod. The coordinates are ua (2), ub (2).
 struct LineSpringElement : Joint<4, 1> {
   Vector2d offset = Vector2d::Zero();  ///< x_b - x_a in the pose of the model [m]
   double initial_elongation = 0;       ///< |offset| - rest length [m]
-  double flexibility = 0;              ///< 1/k [m/N]
+  double flexibility = 0;              ///< compliance 1/k [m/N]
 
   void constraint_residual(const Coordinates& q, double, Rows& residual, Gradient& G) const {
     const Vector2d relative_displacement = q.tail<2>() - q.head<2>(),
@@ -153,8 +153,8 @@ struct LineSpringElement : Joint<4, 1> {
   [[nodiscard]] Rows compliance() const { return Rows::Constant(flexibility); }
 };
 
-/// Member without bending stiffness: a line spring with 1/k = h/EA and a mass, linear between the
-/// ends.
+/// Member without bending stiffness: a line spring with the compliance h/EA. The displacement of
+/// its mass is linear between the ends.
 struct Bar : LineSpringElement {
   double total_mass = 0;  ///< [kg]
   bool lumped = false;
@@ -201,9 +201,9 @@ struct PointInertia : ElementSizes<1, 0> {
   [[nodiscard]] Square mass() const { return Square(value); }
 };
 
-/// Force [N, N] and moment [N m] that rotate with their node. Coordinates: (ux, uy, theta).
+/// Force [N, N] and moment [N m] that rotate with their node. The coordinates are (ux, uy, theta).
 struct FollowerForce : ElementSizes<3, 0> {
-  Vector3d force = Vector3d::Zero();  ///< in the pose of the model
+  Vector3d force = Vector3d::Zero();  ///< force and moment in the pose of the model
 
   /// Returns the force for a load factor of 1.
   [[nodiscard]] Coordinates load(const Coordinates& q) const {
@@ -211,7 +211,7 @@ struct FollowerForce : ElementSizes<3, 0> {
     f.head<2>() = rotated(force.head<2>(), q[2]);
     return f;
   }
-  /// Returns dload/dq, which is not symmetric.
+  /// Returns the derivative dload/dq of the load, which is not symmetric.
   [[nodiscard]] Square load_derivative(const Coordinates& q) const {
     Square derivative = Square::Zero();
     derivative.block<2, 1>(0, 2) = perpendicular(rotated(force.head<2>(), q[2]));

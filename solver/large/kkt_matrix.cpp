@@ -45,7 +45,8 @@ void KktMatrix::order(const Blocks& blocks) {
     const Eigen::SparseMatrix<double> pattern = matrix_.topLeftCorner(n, n);
     Eigen::AMDOrdering<int>()(pattern, elimination);
   }
-  // Twice the position among the coordinates. A row follows directly after its last coordinate.
+  // Sort key of each unknown: twice the position of a coordinate in the elimination order. A row
+  // follows directly after the last of its coordinates.
   Indices key = Indices::Constant(size, -1);
   for (Index p = 0; p < n; ++p) key[elimination.indices()[p]] = 2 * p;
   for (const std::vector<Index>& block : blocks) {

@@ -16,33 +16,33 @@ using Eigen::VectorXd;
 ///     [ S   G^T ] [ dq      ]   [ b ]
 ///     [ G   -C  ] [ dlambda ] = [ d ],      C = diag(c), c >= 0.
 ///
-/// S alone may be singular: it has no stretch and no shear, which are rows of G. The same equation
-/// is therefore factored with a penalty rho <= 1 / (2c) on each row:
+/// S alone may be singular: it has no axial and no shear stiffness, because stretch and shear are
+/// rows of G. The same equation is therefore factored with a penalty rho <= 1 / (2c) on each row:
 ///
 ///     [ S + G^T rho G   G^T E ] [ dq ]   [ b ]
 ///     [ E G             -C E  ] [ y  ] = [ d ],   E = 1 - rho C,   dlambda = y + (rho / E) d.
 ///
-/// Its upper left block is positive definite if the structure is stable. Each row is eliminated
+/// The upper left block is positive definite if the structure is stable. Each row is eliminated
 /// after its coordinates. LDL^T therefore needs no pivoting, and its negative pivots count the
-/// unstable directions. At least a relative 1e-11 on the diagonal of the rows keeps redundant
-/// constraints regular. With rho = 0 the matrix is the first one, for exact products. The pattern
-/// is set once. Assembling, factoring and solving reuse its memory.
+/// unstable directions. A compliance of at least 1e-11 / rho in each row keeps the matrix regular
+/// if constraints are redundant. With rho = 0 the second matrix equals the first one, so that
+/// products with it have no round-off errors of penalties. The sparsity pattern is set once.
+/// Assembling, factoring and solving reuse its memory.
 class KktMatrix {
  public:
   using Blocks = std::vector<std::vector<Index>>;
   using Extended = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 
-  /// Sets the pattern.
-  /// @param coordinates  number of free coordinates.
-  /// @param constraints  number of rows, which are numbered from `coordinates`.
-  /// @param blocks  unknowns that each element couples. Every row belongs to exactly one block.
-  ///   Negative unknowns are ignored.
+  /// Sets the sparsity pattern for free coordinates and constraint rows, which are numbered after
+  /// the coordinates. `blocks` contains the unknowns that each element couples. Every row belongs
+  /// to exactly one block. Negative unknowns are ignored.
   KktMatrix(Index coordinates, Index constraints, const Blocks& blocks);
   ~KktMatrix();
 
   void clear();
 
-  /// Adds the matrix of an element: of its coordinates, or of all unknowns of its block.
+  /// Adds an element matrix S. Its rows are the coordinates, or all unknowns, of the element's
+  /// block.
   template <class Matrix>
   void add(Index block, const Matrix& S) {
     const Index n = S.rows();
@@ -56,8 +56,9 @@ class KktMatrix {
     }
   }
 
-  /// Adds an element with constraint rows: S (n x n), D^T of the columns, G of the rows (m x n), c
-  /// and rho (m). D equals G if the matrix is symmetric.
+  /// Adds an element with n coordinates and m constraint rows: S (n x n), G (m x n) in the rows,
+  /// D^T in the columns of the multipliers, compliances c and penalties rho (m). D equals G if the
+  /// matrix is symmetric.
   template <class Matrix, class Gradient, class Rows>
   void add(Index block, const Matrix& S, const Gradient& D, const Gradient& G, const Rows& c,
            const Rows& rho) {
@@ -83,16 +84,16 @@ class KktMatrix {
   /// Adds a value to the diagonal of a coordinate.
   void add_diagonal(Index coordinate, double value);
 
-  /// Factors by LDL^T, or by LU if the matrix is not symmetric or a pivot vanishes.
-  /// @return false if it is singular to working precision.
+  /// Factors the matrix by LDL^T, or by LU if it is not symmetric or a pivot vanishes. @return
+  /// false if it is singular to working precision.
   [[nodiscard]] bool factor(bool symmetric);
 
-  /// Solves in place: (b, d) becomes (dq, dlambda).
+  /// Solves the equations in place: the right-hand side (b, d) becomes (dq, dlambda).
   void solve(Eigen::Ref<VectorXd> right_hand_side) const;
 
-  /// Returns the product of the assembled matrix with x = (q, y) in extended precision. The
-  /// stiffness of a soft joint is a difference of large products of stiff members. y is lambda if
-  /// the matrix was assembled without penalties.
+  /// Returns the product of the assembled matrix with x = (q, y) in extended precision, because the
+  /// stiffness of a soft joint is a small difference of large products of stiff members. y is
+  /// lambda if the matrix was assembled without penalties.
   [[nodiscard]] Extended multiply(const Extended& x) const;
 
   /// Returns G scaled by the units of the rows and of the coordinates: G_rk scale_k / row_unit_r.
@@ -100,18 +101,18 @@ class KktMatrix {
   [[nodiscard]] Eigen::MatrixXd constraint_gradient(const VectorXd& scale,
                                                     const VectorXd& row_unit) const;
 
-  /// Returns the energy of a motion over its round-off error from the rounded entries. The error is
-  /// 16 epsilon times the square root of the sum of the squared terms. The motion is free up to a
-  /// value of 1. The sum of the magnitudes would be too large: smooth motions of fine meshes would
-  /// count as free.
+  /// Returns the energy of a motion relative to its round-off error, which results from the rounded
+  /// entries of the matrix. The error is 16 epsilon times the square root of the sum of the squared
+  /// terms of the energy. A motion with a value of at most 1 is free. With the sum of magnitudes as
+  /// error, smooth motions of fine meshes would count as free.
   [[nodiscard]] double energy_over_roundoff(const Extended& x) const;
 
   /// Computes the sum of the magnitudes of the terms of each equation with the unknowns x = (q,
   /// lambda).
   void term_magnitudes(const VectorXd& x, VectorXd& magnitudes) const;
 
-  /// Returns the number of unstable directions: negative pivots in addition to those of the
-  /// constraints. It is -1 without LDL^T.
+  /// Returns the number of unstable directions: the number of negative pivots minus the number of
+  /// constraints. It is -1 if the matrix was not factored by LDL^T.
   [[nodiscard]] Index negative_pivots() const;
 
   [[nodiscard]] std::int64_t factorizations() const { return factorizations_; }
@@ -127,8 +128,8 @@ class KktMatrix {
   Eigen::PermutationMatrix<Eigen::Dynamic> permutation_;  ///< order of elimination
   Eigen::SparseMatrix<double> matrix_;                    ///< in elimination order, both triangles
   std::vector<std::size_t> block_start_;
-  std::vector<int> value_index_;  ///< per block, column-major: position in the values; -1: not free
-  std::vector<int> diagonal_;     ///< position in the values, per coordinate
+  std::vector<int> value_index_;  ///< position of block entries in the values; -1: not free
+  std::vector<int> diagonal_;     ///< position of each coordinate's diagonal in the values
   std::vector<Index> first_row_;  ///< first row of each block
   VectorXd multiplier_scaling_;   ///< rho / E of each row
   std::unique_ptr<Factors> factors_;

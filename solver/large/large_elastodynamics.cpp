@@ -25,14 +25,14 @@ namespace {
 
 constexpr Index kPlatform = 8;  ///< index of the platform in `InverseDynamics::q`
 
-/// Rigid motion at one time.
+/// Motion of the rigid (nominal) manipulator at one time.
 struct NominalState {
   TrajectoryPoint point;
   InverseDynamics dynamics;
   Model model;  ///< model at this pose, with loads and weight
 };
 
-/// Equilibrium at one time.
+/// Equilibrium of the flexible manipulator at one time of its nominal motion.
 struct StaticInstant {
   NominalState nominal;
   std::vector<DrivenEnd> ends;
@@ -95,7 +95,8 @@ class LargeElastodynamics {
     solution_.outcome =
         outcome_by_evidence(solution_.outcome, solution_.evidence, {Residual::equation_of_motion});
     finish();
-    // Geometric stiffening is part of large displacement and cannot be removed separately.
+    // Geometric stiffening is not counted, because it is a part of large displacement that cannot
+    // be removed separately.
     solution_.summary.counters.effects[static_cast<std::size_t>(Effect::geometric_stiffening)] = 0;
     return std::move(solution_);
   }
@@ -113,13 +114,14 @@ class LargeElastodynamics {
     return state;
   }
 
-  /// Returns the motion of the rigid parts relative to a pose.
+  /// Returns the motion of the rigid parts at the time of `to`, relative to the pose `from`.
   [[nodiscard]] NominalMotion motion_between(const NominalState& from,
                                              const NominalState& to) const {
     return nominal_motion(from.model, to.dynamics, from.dynamics.q, to.point, options_.gravity);
   }
 
-  /// Returns the drives of the joints. They remain at the pose of the model if `moves` is false.
+  /// Returns the drives of all joints. If `moves` is false, they hold the joints in the pose of the
+  /// model.
   [[nodiscard]] LargeMotionModel drives(Model& model, const std::vector<DrivenEnd>& ends,
                                         bool moves) const {
     LargeMotionModel large_motion;
@@ -138,8 +140,8 @@ class LargeElastodynamics {
     return large_motion;
   }
 
-  /// Computes the equilibrium at a time under loads, weight and nominal inertia, without damping.
-  /// Returns an empty value on failure.
+  /// Computes the equilibrium at a time under loads, weight and inertia forces of the nominal
+  /// motion, without damping. Returns an empty value on failure.
   [[nodiscard]] std::optional<StaticInstant> equilibrium_at(double time) {
     StaticInstant now{at_time(time), {}, {}, {}};
     if (!now.nominal.dynamics.outcome.solved()) {
@@ -196,8 +198,8 @@ class LargeElastodynamics {
     return true;
   }
 
-  /// Solves K q = f - C v with damping, where v are the rates of K q = f by second-order
-  /// differences. Linear elastodynamics starts in the same way.
+  /// Computes a quasi-static start with damping, K q = f - C v. The velocities v are second-order
+  /// differences of the solutions of K q = f. Linear elastodynamics starts in the same way.
   [[nodiscard]] bool start_quasi_statically(State& state, VectorXd& rates) {
     const double h = smooth_span(options_.load_history.bends(), options_.time) / 2;
     std::array<std::optional<StaticInstant>, 3> found;
@@ -241,8 +243,8 @@ class LargeElastodynamics {
     solution_.outcome = make_consistent(system, state, given, options_.time.step);
     if (solution_.outcome.solved()) integrate_from(system, state);
     if (solution_.state.empty() || solution_.time.front() != options_.time.start) return;
-    // The integrator starts with the accelerations of an implicit step instead of those of the
-    // motion.
+    // Replace the first sample, because the integrator starts with the accelerations of an implicit
+    // step instead of those of the motion.
     if (!options_.time.quasi_static_start) {
       replace_start_by_linear_theory();
     } else {
@@ -250,8 +252,8 @@ class LargeElastodynamics {
     }
   }
 
-  /// Replaces the first sample by linear theory, which is exact before anything has moved. Its
-  /// forces are due to inertia only.
+  /// Replaces the first sample by the solution of linear theory, which is exact for the undeformed
+  /// start. The forces of this sample are due to inertia only.
   void replace_start_by_linear_theory() {
     ElastodynamicsOptions first = options_;
     first.time.sample_times = {first.time.start};
@@ -262,7 +264,7 @@ class LargeElastodynamics {
       return;
     }
     StaticSolution& start = solution_.state.front() = std::move(linear.state.front());
-    start.member_stress.resize(0);  // no sample has stresses
+    start.member_stress.resize(0);  // samples of large motion have no stresses
     start.triangle_stress.resize(0, 3);
     start.node_stress.resize(0, 3);
   }
@@ -293,7 +295,7 @@ class LargeElastodynamics {
       result.counters.count(Effect::damping, summary.iterations);
   }
 
-  /// Adds a state as a sample at a time.
+  /// Adds the results of a state to the samples.
   void add_sample(const GeometricallyExactSystem& system, const State& state,
                   const NominalState& built, const NominalState& now) {
     StaticSolution sample = sample_of(system, state, built, now);
@@ -303,8 +305,8 @@ class LargeElastodynamics {
     solution_.state.push_back(std::move(sample));
   }
 
-  /// Returns the results of a state relative to the nominal position. `built` is the pose of the
-  /// model of the system.
+  /// Returns the results of a state relative to the nominal position `now`. `built` is the nominal
+  /// state in whose pose the model was built.
   [[nodiscard]] StaticSolution sample_of(const GeometricallyExactSystem& system, const State& state,
                                          const NominalState& built, const NominalState& now) const {
     const NominalMotion moved = motion_between(built, now);
@@ -364,9 +366,9 @@ const char* beyond_large_displacement(const ElastodynamicsOptions& options, cons
   const bool six_nodes = std::any_of(model.triangles.begin(), model.triangles.end(),
                                      [](const Triangle& triangle) { return triangle.quadratic(); });
   const std::vector<double>& times = options.load_history.time;
-  if (!driven) return "it requires driven actuators instead of free ones";
-  if (tied) return "it does not support Eq. 25";
-  if (!options.nominal_inertia) return "it requires nominal inertia";
+  if (!driven) return "it requires actuators that follow the path instead of free ones";
+  if (tied) return "it does not support the rotation constraint of paper Eq. 25";
+  if (!options.nominal_inertia) return "it requires the inertia forces of the nominal motion";
   if (options.modal_superposition) return "it does not support modal superposition";
   if (options.time.adaptive) return "it requires fixed steps without error control";
   if (std::adjacent_find(times.begin(), times.end()) != times.end())
@@ -392,8 +394,8 @@ struct Turn {
   double time = 0, angle = 0, rate = 0;
 };
 
-/// Returns a function of time that is extended beyond the ends of the path with the acceleration
-/// and its rate there.
+/// Extends a function of time beyond the ends of the path by extrapolation with the acceleration
+/// and its rate at the end.
 TimeFunction extended(const TimeFunction& law, const Path& path) {
   return [law, limits = time_span(path)](double t) {
     const double end = std::clamp(t, limits.first, limits.second), d = t - end;
@@ -429,7 +431,7 @@ TimeFunction joint_law(const RigidMotion& motion, const Path& path, double start
   };
   const auto last = std::make_shared<Turn>(Turn{start, 0, seen(motion(start).q_dot)});
   const auto law = [motion, seen, before = seen(motion(start).q), last](double t) {
-    constexpr double kSmall = 0.5;  // [rad]
+    constexpr double kSmall = 0.5;  // increment of the rotation [rad]
     while (true) {
       const double left = t - last->time, limit = kSmall / std::abs(last->rate);
       double step = std::abs(left) > limit ? std::copysign(limit, left) : left;
@@ -439,7 +441,7 @@ TimeFunction joint_law(const RigidMotion& motion, const Path& path, double start
       const double within = seen(now.q) - before, turns = 2 * std::numbers::pi;
       const double angle = within + turns * std::round((last->angle - within) / turns);
       const std::array<double, 3> found = {angle, seen(now.q_dot), seen(now.q_ddot)};
-      const bool lost = !std::isfinite(angle + found[1]);  // out of reach, or singular
+      const bool lost = !std::isfinite(angle + found[1]);  // path beyond the reach, or singular
       if (lost || (next.time == last->time && next.time != t)) return found;
       *last = {next.time, angle, found[1]};
       if (next.time == t) return found;

@@ -35,7 +35,7 @@ void validate(const LargeMotionModel& large_motion, const Model& model) {
     const std::string part = part_label("slider", slider.name, i);
     require_node(slider.node, part);
     if (slider.rail != -1) require_node(slider.rail, part);
-    require(slider.rail != slider.node, part, "slides along itself");
+    require(slider.rail != slider.node, part, "has its own node as rail");
     require(std::isfinite(slider.direction), part, "has a direction that is not a finite number");
   }
   for (std::size_t i = 0; i < large_motion.line_springs.size(); ++i) {

@@ -75,8 +75,8 @@ struct LargeMotionModel {
   std::vector<FollowerLoad> follower_loads;
   std::vector<InitialVelocity> initial_velocities;
   std::function<double(double)> load_history;  ///< factor on the loads (not gravity); empty: 1
-  std::vector<double> load_breakpoints;        ///< times of its jumps and kinks, ascending [s]
-  double mass_damping = 0;                     ///< forces -mass_damping M v [1/s]
+  std::vector<double> load_breakpoints;  ///< times of jumps and kinks of the factor, ascending [s]
+  double mass_damping = 0;               ///< factor of the forces -mass_damping M v [1/s]
   double strain_rate_damping = 0;  ///< stress from strain + strain_rate_damping * strain rate [s]
 };
 
@@ -88,11 +88,13 @@ void validate(const LargeMotionModel& large_motion, const Model& model);
 
 namespace trammel::solver {
 
-/// Adds a revolute joint between two coincident nodes as equal translations, for every tier.
+/// Adds a revolute joint between two coincident nodes: equal translations, in small or large
+/// motion.
 void add_pin(Model& model, const std::string& name, const std::array<Index, 2>& nodes);
 
-/// Adds a slider in small motion, for the linear tiers. The displacement normal to the line, which
-/// moves with the rail, is zero:
+/// Adds a sliding joint for small motion to a linear model. The displacement of the node relative
+/// to the rail is zero along the normal n of the line. For displacements u, positions p and the
+/// unit vector k normal to the plane:
 ///
 ///   n . (u - u_rail) = n . (k x (p - p_rail)) theta_rail.
 void add_linear_slider(Model& model, const large_motion::Slider& slider);
@@ -105,7 +107,7 @@ namespace trammel::solver::large_motion {
 /// (ux, uy) of its ends.
 struct MemberElement {
   Index member = 0;
-  Vector2d start = Vector2d::Zero();  ///< in the pose of the model [m]
+  Vector2d start = Vector2d::Zero();  ///< start of the element in the pose of the model [m]
   Vector2d end = Vector2d::Zero();
   Section section;
   std::vector<Index> coordinates;
@@ -119,19 +121,19 @@ struct MemberElement {
 };
 
 /// Numbering of the coordinates. Free coordinates come first, then those held by supports. An index
-/// >= `free` therefore means zero displacement. Joints share coordinates if possible. A revolute
-/// joint shares translations, and so does a constraint that makes two coordinates equal. A welded
-/// end and the nodes of a rigid body share the rotation.
+/// >= `free` therefore means zero displacement. Joined parts share coordinates if possible: a
+/// revolute joint shares the translations, and coordinates that a constraint makes equal are one
+/// coordinate. A welded end and the nodes of a rigid body share the rotation.
 struct Layout {
   Index free = 0;
   Index total = 0;
-  std::vector<std::array<Index, 3>> node;  ///< x, y, rotation (-1 for a node without rotation)
+  std::vector<std::array<Index, 3>> node;  ///< x, y, rotation of each node (-1: no rotation)
   std::vector<std::array<Index, 2>> end_rotation;  ///< rotations of the ends of each member
   std::vector<MemberElement> elements;
-  std::vector<Index> first_element;  ///< of each member; one past the last at the end
+  std::vector<Index> first_element;  ///< first element of each member, and the number of elements
   std::vector<std::array<Index, 2>>
-      mass_center;             ///< of each point mass with an offset; otherwise those of the node
-  std::vector<int> direction;  ///< of each coordinate: 0: x, 1: y, 2: rotation
+      mass_center;             ///< x, y of the center of each point mass (or of its node)
+  std::vector<int> direction;  ///< direction of each coordinate: 0: x, 1: y, 2: rotation
 
   [[nodiscard]] bool is_rotation(Index coordinate) const {
     return direction[static_cast<std::size_t>(coordinate)] == 2;

@@ -20,18 +20,18 @@ using Extended = KktMatrix::Extended;
 
 /// Fraction of |s| below which the real or imaginary part of s is round-off.
 constexpr double kRoundoffShare = 1e-7;
-/// Ratio of w^2 of two successive modes below which the lower modes are soft. K^-1 then has few
-/// correct digits of the higher modes.
+/// Ratio of the squared frequencies w^2 of two successive modes below which the lower modes are
+/// called soft. The computed K^-1 then has few correct digits of the higher modes.
 constexpr double kSoftShare = 1e-10;
-/// Factor within which K^-1 determines the lowest w^2 above the soft modes. A larger factor shows
-/// that the parts above the soft modes are massless.
+/// Largest ratio of two estimates of the lowest w^2 above the soft modes: from K^-1 and from a
+/// shifted K. A larger ratio shows that the parts above the soft modes are massless.
 constexpr double kAlike = 1e6;
 /// Relative distance of the shift from w^2 of a mode in the inverse iteration.
 constexpr double kAside = 1e-3;
 
-/// Stiffness K - w2 M with the constraints. It is factored with penalties, and assembled again
-/// without penalties for exact products. Otherwise, round-off errors of stiff members would hide
-/// the stiffness of soft joints.
+/// Matrix of the stiffness K - w2 M and the constraints. It is factored with penalties, and
+/// assembled again without penalties for exact products. Otherwise, round-off errors of stiff
+/// members would hide the stiffness of soft joints.
 class ShiftedStiffness {
  public:
   ShiftedStiffness(const GeometricallyExactSystem& system, const State& state, double w2)
@@ -48,10 +48,10 @@ class ShiftedStiffness {
     system.tangent(state, coefficients, plain_);
   }
 
-  /// Returns false if it is singular.
+  /// Returns false if the matrix is singular.
   [[nodiscard]] bool exists() const { return exists_; }
 
-  /// Returns (x, y) of K (x, y) = (f, 0), by iterative refinement until convergence.
+  /// Solves K (x, y) = (f, 0) for motions x and constraint forces y by iterative refinement.
   [[nodiscard]] Extended solve(const Extended& force) const {
     constexpr double kEnough = 1e-13;
     constexpr int kPasses = 30;  // corrections of ill-conditioned matrices do not decrease evenly
@@ -89,7 +89,7 @@ class ShiftedStiffness {
   /// Returns the backward error of K (x, y) = (w^2 M x, 0) for the real or the imaginary part of a
   /// mode, row by row. Each coordinate counts with at least `kLeastFraction` of the largest motion,
   /// as in row_balance.h. The terms of each row are at least 1e-9 of the largest terms of rows of
-  /// its type.
+  /// the same type (forces or constraints).
   [[nodiscard]] double residual(const Extended& mode, const Extended& inertia) const {
     constexpr double kLeastRow = 1e-9;
     const VectorXd& scale = system_.scale();
@@ -112,7 +112,7 @@ class ShiftedStiffness {
     return row_backward_error(residual.cast<double>(), terms);
   }
 
-  /// Returns the same as `KktMatrix::energy_over_roundoff`.
+  /// Returns the energy over its round-off error (`KktMatrix::energy_over_roundoff`) for a mode.
   [[nodiscard]] double energy_over_roundoff(const Extended& mode) const {
     return plain_.energy_over_roundoff(mode);
   }
@@ -124,8 +124,8 @@ class ShiftedStiffness {
   mutable double last_correction_ = 1;
 };
 
-/// Returns L with M = L L^T and one column for each motion that has mass. Massless coordinates have
-/// no mode. They would cause eigenvalues of round-off.
+/// Returns the factor L of the mass matrix M = L L^T, with one column for each motion that has
+/// mass. Massless coordinates have no mode and would cause eigenvalues that are round-off errors.
 MatrixXd mass_factor(const MatrixXd& M) {
   const VectorXd size = M.diagonal().cwiseMax(0).cwiseSqrt();
   const VectorXd inverse = size.unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
@@ -140,16 +140,13 @@ MatrixXd mass_factor(const MatrixXd& M) {
 /// Modes in ascending order of |w^2|.
 struct Spectrum {
   bool converged = false;
-  std::vector<std::complex<double>> w2;  // infinite for motions held by constraints
+  std::vector<std::complex<double>> w2;  // squared frequencies [rad^2/s^2]
   std::vector<VectorXcd> x;
   double shift = 0;
 };
 
-/// Computes all modes.
-/// @param K  K - shift M.
-/// @param L  factor from `mass_factor`.
-/// @param shift  shift of K.
-/// @param symmetric  true if K is symmetric.
+/// Computes all modes from the inverse of the matrix K with the given shift, and from the factor L
+/// of the mass matrix.
 Spectrum spectrum(const ShiftedStiffness& K, const MatrixXd& L, double shift, bool symmetric) {
   const Index n = L.rows();
   MatrixXd flexibility(n, L.cols());  // (K - shift M)^-1 (L, 0)
@@ -167,7 +164,7 @@ Spectrum spectrum(const ShiftedStiffness& K, const MatrixXd& L, double shift, bo
   found.converged = pairs.converged;
   found.shift = shift;
   if (!pairs.converged) return found;
-  // Motions held by constraints have no mode.
+  // Motions that the constraints prevent have eigenvalues of round-off size and no mode.
   const double held = 1e-4 * kEps * pairs.value.cwiseAbs().maxCoeff();
   std::vector<std::pair<std::complex<double>, Index>> order;  // w^2 of each eigenvector
   for (Index j = 0; j < pairs.value.size(); ++j)
@@ -189,12 +186,13 @@ double lowest_above_soft(const Spectrum& modes) {
   return 0;
 }
 
-/// Returns w^2 of the lowest mode above the free ones if K is singular to working precision. All
-/// modes of K^-1 then contain parts of the free ones. The shifts start above all modes and decrease
-/// to the lowest mode that is not free.
+/// Returns w^2 of the lowest mode that is not a free motion, for a K that is singular to working
+/// precision. All modes from such a K^-1 contain parts of the free motions. K is therefore shifted
+/// by multiples of M. The shifts start above all modes and decrease to the lowest mode that is not
+/// free.
 double lowest_above_free(const GeometricallyExactSystem& system, const State& state,
                          const MatrixXd& L, const Spectrum& mixed) {
-  constexpr double kNear = 1e-4;  // relative to the shift; the value has more than ten digits
+  constexpr double kNear = 1e-4;  // lowest w^2 over the shift that has more than ten digits
   double shift = mixed.w2.empty() ? 0 : std::abs(mixed.w2.back());
   for (int pass = 0; pass < 8 && shift > 0; ++pass) {
     const ShiftedStiffness K(system, state, -shift);
@@ -211,18 +209,18 @@ double lowest_above_free(const GeometricallyExactSystem& system, const State& st
 }
 
 /// Improves a real mode and its w^2 by inverse iteration with K - t M, where the shift t is next to
-/// w^2. The round-off error of the matrix of all modes is relative to its lowest mode. It
-/// contaminates a higher mode by the ratio of both values. With the shift, the requested mode is
-/// the largest.
+/// w^2. The matrix from which all modes follow has round-off errors relative to its lowest mode.
+/// They contaminate a higher mode by the ratio of both w^2. With the shift, the requested mode
+/// dominates.
 Extended beside(const GeometricallyExactSystem& system, const State& state, const MatrixXd& M,
                 std::complex<double>& w2, Extended mode) {
   const Index n = system.coordinates();
-  // Increase the distance if the errors of the factors exceed it.
+  // Increase the distance between shift and w^2 if round-off errors of the factors exceed it.
   for (const double aside : {kAside, 0.03, 0.3}) {
     const double t = w2.real() - aside * std::abs(w2);
     const ShiftedStiffness K(system, state, t);
     if (!K.exists()) continue;
-    const int passes = aside == kAside ? 4 : 20;  // each pass reduces other modes by this factor
+    const int passes = aside == kAside ? 4 : 20;  // each pass reduces other modes by `aside`
     for (int pass = 0; pass < passes; ++pass) {
       const Extended inertia = M.cast<long double>() * mode.head(n);
       const Extended next = K.solve(inertia);
@@ -268,7 +266,8 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
     stiffened.emplace(system, state, -above);
     const Spectrum clear =
         stiffened->exists() ? spectrum(*stiffened, L, -above, system.symmetric()) : Spectrum();
-    // Outside this range, the stiff parts above the soft modes are massless.
+    // If both estimates of w^2 differ by more than this factor, the parts above the soft modes are
+    // massless.
     const double next = lowest_above_soft(clear);
     if (next > above / kAlike && next < kAlike * above) {
       modes = clear;
@@ -309,7 +308,8 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
       found.evidence.add(Residual::eigenvalue_equation, kEps * K.energy_over_roundoff(mode));
       continue;
     }
-    // The factor 0.5 follows from the frequency being the square root of the energy.
+    // The factor 0.5 converts the relative error of the energy to that of the frequency, which is
+    // proportional to the square root of the energy.
     if (w2.imag() == 0) found.roundoff[k] = 0.5 / K.energy_over_roundoff(mode);
     const Extended real = M.cast<long double>() * mode.head(n);
     const Extended other = M.cast<long double>() * imaginary.head(n);

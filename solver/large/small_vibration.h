@@ -5,7 +5,7 @@
 
 namespace trammel::solver::large_motion {
 
-/// Small vibration q e^{s t}, s = g + 2 pi i f, about an equilibrium.
+/// Modes q e^{s t} of small vibration about an equilibrium, s = g + 2 pi i f.
 struct SmallVibration {
   Outcome outcome;
   VectorXd frequency;    ///< f, ascending [Hz]; 0 for monotonic growth or decay
@@ -14,13 +14,15 @@ struct SmallVibration {
   Evidence evidence;
 };
 
-/// Largest number of coordinates. The matrix is dense, and the cost grows with the third power.
+/// Largest number of coordinates for `small_vibration`. Its matrix is dense, and the cost grows
+/// with the third power of the number.
 inline constexpr Index kMaxVibrationCoordinates = 400;
 
-/// Computes the lowest |s| of s^2 M x + K x + G^T y = 0, G x = C y. K is the tangent stiffness of
-/// the state. The modes follow from the eigenvalues of K^-1 M on the constraints. Follower loads
-/// make K nonsymmetric. If two frequencies then meet, the motion flutters, which statics cannot
-/// show (V. V. Bolotin, Nonconservative Problems of the Theory of Elastic Stability, 1963).
+/// Computes the `count` modes with the lowest |s| of s^2 M x + K x + G^T y = 0, G x = C y. K is the
+/// tangent stiffness of the state. The modes follow from the eigenvalues of K^-1 M on the
+/// constraints. Follower loads make K nonsymmetric. If two frequencies then meet, the motion
+/// flutters, which statics cannot show (V. V. Bolotin, Nonconservative Problems of the Theory of
+/// Elastic Stability, 1963).
 /// @throws ModelError  if there are more than kMaxVibrationCoordinates coordinates.
 [[nodiscard]] SmallVibration small_vibration(const GeometricallyExactSystem& system,
                                              const State& state, Index count);

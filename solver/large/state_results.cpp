@@ -23,7 +23,7 @@ struct PlacedElement {
 
   const GeometricallyExactSystem& system;
   const State& state;
-  Index index;  ///< among the elements of all members
+  Index index;  ///< index among the elements of all members
   const MemberElement& placed = system.layout().elements[to_size(index)];
   const ElementGroup<Element>& group = system.parts().group<Element>();
   Index place = system.parts().group_index[to_size(index)];
@@ -32,7 +32,8 @@ struct PlacedElement {
   Coordinates q = gather<N>(state.q, where);
   int stride = static_cast<int>(placed.stride());
 
-  /// Returns loads + M (g - a - alpha v) at each node [N, N, N m].
+  /// Returns the nodal forces of loads, weight, inertia and mass-proportional damping alpha: loads
+  /// + M (g - a - alpha v) [N, N, N m].
   [[nodiscard]] Coordinates applied_forces() const {
     const Member& member = system.model().members[to_size(placed.member)];
     Coordinates field = Coordinates::Zero();  // g - a - alpha v
@@ -58,7 +59,7 @@ struct PlacedElement {
     return f - applied_forces();
   }
 
-  /// Returns (N, V, M) at the first or the last node [N, N, N m].
+  /// Returns the section forces (N, V, M) at the first or the last node [N, N, N m].
   [[nodiscard]] Eigen::RowVector3d resultants(bool first) const {
     const int node = first ? 0 : N / stride - 1;
     const Coordinates f = nodal_forces();
@@ -110,15 +111,15 @@ FreeBody cut_free(const GeometricallyExactSystem& system, const State& state, In
     const Beam::Coordinates f = beam.applied_forces();
     for (int a = 0; a <= kLast; ++a)
       body.add(beam.position(a), beam.node_force(f, a), beam.moment(f, a));
-    // Bending moments are differences of rotations, whose magnitudes include the rotation of the
-    // member.
+    // Bending moments follow from differences of nodal rotations. Their round-off error is relative
+    // to the rotation of the member, which the sum of magnitudes therefore includes.
     body.moment_terms +=
         (beam.element.tangent(beam.q, 1, 0).cwiseAbs() * beam.q.cwiseAbs()).maxCoeff();
   }
   return body;
 }
 
-/// Returns (N, V, M) at the first or the second end of an element [N, N, N m].
+/// Returns the section forces (N, V, M) at an end of an element [N, N, N m].
 Eigen::RowVector3d element_resultants(const GeometricallyExactSystem& system, const State& state,
                                       Index index, bool first) {
   if (system.layout().elements[to_size(index)].is_bar())
@@ -238,7 +239,7 @@ Index redundant_constraints(const GeometricallyExactSystem& system, const State&
   columns = columns * factor.asDiagonal();
   columns.prune(0.0);
   Eigen::SparseQR<Eigen::SparseMatrix<double>, Eigen::COLAMDOrdering<int>> qr;
-  qr.setPivotThreshold(1e-10);  // relative to unit columns; round-off leaves much less
+  qr.setPivotThreshold(1e-10);  // relative to unit columns; round-off errors are much smaller
   qr.compute(columns);
   return rigid - qr.rank();
 }

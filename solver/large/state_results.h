@@ -9,13 +9,14 @@
 /// `StaticSolution`.
 namespace trammel::solver::large_motion {
 
-/// Returns model node x (x, y, rotation) of coordinates, velocities or accelerations. The rotation
-/// is NaN for a node without rotation.
+/// Returns displacements, velocities or accelerations of the model nodes: one row per node, with
+/// columns x, y, rotation. The rotation is NaN for a node without rotation.
 [[nodiscard]] Eigen::MatrixX3d node_motion(const GeometricallyExactSystem& system,
                                            const VectorXd& values);
 
-/// Returns support x (Fx, Fy [N], moment [N m]), the forces of the ground on the node including
-/// inertia. Supports that hold a shared coordinate each show its full reaction.
+/// Returns the forces of the ground on the supported nodes, including inertia: one row per support,
+/// with columns Fx, Fy [N], moment [N m]. If several supports hold the same coordinate, each row
+/// contains its full reaction.
 [[nodiscard]] Eigen::MatrixX3d reactions(const GeometricallyExactSystem& system,
                                          const State& state);
 
@@ -24,39 +25,39 @@ namespace trammel::solver::large_motion {
 [[nodiscard]] StaticSolution static_solution(const GeometricallyExactSystem& system,
                                              const State& state);
 
-/// Residual of the equilibrium of members that are cut free. It includes the section forces at
-/// their ends, loads, weight and inertia in the deformed position.
+/// Residual of the equilibrium of each member as a free body in the deformed position. Its forces
+/// are the section forces at both ends, loads, weight and inertia.
 class MemberBalance {
  public:
-  /// Adds the members of a state.
-  /// @param system  equations.
-  /// @param state  satisfies the equation of motion.
+  /// Adds the residuals of all members in a state that satisfies the equation of motion.
   void add(const GeometricallyExactSystem& system, const State& state);
-  /// Returns the largest sum of forces, or of moments about a first end, over the largest terms of
-  /// such sums. States and members whose forces are only round-off errors do not contribute.
+  /// Returns the largest resultant force, or moment about the first end, of all members and states.
+  /// It is relative to the largest sum of the magnitudes of these forces or moments. Members whose
+  /// forces are only round-off errors therefore do not contribute.
   [[nodiscard]] double residual() const;
 
  private:
-  double force_ = 0, moment_ = 0;              // largest sums [N, N m]
+  double force_ = 0, moment_ = 0;              // largest resultants [N, N m]
   double force_terms_ = 0, moment_terms_ = 0;  // largest sums of magnitudes [N, N m]
-  double length_ = 0;                          // longest member [m]
+  double length_ = 0;                          // length of the longest member [m]
 };
 
 /// Returns the force [N] or torque [N m] of a drive on the structure.
 [[nodiscard]] double drive_force(const GeometricallyExactSystem& system, const State& state,
                                  Index drive);
 
-/// Returns world positions of the element nodes of a member, first to second node: point x (x, y)
-/// [m].
+/// Returns the deformed positions of the element nodes of a member, from its first to its second
+/// node: one row (x, y) per node [m].
 [[nodiscard]] Eigen::MatrixX2d member_node_positions(const GeometricallyExactSystem& system,
                                                      const VectorXd& q, Index member);
 
-/// Largest number of rigid constraints, most of which belong to members, whose rank is computed.
-/// Above it, the factorization for the rank takes longer than statics.
+/// Largest number of rigid constraints for which redundant constraints are counted. With more
+/// constraints, the factorization that yields their rank would take longer than statics.
 inline constexpr Index kMaxCountedConstraints = 400;
 
 /// Returns the number of redundant rigid constraints in a state. Equilibrium does not determine the
-/// forces of as many constraints. The result is 0 above `kMaxCountedConstraints`.
+/// forces of the same number of constraints. The result is 0 if there are more than
+/// `kMaxCountedConstraints`.
 [[nodiscard]] Index redundant_constraints(const GeometricallyExactSystem& system,
                                           const State& state);
 

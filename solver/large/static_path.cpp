@@ -22,8 +22,9 @@ constexpr double kTurn = 0.95;
 /// directions.
 constexpr double kSame = 1e-9;
 
-/// Point between two others of the path: distance from the first, indicator that vanishes at the
-/// critical point, number of unstable directions, and state.
+/// Trial point in the search for a critical point between two points of a path: distance from the
+/// first point, indicator f that vanishes at the critical point, number of unstable directions, and
+/// state.
 struct Trial {
   double arc, f;
   Index unstable;
@@ -45,8 +46,8 @@ class IllinoisBracket {
   }
   [[nodiscard]] const Trial& left() const { return left_; }
   [[nodiscard]] const Trial& right() const { return right_; }
-  /// Returns the distance of the load of a point from its extremum if the indicator is the
-  /// derivative of the load. The load is approximated by a parabola.
+  /// Returns the distance of the load at a point with the indicator f from the extremum of the
+  /// load, if f is the derivative of the load. The load is approximated by a parabola.
   [[nodiscard]] double distance_to_extremum(double f) const {
     return f * f / 2 * width() / std::abs(right_.f - left_.f);
   }
@@ -65,10 +66,11 @@ class IllinoisBracket {
   bool was_updated_ = false, was_left_ = false;
 };
 
-/// Returns the factor of the next step. The ratio of the first two corrections grows with the
-/// square of the step (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 5.1). Its
-/// target is a tenth. Unlike the number of iterations, the ratio is continuous, so that round-off
-/// does not change the points of the path.
+/// Returns the ratio of the next step to the last step of the path. It depends on the ratio of the
+/// second to the first Newton correction, which grows with the square of the step (Deuflhard,
+/// Newton Methods for Nonlinear Problems, 2004, section 5.1). The target of this second ratio is a
+/// tenth. Unlike the number of iterations, this ratio is continuous, so that round-off does not
+/// change the points of the path.
 double step_factor(const std::vector<double>& correction) {
   constexpr double kWantedRatio = 0.1;
   if (correction.size() < 2) return 2;
@@ -107,8 +109,8 @@ std::string describe_largest_coordinate(const GeometricallyExactSystem& system,
 /// Limit point or bifurcation between two points of a path.
 struct CriticalPoint {
   bool load_reversed = false;  ///< true: limit point
-  std::optional<double> load;  ///< empty if it was not found
-  PathPoint point;             ///< point near it
+  std::optional<double> load;  ///< load factor; empty if it was not found
+  PathPoint point;             ///< point of the path near the critical point
 };
 
 class PathFollower {
@@ -135,7 +137,7 @@ class PathFollower {
     point.state = system_.reference_state();
     point.newton = equilibrium_.solve(point.state, 0);
     if (!point.newton.outcome.solved()) return stop(point.newton.outcome);
-    const bool at_rest = point.newton.correction.size() == 1;  // the tangent was factored here
+    const bool at_rest = point.newton.correction.size() == 1;  // tangent was factored at this state
     if (!at_rest && !equilibrium_.factor(point.state))
       return stop({Status::singular, "the tangent matrix is singular"});
     for (Index found = 0; found <= system_.coordinates(); ++found) {
@@ -169,8 +171,8 @@ class PathFollower {
     return true;
   }
 
-  /// Returns the mean response from the start to the target in linear theory. Drives that start
-  /// from rest have no initial response.
+  /// Returns the displacement per load factor from the start to the target in linear theory. It is
+  /// used for drives that start from rest, because their initial response is zero.
   double mean_response(const State& start) {
     State end = start;
     system_.set_load(end, options_.target);
@@ -186,7 +188,7 @@ class PathFollower {
     return false;
   }
 
-  // Directions in (q, lambda, load) have unit length in the metric of the path.
+  // Direction vectors in (q, lambda, load) have unit length in the metric of the path.
 
   static VectorXd with_load(const VectorXd& step, double load) {
     return (VectorXd(step.size() + 1) << step, load).finished();
@@ -195,7 +197,7 @@ class PathFollower {
   double dot(const VectorXd& a, const VectorXd& b) const { return a.cwiseProduct(metric_).dot(b); }
   VectorXd normalized(const VectorXd& d) const { return d / std::sqrt(dot(d, d)); }
 
-  /// Returns the tangent of the path with the last factors, oriented as `along`.
+  /// Returns the tangent direction of the path from the last factors, oriented like `along`.
   VectorXd tangent(const State& state, const VectorXd& along) {
     VectorXd step;
     equilibrium_.load_direction(state, step);
@@ -203,7 +205,8 @@ class PathFollower {
     return dot(along, d) < 0 ? VectorXd(-d) : d;
   }
 
-  /// Solves by Newton's method on the plane normal to the direction at the distance `arc`.
+  /// Computes a point of the path by Newton's method. The point lies on the plane that is normal to
+  /// the direction d, at the distance `arc` from the last point.
   bool corrector(const VectorXd& d, double arc, PathPoint& point) {
     point.state = last().state;
     apply_correction(point.state, d, arc);
@@ -222,13 +225,13 @@ class PathFollower {
 
   bool next() {
     if (static_cast<int>(point_count_) >= options_.max_points)
-      return not_converged("the limit of the number of points was reached");
+      return not_converged("the limit of the number of path points was reached");
     PathPoint point;
     VectorXd ahead;
     std::optional<CriticalPoint> critical;
     for (int cut = 0;; ++cut) {
-      if (cut == 40) return not_converged("the step was reduced 40 times without success");
-      // A step beyond the target is replaced by a step that ends on the target, or is halved. A
+      if (cut == 40) return not_converged("the path step was halved 40 times without success");
+      // A step beyond the target load is replaced by a step that ends on this load, or is halved. A
       // step that may have reached another branch nearby is also halved.
       const bool reached = crosses_target() ? solve_at_target(point)
                                             : corrector(direction_, arc_step_, point) &&
@@ -253,7 +256,7 @@ class PathFollower {
     return switched || !done;
   }
 
-  /// Returns the critical point between two points, if any.
+  /// Returns the critical point between the last point of the path and `to`, if any.
   std::optional<CriticalPoint> find_critical_point(const PathPoint& to, const VectorXd& ahead) {
     CriticalPoint critical{load_of(ahead) * load_of(direction_) < 0, {}, to};
     const Index unstable = last().unstable_directions;
@@ -263,8 +266,9 @@ class PathFollower {
     return critical;
   }
 
-  /// Returns true if the critical point lies between both points. A limit point has a load beyond
-  /// both of their loads. A bifurcation has a load between them.
+  /// Returns true if the critical point lies between the last point and a point with the load
+  /// `end`. A limit point has a load beyond both loads. A bifurcation has a load between both
+  /// loads.
   bool lies_on_path(const CriticalPoint& critical, double end) const {
     if (last().unstable_directions < 0) return true;
     if (!critical.load) return false;
@@ -304,7 +308,7 @@ class PathFollower {
     return (last().state.load - options_.target) * (to.load - options_.target) < 0;
   }
 
-  /// Solves the last step, which ends on the target.
+  /// Solves the last step of the path, which ends on the target load.
   bool solve_at_target(PathPoint& point) {
     point.state = last().state;
     const double arc = (options_.target - point.state.load) / load_of(direction_);
@@ -318,15 +322,15 @@ class PathFollower {
            equilibrium_.factor_if_moved(point.state, kSame);
   }
 
-  /// Records the events between two points. @return true if the path continues along another
-  /// branch.
+  /// Records the critical points between the last point of the path and `point`. @return true if
+  /// the path continues along another branch.
   bool record_event(const CriticalPoint& critical, const PathPoint& point, bool done) {
     PathEvent event;
     event.load = critical.load.value_or(critical.point.state.load);
     if (!equilibrium_.factor(critical.point.state)) return false;
     equilibrium_.smallest_eigenpair(event.shape);
-    // There is one event for each direction that becomes unstable or stable. A limit point is one
-    // of them.
+    // One critical point is recorded for each direction that becomes unstable or stable. A limit
+    // point is one of these critical points.
     const Index unstable = last().unstable_directions;
     Index bifurcations = unstable < 0 ? 1 : std::abs(point.unstable_directions - unstable);
     if (critical.load_reversed) {
@@ -352,9 +356,9 @@ class PathFollower {
 
   /// Locates a critical point along the arc between states on both sides of it. dload/darc vanishes
   /// at a limit point, and the smallest eigenvalue vanishes at a bifurcation. `critical` is set to
-  /// a state near it.
+  /// a state near the critical point.
   /// @returns the load, or an empty value if the point is not found, the path has a gap, or there
-  ///   is another event.
+  ///   is another critical point.
   std::optional<double> locate(bool load_reversed, const PathPoint& to, PathPoint& critical) {
     const VectorXd& d = direction_;
     const State& from = last().state;
@@ -386,7 +390,8 @@ class PathFollower {
       return true;
     };
     std::optional<double> load;
-    // The equations are singular at the bifurcation itself.
+    // Solve on both sides of the root, because the equations are singular at the bifurcation
+    // itself.
     const auto solve_beside = [&](double root, PathPoint& trial) {
       const double least = load ? nearest : std::max(1e-3 * bracket.width(), nearest);
       for (const double aside : {least, 4 * least})
@@ -408,8 +413,8 @@ class PathFollower {
       if (!solve_beside(root, trial)) return {};
       if (!load) critical = std::move(trial);
     }
-    // The states on both sides of a gap do not belong to one path: their sideways distance exceeds
-    // that by the curvature of the path.
+    // States on both sides of a gap do not belong to one path. Their distance normal to the path
+    // exceeds that due to the curvature of the path.
     const Trial &left = bracket.left(), &right = bracket.right();
     const VectorXd across = chord_between(left.state, right.state);
     const double along = dot(normalized(chord), across);
@@ -425,8 +430,8 @@ class PathFollower {
     direction_.setZero();
     direction_.head(n) = shape;
     direction_ = normalized(direction_);
-    // Amplitude at which the buckling shape is first noticeable, independent of the previous
-    // response.
+    // Start with a displacement of 1e-3 of the model size, independent of the previous response.
+    // The buckling shape is noticeable at this amplitude.
     arc_step_ = 1e-3 * std::sqrt(displacement_weight_);
     append(critical);
     path_.points.back().unstable_directions = -1;

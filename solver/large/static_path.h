@@ -13,18 +13,19 @@ namespace trammel::solver::large_motion {
 struct StaticPathOptions {
   double target = 1;  ///< load factor at the end of the path
   double first_step =
-      0.1;  ///< of the load factor; later steps follow from the convergence of Newton's method
-  /// Relative response to the full load below which the load is applied in one step.
+      0.1;  ///< first increment of the load factor; later ones follow from Newton's convergence
+  /// Displacement due to the full load, relative to the model size and by linear theory, below
+  /// which the load is applied in one step.
   double small_response = 0;
-  int max_points = 2000;       ///< limit
+  int max_points = 2000;       ///< limit of the number of points
   bool switch_branch = false;  ///< leave the first bifurcation along its buckling shape
   bool keep_points = true;     ///< false: keep only the last point
-  /// true: free parts without driving loads remain in place; false: they are singular.
+  /// true: free parts without driving loads remain in place; false: such a model is singular.
   bool keep_free_parts = false;
   NewtonOptions newton;
 };
 
-/// Point of a path.
+/// Point of a path of equilibria.
 struct PathPoint {
   State state;                    ///< state.load is the load factor
   Index unstable_directions = 0;  ///< negative pivots of the tangent, the number of unstable
@@ -32,7 +33,7 @@ struct PathPoint {
   NewtonResult newton;
 };
 
-/// Critical point of a path.
+/// Critical point of a path of equilibria.
 struct PathEvent {
   enum class Kind { limit_point, bifurcation };
   Kind kind = Kind::limit_point;
@@ -50,8 +51,8 @@ struct StaticPath {
 };
 
 /// Follows the equilibria by arc-length continuation (E. Riks, IJSS 15, 1979) with automatic steps.
-/// The path passes limit points. A change of the number of negative pivots without a limit point is
-/// a bifurcation. Critical points of both types are located.
+/// The path continues beyond limit points. A change of the number of negative pivots without a
+/// limit point is a bifurcation. Critical points of both types are located.
 [[nodiscard]] StaticPath follow_static_path(const GeometricallyExactSystem& system,
                                             const StaticPathOptions& options = {});
 

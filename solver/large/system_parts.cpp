@@ -13,7 +13,7 @@ namespace trammel::solver::large_motion {
 
 namespace {
 
-/// Sets of equal coordinates, each identified by one of them.
+/// Sets of coordinates that are equal. One of its coordinates represents each set.
 class MergedSets {
  public:
   Index add() {
@@ -24,15 +24,15 @@ class MergedSets {
     while (parent_[to_size(i)] != i) i = parent_[to_size(i)];
     return i;
   }
-  /// Merges both sets. The representative of `second` becomes that of `first`.
+  /// Merges the sets of two coordinates. The representative of `second` represents the result.
   void merge(Index first, Index second) { parent_[to_size(find(first))] = find(second); }
 
  private:
   std::vector<Index> parent_;
 };
 
-/// Builds the numbering and the elements. Every node first gets three coordinates. Rotations
-/// without elements and moments are removed after the elements are added.
+/// Numbers the coordinates and builds the elements. Every node first gets three coordinates.
+/// Rotations on which no element or moment acts are removed after the elements are added.
 class SystemBuilder {
  public:
   SystemBuilder(const Model& model, const LargeMotionModel& large_motion, Layout& layout)
@@ -140,7 +140,7 @@ class SystemBuilder {
     return group.size() - 1;
   }
 
-  /// Returns a coordinate of a node; negative for the ground.
+  /// Returns the index of a coordinate of a node, or a negative number for the ground.
   [[nodiscard]] Index coordinate(Index node, std::size_t direction) const {
     return node < 0 ? node : layout_.node[to_size(node)][direction];
   }
@@ -281,7 +281,7 @@ class SystemBuilder {
     }
   }
 
-  /// Adds one row per drive, in their order.
+  /// Adds one constraint row per drive, in the order of the drives.
   void add_drives() {
     for (const Drive& drive : large_motion_.drives) {
       DrivenCoordinate driven;
@@ -304,8 +304,8 @@ class SystemBuilder {
     return coordinate(named.node, static_cast<std::size_t>(named.kind));
   }
 
-  /// Adds linear constraints. A constraint that makes two coordinates equal merges them into one
-  /// coordinate, such as a revolute joint between coincident nodes.
+  /// Adds linear constraints. A constraint that makes two coordinates equal, as in a revolute joint
+  /// between coincident nodes, merges them into one coordinate.
   void add_linear_constraints() {
     for (const LinearConstraint& constraint : model_.constraints) {
       std::vector<double> factors;
@@ -373,7 +373,7 @@ class SystemBuilder {
     return uses;
   }
 
-  /// Returns the coordinates held by supports, by the representatives of their sets.
+  /// Returns true for each representative coordinate (`MergedSets`) that a support holds.
   [[nodiscard]] std::vector<bool> held_coordinates() const {
     std::vector<bool> held(to_size(layout_.total), false);
     for (const Support& support : model_.supports) {
@@ -427,7 +427,7 @@ class SystemBuilder {
   const LargeMotionModel& large_motion_;
   Layout& layout_;
   SystemParts parts_;
-  MergedSets shared_;  ///< coordinates that are equal
+  MergedSets shared_;  ///< sets of equal coordinates
 };
 
 }  // namespace

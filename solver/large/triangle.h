@@ -14,7 +14,8 @@ namespace trammel::solver::large_motion {
 ///   \f[ E = (H + H^T + H^T H)/2, \quad H = du/dX, \quad S = D E, \quad
 ///       U = t A \sum w\, E : S/2. \f]
 ///
-/// Coordinates are (ux, uy) of each node [m].
+/// t is the thickness, A the area, w are the weights of the integration points, and D is the
+/// elasticity matrix. The coordinates are (ux, uy) of each node [m].
 template <int Nodes>
 class Triangle2d : public ElementSizes<2 * Nodes, 0> {
   static_assert(Nodes == 3 || Nodes == 6);
@@ -28,9 +29,10 @@ class Triangle2d : public ElementSizes<2 * Nodes, 0> {
   Triangle2d(const Model& model, const Triangle& triangle);
 
   [[nodiscard]] double energy(const Coordinates& q) const;
-  /// Returns dEnergy/dq plus strain-rate damping, S = D (E + tau dE/dt).
+  /// Returns the nodal forces dEnergy/dq with strain-rate damping, S = D (E + tau dE/dt).
   [[nodiscard]] Coordinates forces(const Coordinates& q, const Coordinates& v, double tau) const;
-  /// Returns stiffness K + damping tau K_material, the derivative of `forces` with v = 0.
+  /// Returns stiffness K + damping K_material, where K is the derivative of `forces` with v = 0,
+  /// and `damping` includes the factor tau.
   [[nodiscard]] Square tangent(const Coordinates& q, double stiffness, double damping) const;
   /// Returns forces f with f . (q1 - q0) = energy(q1) - energy(q0) if tau = 0 (J. C. Simo, N.
   /// Tarnow, ZAMP 43, 1992). `rate` is tau over the step.

@@ -6,7 +6,7 @@
 /// does not converge, or if B is not positive definite.
 namespace trammel::solver {
 
-/// Eigenpairs of a symmetric problem.
+/// Eigenvalues and eigenvectors of a symmetric eigenvalue problem.
 struct SymmetricEigenpairs {
   bool converged = false;
   Eigen::VectorXd value;   ///< ascending
@@ -21,7 +21,7 @@ struct SymmetricEigenpairs {
 [[nodiscard]] SymmetricEigenpairs symmetric_eigenpairs(const Eigen::MatrixXd& A,
                                                        const Eigen::MatrixXd& B);
 
-/// Eigenpairs of a general matrix.
+/// Complex eigenvalues and eigenvectors of a general matrix.
 struct ComplexEigenpairs {
   bool converged = false;
   Eigen::VectorXcd value;
@@ -48,9 +48,8 @@ struct PivotedSolution {
 /// Source: Oettli and Prager (1964).
 [[nodiscard]] double row_backward_error(const Eigen::VectorXd& sum, const Eigen::VectorXd& terms);
 
-/// Fraction of the largest coordinate or force. Each smaller coordinate or force counts with this
-/// fraction of the largest in the terms of a row. Otherwise, residuals would be relative to values
-/// that are only round-off errors.
+/// Lower limit of the coordinates and forces in the terms of a row, relative to the largest
+/// coordinate or force. Without the limit, a residual could be relative to round-off errors.
 inline constexpr double kLeastFraction = 1e-3;
 
 }  // namespace trammel::solver

@@ -20,8 +20,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Number of free coordinates above which Lanczos' method is faster than the dense method for a few
-// modes.
+// Number of coordinates above which Lanczos' method computes a few modes faster than the dense one.
 constexpr Index kDenseSize = 64;
 constexpr double kConvergenceTolerance =
     1e-11;  // relative change of an eigenvalue in one inverse iteration
@@ -78,8 +77,8 @@ class Solver {
     }
     if (some_are_hidden()) {
       return finish("only " + std::to_string(checked_) +
-                    " eigenvalues were found: the others are too far from the first for double "
-                    "precision");
+                    " eigenvalues were found: the others are too large, relative to the first, for "
+                    "double precision");
     }
     iterate_beside_each();
     return finish({});
@@ -113,8 +112,8 @@ class Solver {
     return y;
   }
 
-  /// Returns about `count` further eigenvectors with the largest mu > 0, or all remaining ones. It
-  /// returns fewer if Lanczos' method fails.
+  /// Returns about `count` further eigenvectors with the largest mu = 1 / (lambda - s) > 0, or all
+  /// remaining ones. It returns fewer if Lanczos' method fails.
   MatrixXd next_block(Index count) {
     if (!dense_) return lanczos(count);
     if (all_.rows() == 0) {
@@ -126,7 +125,7 @@ class Solver {
     return all_.middleCols(taken_ - kept, kept);
   }
 
-  /// Returns all eigenvectors with mu > 0 in descending order of mu.
+  /// Returns all eigenvectors with mu = 1 / (lambda - s) > 0 in descending order of mu.
   MatrixXd dense_vectors() {
     const MatrixXd B = times_B(MatrixXd::Identity(size_, size_));
     const SymmetricEigenpairs pairs =
@@ -137,8 +136,8 @@ class Solver {
     return pairs.vector.rightCols((pairs.value.array() > zero).count()).rowwise().reverse();
   }
 
-  /// Returns eigenvectors of F^-1 B F^-T, where F F^T = K - s B, by Lanczos' method. The vectors
-  /// are orthogonal to the known ones.
+  /// Returns the eigenvectors x = F^-T y that belong to eigenvectors y of F^-1 B F^-T, with F F^T =
+  /// K - s B, by Lanczos' method. They are orthogonal to the known eigenvectors.
   [[nodiscard]] MatrixXd lanczos(Index count) const {
     const Index known_count = null_.cols() + X_.cols(), dimension = size_ - known_count;
     const Index wanted = std::min(count, dimension - 1);
@@ -183,11 +182,11 @@ class Solver {
     for (Index j = old; j < X_.cols(); ++j) remove_null(X_.col(j));
   }
 
-  /// Improves the requested eigenvectors that need it by inverse iterations with a shift t just
-  /// below each eigenvalue. The round-off error of (K - s B)^-1 B is relative to its largest |mu|.
-  /// It contaminates the vector of a smaller mu by the ratio of both values. With the shift t, the
-  /// mu of the requested vector is the largest. Deflation is no alternative, because vectors of
-  /// negative mu are unknown.
+  /// Improves eigenvectors of indefinite pencils and of eigenvalues far above the first by inverse
+  /// iteration with a shift t just below their eigenvalue. The round-off error of (K - s B)^-1 B is
+  /// relative to its largest |mu|. It contaminates the vector of a smaller mu by the ratio of both
+  /// values. With the shift t, the mu of the requested vector is the largest. Deflation is no
+  /// alternative, because vectors of negative mu are unknown.
   void iterate_beside_each() {
     constexpr double kAside = 1e-4, kWideSpread = 1e4;
     constexpr int kPasses = 4;
@@ -376,8 +375,8 @@ class Solver {
     return factorization_.exists() && B.rows() - factorization_.negative_pivots() > checked_;
   }
 
-  /// Returns the number of found eigenvalues below a gap. The gap is the first clear gap at or
-  /// after the requested count, or otherwise the widest gap.
+  /// Returns the number of found eigenvalues below a gap between clusters of eigenvalues. It is the
+  /// first clear gap at or after the requested count, or otherwise the widest gap.
   [[nodiscard]] Index cluster_boundary(double rounding) const {
     const VectorXd& v = pairs_.value;
     const Index p = v.size();
@@ -390,7 +389,7 @@ class Solver {
     return cut < p && gap(cut) < 1e-7 ? p : cut;
   }
 
-  /// Returns a failure without pairs, even if some values have converged.
+  /// Returns a failure without eigenpairs, even if some eigenvalues have converged.
   Eigenpairs no_eigenpairs() {
     pairs_ = {};
     X_.resize(size_, 0);
@@ -399,7 +398,7 @@ class Solver {
 
   Eigenpairs missing_eigenpairs(Index expected) {
     return finish(std::to_string(checked_) +
-                  " eigenvalues were found, but the inertia of the matrices requires " +
+                  " eigenvalues were found, but the signs of the pivots require " +
                   std::to_string(expected));
   }
 
@@ -489,7 +488,7 @@ double eigenvalue_count_error(const SparseMatrix& A, const SparseMatrix& B, cons
 
 Index count_dependent_vectors(const SparseMatrix& metric, const MatrixXd& X) {
   if (X.cols() == 0) return 0;
-  constexpr double kDependent = 1e-3;  // eigenvectors leave 1; a duplicate leaves round-off
+  constexpr double kDependent = 1e-3;  // eigenvalue of products; 0 for a duplicate
   const MatrixXd products = X.transpose() * (metric * X);
   const VectorXd scale = products.diagonal().cwiseSqrt().cwiseInverse();
   const SymmetricEigenpairs pairs =

@@ -11,7 +11,7 @@
 
 namespace trammel::solver {
 
-/// Method for eigenvalues; `automatic` selects by the size of the problem.
+/// Method of an eigenvalue solver; `automatic` selects by the size of the problem.
 enum class EigenMethod { automatic, dense, sparse };
 
 /// Pencil K x = lambda B x with positive definite K - s B. B is symmetric. It may be semidefinite
@@ -19,10 +19,9 @@ enum class EigenMethod { automatic, dense, sparse };
 struct Pencil {
   const SparseMatrix* K = nullptr;
   const SparseMatrix* B = nullptr;  ///< null: use `B_times` and `count_below`, with s = 0
-  /// Shift s, below the requested eigenvalues.
-  double shift = 0;
-  bool indefinite = false;  ///< true: B is indefinite and negative eigenvalues exist
-  Operator K_times;         ///< x -> K x, more accurate than the assembled K
+  double shift = 0;                 ///< shift s, below the requested eigenvalues
+  bool indefinite = false;          ///< true: B is indefinite and negative eigenvalues exist
+  Operator K_times;                 ///< x -> K x, more accurate than the assembled K
   /// X -> X^T K X, as accurate as `K_times`.
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> K_products;
   Operator B_times;  ///< x -> B x for a B that is not assembled
@@ -30,14 +29,15 @@ struct Pencil {
   std::function<std::optional<Index>(double)> count_below;
 };
 
-/// Lowest positive eigenvalues (above s), including copies of repeated eigenvalues.
+/// Lowest eigenvalues above the shift s and eigenvectors, including copies of repeated eigenvalues.
 struct Eigenpairs {
-  Outcome outcome;  ///< not_converged: fewer pairs than the inertia count requires
+  Outcome outcome;  ///< not_converged: fewer pairs than the negative pivots of K - t B require
   Eigen::VectorXd value;
   Eigen::MatrixXd vector;  ///< q x pair, x^T |B| x = 1
   /// Estimated relative error of each eigenvalue; it is of second order in the error of the vector.
   Eigen::VectorXd error;
-  /// Shift above these eigenvalues and below all others. The negative pivots of LDL^T confirm it.
+  /// Value t above these eigenvalues and below all others, as the negative pivots of K - t B
+  /// confirm.
   double check_shift = 0;
 };
 
@@ -48,15 +48,14 @@ struct Eigenpairs {
 /// - The pairs are counted: K - t B must have as many negative pivots as pairs were found
 ///   (Sylvester). The shift t is just above the last pair, between clusters.
 /// - Lanczos' method may miss copies of a repeated value. It continues in the complement of the
-///   known vectors until the count agrees.
+///   known eigenvectors until the count agrees.
 ///
-/// @param pencil  K, B and s.
+/// @param pencil  matrices K and B and shift s.
 /// @param null  q x r, known vectors with K x = 0, B-orthonormal. They count as the first
 ///   eigenvalues, 0, and are not returned.
 /// @param count  number of pairs; if B is not assembled, all pairs below `check_shift` are
 ///   returned.
-/// @param method  dense, sparse or automatic.
-/// @param factorization  of `shifted(K, B, s)`; overwritten.
+/// @param factorization  factors of `shifted(K, B, s)`; overwritten.
 /// @param counters  incremented by the factorizations and solves.
 /// @returns the pairs; `outcome` is not_converged if the matrix is too ill-conditioned or pairs are
 ///   missing.
@@ -70,20 +69,21 @@ struct Eigenpairs {
 /// Returns K - t B. Its pattern combines those of K and B for any t.
 [[nodiscard]] SparseMatrix shifted(const SparseMatrix& K, const SparseMatrix& B, double t);
 
-/// Returns the number of eigenvalues that are missing or superfluous among those found. The counts
-/// are compared at the last clear gap between the eigenvalues. The result is infinite if no gap
-/// allows a reliable count.
-/// @param found  eigenvalues, ascending, >= 0; 0 for rigid modes.
-/// @param count_below  as in `Pencil`.
+/// Returns the number of eigenvalues that are missing or superfluous among those found. It compares
+/// the counts of found and existing eigenvalues below the last clear gap between eigenvalues. The
+/// result is infinite if no gap allows a reliable count.
+/// @param found  found eigenvalues, ascending, >= 0; 0 for rigid modes.
+/// @param count_below  returns the number of eigenvalues below a shift, as in `Pencil`.
 [[nodiscard]] double eigenvalue_count_error(
     const Eigen::VectorXd& found, const std::function<std::optional<Index>(double)>& count_below);
 
 /// Counts missing or superfluous eigenvalues of A x = t B x with a positive semidefinite A. It uses
-/// the negative pivots of A - t B (Sylvester). If the count at `shift_above` agrees, the result is
-/// 0. Otherwise the count at the last clear gap is used.
-/// @param A  positive semidefinite.
-/// @param B  symmetric.
-/// @param found  eigenvalues, ascending, >= 0.
+/// the negative pivots of A - t B (Sylvester). If A - shift_above B has as many negative pivots as
+/// values were found, the result is 0. Otherwise the count below the last clear gap between
+/// eigenvalues is used.
+/// @param A  positive semidefinite matrix.
+/// @param B  symmetric matrix.
+/// @param found  found eigenvalues t, ascending, >= 0.
 /// @param spent  factorization that is no longer needed. Its ordering is reused. Its factors are
 ///   reused if they belong to A - shift_above B.
 /// @param shift_above  shift above all found values, or 0.
@@ -95,14 +95,13 @@ struct Eigenpairs {
 /// products in a metric in which distinct modes are orthogonal. A duplicate mode counts once.
 [[nodiscard]] Index count_dependent_vectors(const SparseMatrix& metric, const Eigen::MatrixXd& X);
 
-/// Options of Lanczos' method.
 struct LanczosOptions {
   Index wanted = 1;    ///< number of eigenvalues, below the size of the operator
   Index subspace = 2;  ///< number of vectors kept between restarts, above `wanted`
   double tolerance = 1e-9;
 };
 
-/// Converged eigenpairs. There may be fewer than requested, or none.
+/// Converged eigenpairs of Lanczos' method. There may be fewer than requested, or none.
 struct LanczosPairs {
   Eigen::VectorXd value;   ///< descending
   Eigen::MatrixXd vector;  ///< one eigenvector per column
@@ -111,7 +110,6 @@ struct LanczosPairs {
 /// Computes the largest eigenvalues of a symmetric operator by Lanczos' method with implicit
 /// restarts (Spectra).
 /// @param apply  x -> A x.
-/// @param start  start vector.
 /// @param options  number of eigenvalues, size of the subspace, tolerance.
 [[nodiscard]] LanczosPairs largest_eigenpairs(
     const std::function<Eigen::VectorXd(const Eigen::Ref<const Eigen::VectorXd>&)>& apply,
@@ -119,9 +117,8 @@ struct LanczosPairs {
 
 /// Returns start vectors for an eigenvalue iteration: numbers in [-1, 1) that are the same on every
 /// machine.
-/// @param rows  number of rows.
 /// @param columns  number of vectors.
-/// @param variant  selects a different sequence.
+/// @param variant  selects a different sequence of numbers.
 [[nodiscard]] Eigen::MatrixXd start_vectors(Index rows, Index columns, Index variant = 0);
 
 }  // namespace trammel::solver

@@ -34,7 +34,7 @@ SparseMatrix permuted_places(const SparseMatrix& A, const Permutation& P) {
   return upper;
 }
 
-/// Returns the same matrix with ascending rows in each column.
+/// Returns the same matrix with the entries of each column stored in the order of their rows.
 SparseMatrix sorted(const SparseMatrix& A) {
   const SparseMatrix rows = A.transpose();
   return rows.transpose();
@@ -79,7 +79,7 @@ struct SparseLdlt::Factors {
   std::vector<int> columns, rows;  // pattern to which the ordering applies
   Permutation P;                   // coordinate -> its position in the order of elimination
   SparseMatrix upper;              // upper triangle in that order
-  // Entry of `upper` -> entry of A, and the entry across its diagonal.
+  // Index of each entry of `upper` among the values of A, and index of the transposed entry of A.
   std::vector<Index> from, mirror;
   Eigen::SimplicialLDLT<SparseMatrix, Eigen::Upper, Eigen::NaturalOrdering<int>> ldlt;
   VectorXd pivots, root;  // D and, for half solves, |D|^(1/2)

@@ -13,10 +13,10 @@ namespace trammel::solver {
 
 using Permutation = Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int>;
 
-/// Returns a permutation, old position -> position in an order of elimination with little fill-in.
-/// Large matrices use nested dissection (METIS). Small ones use minimum degree, because the time of
-/// the ordering matters for them. METIS reduces the time of the factorization to a third on a
-/// lattice of 100,000 members.
+/// Returns a permutation of the rows and columns of A, old position -> position in an order of
+/// elimination with little fill-in. Large matrices use nested dissection (METIS). Small ones use
+/// minimum degree, because the time of the ordering matters for them. METIS reduces the time of the
+/// factorization to a third on a lattice of 100,000 members.
 [[nodiscard]] Permutation fill_reducing_order(const SparseMatrix& A);
 
 /// Factorization P A P^T = L D L^T of symmetric matrices. The order P and the symbolic
@@ -30,8 +30,8 @@ class SparseLdlt {
   explicit SparseLdlt(Triangle triangle = Triangle::lower,
                       Ordering ordering = Ordering::fill_reducing);
 
-  /// Factors A. It keeps the factors if A equals the last matrix.
-  /// @param A  compressed, with the pattern of both triangles.
+  /// Factors A. It keeps the existing factors if A equals the last matrix.
+  /// @param A  compressed matrix in which both triangles are stored.
   /// @returns false if a pivot is zero or not finite; then no other function may be called.
   [[nodiscard]] bool factorize(const SparseMatrix& A);
 
@@ -42,7 +42,7 @@ class SparseLdlt {
   /// Returns the smallest ratio of |pivot| to the diagonal entry of A in its row. It is near zero
   /// if A is singular.
   [[nodiscard]] double smallest_pivot_to_diagonal() const;
-  /// Returns the largest |L|.
+  /// Returns the largest magnitude of an entry of L.
   [[nodiscard]] double element_growth() const;
 
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
@@ -117,25 +117,26 @@ using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 /// Solution of a linear system by iterative refinement.
 struct RefinedSolution {
   Eigen::VectorXd x;
-  /// Last correction relative to x. The remaining error is about its square over the previous
-  /// correction. x is meaningless if it is near 1 or above.
+  /// Norm of the last correction relative to x. The remaining error is about its square over the
+  /// previous correction. x is meaningless if `correction` is near 1 or above.
   double correction = 0;
   /// Returns false if the matrix is too ill-conditioned for any correct digits.
   [[nodiscard]] bool converged() const { return correction < 1e-4; }
 };
 
-/// Solves A x = b with a factorization of A and improves x with residuals from `A`. It stops when
-/// round-off dominates the correction, or when a correction is more than half of the last one. (The
-/// residual is no suitable criterion: round-off of stiff axial parts hides errors in soft bending.)
+/// Solves A x = b with a factorization of A and improves x with residuals from the operator `A`. It
+/// stops when round-off dominates the correction, or when a correction is more than half of the
+/// last one. (The residual is no suitable criterion: round-off of stiff axial parts hides errors in
+/// soft bending.)
 /// @param A  operator for the residuals.
-/// @param factorization  of the assembled A.
+/// @param factorization  factors of the assembled matrix of A.
 /// @param b  right-hand side.
 /// @param guess  initial solution; a good guess requires a single solve.
 /// @param counters  incremented by the solves.
 [[nodiscard]] RefinedSolution refined_solve(const Operator& A, const Factorization& factorization,
                                             const Eigen::VectorXd& b, const Eigen::VectorXd& guess,
                                             Counters& counters);
-/// Solves A x = b in the same way, starting from the solution with the factorization.
+/// Solves A x = b by iterative refinement. The guess is the solution with the factorization.
 [[nodiscard]] RefinedSolution refined_solve(const Operator& A, const Factorization& factorization,
                                             const Eigen::VectorXd& b, Counters& counters);
 

@@ -17,12 +17,12 @@ struct FactoredStiffness {
   Eigen::VectorXd C;
 };
 
-/// Solves K q = f with row exchanges in the form
+/// Solves K q = f, K = A^T diag(C) A, without forming K. It factors with row exchanges the system
 ///
 ///   C^-1 s = A q,  A^T s = f.
 ///
-/// Round-off is amplified by the condition number of A. In a factorization of K it is amplified by
-/// the square of this number.
+/// This amplifies round-off by the condition number of A. A factorization of K amplifies round-off
+/// by the square of this number.
 /// Source: Bjorck (1996), Numerical Methods for Least Squares Problems, ch. 2.5 (augmented system).
 class AugmentedSystem {
  public:
@@ -64,9 +64,9 @@ class AugmentedSystem {
 /// accuracy to the condition number of A.
 /// Source: Oettli & Prager (1964), Skeel (1979); Bjorck (1991), BIT 31, for least squares; LAPACK's
 /// xPORFS for the maximum over the signs; Higham & Mary (2019), SIAM J. Sci. Comput., for c.
-/// @param factors  A, its magnitudes and C.
+/// @param factors  factored stiffness: A, the magnitudes of its terms, and C.
 /// @param R  requested quantities as a function of q, in comparable units.
-/// @param q  solution.
+/// @param q  solution of A^T C A q = f.
 /// @param f  right-hand side.
 /// @param solve  x -> K^-1 x.
 [[nodiscard]] double forward_error(const FactoredStiffness& factors, const SparseMatrix& R,

@@ -19,7 +19,7 @@ using Eigen::VectorXcd;
 using Eigen::VectorXd;
 using Complex = std::complex<double>;
 
-/// Linearization A z = s G z with z = (x, s x_m) and s = i w:
+/// Linearization A z = s G z of the gyroscopic eigenvalue problem with z = (x, s x_m) and s = i w:
 ///
 ///   A = diag(K, M),  G = [-C, -M; M, 0].
 ///
@@ -29,7 +29,7 @@ struct Linearization {
 };
 
 Linearization linearize(const GyroscopicPencil& pencil) {
-  // Relative increase of the mass matrix, which is singular for a mass offset from its node.
+  // Relative increase of the diagonal of the mass matrix, which is singular for an offset mass.
   constexpr double kHelp = 1e-12;
   const Index n = pencil.K.rows();
   const VectorXd diagonal = pencil.M.diagonal();
@@ -55,7 +55,8 @@ Linearization linearize(const GyroscopicPencil& pencil) {
   return linear;
 }
 
-/// Returns the Rayleigh functional of a shape: the positive root of m w^2 - c w - k = 0.
+/// Returns the Rayleigh functional of a mode shape x: the positive root w of x^H (K + i w C - w^2
+/// M) x = 0.
 double frequency_of(const GyroscopicPencil& pencil, const VectorXcd& x) {
   const VectorXd a = x.real();
   const VectorXd b = x.imag();
@@ -122,8 +123,8 @@ GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, Index co
       modes.outcome = {Status::not_converged, "no finite frequency was found"};
     return modes;
   }
-  // Solve the Hermitian problem of i G in the space of the computed vectors (Rayleigh-Ritz). Their
-  // z^T A z is w^2. The eigenvalues are 1 / w for +w and -w.
+  // Solve the Hermitian problem of i G in the space of the computed vectors (Rayleigh-Ritz). These
+  // have z^T A z = w^2. The eigenvalues are 1 / w for +w and -w.
   const MatrixXd V = pairs.vector * pairs.value.cwiseSqrt().cwiseInverse().asDiagonal();
   const MatrixXd skew = V.transpose() * (G * V);
   const Eigen::SelfAdjointEigenSolver<MatrixXcd> ritz(Complex(0, 0.5) * (skew - skew.transpose()));
@@ -159,7 +160,7 @@ GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil) {
   const double largest = pairs.value.cwiseAbs().maxCoeff();
   for (Index j = 0; j < pairs.value.size(); ++j) {
     const Complex mu = pairs.value[j];
-    if (std::abs(mu) < 1e-9 * largest) continue;  // massless
+    if (std::abs(mu) < 1e-9 * largest) continue;  // massless coordinate
     Complex lambda = 1.0 / mu;
     if (std::abs(lambda.real()) < 1e-7 * std::abs(lambda)) lambda.real(0);
     if (std::abs(lambda.imag()) < 1e-7 * std::abs(lambda)) lambda.imag(0);

@@ -20,7 +20,7 @@ struct GyroscopicPencil {
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> K_products;
 };
 
-/// Vibration modes of a gyroscopic system.
+/// Vibration modes of a gyroscopic system, x exp((growth_rate + i omega) t).
 struct GyroscopicModes {
   Outcome outcome;
   Eigen::VectorXd omega;        ///< ascending, > 0 [rad/s]
@@ -40,8 +40,8 @@ struct GyroscopicModes {
 [[nodiscard]] GyroscopicModes stable_gyroscopic_modes(const GyroscopicPencil& pencil, Index count,
                                                       EigenMethod method, Counters& counters);
 
-/// Computes all modes for any K with the dense companion matrix in 1 / lambda. Each pair of
-/// conjugate eigenvalues is returned once.
+/// Computes all modes for any K from the dense companion matrix, whose eigenvalues are 1 / lambda
+/// for motions exp(lambda t). Each pair of conjugate eigenvalues is returned once.
 [[nodiscard]] GyroscopicModes all_gyroscopic_modes(const GyroscopicPencil& pencil);
 
 /// Returns the number of negative eigenvalues of K + i w C - w^2 M. For a positive definite K this

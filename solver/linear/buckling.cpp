@@ -14,18 +14,18 @@
 namespace trammel::solver {
 namespace {
 
-/// Bracket of the lowest buckling factor, from negative pivots. K - t B has as many negative pivots
-/// as there are buckling factors in (0, t) (Sylvester).
+/// Bracket of the lowest buckling factor, from negative pivots. With B = -K_G, K - t B has as many
+/// negative pivots as there are buckling factors in (0, t) (Sylvester).
 struct FirstFactor {
   bool determined = false;  ///< false: no count is reliable
   bool exists = false;      ///< false: there is no factor up to `checked`
-  double below = 0;  ///< no factor is below this value, and the first is below four times the value
-  double checked = 0;  ///< largest t for which the negative pivots were counted
+  double below = 0;         ///< lower bound of the lowest factor, at least a fifth of it
+  double checked = 0;       ///< largest t for which the negative pivots were counted
 };
 
 FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
                                  Factorization& factorization, Counters& counters) {
-  constexpr int kHalvings = 200;  // 60 orders of magnitude
+  constexpr int kHalvings = 200;  // 120 orders of magnitude
   FirstFactor first;
   // Entries of B relative to those of K, which is scaled to a unit diagonal. `least` excludes the
   // round-off error of the largest entry.
@@ -37,8 +37,8 @@ FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
   double least = largest;
   for (const double size : scaled.coeffs())
     if (size > kRoundoff * largest) least = std::min(least, size);
-  // Largest factor to check. The loads exceed each stiffness entry a thousandfold there, and
-  // unaffected stiffness keeps ten digits.
+  // Largest factor t to check. Then t B exceeds each affected entry of K a thousandfold, unless an
+  // entry of t B would exceed 1e10. The stiffness of unloaded parts then loses at most ten digits.
   const double farthest = std::min(1e3 / least, 1e10 / largest);
   double counted = 0;
   const auto has_factor_below = [&](double t) -> std::optional<bool> {
@@ -83,7 +83,7 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
       bracket_first_factor(system.K, softening, factorization, solution.counters);
   if (!first.determined) {
     solution.outcome = {Status::not_converged,
-                        "round-off decides the signs of the pivots of K + factor K_G"};
+                        "buckling factors cannot be counted: round-off dominates the pivots"};
     return solution;
   }
   solution.checked_factor = first.checked;
@@ -95,8 +95,9 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   pencil.K = &system.K;
   pencil.B = &softening;
   pencil.indefinite = true;
-  // The shift is required because members in large tension have small negative factors. Without it
-  // they would have the largest 1 / factor, whose round-off error hides the other factors.
+  // The shift is required because members in large tension have small negative factors. Without the
+  // shift, their 1 / factor would be the largest, and its round-off error would hide positive
+  // factors.
   pencil.shift = first.below;
   pencil.K_times = stiffness_operator(system);
   pencil.K_products = [&system](const Eigen::MatrixXd& X) {

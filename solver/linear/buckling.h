@@ -8,24 +8,23 @@
 
 namespace trammel::solver {
 
-/// Options of a buckling analysis.
 struct BucklingOptions {
   Index count = 3;
   EigenMethod method = EigenMethod::automatic;
 };
 
-/// Result of linear buckling, K x = -factor K_G x. All loads of the model grow together. K_G
-/// follows from the forces of first-order statics. Only positive factors are computed, which keep
-/// the sense of the loads.
+/// Result of linear buckling, K x = -factor K_G x, with the stiffness K and the geometric stiffness
+/// K_G. The factor multiplies all loads. K_G follows from the internal forces of first-order
+/// statics. Only positive factors are computed, because negative factors reverse the loads.
 struct BucklingSolution {
   Outcome outcome;              ///< singular: the model is a mechanism without any load
-  Eigen::VectorXd load_factor;  ///< ascending [-]; empty if there is none up to `checked_factor`
-  /// Load factor up to which the inertia of K + factor K_G was counted [-]. It is 0 if the loads
-  /// change no stiffness.
+  Eigen::VectorXd load_factor;  ///< ascending factors [-]; empty if all exceed `checked_factor`
+  /// Largest load factor [-] that was checked: the negative pivots of K + factor K_G show if the
+  /// model buckles below it. It is 0 if the loads cause no geometric stiffness.
   double checked_factor = 0;
-  /// Estimated relative round-off error of each factor [-], as in ModalSolution.
+  /// Estimated relative round-off error of each factor [-], as defined in `ModalSolution`.
   Eigen::VectorXd roundoff;
-  Eigen::MatrixXd shape;  ///< free coordinate x factor, x^T |K_G| x = 1; see node_motion
+  Eigen::MatrixXd shape;  ///< buckling shapes x, free coordinate x factor, x^T |K_G| x = 1
   Evidence evidence;
   Counters counters;
 };

@@ -13,7 +13,7 @@ namespace {
 
 using Terms = std::vector<std::pair<Index, double>>;
 
-constexpr double kRedundant = 1e-11;      // relative size of the remainder of a redundant row
+constexpr double kRedundant = 1e-11;      // a row with a smaller relative remainder is redundant
 constexpr double kPivotThreshold = 0.25;  // relative to the largest entry; bounds the growth of T
 
 std::vector<ConstraintRow> support_rows(const Model& model, const Coordinates& coordinates) {
@@ -130,7 +130,7 @@ class Elimination {
     entry.magnitude += magnitude;
   }
 
-  /// Returns the sum of scaled terms, in which all eliminated coordinates are replaced.
+  /// Returns a sum of terms in which all eliminated coordinates are replaced by their expressions.
   [[nodiscard]] Row substitute(const Terms& terms) const {
     Row row;
     for (const auto& [u, c] : terms) add(row, u, c, std::abs(c));
@@ -152,7 +152,7 @@ class Elimination {
     return row;
   }
 
-  /// Returns the entries of a row over a divisor, except the pivot and round-off.
+  /// Returns the entries of a row divided by `divisor`, except the pivot and round-off errors.
   static Terms significant_terms(const Row& row, Index pivot, double divisor) {
     Terms terms;
     for (const auto& [u, entry] : row) {
@@ -177,9 +177,9 @@ class Elimination {
     return pivot;
   }
 
-  /// Selects the pivot among sufficiently large entries. The first criterion is the coordinate that
-  /// occurs in the fewest rows, which causes the least fill-in. The next criteria are the larger
-  /// entry and the later coordinate.
+  /// Selects the pivot of a row among its sufficiently large entries. The first criterion is the
+  /// coordinate that occurs in the fewest rows, which causes the least fill-in. The next criteria
+  /// are the larger entry and the later coordinate.
   [[nodiscard]] Index choose_pivot(const Row& row, double largest) const {
     Index best = -1;
     for (const auto& [u, entry] : row) {
@@ -209,7 +209,7 @@ class Elimination {
 
   std::vector<double> scale_;
   std::vector<Index> occurrences_;
-  std::vector<Index> row_of_;  // coordinate -> expression
+  std::vector<Index> row_of_;  // coordinate -> index of its expression
   std::vector<Expression> expressions_;
 };
 
@@ -245,8 +245,8 @@ Constraints build_constraints(const Model& model, const Discretisation& discreti
 }
 
 Eigen::VectorXd Constraints::multipliers(const Eigen::VectorXd& force) const {
-  // Solve the square system of the kept rows and their pivots. Each support has a single entry and
-  // receives the remaining force.
+  // Solve the square system of the pivots of all independent rows except supports. A support row
+  // has a single entry, so that its multiplier is the remaining force.
   std::vector<Index> kept, supports, number_of_pivot(to_size(T.rows()), -1);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (pivot[i] < 0) continue;

@@ -11,19 +11,18 @@ namespace trammel::solver {
 struct FrameElement {
   Index member = 0;
   std::array<Index, 2> nodes{};
-  /// Unconstrained coordinates (u1 v1 θ1 u2 v2 θ2) in world axes. θ is -1 for a bar without
-  /// bending.
+  /// Indices in u of the end displacements (u1 v1 θ1 u2 v2 θ2) in world axes. The index of a
+  /// rotation is -1 for a bar, which does not bend.
   std::array<Index, 6> coordinates{};
-  Section section;  ///< at the midpoint of the element
-  /// Length [m].
-  double length = 0;
-  /// Direction of the full member, so that its elements are collinear.
+  Section section;    ///< cross section at the midpoint of the element
+  double length = 0;  ///< [m]
+  /// Unit vector along the member. All elements of a member share it, so that they are collinear.
   Vector2d direction = Vector2d::UnitX();
   [[nodiscard]] bool is_bar() const { return coordinates[2] < 0; }
 };
 
-/// Nodes and frame elements. The nodes of the model come first, in their order. They are followed
-/// by the nodes that divide members into elements.
+/// Nodes and frame elements of a discretized model. The nodes of the model come first, in their
+/// order. They are followed by the nodes that divide members into elements.
 struct Mesh {
   std::vector<Vector2d> positions;  ///< [m]
   std::vector<FrameElement> frame;  ///< in the order of the members, from first to second node
@@ -32,19 +31,23 @@ struct Mesh {
 /// Unconstrained coordinates u. They are the translations of every mesh node, the rotations of
 /// nodes, and the rotations of released member ends.
 ///
-/// A node has a rotation if at least one of these applies:
+/// A node that divides a member has a rotation. A node of the model has a rotation if at least one
+/// of these applies:
 ///
-/// - A welded or sprung member end, a rigid body or a rotational spring is connected to it.
-/// - It carries rotary inertia or an offset mass.
-/// - A rotational support acts on it and a member ends there.
+/// - A welded or sprung member end or a rotational spring is connected to the node.
+/// - The node is the reference node of a rigid body.
+/// - The node carries rotary inertia or an offset mass.
+/// - The node is attached to a rigid body, and a moment acts on the node.
+/// - A support fixes the rotation, and a member or a rigid body is connected to the node.
 struct Coordinates {
   Index size = 0;
-  std::vector<std::array<Index, 3>> node;        ///< mesh node -> (x, y, rotation or -1)
-  std::vector<std::array<Index, 2>> member_end;  ///< member -> rotations of its two ends, or -1
-  std::vector<Index> node_of;                    ///< coordinate -> mesh node to which it belongs
-  std::vector<bool> is_rotation;                 ///< coordinate -> true for a rotation
+  std::vector<std::array<Index, 3>> node;        ///< mesh node -> indices (x, y, rotation or -1)
+  std::vector<std::array<Index, 2>> member_end;  ///< member -> indices of its end rotations, or -1
+  std::vector<Index> node_of;                    ///< index in u -> mesh node of this coordinate
+  std::vector<bool> is_rotation;                 ///< index in u -> true for a rotation
 
-  /// Returns (u1 v1 u2 v2 ...) of the first n / 2 nodes of a triangle. Missing nodes have -1.
+  /// Returns the indices in u of the translations (u1 v1 u2 v2 ...) of the first n / 2 nodes of a
+  /// triangle. The indices of a missing mid-side node are -1.
   template <std::size_t n>
   [[nodiscard]] std::array<Index, n> of_triangle(const Triangle& triangle) const {
     std::array<Index, n> numbers{};
@@ -58,13 +61,13 @@ struct Coordinates {
   [[nodiscard]] Index number(const Model& model, const Coordinate& coordinate) const;
 };
 
-/// Mesh and numbering of a model.
 struct Discretisation {
   Mesh mesh;
   Coordinates coordinates;
 };
 
-/// Divides the members into elements and numbers the coordinates. The model must pass `validate`.
+/// Divides the members of a model into elements and numbers the unconstrained coordinates. The
+/// model must pass `validate`.
 [[nodiscard]] Discretisation discretize(const Model& model);
 
 }  // namespace trammel::solver

@@ -25,7 +25,7 @@ namespace trammel::solver {
 
 namespace detail {
 
-/// Returns the values of the coordinates of an element. Missing coordinates (-1) have 0.
+/// Returns the entries of u at the coordinates of an element, or 0 for a missing coordinate (-1).
 template <std::size_t n, class Vector>
 auto gather(const std::array<Index, n>& coordinates, const Vector& u) {
   using Scalar = typename Vector::Scalar;
@@ -35,14 +35,15 @@ auto gather(const std::array<Index, n>& coordinates, const Vector& u) {
   return local;
 }
 
-/// Returns the change of B^T C B u caused by rounding u of an element: eps |B|^T C |B| |u|.
+/// Returns the change of the nodal forces B^T C B u of an element caused by rounding its
+/// displacements u: eps |B|^T C |B| |u|.
 template <class Matrix, class Rigidity, class Vector>
 auto force_roundoff(const Matrix& B, const Rigidity& c, const Vector& u) {
   const auto size = (B.cwiseAbs() * u.cwiseAbs()).eval();
   return (kEps * (B.cwiseAbs().transpose() * c.cwiseProduct(size))).eval();
 }
 
-/// Adds the values of an element to those of its coordinates.
+/// Adds the values of an element to the entries of u at its coordinates, except missing ones (-1).
 template <std::size_t n, class Vector, class Sum>
 void scatter(const std::array<Index, n>& coordinates, const Vector& local, Sum&& u) {
   for (std::size_t i = 0; i < n; ++i) {
@@ -52,7 +53,7 @@ void scatter(const std::array<Index, n>& coordinates, const Vector& local, Sum&&
 
 }  // namespace detail
 
-/// Calls visit(coordinates, B, c) for every triangle, like `for_each_deformation`.
+/// Calls visit(coordinates, B, c) for every triangle, with the arguments of `for_each_deformation`.
 template <class Visit>
 void for_each_plate_deformation(const System& system, Visit&& visit) {
   for (const Triangle& triangle : system.model.triangles) {
@@ -64,8 +65,9 @@ void for_each_plate_deformation(const System& system, Visit&& visit) {
   }
 }
 
-/// Calls visit(coordinates, B, c) for every element. `coordinates` is an array of n indices into u,
-/// or -1 for none. B (m x n) and the diagonal c (m) define the stiffness B^T diag(c) B.
+/// Calls visit(coordinates, B, c) for every frame element, triangle and spring. `coordinates` is an
+/// array of n indices into u, or -1 for none. B (m x n) and the diagonal c (m) define the stiffness
+/// B^T diag(c) B of the element.
 template <class Visit>
 void for_each_deformation(const System& system, Visit&& visit) {
   for (const FrameElement& e : system.mesh.frame) {
@@ -82,11 +84,10 @@ void for_each_deformation(const System& system, Visit&& visit) {
 }
 
 /// Returns the nodal forces in world axes [N, N m] of a uniform load on an element.
-/// @param element  frame element.
 /// @param load  load per unit length in world axes [N/m].
 [[nodiscard]] Vector6d element_load(const FrameElement& element, const Vector2d& load);
 
-/// Returns K u on the unconstrained coordinates [N, N m].
+/// Returns the elastic forces K u on the unconstrained coordinates [N, N m].
 [[nodiscard]] Eigen::VectorXd internal_forces(const System& system, const Eigen::VectorXd& u);
 
 /// Returns the change of K u caused by rounding u [N, N m]: eps times the sum of |B|^T C |B| |u|
@@ -98,7 +99,7 @@ void for_each_deformation(const System& system, Visit&& visit) {
 [[nodiscard]] Eigen::MatrixXd strain_products(const System& system, const Eigen::MatrixXd& U);
 
 /// Returns the change of u^T K u caused by rounding u [J]: 2 eps times the sum of |d|^T C |B| |u|
-/// over all elements.
+/// over all elements, with the deformations d = B u.
 [[nodiscard]] double strain_roundoff(const System& system, const Eigen::VectorXd& u);
 
 /// Returns the scale of the round-off error of the strain energy [J]: the sum of (|B| |u|)^T C (|B|
@@ -106,15 +107,13 @@ void for_each_deformation(const System& system, Visit&& visit) {
 /// this value.
 [[nodiscard]] double strain_magnitude(const System& system, const Eigen::VectorXd& u);
 
-/// Returns the stress (sxx, syy, sxy) [Pa] of a triangle at a point.
-/// @param system  assembled model.
+/// Returns the stress (sxx, syy, sxy) [Pa] of a triangle at a point for displacements u.
 /// @param triangle  triangle of the model.
 /// @param at  area coordinates of the point [-].
-/// @param u  unconstrained coordinates [m].
 [[nodiscard]] Vector3d plate_stress(const System& system, const Triangle& triangle,
                                     const Vector3d& at, const Eigen::VectorXd& u);
 
-/// Returns a bound of the change of the stress [Pa] caused by rounding u.
+/// Returns a bound of the change of the stress of a triangle [Pa] caused by rounding u.
 [[nodiscard]] double plate_stress_roundoff(const System& system, const Triangle& triangle,
                                            const Vector3d& at, const Eigen::VectorXd& u);
 
@@ -139,12 +138,12 @@ void for_each_plate_mass(const System& system, Visit&& visit) {
   }
 }
 
-// Inertia on the unconstrained coordinates u, without an assembled mass matrix.
+// Inertia forces on the unconstrained coordinates u, without an assembled mass matrix.
 
-/// Returns the mass matrix of a point mass on (x, y, rotation) of its node.
-/// @param mass  [kg].
-/// @param inertia  about the center of mass [kg m^2].
-/// @param offset  of the center of mass from the node, world axes [m].
+/// Returns the mass matrix of a point mass for the coordinates (x, y, rotation) of its node.
+/// @param mass  mass [kg].
+/// @param inertia  moment of inertia about the center of mass [kg m^2].
+/// @param offset  vector from the node to the center of mass in world axes [m].
 template <Real T>
 [[nodiscard]] Eigen::Matrix3<T> point_inertia(const T& mass, const T& inertia,
                                               const Vector2d& offset) {
@@ -157,8 +156,8 @@ template <Real T>
 }
 
 /// Calls visit(coordinates, m) for every frame element, triangle, point mass and member end with
-/// inertia. `coordinates` is an array of n indices into u, or -1 for none. m is n x n, in world
-/// axes.
+/// inertia. `coordinates` is an array of n indices into u, or -1 for none. The mass matrix m is n x
+/// n, in world axes.
 template <class Visit>
 void for_each_inertia(const System& system, Visit&& visit) {
   for (const FrameElement& e : system.mesh.frame) {
@@ -181,7 +180,7 @@ void for_each_inertia(const System& system, Visit&& visit) {
   }
 }
 
-/// Returns M a on the unconstrained coordinates [N, N m].
+/// Returns the inertia forces M a of accelerations a of the unconstrained coordinates [N, N m].
 [[nodiscard]] Eigen::VectorXd inertia_forces(const System& system, const Eigen::VectorXd& a);
 
 /// Projects symmetric element matrices on the free coordinates with the rows of T, and adds them to
@@ -211,12 +210,12 @@ class Projection {
       }
     }
   }
-  /// Adds a value to an entry of the lower triangle.
+  /// Adds a value to an entry of the lower triangle of the sum.
   void add(Index i, Index j, double value) {
     entries_.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
   }
 
-  /// Returns the matrix with both triangles.
+  /// Returns the sum with both triangles stored.
   [[nodiscard]] SparseMatrix build() const {
     SparseMatrix lower(T_.cols(), T_.cols());
     lower.setFromTriplets(entries_.begin(), entries_.end());
@@ -228,8 +227,8 @@ class Projection {
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
-/// Returns K of the free coordinates in factored form: B T and C of all elements
-/// (`for_each_deformation`). Rows without rigidity are omitted.
+/// Returns the stiffness of the free coordinates in factored form, K = (B T)^T C (B T), with B and
+/// C of all elements (`for_each_deformation`). Deformations without rigidity are omitted.
 [[nodiscard]] FactoredStiffness factored_stiffness(const System& system);
 
 }  // namespace trammel::solver

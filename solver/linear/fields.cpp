@@ -88,7 +88,7 @@ void add_line_load(System& system, const LineLoad& load) {
 
 namespace {
 
-/// Sums of squared errors and of squared exact values.
+/// Weighted sums of squared errors and of squared exact values of n quantities.
 template <int n>
 struct Squares {
   using Values = Eigen::Array<double, n, 1>;
@@ -116,15 +116,15 @@ MembraneFieldPoint membrane_point(const System& system, const Triangle& triangle
   return point;
 }
 
-/// Returns sigma : epsilon [Pa].
+/// Returns sigma : epsilon, which is twice the strain energy density of the stress s [Pa].
 double energy_density(const Material& material, const Vector3d& s) {
   return (s[0] * s[0] + s[1] * s[1] - 2 * material.nu * s[0] * s[1] +
           2 * (1 + material.nu) * s[2] * s[2]) /
          material.E;
 }
 
-/// Evaluates the interpolation of a frame element with the coordinates `world`. V and N are
-/// uniform.
+/// Returns displacements and section forces at the fraction xi of the length of a frame element,
+/// from its end displacements `world` in world axes. V and N are uniform.
 BeamFieldPoint frame_point(const FrameElement& e, BeamTheory theory, const Vector6d& world,
                            double xi) {
   const double L = e.length, phi = shear_ratio(e.section, theory, L);

@@ -20,8 +20,8 @@ using LineLoad = std::function<Vector3d(const Vector2d&)>;
 /// Adds a body force on all triangles.
 void add_body_force(System& system, const BodyForce& force);
 
-/// Adds a traction on every side that belongs to a single triangle. Forces on supported coordinates
-/// act on the ground.
+/// Adds a traction on the boundary, which consists of the sides that belong to a single triangle.
+/// Forces on supported coordinates act on the ground.
 /// @pre The triangles run counterclockwise, as readers and meshes provide them.
 void add_edge_traction(System& system, const Traction& traction);
 
@@ -42,8 +42,8 @@ struct MembraneFieldPoint {
 /// Plane-stress field at a world point [m].
 using MembraneField = std::function<MembraneFieldPoint(const Vector2d&)>;
 
-/// L2 norms over the triangles [-]. The energy error is the square root of the integral of sigma :
-/// epsilon of the error.
+/// Relative errors of a plane-stress solution in L2 norms over the triangles [-]. The norm of the
+/// energy error is the square root of the integral of sigma : epsilon.
 struct MembraneErrors {
   double displacement = 0;
   double rotation = 0;
@@ -51,15 +51,12 @@ struct MembraneErrors {
   double energy = 0;
 };
 
-/// Returns the relative errors of a plane-stress solution.
-/// @param system  assembled model.
-/// @param q  free coordinates.
-/// @param exact  exact field.
+/// Returns the errors of a plane-stress solution with the free coordinates q.
 [[nodiscard]] MembraneErrors membrane_errors(const System& system, const Eigen::VectorXd& q,
                                              const MembraneField& exact);
 
-/// Values of a beam field in element axes: along the element, and to its left. N = EA u', M = EI
-/// θ', and V = -dM/dx without distributed moments.
+/// Displacements and section forces of a beam at a point, in element axes along the element and to
+/// its left. N = EA u', M = EI θ', and V = -dM/dx without distributed moments.
 struct BeamFieldPoint {
   double axial = 0;           ///< [m]
   double deflection = 0;      ///< [m]
@@ -72,9 +69,10 @@ struct BeamFieldPoint {
 /// Beam field at a world point [m].
 using BeamField = std::function<BeamFieldPoint(const Vector2d&)>;
 
-/// L2 norms over the frame elements [-]. The energy error covers bending and, for Timoshenko
-/// members, shear. The energy norm of stretching equals `axial_force` if EA is uniform. Section
-/// forces are those of the interpolation: M is linear, N and V are uniform in each element.
+/// Relative errors of a frame solution in L2 norms over the frame elements [-]. The energy error
+/// covers bending and, for Timoshenko members, shear. If EA is uniform, `axial_force` is the energy
+/// error of stretching. The section forces follow from the interpolation: M is linear, N and V are
+/// uniform in each element.
 struct BeamErrors {
   double axial_displacement = 0;
   double deflection = 0;
@@ -83,13 +81,13 @@ struct BeamErrors {
   double shear_force = 0;
   double bending_moment = 0;
   double energy = 0;
-  /// Largest error at a node, relative to the largest deflection at a node.
+  /// Largest error of a nodal deflection, relative to the largest exact nodal deflection.
   double nodal_deflection = 0;
-  /// Largest error at a node, relative to the largest rotation at a node.
+  /// Largest error of a nodal rotation, relative to the largest exact nodal rotation.
   double nodal_rotation = 0;
 };
 
-/// Returns the relative errors of a frame solution.
+/// Returns the errors of a frame solution with the free coordinates q.
 [[nodiscard]] BeamErrors beam_errors(const System& system, const Eigen::VectorXd& q,
                                      const BeamField& exact);
 

@@ -21,7 +21,7 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double kShift = 1e-12;  // relative to the diagonal
+constexpr double kShift = 1e-12;  // shift of K, relative to its diagonal
 /// A pivot below this limit starts the search for zero-energy modes. Pivots of a mechanism are
 /// round-off errors, up to 1.2e-9 for 1152 coordinates if all errors have the same sign.
 constexpr double kSmallPivot = 1e-8;
@@ -36,7 +36,7 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
   const Index n = system.K.rows();
   ZeroEnergyModes modes{MatrixXd(n, 0), true};
   if (n == 0 || (K.exists() && K.smallest_pivot() > kSmallPivot)) return modes;
-  // Inverse iteration with K + t D on a block. D is the diagonal of K, and the block is
+  // Inverse iteration with K + t D on a block of vectors. D is the diagonal of K, and the block is
   // D-orthonormal.
   VectorXd D = system.K.diagonal();
   const double largest = D.maxCoeff();
@@ -72,7 +72,7 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
     while (count < block) {
       const VectorXd u = system.T * X.col(count);
       const double energy = strain_products(system, u)(0, 0);
-      // Energies are relative to at least x^T D x = 1, for parts without strain.
+      // The scale of the energy is at least x^T D x = 1, for motions without any strain.
       if (!(energy <= kDeformation * std::max(1.0, strain_magnitude(system, u)))) break;
       ++count;
     }
@@ -84,15 +84,15 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
 
 namespace {
 
-constexpr std::size_t kMaxEntries = 3;  // entries per mode
+constexpr std::size_t kMaxEntries = 3;  // displacements listed per mode
 constexpr Index kMaxMotions = 6;
-/// Entries below this fraction of the largest entry are round-off errors. Entries that differ by
-/// less are treated as equal.
+/// Entries of a mode below this fraction of its largest entry are round-off errors. Entries that
+/// differ by less are treated as equal.
 constexpr double kRoundoff = 1e-6;
 
 using NamedRows = std::vector<std::pair<std::string, Index>>;
 
-/// Returns the coordinates with names and their rows in u.
+/// Returns the names of coordinates, such as "node B along x", with their indices in u.
 NamedRows named_rows(const System& system) {
   const Model& model = system.model;
   NamedRows rows;
@@ -114,7 +114,7 @@ NamedRows named_rows(const System& system) {
   return rows;
 }
 
-/// Returns the index of the first entry that is the largest up to round-off.
+/// Returns the index of the first entry whose magnitude is the largest up to round-off.
 Index first_largest(const VectorXd& x) {
   const double enough = (1 - kRoundoff) * x.cwiseAbs().maxCoeff();
   Index i = 0;

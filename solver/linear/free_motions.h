@@ -11,26 +11,26 @@ namespace trammel::solver {
 
 /// Zero-energy modes: a basis of the null space of K, whose motions cause no deformation.
 struct ZeroEnergyModes {
-  Eigen::MatrixXd basis;  ///< q x count
+  Eigen::MatrixXd basis;  ///< one mode per column, in the free coordinates q
   bool all_found = true;  ///< false: there are more modes than the search covers
   [[nodiscard]] Eigen::Index count() const { return basis.cols(); }
 };
 
-/// Searches for zero-energy modes if the factorization of K has a small, zero or negative pivot. It
-/// uses inverse iteration with a small shift. A zero-energy mode has a strain energy u^T K u of the
-/// elements that is within its round-off error. The size of a pivot is no criterion, because a long
-/// slender chain is ill-conditioned without being a mechanism.
+/// Searches for zero-energy modes if the factorization of K has a small, zero or negative pivot.
+/// The search uses inverse iteration of K with a small shift. A zero-energy mode has a strain
+/// energy u^T K u of the elements that is within its round-off error. The size of a pivot is no
+/// criterion, because a long slender chain is ill-conditioned without being a mechanism.
 [[nodiscard]] ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization& K,
                                                      Counters& counters);
 
 /// Describes a mechanism in words, such as "free motion: node B along x 1, rotation of node A
 /// -0.5". Several motions are separated by semicolons. The text is empty without modes. Each motion
-/// lists its three largest entries, relative to the largest. Rotations are multiplied by the size
-/// of the model. The motions are the basis in echelon form, which has few entries.
+/// lists its three largest displacements, divided by the largest. Rotations are multiplied by the
+/// size of the model. The basis is first transformed to echelon form, so that each motion has few
+/// nonzero displacements.
 [[nodiscard]] std::string describe_mechanism(const System& system, const ZeroEnergyModes& modes);
 
-/// Returns `singular` with a description of the zero-energy modes, if there are any.
-/// @param system  assembled model.
+/// Returns the outcome `singular` with a description of the zero-energy modes if the model has any.
 /// @param K  factors of the stiffness.
 /// @param counters  incremented by the factorizations and solves.
 [[nodiscard]] Outcome require_no_mechanism(const System& system, const Factorization& K,

@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Returns L H of geometric_stiffness.h for the mean axial force N and its increase n.
+/// Returns L H of `frame_chord_rotation_and_bending` for the mean axial force N and its increase n.
 Eigen::Matrix3d geometric_rigidity(const FrameElement& e, BeamTheory theory, double N, double n) {
   Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
   H(0, 0) = N;
@@ -68,7 +68,7 @@ void for_each_stress_point(const Model& model, Visit&& visit) {
   }
 }
 
-/// Returns zero stress with a row for each stress point.
+/// Returns zero stresses with one row for each stress point of the plates.
 Eigen::MatrixX3d no_stress(const Model& model) {
   Index rows = 0;
   for_each_stress_point(model, [&](Index row, const auto&...) { rows = row + 1; });
@@ -99,7 +99,7 @@ TurningPart rail_part(const System& system, const LinearConstraint::Rail& rail, 
   return part;
 }
 
-/// Calls visit(coordinates, B, H) for every part B^T H B of the geometric stiffness.
+/// Calls visit(coordinates, B, H) for every term B^T H B of the sum that is K_G.
 template <class Visit>
 void for_each_geometric_stiffness(const System& system, const Prestress& state, Visit&& visit) {
   const Model& model = system.model;
@@ -226,7 +226,7 @@ Prestress prestress_roundoff(const System& system, const VectorXd& q) {
   for (Index i = 0; i < roundoff.axial.size(); ++i) {
     const FrameElement& e = frame[to_size(i)];
     if (!system.model.members[to_size(e.member)].axially_flexible) continue;
-    // The elongation of a stiff element is a difference of nearly equal displacements.
+    // The elongation is a difference of displacements, whose round-off errors do not cancel.
     const Vector2d size(u[e.coordinates[3]] + u[e.coordinates[0]],
                         u[e.coordinates[4]] + u[e.coordinates[1]]);
     roundoff.axial[i] = kEps * e.section.EA / e.length * e.direction.cwiseAbs().dot(size);

@@ -17,7 +17,7 @@ namespace trammel::solver {
 /// second-order work of the force is d^T H d / 2 with d = B u. d consists of the rotation and, for
 /// a slider, its displacement along the turning rail.
 struct TurningPart {
-  std::array<Index, 5> coordinates{-1, -1, -1, -1, -1};  ///< unconstrained coordinates; -1: unused
+  std::array<Index, 5> coordinates{-1, -1, -1, -1, -1};  ///< indices into u; -1: unused
   Eigen::Matrix<double, 2, 5> B = Eigen::Matrix<double, 2, 5>::Identity();
   Eigen::Matrix2d H = Eigen::Matrix2d::Zero();
 };
@@ -36,16 +36,15 @@ struct Prestress {
 /// Forces on masses: gravity of the model and additional forces, such as the centrifugal forces of
 /// a rotating frame.
 struct BodyForces {
-  /// Per length of each frame element, including member loads [N/m].
+  /// Force per length of each frame element, including member loads [N/m].
   std::vector<Vector2d> element;
-  std::vector<Vector2d> point_mass;  ///< on the center of mass of each point mass [N]
+  std::vector<Vector2d> point_mass;  ///< force on the center of mass of each point mass [N]
 };
 
-/// Returns the forces of the loads and gravity of the model.
+/// Returns the member loads and the weight of members and point masses of the model.
 [[nodiscard]] BodyForces body_forces(const System& system);
 
 /// Computes the internal forces of a state from its displacements.
-/// @param system  assembled model.
 /// @param u  displacements of the unconstrained coordinates [m, rad].
 /// @param multipliers  multipliers of the constraints in the state: forces of inextensible members
 ///   and rigid bodies.
@@ -53,33 +52,32 @@ struct BodyForces {
 [[nodiscard]] Prestress prestress(const System& system, const Eigen::VectorXd& u,
                                   const Eigen::VectorXd& multipliers, const BodyForces& body);
 
-/// Returns the round-off errors of the internal forces of a state q, all with the same sign. They
-/// include forces of members, forces on arms of rigid bodies, and stresses of plates. The stress
-/// error is represented as equal tension in all directions.
-/// @param system  assembled model.
-/// @param q  free coordinates.
+/// Returns the round-off errors of the internal forces of a state with the free coordinates q, all
+/// with the same sign. They include forces of members, forces on arms of rigid bodies, and stresses
+/// of plates. The stress error is represented as equal tension in all directions.
 [[nodiscard]] Prestress prestress_roundoff(const System& system, const Eigen::VectorXd& q);
 
-/// Returns `singular` if redundant constraints stiffen or soften a free motion. Statics does not
-/// determine the forces of such constraints. For example, any force can act in an inextensible
+/// Returns the outcome `singular` if forces of redundant constraints stiffen or soften the model.
+/// Statics does not determine these forces. For example, any force can act in an inextensible
 /// member between two clamps.
 [[nodiscard]] Outcome require_determined_stiffening(const System& system);
 
-/// Returns the axial force of each element [N]. The force of an inextensible element follows from
-/// its constraint.
+/// Returns the axial force of each frame element [N]. The force of an inextensible element follows
+/// from its constraint.
 [[nodiscard]] Eigen::VectorXd axial_forces(const System& system, const Eigen::VectorXd& u,
                                            const Eigen::VectorXd& multipliers);
 
-/// Returns three rows for the world degrees of freedom: the rotation psi = (v2 - v1) / L of the
-/// chord, and symmetric and antisymmetric bending s, a of frame_element.h. For all beam theories
-/// the interpolation gives, with d = (psi, s, a),
+/// Returns the 3 x 6 matrix from the end displacements of a frame element in world axes to d =
+/// (psi, s, a). The rotation of the chord is psi = (v2 - v1) / L. Symmetric and antisymmetric
+/// bending s, a are defined in frame_element.h. For all beam theories the work of the axial force N
+/// on the slope v' is
 ///
 ///   \f[ \int N v'^2 dx = L\, d^T H d. \f]
 ///
 ///   H = [N, n/12, 0; n/12, N/12, g n/60; 0, g n/60, g^2 N/20],  g = 1 / (1 + Phi).
 ///
-/// N is the mean axial force, and n is the increase of the axial force from the first to the second
-/// end.
+/// In H, N is the mean axial force, n is its increase from the first to the second end, and Phi is
+/// `shear_ratio`.
 [[nodiscard]] FrameDeformation frame_chord_rotation_and_bending(const Vector2d& direction,
                                                                 double length);
 
@@ -96,12 +94,10 @@ struct BodyForces {
                                                   double axial, double axial_variation,
                                                   const Vector6d& u);
 
-/// Returns the round-off error of x^T K_G x [J], including that of the internal forces
-/// (`prestress_roundoff`).
-/// @param system  assembled model.
+/// Returns the round-off error of x^T K_G x [J] for free coordinates x, including that of the
+/// internal forces (`prestress_roundoff`).
 /// @param K_G  geometric stiffness, q x q.
 /// @param roundoff  round-off errors of the forces.
-/// @param x  free coordinates.
 [[nodiscard]] double geometric_energy_roundoff(const System& system, const SparseMatrix& K_G,
                                                const Prestress& roundoff, const Eigen::VectorXd& x);
 

@@ -18,8 +18,8 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Returns true if a motion other than zero-energy modes moves mass. Otherwise there is no
-/// vibration.
+/// Returns true if motions other than the zero-energy modes Z move mass. Otherwise the model cannot
+/// vibrate.
 bool has_elastic_inertia(const SparseMatrix& M, const MatrixXd& Z) {
   VectorXd x = start_vectors(M.rows(), 1);
   const double total = x.dot(M * x);
@@ -57,8 +57,8 @@ double floating_shift(const System& system, const MatrixXd& Z, Counters& counter
 }
 
 /// Adds the residuals of modes to the evidence: the largest backward error of (K + K_G) x = w^2 M
-/// x, and the number of missing or superfluous modes. The parameter K is the sum K + K_G. K_G is
-/// empty without prestress.
+/// x, and the number of missing or superfluous modes. The parameter `K` is the sum K + K_G. `K_G`
+/// is empty without prestress.
 void add_evidence(const System& system, const SparseMatrix& K, const SparseMatrix& K_G,
                   ModalSolution& solution, Factorization&& spent = {}, double shift_above = 0) {
   if (!solution.outcome.solved()) return;

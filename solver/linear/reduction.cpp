@@ -20,7 +20,7 @@ std::vector<std::vector<Index>> interior_sets(const System& system) {
   const auto free_coordinate = [&system](Index u) {
     return u < 0 ? Index{-1} : system.constraints.free[to_size(u)];
   };
-  std::vector<Index> root(to_size(system.K.rows()), -1);  // -1 for boundary coordinates
+  std::vector<Index> root(to_size(system.K.rows()), -1);  // root of its set; -1: boundary
   for (std::size_t n = system.model.nodes.size(); n < system.coordinates.node.size(); ++n) {
     for (const Index u : system.coordinates.node[n]) {
       const Index q = free_coordinate(u);
@@ -50,7 +50,7 @@ std::vector<std::vector<Index>> interior_sets(const System& system) {
       join(q, own);
     }
   }
-  std::map<Index, std::vector<Index>> set_of;  // by root
+  std::map<Index, std::vector<Index>> set_of;
   for (Index q = 0; q < std::ssize(root); ++q)
     if (root[to_size(q)] >= 0) set_of[find(q)].push_back(q);
   std::vector<std::vector<Index>> sets;
@@ -58,7 +58,7 @@ std::vector<std::vector<Index>> interior_sets(const System& system) {
   return sets;
 }
 
-/// Returns columns of the identity matrix.
+/// Returns the columns of the identity matrix with the indices `chosen`.
 SparseMatrix selection(Index size, const std::vector<Index>& chosen) {
   SparseMatrix S(size, std::ssize(chosen));
   for (Index j = 0; j < S.cols(); ++j) S.insert(chosen[to_size(j)], j) = 1;
@@ -87,11 +87,11 @@ void add_column(const VectorXd& values, const std::vector<Index>& set, Index col
   }
 }
 
-/// Relative static response below which a load is represented by the modes up to round-off.
+/// Relative norm or energy below which the remainder of a load or response is round-off.
 constexpr double kCarried = 1e-10;
 
-/// Returns the components of static responses that the modes do not represent. They have unit
-/// strain energy, and each is K-orthogonal to the preceding ones.
+/// Returns the components of static responses that the modes do not represent. Each component has
+/// unit strain energy and is K-orthogonal to the preceding components.
 MatrixXd beyond_modes(const SparseMatrix& K, const SparseMatrix& M, const MatrixXd& modes,
                       const std::vector<VectorXd>& responses) {
   MatrixXd parts(K.rows(), 0);
@@ -185,7 +185,7 @@ System reduce_members(const System& system, Index modes, const std::vector<Vecto
 
 System reduce_to_modes(const System& system, const ModalSolution& modes,
                        const std::vector<VectorXd>& loads) {
-  constexpr double kShift = 1e-4;  // relative to the omitted modes
+  constexpr double kShift = 1e-4;  // relative to the highest eigenvalue of the modes
   const MatrixXd& shape = modes.shape;
   Counters counters = modes.counters;
   SparseMatrix K = system.K;

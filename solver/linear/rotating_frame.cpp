@@ -20,7 +20,8 @@ const Eigen::Matrix2d& perpendicular_matrix() {
   return J;
 }
 
-/// Returns the projector on the direction from the axis of rotation to a point.
+/// Returns the matrix P that projects vectors on the directions perpendicular to the axis of
+/// rotation.
 Eigen::Matrix2d distance_projector(RotationAxis axis) {
   return Eigen::Vector2d(axis == RotationAxis::x ? 0 : 1, axis == RotationAxis::y ? 0 : 1)
       .asDiagonal();
@@ -34,8 +35,8 @@ Eigen::Matrix<double, 2, 3> center_of_mass_interpolation(const PointMass& point_
   return B;
 }
 
-/// Returns integral rho N^T A N of a frame element in its axes. Lumped mass acts on translations
-/// only.
+/// Returns integral rho N^T A N of a frame element in its axes, with the interpolation N. Lumped
+/// mass acts on translations only.
 Matrix6d frame_mass_with(const Eigen::Matrix2d& A, const FrameElement& e, const Member& member) {
   Matrix6d integral = Matrix6d::Zero();
   if (member.mass == MassMatrix::lumped || e.is_bar()) {
@@ -62,10 +63,10 @@ Matrix6d rotary_mass(FrameElement e, const Member& member) {
   return world_mass(e, member);
 }
 
-/// Effect of a rotation axis in the plane on a section of unit rotary inertia. Points of the
-/// section at a height y are displaced by y (n cos a - d sin a) from the axis of the member. d is
-/// the direction along the member, n is normal to it, and a is the rotation. Their squared distance
-/// from the rotation axis contains the additional term
+/// Centrifugal effect on a section of unit rotary inertia, for an axis of rotation in the plane.
+/// Points of the section at a height y are displaced by y (n cos a - d sin a) from the axis of the
+/// member. d is the direction along the member, n is normal to it, and a is the rotation. Their
+/// squared distance from the rotation axis contains the additional term
 ///
 ///   y^2 (2 moment a + stiffness a^2).
 ///
@@ -78,7 +79,8 @@ SectionPull section_pull(const Eigen::Matrix2d& P, const Vector2d& d) {
   return {-n.dot(P * d), d.dot(P * d) - n.dot(P * n)};
 }
 
-/// Calls visit(coordinates, S, G) for all parts with mass, in world axes.
+/// Calls visit(coordinates, S, G) for all elements and point masses, in world axes. S and G are
+/// their terms of the centrifugal and Coriolis matrices.
 template <class Visit>
 void for_each_rotating_mass(const System& system, RotationAxis axis, Visit&& visit) {
   const Model& model = system.model;
@@ -212,15 +214,15 @@ using Eigen::MatrixXcd;
 using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 
-/// Solves for the steady state. Returns false if the forces do not converge or the state does not
-/// exist.
+/// Solves for the steady state of the rotating frame. Returns false if the internal forces do not
+/// converge or the state does not exist.
 bool find_steady_state(const System& system, const RotatingOptions& options,
                        StiffenedEquilibrium& steady, StaticState& state, Counters& counters) {
   const RotatingFrame& frame = options.frame;
   const VectorXd undeformed = VectorXd::Zero(system.T.rows());
   const VectorXd rhs =
       system.f + system.T.transpose() * centrifugal_forces(system, frame, undeformed);
-  // Returns the internal forces in q under the centrifugal forces of displacements u.
+  // Returns the internal forces of a state q under the centrifugal forces at displacements u.
   const auto forces = [&](const VectorXd& q, const VectorXd& u, const Prestress* before) {
     return prestress_of(system, system.T * q, system.load + centrifugal_forces(system, frame, u),
                         body_forces(system, frame, u), before);

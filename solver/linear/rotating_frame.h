@@ -37,12 +37,12 @@ struct RotatingFrame {
   RotationAxis axis = RotationAxis::normal;
 };
 
-/// Returns S, the mass matrix of motions away from the axis, q x q [SI].
+/// Returns S, the mass matrix of motions perpendicular to the axis of rotation, q x q [SI].
 [[nodiscard]] SparseMatrix centrifugal_softening(const System& system,
                                                  RotationAxis axis = RotationAxis::normal);
 
-/// Returns G = integral rho N^T J N dV, q x q, skew-symmetric [SI].
-/// Source: Coriolis force on the interpolation.
+/// Returns the matrix of the Coriolis forces, G = integral rho N^T J N dV, with the interpolation N
+/// of the displacements, q x q, skew-symmetric [SI].
 [[nodiscard]] SparseMatrix gyroscopic_matrix(const System& system);
 
 /// Returns the centrifugal forces Omega^2 integral rho N^T (x - c + u) dV on the unconstrained
@@ -54,14 +54,13 @@ struct RotatingFrame {
 [[nodiscard]] BodyForces body_forces(const System& system, const RotatingFrame& frame,
                                      const Eigen::VectorXd& u);
 
-/// Options of a vibration analysis in a rotating frame.
 struct RotatingOptions {
   RotatingFrame frame;
   Index count = 6;
   EigenMethod method =
       EigenMethod::automatic;  ///< for a stable state; an unstable state requires the dense method
-  bool gyroscopic = true;      ///< false: omit G
-  bool stiffening = true;      ///< false: omit K_G
+  bool gyroscopic = true;      ///< false: omit the Coriolis forces G
+  bool stiffening = true;      ///< false: omit the geometric stiffness K_G
   /// true: K_G follows from the forces in the steady state. false: K_G follows from linear statics
   /// under the centrifugal forces on the undeformed frame, as in the classical equations of blades.
   bool prestress_at_steady_state = true;
@@ -75,9 +74,9 @@ struct RotatingOptions {
 ///
 /// The supports rotate with the frame, and the geometry is undeformed.
 ///
-/// Stable states have real omega. They lead to a Hermitian problem in 1 / omega, whose modes are
-/// counted completely. At an omega just above the last mode, the matrix of the second equation has
-/// as many negative pivots as there are modes below.
+/// Stable states have real omega. Their modes solve a Hermitian problem in 1 / omega, and are
+/// counted completely: at an omega just above the last mode, the matrix of the second equation has
+/// as many negative pivots as there are lower modes.
 struct RotatingModes {
   Outcome outcome;              ///< singular: a mechanism; not_converged: see the reason
   Eigen::VectorXd q;            ///< steady state, free coordinates; see node_motion

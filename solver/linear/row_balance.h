@@ -6,12 +6,12 @@
 
 namespace trammel::solver {
 
-/// Balance of the rows of an equation of motion for one or more states. It accumulates the sum of
-/// the terms of each row and the sum of their magnitudes. Stiffness and inertia are summed over
-/// element matrices that are computed again. Each coordinate counts with at least `kLeastFraction`
-/// of the largest motion of its state (rotations times the model size). Otherwise there would be no
-/// scale for rows whose motions are only round-off errors. Scalar is double or, for damped
-/// vibration, `std::complex<double>`.
+/// Residuals of the rows of an equation of motion for one or more states. For each row, the sum of
+/// the terms (residual) and the sum of their magnitudes (scale) are accumulated. Stiffness and
+/// inertia are summed over element matrices that are computed again. In the scale, each coordinate
+/// counts with at least `kLeastFraction` of the largest motion of its state (rotations times the
+/// model size). Otherwise the scale of a row could consist of round-off errors only. Scalar is
+/// double or, for damped vibration, `std::complex<double>`.
 template <class Scalar>
 class RowBalance {
  public:
@@ -19,27 +19,27 @@ class RowBalance {
 
   explicit RowBalance(const System& system, Index states = 1);
 
-  /// Adds K u of the unconstrained coordinates, one column per state.
+  /// Adds the elastic forces K u of the unconstrained coordinates u, one column per state.
   void add_stiffness(const Matrix& u);
-  /// Adds M a of the unconstrained coordinates, one column per state.
+  /// Adds the inertia forces M a of accelerations a of the coordinates u, one column per state.
   void add_inertia(const Matrix& acceleration);
   /// Adds forces on the unconstrained coordinates [N, N m].
   void add_load(const Matrix& load);
-  /// Adds A q of the free coordinates.
+  /// Adds the forces A q on the free coordinates q.
   void add(const SparseMatrix& A, const Matrix& q);
-  /// Adds the magnitudes of the terms of which an added term is the sum.
+  /// Adds magnitudes to the scale, for a term that was added as a difference of larger values.
   void add_terms(const Eigen::VectorXd& magnitudes) { terms_ += magnitudes; }
 
-  /// Returns the largest |row| over the sum of magnitudes of its terms, in the free coordinates. It
+  /// Returns the largest ratio of a residual to its scale over all rows of the free coordinates. It
   /// is the smallest relative change of matrices and loads for which the states are exact.
   /// Source: Oettli and Prager (1964).
   [[nodiscard]] double backward_error() const;
-  /// Returns |rows| of the first state over |load|, in the free coordinates. |rows| is at least the
-  /// round-off error of the terms. The diagonal stiffness scales forces and moments to make them
-  /// comparable.
+  /// Returns the norm of the residuals of the first state over the norm of the load, in the free
+  /// coordinates. A residual counts at least with the round-off error of its terms. The diagonal
+  /// stiffness scales forces and moments to make them comparable.
   [[nodiscard]] double residual_over_load() const;
 
-  /// Returns the sums of the magnitudes of the terms on the unconstrained coordinates.
+  /// Returns the scales of the rows of the unconstrained coordinates.
   [[nodiscard]] const Eigen::MatrixXd& terms() const { return terms_; }
 
  private:
@@ -54,7 +54,7 @@ class RowBalance {
   Eigen::MatrixXd terms_, free_terms_;
 };
 
-// Viscous damping: its parameters and its matrix.
+// Viscous damping: parameters and damping matrix.
 
 /// Rayleigh damping, C = mass * M + stiffness * K (paper Eq. 19 with w1 and w2).
 struct RayleighDamping {
@@ -62,12 +62,13 @@ struct RayleighDamping {
   double stiffness = 0;  ///< >= 0 [s]
 };
 
-/// Returns the damping ratio [-], (mass / w + stiffness * w) / 2.
-/// @param damping  factors of mass and stiffness.
-/// @param omega  w > 0 [rad/s].
+/// Returns the damping ratio of Rayleigh damping [-], (mass / w + stiffness * w) / 2.
+/// @param damping  factors of the mass and stiffness matrices.
+/// @param omega  angular frequency w > 0 [rad/s].
 [[nodiscard]] double damping_ratio(const RayleighDamping& damping, double omega);
 
-/// Returns the decay rates ratio * w = (mass + stiffness * w^2) / 2 [1/s], also at w = 0.
+/// Returns the decay rates of modes, damping ratio * w = (mass + stiffness * w^2) / 2 [1/s]. The
+/// frequency w of a mode may be 0.
 [[nodiscard]] Eigen::VectorXd decay_rates(const RayleighDamping& damping,
                                           const Eigen::VectorXd& omega);
 
@@ -80,7 +81,8 @@ struct RayleighDamping {
 /// Then no mode vibrates.
 [[nodiscard]] double overdamping_frequency(const RayleighDamping& damping);
 
-/// Returns mass * M + stiffness * K on the union of both patterns.
+/// Returns the Rayleigh damping matrix mass * M + stiffness * K, with all entries of M and K
+/// stored.
 [[nodiscard]] SparseMatrix damping_matrix(const RayleighDamping& damping, const SparseMatrix& M,
                                           const SparseMatrix& K);
 
@@ -88,30 +90,30 @@ struct RayleighDamping {
 ///
 ///   \f[ C = \sum_{\text{modes}} 2 \zeta \omega (M x)(M x)^T. \f]
 ///
-/// The given modes have their damping ratio, and all others have zero. The matrix is dense in the
-/// coordinates that the modes move. Large models use `superpose` instead.
-/// @param M  mass matrix.
+/// All other modes have no damping. The matrix is dense in the coordinates that the modes move.
+/// Large models use `superpose` instead.
 /// @param omega  angular frequency of each mode [rad/s].
-/// @param shape  coordinate x mode.
+/// @param shape  mode shapes, coordinate x mode.
 /// @param ratio  damping ratio of each mode [-].
 /// @throws ModelError  if the sizes differ.
 [[nodiscard]] SparseMatrix modal_damping_matrix(const SparseMatrix& M, const Eigen::VectorXd& omega,
                                                 const Eigen::MatrixXd& shape,
                                                 const Eigen::VectorXd& ratio);
 
-/// Rayleigh damping and damping of some modes on the free coordinates.
+/// Viscous damping on the free coordinates: Rayleigh damping plus modal damping of some modes.
 struct ViscousDamping {
   RayleighDamping rayleigh;
-  Eigen::VectorXd omega;  ///< of the damped modes [rad/s]
-  Eigen::VectorXd ratio;  ///< damping ratio of each mode [-]
+  Eigen::VectorXd omega;  ///< angular frequencies of these modes [rad/s]
+  Eigen::VectorXd ratio;  ///< damping ratio of each of these modes [-]
   Eigen::MatrixXd shape;  ///< coordinate x mode, x^T M x = 1
 };
 
-/// Returns the acceleration whose inertia forces equal part of the damping forces at velocities v:
+/// Returns the acceleration whose inertia forces equal the mass-proportional and modal damping
+/// forces at velocities v:
 ///
 ///   mass v + sum over modes of 2 ratio w x (M x)^T v.
 ///
-/// The remaining part of C v is stiffness K v.
+/// The stiffness-proportional damping force, stiffness * K v, is not included.
 [[nodiscard]] Eigen::VectorXd damping_acceleration(const ViscousDamping& damping,
                                                    const SparseMatrix& M, const Eigen::VectorXd& v);
 

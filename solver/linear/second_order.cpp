@@ -81,9 +81,9 @@ double force_roundoff(const System& system, const VectorXd& q) {
 
 namespace {
 
-constexpr double kSmallestStep = 1e-4;  // fraction of the loads
+constexpr double kSmallestStep = 1e-4;  // smallest load step; 1 is the full load
 
-/// Returns the internal forces of q under a fraction of the loads.
+/// Returns the internal forces of a state q under the fraction `load` of all loads.
 Prestress forces_at(const System& system, double load, const VectorXd& q, const Prestress* before) {
   BodyForces weights = body_forces(system);
   for (Vector2d& weight : weights.element) weight *= load;
@@ -181,7 +181,7 @@ StaticState solve_second_order(const System& system, const VectorXd& linear, Cou
   reached.outcome = require_determined_stiffening(system);
   if (!reached.outcome.solved()) return reached;
   StiffenedEquilibrium equilibrium(system, counters);
-  Outcome whole;  // outcome of the first attempt under the full load
+  Outcome whole;  // outcome of the attempt with the full load in one step
   double load = 0, step = 1;
   while (load < 1) {
     const double target = std::min(1.0, load + step);

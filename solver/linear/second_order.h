@@ -25,19 +25,19 @@ struct StaticState {
 [[nodiscard]] StaticState solve_linear_statics(const System& system, Counters& counters);
 
 /// Returns `not_converged` if the relative error of the displacements exceeds 0.1, which leaves
-/// less than one digit.
+/// less than one correct digit.
 [[nodiscard]] Outcome outcome_by_error(double error);
 
 /// Returns the round-off error of the forces of elements on nodes, relative to the largest such
-/// force. The deformation of a stiff element is a difference of nearly equal motions.
+/// force. It is large for stiff elements, because their deformation is a small difference of
+/// motions.
 [[nodiscard]] double force_roundoff(const System& system, const Eigen::VectorXd& q);
 
 /// Computes the internal forces of a state under loads.
-/// @param system  assembled model.
 /// @param u  displacements of the unconstrained coordinates [m, rad].
 /// @param load  loads on the unconstrained coordinates [N, N m].
 /// @param body  forces on masses and members.
-/// @param before  if given, the constraint forces include the second-order terms of these forces.
+/// @param before  internal forces whose geometric stiffness acts on the constraints too, or null.
 [[nodiscard]] Prestress prestress_of(const System& system, const Eigen::VectorXd& u,
                                      const Eigen::VectorXd& load, const BodyForces& body,
                                      const Prestress* before = nullptr);
@@ -47,29 +47,30 @@ struct StaticState {
 /// no negative pivot (Sylvester). Functions that fail set the outcome of the state.
 class StiffenedEquilibrium {
  public:
-  /// Returns the internal forces in q, from q and the forces of the matrix that was used to solve
-  /// for q.
+  /// Returns the internal forces of a state q, from q and the internal forces that define the K_G
+  /// with which q was computed.
   using Forces = std::function<Prestress(const Eigen::VectorXd&, const Prestress*)>;
 
   StiffenedEquilibrium(const System& system, Counters& counters,
                        const SparseMatrix* softening = nullptr);
 
-  /// Solves with K_G of the internal forces of the state, or without K_G if they are empty. Returns
-  /// false on failure.
+  /// Solves for q with K_G of the internal forces in `state`, or without K_G if these are empty.
+  /// Returns false on failure.
   bool solve(const Eigen::VectorXd& f, StaticState& state);
-  /// Solves and updates the internal forces until they converge, starting from a nearby state.
+  /// Solves for q and updates its internal forces until both converge, starting from a nearby
+  /// state.
   void iterate(const Eigen::VectorXd& f, const Forces& forces, StaticState& state);
 
   /// Returns StaticState::error of the state that was solved last.
   [[nodiscard]] double error(const StaticState& state) const;
-  /// Returns A + K_G of the last solution.
+  /// Returns A + K_G of the last equation that was solved.
   [[nodiscard]] const SparseMatrix& added() const { return added_; }
   /// Returns (K + A + K_G) q [N, N m], with K q from the deformations of the elements.
   [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& q) const;
   [[nodiscard]] bool is_stable() const { return factorization_.smallest_pivot() > 0; }
 
  private:
-  /// Returns the largest |u| [m]; rotations are multiplied by the model size.
+  /// Returns the largest |u| of u = T q [m]; rotations are multiplied by the model size.
   [[nodiscard]] double largest_displacement(const Eigen::VectorXd& q) const;
   /// Returns the error of the displacements [m] caused by the round-off error of the internal
   /// forces.
@@ -86,13 +87,12 @@ class StiffenedEquilibrium {
 
 /// Solves (K + K_G) q = f by second-order theory, with K_G from the internal forces of q itself.
 /// The outcome is `singular` if the model buckles below the full load. It is `not_converged` if no
-/// equilibrium exists beyond the load factor that the reason states. The error includes the
-/// round-off error of the internal forces and the error of the last iteration.
+/// equilibrium exists beyond the load factor that the reason states. The error of the state
+/// includes the round-off error of the internal forces and the error of the last iteration.
 ///
 /// The method follows the equilibria from the unloaded state. If fixed-point iteration with K + K_G
 /// does not converge under the full load, the load is applied in steps. The state is stable in each
 /// step: K + K_G has no negative pivot (Sylvester).
-/// @param system  assembled model.
 /// @param linear  solution of K q = f.
 /// @param counters  incremented by the factorizations and solves.
 [[nodiscard]] StaticState solve_second_order(const System& system, const Eigen::VectorXd& linear,

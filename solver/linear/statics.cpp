@@ -23,13 +23,14 @@ double digits(double error) {
   return -std::log10(std::clamp(error, kEps, 1.0));
 }
 
-/// Returns the amplification of the second-order displacement d = -(K + K_G)^-1 K_G q by the loads.
-/// It is the elastic stiffness of this motion relative to its remaining stiffness:
+/// Returns the factor by which the loads amplify the second-order displacement, d = -(K + K_G)^-1
+/// K_G q with the first-order displacement q. It is the ratio of the elastic stiffness of the
+/// motion d to its stiffness under load:
 ///
 ///   d^T K d / d^T (K + K_G) d.
 ///
-/// For a single buckling shape it is 1 / (1 - fraction of the buckling load). Other motions of the
-/// loads do not affect it.
+/// For a single buckling shape it is 1 / (1 - fraction of the buckling load). The part of q that
+/// causes no second-order displacement does not affect the result.
 double amplification(const System& system, const VectorXd& first, const StaticState& second) {
   const VectorXd added = second.q - first;
   const double stiffness = strain_products(system, system.T * added)(0, 0);
@@ -39,15 +40,16 @@ double amplification(const System& system, const VectorXd& first, const StaticSt
   return stiffness > 0 && left > 0 ? stiffness / left : 1;
 }
 
-/// Adds the residual of the equation of the state, with K and K_G computed again, and the residual
-/// of the equilibrium of its forces.
+/// Adds residuals to the evidence of the solution: the residual of K q + K_G q = f with K and K_G
+/// computed again, and the imbalance of the reported forces.
 void take_residuals(const System& system, const ElasticState& state, StaticSolution& solution) {
   RowBalance<double> rows(system);
   rows.add_stiffness(state.u);
   rows.add_load(-system.load);
   if (state.prestress) {
     rows.add(geometric_stiffness(system, *state.prestress), solution.q);
-    // The internal forces of the state are differences of larger values.
+    // K_G results from differences of larger values. Their round-off errors are added to the scale
+    // of the residual.
     const Prestress roundoff = prestress_roundoff(system, solution.q);
     rows.add_terms(geometric_stiffness_forces(system, roundoff, state.u).cwiseAbs() / kEps);
   }
@@ -95,7 +97,8 @@ struct SectionForces {
   Vector3d end;
   Vector2d load;  ///< mean (qx, qy) along and across the element, including inertia [N/m]
 
-  /// Returns the forces between the ends, with a parabola through both end moments.
+  /// Returns N, V and M at a distance x from the first end. M is a parabola through both end
+  /// moments.
   [[nodiscard]] Vector3d at(double x, double length) const {
     const double straight = start[2] + (end[2] - start[2]) * x / length;
     return {start[0] - load.x() * x, start[1] - load.y() * x,
@@ -165,7 +168,7 @@ void recover_displacements(const System& system, const RecoveredForces& forces,
         (solution.displacement.row(second) - solution.displacement.row(first)).head<2>();
     for (std::size_t end = 0; end < 2; ++end) {
       const Index c = system.coordinates.member_end[i][end];
-      // A bar turns as a rigid line.
+      // A bar does not bend, so that both ends rotate with the line between its nodes.
       solution.end_rotation(static_cast<Index>(i), static_cast<Index>(end)) =
           c < 0 ? cross(span, shift) / span.squaredNorm() : forces.u[c];
     }
@@ -253,7 +256,7 @@ VectorXd constraint_forces(const System& system, const ElasticState& state) {
 }
 
 ForceRoundoff force_roundoff(const ElementForces& ends, double size) {
-  constexpr double kShare = 1e-10;  // limit of the equilibrium residual
+  constexpr double kShare = 1e-10;  // relative; equals the limit of the equilibrium residual
   if (ends.cols() == 0) return {};
   double force = 0, moment = 0;
   for (const Index end : {0, 3}) {
@@ -357,7 +360,7 @@ void add_members(const System& system, const ElasticState& state, const StaticSo
     if (first) force.head<3>() = -solution.resultant_start.row(e.member).transpose();
     if (last) force.tail<3>() = solution.resultant_end.row(e.member).transpose();
     force = frame_rotation(e.direction).transpose() * force;
-    // The section forces of a bar include its loads. Those of a beam act at its ends.
+    // The section forces exclude the element load, which is part of the acting load.
     detail::scatter(e.coordinates, (force + element_load(e, acting_load(system, state, e))).eval(),
                     sum);
   }

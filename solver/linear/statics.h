@@ -11,7 +11,6 @@
 
 namespace trammel::solver {
 
-/// Options of a static analysis.
 struct StaticsOptions {
   /// true: second-order theory, (K + K_G) q = f. K_G is the geometric stiffness of the internal
   /// forces of the solution itself. Tension stiffens, and compression softens
@@ -42,13 +41,12 @@ struct StaticSolution {
   /// Model node x (sxx, syy, sxy) [Pa]: area-weighted mean of the stresses at the node in its
   /// triangles. Nodes without triangles have NaN.
   Eigen::MatrixX3d node_stress;
-  double equilibrium_residual = 0;  ///< norm of reactions + loads [N]
-  double moment_residual = 0;       ///< about the world origin [N m]
+  double equilibrium_residual = 0;  ///< norm of the sum of reactions and loads [N]
+  double moment_residual = 0;       ///< moment of this sum about the world origin [N m]
   Evidence evidence;                ///< residuals of the state in the theory that was solved
   Counters counters;
 };
 
-/// Solves a static problem. Failures are reported in `outcome`.
 [[nodiscard]] StaticSolution solve_statics(const System& system,
                                            const StaticsOptions& options = {});
 
@@ -60,7 +58,7 @@ struct ElasticState {
   Eigen::VectorXd acceleration;  ///< accelerations of the unconstrained coordinates, including the
                                  ///< effect of mass-proportional damping; empty: at rest
   const Prestress* prestress = nullptr;  ///< forces of second-order theory, or null
-  Eigen::VectorXd constraint_forces;     ///< empty: not computed yet
+  Eigen::VectorXd constraint_forces;     ///< see constraint_forces(); empty: not computed yet
 };
 
 /// Returns the loads of a state on the unconstrained coordinates [N, N m].
@@ -82,17 +80,17 @@ struct RecoveredForces {
   ElementForces element;
 };
 
-/// Magnitudes of forces and moments of a state below which they are round-off [N, N m].
+/// Limits of magnitude; smaller forces [N] and moments [N m] of a state are round-off errors.
 struct ForceRoundoff {
   double force = 0, moment = 0;
 };
-/// Returns the magnitudes of force and moment below which those of a state are round-off errors.
+/// Returns the limits below which forces and moments of a state are round-off errors.
 /// @param ends  forces on the frame elements.
 /// @param size  size of the model [m].
 [[nodiscard]] ForceRoundoff force_roundoff(const ElementForces& ends, double size);
 
-/// Returns force over area, or moment over section modulus [Pa]. If the section does not define the
-/// resistance, the result is 0 for a force at round-off level and NaN for a larger force.
+/// Returns force over area, or moment over section modulus [Pa]. If the section has no area or
+/// modulus, the result is 0 for a force at round-off level and NaN for a larger force.
 template <class T>
 [[nodiscard]] double stress_of_force(const T& force, double resistance, double roundoff) {
   const double size = std::abs(force), stress = size / resistance;
@@ -101,8 +99,8 @@ template <class T>
 }
 
 /// Computes displacements, rotations of member ends, reactions, section forces and member stresses.
-/// The largest stress is searched at the ends of each element and between them. The load within an
-/// element is uniform and balances its end forces.
+/// The largest stress is searched at the ends of each element and between them. Within an element,
+/// the section forces follow from its end forces and a uniform load that balances them.
 void set_results(const System& system, const RecoveredForces& forces, StaticSolution& solution);
 
 /// Sums of forces, of moments about the origin, and of the magnitudes of their terms.
@@ -114,10 +112,9 @@ struct ForceSum {
   void add(const Vector2d& at, const Vector2d& f, double m);
 };
 /// Sums the loads on the unconstrained coordinates and the reactions of supports.
-/// @param system  assembled model.
 /// @param position  positions of the mesh nodes [m].
 /// @param load  loads on the unconstrained coordinates [N, N m].
-/// @param solution  contains the reactions.
+/// @param solution  solution that contains the reactions.
 [[nodiscard]] ForceSum sum_forces(const System& system, const std::vector<Vector2d>& position,
                                   const Eigen::VectorXd& load, const StaticSolution& solution);
 
@@ -125,23 +122,23 @@ struct ForceSum {
 /// inextensible members. They balance elastic forces, inertia forces and loads.
 [[nodiscard]] Eigen::VectorXd constraint_forces(const System& system, const ElasticState& state);
 
-/// Returns the forces on the frame elements of a state: k u + k_G u + m a - f.
+/// Returns the forces of the nodes on the frame elements in a state: k u + k_G u + m a - f, with
+/// the load f.
 [[nodiscard]] ElementForces end_forces(const System& system, const ElasticState& state);
 
 /// Returns the column of `StaticSolution::reaction` to which a constraint row of a support belongs.
 [[nodiscard]] Index support_component(const System& system, const ConstraintRow& row);
 
-/// Computes displacements, forces, stresses and residuals. With an acceleration, section forces
-/// include the inertia of their element. Reactions and residuals do not include it.
+/// Computes displacements, forces, stresses and residuals. In a state with acceleration, section
+/// forces and reactions include inertia forces. The equilibrium residuals do not include them.
 void postprocess(const System& system, const ElasticState& state, StaticSolution& solution);
 
-/// Returns the largest unbalanced force of the reported forces at any coordinate, over `terms`.
-/// They are section forces at member ends, forces of springs and triangles, reactions, forces of
-/// other constraints, and nodal loads. This check only confirms that the forces belong to the
-/// state. The result is small even if the state does not solve the equation.
-/// @param system  assembled model.
+/// Returns the largest imbalance of the reported forces at any coordinate, relative to `terms`. The
+/// reported forces are section forces at member ends, forces of springs and triangles, reactions,
+/// forces of other constraints, and nodal loads. This check only confirms that the forces belong to
+/// the state. The result is small even if the state does not solve the equation.
 /// @param state  displacements, loads and accelerations.
-/// @param solution  reported forces.
+/// @param solution  solution that contains the reported forces.
 /// @param terms  sums of the magnitudes of K u and the loads on the unconstrained coordinates.
 [[nodiscard]] double unbalanced_forces(const System& system, const ElasticState& state,
                                        const StaticSolution& solution,

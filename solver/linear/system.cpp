@@ -108,7 +108,7 @@ Eigen::VectorXd weight_of(const System& system) {
   return weight;
 }
 
-/// Returns the loads on nodes, members and sides of plates.
+/// Returns the loads on nodes, members and sides of plates as forces on the coordinates u.
 Eigen::VectorXd applied_load(const System& system) {
   const Model& model = system.model;
   const auto& node = system.coordinates.node;
@@ -157,7 +157,7 @@ System assemble(const Model& model, Effects active) {
   system.springs = spring_elements(system.model, system.coordinates);
   system.T = system.constraints.T;
   const bool has_inertia = active.has(Effect::inertia);
-  stiffness(system, system.counters).swap(system.K);  // Eigen 3.4 copies on assignment
+  stiffness(system, system.counters).swap(system.K);  // swap: Eigen 3.4 copies on assignment
   if (has_inertia) mass(system, system.counters).swap(system.M);
   count_effects(system, has_inertia, system.counters);
   system.weight = weight_of(system);

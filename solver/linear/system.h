@@ -19,8 +19,8 @@ struct SpringElement {
 };
 
 /// Assembled linear model. The unconstrained coordinates u are node translations, node rotations,
-/// and rotations of released member ends. They follow from the free coordinates q by u = T q. The
-/// rows of T express supports, hinges, rigid bodies, Eq. 25 and inextensible members.
+/// and rotations of released member ends. They follow from the free coordinates q by u = T q. T
+/// enforces supports, hinges, rigid bodies, paper Eq. 25 and inextensible members.
 struct System {
   Model model;
   Mesh mesh;                ///< node positions and elements, also for drawing
@@ -38,7 +38,7 @@ struct System {
 };
 
 /// Builds K, M and f of the free coordinates (paper Eq. 7-11). Effects that are not active are
-/// removed from the model first. M is empty without inertia.
+/// removed from the model first. M is empty if inertia is not active.
 /// @throws ModelError  if the model is invalid.
 [[nodiscard]] System assemble(const Model& model, Effects active = Effects::all());
 

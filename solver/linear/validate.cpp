@@ -134,8 +134,8 @@ class Validator {
     }
   }
 
-  /// Checks that the mapping from area coordinates does not fold: its determinant has the same sign
-  /// at all six nodes and at the centroid.
+  /// Checks that the mapping from area coordinates to a six-node triangle does not fold: its
+  /// determinant has the same sign at all six nodes and at the centroid.
   void curved(const Triangle& triangle, const std::string& part) const {
     const auto area_at = [&](const Vector3d& at) {
       return interpolate(model_, triangle, at).signed_area;
@@ -268,7 +268,7 @@ Model restrict_effects(Model model, Effects active) {
 
 bool is_axially_overconstrained(const Model& model) {
   Model stiff = restrict_effects(model, Effects::all().without(Effect::axial_flexibility));
-  for (Member& member : stiff.members) member.elements = 1;  // interior nodes can follow freely
+  for (Member& member : stiff.members) member.elements = 1;  // interior nodes follow the ends
   const Constraints constraints = build_constraints(stiff, discretize(stiff));
   for (std::size_t i = 0; i < constraints.rows.size(); ++i) {
     const bool along = constraints.rows[i].source == ConstraintRow::Source::inextensible;

@@ -12,16 +12,17 @@ void validate(const Model& model);
 
 // Effects are removed from a model before assembly.
 
-/// Returns the effects that the parts of the model have. Effects of an analysis are not included:
-/// inertia, damping, gyroscopic forces, geometric stiffening and large displacement.
+/// Returns the effects that the properties of the model cause, such as shear or gravity. Effects of
+/// an analysis are not included: inertia, damping, gyroscopic forces, geometric stiffening and
+/// large displacement.
 [[nodiscard]] Effects applicable_effects(const Model& model);
 
 /// Returns the model without the effects that are not in `active`.
 [[nodiscard]] Model restrict_effects(Model model, Effects active);
 
 /// Returns true if inextensible members would be overconstrained along their axes, as in a beam
-/// between two walls. Their forces would be undetermined. The geometrically exact tier would have
-/// no solution, because a beam that bends between walls must stretch.
+/// between two walls. Their axial forces would be undetermined. A geometrically exact analysis
+/// would have no solution, because a beam that bends between walls must stretch.
 [[nodiscard]] bool is_axially_overconstrained(const Model& model);
 
 }  // namespace trammel::solver

@@ -16,10 +16,9 @@
 
 namespace trammel::solver {
 
-/// Sums of all forces, and of all moments, on the complete model. They are the largest residual and
-/// the largest sum of magnitudes over the samples [N], [N m]. The terms of rows of the equation of
-/// motion include the round-off error of very stiff parts. The sums over the complete model have no
-/// such terms.
+/// Balance of all forces [N] and of all moments [N m] on the complete model: the largest residual
+/// and the largest sum of magnitudes over the samples. Single rows of the equation of motion
+/// include the round-off errors of very stiff members. The sums over the complete model do not.
 struct WholeBalance {
   Vector2d residual = Vector2d::Zero(), terms = Vector2d::Zero();
 
@@ -29,13 +28,9 @@ struct WholeBalance {
   }
 };
 
-/// Computes displacements, reactions, section forces and stresses of the elastic motion at one
-/// pose, in equilibrium with inertia and damping. The stress of a member is the largest at the ends
-/// of its elements.
-/// @param moving  system at the pose.
-/// @param q  free coordinates.
-/// @param forces  forces of the same motion.
-/// @param balance  balance to which the residuals are added.
+/// Computes displacements, reactions, section forces and stresses of the elastic motion with free
+/// coordinates q at the pose of `moving`. They are in equilibrium with inertia and damping. The
+/// stress of a member is the largest at the ends of its elements. Adds the residuals to `balance`.
 [[nodiscard]] StaticSolution postprocess_motion(const MovingSystem& moving,
                                                 const Eigen::VectorXd& q,
                                                 const MovingSystem::Forces& forces,
@@ -53,7 +48,7 @@ std::vector<double> sample_times(const TransientOptions& options) {
   return even_times(options.start, options.end, options.step);
 }
 
-/// Returns one row per sample.
+/// Returns a matrix with one sample per row.
 Eigen::MatrixX3d stack(const std::vector<Vector3d>& samples) {
   Eigen::MatrixX3d rows(std::ssize(samples), 3);
   for (Index i = 0; i < rows.rows(); ++i) rows.row(i) = samples[to_size(i)];
@@ -87,8 +82,8 @@ class MotionSolver {
   }
 
  private:
-  /// Returns the equation of motion. Its matrices are updated at every time unless the platform is
-  /// at rest.
+  /// Returns the equation of the elastic motion. Its matrices are updated at every time unless the
+  /// platform is at rest.
   EquationOfMotion equation() {
     EquationOfMotion equation;
     equation.M = equation.K = moving_.K();
@@ -105,7 +100,7 @@ class MotionSolver {
     if (!options_.load_history.constant()) equation.breakpoints = options_.load_history.time;
     if (options_.gyroscopic) {
       equation.working_motion = [this](double time, const VectorXd& q, const VectorXd& v) {
-        follower_.update_to(time);  // the load has already become NaN if there is no pose
+        follower_.update_to(time);  // an unreachable pose has already made the load NaN
         return follower_.forces(q, v, VectorXd::Zero(q.size())).working;
       };
     }
@@ -117,13 +112,14 @@ class MotionSolver {
     return equation;
   }
 
-  /// Returns the time whose loads act on a sample.
+  /// Returns the time of the loads of a sample: just before the sample if the load factor jumps
+  /// there.
   [[nodiscard]] double load_time(double time) const {
     const bool begins = time == options_.time.start;
     return begins ? time : options_.load_history.end_of_step(time);
   }
 
-  /// Solves K q = F + f at every sample.
+  /// Solves the quasi-static equation K q = F + f at every sample.
   void solve_quasi_statically() {
     VectorXd q;
     const VectorXd still = VectorXd::Zero(moving_.K().rows());
@@ -142,7 +138,7 @@ class MotionSolver {
     solution_.evidence = evidence.result();
   }
 
-  /// Records a sample that was computed without a time scheme.
+  /// Records a sample that was computed without a time integration scheme.
   void record_exact(const MotionSample& sample, double load_time, MotionEvidence& evidence) {
     evidence.add_equilibrium(sample.time, load_time, sample.q, sample.v, sample.a,
                              options_.time.step);
@@ -150,8 +146,8 @@ class MotionSolver {
     solution_.summary.time = sample.time;
   }
 
-  /// Returns the forces at the current pose as functions of time. The load history scales the
-  /// wrench.
+  /// Returns the forces f at the current pose as functions of time. The load history scales the
+  /// part of f that the wrench on the platform causes.
   [[nodiscard]] PiecewiseLinearLoad load_in_time(const VectorXd& f) const {
     const LoadHistory& history = options_.load_history;
     if (history.constant()) return step_load(f, options_.time.start);
@@ -160,7 +156,7 @@ class MotionSolver {
     return load_by_history(history, applied, f - history.at(options_.time.start) * applied);
   }
 
-  /// Superposes all modes at every sample by closed-form solutions.
+  /// Computes the motion at every sample by superposition of closed-form solutions for all modes.
   void superpose_modes() {
     const std::vector<double> times = sample_times(options_.time);
     if (!follower_.is_at_rest()) {
@@ -192,9 +188,9 @@ class MotionSolver {
       const VectorXd v = response.v.col(column);
       const VectorXd a = response.a.col(column);
       MotionEnergy energy{.kinetic = v.dot(M * v) / 2, .strain = q.dot(K * q) / 2};
-      // The work of a variable load is not integrated here.
+      // The work of a variable load would require an integral over time and is not computed.
       energy.work = options_.load_history.constant() ? f.dot(q - q0) : kNaN;
-      // The remaining energy has been dissipated. Without damping it is the round-off error.
+      // The missing energy has been dissipated. Without damping, it is only round-off error.
       if (follower_.damped())
         energy.dissipated = strain_at_start + energy.work - energy.kinetic - energy.strain;
       record_exact({0, times[i], q, v, a, energy}, times[i], evidence);
@@ -203,7 +199,8 @@ class MotionSolver {
   }
 
   void find_first_frequency() {
-    const ModalSolution modes = solve_modes(moving_.start(), {.count = 4});  // three may be rigid
+    // Up to three modes are rigid.
+    const ModalSolution modes = solve_modes(moving_.start(), {.count = 4});
     const auto first = std::find_if(modes.frequency.begin(), modes.frequency.end(),
                                     [](double frequency) { return frequency > 0; });
     if (first == modes.frequency.end()) return;
@@ -212,9 +209,9 @@ class MotionSolver {
         damping_ratio(options_.damping, 2 * std::numbers::pi * *first);
   }
 
-  /// Starts quasi-statically with the rates of T: solves K q = f - T^T C u., with the velocity of
-  /// the solution of K q = f. Elastic inertia is omitted, because each of its terms depends on the
-  /// choice of free coordinates.
+  /// Computes a quasi-static start with the time derivative of the constraint matrix T. It solves K
+  /// q = f - T^T C u., where u. is the velocity of the solution of K q = f. Elastic inertia is
+  /// omitted, because each of its terms depends on the choice of free coordinates.
   Outcome start_with_rates(TransientOptions& time, Counters& counters) {
     EquationOfMotion equation = this->equation();
     equation.C = {};
@@ -233,8 +230,8 @@ class MotionSolver {
       return outcome;
     const VectorXd drag = follower_.forces(time.q0, time.v0, zero).working.drag;
     const VectorXd f = follower_.load() - moving_.constraints().T.transpose() * drag;
-    // T. q depends on q. Among the consistent velocities, use the one that does not change the
-    // strains.
+    // The part T. q of the velocity u. = T v + T. q changes with q. Correct v so that the rates of
+    // the strains remain unchanged.
     VectorXd q, change;
     if (!follower_.solve_statically(f, q) ||
         !follower_.solve_statically(moving_.K_T_dot() * (q - time.q0), change)) {
@@ -246,7 +243,7 @@ class MotionSolver {
   }
 
   /// Returns true if the computed work depends on the choice of free coordinates. This is the case
-  /// if inextensible links move and the rates of T are omitted.
+  /// if inextensible links move and the terms of the time derivatives of T are omitted.
   [[nodiscard]] bool work_depends_on_axes() const {
     return !options_.gyroscopic && !follower_.is_at_rest() &&
            std::ranges::any_of(moving_.constraints().rows, [](const ConstraintRow& row) {
@@ -254,7 +251,7 @@ class MotionSolver {
            });
   }
 
-  /// Integrates with a time scheme.
+  /// Integrates the equation of motion with a time scheme.
   void integrate() {
     TransientOptions time = options_.time;
     Counters start;
@@ -273,12 +270,12 @@ class MotionSolver {
     solution_.evidence = solution_.summary.evidence;
   }
 
-  /// Moves the follower to the time whose loads act on the sample, and records the state. It
-  /// records nothing if the pose is out of reach.
+  /// Updates pose and loads to `load_time` and records the state of the sample. Nothing is recorded
+  /// if the pose is out of reach.
   void record(const MotionSample& sample, double load_time) {
     if (!follower_.update_to(load_time)) return;
     const MovingSystem::Forces forces = follower_.forces(sample.q, sample.v, sample.a);
-    if (sample.index < 0) {  // end of a step that contains samples
+    if (sample.index < 0) {  // end of a time step: only update the balance
       static_cast<void>(postprocess_motion(moving_, sample.q, forces, balance_));
       return;
     }
@@ -286,7 +283,7 @@ class MotionSolver {
     solution_.nominal.push_back(follower_.point());
     solution_.nominal.back().time = sample.time;
     solution_.energy.push_back(sample.energy);
-    // Massless coordinates do not yet follow a load that starts or jumps.
+    // Skip the balance when a load starts or jumps: massless coordinates do not follow it at once.
     const std::vector<double>& jumps = options_.load_history.time;
     const bool jumps_here = std::ranges::find(jumps, sample.time) != jumps.end();
     const bool begins =
@@ -299,7 +296,8 @@ class MotionSolver {
     update_effect_numbers();
   }
 
-  /// Returns the static displacement of P, as a row (ux, uy [m], rotation [rad]).
+  /// Returns the displacement of P without elastic inertia and damping (ux, uy [m], rotation
+  /// [rad]).
   [[nodiscard]] Vector3d quasi_static_displacement(const StaticSolution& state) {
     const Index P = moving_.start().model.find_node("P");
     if (!options_.elastic_inertia) return state.displacement.row(P);
@@ -341,10 +339,8 @@ class MotionSolver {
   double max_angular_velocity_ = 0, max_velocity_ = 0, max_acceleration_ = 0;
 };
 
-/// Returns the rotation that best fits the displacements of C1 C2 C3 [rad].
-/// @param geometry  dimensions.
-/// @param phi  orientation of the platform [rad].
-/// @param displacement  C1 C2 C3 x (ux, uy) [m].
+/// Returns the rotation that best fits the displacements (ux, uy) of C1, C2 and C3, at the platform
+/// orientation phi [rad].
 double mean_platform_rotation(const ManipulatorGeometry& geometry, double phi,
                               const Eigen::Matrix<double, 3, 2>& displacement) {
   const auto& C = geometry.platform;
@@ -369,7 +365,7 @@ ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options
 }
 
 void set_platform_motion(const ManipulatorGeometry& geometry, ElastodynamicsSolution& solution) {
-  constexpr Index kC = 6, kP = 9;  // nodes of the built model
+  constexpr Index kC = 6, kP = 9;  // indices of the nodes C1 and P in a built model
   const Index n = std::ssize(solution.state);
   solution.deflection.resize(n, 2);
   solution.tangential_error.resize(n);
@@ -393,8 +389,8 @@ void set_platform_motion(const ManipulatorGeometry& geometry, ElastodynamicsSolu
 
 namespace {
 
-/// Returns the end forces of the elements, including the tension of inextensible members, which is
-/// a constraint force.
+/// Returns the end forces of the frame elements. They include the tension of inextensible members,
+/// which is a constraint force.
 Eigen::Matrix<double, 6, Eigen::Dynamic> end_forces(const MovingSystem& moving,
                                                     const MovingSystem::Forces& forces,
                                                     const VectorXd& multipliers) {

@@ -16,9 +16,10 @@
 ///
 ///   \f[ M \ddot q + (C + G) \dot q + (K + S) q = T^T F + f(t), \quad C = w_1 M + w_2 K. \f]
 ///
-/// The joints follow the path exactly. F is the load on the platform, and f the inertia load of the
-/// nominal motion. G and S are the gyroscopic, centrifugal and Euler terms of the moving links
-/// (moving_system.h), which form a separate effect.
+/// The actuators follow the nominal motion exactly. q are the elastic displacements relative to
+/// this motion. F is the load on the platform, and f the inertia load of the nominal motion. G and
+/// S are the gyroscopic, centrifugal and Euler terms of the moving links (moving_system.h), which
+/// form a separate effect.
 namespace trammel::solver {
 
 /// Options of an elastodynamic analysis.
@@ -28,63 +29,67 @@ struct ElastodynamicsOptions {
   Vector3d wrench = Vector3d::Zero();  ///< on the platform at P, world axes (Fx, Fy [N], M [N m])
   LoadHistory load_history;  ///< factor on the wrench only; weight and inertia do not change
   Vector2d gravity = Vector2d::Zero();                        ///< in the plane [m/s^2]
-  RayleighDamping damping{.mass = 0.02, .stiffness = 0.003};  ///< as printed, Eq. 19
+  RayleighDamping damping{.mass = 0.02, .stiffness = 0.003};  ///< as printed in paper Eq. 19
 
-  bool nominal_inertia = true;  ///< f, Eq. 14-17
-  bool elastic_inertia = true;  ///< M q.. and damping; off: quasi-static, K q = F + f
-  bool gyroscopic = false;      ///< G and S; requires elastic inertia
+  bool nominal_inertia = true;  ///< true: inertia load f of the nominal motion, Eq. 14-17
+  bool elastic_inertia = true;  ///< true: M q.. and damping; false: quasi-static, K q = F + f
+  bool gyroscopic = false;      ///< true: terms G and S of moving links; requires elastic inertia
 
-  /// Start, end, step, scheme, error control and samples. The motion starts quasi-statically
-  /// (`quasi_static_start`) or at rest.
+  /// Start, end, step, scheme, error control and sample times of the integration. The motion starts
+  /// quasi-statically (`quasi_static_start`) or at rest.
   TransientOptions time;
   /// true: exact response by superposition of all modes instead of a time scheme. It requires a
   /// platform at rest, so that the matrices are constant.
   bool modal_superposition = false;
 };
 
-/// Dimensionless numbers that indicate the importance of effects, as the largest over the samples.
-/// NaN if a number is undefined, because there is no elastic mode or the stiffness is singular.
+/// Numbers that indicate the importance of inertia and gyroscopic effects: the largest values over
+/// all samples. They are NaN if there is no elastic mode or the stiffness is singular.
 struct ElastodynamicsEffects {
   double first_frequency = kNaN;  ///< lowest elastic frequency at the start [Hz]
-  double damping_ratio = kNaN;    ///< damping ratio of that mode
-  double nominal_inertia = 0;     ///< |f| / |T^T F| in the norm of K^-1; infinite without a load
-  double elastic_inertia = 0;     ///< path frequency over the first frequency, squared
-  /// Twice the largest angular velocity of a part over the first angular frequency.
+  double damping_ratio = kNaN;    ///< damping ratio of the lowest elastic mode
+  /// Nominal inertia load over load, |f| / |T^T F| in the norm of K^-1; infinite without a load.
+  double nominal_inertia = 0;
+  /// Square of the path frequency (acceleration over velocity) over the first elastic frequency.
+  double elastic_inertia = 0;
+  /// Twice the largest angular velocity of links and platform over the first angular frequency.
   double gyroscopic = 0;
 };
 
 /// Solution of an elastodynamic analysis. Each vector has one entry per sample, in the order of
 /// `time`.
 struct ElastodynamicsSolution {
-  Outcome outcome;  ///< a pose is out of reach or singular, or the outcome of `summary`
+  Outcome outcome;  ///< failure at a singular or unreachable pose, or the outcome of `summary`
   Evidence evidence;
   TransientSummary summary;
   std::vector<double> time;              ///< [s]
-  std::vector<TrajectoryPoint> nominal;  ///< nominal motion of P
-  /// Results of `solve_statics` in motion. Displacements are relative to the nominal position.
-  /// Reactions and section forces are in equilibrium with inertia and damping. The stress of a
-  /// member is the largest at the ends of its elements. `q` are the free coordinates.
+  std::vector<TrajectoryPoint> nominal;  ///< nominal motion of the platform
+  /// Displacements, reactions, section forces and stresses. Displacements are relative to the
+  /// nominal position. Reactions and section forces are in equilibrium with inertia and damping.
+  /// The stress of a member is the largest at the ends of its elements. `q` are the free
+  /// coordinates.
   std::vector<StaticSolution> state;
-  Eigen::MatrixX2d deflection;  ///< of P, world axes [m]
-  /// Deflection of P without elastic inertia and damping, K q = F + f [m]; NaN for a mechanism.
+  Eigen::MatrixX2d deflection;  ///< elastic displacement of P, world axes [m]
+  /// Deflection of P without elastic inertia and damping, K q = F + f [m]; NaN if K is singular.
   Eigen::MatrixX2d quasi_static_deflection;
   /// Deflections of P along the nominal velocity and to the left of it [m]; NaN at zero velocity.
   Eigen::VectorXd tangential_error, normal_error;
   Eigen::VectorXd platform_rotation;  ///< mean elastic rotation of C1 C2 C3 about P [rad]
-  Eigen::MatrixX3d torque;  ///< torques of the actuators on the proximal links: reactions [N m]
-  Eigen::MatrixX3d rigid_torque;  ///< torques with rigid links and free passive joints [N m]
-  /// Energies. The work is NaN if inextensible links move without gyroscopic terms.
+  Eigen::MatrixX3d torque;            ///< torques of the actuators on the proximal links [N m]
+  Eigen::MatrixX3d rigid_torque;      ///< torques with rigid links and free passive joints [N m]
+  /// Energies of the elastic motion. The work is NaN if links are inextensible and the platform
+  /// moves without gyroscopic terms, because the work then depends on the choice of coordinates.
   std::vector<MotionEnergy> energy;
   ElastodynamicsEffects effects;
 };
 
-/// Computes the elastic motion.
+/// Computes the elastic motion of the manipulator along its path.
 /// @throws ModelError  as `build_manipulator`, `at` and `solve_transient`; also for modal
 ///   superposition of a moving platform, and for gyroscopic terms without elastic inertia.
 [[nodiscard]] ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options);
 
-/// Computes deflection, path errors, platform rotation and actuator torques from states and nominal
-/// motion.
+/// Computes deflection, path errors, platform rotation and actuator torques of a solution from its
+/// states and its nominal motion.
 void set_platform_motion(const ManipulatorGeometry& geometry, ElastodynamicsSolution& solution);
 
 }  // namespace trammel::solver

@@ -22,17 +22,17 @@ namespace {
 namespace odeint = boost::numeric::odeint;
 using State = Eigen::Matrix<double, 7, 1>;  // pose, velocity, work of torques and wrench
 
-/// Local error of a step relative to the tolerance, as defined in ForwardOptions. Odeint accepts a
-/// step if it is at most 1.
+/// Local error of a time step relative to the tolerance, as defined in ForwardOptions. Odeint
+/// accepts the step if this ratio is at most 1.
 struct ErrorNorm {
   double tolerance;
-  double duration;  ///< of the motion [s]
-  double radius;    ///< of the platform, which scales rotations [m]
+  double duration;  ///< duration of the motion [s]
+  double radius;    ///< platform radius, by which rotations are multiplied [m]
 
   template <class Algebra>
   double error(Algebra&, const State& y, const State&, const State& error, double) const {
     if (!error.allFinite()) return std::numeric_limits<double>::infinity();
-    // Largest position (first = 0) or velocity (first = 3).
+    // Returns the largest pose coordinate (first = 0) or velocity (first = 3) of a state x.
     const auto size = [this](const State& x, Index first) {
       return x.segment<3>(first).cwiseProduct(Vector3d(1, 1, radius)).cwiseAbs().maxCoeff();
     };
@@ -59,14 +59,14 @@ class MotionIntegrator {
         duration_(end - start.time),
         stepper_(ErrorNorm{options.tolerance, duration_, platform_radius(manipulator.geometry)}),
         t_(start.time),
-        h_(1e-3 * duration_) {  // initial step; the error control adjusts it
+        h_(1e-3 * duration_) {  // initial time step; the error control adjusts it
     y_ << start.pose.vector(), start.velocity, 0;
     result.outcome = evaluate(t_, y_, rate_);
     side_ = side();
     if (result.outcome.solved()) add_evidence();
   }
 
-  /// Adds the residuals of the current state.
+  /// Adds the residuals of equation of motion, loop closure and energy balance at the current time.
   void add_evidence() {
     const InverseDynamics now = inverse_dynamics(manipulator_, point(), wrench_);
     const RigidTerms terms = rigid_terms(manipulator_, pose(), y_.segment<3>(3));
@@ -89,7 +89,7 @@ class MotionIntegrator {
     largest_imbalance_ = nan_max(largest_imbalance_, std::abs(change - y_(6)));
   }
 
-  /// Adds the residuals of the complete motion and returns the result.
+  /// Adds the residual of the energy balance over the complete motion and returns the result.
   [[nodiscard]] ForwardDynamics finish() {
     const double size = energy_size_ + turnover_;
     result.evidence.add(Residual::energy, size > 0 ? largest_imbalance_ / size : 0);
@@ -99,11 +99,11 @@ class MotionIntegrator {
     return std::move(result);
   }
 
-  /// Integrates to the time `end`. The last step is shortened to end there.
+  /// Integrates to the time `end`. The last time step is shortened to end at this time.
   void advance(double end) {
     while (result.outcome.solved() && t_ < end) {
       if (result.steps + result.rejected >= max_steps_) {
-        stop(Status::not_converged, "the limit of the number of steps was reached");
+        stop(Status::not_converged, "the limit of the number of time steps was reached");
       } else {
         step(end);
       }
@@ -131,7 +131,7 @@ class MotionIntegrator {
     const bool last = t_ + 1.01 * h_ >= end;
     const double tried = last ? end - t_ : h_;
     double h = tried;
-    Outcome stages;  // stages after a singular one are not evaluated
+    Outcome stages;  // Runge-Kutta stages; after a singular one they are skipped
     const auto system = [&](const State& y, State& rate, double t) {
       if (stages.solved()) {
         stages = evaluate(t, y, rate);
@@ -143,7 +143,7 @@ class MotionIntegrator {
       ++result.steps;
       if (side() * side_ < 0) stop(Status::singular, kSingularity);
       if (last) t_ = end;
-      h_ = tried < h_ ? std::max(h_, h) : h;  // a shortened step does not reduce the next one
+      h_ = tried < h_ ? std::max(h_, h) : h;  // a shortened last step does not reduce the next step
       return;
     }
     ++result.rejected;
@@ -151,15 +151,15 @@ class MotionIntegrator {
     if (h > 16 * kEps * std::max(duration_, std::abs(t_))) return;
     if (stages.solved()) {
       stop(Status::not_converged,
-           "the step has become smaller than the round-off error of the time");
+           "the time step has become smaller than the round-off error of the time");
     } else {
       stop(Status::singular, stages.reason);
     }
   }
 
-  /// Returns the determinant whose sign differs between the two sides of a parallel singularity.
-  /// The equations in the actuator angles have no solution at the singularity. A step may jump over
-  /// it, depending on round-off.
+  /// Returns det J_x, whose sign changes at a parallel singularity. The equations in the actuator
+  /// angles have no solution at the singularity. A time step may jump over the singularity,
+  /// depending on round-off.
   [[nodiscard]] double side() const { return parallel_determinant(manipulator_.geometry, pose()); }
 
   static constexpr const char* kSingularity =
@@ -176,12 +176,12 @@ class MotionIntegrator {
   const std::function<Vector3d(double)>& torque_;
   const Vector3d wrench_;
   const Index max_steps_;
-  const double duration_;  // of the motion [s]
+  const double duration_;  // duration of the motion [s]
   ControlledStepper stepper_;
   double t_, h_;
   double start_energy_ = kNaN, energy_size_ = 0, largest_imbalance_ = 0;
   double last_work_ = 0, turnover_ = 0;
-  double side_ = 0;  // at the start
+  double side_ = 0;  // det J_x at the start of the motion
   State y_, rate_;
 };
 
@@ -211,7 +211,7 @@ ForwardDynamics forward_dynamics(const RigidManipulator& m, const TrajectoryPoin
                                  const std::function<Vector3d(double)>& torque,
                                  const std::vector<double>& times, const Vector3d& wrench,
                                  const ForwardOptions& options) {
-  if (!(options.tolerance > 0)) throw ModelError("the tolerance of the motion must be positive");
+  if (!(options.tolerance > 0)) throw ModelError("the integration tolerance must be positive");
   double last = start.time;
   for (const double t : times) {
     if (!(t >= last) || !std::isfinite(t))

@@ -10,11 +10,11 @@
 /// Forward dynamics: motion of the rigid manipulator from actuator torques.
 namespace trammel::solver {
 
-/// Acceleration of the platform.
+/// Acceleration of the rigid manipulator's platform under actuator torques.
 struct PlatformAcceleration {
-  Outcome outcome;        ///< as RigidTerms
+  Outcome outcome;        ///< singular: the pose is out of reach or singular
   Vector3d acceleration;  ///< (xddot, yddot [m/s^2], phiddot [rad/s^2]); NaN unless solved
-  double power = 0;       ///< of torques and wrench [W]; NaN unless solved
+  double power = 0;       ///< power of actuator torques and wrench [W]; NaN unless solved
 };
 
 /// Computes the acceleration of the platform from the equation of motion of the actuator angles:
@@ -22,7 +22,7 @@ struct PlatformAcceleration {
 ///   Mh theta_a.. = torque + (dx/dtheta_a)^T wrench - Ch theta_a. - Nh,
 ///   x.. = G theta_a.. + G. theta_a.
 ///
-/// G consists of the last three rows of W.
+/// Mh, Ch, Nh and W are those of RigidTerms. G = dx/dtheta_a consists of the last three rows of W.
 [[nodiscard]] PlatformAcceleration forward_acceleration(const RigidManipulator& manipulator,
                                                         const Pose& pose, const Vector3d& velocity,
                                                         const Vector3d& torque,
@@ -30,17 +30,17 @@ struct PlatformAcceleration {
 
 /// Options of forward dynamics.
 struct ForwardOptions {
-  /// Allowed local error of a step [-]. Positions are relative to the largest position, but at
-  /// least the platform radius. Velocities are relative to the largest velocity, but at least the
-  /// radius over the duration of the motion.
+  /// Allowed local error of a time step [-]. Errors of the pose are relative to its largest
+  /// coordinate, or to the platform radius if that is larger. Errors of velocities are relative to
+  /// the largest velocity, or to the platform radius over the duration of the motion.
   double tolerance = 1e-10;
-  Index max_steps = 100000;  ///< limit, including rejected steps
+  Index max_steps = 100000;  ///< limit of the number of time steps, including rejected ones
 };
 
-/// Motion from forward dynamics.
+/// Motion of the rigid manipulator under actuator torques.
 struct ForwardDynamics {
-  /// singular: as RigidTerms, or a step passes a parallel singularity at the time that the reason
-  /// states. not_converged: too many steps, or the evidence does not support the motion.
+  /// singular: a pose is out of reach or singular, or a step passes a parallel singularity. The
+  /// reason states the time. not_converged: too many steps, or a residual exceeds its limit.
   Outcome outcome;
   std::vector<TrajectoryPoint> motion;  ///< at the requested times, until the end or a failure
   Index steps = 0;
@@ -52,15 +52,15 @@ struct ForwardDynamics {
   Evidence evidence;
 };
 
-/// Integrates pose and velocity of the platform. The loops remain closed without constraints. The
-/// method is the embedded pair of Dormand and Prince (1980), order 5(4), with local extrapolation
-/// (Boost.Odeint).
-/// @param manipulator  rigid bodies.
+/// Integrates pose and velocity of the platform over time. These coordinates close the loops
+/// without constraint equations. The method is the embedded Runge-Kutta pair of Dormand and Prince
+/// (1980), order 5(4), with local extrapolation (Boost.Odeint).
+/// @param manipulator  rigid bodies of the manipulator.
 /// @param start   pose and velocity at start.time [s].
 /// @param torque  torques of the actuators at a time [N m].
 /// @param times   ascending, not before start.time [s].
 /// @param wrench  constant load on the platform at P (Fx, Fy [N], moment [N m]).
-/// @param options  tolerance and limit of steps.
+/// @param options  error tolerance and limit of the number of time steps.
 /// @throws ModelError  if the times do not ascend or the tolerance is not positive.
 [[nodiscard]] ForwardDynamics forward_dynamics(const RigidManipulator& manipulator,
                                                const TrajectoryPoint& start,

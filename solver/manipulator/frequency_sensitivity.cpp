@@ -37,16 +37,15 @@ void seed(Dual* x) {
   if (x != nullptr) *x = with_derivative(value(*x), 1);
 }
 
-/// Section and length of a link with their derivatives, as required by the elements.
+/// Section, direction and length of a link with their derivatives by one parameter.
 struct SeededLink {
   SectionOf<Dual> section;
   Eigen::Vector2<Dual> direction;
   Dual length;
 };
 
-/// Design whose numbers carry derivatives with respect to one parameter at a fixed pose. The
-/// derivatives cover the sections and links of the elements. d/dp is 1 for the numbers to which the
-/// parameter refers.
+/// Links and platform of a design with derivatives by one parameter p at a fixed pose. The
+/// properties to which p refers have the derivative 1.
 struct SeededDesign {
   std::array<SeededLink, 6> links;  ///< in the order of the members of the built model
   PlatformMassOf<Dual> platform_mass;
@@ -82,8 +81,8 @@ SeededDesign seed_design(const ManipulatorDesign& design, const Posture& posture
     const Dual b = with_derivative(g.distal[i], length && parameter.distal[i] ? 1 : 0);
     const Eigen::Vector2<Dual> A = g.base[i].cast<Dual>();
     const Eigen::Vector2<Dual> C = posture.C[i].cast<Dual>();
-    // The angles of a straight limb change infinitely fast with its lengths, but not with other
-    // parameters.
+    // The angles of a straight limb change infinitely fast with its link lengths. Other parameters
+    // do not change them.
     const Eigen::Vector2<Dual> B =
         derivative(a) == 0 && derivative(b) == 0
             ? Eigen::Vector2<Dual>(posture.B[i].cast<Dual>())
@@ -94,7 +93,8 @@ SeededDesign seed_design(const ManipulatorDesign& design, const Posture& posture
   return seeded;
 }
 
-/// Returns the rows of the coordinates. Missing coordinates (-1) have zeros.
+/// Returns the rows of the modes U for the coordinates of an element. Missing coordinates (-1) have
+/// zeros.
 template <std::size_t n>
 Eigen::Matrix<double, static_cast<int>(n), Eigen::Dynamic> gather_modes(
     const std::array<Index, n>& coordinates, const MatrixXd& U) {
@@ -120,7 +120,8 @@ class SetDerivative {
     }
   }
 
-  /// Returns the matrix, mode x mode, symmetric. It is not finite if a limb is straight or folded.
+  /// Returns U^T (dK/dp - w^2 dM/dp) U, mode x mode. It is not finite if a limb is straight or
+  /// folded.
   [[nodiscard]] MatrixXd of(const SeededDesign& design) const {
     MatrixXd sum = MatrixXd::Zero(U_.cols(), U_.cols());
     for (const FrameElement& e : system_.mesh.frame)
@@ -145,8 +146,8 @@ class SetDerivative {
     sum += rates_of(strain) - omega_squared_ * rates_of(inertia);
   }
 
-  /// Adds the effect of eliminated coordinates. Their constraints C u = 0 depend on p, which
-  /// contributes - mu^T dC/dp u twice.
+  /// Adds the effect of inextensible elements. Their constraints C u = 0 with multipliers mu depend
+  /// on p, which contributes - mu^T dC/dp u twice.
   void add_constraints(const SeededDesign& design, MatrixXd& sum) const {
     for (std::size_t r = 0; r < system_.constraints.rows.size(); ++r) {
       const ConstraintRow& row = system_.constraints.rows[r];
@@ -176,7 +177,8 @@ class SetDerivative {
           gather_modes(system_.coordinates.node[static_cast<std::size_t>(lump.node)], U_);
       sum -= omega_squared_ * (u.transpose() * dm * u);
     }
-    // Use the deformations, which remain small next to the rigid motion of a stiff plate.
+    // Deformations are accurate even if they are small compared with the rigid motion of a stiff
+    // plate.
     for_each_plate_deformation(system_, [&](const auto& coordinates, const auto& B, const auto& c) {
       const Eigen::MatrixXd strain = B * gather_modes(coordinates, U_);
       sum += stiffness * (strain.transpose() * c.asDiagonal() * strain);
@@ -194,11 +196,11 @@ class SetDerivative {
   MatrixXd multipliers_;  // constraint row x mode
 };
 
-/// Relative difference below which frequencies are treated as repeated. Mode shapes with a larger
-/// difference are accurate to the round-off error of the modes over this difference.
+/// Relative difference below which frequencies are treated as repeated. For a larger difference,
+/// the error of the mode shapes is the round-off error of the modes divided by this difference.
 constexpr double kSameFrequency = 1e-7;
 
-/// Computes enough modes to complete the last requested set of repeated frequencies.
+/// Computes at least `count` modes, and enough to complete the last set of repeated frequencies.
 ModalSolution whole_sets(const System& system, Index count) {
   constexpr Index kSpareModes = 3;
   const Index all = system.K.rows();
@@ -212,7 +214,7 @@ ModalSolution whole_sets(const System& system, Index count) {
 }
 
 /// Returns the difference between the frequencies of a set and the nearest other frequency. It is
-/// relative to the frequency of the set, unless that is zero.
+/// divided by the frequency of the set unless this frequency is zero.
 double relative_gap(const VectorXd& frequency, const FrequencySet& set) {
   const double f = frequency[set.first];
   const Index end = set.first + set.count;
@@ -222,14 +224,8 @@ double relative_gap(const VectorXd& frequency, const FrequencySet& set) {
   return f > 0 ? gap / f : gap;
 }
 
-/// Computes the derivatives of one set of repeated frequencies for the parameters with a seeded
-/// design.
-/// @param system  assembled model.
-/// @param modes  modes of the system.
-/// @param set  set of equal frequencies.
-/// @param shown  number of derivatives to store, the first of the set.
-/// @param designs  seeded design of each parameter, or empty.
-/// @param result  receives the derivatives.
+/// Computes the derivatives of one set of repeated frequencies by every parameter that has an entry
+/// in `designs`. Stores the lowest `shown` derivatives of the set in `result`.
 Outcome differentiate_set(const System& system, const ModalSolution& modes, const FrequencySet& set,
                           Index shown, const std::vector<std::optional<SeededDesign>>& designs,
                           FrequencySensitivity& result) {

@@ -9,8 +9,8 @@
 
 namespace trammel::solver {
 
-/// Parameter of the design or the pose. It may refer to several lengths or properties, which change
-/// by the same amount.
+/// Parameter of the design or the pose, by which frequencies are differentiated. It may refer to
+/// the same property of several links, which changes by the same amount in all of them.
 struct DesignParameter {
   enum class Kind {
     length,
@@ -18,24 +18,24 @@ struct DesignParameter {
     width,
     E,
     density,
-    poisson_ratio,             ///< of links and platform
-    base_side,                 ///< A1-A2; the base is scaled about A1
-    platform_side,             ///< C1-C2; the platform is scaled about P
-    platform_mass,             ///< changed like a printed mass; a printed inertia is unchanged
-    platform_inertia,          ///< about P, changed like a printed inertia; rigid platform only
-    active_stiffness,          ///< of the springs at A
-    elbow_stiffness,           ///< of the springs at B
-    platform_joint_stiffness,  ///< of the springs at C
-    orientation                ///< phi of the pose
+    poisson_ratio,     ///< Poisson's ratio of links and platform
+    base_side,         ///< side A1-A2; the base is scaled about A1
+    platform_side,     ///< side C1-C2; the platform is scaled about P
+    platform_mass,     ///< mass, changed like a printed mass; a printed inertia is unchanged
+    platform_inertia,  ///< inertia about P, changed like a printed one; rigid platform only
+    active_stiffness,  ///< stiffness of the torsion springs at A
+    elbow_stiffness,   ///< stiffness of the torsion springs at B
+    platform_joint_stiffness,  ///< stiffness of the torsion springs at C
+    orientation                ///< orientation phi of the platform
   };
   Kind kind = Kind::length;
   std::array<bool, 3> proximal{true, true, true};
   std::array<bool, 3> distal{true, true, true};
-  bool platform = false;  ///< true: also thickness, E, density or Poisson's ratio of the platform
+  bool platform = false;  ///< true: includes thickness, E, density or nu of the platform
 };
 
-/// Returns true for parameters with exact derivatives of sections and links: lengths, thickness,
-/// width, E and density.
+/// Returns true for parameters with exact derivatives by dual numbers: lengths, thickness, width, E
+/// and density.
 [[nodiscard]] inline bool is_seeded(DesignParameter::Kind kind) {
   return kind <= DesignParameter::Kind::density;
 }
@@ -67,14 +67,14 @@ template <class T>
 
 }  // namespace detail
 
-// Derivatives of the natural frequencies of the manipulator with respect to its design (paper Eq.
-// 30-35): //
+// Derivatives of natural frequencies f (mode shapes x) by design parameters p (paper Eq. 30-35):
+//
 //   d f / dp = (1 / 8 pi^2 f) x^T (dK/dp - (2 pi f)^2 dM/dp) x,   x^T M x = 1.
 //
 // The pose is fixed, so that the joint angles change with the link lengths. dK/dp and dM/dp are
-// exact: dual numbers (numbers.h) pass through the functions of the builder and the elements. They
-// are NaN for parameters other than those of sections and links (`is_seeded`). The design
-// determines whether the mass of a link is a fixed total or follows from its density.
+// exact, because sections and elements are computed with dual numbers (numbers.h). Derivatives by
+// parameters without dual numbers (`is_seeded`) are NaN. The mass of a link follows from its
+// density unless the design contains a printed mass.
 
 /// Set of modes whose frequencies are equal up to round-off. Their shapes are an arbitrary basis of
 /// a subspace. Only the derivatives of all modes of the set together are meaningful.
@@ -83,33 +83,30 @@ struct FrequencySet {
   Index count = 1;
 };
 
-/// Groups equal frequencies.
+/// Groups modes into sets of equal frequencies.
 /// @param frequency  ascending [Hz].
 [[nodiscard]] std::vector<FrequencySet> equal_frequencies(const Eigen::VectorXd& frequency);
 
-/// Frequencies and their derivatives.
+/// Natural frequencies of a manipulator and their derivatives by design parameters.
 struct FrequencySensitivity {
-  /// singular: a limb is straight or folded, and the derivative is infinite; not_converged: as the
-  /// modes.
+  /// singular: a limb is straight or folded, and the derivative is infinite; not_converged: the
+  /// modes or their derivatives did not converge.
   Outcome outcome;
   Evidence evidence;          ///< residuals of the modes
   Eigen::VectorXd frequency;  ///< ascending [Hz]
   /// Derivatives, mode x parameter [Hz / unit of the parameter]. For a set of repeated frequencies
   /// they are directional derivatives: the eigenvalues of X^T (dK/dp - w^2 dM/dp) X over the set,
-  /// ascending. This is the order of the frequencies if p increases. Rigid modes have 0.
+  /// ascending. This is the order of the frequencies if p increases. Rigid modes have derivative 0.
   Eigen::MatrixXd derivative;
   std::vector<FrequencySet> sets;
-  /// Distance of each frequency from the nearest one outside its set, relative to the frequency
-  /// [-]. A small gap g costs about -log10(g) digits of the derivative.
+  /// Difference of each frequency from the nearest frequency outside its set, over the frequency
+  /// [-]. A small difference g costs about -log10(g) digits of the derivative.
   Eigen::VectorXd gap;
   Counters counters;
 };
 
-/// Computes the lowest frequencies and their derivatives.
-/// @param design  manipulator.
-/// @param pose  pose of the platform.
-/// @param parameters  parameters of the design.
-/// @param count  number of modes; if a set continues beyond, its lowest derivatives are returned.
+/// Computes the `count` lowest frequencies and their derivatives. If a set of equal frequencies
+/// continues beyond this number of modes, the lowest derivatives of the set are returned.
 /// @throws ModelError  as `build_manipulator`.
 [[nodiscard]] FrequencySensitivity frequency_sensitivity(
     const ManipulatorDesign& design, const Pose& pose,

@@ -27,15 +27,15 @@ double wrapped(double angle) {
   return a <= -std::numbers::pi ? std::numbers::pi : a;
 }
 
-/// Angles of the triangle A_i B_i C_i from its sides a = |A B|, b = |B C|, r = |A C|.
+/// Angle at A_i and sine of the angle at B_i in the triangle A_i B_i C_i of a limb.
 template <Real T>
 struct LimbAngles {
   T angle_at_A;
-  T elbow_sine;  ///< unsigned
+  T elbow_sine;  ///< absolute value of the sine of the angle at B_i
 };
 
-/// Returns x, or 0 if x is negative. If r exceeds the reach by round-off only, a factor is slightly
-/// negative, and the limb is straight.
+/// Returns x, or 0 if x is negative. A factor of Heron's formula is slightly negative if round-off
+/// makes a straight limb too short.
 template <Real T>
 T not_negative(const T& x) {
   return value(x) > 0 ? x : T(0);
@@ -61,7 +61,7 @@ T active_angle(const Vector2d& p_AC, const LimbAngles<T>& limb, int working_mode
   return std::atan2(p_AC.y(), p_AC.x()) + static_cast<double>(working_mode) * limb.angle_at_A;
 }
 
-/// Returns the reason why the limb cannot reach, or an empty text.
+/// Returns the reason why limb i cannot reach the platform, or an empty text if it can.
 std::string out_of_reach(std::size_t i, double a, double b, double r) {
   const double roundoff = 4 * kEps * (a + b + r), beyond = r - (a + b),
                within = std::abs(a - b) - r;
@@ -78,7 +78,7 @@ std::string out_of_reach(std::size_t i, double a, double b, double r) {
   return why.str();
 }
 
-/// Returns the dimensionless J_x, with unit rows and scaled rotation.
+/// Returns J_x without units: rows divided by distal lengths, rotation column by platform radius.
 Matrix3d scaled(const Jacobians& j) {
   Matrix3d s = j.parallel;
   s.col(2) /= j.platform_radius;
@@ -173,8 +173,8 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
   ForwardKinematics result{.outcome = {}, .pose = start};
   double last = std::numeric_limits<double>::infinity();
   for (; result.iterations < kMaxIterations; ++result.iterations) {
-    Matrix3d J;         // J_x as in `scaled`, with rows divided by the distal lengths
-    Vector3d residual;  // (|d|^2 - b^2) / 2b = |d| - b to first order [m]
+    Matrix3d J;         // J_x, rows divided by distal lengths, rotation column by `size`
+    Vector3d residual;  // length errors (|d|^2 - b^2) / 2b, |d| - b to first order [m]
     result.closure_error = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const auto k = static_cast<Index>(i);
@@ -196,8 +196,8 @@ ForwardKinematics forward_kinematics(const ManipulatorGeometry& g,
     }
     const Vector3d step = -correction.x;
     const double norm = step.norm();
-    // Newton's method converges quadratically until round-off. Then the corrections no longer
-    // decrease.
+    // Newton's method converges quadratically until round-off dominates. The corrections of the
+    // pose then no longer decrease, and the iteration ends.
     if (norm <= 4 * kEps * size || (norm <= 1e-12 * size && norm >= last / 2)) return result;
     last = norm;
     result.pose = pose_of(result.pose.vector() + step.cwiseProduct(Vector3d(1, 1, 1 / size)));

@@ -23,7 +23,7 @@ struct ElementChain {
     for (Index e = 0; e < elements; ++e) F.middleRows<6>(3 * e) += m * U.middleRows<6>(3 * e);
     return F;
   }
-  /// Returns U^T K U from the deformations, which are accurate for long waves.
+  /// Returns U^T K U. It is computed from deformations, which are accurate for long-wave modes.
   [[nodiscard]] MatrixXd strain_products(const MatrixXd& U) const {
     MatrixXd D(3 * elements, U.cols());
     for (Index e = 0; e < elements; ++e) {
@@ -41,9 +41,9 @@ MatrixXd motions_of(const std::vector<Index>& coordinates, const MatrixXd& value
   return U;
 }
 
-/// Returns the modes of the given coordinates on all nodes, with all other coordinates held. They
-/// have unit strain energy, in descending order of the period. Bending and stretching are uncoupled
-/// and solved separately, so that zeros remain exact.
+/// Returns the modes X of the given coordinates as motions of all nodes, with all other coordinates
+/// fixed. They satisfy X^T K X = I and are in descending order of the period. Bending and axial
+/// modes are uncoupled. They are computed separately, so that zeros remain exact.
 MatrixXd modes_of(const ElementChain& chain, const std::vector<Index>& coordinates) {
   const Index size = 3 * (chain.elements + 1);
   const auto count = static_cast<Index>(coordinates.size());
@@ -77,7 +77,8 @@ LinkSuperelement condense(const Member& member, double length) {
                      frame_rigidity(section, member.theory, part),
                      frame_mass(section, member.theory, member.mass, part)};
   if (!member.axially_flexible) chain.c[0] = 0;
-  // The static motion of a prismatic member equals the interpolation of a single element.
+  // The static response of the interior of a prismatic member equals the interpolation of one
+  // element.
   MatrixXd follows(3 * (n + 1), 6);
   const double phi = shear_ratio(section, member.theory, length);
   for (Index k = 0; k <= n; ++k) {

@@ -12,7 +12,7 @@ namespace trammel::solver {
 
 namespace {
 
-/// Node numbers of the built model: A1 A2 A3 B1 B2 B3 C1 C2 C3 P, then those of the plate.
+/// Indices of the nodes A1, B1, C1 and P in a built model. Nodes of the plate follow P.
 constexpr Index kA = 0;
 constexpr Index kB = 3;
 constexpr Index kC = 6;
@@ -32,14 +32,14 @@ double platform_area(const std::array<Vector2d, 3>& c) {
   return std::abs(cross(c[1] - c[0], c[2] - c[0])) / 2;
 }
 
-/// Returns false if the vertices are collinear, so that their area is only a round-off error.
+/// Returns false if the corners C_i are collinear: the area of their triangle is only round-off.
 bool has_area(const std::array<Vector2d, 3>& c) {
   const double size = std::max({(c[1] - c[0]).norm(), (c[2] - c[1]).norm(), (c[0] - c[2]).norm()});
   return platform_area(c) > 1e-12 * size * size;
 }
 
-/// Sets the end of a link at a joint. It is sprung, welded if the type of the joint equals `rigid`,
-/// or hinged otherwise.
+/// Sets the connection between a link end and its node according to the type of the joint. It is a
+/// spring for `sprung`, a weld for the type `rigid`, or a hinge otherwise.
 template <class Kind>
 void set_joint(const Joint<Kind>& joint, Kind rigid, const std::string& name, MemberEnd& end) {
   if (joint.kind == Kind::sprung) {
@@ -62,8 +62,8 @@ void check_platform_joints(const ManipulatorDesign& design) {
     const std::string C = numbered('C', i);
     if (is_eq25(kind)) {
       require(joints[0].kind == joints[1].kind && joints[1].kind == joints[2].kind,
-              "Eq. 25 relates the platform's rotation to all three link ends: choose the same "
-              "joint for C1, C2 and C3");
+              "Eq. 25 relates the platform's rotation to the rotations of all link ends: choose "
+              "the same joint type for C1, C2 and C3");
     }
     if (design.platform.kind == PlatformDesign::Kind::rigid) continue;
     for (const auto& [joint, problem] :
@@ -74,7 +74,7 @@ void check_platform_joints(const ManipulatorDesign& design) {
                                  ": a node of constant-strain triangles has no rotation; choose "
                                  "hinged, or a rigid platform");
     require(!is_eq25(kind),
-            "Eq. 25 gives the rotation of a rigid platform: one of triangles has no single "
+            "Eq. 25 gives the rotation of a rigid platform: a platform of triangles has no single "
             "rotation; choose hinged, or a rigid platform");
   }
 }
@@ -125,12 +125,13 @@ void add_rigid_platform(const ManipulatorDesign& design, const Eigen::Matrix2d& 
   model.constraints.push_back(std::move(eq25));
 }
 
-/// Adds the constraints u_pin = sum w_i u_i in x and in y.
+/// Adds the constraints of a pin to the plate nodes i within its radius, u_pin = sum w_i u_i in x
+/// and y.
 void add_pin(const TriangleMesh& mesh, std::size_t vertex, double radius, Index pin, Index first,
              Model& model) {
   const auto weights = pin_weights(mesh, mesh.nodes[vertex], radius);
-  // A link at C couples all nodes within its pin, which adds n^2 entries to the stiffness matrix. P
-  // carries only loads.
+  // The link at C couples all n nodes within the pin, which adds n^2 entries to the stiffness
+  // matrix. P carries only loads, so that the pin at P needs no limit.
   constexpr std::size_t kMaxNodes = 500;
   require(pin == kP || weights.size() <= kMaxNodes,
           "the pin at C" + std::to_string(pin - kC + 1) + " covers " +
@@ -169,9 +170,8 @@ void add_triangles(const ManipulatorDesign& design, const Pose& pose, const Eige
   const TriangleMesh mesh = platform_mesh(design.geometry.platform, Vector2d::Zero(),
                                           platform.refinements, platform.six_nodes);
   const bool pinned = platform.pin_radius > 0;
-  // Without pins, the first nodes C1, C2, C3, P of the mesh are nodes of the model. The model
-  // contains them in this order from kC, so that the mesh starts at kC. With pins, the mesh starts
-  // after P.
+  // Without pins, the first four mesh nodes C1, C2, C3, P are already model nodes, in this order
+  // from index kC. Mesh node n is then model node kC + n. With pins, the mesh nodes follow P.
   const Index first = pinned ? kP + 1 : kC;
   const std::size_t shared = pinned ? 0 : 4;
   for (std::size_t n = shared; n < mesh.nodes.size(); ++n)

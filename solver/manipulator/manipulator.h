@@ -9,26 +9,28 @@
 #include "solver/model/model.h"
 #include "solver/model/numbers.h"
 
-/// Builder of the 3-RRR manipulator. A geometry, a pose and the options that the paper does not
-/// specify define a Model.
+/// Builds the Model of a planar 3-RRR manipulator from its geometry, its pose and modeling options
+/// that the paper does not specify.
 namespace trammel::solver {
 
-/// Type of one joint and its stiffness, which is used by the type `sprung` only.
+/// Joint of the manipulator: its type and its stiffness. Only the type `sprung` uses the stiffness.
 template <class Kind>
 struct Joint {
   Kind kind{};
   double stiffness = 0;  ///< > 0 [N m/rad]
 };
 
-/// Joint at A_i. locked: clamped to the ground; sprung: torsion spring between ground and link.
+/// Type of the actuated joint at A_i, between ground and proximal link. locked: the link is clamped
+/// to the ground; free: the link rotates freely; sprung: a torsion spring connects link and ground.
 enum class ActiveKind { locked, free, sprung };
-/// Joint at B_i. The rotation of the node is that of the proximal link. A hinge or spring is at the
-/// end of the distal link.
+/// Type of the elbow joint at B_i, between proximal and distal link. The node B_i rotates with the
+/// proximal link. A hinge or a torsion spring connects the end of the distal link to this node.
 enum class ElbowKind { welded, hinged, sprung };
-/// Joint at C_i. hinged: Eq. 24 only. eq25_*: hinged, and Eq. 25 relates the platform rotation zeta
-/// to the rotations of the three link ends: zeta = mean, or zeta = sum as printed. All types except
-/// `hinged` require a rigid platform, because a node of triangles has no rotation. Eq. 25 is one
-/// equation for all three joints.
+/// Type of the joint at C_i, between distal link and platform. hinged: only the displacements of
+/// link and platform are equal (paper Eq. 24). eq25_*: hinged, and Eq. 25 sets the platform
+/// rotation zeta to the mean or, as printed, to the sum of the rotations of the three link ends.
+/// Eq. 25 is one equation for all three joints, which then have the same type. All types except
+/// `hinged` require a rigid platform, because a node of triangles has no rotation.
 enum class PlatformJointKind { hinged, welded, sprung, eq25_mean, eq25_sum };
 
 using ActiveJoint = Joint<ActiveKind>;
@@ -39,50 +41,52 @@ using PlatformJoint = Joint<PlatformJointKind>;
 /// derivative with respect to one parameter.
 template <class T>
 struct LinkDesignOf {
-  T thickness = T(0);  ///< in the plane [m]
-  T width = T(0);      ///< out of the plane [m]
+  T thickness = T(0);  ///< depth of the section, in the plane of motion [m]
+  T width = T(0);      ///< width of the section, perpendicular to the plane of motion [m]
   MaterialOf<T> material;
-  double shear_coefficient = 5.0 / 6.0;  ///< Timoshenko only
+  double shear_coefficient = 5.0 / 6.0;  ///< used by theories with shear deformation
   BeamTheory theory = BeamTheory::euler_bernoulli;
   MassMatrix mass_matrix = MassMatrix::consistent;
   Index elements = 4;
   bool axially_flexible = true;
-  /// Printed total, distributed over the length [kg]; empty: from density.
+  /// Printed total mass, distributed over the length [kg]. If empty, it follows from the density.
   std::optional<double> mass;
-  /// Printed inertia J [kg m^2]. J/2 turns with each end of the link for any mesh, in addition to
-  /// the inertia of the distributed mass. Empty: inertia of the distributed mass only.
+  /// Printed inertia J of the link [kg m^2]. J/2 rotates with each end of the link for any number
+  /// of elements, in addition to the inertia of the distributed mass. If empty, only the
+  /// distributed mass has inertia.
   std::optional<double> inertia;
 };
 using LinkDesign = LinkDesignOf<double>;
 
-/// Model of the platform: a rigid body, or a plate of triangles.
+/// Model of the platform: a rigid body, or an elastic plate meshed by triangles.
 enum class PlatformKind { rigid, triangles };
 
-/// Platform: a rigid body or a plate of triangles.
+/// Model, dimensions and material of the platform.
 template <class T>
 struct PlatformDesignOf {
   using Kind = PlatformKind;
   Kind kind = Kind::triangles;
   T thickness = T(0);  ///< [m]
   MaterialOf<T> material;
-  /// Triangles only. 0: the triangles C1 C2 P, C2 C3 P, C3 C1 P of the paper. Each refinement
-  /// splits every triangle into four.
+  /// Number of refinements of a platform of triangles. The mesh without refinement is that of the
+  /// paper: C1 C2 P, C2 C3 P, C3 C1 P. Each refinement splits every triangle into four.
   int refinements = 0;
-  bool six_nodes = false;  ///< triangles only: six-node triangles
-  /// Triangles only: pin radius [m]. If it is positive, P and C_i are no nodes of the mesh. They
-  /// move with a weighted mean of the plate within this radius (`pin_weights`). The response to a
-  /// force on them therefore converges under refinement. A pin at C_i may contain at most 500
-  /// nodes, because a link couples all of them.
+  bool six_nodes = false;  ///< true: a platform of triangles has six nodes per triangle
+  /// Radius of the pins at P and C_i of a platform of triangles [m]. If it is positive, P and C_i
+  /// are not nodes of the mesh. They move with a weighted mean of the plate within this radius
+  /// (`pin_weights`). The response to a force on a pin therefore converges under mesh refinement. A
+  /// pin at C_i may contain at most 500 mesh nodes, because its link couples all of them.
   double pin_radius = 0;
-  /// Printed mass [kg]; empty: from density, thickness and area. It scales the density.
+  /// Printed mass [kg], which replaces the density. Empty: the mass follows from the density.
   std::optional<double> mass;
-  /// Printed inertia about P [kg m^2]; rigid only. Empty: inertia of a uniform triangle with the
-  /// mass. The center of mass is the centroid of the triangle in both cases, for any P.
+  /// Printed inertia of a rigid platform about P [kg m^2]. If empty, it is the inertia of the
+  /// uniform triangle C1 C2 C3 with the mass of the platform. In both cases the center of mass is
+  /// the centroid of this triangle, for any position of P.
   std::optional<double> inertia;
 };
 using PlatformDesign = PlatformDesignOf<double>;
 
-/// Design of the manipulator.
+/// Design of the manipulator: dimensions, links, platform and joints.
 struct ManipulatorDesign {
   ManipulatorGeometry geometry;
   std::array<LinkDesign, 3> proximal, distal;
@@ -92,7 +96,7 @@ struct ManipulatorDesign {
   std::array<PlatformJoint, 3> platform_joint;
 };
 
-/// Mass properties of the uniform triangle C1 C2 C3, or the printed values.
+/// Mass properties of the platform: those of the uniform triangle C1 C2 C3, or the printed values.
 template <class T>
 struct PlatformMassOf {
   T mass = T(0);                       ///< [kg]
@@ -104,24 +108,22 @@ using PlatformMass = PlatformMassOf<double>;
 /// Returns the mass properties of the platform.
 /// @param platform  design of the platform.
 /// @param vertices  C1, C2, C3 relative to P in platform axes [m].
-/// @throws ModelError  if the triangle has no area, or the printed inertia is less than mass times
-///   squared distance of the center of mass from P.
+/// @throws ModelError  if the triangle C1 C2 C3 has no area and no mass is printed. Also if the
+///   printed inertia is less than the mass times the squared distance of the center of mass from P.
 template <Real T>
 [[nodiscard]] PlatformMassOf<T> platform_mass(const PlatformDesignOf<T>& platform,
                                               const std::array<Vector2d, 3>& vertices);
 /// Returns the mass properties of the platform of a design.
 [[nodiscard]] PlatformMass platform_mass(const ManipulatorDesign& design);
-/// Returns the section of a link.
-/// @param link  design of the link.
-/// @param length  length of the link [m].
-/// @throws ModelError  if a dimension or a constant is invalid.
+/// Returns the properties of the cross-section of a link of the given length [m].
+/// @throws ModelError  if a dimension or a material constant of the link is invalid.
 template <Real T>
 [[nodiscard]] SectionOf<T> link_section(const LinkDesignOf<T>& link,
                                         const std::type_identity_t<T>& length);
 
-/// Builds the planar model at a pose. It has no loads and no gravity. Its parts are:
+/// Builds the planar model of the manipulator at a pose, without loads and gravity. It contains:
 ///
-/// - nodes "A1".."A3", "B1".., "C1".., "P", then those of the plate;
+/// - nodes "A1".."A3", "B1".., "C1".., "P", then the other nodes of the plate;
 /// - members "A1-B1".., "B1-C1"..;
 /// - supports "A1".."A3";
 /// - rigid body or plate "platform";
@@ -130,7 +132,8 @@ template <Real T>
 /// @throws ModelError  if the pose is out of reach or a combination of options is invalid.
 [[nodiscard]] Model build_manipulator(const ManipulatorDesign& design, const Pose& pose);
 
-/// Returns the design without the effects that are not in `active`, before a model is built.
+/// Returns the design without the physical effects that are missing in `active`: springs become
+/// rigid joints, for example, and a plate becomes a rigid body.
 [[nodiscard]] ManipulatorDesign restrict_effects(ManipulatorDesign design, Effects active);
 
 }  // namespace trammel::solver

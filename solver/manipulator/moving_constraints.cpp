@@ -12,10 +12,11 @@ namespace {
 
 /// Limit of the entries of T. Larger entries amplify round-off by four digits.
 constexpr double kLargestT = 1e4;
-/// Fraction of the largest entry of a row of T below which an entry is round-off.
+/// Fraction of the largest entry of a row of T below which an entry is a round-off error.
 constexpr double kVanishing = 1e-11;
 
-/// Returns the part on whose rotation the coefficients of the row depend, or null.
+/// Returns the motion of the member or rigid body whose rotation changes the coefficients of a
+/// constraint row, or null.
 const PartMotion* part_of(const System& start, const ConstraintRow& row,
                           const NominalMotion& motion) {
   if (row.source == ConstraintRow::Source::inextensible)
@@ -25,7 +26,7 @@ const PartMotion* part_of(const System& start, const ConstraintRow& row,
   return nullptr;
 }
 
-/// Returns the coefficient of a term in a row, or its time derivative.
+/// Returns the coefficient of a term in a constraint row (order 0), or its time derivative (1, 2).
 double coefficient(const System& start, const ConstraintRow& row, std::size_t term,
                    const NominalMotion& motion, int order) {
   if (row.source == ConstraintRow::Source::inextensible) {
@@ -85,10 +86,10 @@ void MovingConstraints::find_dependent_rows() {
   select_dependent_ = columns(dependent_row_of_, std::ssize(dependent_rows_));
 }
 
-/// Extends the pattern of T by all entries that are nonzero at any pose. These are the entries that
-/// do not vanish at three arbitrary rotations of the parts. The pattern of C alone would contain
-/// more: each node of an inextensible member would follow all preceding nodes, whose contributions
-/// cancel numerically.
+/// Extends the sparsity pattern of T by all entries that are nonzero at any pose. They are found
+/// numerically at three arbitrary rotations of members and bodies. The pattern of C alone would
+/// lead to more entries. Each node of an inextensible member would then depend on all preceding
+/// nodes, whose contributions cancel.
 void MovingConstraints::extend_pattern(const System& start, const NominalMotion& motion) {
   auto& T = constraints_.T;
   Eigen::ArrayXX<bool> needed(static_cast<Index>(dependent_rows_.size()), T.cols());
@@ -118,8 +119,8 @@ void MovingConstraints::extend_pattern(const System& start, const NominalMotion&
   T_ddot_ = T_dot_;
 }
 
-/// Returns the product of the time derivative C^(order) and a matrix with one row per coordinate.
-/// Rows are dependent rows.
+/// Returns the product of C (order 0) or its time derivative (1, 2) and a matrix with one row per
+/// coordinate. Only the rows of C in dependent_rows_ are included.
 MatrixXd MovingConstraints::product(const System& start, const NominalMotion& motion, int order,
                                     const RowMajorMatrix& matrix) const {
   MatrixXd sum = MatrixXd::Zero(std::ssize(dependent_rows_), matrix.cols());
@@ -134,8 +135,7 @@ MatrixXd MovingConstraints::product(const System& start, const NominalMotion& mo
   return sum;
 }
 
-/// Returns X of C_p X = - C_f, which expresses the eliminated coordinates by the free ones: row x
-/// q.
+/// Returns X of C_p X = - C_f, which expresses the eliminated coordinates (rows) by the free ones.
 MatrixXd MovingConstraints::dependent_coordinates(const System& start,
                                                   const NominalMotion& motion) {
   pivots_.compute(product(start, motion, 0, select_dependent_));

@@ -44,7 +44,7 @@ NominalMotion nominal_motion(const Model& model, const InverseDynamics& dynamics
     for (const Index node : {limb, 3 + limb})
       place(node, A, {A, Vector2d::Zero(), Vector2d::Zero()}, motion.part[to_size(2 * limb)]);
   }
-  // The nodes C1 C2 C3, P and those of the plate turn with the platform.
+  // The nodes C1 C2 C3, P and the nodes of the plate rotate with the platform.
   const Carrier P = {point.pose.position(), point.velocity.head<2>(), point.acceleration.head<2>()};
   for (Index node = 6; node < std::ssize(model.nodes); ++node)
     place(node, from.segment<2>(6), P, motion.part.back());
@@ -59,15 +59,15 @@ double largest_angular_velocity(const NominalMotion& motion) {
 
 namespace {
 
-/// Returns the 3 x 3 matrix of the derivative of a rotation with respect to the angle, times the
-/// inverse rotation.
+/// Returns J = dR/dangle R^-1 of the rotation matrix R about the z axis.
 const Eigen::Matrix3d& generator() {
   static const Eigen::Matrix3d J = (Eigen::Matrix3d() << 0, -1, 0, 1, 0, 0, 0, 0, 0).finished();
   return J;
 }
 
-/// Adds int rho N^T X and int rho N^T (J X - X J6), where X = J N - N J6 is the derivative of W = R
-/// N R6^T. The weights are rho times (1, 1, radius of gyration squared).
+/// Adds one integration point of int rho N^T X and int rho N^T (J X - X J6). X = J N - N J6 is the
+/// derivative of the rotating interpolation W = R N R6^T with respect to its angle. The weights are
+/// rho times (1, 1, radius of gyration squared).
 void add_derivatives(const Eigen::Matrix<double, 3, 6>& N, const Vector3d& weights,
                      MovingElement& element) {
   Matrix6d J6 = Matrix6d::Zero();
@@ -88,7 +88,8 @@ MovingElement frame_element(const FrameElement& e, const Member& member) {
   if (!member.axially_flexible) element.c[0] = 0;
   element.m = e.is_bar() ? bar_mass(e.section, member.mass, e.length)
                          : frame_mass(e.section, member.theory, member.mass, e.length);
-  if (e.is_bar() || member.mass == MassMatrix::lumped) return element;  // isotropic interpolation
+  // Bars and lumped masses have an isotropic interpolation, which does not change under rotation.
+  if (e.is_bar() || member.mass == MassMatrix::lumped) return element;
   const double phi = shear_ratio(e.section, member.theory, e.length);
   const double rotary = has_rotary_inertia(member.theory) ? e.section.inertia_per_length : 0.0;
   for (const LineQuadraturePoint& point : line_quadrature()) {
@@ -106,7 +107,7 @@ void add_triangles(const System& system, std::vector<MovingElement>& elements) {
     element.layout = MovingElement::Layout::triangle;
     element.part = plate_part(system.model, triangle.plate);
     if (triangle.quadratic())
-      throw ModelError("six-node triangles are not supported in a moving system");
+      throw ModelError("six-node triangles are not supported in a moving manipulator");
     const TrianglePoints points = triangle_nodes<3>(system.model, triangle);
     element.coordinates = system.coordinates.of_triangle<6>(triangle);
     const Plate& plate = system.model.plates[to_size(triangle.plate)];

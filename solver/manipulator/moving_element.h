@@ -9,18 +9,18 @@
 #include "solver/manipulator/link_superelement.h"
 #include "solver/manipulator/rigid_dynamics.h"
 
-/// Rigid motion of the manipulator along its path, for each part of the model.
+/// Nominal rigid motion of each member, plate and rigid body of a manipulator along its path.
 namespace trammel::solver {
 
-/// Rotation of a rigid part since the pose at which the model was built.
+/// Rotation of a member, plate or rigid body since the pose at which the model was built.
 struct PartMotion {
   double angle = 0;         ///< [rad]
   double rate = 0;          ///< [rad/s]
   double acceleration = 0;  ///< [rad/s^2]
 
   bool operator==(const PartMotion&) const = default;
-  /// Returns a vector that is `at_start` at the built pose and turns with the part, or its time
-  /// derivative of order 1 or 2.
+  /// Returns a vector that rotates with the part (order 0), or its time derivative (order 1, 2).
+  /// The vector is `at_start` at the pose at which the model was built.
   [[nodiscard]] Vector2d derivative(const Vector2d& at_start, int order) const;
 };
 
@@ -32,7 +32,7 @@ struct NominalMotion {
   Vector2d gravity = Vector2d::Zero();  ///< [m/s^2]
   double load_factor = 1;               ///< factor on the loads of the model
 
-  /// Returns the part of a manipulator whose rotation equals that of a model node.
+  /// Returns the motion of the link or platform whose rotation equals that of a model node.
   [[nodiscard]] const PartMotion& at_node(Index model_node) const {
     return model_node < 6 ? part[to_size(2 * (model_node % 3))] : part.back();
   }
@@ -48,8 +48,8 @@ struct NominalMotion {
 }
 
 /// Computes the nominal motion of every part of the model from that of the platform.
-/// @param model  model as built at joint coordinates `from`.
-/// @param motion  inverse dynamics at the point.
+/// @param model  model, built at the joint coordinates `from`.
+/// @param motion  inverse dynamics for the motion `point`.
 /// @param from  joint coordinates (theta_a, theta_p, x, y, phi).
 /// @param point  motion of the platform.
 /// @param gravity  [m/s^2].
@@ -57,7 +57,7 @@ struct NominalMotion {
                                            const Vector9d& from, const TrajectoryPoint& point,
                                            const Vector2d& gravity);
 
-/// Returns the largest angular velocity of a part [rad/s].
+/// Returns the largest angular velocity of all members, plates and rigid bodies [rad/s].
 [[nodiscard]] double largest_angular_velocity(const NominalMotion& motion);
 
 /// Rotates the pair (x, y) of columns that starts at column i by the angle with cosine c and sine
@@ -69,18 +69,19 @@ void turn_columns(Block& v, Index i, double c, double s) {
   v.col(i) = x;
 }
 
-/// Element that turns with a rigid part. Its matrices are constant in element axes.
+/// Element that rotates with a member, plate or rigid body. Its matrices are constant in element
+/// axes.
 struct MovingElement {
   enum class Layout { frame, triangle, point_mass, scalar };  ///< arrangement of the coordinates
 
   Layout layout = Layout::frame;
   std::array<Index, 6> coordinates{-1, -1, -1, -1, -1, -1};
-  FrameDeformation B = FrameDeformation::Zero();  ///< element axes -> deformations
+  FrameDeformation B = FrameDeformation::Zero();  ///< maps element coordinates to deformations
   Vector3d c = Vector3d::Zero();                  ///< rigidities of the three deformations
-  Matrix6d k = Matrix6d::Zero();                  ///< B^T diag(c) B
+  Matrix6d k = Matrix6d::Zero();                  ///< stiffness, B^T diag(c) B
   Matrix6d m = Matrix6d::Zero();
-  Matrix6d first_derivative = Matrix6d::Zero();   ///< int rho N^T dN/dangle
-  Matrix6d second_derivative = Matrix6d::Zero();  ///< int rho N^T d2N/dangle2
+  Matrix6d first_derivative = Matrix6d::Zero();   ///< int rho N^T dN/dangle of a rotating element
+  Matrix6d second_derivative = Matrix6d::Zero();  ///< int rho N^T d2N/dangle2 of a rotating element
   /// Element x axis at the pose at which the model was built, world axes.
   Vector2d axis = Vector2d::UnitX();
   Index part = -1;                           ///< index in NominalMotion::part; -1: does not turn
@@ -105,14 +106,13 @@ struct MovingElement {
   void to_own(Block& v, const Vector2d& direction) const {
     to_world(v, Vector2d(direction.x(), -direction.y()));
   }
-  /// Returns a matrix A of element axes in world axes.
+  /// Transforms an element matrix A from element axes to world axes.
   [[nodiscard]] Matrix6d in_world(const Matrix6d& A, const Vector2d& direction) const;
 };
 
-/// Returns the frame elements in the order of the mesh, then triangles, point masses, rotary
-/// inertias of member ends, and springs.
-/// @param system  assembled model.
-/// @param links  condensed members, which replace frame elements; empty: none.
+/// Returns the moving elements of a model: frame elements in the order of the mesh, then triangles,
+/// point masses, rotary inertias of member ends, and springs. The mass matrices of condensed
+/// members (`links`, may be empty) replace those of the frame elements.
 /// @throws ModelError  for six-node triangles.
 [[nodiscard]] std::vector<MovingElement> moving_elements(
     const System& system, const std::vector<LinkSuperelement>& links);

@@ -186,8 +186,9 @@ void MovingPencil::measure_strain(const VectorBlock<rows>& X,
   measures.rounding *= 2 * kEps;
 }
 
-/// Computes the residual row by row. Small coordinates that may be only round-off errors do not
-/// define the scale of a row (dense_eigen.h). Interior modes are compared with the total energy.
+/// Computes the backward error of modes row by row. Coordinates that may be only round-off errors
+/// count with a larger minimum size (dense_eigen.h). The residuals of interior modes are divided by
+/// the square root of the strain energy.
 template <int rows>
 void MovingPencil::measure_residual(const VectorBlock<rows>& X, const VectorBlock<rows>& MX,
                                     Workspace<rows>& space, ModeMeasures<rows>& measures) const {

@@ -7,23 +7,25 @@
 
 namespace trammel::solver {
 
-/// LDL^T factorization without exchanges of a small symmetric matrix scaled to a unit diagonal. The
-/// storage is dense, and zeros are skipped. Later calls with the same size do not allocate memory.
+/// LDL^T factorization of a small symmetric matrix without row exchanges. The matrix is scaled to a
+/// unit diagonal. The storage is dense, and zeros are skipped. Repeated factorizations of the same
+/// size do not allocate memory.
 class DenseLdlt {
  public:
-  /// Factors A. Returns false if a pivot is zero or not finite; then there is no factorization.
-  /// @param A  its lower triangle is read.
+  /// Factorizes A, of which only the lower triangle is read. Returns false if a pivot is zero or
+  /// not finite. The factorization is then invalid.
   [[nodiscard]] bool compute(const Eigen::MatrixXd& A);
 
   /// Returns the smallest pivot of the scaled matrix. It is at most 1. For a positive definite
   /// matrix it is at least the smallest eigenvalue.
   [[nodiscard]] double smallest_pivot() const { return pivots_.minCoeff(); }
-  /// Returns the number of negative eigenvalues (Sylvester).
+  /// Returns the number of negative eigenvalues of A (Sylvester's law of inertia).
   [[nodiscard]] Index negative_pivots() const { return (pivots_.array() < 0).count(); }
-  /// Returns the largest |L|. The signs of the pivots are unreliable if it exceeds about 1e8.
+  /// Returns the largest absolute entry of L. If it exceeds 1e8, the signs of pivots are
+  /// unreliable.
   [[nodiscard]] double element_growth() const { return growth_; }
 
-  /// Solves for several right-hand sides, one per row of X. Each operation is applied to all rows.
+  /// Solves A x = b for several right-hand sides b, one per row of X.
   template <class Block>
   void solve_in_place(Block& X) const {
     const Index n = L_.rows();
@@ -48,46 +50,43 @@ class DenseLdlt {
   double growth_ = 0;
 };
 
-/// Several vectors in the coordinates of a MovingPencil: row x coordinate. Each operation is
-/// applied to all rows. The number of rows is known at compile time.
+/// Several vectors in the coordinates of a MovingPencil, one vector per row. The number of rows is
+/// known at compile time, so that each operation is applied to all rows at once.
 template <int rows>
 struct VectorBlock {
   Eigen::Matrix<double, rows, Eigen::Dynamic> ends;  ///< free coordinates of the joints
-  /// Modes of the link interiors, link by link.
+  /// Amplitudes of the modes of the link interiors, link by link.
   Eigen::Matrix<double, rows, Eigen::Dynamic> inside;
 };
 
-/// Temporary blocks, kept to avoid memory allocation in each step.
+/// Temporary matrices, kept to avoid memory allocation in each step of an iteration.
 template <int rows>
 struct Workspace {
   Eigen::Matrix<double, rows, Eigen::Dynamic> U, sizes;
 };
 
-/// Energies and residuals of approximate modes, one number per row.
+/// Energies and residuals of approximate modes x, one number per mode.
 template <int rows>
 struct ModeMeasures {
   using Numbers = Eigen::Array<double, rows, 1>;
   Numbers strain;    ///< x^T K x from the deformations [J]
-  Numbers rounding;  ///< 2 eps sum |d|^T c |B| |u|, the effect of rounding x on the strain
+  Numbers rounding;  ///< effect of rounding x on `strain`, 2 eps sum |d|^T c |B| |u|
   Numbers inertia;   ///< x^T M x [J s^2]
   /// Largest ratio of a row of (K - strain / inertia M) x to the magnitudes of its terms.
   Numbers backward_error;
 };
 
-/// K and M of a manipulator with condensed links as functions of its pose. The coordinates are
-/// those of the joints (one or two dozen) and the modes of the link interiors. These modes have
-/// stiffness 1, and only inertia couples them.
+/// Stiffness matrix K and mass matrix M of a manipulator with condensed links as functions of its
+/// pose. The coordinates are one or two dozen joint coordinates and the amplitudes of the modes of
+/// the link interiors. Each mode has stiffness 1, and only M couples modes and joint coordinates.
 class MovingPencil {
  public:
-  /// Builds the matrices.
-  /// @param model  model at the pose, without inactive effects; its number of elements per link
-  ///   defines the condensation.
-  /// @param geometry  dimensions.
-  /// @param pose  pose of the model.
+  /// Builds K and M from a model at its pose, without inactive effects. The number of elements of
+  /// each link determines its interior modes.
   MovingPencil(const Model& model, const ManipulatorGeometry& geometry, const Pose& pose);
 
-  /// Moves to a pose. The outcome is singular if the coordinates that the constraints eliminate are
-  /// unsuitable for this pose.
+  /// Computes K and M at a pose. The outcome is singular if the constraints do not determine the
+  /// eliminated coordinates at this pose.
   [[nodiscard]] Outcome move_to(const Posture& posture, const Pose& pose);
 
   [[nodiscard]] Index ends() const { return K_.rows(); }
@@ -95,23 +94,20 @@ class MovingPencil {
   /// Returns the number of free coordinates without condensation, including massless interior ones.
   [[nodiscard]] Index free_coordinates() const { return free_coordinates_; }
   [[nodiscard]] const Counters& counters() const { return system_.start().counters; }
-  [[nodiscard]] double coupling() const { return coupling_; }  ///< largest coupling of the links
+  [[nodiscard]] double coupling() const { return coupling_; }  ///< largest coupling of link modes
 
   /// Returns the stiffness of the joint coordinates at the current pose.
   [[nodiscard]] const Eigen::MatrixXd& K() const { return K_; }
   /// Returns the number of eigenvalues of the full model below `shift`, from the signs of the
-  /// pivots of K - shift M. It is the sum of the counts of the interior and of its Schur complement
-  /// on the joint coordinates (Wittrick & Williams 1971). The result is -1 if the pivots are
-  /// dominated by round-off.
+  /// pivots of K - shift M. It is the sum of the negative pivots of the link interiors and of their
+  /// Schur complement on the joint coordinates (Wittrick & Williams 1971). The result is -1 if the
+  /// pivots are dominated by round-off.
   [[nodiscard]] Index eigenvalues_below(double shift);
 
-  /// Computes Y = X M.
+  /// Computes the products Y = X M of all vectors with the mass matrix.
   template <int rows>
   void mass_times(const VectorBlock<rows>& X, VectorBlock<rows>& Y) const;
-  /// Computes energies and residuals of approximate modes.
-  /// @param X  approximate modes.
-  /// @param MX  X M.
-  /// @param space  temporary blocks.
+  /// Computes energies and residuals of approximate modes X from X and MX = X M.
   template <int rows>
   [[nodiscard]] ModeMeasures<rows> measure_modes(const VectorBlock<rows>& X,
                                                  const VectorBlock<rows>& MX,
@@ -119,8 +115,8 @@ class MovingPencil {
 
  private:
   struct Link {
-    Index first = 0, last = 0;  ///< range of its modes in VectorBlock::inside
-    std::vector<Index> ends;    ///< free coordinates that move its ends
+    Index first = 0, last = 0;  ///< range of the modes of the link in VectorBlock::inside
+    std::vector<Index> ends;    ///< free coordinates that move the ends of the link
   };
 
   template <int rows>
@@ -139,9 +135,9 @@ class MovingPencil {
   Index free_coordinates_ = 0;
   double coupling_ = 0;
   Eigen::VectorXd length_;  // scale of each coordinate: 1, or the model size for rotations
-  Eigen::VectorXd mu_;      // mass of the interior modes
+  Eigen::VectorXd mu_;      // mass of the interior modes, 1 / omega^2
   Eigen::MatrixXd K_, M_, shifted_;
-  Eigen::MatrixXd P_;  // mass between free coordinates (rows) and interior modes
+  Eigen::MatrixXd P_;  // mass coupling of joint coordinates (rows) and interior modes
   DenseLdlt count_;
 };
 

@@ -70,7 +70,7 @@ Vector6d gather_own(const MovingElement& element, const Vector2d& direction, con
   return v.transpose();
 }
 
-/// Adds the forces of an element in element axes to those of its coordinates.
+/// Adds the forces of an element, given in element axes, to the forces u of its coordinates.
 void scatter_own(const MovingElement& element, const Vector2d& direction, const Vector6d& force,
                  VectorXd& u) {
   Eigen::Matrix<double, 1, 6> f = force.transpose();
@@ -105,7 +105,7 @@ void MovingSystem::find_spans() {
     const Member& member = model.members[to_size(e.member)];
     done = e.member == before ? done + 1 : 1;
     before = e.member;
-    if (done == member.elements) continue;  // the second node is that of the member
+    if (done == member.elements) continue;  // the second node is the end of the member
     span_[to_size(e.nodes[1])] = {member.nodes,
                                   static_cast<double>(done) / static_cast<double>(member.elements)};
   }
@@ -144,9 +144,9 @@ Vector2d MovingSystem::at_mesh_node(Index mesh_node, const Eigen::MatrixX2d& val
   return (1 - s) * values.row(nodes[0]).transpose() + s * values.row(nodes[1]).transpose();
 }
 
-/// Returns the load of nominal inertia in element axes. The interpolation represents the nominal
-/// acceleration, an affine field, exactly. A mass that is offset from its node adds a centripetal
-/// force.
+/// Returns the inertia load of the nominal motion on an element, in element axes. The interpolation
+/// represents the nominal acceleration, an affine field, exactly. A point mass that is offset from
+/// its node adds a centrifugal force.
 Vector6d MovingSystem::nominal_inertia(const MovingElement& element, const PartMotion& part,
                                        const Vector2d& direction) const {
   Eigen::Matrix<double, 1, 6> a = Eigen::Matrix<double, 1, 6>::Zero();
@@ -165,7 +165,7 @@ Vector6d MovingSystem::nominal_inertia(const MovingElement& element, const PartM
   return f;
 }
 
-/// Returns the weight in element axes.
+/// Returns the nodal forces of the weight of an element, in element axes.
 Vector6d MovingSystem::weight(const MovingElement& element, const Vector2d& direction) const {
   Eigen::Matrix<double, 1, 6> g = Eigen::Matrix<double, 1, 6>::Zero();
   if (element.layout == MovingElement::Layout::scalar || motion_.gravity.isZero(0))

@@ -17,18 +17,18 @@ namespace trammel::solver {
 
 /// Options of the matrices and loads of a moving system.
 struct MovingSystemOptions {
-  bool inertia = true;      ///< false: no M, and no inertia in the assembly at the start
-  bool gyroscopic = false;  ///< true: also matrices of the rates of the parts
+  bool inertia = true;      ///< false: no mass matrix M
+  bool gyroscopic = false;  ///< true: also gyroscopic, centrifugal and Euler matrices
   bool condensed = false;   ///< true: condensed members (link_superelement.h), without loads
 };
 
-/// Model whose parts move: K, M and inertia loads as functions of the pose. The matrices have
-/// entries at the same positions at all poses. Element matrices are computed once in the axes of
-/// their parts. For each pose they are rotated and added at precomputed positions.
+/// Finite element model of a moving manipulator: K, M and inertia loads as functions of the pose.
+/// The matrices have the same sparsity pattern at all poses. Element matrices are computed once in
+/// element axes. For each pose they are rotated and added at precomputed positions.
 ///
 /// The elastic displacements u(t) = T(t) q(t) are components in world axes, relative to the moving
-/// nominal position. W = R N T_s is the interpolation of an element in world axes, which turns with
-/// its part. The virtual work of inertia is
+/// nominal position. W = R N T_s is the interpolation of an element in world axes, which rotates
+/// with the element. The virtual work of inertia is
 ///
 ///   int rho W^T (r.. + W u.. + 2 W. u. + W.. u) dV,
 ///
@@ -43,11 +43,11 @@ class MovingSystem {
   /// @throws ModelError  as `assemble`.
   explicit MovingSystem(const Model& model, const MovingSystemOptions& options = {});
 
-  /// Moves the parts. The outcome is singular if the coordinates that the constraints eliminate are
-  /// unsuitable for this pose.
+  /// Computes matrices and loads for a nominal motion. The outcome is singular if the constraints
+  /// do not determine the eliminated coordinates at this pose.
   [[nodiscard]] Outcome move_to(const NominalMotion& motion);
 
-  // Matrices of the free coordinates q at the current pose, with entries at the same positions.
+  // Matrices of the free coordinates q at the current pose, all with the same sparsity pattern.
   [[nodiscard]] const SparseMatrix& K() const { return K_; }
   [[nodiscard]] const SparseMatrix& M() const { return M_; }
   [[nodiscard]] const SparseMatrix& gyroscopic_matrix() const { return C_gyroscopic_; }
@@ -58,9 +58,9 @@ class MovingSystem {
   [[nodiscard]] const SparseMatrix& K_T_dot() const { return K_T_dot_; }
   /// Returns T^T m T., for damping forces of T. q; gyroscopic effect only.
   [[nodiscard]] const SparseMatrix& M_T_dot() const { return M_T_dot_; }
-  /// Returns the load - int rho W^T r.. dV [N, N m].
+  /// Returns the inertia load of the nominal motion, - int rho W^T r.. dV [N, N m].
   [[nodiscard]] const Eigen::VectorXd& inertia_load() const { return inertia_load_; }
-  /// Returns the loads of the model, which keep their world axes, plus weight [N, N m].
+  /// Returns the weight plus the loads of the model, which are constant in world axes [N, N m].
   [[nodiscard]] const Eigen::VectorXd& load() const { return load_; }
 
   [[nodiscard]] const NominalMotion& motion() const { return motion_; }
@@ -68,7 +68,8 @@ class MovingSystem {
   [[nodiscard]] Vector2d position(Index mesh_node) const {
     return at_mesh_node(mesh_node, motion_.node[0]);
   }
-  /// Returns the system at the start. Its mesh, coordinates and numbering are valid at every pose.
+  /// Returns the system at the start pose. Its mesh, coordinates and numbering are valid at every
+  /// pose.
   [[nodiscard]] const System& start() const { return start_; }
   [[nodiscard]] const Constraints& constraints() const { return constraints_.constraints(); }
   [[nodiscard]] const std::vector<MovingElement>& elements() const { return elements_; }
@@ -77,17 +78,13 @@ class MovingSystem {
 
   /// Forces of an elastic motion at the current pose, on all coordinates u.
   struct Forces {
-    Eigen::MatrixXd element;   ///< 6 x frame element: forces of its nodes on it, element axes
-    Eigen::VectorXd total;     ///< required constraint forces: forces of the elements minus loads
+    Eigen::MatrixXd element;   ///< 6 x frame element: forces of nodes on elements, element axes
+    Eigen::VectorXd total;     ///< constraint forces: forces of the elements minus loads
     Eigen::VectorXd external;  ///< loads and weight, minus inertia and mass-proportional damping
     WorkingMotion working;     ///< energies, and the forces that do work
   };
-  /// Computes the forces of an elastic motion.
-  /// @param q  free coordinates.
-  /// @param v  velocities of q.
-  /// @param a  accelerations of q.
-  /// @param damping  factors of mass and stiffness.
-  /// @param with_inertia  true: include inertia of the nominal motion.
+  /// Computes the forces of an elastic motion (free coordinates q, velocities v, accelerations a)
+  /// with Rayleigh damping. `with_inertia` includes inertia loads of the nominal motion.
   [[nodiscard]] Forces forces(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                               const Eigen::VectorXd& a, const RayleighDamping& damping,
                               bool with_inertia) const;
@@ -97,12 +94,13 @@ class MovingSystem {
   }
 
  private:
-  /// Term of an entry: value(destination) += T(a) * element(local) * T(b), with local = i + 6 j.
+  /// Contribution of an element matrix to an entry of K, M and the other matrices:
+  /// value(destination) += T(a) * element(local) * T(b), with local = i + 6 j.
   struct Contribution {
     int local, a, b, destination;
   };
-  /// Mesh node by linear interpolation between the ends of a member, which is exact for affine
-  /// fields.
+  /// Position of a mesh node between two model nodes. Linear interpolation of the rigid motion is
+  /// exact.
   struct Span {
     std::array<Index, 2> nodes{};
     double fraction = 0;
@@ -125,28 +123,27 @@ class MovingSystem {
   std::vector<LinkSuperelement> links_;
   std::vector<MovingElement> elements_;
   std::vector<Contribution> contributions_;
-  // Index of the first of each element, then their number.
+  // Index of the first contribution of each element, then the number of contributions.
   std::vector<std::size_t> first_contribution_;
-  std::vector<Span> span_;  // of each mesh node
+  std::vector<Span> span_;  // position of each mesh node on its member
   SparseMatrix K_, M_, C_gyroscopic_, K_centrifugal_euler_, K_T_dot_, M_T_dot_;
   Eigen::VectorXd inertia_u_, load_u_, inertia_load_, load_;
 };
 
-/// Manipulator on its path: the rigid motion at a time and the elastic system about it.
+/// Manipulator on its path: the rigid motion at a time, and the elastic system relative to this
+/// motion.
 class PathFollower {
  public:
-  /// Builds the model and numbers its coordinates.
-  /// @param options  design, path and loads.
-  /// @param built_at  time at whose pose the model is built [s].
+  /// Builds the model at the pose of the time `built_at` [s] and numbers its coordinates.
   /// @pre `options` outlive this object.
   PathFollower(const ElastodynamicsOptions& options, double built_at);
 
-  /// Updates the manipulator to a time. Repeated calls for the same time do nothing. A platform at
-  /// rest under a constant load is evaluated once.
+  /// Updates pose, matrices and loads to a time. Repeated calls for the same time do nothing. A
+  /// platform at rest under a constant load is evaluated once.
   /// @returns false on failure; then `outcome` states the time and the reason.
   bool update_to(double time);
-  /// Updates the manipulator to a time with any gravity [m/s^2], without reuse of earlier
-  /// evaluations.
+  /// Updates pose, matrices and loads to a time with any gravity [m/s^2]. Earlier evaluations are
+  /// not reused.
   [[nodiscard]] Outcome move_to(double time, const Vector2d& gravity);
 
   [[nodiscard]] const MovingSystem& system() const { return moving_; }
@@ -162,22 +159,23 @@ class PathFollower {
 
   // Quantities at the current pose, in free coordinates.
 
-  /// Returns F plus, if active, f [N, N m].
+  /// Returns the load F including weight plus, if active, the nominal inertia load f [N, N m].
   [[nodiscard]] Eigen::VectorXd load() const;
-  /// Computes M, C + G and K + S, including damping of T. q. C is unchanged if there are neither
-  /// damping nor gyroscopic terms.
+  /// Computes M, C + G and K + S, including damping forces of the velocity T. q. C is unchanged
+  /// without damping and gyroscopic terms.
   void matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K);
   /// Solves K q = f. Returns false if K is singular.
   [[nodiscard]] bool solve_statically(const Eigen::VectorXd& f, Eigen::VectorXd& q);
   /// Returns (f^T K^-1 f)^(1/2) [J^(1/2)], the square root of twice the strain energy under the
   /// load f alone. NaN if K is singular.
   [[nodiscard]] double energy_norm(const Eigen::VectorXd& f);
-  /// Returns the torques of rigid links under the same loads and, if active, the same inertia [N
-  /// m].
+  /// Returns the actuator torques with rigid links, the same loads and, if active, nominal inertia
+  /// [N m].
   [[nodiscard]] Vector3d rigid_torque() const;
 
-  /// Returns the counts of elements, solutions with K, and effects. Effects of parts count once.
-  /// Effects of the motion count at each evaluation.
+  /// Returns the numbers of element evaluations, factorizations and solutions, and the evaluations
+  /// that effects cause. Damping and gyroscopic effects count at each evaluation, other effects
+  /// once.
   [[nodiscard]] Counters counters() const;
 
  private:

@@ -17,15 +17,15 @@
 namespace trammel::solver {
 namespace {
 
-constexpr Index kBlock = 64;             // poses that are solved in sequence on one thread
-constexpr Index kGuard = 3;              // vectors in addition to the requested modes
-constexpr Index kLargest = 48;           // joint coordinates above which sparse matrices are faster
-constexpr double kSmallestPivot = 1e-9;  // of the scaled stiffness: a loss of nine digits
-constexpr double kLargestCoupling = 1e-7;  // an eigenvalue changes by its square
-constexpr double kTolerance = 1e-11;  // relative change of an eigenvalue in one inverse iteration
-// Limit of the backward error of a mode; up to ten times this value is accepted.
+constexpr Index kBlock = 64;    // number of poses that one thread solves in sequence
+constexpr Index kGuard = 3;     // number of iteration vectors in addition to the requested modes
+constexpr Index kLargest = 48;  // joint coordinates above which sparse matrices are faster
+constexpr double kSmallestPivot = 1e-9;    // limit of pivots of the scaled K: a loss of nine digits
+constexpr double kLargestCoupling = 1e-7;  // limit of mode coupling; its square changes eigenvalues
+constexpr double kTolerance = 1e-11;  // limit of the relative change of eigenvalues in one step
+// Backward error of modes at which the iteration ends. Up to ten times this value is accepted.
 constexpr double kResidual = 1e-11;
-constexpr double kClearGap = 1e-3;  // relative gap between distinct neighboring eigenvalues
+constexpr double kClearGap = 1e-3;  // relative difference of eigenvalues that count as distinct
 
 /// Data shared by all threads. Each thread writes results of different poses.
 struct Task {
@@ -53,7 +53,7 @@ void store(const Task& task, std::size_t at, const ModalSolution& modes, Counter
   counters += modes.counters;
 }
 
-/// Solves the poses of a block in sequence, with `rows` vectors at a time.
+/// Computes the modes of a block of poses in sequence by subspace iteration with `rows` vectors.
 template <int rows>
 class BlockSolver {
  public:
@@ -85,7 +85,7 @@ class BlockSolver {
   using Numbers = Eigen::Array<double, rows, 1>;
   using Square = Eigen::Matrix<double, rows, rows>;
 
-  /// Solves a pose with the condensed matrices. Returns true if the result is certified.
+  /// Computes the modes at a pose with the condensed matrices. Returns true if they are certified.
   bool solve(std::size_t at, const Posture& posture) {
     if (pencil_.ends() > kLargest || pencil_.ends() + pencil_.inside() < rows) return false;
     if (task_.options.count + kGuard > rows || pencil_.coupling() > kLargestCoupling) return false;
@@ -93,7 +93,7 @@ class BlockSolver {
     ++counters.factorizations;
     if (!(stiffness_.compute(pencil_.K()) && stiffness_.smallest_pivot() > kSmallestPivot))
       return false;
-    // The second trial uses new start vectors.
+    // Start with the modes of the preceding pose. A second trial uses new start vectors.
     for (int trial = warm_ ? 0 : 1; trial < 2; ++trial) {
       if (trial > 0) begin();
       if (iterate(trial == 0) && certify(at)) return warm_ = true;
@@ -104,13 +104,12 @@ class BlockSolver {
   void begin() {
     const Index n = pencil_.ends();
     X_.ends = start_vectors(rows, n);
-    // The strain energy of a unit motion of a joint coordinate is a stiffness times 1 m^2 or 1
-    // rad^2. Interior modes have stiffness 1.
+    // Scale the joint coordinates to unit stiffness, which is the stiffness of interior modes.
     X_.ends *= pencil_.K().diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
     X_.inside = start_vectors(rows, pencil_.inside(), 1);
   }
 
-  /// Computes X <- K^-1 M X and the new M X.
+  /// Computes Y = K^-1 M X and M Y.
   void inverse_iteration() {
     Y_ = MX_;
     stiffness_.solve_in_place(Y_.ends);
@@ -118,7 +117,7 @@ class BlockSolver {
     pencil_.mass_times(Y_, MY_);
   }
 
-  /// Iterates until the eigenvalues converge. Returns false on failure.
+  /// Iterates until the requested eigenvalues and modes converge. Returns false on failure.
   bool iterate(bool warm) {
     constexpr int kSteps = 60;
     pencil_.mass_times(X_, MX_);
@@ -157,8 +156,8 @@ class BlockSolver {
     for (Index i = 0; i < X.inside.cols(); ++i) X.inside.col(i) = Z * X.inside.col(i);
   }
 
-  /// Computes the lowest eigenvalues in the space of Y = K^-1 M X, and their change by the last
-  /// step. If Y z is a mode, X z approximates it before the step.
+  /// Computes the lowest eigenvalues in the subspace of Y = K^-1 M X, and their relative change in
+  /// this step. For a mode Y z, the approximation before the step is X z.
   bool rayleigh_ritz() {
     const Square stiffness = products(Y_, MX_), inertia = products(Y_, MY_);
     const Square before = products(X_, MX_);
@@ -185,7 +184,8 @@ class BlockSolver {
     return true;
   }
 
-  /// Returns the number of eigenvalues below a clear gap, or 0 if the block contains none.
+  /// Returns the number of eigenvalues below the first clear gap above the requested modes, or 0 if
+  /// no gap was found.
   [[nodiscard]] Index cut() const {
     for (Index k = task_.options.count; k < rows; ++k) {
       if (!(change_[k - 1] < 1e-2 * kClearGap)) return 0;
@@ -206,7 +206,8 @@ class BlockSolver {
     }
     if (below != found) return false;
     const Numbers w2 = measures_.strain / measures_.inertia;
-    // Only the iteration used assembled matrices, the Rayleigh quotient did not.
+    // The Rayleigh quotients of element matrices must confirm the eigenvalues of assembled
+    // matrices.
     if (!((w2 / value_ - 1).abs().head(count).maxCoeff() < 1e-6)) return false;
     Evidence evidence;
     evidence.add(Residual::mode_count, 0);
@@ -229,7 +230,7 @@ class BlockSolver {
   Workspace<rows> space_;
   Numbers value_, change_;
   ModeMeasures<rows> measures_;
-  bool warm_ = false;  // X contains the modes of the preceding pose
+  bool warm_ = false;  // true: X_ contains the modes of the preceding pose
   int plain_ = 1;      // number of inverse iterations before the first Rayleigh-Ritz step
 };
 
@@ -253,7 +254,7 @@ void solve_blocks(const Task& task, std::vector<Solver> solvers) {
   }
 }
 
-/// Returns the first pose within reach.
+/// Returns the first pose that all limbs can reach, or an empty value.
 std::optional<Pose> first_reached(const ManipulatorGeometry& geometry,
                                   const std::vector<Pose>& poses) {
   for (const Pose& pose : poses) {

@@ -9,11 +9,11 @@
 
 namespace trammel::solver {
 
-/// Options for modes at many poses.
+/// Options for natural frequencies at many poses.
 struct PoseModesOptions {
-  Index count = 6;                  ///< modes at each pose
-  Effects active = Effects::all();  ///< other effects are removed
-  Index threads = 0;  ///< 0: one per core; results are identical to the bit for any number
+  Index count = 6;                  ///< number of modes at each pose
+  Effects active = Effects::all();  ///< active effects; all others are removed from the model
+  Index threads = 0;  ///< 0: one thread per core; results are bit-identical for any number
 };
 
 /// Natural frequencies of a manipulator at many poses (paper Eq. 28, 29), one column per pose.
@@ -21,21 +21,21 @@ struct PoseModesOptions {
 struct PoseModes {
   std::vector<Outcome> outcome;  ///< singular: out of reach, or as ModalSolution
   Eigen::MatrixXd frequency;     ///< ascending, 0 for rigid modes [Hz]
-  Eigen::MatrixXd roundoff;      ///< relative, as in ModalSolution [-]
+  Eigen::MatrixXd roundoff;      ///< relative round-off error of each frequency [-]
   std::vector<Evidence> evidence;
   std::vector<Index> zero_energy_mode_count;
   Index free_coordinates = 0;
   double coupling = 0;  ///< largest neglected coupling of modes within a link (LinkSuperelement)
-  Index by_itself = 0;  ///< number of poses solved by `solve_modes`
+  Index by_itself = 0;  ///< number of poses solved separately by `solve_modes`
   Counters counters;
 };
 
-/// Computes modes at many poses by subspace iteration on condensed matrices (moving_pencil.h). Each
-/// pose starts with the modes of the preceding pose, within blocks of 64 poses for any number of
-/// threads. An inertia count certifies for each pose that no mode is missing: the number of
-/// eigenvalues below a shift in the gap above the last mode must equal the number of modes. Poses
-/// that cannot be certified are solved separately by `solve_modes`. Examples are parallel
-/// singularities and free actuators.
+/// Computes the natural frequencies at many poses by subspace iteration on condensed matrices
+/// (moving_pencil.h). The iteration starts with the modes of the preceding pose in the same block
+/// of 64 poses. Results are therefore the same for any number of threads. Sylvester's law of
+/// inertia certifies that no mode is missing: the number of eigenvalues below a shift above the
+/// last mode must equal the number of modes. Poses that cannot be certified are solved separately
+/// by `solve_modes`. Examples are parallel singularities and free actuators.
 /// Source: Bathe (2014), ch. 11.6, for the iteration.
 /// @param design  manipulator.
 /// @param poses  poses of the platform.

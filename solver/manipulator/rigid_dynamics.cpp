@@ -128,8 +128,8 @@ Eigen::Matrix<Dual, 9, 9> mass_matrix(const RigidManipulator& m, const Vector9<D
   return M;
 }
 
-/// Solves K G = D for the motion of the platform. The rows of K are (e^T, cross(c, e)). The
-/// rotation is scaled to be comparable with translations.
+/// Solves K G = D, where G maps actuator rates to the motion of the platform. The rows of K are
+/// (e^T, cross(c, e)). The rotation is scaled to be comparable with translations.
 template <Real T>
 Eigen::Matrix<T, 9, 3> motion_map(const RigidManipulator& m, const Vector9<T>& q) {
   const double size = platform_radius(m.geometry);

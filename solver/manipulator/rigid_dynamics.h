@@ -18,12 +18,13 @@
 ///
 ///   Mh = W^T M W,  Ch = W^T M W. + W^T C W,  Nh = W^T N.
 ///
-/// The loop P + c = A + l1 a + l2 e of a limb gives, along e and along perp(e),
+/// a and e are unit vectors along proximal and distal link, l1 and l2 the link lengths, and c = C -
+/// P. The loop P + c = A + l1 a + l2 e of a limb gives, along e and along perp(e),
 ///
 ///   e . C. = l1 s theta_a.,   perp(e) . C. = l1 (a . e) theta_a. + l2 theta_p.,  s = cross(a, e).
 ///
-/// Functions of T are defined for double and Dual. With Dual they carry rates, from which W. and
-/// the accelerations follow.
+/// Templates over T are defined for double and dual numbers (Dual). Dual numbers carry rates, from
+/// which W. and the accelerations follow.
 namespace trammel::solver {
 
 template <class T>
@@ -53,7 +54,7 @@ struct RigidManipulator {
 /// @throws ModelError  as `link_section` and `platform_mass`.
 [[nodiscard]] RigidManipulator rigid_manipulator(const ManipulatorDesign& design);
 
-/// Returns dual numbers of values whose derivatives are the rates.
+/// Returns dual numbers with the given values, whose derivatives are the rates.
 template <int n>
 [[nodiscard]] Eigen::Matrix<Dual, n, 1> with_rates(const Eigen::Matrix<double, n, 1>& values,
                                                    const Eigen::Matrix<double, n, 1>& rates) {
@@ -71,7 +72,7 @@ template <int n, int m>
   return values.unaryExpr([](const Dual& x) { return x.value(); });
 }
 
-/// Returns the mass matrix M with its rate [kg, kg m, kg m^2], symmetric.
+/// Returns the symmetric mass matrix M with its time derivative [kg, kg m, kg m^2].
 [[nodiscard]] Eigen::Matrix<Dual, 9, 9> mass_matrix(const RigidManipulator& m,
                                                     const Vector9<Dual>& q);
 
@@ -85,14 +86,14 @@ template <Real T>
 [[nodiscard]] Vector9<T> velocities(const RigidManipulator& m, const Vector9<T>& q,
                                     const Eigen::Matrix<T, 3, 1>& platform);
 
-/// Terms of a body in one state, with (xdot, ydot, omega) = J q. at its center of mass.
+/// Inertia, position and Jacobian matrix of a body, with (xdot, ydot, omega) = J q. at its center.
 struct BodyTerms {
   Vector3d inertia;   ///< mass, mass, and inertia about the center of mass [kg, kg, kg m^2]
-  Vector2d position;  ///< of the center of mass [m]
+  Vector2d position;  ///< position of the center of mass [m]
   Eigen::Matrix<double, 3, 9> J, J_dot;
 };
 
-/// Terms of Eq. 1-5 in one state; NaN unless solved.
+/// Terms of the equations of motion (paper Eq. 1-5) in one state; NaN unless solved.
 struct RigidTerms {
   /// singular: out of reach, at a parallel singularity (no W), or at a serial singularity. At a
   /// serial singularity, the velocity of the platform requires an infinite velocity of an actuator.
@@ -100,7 +101,7 @@ struct RigidTerms {
   Vector9d q = Vector9d::Constant(kNaN), q_dot = q;
   Matrix9d M = Matrix9d::Constant(kNaN);
   Matrix9d C = M;  ///< sum of J^T diag(inertia) J., so that M. - 2 C is skew-symmetric
-  Vector9d N = q;  ///< gravity, dV/dq [N, N m]
+  Vector9d N = q;  ///< gravity, dV/dq of the potential energy V [N, N m]
   Matrix93d W = Matrix93d::Constant(kNaN), W_dot = W;
   /// Mh is symmetric positive definite, and Mh. - 2 Ch is skew-symmetric.
   Matrix3d Mh = Matrix3d::Constant(kNaN), Ch = Mh;
@@ -108,15 +109,14 @@ struct RigidTerms {
   std::array<BodyTerms, 7> bodies;  ///< proximal 1-3, distal 1-3, platform
 };
 
-/// Computes the terms in one state.
-/// @param manipulator  rigid bodies.
-/// @param pose  pose of the platform.
-/// @param velocity  velocity of the platform (xdot, ydot [m/s], phidot [rad/s]).
+/// Computes the terms of the equations of motion at a pose and velocity (xdot, ydot [m/s], phidot
+/// [rad/s]) of the platform.
 /// @throws ModelError  as `inverse_kinematics`.
 [[nodiscard]] RigidTerms rigid_terms(const RigidManipulator& manipulator, const Pose& pose,
                                      const Vector3d& velocity);
 
-/// Residuals of the two properties of Eq. 4, 5 in one state.
+/// Residuals of the symmetry of Mh and the skew symmetry of Mh. - 2 Ch in one state (paper Eq. 4,
+/// 5).
 struct PropertyResiduals {
   double symmetry = 0;  ///< |Mh - Mh^T| / |Mh| [-]
   /// |S + S^T| / (|Mh.| + 2 |Ch|) of S = Mh. - 2 Ch [-], with Mh. computed independently of C. It
@@ -125,7 +125,7 @@ struct PropertyResiduals {
   double min_eigenvalue = 0;  ///< smallest eigenvalue of Mh [kg m^2]
 };
 
-/// Computes the residuals of the two properties.
+/// Computes the residuals of the properties of Mh and Ch in a solved state.
 /// @pre terms.outcome.solved()
 [[nodiscard]] PropertyResiduals property_residuals(const RigidManipulator& manipulator,
                                                    const RigidTerms& terms);
@@ -143,7 +143,7 @@ struct InverseDynamics {
   Outcome outcome;  ///< as RigidTerms
   Vector9d q = Vector9d::Constant(kNaN), q_dot = q, q_ddot = q;
   std::array<BodyMotion, 7> bodies;            ///< proximal 1-3, distal 1-3, platform
-  Vector3d torque = Vector3d::Constant(kNaN);  ///< of the actuators on the proximal links [N m]
+  Vector3d torque = Vector3d::Constant(kNaN);  ///< actuator torques on the proximal links [N m]
   double kinetic_energy = kNaN;                ///< [J]
   double potential_energy = kNaN;              ///< energy in the gravity field, -sum m g . x [J]
   /// Rate of the kinetic energy, summed over the bodies: sum of m v . a + J omega alpha [W]. The
@@ -156,10 +156,8 @@ struct InverseDynamics {
   double gravity_power = kNaN;
 };
 
-/// Computes actuator torques and energies for a motion of the platform.
-/// @param manipulator  rigid bodies.
-/// @param motion  motion of the platform.
-/// @param wrench  load on the platform at P: (Fx, Fy [N], moment [N m]) in world axes.
+/// Computes actuator torques and energies for a motion of the platform. The wrench (Fx, Fy [N],
+/// moment [N m]) acts on the platform at P, in world axes.
 [[nodiscard]] InverseDynamics inverse_dynamics(const RigidManipulator& manipulator,
                                                const TrajectoryPoint& motion,
                                                const Vector3d& wrench = Vector3d::Zero());

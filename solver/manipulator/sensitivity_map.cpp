@@ -107,7 +107,7 @@ std::optional<Vector2d> crossing(const ManipulatorGeometry& geometry, double phi
     const Vector2d P = from + t * (to - from);
     const double value = parallel_determinant(geometry, {P.x(), P.y(), phi});
     left = left || std::isnan(value);
-    return left ? 0.0 : value;  // 0 ends the search
+    return left ? 0.0 : value;  // 0 ends the search for the zero
   };
   const auto ends = boost::math::tools::toms748_solve(
       along, 0.0, 1.0, a, b, boost::math::tools::eps_tolerance<double>(), evaluations);
@@ -156,7 +156,8 @@ std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry
   std::vector<Polyline> segments;
   for (Index j = 0; j + 1 < grid.rows; ++j) {
     for (Index i = 0; i + 1 < grid.columns; ++i) {
-      // Search the sides of the cell. A saddle has four zeros and results in two segments.
+      // Search the sides of the cell for zeros of det J_x. A saddle has four zeros and two
+      // segments.
       const std::array<Index, 4> di = {0, 1, 1, 0};
       const std::array<Index, 4> dj = {0, 0, 1, 1};
       Polyline crossings;

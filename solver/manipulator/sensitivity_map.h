@@ -6,19 +6,19 @@
 #include "solver/manipulator/frequency_sensitivity.h"
 
 /// First elastic frequency and its sensitivity over the workspace (paper Fig. 16), and singularity
-/// curves. All refer to one orientation of the platform.
+/// curves. All results are for one orientation of the platform.
 namespace trammel::solver {
 
 /// First elastic frequency at one pose; NaN unless solved.
 struct FirstFrequency {
-  Outcome outcome;       ///< as FrequencySensitivity; also singular if all modes are rigid
-  Evidence evidence;     ///< residuals of the modes
+  Outcome outcome;    ///< singular: infinite derivative or only rigid modes; not_converged: modes
+  Evidence evidence;  ///< residuals of the modes
   double frequency = 0;  ///< [Hz]; also defined if a limb is straight or folded
-  double derivative =
-      0;  ///< for an increasing parameter; the lowest for a repeated frequency [Hz / unit]
+  /// Derivative for an increasing parameter; the lowest for a repeated frequency [Hz / unit].
+  double derivative = 0;
   Counters counters;
 };
-/// Computes the first elastic frequency and its derivative.
+/// Computes the first elastic frequency at a pose and its derivative by a parameter.
 [[nodiscard]] FirstFrequency first_frequency(const ManipulatorDesign& design,
                                              const DesignParameter& parameter, const Pose& pose);
 
@@ -39,13 +39,13 @@ struct PoseGrid {
 [[nodiscard]] PoseGrid reachable_grid(const ManipulatorGeometry& geometry, double phi,
                                       Index columns);
 
-/// Map of the first frequency, row x column; NaN without a value. On the boundary of the workspace
-/// the derivative is infinite, and only the frequency and the distance have values.
+/// Map of the first elastic frequency over a grid of poses, row x column. Unreachable poses have
+/// NaN. On the boundary of the workspace the derivative is infinite and therefore NaN.
 struct SensitivityMap {
   PoseGrid grid;
   Eigen::MatrixXd frequency;        ///< f_1 [Hz]
   Eigen::MatrixXd derivative;       ///< d f_1 / dp [Hz / unit] for an increasing parameter
-  Eigen::MatrixXd serial_distance;  ///< as in Jacobians [-]
+  Eigen::MatrixXd serial_distance;  ///< smallest |sin(elbow angle)| [-]
   Evidence evidence;                ///< residuals of the modes at all poses with a value
   Counters counters;
 };
@@ -57,17 +57,15 @@ struct SensitivityMap {
 
 using Polyline = std::vector<Vector2d>;  ///< (x, y) of P [m]
 
-/// Returns the boundary of the workspace. It consists of arcs on which one limb is straight or
-/// folded (serial singularities) and the others are within reach.
-/// @param geometry  dimensions.
-/// @param phi  orientation of the platform [rad].
-/// @param points  number of points on a full circle.
+/// Returns the boundary of the workspace at the platform orientation phi [rad]. It consists of arcs
+/// on which one limb is straight or folded (serial singularities) and the other limbs are within
+/// reach. A full circle has `points` points.
 [[nodiscard]] std::vector<Polyline> workspace_boundary(const ManipulatorGeometry& geometry,
                                                        double phi, Index points);
 
-/// Returns the curves with det J_x = 0 within reach, as one segment per grid cell between two sides
-/// of the cell. The ends are exact, and the curve is approximated by straight lines. Only cell
-/// sides within reach are searched.
+/// Returns the parallel singularities in the workspace, on which det J_x = 0. Each grid cell that
+/// they cross has a straight segment, whose ends on two sides of the cell are exact. Only cell
+/// sides within reach of all limbs are searched.
 [[nodiscard]] std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry,
                                                            const PoseGrid& grid);
 

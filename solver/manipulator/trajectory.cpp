@@ -30,7 +30,7 @@ TrajectoryPoint evaluate(const Circle& circle, double t) {
           {-w * w * rx, -w * w * ry, 0}};
 }
 
-/// Returns the motion from + s (to - from), with ds = ds/dt and dds = d2s/dt2.
+/// Returns pose, velocity and acceleration of from + s (to - from), with ds = ds/dt, dds = d2s/dt2.
 TrajectoryPoint between(const Pose& from, const Pose& to, double s, double ds, double dds) {
   const Vector3d line = to.vector() - from.vector();
   require_path(line.allFinite(), "the ends of the path are not finite");
@@ -55,7 +55,7 @@ TrajectoryPoint evaluate(const RestToRest& path, double t) {
 TrajectoryPoint evaluate(const Spline& spline, double time) {
   const auto& times = spline.times;
   require_path(times.size() >= 2, "a table of poses requires at least three points");
-  // A multiple of a step may exceed the end by round-off: 63 steps of 0.1 s are more than 6.3 s.
+  // A multiple of a step may exceed the end time by round-off: 63 steps of 0.1 s exceed 6.3 s.
   const double rounding = 4 * std::numeric_limits<double>::epsilon() *
                           std::max(std::abs(times.front()), std::abs(times.back()));
   require_path(time >= times.front() - rounding && time <= times.back() + rounding,
@@ -82,7 +82,7 @@ bool is_still(const Spline& spline) {
   return (spline.pose.rowwise() - spline.pose.row(0)).isZero(0);
 }
 
-/// Returns the motion along a line, or from rest to rest.
+/// Returns true if a line or a rest-to-rest motion ends at the pose at which it starts.
 template <class Way>
 bool is_still(const Way& line) {
   return line.from.vector() == line.to.vector();
@@ -90,8 +90,8 @@ bool is_still(const Way& line) {
 
 }  // namespace
 
-// The unknowns are the accelerations a_k. The velocity is continuous at t_k, with h_k = t_{k+1} -
-// t_k: //
+// Unknowns are the accelerations a_k. Velocities are continuous if, with h_k = t_{k+1} - t_k,
+//
 //   h_{k-1} a_{k-1} + 2 (h_{k-1} + h_k) a_k + h_k a_{k+1} = 6 (slope_k - slope_{k-1}).
 Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& poses,
                    SplineEnds ends) {

@@ -33,7 +33,7 @@ struct Circle {
   double phi = 0;                      ///< [rad]
 };
 
-/// Straight motion at constant speed from one pose to another, and further beyond `duration`.
+/// Motion at constant speed from one pose to another, which continues beyond `duration`.
 struct Line {
   Pose from, to;
   double duration = 1;  ///< > 0 [s]
@@ -41,7 +41,7 @@ struct Line {
 
 /// Motion from rest in `from` to rest in `to`, along s = 10 u^3 - 15 u^4 + 6 u^5 with u = t /
 /// duration. Velocity and acceleration vanish at both ends. The platform is at rest before and
-/// after.
+/// after the motion.
 struct RestToRest {
   Pose from, to;
   double duration = 1;  ///< > 0 [s]
@@ -51,7 +51,7 @@ struct RestToRest {
 struct Spline {
   std::vector<double> times;      ///< strictly ascending [s]
   Eigen::MatrixX3d pose;          ///< time x (x, y [m], phi [rad])
-  Eigen::MatrixX3d acceleration;  ///< at the points, from `make_spline`
+  Eigen::MatrixX3d acceleration;  ///< at the given times, computed by `make_spline`
 };
 
 /// End conditions. natural: zero acceleration; at_rest: zero velocity; periodic: last pose = first
@@ -67,17 +67,17 @@ enum class SplineEnds { natural, at_rest, periodic };
 /// Prescribed motion of the platform.
 using Path = std::variant<Circle, Line, RestToRest, Spline>;
 
-/// Returns the motion at a time.
+/// Returns the motion of the platform on a path at a time.
 /// @throws ModelError  if the path is invalid, or the time is outside the range of a spline.
 [[nodiscard]] TrajectoryPoint at(const Path& path, double time);
 
 /// Returns the first and the last time of the path [s]. They are infinite except for a spline.
 [[nodiscard]] std::pair<double, double> time_span(const Path& path);
 
-/// Returns true if the platform never moves at any time.
+/// Returns true if the platform is at rest at all times.
 [[nodiscard]] bool is_at_rest(const Path& path);
 
-/// Returns the motion at the times 0, step, 2 step, ... , (points - 1) step.
+/// Returns the motion on a path at the times 0, step, 2 step, ... , (points - 1) step.
 /// @throws ModelError  as `at`, or if points < 1 or the step is not positive.
 [[nodiscard]] std::vector<TrajectoryPoint> sample(const Path& path, Index points, double step);
 

@@ -8,11 +8,11 @@
 #include <string_view>
 #include <vector>
 
-/// Physical effects that a scene may include. An inactive effect is removed from the model before
-/// assembly. It causes no degrees of freedom, no matrices and no evaluations.
+/// Physical effects that a model may include. An inactive effect is removed from the model before
+/// assembly. It then causes no degrees of freedom, no matrices and no evaluations.
 namespace trammel::solver {
 
-/// Physical effect of a scene.
+/// Physical effect that a model may include.
 enum class Effect : std::uint8_t {
   axial_flexibility,     ///< members that bend can stretch; off: constraints make them inextensible
   shear,                 ///< shear of the sections; off: Euler-Bernoulli or Rayleigh beam
@@ -29,7 +29,7 @@ enum class Effect : std::uint8_t {
 };
 inline constexpr std::size_t kEffectCount = 12;
 
-/// A set of effects.
+/// Set of physical effects.
 class Effects {
  public:
   constexpr Effects() = default;
@@ -44,7 +44,7 @@ class Effects {
     return Effects(bits_ & ~removed.bits_);
   }
   [[nodiscard]] constexpr bool empty() const { return bits_ == 0; }
-  [[nodiscard]] std::vector<Effect> list() const;  ///< in the order of the enumeration
+  [[nodiscard]] std::vector<Effect> list() const;  ///< effects in the order of the enumeration
   friend constexpr bool operator==(Effects a, Effects b) { return a.bits_ == b.bits_; }
 
  private:
@@ -58,18 +58,17 @@ class Effects {
 /// Returns the effect with this name, or an empty value.
 [[nodiscard]] std::optional<Effect> find_effect(std::string_view name);
 
-/// Number of evaluations that each effect causes. Element matrices, element loads and springs are
-/// evaluated.
+/// Number of evaluations of element matrices, element loads and springs that each effect causes.
 using EffectCounts = std::array<std::int64_t, kEffectCount>;
 
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
-/// Numbers of evaluations during an analysis. They are the same on every machine. Inactive effects
-/// have zero.
+/// Numbers of evaluations, factorizations, solutions and steps during an analysis. They are the
+/// same on every machine. Inactive effects cause no evaluations.
 struct Counters {
-  std::int64_t element_evaluations = 0;  ///< element matrices
+  std::int64_t element_evaluations = 0;  ///< evaluations of element matrices
   std::int64_t factorizations = 0;
-  std::int64_t solves = 0;  ///< right-hand sides, including iterative refinement
+  std::int64_t solves = 0;  ///< solved right-hand sides, including iterative refinement
   std::int64_t steps = 0;   ///< time steps or load steps, including rejected ones
   EffectCounts effects{};   ///< evaluations caused by each effect
 

@@ -10,16 +10,18 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A row is a sum of at most about 1000 terms, for a rigid body with all parts that are joined to
-/// it. Rounding each term to eps leaves a relative residual of 1e3 eps = 2e-13. Newton's method
-/// leaves a hundred times this residual at a critical point, where the tangent stiffness is
-/// singular. A factor that is wrong by one part in a million leaves a residual of 1e-6.
+/// Limit for one row of a system of equations. A row is a sum of at most about 1000 terms, for a
+/// rigid body with all members that are joined to it. Rounding each term to eps leaves a relative
+/// residual of 1e3 eps = 2e-13. Newton's method leaves a hundred times this residual at a critical
+/// point, where the tangent stiffness is singular. A factor that is wrong by one part in a million
+/// leaves a residual of 1e-6.
 constexpr double kRowLimit = 1e-10;
 
-/// Newton's method ends a time step when its last correction is small. The remaining residual is
-/// 1e-5 of the terms of a row where four-bar linkages pass singular positions. It is at most 3e-11
-/// in the other cases of the catalogue. Missing inertia, an outdated load or a velocity of the
-/// wrong sign leaves a residual above this limit (motion_residuals_test.cpp).
+/// Limit for the equation of motion. Newton's method ends a time step when its last correction is
+/// small. The remaining residual is 1e-5 of the terms of a row where four-bar linkages pass
+/// singular positions. It is at most 3e-11 in the other cases of the catalogue. Missing inertia, an
+/// outdated load or a velocity of the wrong sign leaves a residual above this limit
+/// (motion_residuals_test.cpp).
 constexpr double kStepLimit = 1e-4;
 
 constexpr std::array<ResidualRule, kResiduals.size()> kRules = {{
@@ -64,7 +66,7 @@ bool Evidence::empty() const {
 Outcome outcome_by_evidence(const Outcome& claimed, const Evidence& evidence,
                             const std::vector<Residual>& needed) {
   if (!claimed.solved()) return claimed;
-  if (evidence.empty()) return {Status::not_converged, "no residual supports the solution"};
+  if (evidence.empty()) return {Status::not_converged, "no residual of the solution was computed"};
   for (const Residual kind : needed) {
     if (!evidence.has(kind))
       return {Status::not_converged, "the required residual '" +

@@ -19,8 +19,9 @@ struct Outcome {
 
 // Independent residuals that support a solution. The method of solution does not use them.
 
-/// Type of a residual. Each residual is divided by the magnitudes of the terms in its sum.
-/// Round-off alone leaves a few eps; a meaningless solution leaves about 1.
+/// Type of a residual. Each residual is a sum that is zero for the exact solution, divided by the
+/// magnitudes of its terms. Round-off alone leaves a few eps (2.2e-16), a meaningless solution
+/// about 1.
 enum class Residual {
   equilibrium,          ///< K u - f, row by row; K and f are assembled again for this check
   recovered_forces,     ///< sum of the reported member forces, reactions and loads on each node
@@ -51,8 +52,8 @@ struct ResidualRule {
 [[nodiscard]] const ResidualRule& residual_rule(Residual kind);
 
 /// Value of Residual::load above which a warning is issued. The solution is not rejected. Above
-/// this value, ill-conditioning dominates the digits of the forces. Below it, the loads are
-/// satisfied more accurately than loads can be measured.
+/// this value, ill-conditioning dominates the digits of the forces. Below this value, the solution
+/// satisfies the loads more accurately than loads can be measured.
 inline constexpr double kLoadWarning = 1e-6;
 
 /// Largest residual of each type that was computed.

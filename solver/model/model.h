@@ -12,8 +12,9 @@
 
 #include "solver/model/numbers.h"
 
-/// Planar model. A case file describes it, and `assemble` turns it into matrices. All quantities
-/// are in SI units and world axes. Indices refer to the vectors of the same Model.
+/// Planar finite element model. A case file describes the model, and `assemble` builds its
+/// matrices. All quantities are in SI units and world axes. Indices refer to the vectors of the
+/// same Model.
 namespace trammel::solver {
 
 using Eigen::Vector2d;
@@ -34,7 +35,7 @@ template <class T>
 struct SectionOf {
   T EA = T(0);  ///< axial stiffness [N]
   T EI = T(0);  ///< in-plane bending stiffness [N m^2]
-  /// Shear stiffness with its correction factor [N], if the theory includes shear.
+  /// Shear stiffness including the shear correction factor [N], if the theory includes shear.
   T kappa_GA = T(0);
   T mass_per_length = T(0);     ///< rho A [kg/m]
   T inertia_per_length = T(0);  ///< rho I [kg m], if the theory includes rotary inertia
@@ -55,7 +56,7 @@ enum class BeamTheory { euler_bernoulli, rayleigh, shear, timoshenko };
 [[nodiscard]] constexpr bool has_rotary_inertia(BeamTheory theory) {
   return theory == BeamTheory::rayleigh || theory == BeamTheory::timoshenko;
 }
-/// Returns the theory with the given effects in addition to bending.
+/// Returns the beam theory with the given effects in addition to bending.
 [[nodiscard]] constexpr BeamTheory beam_theory(bool shear, bool rotary_inertia) {
   if (shear) return rotary_inertia ? BeamTheory::timoshenko : BeamTheory::shear;
   return rotary_inertia ? BeamTheory::rayleigh : BeamTheory::euler_bernoulli;
@@ -63,7 +64,7 @@ enum class BeamTheory { euler_bernoulli, rayleigh, shear, timoshenko };
 /// Mass matrix of a member: consistent, or lumped at the nodes.
 enum class MassMatrix { consistent, lumped };
 
-/// Connection of a member end to the rotation of its node.
+/// Connection between the rotations of a member end and its node.
 enum class EndFixity { welded, hinged, sprung };
 
 /// Joint between the end of a member and its node.
@@ -158,8 +159,8 @@ struct Coordinate {
 /// Homogeneous linear constraint on the motion of the model: sum of coefficient * coordinate = 0.
 /// Eq. 25 of the paper and pins of finite radius have this form.
 struct LinearConstraint {
-  /// Data of a slider on a straight rail, if the sum is the linearized constraint of the slider.
-  /// The rotation of `node` turns the rail.
+  /// Slider on a straight rail, if the constraint is the linearized condition that keeps the slider
+  /// on the rail. The rail rotates with `node`.
   struct Rail {
     Index node = 0, slider = 0;
     Vector2d direction = Vector2d::UnitX();
@@ -186,7 +187,7 @@ struct EdgeLoad {
   double normal = 0;                       ///< [Pa], tension positive
 };
 
-/// Planar model.
+/// Planar model of members, plates, rigid bodies, masses, springs, supports and loads.
 struct Model {
   std::vector<Node> nodes;
   std::vector<Member> members;
@@ -212,20 +213,20 @@ class ModelError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Throws if a condition is violated.
 /// @throws ModelError  with the message, if the condition is false.
 inline void require(bool condition, const std::string& message) {
   if (!condition) throw ModelError(message);
 }
 
-// Labels of parts of a model in messages: the name, or the number of a part without a name.
+// Labels of the objects of a model in messages: the name, or the number of an object without a
+// name.
 
 /// Returns "node" and the name or number of a node.
 [[nodiscard]] std::string node_label(const Model& model, Index node);
 /// Returns "member" and the name or number of a member.
 [[nodiscard]] std::string member_label(const Model& model, Index member);
-/// Returns the type of a part (`kind`, such as "spring") and its name, or its number if the name is
-/// empty.
+/// Returns the type of an object (`kind`, such as "spring") and its name, or its number if the name
+/// is empty.
 [[nodiscard]] std::string part_label(const char* kind, const std::string& name, std::size_t index);
 
 // Vectors in the plane.
@@ -235,14 +236,12 @@ inline void require(bool condition, const std::string& message) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Returns the vector turned by 90 degrees to the left.
+/// Returns the vector rotated counterclockwise by 90 degrees.
 [[nodiscard]] inline Vector2d perpendicular(const Vector2d& v) {
   return {-v.y(), v.x()};
 }
 
-/// Returns the vector turned counterclockwise.
-/// @param v  vector.
-/// @param angle  [rad].
+/// Returns the vector v rotated counterclockwise by an angle [rad].
 [[nodiscard]] inline Vector2d rotated(const Vector2d& v, double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
@@ -265,7 +264,7 @@ template <class Range, class Position = std::identity>
   return low == high ? 1 : (high - low).norm();
 }
 
-/// Returns the diagonal of the bounding box of the nodes of a model [m], or 1.
+/// Returns the diagonal of the bounding box of the nodes [m], or 1 if all nodes coincide.
 [[nodiscard]] inline double box_diagonal(const Model& model) {
   return box_diagonal(model.nodes, [](const Node& node) { return node.position; });
 }

@@ -6,7 +6,7 @@
 #include <limits>
 #include <unsupported/Eigen/AutoDiff>
 
-/// Number types and constants shared by all folders.
+/// Number types and constants that all folders of the solver use.
 namespace trammel::solver {
 
 using Index = Eigen::Index;
@@ -25,8 +25,8 @@ inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   return std::isnan(a) || b <= a ? a : b;
 }
 
-// Exact derivatives without finite differences. The functions that build elements from a design
-// are templates over `Real`. The same code therefore computes their derivatives.
+// Exact derivatives by dual numbers instead of finite differences. The functions that build
+// elements from a design are templates over `Real`. The same code therefore computes derivatives.
 
 /// Value and its derivative with respect to one parameter.
 using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
@@ -34,19 +34,18 @@ using Dual = Eigen::AutoDiffScalar<Eigen::Matrix<double, 1, 1>>;
 template <class T>
 concept Real = std::same_as<T, double> || std::same_as<T, Dual>;
 
-/// Returns the value without its derivative.
 [[nodiscard]] inline double value(double x) {
   return x;
 }
-/// Returns the value without its derivative.
+/// Returns the value of a dual number without its derivative.
 [[nodiscard]] inline double value(const Dual& x) {
   return x.value();
 }
-/// Returns the derivative with respect to the parameter.
+/// Returns the derivative of a dual number with respect to the parameter.
 [[nodiscard]] inline double derivative(const Dual& x) {
   return x.derivatives()[0];
 }
-/// Returns a number with the given derivative. The parameter itself has the derivative 1.
+/// Returns a dual number with the given derivative. The parameter itself has the derivative 1.
 [[nodiscard]] inline Dual with_derivative(double value, double derivative) {
   return {value, Eigen::Matrix<double, 1, 1>(derivative)};
 }

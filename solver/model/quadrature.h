@@ -7,28 +7,28 @@
 /// functions. Element matrices use rules of the degree that they require.
 namespace trammel::solver {
 
-/// Point of a rule on 0 <= xi <= 1.
+/// Point of an integration rule on the line 0 <= xi <= 1.
 struct LineQuadraturePoint {
   double xi = 0;      ///< fraction of the length
   double weight = 0;  ///< the weights sum to 1
 };
 
-/// Returns the five-point Gauss-Legendre rule, exact to degree 9.
+/// Returns the five-point Gauss-Legendre rule. It is exact for polynomials up to degree 9.
 [[nodiscard]] const std::array<LineQuadraturePoint, 5>& line_quadrature();
 
-/// Point of a rule on a triangle.
+/// Point of an integration rule on a triangle.
 struct TriangleQuadraturePoint {
   /// Area coordinates of the corners [-].
   Eigen::Vector3d area_coordinates = Eigen::Vector3d::Zero();
   double weight = 0;  ///< the weights sum to 1
 };
 
-/// Returns the product of two five-point rules with one side of the square collapsed to a corner.
-/// The rule is exact to degree 8.
+/// Returns the product of two five-point Gauss rules on a square, of which one side is collapsed to
+/// a corner of the triangle. The rule is exact for polynomials up to degree 8.
 /// Source: Stroud & Secrest (1966), conical product.
 [[nodiscard]] const std::array<TriangleQuadraturePoint, 25>& triangle_quadrature();
 
-/// Returns a six-point rule, exact to degree 4.
+/// Returns a six-point rule on a triangle. It is exact for polynomials up to degree 4.
 /// Source: Dunavant (1985).
 [[nodiscard]] const std::array<TriangleQuadraturePoint, 6>& triangle_quadrature_of_degree_4();
 

@@ -11,7 +11,7 @@ namespace trammel::solver {
 
 namespace {
 
-/// Returns the largest column sum of magnitudes.
+/// Returns the norm of a matrix: the largest column sum of magnitudes.
 double matrix_norm(const SparseMatrix& A) {
   double norm = 0;
   for (Index column = 0; column < A.outerSize(); ++column) {

@@ -22,13 +22,14 @@ struct WorkingMotion {
 /// (gyroscopic terms).
 struct EquationOfMotion {
   SparseMatrix M, C, K;  ///< at the start [SI]; an empty C means no damping
-  /// Writes f(t) [SI]; empty: no load. At a jump it writes the value after the jump.
+  /// Function that writes the load f(t) [SI]; empty: no load. At a jump it writes the value after
+  /// the jump.
   std::function<void(double time, Eigen::VectorXd& f)> load;
-  /// Writes the values of M, C and K at `time`; empty: constant matrices. With `update`, the
+  /// Function that writes M, C and K at `time`; empty: constant matrices. With `update`, the
   /// entries of the three matrices have the same positions, which do not change.
   std::function<void(double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K)> update;
-  /// Returns the working motion of a state at a time. At a jump, it is the motion after the jump.
-  /// Empty: u is q itself, with the forces of the equation.
+  /// Function that returns the working motion of a state at a time, after a jump at this time. If
+  /// it is empty, u is q, and load and drag are the forces of the equation of motion.
   std::function<WorkingMotion(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v)>
       working_motion;
   /// Times at which the load or its slope jumps [s]. A step ends at each of them.
@@ -53,7 +54,7 @@ class EquationMatrices {
   [[nodiscard]] const SparseMatrix& M() const { return M_; }
   [[nodiscard]] const SparseMatrix& C() const { return C_; }
   [[nodiscard]] const SparseMatrix& K() const { return K_; }
-  /// Returns the largest column sum of magnitudes.
+  /// Returns the norm of a matrix: the largest column sum of magnitudes.
   [[nodiscard]] double norm_M() const { return norm_M_; }
   [[nodiscard]] double norm_C() const { return norm_C_; }
   [[nodiscard]] double norm_K() const { return norm_K_; }
@@ -89,8 +90,8 @@ struct LoadHistory {
   [[nodiscard]] std::vector<double> bends() const;
   /// Returns the factor at a time [-].
   [[nodiscard]] double at(double t) const;
-  /// Returns the time whose loads act on the state at the end `t` of a step [s]. It is just before
-  /// `t` if the factor jumps there.
+  /// Returns the time [s] at which loads are evaluated for the end `t` of a step. If the factor
+  /// jumps at `t`, this time is just before `t`.
   [[nodiscard]] double end_of_step(double t) const;
 };
 
@@ -102,7 +103,7 @@ struct PiecewiseLinearLoad {
 
   /// Writes the load at a time.
   void at(double t, Eigen::VectorXd& f) const;
-  /// Makes this the load of the equation, with its times as breakpoints.
+  /// Sets this load as the load of an equation, and adds its times to the breakpoints.
   void apply_to(EquationOfMotion& equation) const;
   /// Checks the sizes and times.
   /// @throws ModelError  if the sizes differ or the times descend.
@@ -112,7 +113,7 @@ struct PiecewiseLinearLoad {
 /// Returns a load that is constant after `start`, and zero before.
 [[nodiscard]] PiecewiseLinearLoad step_load(const Eigen::VectorXd& pattern, double start = 0);
 
-/// Returns the sum of one load that varies with a history and another load that is constant.
+/// Returns the sum of the load `varied` times the factor of a history, and the load `constant`.
 [[nodiscard]] PiecewiseLinearLoad load_by_history(const LoadHistory& history,
                                                   const Eigen::VectorXd& varied,
                                                   const Eigen::VectorXd& constant);

@@ -46,7 +46,7 @@ VectorXcd solve_direct(const System& system, const RayleighDamping& damping, dou
   if (!lu.factorize(Z)) return {};
   const VectorXcd load = f.cast<Complex>();
   const VectorXcd x = lu.solve(load);
-  return x + lu.solve(load - Z * x);  // refinement balances rows with small entries
+  return x + lu.solve(load - Z * x);  // refinement reduces errors of rows with small entries
 }
 
 }  // namespace
@@ -107,8 +107,8 @@ VectorXcd HarmonicSolver::at(double frequency) const {
   ++counters_.factorizations;
   counters_.solves += 2;
   if (q.size() == 0) return q;
-  // Remove the damped modes from the direct response, which contains them only by round-off near
-  // resonance.
+  // Remove the superposed modes from the direct response. It contains them as round-off errors that
+  // are large near a resonance.
   if (participation_.size() > 0) {
     const VectorXcd image = system_.M * q;
     q -= modes_.shape * (modes_.shape.transpose() * image);
@@ -166,8 +166,8 @@ HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequen
   const Eigen::Matrix<double, Eigen::Dynamic, 6> size = amplitude(in_phase, quadrature);
   const ForceRoundoff roundoff =
       force_roundoff(size.transpose(), box_diagonal(system_.mesh.positions));
-  // Returns the complex stress amplitude of a force. If the section does not define the resistance,
-  // a force above round-off gives NaN.
+  // Returns the complex stress amplitude of a force. If the section does not define the resistance
+  // (area or section modulus), a force above round-off gives NaN.
   const auto stress_amplitude = [](const Complex& force, double resistance, double negligible) {
     const double stress = stress_of_force(force, resistance, negligible);
     return stress > 0 ? force / resistance : Complex(stress);
@@ -234,8 +234,8 @@ HarmonicPeak harmonic_peak(const HarmonicSolver& response, double low, double hi
   while (!is_lower(below(width)) || !is_lower(above(width))) width *= 4;
   constexpr int kBits = 26;  // half the bits of a double, because a maximum is flat
   std::uintmax_t evaluations = 100;
-  // Use the fraction of the interval as variable of the search, because its tolerance has an
-  // absolute part.
+  // Use the fraction of the interval as variable of the search, because the tolerance of the search
+  // has an absolute part.
   const double start = below(width), interval = above(width) - start;
   const auto [share, negative] = boost::math::tools::brent_find_minima(
       [&](double s) { return -size(start + s * interval); }, 0.0, 1.0, kBits, evaluations);

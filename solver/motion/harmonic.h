@@ -14,14 +14,14 @@ namespace trammel::solver {
 /// Damping of a harmonic response.
 struct HarmonicDamping {
   RayleighDamping rayleigh;  ///< acts on all coordinates
-  /// Additional damping ratios of the first modes, one by one [-].
+  /// Additional damping ratios of the first modes, one ratio per mode [-].
   std::vector<double> modal_ratio;
 };
 
-/// Amplitudes over a cycle.
+/// Amplitudes of a harmonic response: largest magnitudes over a cycle.
 struct HarmonicAmplitudes {
-  Eigen::MatrixX3d displacement;     ///< model node x (ux, uy [m], rotation [rad])
-  Eigen::MatrixX3d resultant_start;  ///< member x (N [N], V [N], M [N m])
+  Eigen::MatrixX3d displacement;     ///< rows: model nodes; columns: ux, uy [m], rotation [rad]
+  Eigen::MatrixX3d resultant_start;  ///< rows: members; columns: N [N], V [N], M [N m]
   Eigen::MatrixX3d resultant_end;
   Eigen::VectorXd member_stress;  ///< largest |N / A +- M / W| at the ends of elements [Pa]
 };
@@ -35,32 +35,31 @@ struct HarmonicAmplitudes {
 /// the remaining load, so that no mode is truncated.
 class HarmonicSolver {
  public:
-  /// Computes the required modes.
+  /// Computes the modes with a damping ratio, and rigid modes.
   /// @throws ModelError  if a ratio is negative or infinite, or there are fewer modes than ratios.
   HarmonicSolver(const System& system, const HarmonicDamping& damping);
 
-  /// Returns the outcome. singular: a mechanism; not_converged: some modes were not found.
+  /// Returns the outcome. singular: the model is a mechanism; not_converged: modes were not found.
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
   /// Returns the frequencies of the damped modes [Hz].
   [[nodiscard]] Eigen::VectorXd frequencies() const {
     return modes_.frequency.head(damping_.ratio.size());
   }
 
-  /// Computes the complex response of the free coordinates.
-  /// @param frequency  [Hz].
+  /// Computes the complex response of the free coordinates at a frequency [Hz].
   /// @return  empty at an exact resonance of an undamped mode, and at 0 Hz for a model with rigid
   ///   modes.
   [[nodiscard]] Eigen::VectorXcd at(double frequency) const;
 
-  /// Returns the backward error of (K + i w C - w^2 M) q = f. The matrices are computed again, and
-  /// C includes modal damping.
+  /// Returns the backward error of the equation of motion (K + i w C - w^2 M) q = f. The matrices
+  /// are assembled again, and C includes modal damping.
   [[nodiscard]] double backward_error(const Eigen::VectorXcd& q, double frequency) const;
 
-  /// Returns amplitudes over a cycle. Section forces follow from the strains. They balance inertia,
-  /// mass-proportional damping and loads, times 1 / (1 + i w stiffness). The forces of inextensible
-  /// members are the limit of those of extensible members with increasing stiffness.
-  /// @param q  response at `frequency`.
-  /// @param frequency  [Hz].
+  /// Returns the largest magnitudes over a cycle of the response q at a frequency [Hz]. Section
+  /// forces follow from the strains. They balance inertia forces, mass-proportional damping and
+  /// loads, times 1 / (1 + i w stiffness), where stiffness is the factor of stiffness-proportional
+  /// damping. The forces of inextensible members are the limit of those of extensible members with
+  /// increasing stiffness.
   [[nodiscard]] HarmonicAmplitudes amplitudes(const Eigen::VectorXcd& q, double frequency) const;
 
   [[nodiscard]] const Counters& counters() const { return counters_; }
@@ -90,14 +89,10 @@ struct HarmonicPeak {
   double amplitude = 0;  ///< in the unit of the quantity
 };
 
-/// Finds the largest amplitude between two frequencies. The interval is scanned at equal steps and
-/// at the resonances. Brent's method then determines the peak to about 1e-8 of the frequency.
-/// @param response  solver of the response.
-/// @param low  lowest frequency [Hz].
-/// @param high  highest frequency [Hz].
-/// @param resonances  all natural frequencies in the interval [Hz]; peaks at unlisted ones may be
-///   missed.
-/// @param amplitude  amplitude of a response at a frequency [Hz].
+/// Finds the largest amplitude between the frequencies `low` and `high` [Hz]. The interval is
+/// scanned at equal steps and at the `resonances`, which are all natural frequencies in the
+/// interval [Hz]. Peaks at other frequencies may be missed. Brent's method then determines the peak
+/// to about 1e-8 of the frequency. `amplitude` returns the amplitude of a response at a frequency.
 [[nodiscard]] HarmonicPeak harmonic_peak(
     const HarmonicSolver& response, double low, double high, const std::vector<double>& resonances,
     const std::function<double(const Eigen::VectorXcd&, double)>& amplitude);

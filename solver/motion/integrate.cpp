@@ -18,8 +18,8 @@ struct Stop {
 /// Returns the sample times, breakpoints after the start, and the end, in ascending order.
 std::vector<Stop> stops_of(const TransientOptions& options, const std::vector<double>& samples,
                            const std::vector<double>& breakpoints) {
-  // Round-off error of a time that is a multiple of a step. Breakpoints that are further apart have
-  // separate stops, even for a short pulse.
+  // Round-off error of a time that is a multiple of a step. Breakpoints with a larger distance get
+  // separate stops, which resolves short pulses of the load.
   const double apart = 8 * kEps * std::max(std::abs(options.start), std::abs(options.end));
   std::vector<Stop> stops;
   for (const double time : samples) stops.push_back({time, true, false});
@@ -52,10 +52,10 @@ double equal_steps(double span, double step, int multiple = 1) {
   return multiple * std::max(1.0, std::ceil(span / (multiple * step) * (1 - 1e-9)));
 }
 
-/// Steps of largest / 2^level between stops.
+/// Time steps of the size largest step / 2^level between stops.
 class HalvedSteps {
  public:
-  static constexpr double kErrorLimit = 1;  ///< of accepted steps, relative to the allowed error
+  static constexpr double kErrorLimit = 1;  ///< largest accepted error over the allowed error
   explicit HalvedSteps(const TransientOptions& options) : options_(options) {}
   void begin(double time, double stop) {
     begin_ = time;
@@ -92,7 +92,7 @@ class HalvedSteps {
  private:
   const TransientOptions& options_;
   double begin_ = 0, end_ = 0, largest_ = 0, size_ = 0;
-  std::int64_t done_ = 0, count_ = 0;  ///< steps of the current level
+  std::int64_t done_ = 0, count_ = 0;  ///< completed and total steps at the current level
   int level_ = 0;
 };
 
@@ -147,7 +147,7 @@ class FreeSteps {
  private:
   /// Returns a new size after a step that does not converge. Smaller and larger sizes alternate,
   /// because a singular position may lie within the step. The equations are regular again beyond
-  /// it.
+  /// this position.
   double retry(double size) {
     if (failed_size_ == 0) failed_size_ = size;
     const double smaller = failed_size_ * std::pow(0.5, (failures_ + 1) / 2);

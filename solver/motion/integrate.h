@@ -10,15 +10,15 @@
 #include "solver/model/evidence.h"
 #include "solver/motion/time_scheme.h"
 
-/// Integration in time: the loop over steps, the step sizes, and stops at breakpoints. A `Stepper`
-/// implements the equations.
+/// Integration in time: the loop over time steps, the step sizes, and stops at breakpoints. A class
+/// derived from `Stepper` implements the equations.
 namespace trammel::solver {
 
 /// Error control. In linear systems the sum of the estimated errors of all steps stays below
 /// relative * size + absolute [m sqrt(kg)]. The allowed error is distributed evenly in time, so
 /// that the global error is proportional to the tolerance. `size` is the largest sqrt(q^T M q)
-/// since the start. Before there is a motion, it is an estimate from the load. In geometrically
-/// exact systems, `relative` bounds the error of each step relative to the model size.
+/// since the start. Before the motion starts, it is estimated from the load. In geometrically exact
+/// systems, `relative` bounds the error of each step relative to the model size.
 struct ErrorControl {
   double relative = 1e-4;
   double absolute = 0;
@@ -44,8 +44,8 @@ struct TransientOptions {
 
   // Options of geometrically exact systems.
   std::vector<double> breakpoints;  ///< ascending; a step ends at each of them [s]
-  int steps_in_multiples_of = 1;  ///< number of steps between stops is a multiple; fixed steps only
-  std::int64_t max_steps = 100'000'000;  ///< limit, including rejected steps
+  int steps_in_multiples_of = 1;    ///< divides the number of steps between stops; fixed steps only
+  std::int64_t max_steps = 100'000'000;  ///< limit of the number of steps, with rejected ones
 };
 
 /// Returns the times start, start + step, ... and the end [s].
@@ -72,7 +72,7 @@ struct TransientSummary {
 /// Time step.
 struct Step {
   double size = 0;    ///< [s]
-  double end = 0;     ///< [s]
+  double end = 0;     ///< time at the end of the step [s]
   int level = 0;      ///< the size is the largest step / 2^level
   bool last = false;  ///< the step ends at a stop
 };
@@ -81,13 +81,13 @@ struct Step {
 struct StepReport {
   Status status = Status::not_converged;
   int iterations = 0;
-  double residual = 0;  ///< of the equations, or the last correction relative to the model size [-]
+  double residual = 0;  ///< relative residual, or last correction over the model size [-]
   /// Estimated local error relative to the allowed error; 0 without error control.
   double error = 0;
   bool leaves_branch = false;  ///< the mechanism changes its assembly mode within the step
 };
 
-/// System with a time scheme. It computes single steps from the last accepted state.
+/// Interface of equations with a time scheme. Computes single steps from the last accepted state.
 class Stepper {
  public:
   Stepper() = default;
@@ -98,10 +98,8 @@ class Stepper {
   [[nodiscard]] virtual Outcome begin(const Step& /*first*/, double /*stop*/) { return {}; }
   /// Attempts a step. The result is pending until it is accepted.
   [[nodiscard]] virtual StepReport attempt(const Step& step) = 0;
-  /// Accepts the last attempt.
-  /// @param step  the attempted step.
-  /// @param inspect  true: also check the equation of motion.
-  /// @param evidence  receives residuals.
+  /// Accepts the last attempted step. With `inspect`, the equation of motion is also checked.
+  /// `evidence` receives residuals.
   virtual void accept(const Step& step, bool inspect, Evidence& evidence) = 0;
   /// Prepares for discontinuous accelerations after a breakpoint.
   virtual void restart() {}
@@ -117,8 +115,8 @@ enum class StepSizes {
   free     ///< according to the error; smaller and larger steps if a step does not converge
 };
 
-/// Integrates to the end. It stops at each breakpoint and, with free step sizes, at each sample
-/// time.
+/// Integrates the equations of a stepper to the end time. The integration stops at each breakpoint
+/// and, with free step sizes, at each sample time.
 [[nodiscard]] TransientSummary integrate(Stepper& stepper, const TransientOptions& options,
                                          const std::vector<double>& breakpoints, StepSizes sizes);
 

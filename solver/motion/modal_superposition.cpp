@@ -15,16 +15,14 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Value and slope of the factors at the start of an interval.
+/// Values and slopes of the load factors at the start of a time interval.
 struct Factor {
   VectorXd value, slope;
 };
 
-/// Visits the time intervals between all samples and load times in ascending order.
-/// @param load  loads and factors.
-/// @param times  sample times, ascending [s].
-/// @param sample  called with (index of the sample, factors after it).
-/// @param advance  called with (length of the interval [s], its factors).
+/// Visits the intervals between all sample times and load times in ascending order. Calls `sample`
+/// with (index of the sample, factors after it), and `advance` with (length of the interval [s],
+/// its factors).
 template <class Sample, class Advance>
 void walk(const PiecewiseLinearLoad& load, const std::vector<double>& times, const Sample& sample,
           const Advance& advance) {
@@ -141,7 +139,7 @@ DelayedFactors delayed_factors(const PiecewiseLinearLoad& load, double relaxatio
     found.value.col(column) = settled + away;
     found.rate.col(column) = factor.slope;
     if (relaxation == 0) return;
-    // Use the differential equation, because it has no round-off error for coordinates at rest.
+    // Compute the rate by the differential equation, which has no round-off error at rest.
     found.rate.col(column) = (factor.value - found.value.col(column)) / relaxation;
     found.acceleration.col(column) = (factor.slope - found.rate.col(column)) / relaxation;
   };
@@ -163,7 +161,8 @@ void add_massless_coordinates(const ModalBasis& basis, const SparseMatrix& M, co
   const Eigen::MatrixXd rest =
       load.pattern - M * (basis.shape * (basis.shape.transpose() * load.pattern));
   if (rest.norm() > 1e-9 * load.pattern.norm()) {
-    // Any multiple of M may be added to K because M x = 0. K is singular if there are rigid modes.
+    // Add a multiple of M to K, because K is singular if there are rigid modes. It does not affect
+    // massless coordinates, because M x = 0.
     const double shift = K.diagonal().sum() / M.diagonal().sum();
     Factorization factorization;
     factorization.compute(SparseMatrix(K + shift * M));
@@ -215,7 +214,7 @@ ImpulseResponse by_series(double omega, double decay, double t) {
   return r;
 }
 
-/// Decay e^(-rate t): its integral over [0, t], and the integral of this integral.
+/// First and second integral of the decay e^(-rate t) over [0, t].
 struct Decay {
   double once, twice;
 };
@@ -236,7 +235,7 @@ Decay integrate_decay(double rate, double t) {
   return {once, (t - once) / rate};
 }
 
-/// Evaluates both real decay rates separately, for roots that are far apart.
+/// Computes the response as the difference of two decays whose rates are far apart.
 ImpulseResponse by_decays(double omega, double decay, double root, double t) {
   const double fast = decay + root;
   const double slow = omega * omega / fast;

@@ -16,7 +16,7 @@ namespace trammel::solver {
 
 /// Modes for superposition, with x^T M x = 1 (paper Eq. 33).
 struct ModalBasis {
-  Outcome outcome;        ///< not_converged: there are no modes
+  Outcome outcome;        ///< singular, not_converged: there are no modes
   Eigen::VectorXd omega;  ///< ascending [rad/s]; 0 for rigid modes
   Eigen::MatrixXd shape;  ///< coordinate x mode
 };
@@ -27,20 +27,14 @@ struct ModalBasis {
 /// @throws ModelError  if the model has no mass.
 [[nodiscard]] ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K);
 
-/// Response at ascending times, coordinate x time.
+/// Response at ascending times: one row per coordinate, one column per time.
 struct ModalResponse {
-  Eigen::MatrixXd q, v, a;  ///< [SI], [SI/s], [SI/s^2]; at a jump, a is the value after it
+  Eigen::MatrixXd q, v, a;  ///< [SI], [SI/s], [SI/s^2]; a is the value after a jump of the load
 };
 
-/// Superposes modal responses.
-/// @param basis  modes.
-/// @param decay  ratio * omega of each mode [1/s] (`decay_rates`); overdamped above omega.
-/// @param M  mass matrix.
-/// @param load  load of the coordinates.
-/// @param times  ascending [s].
-/// @param q0  displacements at times.front(), projected on the modes; empty: zero.
-/// @param v0  velocities at times.front(), projected on the modes; empty: zero.
-/// @returns the response at the times.
+/// Superposes modal responses at ascending times [s]. `decay` is ratio * omega of each mode [1/s]
+/// (`decay_rates`); a mode is overdamped above omega. q0 and v0 are the displacements and
+/// velocities at times.front(), which are projected on the modes; empty: zero.
 [[nodiscard]] ModalResponse superpose(const ModalBasis& basis, const Eigen::VectorXd& decay,
                                       const SparseMatrix& M, const PiecewiseLinearLoad& load,
                                       const std::vector<double>& times, const Eigen::VectorXd& q0,
@@ -52,11 +46,9 @@ struct DelayedFactors {
   Eigen::MatrixXd value, rate, acceleration;  ///< load x time [-], [1/s], [1/s^2]
 };
 
-/// Solves relaxation y' + y = factor for each load.
-/// @param load  loads and factors.
-/// @param relaxation  relaxation time [s]; 0: y follows at once, with the value after a jump.
-/// @param start  y at times.front(), used with relaxation > 0.
-/// @param times  ascending [s].
+/// Solves relaxation y' + y = factor for each load at ascending times [s]. `start` is y at
+/// times.front(), used with relaxation > 0 [s]. With relaxation = 0, y equals the factor, with the
+/// value after a jump.
 [[nodiscard]] DelayedFactors delayed_factors(const PiecewiseLinearLoad& load, double relaxation,
                                              const Eigen::VectorXd& start,
                                              const std::vector<double>& times);
@@ -65,16 +57,9 @@ struct DelayedFactors {
 ///
 ///   K (x + relaxation x') = part of the load that excites no mode.
 ///
-/// Without relaxation they follow this load at once.
-/// @param basis  all modes.
-/// @param M  mass matrix.
-/// @param K  stiffness matrix.
-/// @param relaxation  factor of stiffness-proportional damping [s].
-/// @param load  load of the coordinates.
-/// @param times  ascending [s].
-/// @param q0  displacements at times.front(); empty: zero.
-/// @param response  modal response to which the part is added.
-/// @param counters  incremented by the factorizations and solves.
+/// `relaxation` is the factor of stiffness-proportional damping [s]. Without relaxation, massless
+/// coordinates follow this load at once. `basis` contains all modes. q0 are the displacements at
+/// times.front(); empty: zero.
 void add_massless_coordinates(const ModalBasis& basis, const SparseMatrix& M, const SparseMatrix& K,
                               double relaxation, const PiecewiseLinearLoad& load,
                               const std::vector<double>& times, const Eigen::VectorXd& q0,
@@ -99,10 +84,8 @@ struct ImpulseResponse {
   double h2 = 0;  ///< [s^3]
 };
 
-/// Computes the impulse response of an oscillator.
-/// @param omega  w >= 0 [rad/s].
-/// @param decay  c = ratio * w >= 0 [1/s].
-/// @param t  time >= 0 [s].
+/// Computes the impulse response of an oscillator at a time t >= 0 [s], with w = `omega` [rad/s]
+/// and c = `decay` = ratio * w [1/s].
 [[nodiscard]] ImpulseResponse impulse_response(double omega, double decay, double t);
 
 /// State of an oscillator.
@@ -130,19 +113,18 @@ class RegularizedMass {
   Factorization regular_;
 };
 
-/// Loads and accelerations that balance the strains of a motion with stiffness-proportional
-/// damping. The damping in K (q + t q') delays the strains relative to loads and inertia. With x +
-/// t x' = loads and accelerations, the balance is
+/// Loads and accelerations that balance the elastic forces K q of a motion with
+/// stiffness-proportional damping. Loads and inertia forces balance K (q + t q'), so that q is
+/// delayed relative to them. If x is the solution of x + t x' = loads or accelerations, the balance
+/// is
 ///
 ///   K q = x of the loads - M x of the accelerations.
 class LateStrain {
  public:
   /// @pre `system` outlives this object.
   explicit LateStrain(const System& system);
-  /// Writes the loads and accelerations that balance K q into `elastic`.
-  /// @param q  free coordinates.
-  /// @param factors  delayed factors of loads and of weight (`delayed_factors`).
-  /// @param elastic  receives load factors and accelerations.
+  /// Writes the load factors and accelerations that balance K q into `elastic`. `factors` are the
+  /// delayed factors of loads and of weight (`delayed_factors`).
   void set_loads(const Eigen::VectorXd& q, const Eigen::Vector2d& factors,
                  ElasticState& elastic) const;
 

@@ -16,12 +16,11 @@ inline constexpr double kUnderflow = std::numeric_limits<double>::min() / kEps;
 
 /// Residuals of a motion, computed step by step with separate matrices and loads.
 ///
-/// The expected change of energy in a step follows from equilibrium at both ends of the step and
-/// from the relations of the scheme (time_scheme.h). x- is the mean of x at both ends and dx its
-/// change. T and V are the kinetic and the strain energy:
+/// The expected change of energy in a step of size h follows from equilibrium at both ends of the
+/// step and from the relations of the scheme (time_scheme.h). x- is the mean of x at both ends and
+/// dx its change. T and V are the kinetic and the strain energy:
 ///
 ///   dT + dV = dq.f- - dq.(C v)- + h (a- + (gamma - 1/2) da).(M v)-
-///
 ///             - (h v- + h^2 (beta - gamma/2) da).(M A)-.
 ///
 /// The last two terms vanish for average acceleration. Otherwise they are the energy that the
@@ -34,23 +33,22 @@ class MotionEvidence {
   /// @pre The equation outlives this object.
   explicit MotionEvidence(const EquationOfMotion& equation, const TimeScheme& scheme = {});
 
-  /// Adds the largest |M A + C v + K q - f| relative to its terms, row by row. Each coordinate
-  /// counts with at least `kLeastFraction` of the largest, after scaling by the diagonal of M +
-  /// step^2 K. Otherwise there would be no scale for rows whose motions are only round-off errors.
+  /// Adds the largest residual |M A + C v + K q - f| of a row, relative to its terms. Each
+  /// coordinate counts in the terms with at least `kLeastFraction` of the largest, after scaling by
+  /// the diagonal of M + step^2 K. Otherwise, rows whose motions are only round-off errors would
+  /// have no scale.
   void add_equilibrium(double time, double load_time, const Eigen::VectorXd& q,
                        const Eigen::VectorXd& v, const Eigen::VectorXd& A, double step);
-  /// Adds the residuals of the relations of the scheme between two states.
+  /// Adds the residuals of the relations of the scheme between q, v, a and A in a step of size h.
   void add_relations(const TransientState& from, const TransientState& to, double h);
-  /// Adds the energy balance of a step.
-  /// @param from  state at the start, with its energies.
-  /// @param to  state at the end.
-  /// @param h  step [s].
+  /// Adds the residual of the energy balance in a step of size h between two states.
   void add_energy(const TransientState& from, const TransientState& to, double h);
-  /// Starts a segment in which the given forces are not balanced at the start. They do work in the
-  /// first step, because massless coordinates have no acceleration to balance them.
+  /// Starts a segment between two breakpoints with forces that are not balanced at its start. They
+  /// do work in the first step, because massless coordinates have no inertia forces to balance
+  /// them.
   void begin_segment(const Eigen::VectorXd& unbalanced) { unbalanced_ = unbalanced; }
 
-  /// Returns all residuals.
+  /// Returns the largest residuals of all added states and steps.
   [[nodiscard]] Evidence result() const;
 
  private:

@@ -61,8 +61,8 @@ Outcome add_rotating_frame_terms(const System& system, const PrescribedRotation&
   const SparseMatrix added = K_1 - centrifugal_softening(system);
   SparseMatrix C = equation.C;
   if (C.size() == 0) C.resize(system.K.rows(), system.K.cols());
-  // Create a common pattern. A sum keeps the positions of all entries of its terms, including
-  // zeros.
+  // Create a common sparsity pattern. A sum keeps the positions of all entries of its terms,
+  // including zeros.
   SparseMatrix zero = system.M + system.K + C + G + added;
   zero.coeffs().setZero();
   const auto values = [&zero](const SparseMatrix& A) {

@@ -14,16 +14,13 @@ namespace trammel::solver {
 /// a step of length h. A is the algorithmic acceleration:
 ///
 ///     \f[ (1 - \alpha_m) A_1 + \alpha_m A_0 = (1 - \alpha_f) a_1 + \alpha_f a_0, \f]
-///
 ///     \f[ q_1 = q_0 + h v_0 + h^2 ((1/2 - \beta) A_0 + \beta A_1), \f]
-///
 ///     \f[ v_1 = v_0 + h ((1 - \gamma) A_0 + \gamma A_1). \f]
 ///
-/// Equilibrium holds at the end of every step instead of at a point within it. The order is
-/// therefore the same for a and for matrices that change with time. A belongs to a time that is
-/// alpha_m - alpha_f steps after that of a.
-/// Source: Chung & Hulbert (1993) in the form of Arnold & Bruels (2007). Newmark (1959) has alpha_m
-/// = alpha_f = 0.
+/// Equilibrium holds at the end of every step instead of at a point within it. The order of
+/// accuracy is therefore the same for the acceleration a, and for matrices that change with time. A
+/// belongs to a time that is alpha_m - alpha_f steps after that of a. Source: Chung & Hulbert
+/// (1993) in the form of Arnold & Bruels (2007). Newmark (1959) has alpha_m = alpha_f = 0.
 struct TimeScheme {
   double alpha_m = 0;
   double alpha_f = 0;
@@ -32,11 +29,12 @@ struct TimeScheme {
   /// true: use the energy-momentum method instead, for geometrically exact systems only.
   bool conserves_energy = false;
 
-  /// Returns the change of A per unit change of a1.
+  /// Returns the change of the algorithmic acceleration A per unit change of a1 at the end of a
+  /// step.
   [[nodiscard]] double gain() const { return (1 - alpha_f) / (1 - alpha_m); }
-  /// Returns the change of v / h per unit change of a1.
+  /// Returns the change of v / h per unit change of the acceleration a1 at the end of a step.
   [[nodiscard]] double velocity_gain() const { return gamma * gain(); }
-  /// Returns the change of q / h^2 per unit change of a1.
+  /// Returns the change of q / h^2 per unit change of the acceleration a1 at the end of a step.
   [[nodiscard]] double position_gain() const { return beta * gain(); }
   /// Returns the constant c of the local error c h^2 (A1 - A0) of a position (Zienkiewicz & Xie
   /// 1991). The error of v remains even if this error is zero. The result is therefore at least
@@ -55,7 +53,7 @@ struct TimeScheme {
 [[nodiscard]] TimeScheme linear_acceleration();
 /// Returns Newmark's method with beta = 0: order 2, stable for w h < 2.
 [[nodiscard]] TimeScheme central_difference();
-/// Returns the method of Hilber, Hughes & Taylor (1977) with -1/3 <= alpha <= 0. 0 is the
+/// Returns the method of Hilber, Hughes & Taylor (1977) with -1/3 <= alpha <= 0. alpha = 0 is the
 /// trapezoidal rule.
 /// @throws ModelError  if alpha is outside this range.
 [[nodiscard]] TimeScheme hht_alpha(double alpha);
@@ -76,7 +74,7 @@ struct TimeScheme {
 
 // Relations of the scheme for states with q, v and a.
 
-/// Computes A1, q1 and v1 from a1.
+/// Computes A, q and v at the end of a step from the acceleration a at the end (`to.a`).
 template <class State>
 void predict(const TimeScheme& s, double h, const State& from, const Eigen::VectorXd& A0, State& to,
              Eigen::VectorXd& A1) {
@@ -85,7 +83,7 @@ void predict(const TimeScheme& s, double h, const State& from, const Eigen::Vect
   to.v = from.v + h * ((1 - s.gamma) * A0 + s.gamma * A1);
 }
 
-/// Changes a1, A1 and v1 by a correction of a1.
+/// Adds a correction to the acceleration a at the end of a step, and changes A and v accordingly.
 template <class State, class Correction>
 void correct(const TimeScheme& s, double h, const Correction& correction, State& to,
              Eigen::VectorXd& A1) {
@@ -94,40 +92,31 @@ void correct(const TimeScheme& s, double h, const Correction& correction, State&
   to.v += (s.velocity_gain() * h) * correction;
 }
 
-/// Converts A, which belongs to a time that depends on the step, from the old step to the new step.
-/// @param ratio  new step / old step.
-/// @param a  acceleration of the equation of motion.
-/// @param A  acceleration of the scheme, changed in place.
+/// Converts the algorithmic acceleration A, which belongs to a time that depends on the step, to a
+/// new step. `ratio` is new step / old step, and a is the acceleration of the equation of motion.
 inline void change_step(double ratio, const Eigen::VectorXd& a, Eigen::VectorXd& A) {
   A = a + ratio * (A - a);
 }
 
-/// Returns the largest difference between the two sides of the relations between q, v, a and A,
-/// relative to the sum of the terms of each relation [-].
-/// @param s  time scheme.
-/// @param h  step [s].
-/// @param from  state at the start.
-/// @param A0  acceleration of the scheme at the start.
-/// @param to  state at the end.
-/// @param A1  acceleration of the scheme at the end.
-/// @param positions  false: omit the relation of positions, which constraints modify.
-/// @param norm  norm of a vector of coordinates.
-/// @param defect  work vector.
+/// Returns the largest difference between the two sides of the relations between q, v, a and A in a
+/// step of size h, relative to the sum of the terms of each relation [-]. Without `positions`, the
+/// relation of positions is omitted, because constraints modify it. `norm` returns the norm of a
+/// vector of coordinates, and `defect` is a work vector.
 template <class State, class Norm>
 double relation_residual(const TimeScheme& s, double h, const State& from,
                          const Eigen::VectorXd& A0, const State& to, const Eigen::VectorXd& A1,
                          bool positions, const Norm& norm, Eigen::VectorXd& defect) {
-  // A body that stops moving has accelerations dominated by the round-off error of its positions
-  // over beta h^2. Terms with a larger fraction of round-off than this limit are dominated by
-  // round-off. The limit is a tenth of the residual limit.
+  // If a body stops moving, its accelerations are the round-off error of its positions over beta
+  // h^2. The terms below are increased so that round-off is at most this fraction of them. The
+  // fraction is a tenth of the residual limit.
   constexpr double kRoundoffShare = 1e-5;
   const double roundoff = kEps * (norm(from.q) + norm(to.q)) / (std::max(s.beta, 1.0 / 12) * h * h);
   const double A = norm(A0) + norm(A1) + roundoff / kRoundoffShare;
   const double a = norm(from.a) + norm(to.a) + A;
   const double v = norm(from.v) + norm(to.v) + h * A;
   const double q = norm(from.q) + norm(to.q) + h * v;
-  // Smaller motions are treated as zero, because underflow removes their digits. Numerical damping
-  // leads to such motions.
+  // Motions below this magnitude are treated as zero, because underflow removes their digits.
+  // Numerical damping leads to such motions.
   constexpr double kUnderflow = std::numeric_limits<double>::min() / kEps;
   const auto share = [&](double terms) {
     const double size = norm(defect);

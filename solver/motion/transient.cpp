@@ -96,8 +96,8 @@ class SampleOutput {
 };
 
 void SampleOutput::step(const TransientState& begin, const TransientState& end, double h) {
-  // A step end is a sum of steps. A sample within the round-off error of a step end is not inside
-  // the step.
+  // The time of a step end is a sum of step sizes. A sample within the round-off error of a step
+  // end is not inside the step.
   constexpr double kEndOfStep = 1e-6;
   if (times_.empty()) {
     emit(end.time, end.q, end.v, end.a, end.shown);
@@ -179,8 +179,8 @@ class LinearStepper final : public Stepper {
   double judge_residual(StepReport& report, double& allowed) const;
   [[nodiscard]] double error_ratio(double h);
   void update_energies(double load_time);
-  /// Returns the time of the left limit if the load jumps at the end of the step; see
-  /// EquationOfMotion::load.
+  /// Returns the time at which the load is evaluated at the end of a step. It is just before a
+  /// stop, because `EquationOfMotion::load` writes the value after a jump.
   [[nodiscard]] double load_time(const Step& step) const {
     return step.last ? std::nextafter(step.end, now_->time) : step.end;
   }
@@ -194,7 +194,7 @@ class LinearStepper final : public Stepper {
   TransientState *now_ = &states_[0], *next_ = &states_[1];
   VectorXd residual_, correction_;  // work vectors
   std::unique_ptr<SparseLdlt> mass_factor_;
-  SparseLdlt* start_factor_ = nullptr;  // of M, or of the first step's matrix if M is singular
+  SparseLdlt* start_factor_ = nullptr;  // of M, or of the first step matrix if M is singular
   bool mass_is_singular_ = false;
   MasslessCoordinates massless_;
   bool massless_balance_ = false;  // output states: massless coordinates are in equilibrium
@@ -223,9 +223,9 @@ Outcome LinearStepper::start() {
   return {};
 }
 
-/// Computes accelerations in equilibrium after a breakpoint. Massless coordinates have no
-/// accelerations. With constant matrices they follow the other coordinates. Otherwise the
-/// acceleration is that of the first step.
+/// Computes the accelerations after a breakpoint from the equation of motion, which does not
+/// contain those of massless coordinates. With constant matrices, massless coordinates follow the
+/// other coordinates. Otherwise their acceleration is that of the first step.
 Outcome LinearStepper::begin(const Step& first, double stop) {
   const double h = first.size;
   matrices_.update(now_->time);
@@ -285,10 +285,10 @@ void LinearStepper::settle_massless(double h) {
 }
 
 /// Estimates the amplitude of the motion from the load of a segment, because the error control
-/// requires an amplitude before there is any motion. x = M^-1 f is assumed to move as an oscillator
-/// with its Rayleigh quotient. The frequency has a lower limit from the total time, which covers
-/// free bodies. The estimate is the static displacement or, in a shorter segment, the distance
-/// covered at the speed that the load causes.
+/// requires an amplitude before there is any motion. The shape x = M^-1 f is assumed to move as an
+/// oscillator with the frequency of its Rayleigh quotient. The frequency has a lower limit from the
+/// total time, which covers free bodies. The estimate is the static displacement or, in a shorter
+/// segment, the distance covered at the speed that the load causes.
 void LinearStepper::estimate_size_from_load(double begin, double end) {
   constexpr int kPoints = 8;
   const double time = options_.end - options_.start;
@@ -323,8 +323,8 @@ SparseLdlt* LinearStepper::step_factor(const Step& step) {
   return factor->factorize(S_) ? factor.get() : nullptr;
 }
 
-/// Predicts with a1 = 0 and corrects until the equation of motion holds at the end of the step.
-/// Symmetric matrices need a single correction.
+/// Predicts the motion with zero acceleration at the end of the step, and corrects until the
+/// equation of motion holds at the end. Symmetric matrices need a single correction.
 StepReport LinearStepper::attempt(const Step& step) {
   const double h = step.size;
   if (now_->A_step != h) change_step(h / now_->A_step, now_->a, now_->A);
@@ -361,7 +361,7 @@ StepReport LinearStepper::attempt(const Step& step) {
   return report;
 }
 
-/// Computes residual_ = f - M a - C v - K q of next_.
+/// Computes the residual f - M a - C v - K q at the end of the attempted step.
 void LinearStepper::form_residual() {
   next_->Ma.noalias() = matrices_.M() * next_->a;
   if (matrices_.norm_C() > 0) {
@@ -373,8 +373,8 @@ void LinearStepper::form_residual() {
   residual_ = next_->f - next_->Ma - next_->Cv - next_->Kq;
 }
 
-/// Computes residual_ relative to the sum of its terms, and the allowed residual.
-/// @returns the largest entry of residual_.
+/// Computes the residual relative to the sum of its terms, and the allowed residual. @returns the
+/// largest entry of the residual.
 double LinearStepper::judge_residual(StepReport& report, double& allowed) const {
   const double left = infinity_norm(residual_);
   const double terms = infinity_norm(next_->Ma) + infinity_norm(next_->Cv) +
@@ -388,7 +388,7 @@ double LinearStepper::judge_residual(StepReport& report, double& allowed) const 
   return left;
 }
 
-/// Returns the estimated local error in the norm of kinetic energy, relative to its allowance.
+/// Returns the estimated error of a step in the norm of kinetic energy over the allowed error.
 double LinearStepper::error_ratio(double h) {
   correction_ = next_->A - now_->A;
   residual_.noalias() = matrices_.M() * correction_;

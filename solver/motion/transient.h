@@ -16,7 +16,7 @@ struct MotionEnergy {
   double kinetic = 0;     ///< v^T M v / 2
   double strain = 0;      ///< q^T K q / 2
   double work = 0;        ///< work of the load, by the trapezoidal rule over each step
-  double dissipated = 0;  ///< by C, by the same rule; for a working motion: by `drag` on its `u`
+  double dissipated = 0;  ///< by damping, by the same rule; with a working motion: work of `drag`
   [[nodiscard]] double total() const { return kinetic + strain - work + dissipated; }
 };
 
@@ -30,28 +30,28 @@ struct MotionSample {
   const Eigen::VectorXd& v;    ///< q' [SI/s]
   const Eigen::VectorXd& a;    ///< q'' [SI/s^2]
   const MotionEnergy& energy;  ///< [J]
-  /// True: inside a step; the error of the equation of motion includes that of the interpolation.
+  /// True: the time is inside a step, so that the equation of motion has an interpolation error.
   bool interpolated = false;
 };
-/// Receives the samples of a motion.
+/// Function that receives the samples of a motion.
 using MotionObserver = std::function<void(const MotionSample&)>;
 
-/// Integrates and passes each sample to the observer. With constant matrices and fixed steps there
-/// is one factorization, and the loop does not allocate memory.
+/// Integrates an equation of motion and passes each sample to the observer. With constant matrices
+/// and fixed steps there is one factorization, and the loop does not allocate memory.
 /// @throws ModelError  if sizes differ, or a time or step is invalid.
 [[nodiscard]] TransientSummary solve_transient(const EquationOfMotion& equation,
                                                const TransientOptions& options,
                                                const MotionObserver& observe);
 
-/// All samples of a motion, coordinate x sample.
+/// All samples of a motion: one row per coordinate, one column per sample.
 struct TransientHistory {
   TransientSummary summary;
-  std::vector<double> time;  ///< [s]; ends at a failure
+  std::vector<double> time;  ///< sample times [s]; a failure ends the list
   Eigen::MatrixXd q, v, a;
   std::vector<MotionEnergy> energy;
 };
 
-/// Integrates and returns all samples.
+/// Integrates an equation of motion and returns all samples.
 [[nodiscard]] TransientHistory solve_transient(const EquationOfMotion& equation,
                                                const TransientOptions& options);
 
@@ -61,16 +61,14 @@ struct Peak {
   double time = 0;
   double value = 0;
 };
-/// Returns the refined largest magnitude, or zeros for an empty vector.
-/// @param time  equally spaced times [s].
-/// @param value  values at the times.
+/// Returns the refined largest magnitude of values at equally spaced times [s], or zeros if empty.
 [[nodiscard]] Peak peak(const std::vector<double>& time, const Eigen::VectorXd& value);
 
 /// State at the end of a time step.
 struct TransientState {
   double time = 0;
   Eigen::VectorXd q, v, a;
-  Eigen::VectorXd A;  ///< accelerations of the scheme
+  Eigen::VectorXd A;  ///< algorithmic accelerations of the scheme
   double A_step = 0;  ///< step to which A belongs [s]
   Eigen::VectorXd f, Ma, Mv, Cv, Kq;
   MotionEnergy energy;

@@ -31,7 +31,8 @@ void solve_refined(const SparseMatrix& K, SparseLdlt& factor, const VectorXd& f,
 }  // namespace
 
 double smooth_span(const std::vector<double>& breakpoints, const TransientOptions& options) {
-  // The fraction is below 1, because the load at a jump has the value after the jump.
+  // Fraction of the time to a breakpoint. It is below 1, because the load at a jump has the value
+  // after the jump.
   constexpr double kBefore = 0.999;
   double span = std::min(options.step, options.end - options.start);
   for (const double time : breakpoints)

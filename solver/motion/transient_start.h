@@ -16,21 +16,16 @@ inline constexpr double kSingularMass = 1e-13;
                                  const TransientOptions& options);
 
 /// Computes a quasi-static start. K q = f is solved at the start and at four times after it, within
-/// a step and before a jump or kink of the load. The velocity follows from the one-sided difference
-/// of order 4. Then K q = f - C v is solved again. Otherwise the damping forces of this velocity
-/// would start suddenly and excite stiff parts.
-/// @param matrices  M, C and K.
-/// @param options  start, end and step.
-/// @param q  displacements at options.start.
-/// @param v  velocities at options.start.
-/// @param counters  incremented by the factorizations and solves.
+/// a step and before a jump or kink of the load. The velocity v follows from the one-sided
+/// difference of order 4. Then K q = f - C v is solved again. Otherwise the damping forces of this
+/// velocity would start suddenly and excite stiff parts.
 /// @returns singular if K is singular.
 [[nodiscard]] Outcome start_quasi_statically(EquationMatrices& matrices,
                                              const TransientOptions& options, Eigen::VectorXd& q,
                                              Eigen::VectorXd& v, Counters& counters);
 
-/// Returns a failure if the highest frequency is unstable with the step. The power iteration
-/// estimates this frequency from below. It therefore accepts all stable steps.
+/// Returns a failure if the time step is unstable at the highest natural frequency. Power iteration
+/// estimates this frequency from below, so that all stable steps are accepted.
 [[nodiscard]] Outcome check_stability(const EquationMatrices& matrices,
                                       const TransientOptions& options, Counters& counters);
 
@@ -40,29 +35,26 @@ inline constexpr double kSingularMass = 1e-13;
 /// balances the forces.
 class MasslessCoordinates {
  public:
-  /// Factors M with a small multiple of C or K.
-  /// @param matrices  M, C and K, which must outlive this object.
-  /// @param h  step [s]; masses move by 1e-16 of their motion in the step.
-  /// @param counters  incremented by the factorizations and solves.
+  /// Factors the sum of M and a small multiple of C or K. The multiple depends on the step h, and
+  /// changes the motion of masses in a step only by a fraction of 1e-16. The matrices must outlive
+  /// this object.
   /// @returns false if a massless coordinate has neither stiffness nor damping.
   [[nodiscard]] bool factor(const EquationMatrices& matrices, double h, Counters& counters);
   /// Moves massless coordinates to equilibrium at the start of a segment, and computes all
-  /// accelerations.
-  /// @param state  state, changed in place.
-  /// @param rate  df/dt [SI/s].
+  /// accelerations. `rate` is df/dt [SI/s].
   void settle(TransientState& state, const Eigen::VectorXd& rate);
-  /// Computes their velocities and accelerations in a state with known positions.
+  /// Computes velocities and accelerations of massless coordinates with known positions.
   void follow(TransientState& state, const Eigen::VectorXd& rate);
 
  private:
-  /// Adds z to x such that z^T (residual - B z) = 0. B is C for damped coordinates, and K
-  /// otherwise.
+  /// Adds a motion z of massless coordinates to x such that z^T (residual - B z) = 0. B is C for
+  /// damped coordinates, and K otherwise.
   void balance(const Eigen::VectorXd& residual, Eigen::VectorXd& x);
   void accelerate(TransientState& state, const Eigen::VectorXd& rate);
 
   const EquationMatrices* matrices_ = nullptr;
   Counters* counters_ = nullptr;
-  SparseLdlt factor_{SparseLdlt::Triangle::mean};  // of M + share B
+  SparseLdlt factor_{SparseLdlt::Triangle::mean};  // factors of M + share B
   bool factored_ = false, damped_ = false;
   double step_ = 0, share_ = 0;
   Eigen::VectorXd s_, w_;

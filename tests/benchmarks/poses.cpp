@@ -1,5 +1,5 @@
-// Measures the rate at which natural frequencies along the paper's circle are computed [poses per
-// second on one core], by solve_pose_modes and by separate solutions. Asserts nothing.
+// Measures the number of poses per second for which one core computes natural frequencies along the
+// paper's circle: by solve_pose_modes and by a separate solution for each pose. Asserts nothing.
 //   poses                       1, 4 and 16 elements per link
 //   poses 4 10000               4 elements per link, 10000 poses, solve_pose_modes only
 #include <algorithm>

@@ -42,13 +42,13 @@ double least_time(const std::function<void()>& work) {
   return least;
 }
 
-/// Inner loop: the operations and bytes that it requires, and its processor time.
+/// Inner loop of the solver: its numbers of operations and bytes, and its processor time.
 struct LoopRate {
   std::string title;
   double operations = 0, bytes = 0, cpu_s = 0;
 };
 
-constexpr std::size_t kLanes = 64;  // hides the latency of one operation
+constexpr std::size_t kLanes = 64;  // independent values, which hide the latency of operations
 constexpr int kRounds = 200000;
 
 TRAMMEL_WIDE void multiply_and_add(std::array<double, kLanes>& values) {
@@ -99,8 +99,8 @@ void add_factorization(std::vector<LoopRate>& loops) {
 
 void add_network(std::vector<LoopRate>& loops) {
   constexpr Index kSamples = 379, kInputs = 3, kOutputs = 6, kQueries = 1000;
-  // Operations per pair: squares and their minimum, excess and its minimum, exponential, products
-  // with the outputs.
+  // Operations for each pair of query and sample: squares and their minimum, excess and its
+  // minimum, exponential, products with the outputs.
   constexpr double kPair = 3 * kInputs + 1 + 5 * kInputs + 2 + 24 + 2 * (kOutputs + 1);
   const solver::Grnn network = solver::make_grnn(Eigen::MatrixXd::Random(kSamples, kInputs),
                                                  Eigen::MatrixXd::Random(kSamples, kOutputs), 1);

@@ -30,7 +30,7 @@ struct Cannot : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Returns the object under a key, or an empty object.
+/// Returns the JSON object under a key, or an empty object.
 const Json& section(const Json& json, const char* key) {
   static const Json empty = Json::object();
   return json.contains(key) && json.at(key).is_object() ? json.at(key) : empty;
@@ -51,15 +51,14 @@ struct System {
   SimTK::SimbodyMatterSubsystem matter{system};
   SimTK::GeneralForceSubsystem forces{system};
 
-  /// Returns a planar body with a given center of mass. At the start its axes are those of the
-  /// ground.
+  /// Returns a planar body with a given center of mass. Its initial axes are those of the ground.
   static SimTK::Body::Rigid rigid(double mass, const Vec3& center, double inertia) {
     const SimTK::Inertia about_center(inertia, inertia, inertia);
     return SimTK::Body::Rigid(
         SimTK::MassProperties(mass, center, about_center.shiftFromMassCenter(center, mass)));
   }
 
-  /// Keeps a point of one body at a point of another.
+  /// Adds a pin, which keeps a point of one body at a point of another body.
   void pin(Place first, Place second) {
     for (const int axis : {0, 1}) {
       const SimTK::UnitVec3 normal{SimTK::CoordinateAxis(axis)};
@@ -187,7 +186,7 @@ struct Mechanism : System {
     }
   }
 
-  /// Prescribes the given velocities and computes the others from the constraints.
+  /// Sets the given initial velocities, and computes all other velocities from the constraints.
   void start(const Json& given, State& state) {
     std::vector<std::pair<MobilizedBody, Real>> known;
     for (const auto& item : given.items()) {
@@ -263,11 +262,10 @@ Answer motion(const Json& model, const Json& options) {
   return answer;
 }
 
-/// Manipulator of "export": {"mechanism"}: three chains from the ground, and the platform.
+/// Manipulator of a case with "export": {"mechanism"}: three chains and the platform.
 struct Manipulator : System {
   std::map<std::string, MobilizedBody> bodies;
-  std::map<std::string, Vec3>
-      centers;  ///< from the origin of the body, in axes of the ground at the start
+  std::map<std::string, Vec3> centers;  ///< centers of mass from body origins, in ground axes
   Json mechanism;
 
   explicit Manipulator(const Json& exported) : mechanism(exported) {
@@ -278,8 +276,7 @@ struct Manipulator : System {
       bodies[low] = turning(solid(low, a), a);
       bodies[high] = MobilizedBody::Pin(bodies[low], b - a, solid(high, b), Vec3(0));
     }
-    const Vec3 p = point(
-        mechanism["path"]["pose_m_rad"][0]);  // the path is that of P, not of the center of mass
+    const Vec3 p = point(mechanism["path"]["pose_m_rad"][0]);  // P is not the center of mass
     bodies["platform"] = moving(solid("platform", p), p);
     for (const char* i : {"1", "2", "3"}) {
       const std::string n(i);
@@ -301,7 +298,7 @@ struct Manipulator : System {
   }
 };
 
-SimTK::Vector planar(const Json& row) {  // Simbody's order: the angle first
+SimTK::Vector planar(const Json& row) {  // Simbody's coordinates begin with the angle
   SimTK::Vector v(3);
   v[0] = row[2].get<double>();
   v[1] = row[0].get<double>();

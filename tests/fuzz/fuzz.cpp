@@ -38,7 +38,7 @@ struct Options {
   std::vector<fs::path> files;
 };
 
-/// State of an input in shared memory. It remains if the process that handles the input dies.
+/// State of the test of an input. It is in shared memory, and thus remains if the process dies.
 struct Slot {
   enum class Stage { open, reading, computing, done } stage;
   Outcome outcome;
@@ -66,8 +66,7 @@ struct Board {
 
 using Maker = std::function<Input(std::size_t)>;
 
-/// Limits the further processor time of this process [s]. It also sets a much larger limit of wall
-/// time.
+/// Limits the remaining processor time of this process [s]. The limit of wall time is much larger.
 void limit_time(double seconds) {
   const auto whole = static_cast<time_t>(seconds);
   const itimerval timer{{0, 0}, {whole, static_cast<suseconds_t>(1e6 * (seconds - double(whole)))}};
@@ -97,7 +96,7 @@ void test_batch(Board& board, const Maker& make, std::size_t first, std::size_t 
 }
 
 /// Processes all inputs in forked processes, and stores their outcomes in the slots. If a process
-/// dies, another process continues with its next open slot.
+/// dies, another process continues with the next input.
 void test_all(Board& board, const Maker& make, const Options& options) {
   constexpr std::size_t kBatch = 50;
   std::vector<std::pair<std::size_t, std::size_t>> batches;
@@ -174,7 +173,7 @@ std::size_t print_findings(Board& board, const Maker& make, const std::string& w
   return findings;
 }
 
-/// Runs files of the form KIND/NAME.json, as in the corpus.
+/// Tests the inputs in files with names KIND/NAME.json, as in the corpus.
 std::size_t run_files(const std::vector<fs::path>& files, Options options) {
   const Maker make = [&](std::size_t i) {
     return Input{files[i].parent_path().filename(),

@@ -49,7 +49,7 @@ std::string any_word(Random& random, const Json& document) {
              : text.substr(0, colon + 1) + (pointer.empty() ? "" : pointer.back());
 }
 
-/// Returns a number at or beyond the limits of the rule, or one that is difficult in arithmetic.
+/// Returns a number at or beyond the limits of a schema rule, or a numerically difficult number.
 Json any_number(Random& random, const Json& rule, const Json& former) {
   static const Json hard = Json::parse(
       R"([0, -0.0, 1, -1, 2, 3, 7, 0.5, 0.99, 1e-9, 1e9, 1e-30, 1e30, 1e100, 1e-300, 1e300, -1e300,
@@ -95,7 +95,7 @@ void erase(Json& json, const JsonPointer& at) {
   around.is_array() ? around.erase(std::stoul(at.back())) : (void)around.erase(at.back());
 }
 
-/// Changes characters of the text, regardless of its structure.
+/// Changes characters of a JSON text, regardless of its structure.
 /// @returns a description of the change
 std::string disturb_text(Random& random, std::string& text) {
   const std::size_t at = below(random, text.size());
@@ -312,9 +312,8 @@ Input Mutator::make(std::uint32_t seed, std::uint32_t number, const std::string&
   constexpr std::size_t kMostChanges = 3;
   const std::size_t changes =
       below(random, 20) == 0 ? 0 : 1 + below(random, 2) * below(random, kMostChanges);
-  for (std::size_t i = 0; i < changes; ++i)
-    change(random, input.kind, json, input);
-  if (changes > 1) input.is_invalid = false;  // a second change may repair the first
+  for (std::size_t i = 0; i < changes; ++i) change(random, input.kind, json, input);
+  if (changes > 1) input.is_invalid = false;  // a second change may repair an invalid value
   if (as_variant) {
     Json patch = merge_patch(origin.json, json);
     json = origin.json;

@@ -14,7 +14,7 @@ namespace trammel::fuzz {
 
 struct Input {
   std::string kind;         ///< type of file: case, cost, claims, reference or results
-  std::string name;         ///< of its file, without .json
+  std::string name;         ///< name of the changed file, without .json
   std::string text, how;    ///< content of the file, and a description of the changes
   bool is_invalid = false;  ///< known to be invalid, so that accepting it is a finding
   std::size_t pick = 0;     ///< selects the variant to compute, modulo the number of variants
@@ -22,10 +22,10 @@ struct Input {
 
 class Mutator {
  public:
-  /// Reads the catalogue. @param results  results files to start from
+  /// Reads the catalogue. @param results  results files that are changed, too
   explicit Mutator(const std::vector<Json>& results);
 
-  /// Returns the input with this number in the sequence of a seed.
+  /// Returns input `number` of the random sequence of `seed`.
   /// @param kind  type of file; empty: any type
   [[nodiscard]] Input make(std::uint32_t seed, std::uint32_t number, const std::string& kind) const;
 

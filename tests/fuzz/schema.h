@@ -15,8 +15,8 @@ using harness::JsonPointer;
 /// Pointer to a value in a document, with the rules of the schema that apply to the value.
 struct Place {
   JsonPointer at;
-  std::vector<const Json*> rules;  ///< alternatives; empty: unknown
-  bool is_certain = false;         ///< no alternatives of rules above the value
+  std::vector<const Json*> rules;  ///< alternative rules; empty if unknown
+  bool is_certain = false;         ///< enclosing values have no alternative rules
 };
 
 class Schema {
@@ -25,9 +25,9 @@ class Schema {
 
   /// Returns the document and all values in it, with their pointers and rules.
   [[nodiscard]] std::vector<Place> places(const Json& document) const;
-  /// Returns the alternatives of a rule, with references resolved.
+  /// Returns the alternatives of a schema rule, with references resolved.
   [[nodiscard]] std::vector<const Json*> alternatives(const Json& rule) const;
-  /// Returns the rules of an entry of an object or array.
+  /// Returns the schema rules of an element of an object or array.
   [[nodiscard]] std::vector<const Json*> rules_of_entry(const std::vector<const Json*>& rules,
                                                         const std::string& key) const;
   [[nodiscard]] const Json& root() const { return root_; }

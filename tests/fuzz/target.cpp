@@ -97,7 +97,7 @@ void test_results(const fs::path& file, const fs::path& sample) {
   try {
     reports::write_junit(results::read_results(file), file.parent_path() / "junit.xml");
   } catch (const std::runtime_error& error) {
-    throw InputError(error.what());  // the reports read it without the error types of the harness
+    throw InputError(error.what());  // reports do not use the error types of the harness
   }
   CommandOptions compare;
   compare.words = {file.string(), sample.string()};

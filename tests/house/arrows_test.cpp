@@ -1,5 +1,4 @@
-// Tests that sources only include headers of the rooms (folders) that the tables of CONTRIBUTING.md
-// allow.
+// Tests that sources only include headers of rooms (folders) that CONTRIBUTING.md permits.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
@@ -72,9 +71,9 @@ bool is_code(const fs::path& file) {
   return file.extension() == ".h" || file.extension() == ".cpp";
 }
 
-/// Table of rooms. A room may include itself, the rooms of its row, and the rooms that those may
-/// include. A row may also name a single file. It then applies to this file instead of the row of
-/// its room.
+/// Table of rooms (source folders). Files may include headers of their room, of the rooms in its
+/// row, and of rooms that these rooms may include. The row of a single file replaces that of its
+/// room.
 struct Rooms {
   std::vector<std::string> order;
   std::map<std::string, std::string> arrows;  ///< the last cell of each row, as written
@@ -86,7 +85,7 @@ struct Rooms {
     return found;
   }
 
-  /// Returns the row that applies to a file, or an empty text.
+  /// Returns the name of the row that applies to a file, or an empty text.
   [[nodiscard]] std::string row_of(const std::string& file) const {
     const std::string folder = fs::path(file).parent_path().generic_string();
     return arrows.count(file) > 0 ? file : arrows.count(folder) > 0 ? folder : "";

@@ -1,5 +1,5 @@
-// Compares the size of the project with budgets.json. Limits must follow the counts down to the
-// budget.
+// Compares the size of the project with budgets.json. If a count falls, its limit must be reduced
+// to the count, but not below the budget.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <filesystem>
@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr long kSmallHeader = 15;  // maximum of code lines
+constexpr long kSmallHeader = 15;  // largest number of code lines
 
 struct Sizes {
   std::map<std::string, long> code_lines;  ///< of C++ by top folder; "python" for all folders

@@ -72,7 +72,7 @@ void join(std::string& text, const std::string& line) {
   text += (text.empty() ? "" : " ") + line;
 }
 
-/// Comments of a source; those of successive lines are one text. Indented formulas end sentences.
+/// Comments of a source. Comments on successive lines are one text. Formulas end sentences.
 Strings comments(std::istream& in, const std::string& mark) {
   Strings texts(1);
   for (std::string line; std::getline(in, line);) {

@@ -14,7 +14,7 @@ namespace mutation {
 
 inline constexpr int kMost = 4096;
 inline unsigned char unlogged[kMost] = {};
-inline unsigned char* reached = unlogged;  ///< one byte per fault, shared with forked processes
+inline unsigned char* reached = unlogged;  ///< 1 for each reached fault; forked processes share it
 inline int active = -1;
 inline double error = 0.01;  ///< relative error of coefficients
 

@@ -56,9 +56,9 @@ def main():
         what = "forces of the ground on A1, A2, A3 in x and y" if forces else "displacement x, y of P"
         store(folder, f"calculix-circle-{name}", f"3-RRR, 10 N along x at P at {POINTS} points of the circle, {name.replace('-', ', ')}: by "
               f"CalculiX, {what}", "N" if forces else "m", values, change if name == "rigid" else warp,
-              "Actuators locked, elbows welded, platform on hinges; point after point from the start of the circle. " +
+              "Actuators locked, elbows welded, platform joints hinged. The values are in the order of the points from the start of the circle. " +
               (f"{MESHES[1]} elements along a link." if name == "rigid" else
-               "The uncertainty is what sections that warp at the elbows add to the linear displacement at most."))
+               "The uncertainty is the largest increase of the linear displacement due to warping of the sections at the elbows."))
     print("warp", warp, "mesh", change)
 
 

@@ -97,8 +97,8 @@ def main():
         change = max(abs(a - b) for a, b in zip(coarse, fine)) / size
         store(folder, f"calculix-motion-{speed}", f"Flexible 3-RRR along the circle at {speed} rad/s, from rest: how far P is from the path, x "
               f"and y, at {POINTS} times, by CalculiX", "m", fine, math.ceil(1e5 * change) / 1e5,
-              f"CPS8R, {ALONG} elements along a link and {DEPTH} through it, {STEPS[1]} steps; {STEPS[0]} change the values by the uncertainty, "
-              "of the largest. Actuators driven, elbows and platform on hinges, rigid platform, no damping.")
+              f"Elements CPS8R: {ALONG} along a link and {DEPTH} over its thickness, {STEPS[1]} time steps. The uncertainty is the largest change with "
+              f"{STEPS[0]} steps, relative to the largest value. Actuators driven, hinges at elbows and platform, rigid platform, no damping.")
         print(speed, change, fine, flush=True)
 
 

@@ -101,8 +101,8 @@ def main():
     change = max(abs(a - b) for a, b in zip(coarse, fine)) / max(map(abs, fine))
     store(folder, "calculix-forward-dynamics", "Flexible 3-RRR under the torques of rigid links from rest to rest: how far P is from the line, "
           f"x and y, at {POINTS} times, by CalculiX", "m", fine, math.ceil(1e5 * change) / 1e5,
-          f"CPS8R, {MESHES[1][0]} elements along a link and {DEPTH} through it, {MESHES[1][1]} steps; {MESHES[0][0]} elements and {MESHES[0][1]} steps "
-          "change the values by the uncertainty, of the largest. Elbows and platform on hinges, rigid platform, no damping.")
+          f"Elements CPS8R: {MESHES[1][0]} along a link and {DEPTH} over its thickness, {MESHES[1][1]} time steps. The uncertainty is the largest change "
+          f"with {MESHES[0][0]} elements and {MESHES[0][1]} steps, relative to the largest value. Hinges at elbows and platform, rigid platform, no damping.")
     print(change, fine, flush=True)
 
 

@@ -65,8 +65,8 @@ def main():
         store(folder, f"calculix-large-{pose}-displacement",
               f"3-RRR, actuators locked, elbows welded, platform joints hinged, pose {pose}: by CalculiX, displacement x, y of P under 10 N "
               "along x, large", "m", large, change,
-              f"CPS8R, {ALONG} elements along a link and {DEPTH} through it; elbows and platform {STIFF:g} times as stiff as the links. The "
-              "uncertainty is how much more P gives in linear statics than with rigid joints.")
+              f"Elements CPS8R: {ALONG} along a link and {DEPTH} over its thickness. Elbows and platform are {STIFF:g} times as stiff as the links. "
+              "The uncertainty is the relative change of the displacement of P with rigid joints in linear statics.")
         print(pose, change, linear, large, rigid, flush=True)
 
 

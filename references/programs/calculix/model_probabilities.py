@@ -251,8 +251,8 @@ def main():
         priors = [(1 - others) / planar] * planar + [others / max(1, len(readings) - planar)] * (len(readings) - planar)
         rows = [{"row": row, **table(readings, priors, name, s)} for row, name in inputs["rows"].items() for s in inputs["discrepancy"]]
         store(folder, f"table-2-models{variant}", inputs["title"], "1", [row["log_evidence"] for row in rows], 0.001,
-              "Logarithm of the evidence of each row under each discrepancy; 'probabilities' has those of the readings.", source="trammel",
-              probabilities={"rows": rows, "excluded": excluded})
+              "Logarithms of the Bayesian evidence of each row of Table 2 for each model discrepancy. "
+              "The key 'probabilities' contains the probabilities of the readings.", source="trammel", probabilities={"rows": rows, "excluded": excluded})
 
 
 if __name__ == "__main__":

@@ -108,7 +108,7 @@ def build(variant, pose, n):
 
 
 def frequencies(variant, pose, n):
-    """Eight elastic frequencies [Hz], and how many motions at 0 Hz come before them."""
+    """Returns eight elastic frequencies [Hz], and the number of rigid motions at 0 Hz."""
     lines, _, _ = build(variant, pose, n)
     found = [row[3] for row in run(lines + ["*STEP", "*FREQUENCY", "11", "*END STEP"]) if len(row) == 5][:11]
     rigid = sum(f < 0.5 for f in found)
@@ -129,8 +129,8 @@ def main():
             (coarse, _), (fine, rigid) = (frequencies(variant, pose, n) for n in MESHES)
             change = max(2e-6, max(abs(a / b - 1) for a, b in zip(coarse, fine)))
             change = math.ceil(change * 1e6) / 1e6
-            notes = (f"CPS8R, {MESHES[1]} elements along a link and {DEPTH} through it; {MESHES[0]} along it change the values by no "
-                     f"more than the uncertainty. Rigid platform." + (f" {rigid} motions at 0 Hz come before them." if rigid else ""))
+            notes = (f"Elements CPS8R: {MESHES[1]} along a link and {DEPTH} over its thickness. With {MESHES[0]} along a link, the values change by "
+                     f"no more than the uncertainty. Rigid platform." + (f" {rigid} rigid motions at 0 Hz are omitted." if rigid else ""))
             words = variant.split("-")
             title = f"3-RRR, actuators {words[0]}, elbows {words[1]}, platform joints {words[2]}, pose {pose}: by CalculiX"
             store(folder, f"calculix-{variant}-{pose}-frequencies", title, "Hz", fine, change, notes)

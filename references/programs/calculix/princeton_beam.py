@@ -77,8 +77,8 @@ def main():
             change = max(2e-6, *(abs(a / b - 1) for a, b in zip(rough[1::2], values[1::2])))
             store(folder, f"calculix-princeton-{axis}{name}", f"Princeton beam, bent about its {axis} axis, as a solid of Poisson's "
                   f"ratio {nu:g}: by CalculiX, deflection of its tip", "m", values[1::2], math.ceil(change * 1e6) / 1e6,
-                  f"C3D20R, {fine[0]} along, {fine[1]} over the depth, {fine[2]} over the width; {coarse[0]} x {coarse[1]} x {coarse[2]} "
-                  "change the values by the uncertainty.")
+                  f"Elements C3D20R: {fine[0]} along the beam, {fine[1]} over the depth, {fine[2]} over the width. With {coarse[0]} x {coarse[1]} x "
+                  f"{coarse[2]} elements, the values change by the uncertainty.")
 
 
 if __name__ == "__main__":

@@ -83,8 +83,8 @@ def main():
         change = math.ceil(1e3 * max(abs(a / b - 1) for (a, _), (b, _) in zip(coarse[:6], fine[:6]) if b > 0)) / 1e3
         planar = ", ".join("in" if p else "out" for _, p in fine[:6])
         store(folder, f"table-2-reading-{name}", f"Table 2 read as: {title}; six lowest frequencies by CalculiX", "Hz", [f for f, _ in fine[:6]],
-              change, f"C3D20R, {FINE['along']} elements along a link and {FINE['across']} over its width, platform of "
-              f"{3 * (FINE['plate'] + 1)**2} elements; modes in the plane or out of it: {planar}.",
+              change, f"Elements C3D20R: {FINE['along']} along a link, {FINE['across']} over its width, {3 * (FINE['plate'] + 1)**2} in the "
+              f"platform. Directions of the modes, in the plane or out of the plane: {planar}.",
               f", reading {name}")
         sixes = [f for f, _ in fine[:6]], [f for f, p in fine if p][:6]  # all; those in the plane
         print(name, k, {row: [chi2(six, values) for six in sixes] for row, values in ROWS.items()}, flush=True)

@@ -141,7 +141,7 @@ class Manipulator:
         return sp.csc_matrix((factors, (i, n)), (len(rows), self.size))
 
     def frequencies(self):
-        """Eight elastic frequencies [Hz], and how many motions at 0 Hz come before them."""
+        """Returns eight elastic frequencies [Hz], and the number of rigid motions at 0 Hz."""
         squares = numpy.sort(sp.linalg.eigsh(self.K, 12, self.M, sigma=-100.0, return_eigenvectors=False, tol=1e-13))
         f = numpy.sqrt(numpy.maximum(squares, 0)) / (2 * numpy.pi)
         rigid = int((f < 0.1).sum())
@@ -165,8 +165,8 @@ def add(*scaled):
 def main():
     folder = sys.argv[1]
     links = [link(*mesh) for mesh in MESHES]
-    mesh = ("FEM_QK, {} elements of degree {} a link; {} of degree {} change the values by no more than the uncertainty. "
-            "Poses {}, one after the other.").format(*MESHES[1], *MESHES[0], ", ".join(POSES))
+    mesh = ("Elements FEM_QK: {} of degree {} per link. With {} of degree {}, the values change by no more than the uncertainty. "
+            "The values are in the order of the poses {}.").format(*MESHES[1], *MESHES[0], ", ".join(POSES))
     for variant, degree in [(v, 0) for v in VARIANTS] + [("locked-welded-hinged", 1), ("locked-welded-hinged", 2)]:
         coarse, fine = ([Manipulator(variant, pose, one, degree) for pose in POSES] for one in links)
         words = "3-RRR, actuators {}, elbows {}, platform joints {}, {}three poses: by GetFEM, ".format(

@@ -64,8 +64,8 @@ def main():
     for speed in SPEEDS:
         name = f"simbody-circle-torques-{speed}"
         store(folder, name, f"Rigid 3-RRR along the circle at {speed} rad/s: torques of A1, A2, A3 at {POINTS} points, by Simbody", "N m",
-              torques(adapter, speed), 1e-12, "Seven rigid bodies, nine pins; forces of prescribed accelerations (findMotionForces). Positions "
-              "and velocities are projected on the constraints to 1e-13.", source="simbody-3.7")
+              torques(adapter, speed), 1e-12, "Seven rigid bodies, nine pin joints. Simbody's findMotionForces computes the forces for prescribed "
+              "accelerations. Positions and velocities are projected on the constraints to 1e-13.", source="simbody-3.7")
 
 
 if __name__ == "__main__":

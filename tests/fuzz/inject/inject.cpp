@@ -25,7 +25,7 @@
 namespace {
 
 enum class Kind { none, memory, disk, read, compute, result, draw, clock, count };
-Kind kind = Kind::none;  // none until main() begins
+Kind kind = Kind::none;  // no fault until main() begins
 long number = 0;
 pid_t program = 0;
 std::atomic<long> allocations{0}, bytes{0};
@@ -47,7 +47,7 @@ bool ends_with(const char* text, const char* end) {
   return length >= tail && std::strcmp(text + length - tail, end) == 0;
 }
 
-/// @returns true if these bytes exceed the disk
+/// @returns true if writing `size` more bytes exceeds the capacity of the simulated disk
 bool is_full(int file, std::size_t size) {
   struct stat what {};
   if ((kind != Kind::disk && kind != Kind::count) || fstat(file, &what) != 0 ||

@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(errors_of_a_study_are_relative_to_the_named_run) {
 
 namespace {
 
-/// Returns the cantilever under this id with a check against a reference of the catalogue.
+/// Returns the cantilever case with the given id and a check against a reference of the catalogue.
 Document against_table_2(const Folder& folder, const char* id) {
   Json json = testing::cantilever();
   json["id"] = id;

@@ -13,7 +13,7 @@ BOOST_AUTO_TEST_CASE(lost_mode_is_an_infinite_change) {
   whole["displacement_y_m:B"] = {{0.1}, {}};
   Quantities without = whole;
   BOOST_TEST(max_change(changes_between(whole, without, {.length = 1})).value == 0);
-  without.erase("displacement_y_m:B");  // a part may lack a quantity
+  without.erase("displacement_y_m:B");  // a simplified model may lack a quantity
   BOOST_TEST(max_change(changes_between(whole, without, {.length = 1})).value == 0);
   without.erase("frequency_Hz");
   BOOST_TEST(max_change(changes_between(whole, without, {.length = 1})).value ==

@@ -108,8 +108,8 @@ BOOST_AUTO_TEST_CASE(effect_numbers_are_ratios_of_stiffness_and_inertia,
   BOOST_TEST(!numbers[static_cast<std::size_t>(Effect::platform_flexibility)].value);
 }
 
-/// Each scene must select exactly the listed effects that increase the computing time. It may also
-/// select other effects.
+/// For each scene, the selection must contain exactly the listed effects of those that increase the
+/// computing time. It may also contain effects that do not increase the computing time.
 BOOST_AUTO_TEST_CASE(scenes_use_only_the_expensive_effects_they_require) {
   const std::map<std::string, std::string> expected = {
       {"scene-10-newton", "geometric-stiffening and large-displacement"},

@@ -139,7 +139,7 @@ BOOST_AUTO_TEST_CASE(endless_and_too_large_files_are_refused) {
              "/dev/zero: expected a readable file");
   const testing::Folder folder;
   const auto large = folder.write("large.json", "{}");
-  std::filesystem::resize_file(large, (std::uintmax_t{1} << 28) + 1);  // sparse
+  std::filesystem::resize_file(large, (std::uintmax_t{1} << 28) + 1);  // sparse file
   BOOST_TEST(
       testing::contains(input_error_message([&] { (void)read_json(large); }), "at most 256 MiB"));
 }

@@ -16,7 +16,7 @@ using Termination = ProcessOutcome::Termination;
 
 namespace {
 
-/// Raises a signal without the handler of the test framework.
+/// Ends the process by a signal, without the signal handler of the test framework.
 std::string end_by(int signal) {
   std::signal(signal, SIG_DFL);
   std::raise(signal);

@@ -68,7 +68,7 @@ BOOST_AUTO_TEST_CASE(common_slowdown_does_not_change_the_time_ratio) {
   BOOST_TEST(ratio.median == 3);
   BOOST_TEST(ratio.low == 0.1);
   BOOST_TEST(ratio.high == 8);
-  // With fifteen repeats, the interval excludes the two outermost values on either side.
+  // With 15 repeats, the interval of the time ratio excludes the two outermost values on each side.
   for (int i = 0; i < 8; ++i) baseline.cpu_s.push_back(1), timing.cpu_s.push_back(3);
   BOOST_TEST(relative_time(timing.cpu_s, baseline.cpu_s).low == 3);
   BOOST_TEST(relative_time(timing.cpu_s, baseline.cpu_s).high == 3);

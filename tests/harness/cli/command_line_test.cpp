@@ -27,7 +27,7 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Starts the program in the folder.
+/// Runs trammel in the folder `folder`.
 Outcome run(const Folder& folder, const std::string& words, const std::string& before = "") {
   const std::string line = "cd '" + folder.path().string() + "' && " + before + " '" +
                            testing::trammel_program() + "' " + words +
@@ -57,7 +57,7 @@ std::size_t lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
-/// Folder with the files that the calls of the tables name.
+/// Returns a folder with the input files of the calls in the tables of this test.
 const Folder& files() {
   static const Folder folder;
   static const bool is_written = [] {
@@ -101,7 +101,7 @@ const Folder& files() {
   return folder;
 }
 
-/// Call that is refused with status 2 and one line that contains the message.
+/// Program call that must end with status 2 and print one line that contains the message.
 struct Refusal {
   const char *arguments, *message, *before = "";
 };
@@ -158,7 +158,7 @@ const Refusal kRefusals[] = {
     {"effects --repeats 0 --out page", "either cases or --label is required"},
     {"references tabel-2-ansys", "did you mean 'table-2-ansys'?"}};
 
-/// Call with its exit status and the expected parts of its output, in any order.
+/// Program call with its exit status and the expected parts of its output, in any order.
 struct Call {
   const char* arguments;
   int status;
@@ -179,7 +179,7 @@ const std::vector<Call> kCalls = {
     {"list --label-any beam --label-any frame", 0, {"beam-cantilever", "portal-frame"}},
     {"run variants.json:again", 0, {"1 run, 1 check with 1 number: 1 pass"}},
     {"run --help", 0, {"Usage: trammel run"}},
-    {"claims --help", 0, {"--json"}},  // the command itself computes the full catalogue
+    {"claims --help", 0, {"--json"}},  // without --help, the command computes the full catalogue
     {"list", 0, {"manipulator-modes"}},
     {"run holds.json", 0, {"pass", "1 check with 1 number: 1 pass"}},
     {"run fails.json", 1, {"fail"}},
@@ -396,7 +396,7 @@ BOOST_AUTO_TEST_CASE(report_draws_history_without_counting_time_twice) {
   const Json calls = parse_json(run(folder, "history h.db --json").out, "out")["calls"];
   BOOST_REQUIRE(calls.size() == 2U);
   BOOST_TEST(calls[0]["cpu_s"].get<double>() > 0);
-  BOOST_TEST(calls[1]["cpu_s"].get<double>() == 0);  // the run came from the store
+  BOOST_TEST(calls[1]["cpu_s"].get<double>() == 0);  // the second call used a stored run
   BOOST_TEST(calls[1]["work"] == calls[0]["work"]);
   const std::string page = read_text(folder.path() / "out/environment.html");
   BOOST_TEST(contains(page, "<section id=\"history\">"));
@@ -518,8 +518,8 @@ BOOST_AUTO_TEST_CASE(ending_of_a_singular_run_is_printed_once) {
 
 namespace {
 
-/// Applies a JSON block of a document: references, a case, or changes of it, in which "..." means
-/// unchanged keys.
+/// Applies a JSON block of a document: references, a case, or changes of it. "..." means unchanged
+/// keys.
 void apply_block(std::string block, Json& example, const Folder& folder) {
   if (const auto dots = block.find("    ...\n"); dots != std::string::npos) block.erase(dots, 8);
   const Json json = parse_json(block.front() == '{' ? block : "{" + block + "}", "block");
@@ -625,7 +625,7 @@ BOOST_AUTO_TEST_CASE(full_disk_leaves_the_former_report) {
   };
   const auto former = contents();
   std::size_t broken_off = 0;
-  for (const int blocks : {1, 2, 4, 8, 16, 32, 64, 128}) {  // of 512 bytes per file
+  for (const int blocks : {1, 2, 4, 8, 16, 32, 64, 128}) {  // limit of the file size / 512 bytes
     const Outcome full = run(folder, "report cantilever.json --out out",
                              "ulimit -f " + std::to_string(blocks) + " &&");
     if (full.status == 0) continue;

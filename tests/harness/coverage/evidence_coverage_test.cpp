@@ -13,7 +13,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Returns the evidence for a feature from one case with one check of displacement_y_m:B.
+/// Returns the types of evidence for a feature from a case with one check of displacement_y_m:B.
 std::vector<std::string> evidence(const Json& check, const std::string& feature,
                                   const Json& analysis = {}) {
   const Folder folder;

@@ -23,7 +23,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// @param limit  0: all numbers must be bit-identical
+/// @param limit  permitted difference of exported cases; 0 requires bit-identical numbers
 void check_twins(const std::vector<std::string>& names, double limit) {
   for (const std::string& name : names) {
     const Case given = load_named_case(name);
@@ -78,7 +78,7 @@ BOOST_AUTO_TEST_CASE(plain_models_have_the_same_numbers_to_the_last_bit) {
       0);
 }
 
-// The cases contain pins and axial springs, or sliders and drives.
+// The cases of this test contain pins and axial springs, or sliders and drives.
 BOOST_AUTO_TEST_CASE(beginning_of_a_motion_is_exported_bit_for_bit) {
   for (const auto& [name, end] :
        {std::pair("iftomm-a03-andrews", 1e-3), std::pair("slider-crank-flexible", 0.02)}) {
@@ -94,7 +94,8 @@ BOOST_AUTO_TEST_CASE(beginning_of_a_motion_is_exported_bit_for_bit) {
 }
 
 // The export writes the sections of tapered members as E and A; their product differs from EA in
-// the last bit. It also adds forces on edges to the nodes before those on members.
+// the last bit. It also adds the forces on edges to the nodes before those on members, which
+// changes round-off.
 BOOST_AUTO_TEST_CASE(tapers_arcs_and_edges_are_exported_to_round_off) {
   check_twins({"ansys-vm34", "ansys-vm61", "cooks-membrane", "nafems-ring", "tapered-cantilever",
                "vpcs-sdll10"},
@@ -125,8 +126,8 @@ BOOST_AUTO_TEST_CASE(exported_quantities_are_those_of_the_exported_case) {
   }
 }
 
-// The variant has no checks, but a check of the base compares with it. The export of the variant
-// once had no quantities, so that the base could not be judged.
+// The variant "whole" has no checks, but a check of the base variant compares with it. The export
+// of "whole" once had no quantities, so that the base variant could not be judged.
 BOOST_AUTO_TEST_CASE(variant_exports_quantities_that_others_compare) {
   const Case given = load_named_case("scene-thick-link-modes");
   const Json asked = export_case(given, {"whole"})["export"]["quantities"];

@@ -28,7 +28,7 @@ namespace fs = std::filesystem;
 
 const fs::path kSource = TRAMMEL_SOURCE_DIR;
 
-/// Starts the program in the folder. @returns its exit status
+/// Runs trammel in the folder `folder`. @returns the exit status
 int run(const Folder& folder, const std::string& words) {
   const std::string line = "cd '" + folder.path().string() + "' && '" + testing::trammel_program() +
                            "' " + words + " >out.txt 2>err.txt </dev/null";
@@ -40,7 +40,7 @@ std::string grade_words(const fs::path& adapter, const std::string& words) {
   return "grade 'python3 " + adapter.string() + "' " + words;
 }
 
-/// Returns the cantilever under this id with a check of its reaction, -100 N.
+/// Returns the cantilever case with the given id and a check of the reaction at A (-100 N).
 Json judged(const std::string& id) {
   Json json = testing::cantilever();
   json["id"] = id;

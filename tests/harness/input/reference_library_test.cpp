@@ -20,7 +20,7 @@ Json reference() {
           {"place", "here"}};
 }
 
-/// Returns the message about the reference "x" of a family.
+/// Returns the error message about the reference "x" in a file with the given text.
 std::string fault(const std::string& text) {
   const Folder folder;
   const std::string file = folder.write("references.json", text).string();

@@ -45,7 +45,7 @@ const std::map<std::string, Json>& cases() {
   return all;
 }
 
-/// Merge patch of a valid case, and a part of the message.
+/// Merge patch that makes a valid case invalid, and a part of the expected error message.
 struct Refusal {
   const char *name, *patch, *message;
 };

@@ -22,7 +22,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Place of a case with an invalid value, and a part of "pointer: message".
+/// JSON pointer into a case, an invalid value, and a part of the expected "pointer: message".
 struct Refusal {
   const char *pointer, *value, *message;
 };
@@ -50,7 +50,7 @@ const Refusal kRefusals[] = {
     {"/model/supports", R"({"P": ["x", "x"]})", "/model/supports/P: expected"},
     {"/model/manipulator/links/mass_kg", "true",
      "/model/manipulator/links/mass_kg: expected a number above 0 or 'from-density' (got true)"},
-    // Inside an alternative, the innermost fault is the cause.
+    // If a value has alternative rules, the innermost fault is reported.
     {"/model/manipulator/links/proximal_length_m", "[0.2, -0.2, 0.2]",
      "/model/manipulator/links/proximal_length_m/1: expected a number above 0 (got -0.2)"},
     {"/model/manipulator/material", R"({"nu": 0.33, "rho_kg_m3": 2700})",
@@ -127,7 +127,7 @@ BOOST_AUTO_TEST_CASE(every_stored_reference_obeys_the_schema) {
     const Json json = read_json(file);
     const auto found = find_schema_fault(json, "reference");
     BOOST_TEST(!found.has_value(), family << (found ? ": " + found->pointer + found->message : ""));
-    // Formatted text, in which a reference is found without parsing all files.
+    // The text is formatted such that a reference can be located without parsing all files.
     const auto keys = keys_of_blocks(read_file(file).text);
     const bool has_schema = json.contains("$schema");
     BOOST_TEST(keys.size() == json.size() - (has_schema ? 1 : 0), family);

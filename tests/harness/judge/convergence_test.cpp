@@ -107,7 +107,7 @@ BOOST_AUTO_TEST_CASE(round_off_floor_is_recognized) {
   Convergence series = power_law(4, 0.1, 0, 12, 1e-12);
   series.exact = 10;
   const Convergence found = analyze_convergence(series);
-  // 0.1 h^4 is above 100e-12 as long as h > 1/178.
+  // The error 0.1 h^4 exceeds the round-off floor 100e-12 for h > 1/178.
   for (std::size_t k = 0; k < 12; ++k) BOOST_TEST(found.at_roundoff_floor[k] == (k >= 8));
   for (std::size_t k = 8; k < 12; ++k) BOOST_TEST(!found.in_asymptotic_range[k]);
   BOOST_TEST(std::abs(found.fitted_order.value() - 4) < 0.01);

@@ -47,7 +47,7 @@ struct Bench {
     return harness::evaluate_check(checks.at(0),
                                    {document, quantities, {}, references, variant, other_solver});
   }
-  /// Returns the worst verdict and stores its message.
+  /// Returns the worst verdict of all judged values, and stores its message.
   std::string verdict() {
     Verdict worst = Verdict::pass;
     for (const CheckResult& one : judge_all()) {
@@ -398,7 +398,7 @@ BOOST_AUTO_TEST_CASE(code_printing_four_digits_is_judged_by_four) {
   const results::SolverIdentity prints_four{"code", "1", {}, 4};
   bench.other_solver = &prints_four;
   BOOST_TEST(bench.verdict() == "pass");
-  bench.set(1, 20.006);  // half a unit of 20.01 is 0.005
+  bench.set(1, 20.006);  // half a unit of the last digit of 20.01 is 0.005
   BOOST_TEST(bench.verdict() == "fail");
 }
 

@@ -38,7 +38,7 @@ BOOST_AUTO_TEST_CASE(sampling_gives_the_deviation_of_a_uniform_input) {
   BOOST_TEST(u.failed == 0);
   BOOST_TEST(u.standard[0] == std::hypot(0.3, 0.8) / std::sqrt(3.0),
              boost::test_tools::tolerance(0.05));  // random correlation of columns, 1/sqrt(400)
-  // The variance of (1 + d)^2 is 4 h^2 / 3 + 4 h^4 / 45.
+  // The variance of (1 + d)^2 with uniform d in [-h, h] is 4 h^2 / 3 + 4 h^4 / 45.
   BOOST_TEST(u.standard[1] == std::sqrt(0.04 / 3 + 4e-4 / 45), boost::test_tools::tolerance(1e-2));
 }
 

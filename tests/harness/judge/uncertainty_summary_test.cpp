@@ -11,7 +11,7 @@ using namespace trammel::harness;
 
 namespace {
 
-/// Returns a study of the values 10 (1 + 0.1 h^2) on halved sizes, with scaled uncertainty bands.
+/// Returns a convergence study of 10 (1 + 0.1 h^2) for halved sizes h, with scaled GCI values.
 Convergence synthetic_study(std::size_t levels, double scale) {
   Convergence series;
   series.theory_order = 2;
@@ -39,7 +39,7 @@ results::UncertaintyCoverage summarize(const std::vector<Convergence>& all) {
 BOOST_AUTO_TEST_CASE(bands_of_a_clean_series_hold_with_ratio_1_25) {
   const results::UncertaintyCoverage summary =
       summarize(std::vector<Convergence>(30, synthetic_study(8, 1)));
-  BOOST_TEST(summary.levels == 30U * 7U);  // the first level has no band
+  BOOST_TEST(summary.levels == 30U * 7U);  // the first level has no GCI
   BOOST_TEST(*summary.coverage == 1.0);
   BOOST_TEST(*summary.median_ratio == 1.25, boost::test_tools::tolerance(1e-6));
   BOOST_TEST(summary.passes);
@@ -64,7 +64,7 @@ BOOST_AUTO_TEST_CASE(band_is_relative_to_value_and_error_to_exact_value) {
   Convergence found = synthetic_study(3, 1);
   found.values = {10, 10, 15};
   found.error = {0, 0, 0.5};
-  found.gci = {NAN, NAN, 0.4};  // band of 6, error of 5
+  found.gci = {NAN, NAN, 0.4};  // absolute uncertainty 6, error 5
   BOOST_TEST(summarize({found}).levels == 1U);
   BOOST_TEST(summarize({found}).covered == 1U);
   found.gci[2] = 0.3;
@@ -88,7 +88,7 @@ BOOST_AUTO_TEST_CASE(series_without_an_exact_value_do_not_count) {
 
 BOOST_AUTO_TEST_CASE(coverage_without_any_ratio_fails) {
   Convergence found = synthetic_study(8, 1);
-  found.at_roundoff_floor.assign(8, true);  // no level has a ratio
+  found.at_roundoff_floor.assign(8, true);  // no level has a ratio of GCI to error
   const results::UncertaintyCoverage summary = summarize(std::vector<Convergence>(30, found));
   BOOST_TEST(*summary.coverage == 1.0);
   BOOST_TEST(!summary.passes);

@@ -21,7 +21,7 @@ Json hinged_manipulator() {
   })");
 }
 
-/// Returns the manipulator on a trajectory of 0.1 s, which tracks the joint angles.
+/// Returns the hinged manipulator with joint angles that follow a trajectory of 0.1 s.
 Json tracking(const char* trajectory) {
   Json json = hinged_manipulator();
   json["model"]["pose"] = nullptr;
@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(step_that_does_not_converge_is_reported) {
   BOOST_TEST(contains(result.outcome.reason, "step 4 at time 0.03 s"), result.outcome.reason);
 }
 
-// Central differences at the first instant once required a pose before the first knot.
+// Central differences at the first instant once required a pose before the spline's first knot.
 BOOST_AUTO_TEST_CASE(spline_is_tracked_from_first_to_last_instant) {
   const AnalysisResult spline = result_of(tracking(kStraightSpline));
   BOOST_REQUIRE_MESSAGE(spline.outcome.solved(), spline.outcome.reason);
@@ -108,7 +108,7 @@ BOOST_AUTO_TEST_CASE(steps_end_only_where_a_load_bends) {
   BOOST_TEST(testing::values(bent, "velocity_x_m_per_s:A").back() == 1, tolerance(1e-12));
 }
 
-// By similarity, the times are proportional to the square root of the length.
+// By similarity, the times of a pendulum are proportional to the square root of its length.
 BOOST_AUTO_TEST_CASE(too_long_steps_are_refused_for_any_length) {
   for (const double length : {1e-3, 1.0, 1e3}) {
     Json json = Json::parse(R"({
@@ -147,7 +147,7 @@ Json crank() {
 
 }  // namespace
 
-// v_y = -3/4 v_x at B, and C moves along y only.
+// The kinematics of the crank require v_y = -3/4 v_x at B and v_x = 0 at C.
 BOOST_AUTO_TEST_CASE(suggested_velocity_is_admissible) {
   Json json = crank();
   Json& given = json["analysis"]["large-motion"]["initial_velocities"];
@@ -181,7 +181,7 @@ BOOST_AUTO_TEST_CASE(contradicting_drives_are_named) {
     json["analysis"] = {{kind, options}};
     return result_of(json).outcome.reason;
   };
-  const std::string both = "do not admit the motion of a, b";
+  const std::string both = "do not admit the prescribed motion of a, b";
   BOOST_TEST(contains(reason(drive("O", "rotation", at(1)), drive("C", "y", at(2)), "large-motion"),
                       both));
   BOOST_TEST(contains(

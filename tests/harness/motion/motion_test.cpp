@@ -51,7 +51,7 @@ BOOST_AUTO_TEST_CASE(resonance_without_damping_has_no_peak) {
   json["analysis"]["harmonic"]["damping"]["modal"] = {{"ratio", 0}, {"modes", 1}};
   BOOST_TEST(std::isnan(last(result_of(json), "peak_displacement_x_m:P")));
   json["analysis"]["harmonic"].erase("damping");
-  json["analysis"]["harmonic"]["to_Hz"] = 1.5;  // below 10 rad/s
+  json["analysis"]["harmonic"]["to_Hz"] = 1.5;  // below the natural frequency of 10 rad/s
   const double w = 2 * std::numbers::pi * 1.5 / 10;
   BOOST_TEST(last(result_of(json), "peak_displacement_x_m:P") == 0.01 / (1 - w * w),
              tolerance(1e-10));

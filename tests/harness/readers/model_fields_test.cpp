@@ -8,7 +8,7 @@
 
 BOOST_AUTO_TEST_SUITE(model_fields)
 
-/// Compares the lists of fields and words with cases/schema/case.schema.json.
+/// Compares the lists of keys and words in the readers with cases/schema/case.schema.json.
 using namespace trammel;
 using namespace trammel::harness;
 

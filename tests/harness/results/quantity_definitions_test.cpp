@@ -15,11 +15,10 @@ using namespace trammel::harness;
 
 namespace {
 
-/// Heads of the names of all quantities, by analysis.
+/// Heads of the names of quantities (parts before the colon), by type of analysis.
 using Recorded = std::map<std::string, std::set<std::string>>;
 
-/// Returns the heads of the quantities, which are the parts of their names before the colon. The
-/// quantities that a study defines are excluded.
+/// Returns the heads of the names of quantities, except for quantities that a study defines.
 std::set<std::string> heads_of(const Document& document, const Quantities& quantities) {
   const Json& analysis = document.value().at("analysis");
   std::set<std::string> studied, heads;
@@ -80,7 +79,7 @@ const std::string kOutputs = R"(["displacement_x_m:B", "displacement_y_m:B", "ro
   "shear_force_N:AB.start", "bending_moment_N_m:AB.start", "bending_stress_Pa:AB.start",
   "stress_Pa:AB"])";
 
-/// Returns cases with quantities that the cases above do not have.
+/// Returns cases with quantities that the cases in `kCases` do not have.
 std::vector<Json> further_cases() {
   const Json strip = testing::cantilever();
   Json buckled = strip;

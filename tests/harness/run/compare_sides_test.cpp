@@ -12,7 +12,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Returns results with one run of these quantities.
+/// Returns a side of a comparison: results with one run that has these quantities.
 Side side(const std::string& label, const std::map<std::string, std::vector<double>>& quantities) {
   Side made{label, {}, std::nullopt};
   made.results.cases.emplace_back();
@@ -30,7 +30,7 @@ results::SideComparison compared(const Side& a, const Side& b) {
   return harness::compare_sides({a, b}, false);
 }
 
-/// Returns modes of two nodes that move along y only.
+/// Returns a side of a comparison with modes of two nodes that move along y only.
 Side drawn(const std::string& label, const std::vector<double>& frequencies,
            const std::vector<std::pair<double, double>>& shapes) {
   Side made = side(label, {{"frequency_Hz", frequencies}});
@@ -70,7 +70,7 @@ BOOST_AUTO_TEST_CASE(round_off_of_a_refinement_counts) {
   study.roundoff = {1e-9, 1e-8};
   b.results.runs[0].convergence = {study};
   BOOST_TEST(compared(a, b).changed == 0U);
-  // More than one millionth is not round-off, whatever the study states.
+  // A relative change above 1e-6 is not round-off, even if the study estimates a larger round-off.
   b.results.runs[0].convergence[0].roundoff = {1e-3, 1e-3};
   BOOST_TEST(compared(a, b).changed == 1U);
   b.results.runs[0].convergence = {study};
@@ -137,7 +137,7 @@ BOOST_AUTO_TEST_CASE(missing_run_and_other_verdict_are_changes) {
 
 namespace {
 
-/// Returns a side with one-entry checks whose errors are `error` times a factor.
+/// Returns a side with checks of one value each, whose errors are `error` times a factor.
 Side with_errors(const std::string& label, double error, const std::vector<double>& factors) {
   Side made = side(label, {{"mass_kg", {1.0}}});
   for (const double factor : factors) {

@@ -119,7 +119,7 @@ BOOST_AUTO_TEST_CASE(history_of_a_later_format_is_refused) {
   const auto file = folder.path() / "history.db";
   (void)kept(folder, {call("one", 10)});
   std::fstream bytes(file, std::ios::in | std::ios::out | std::ios::binary);
-  bytes.seekp(63);  // SQLite's user_version ends here
+  bytes.seekp(63);  // the user_version in SQLite's header ends at this byte
   bytes.put(2);
   bytes.close();
   BOOST_CHECK_THROW(append_history(file, call("two", 10)), InputError);

@@ -63,7 +63,7 @@ BOOST_AUTO_TEST_CASE(order_leading_term_and_limit_are_judged) {
     BOOST_TEST((find(runs.at(0), name).verdict == Verdict::pass), name);
   BOOST_TEST(exit_status(runs) == 0);
   BOOST_TEST(std::abs(find(runs[0], "order").computed.value() - 4) < 0.05);
-  // Lumped mass has order 2 and another leading term.
+  // With lumped masses, the order of convergence is 2 and the leading error term is different.
   json["model"]["members"]["AB"]["mass_matrix"] = "lumped";
   runs = run_all({testing::read(folder, json)});
   BOOST_TEST((find(runs.at(0), "order").verdict == Verdict::fail));

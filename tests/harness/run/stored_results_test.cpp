@@ -74,7 +74,7 @@ BOOST_AUTO_TEST_CASE(shared_citation_is_stored_once) {
   results.references.back().notes = "A note.";
   Json json = to_json(results);
   BOOST_TEST(json["citations"] ==
-             Json::array({"One book.", ""}));  // the places in the sources are empty
+             Json::array({"One book.", ""}));  // the empty text is the position in the source
   BOOST_TEST(json["references"]["b"]["citation"] == 0);
   const results::Results read = results::read_results(json);
   BOOST_TEST(read.references.at(1).citation == "One book.");

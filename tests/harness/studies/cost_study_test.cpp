@@ -29,7 +29,7 @@ Json study_json() {
   })");
 }
 
-/// Loads the study next to its case.
+/// Writes a cost study next to its case, and loads the study.
 CostStudy load(const Json& json, SweepExtent sweeping = SweepExtent::full) {
   const Folder folder;
   (void)folder.write(testing::cantilever());

@@ -50,7 +50,7 @@ results::CostStudy measured(const Json& json) {
 BOOST_AUTO_TEST_CASE(errors_are_relative_to_the_chosen_scale) {
   const Observations reference_solution = {{10, 0, -5}}, found = {{11, 1, -5}};
   const results::ErrorNorms entry = error_norms(found, reference_solution, {});
-  BOOST_TEST(*entry.max == 0.1);  // expected 0: 1 relative to the largest value, 10
+  BOOST_TEST(*entry.max == 0.1);  // expected value 0: error relative to the largest value 10
   BOOST_TEST(*entry.mean == 0.2 / 3);
   BOOST_TEST(*entry.rms == std::sqrt(0.02 / 3));
   const results::ErrorNorms largest =
@@ -59,7 +59,7 @@ BOOST_AUTO_TEST_CASE(errors_are_relative_to_the_chosen_scale) {
   const results::ErrorNorms fixed =
       error_norms({{10, 0, -4}}, reference_solution, {Scale::Kind::number, 4});
   BOOST_TEST(*fixed.max == 0.25);
-  // Values that are errors have no reference solution.
+  // Quantities that are errors need no reference solution.
   BOOST_TEST(*error_norms({{1e-3, -2e-3}}, {{}}, {}).max == 2e-3);
   BOOST_TEST(std::isnan(*error_norms({{1, std::nan(""), 1}}, {{1, 1, 1}}, {}).max));
   BOOST_CHECK_THROW((void)error_norms({{1, 2}}, {{1}}, {}), std::runtime_error);
@@ -122,7 +122,7 @@ BOOST_AUTO_TEST_CASE(counters_measure_work_and_are_reproducible) {
   const results::CostStudy a = measured(study_json()), b = measured(study_json());
   for (std::size_t i = 0; i < a.settings.size(); ++i)
     BOOST_TEST((a.settings[i].counters == b.settings[i].counters));
-  // Twice the elements require twice the evaluations.
+  // Twice the number of elements requires twice the number of element evaluations.
   BOOST_TEST(a.settings[2].counters.front().second == 2 * a.settings[1].counters.front().second);
 }
 
@@ -163,7 +163,7 @@ BOOST_AUTO_TEST_CASE(error_above_1000_percent_is_a_divergence) {
 
 BOOST_AUTO_TEST_CASE(exact_setting_that_is_not_the_reference_is_measured) {
   Json json = study_json();
-  // The same frequencies follow from another document.
+  // The setting differs from the reference solution in its title only, so frequencies are equal.
   json["curves"]["more"] = {{"title", "another name"},
                             {"patch", {{"title", "another"}, {"model", {{"elements", 16}}}}}};
   const results::CostStudy study = measured(json);

@@ -109,7 +109,7 @@ BOOST_AUTO_TEST_CASE(fronts_are_compared_by_settings_and_times) {
   BOOST_TEST(*apart.median_difference == 0);
 
   std::vector<CostPoint> other = sample();
-  other[2].time = 10;  // setting 3 is now best for 1 %
+  other[2].time = 10;  // the cheapest setting within 1 % is now setting 3
   const results::Repeatability moved = compare_pareto_fronts(sample(), other);
   BOOST_TEST(moved.on_both_fronts == 3U);
   BOOST_TEST(moved.on_either_front == 4U);

@@ -17,7 +17,7 @@ using namespace trammel::harness;
 
 namespace {
 
-/// Returns scenes of random_scenes.py.
+/// Returns cases ("scenes") that random_scenes.py generates.
 std::vector<Document> random_scenes(int seed, const std::string& options) {
   const trammel::testing::Folder folder;
   const std::string path = folder.path().string();
@@ -51,7 +51,7 @@ struct Scene {
   }
 };
 
-/// Scenes for which a former selection was wrong.
+/// Scenes for which a former version of the program selected wrong effects.
 const Scene kHardScenes[] = {
     {1, 231, "second-order theory near a singularity was off by 14 %"},
     {3, 188, "the resonance of a coarse platform is elsewhere"},
@@ -74,8 +74,8 @@ BOOST_DATA_TEST_CASE(selection_holds_for_hard_scenes, boost::unit_test::data::ma
   BOOST_TEST(study.within_tolerance());
 }
 
-/// The selection may compute the motion of a coarse model only if the full motion has large
-/// displacements, because it then factors a tangent in each step.
+/// The selection of effects may compute the motion of a coarse model only if the full motion has
+/// large displacements. The full motion then factors a tangent in each step, and is more expensive.
 BOOST_AUTO_TEST_CASE(selecting_effects_costs_less_than_it_saves) {
   for (const int number : {29, 89, 169}) {
     const EffectStudy study = study_of(random_scenes(2, std::to_string(number)).front());

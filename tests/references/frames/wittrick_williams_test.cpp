@@ -14,7 +14,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Returns eight arms from a common joint, pinned at their tips.
+/// Returns a frame of eight arms with a common joint. The tips of the arms are pinned.
 Json double_cross() {
   Json model = Json::parse(R"({
     "materials": {"steel": {"E_Pa": 2e11, "rho_kg_m3": 8000}},

@@ -33,7 +33,7 @@ const Refusal kRefusals[] = {
     {"/runs/0/drawing/members/0/1", "99",
      "/runs/0/drawing/members/0/1: expected an integer from 0 to 32"},
     {"/runs/0/drawing/shapes/0/displacement_m/0", "",
-     "/runs/0/drawing/shapes/0/displacement_m: expected one pair of numbers a node, 33"}};
+     "/runs/0/drawing/shapes/0/displacement_m: expected one pair of numbers per node, 33"}};
 
 std::ostream& operator<<(std::ostream& out, const Refusal& refusal) {
   return out << refusal.pointer << " " << refusal.value;

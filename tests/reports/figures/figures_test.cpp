@@ -225,7 +225,7 @@ BOOST_AUTO_TEST_CASE(history_caption_states_work_and_time) {
   };
   call("another", 900, 10, 0);
   call("this", 100, 12, 0);
-  call("this", 0, 15, 1);  // partly from the store
+  call("this", 0, 15, 1);  // some runs are stored ones
   call("this", 150, 20, 0);
   const Figure figure = history_figure(history);
   BOOST_TEST(

@@ -21,7 +21,7 @@ using trammel::reports::write_report;
 
 namespace {
 
-/// Returns all pages of the sample as one text.
+/// Returns all pages of the sample report as one text.
 const std::string& page() {
   static const std::string text = text_of_pages(sample_report());
   return text;
@@ -31,7 +31,7 @@ bool shows(const std::string& text) {
   return page().find(text) != std::string::npos;
 }
 
-/// Returns the links of the pages without a target.
+/// Returns the links whose targets do not exist.
 std::string dead_links(const std::map<std::string, std::string>& pages, const fs::path& folder) {
   std::string dead;
   for (const auto& [path, text] : pages) {
@@ -60,7 +60,7 @@ std::set<std::string> files_with(const std::string& extension) {
   return names;
 }
 
-/// Hides gnuplot during its lifetime.
+/// Hides the program gnuplot while an object of this class exists.
 class WithoutGnuplot {
  public:
   WithoutGnuplot() : search_(std::getenv("PATH")) { setenv("PATH", "/nonexistent", 1); }
@@ -124,7 +124,7 @@ BOOST_AUTO_TEST_CASE(powers_of_ten_are_typeset_in_text_only) {
   const std::string text = read_text_file(workspace.path() / "cases/vpcs-sdll02.html");
   BOOST_TEST(text.find("below 10⁻⁶ of all") != std::string::npos);
   BOOST_TEST(text.find("Frame of 2.5\u202f×\u202f10³") != std::string::npos);
-  BOOST_TEST(text.find("Checks of Frame of 2.5e3") != std::string::npos);  // an attribute
+  BOOST_TEST(text.find("Checks of Frame of 2.5e3") != std::string::npos);  // attributes keep 2.5e3
 }
 
 BOOST_AUTO_TEST_CASE(pages_and_drawings_are_balanced_and_escaped) {
@@ -257,7 +257,7 @@ BOOST_AUTO_TEST_CASE(known_discrepancy_is_never_shown_as_a_success) {
                            "class=\"mark known-discrepancy\" title=\"known discrepancy"})
     BOOST_TEST(text.find(part) != std::string::npos, part);
   BOOST_TEST(text.find("class=\"banner passes\"") == std::string::npos);
-  // Variants with the same printed number have one target.
+  // Checks of several variants against the same printed number have one target.
   for (const char* variant : {"second", "third"}) {
     results.cases[0].variants.push_back({variant, variant});
     results.runs.push_back(results.runs[0]);
@@ -277,7 +277,7 @@ BOOST_AUTO_TEST_CASE(audit_counts_other_discrepancies_by_reason) {
     known.why = repeated ? "second reason" : "first reason";
     results.runs[0].checks.push_back(known);
   }
-  const std::string text = all_pages_of(results);  // the ten largest are rows of a table
+  const std::string text = all_pages_of(results);  // the table has the ten largest discrepancies
   for (const char* part : {"<strong>3</strong> first reason", "<strong>1</strong> second reason"})
     BOOST_TEST(text.find(part) != std::string::npos, part);
 }

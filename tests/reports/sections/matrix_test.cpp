@@ -11,7 +11,7 @@ using trammel::testing::contains;
 
 namespace {
 
-/// Returns one entry of a check against a target of 100 Hz.
+/// Returns the check of one value against a target of 100 Hz.
 Check compared(const std::string& name, int entry, double difference) {
   Check check;
   check.name = name;
@@ -74,8 +74,8 @@ BOOST_AUTO_TEST_CASE(unreached_targets_are_named_with_the_nearest) {
 }
 
 BOOST_AUTO_TEST_CASE(shifted_check_has_no_column_in_the_matrix) {
-  // The check compares mode 1 with target 2. The matrix once showed the result in the column of
-  // mode 1, and thus target 1 as reached.
+  // The check "shifted" compares mode 1 with the target of mode 2. The matrix once showed its
+  // result in the column of mode 1, so that the target of mode 1 seemed to be reached.
   Sample sample;
   for (int entry = 0; entry < 2; ++entry)
     sample.results.runs[1].checks.push_back(compared("shifted", entry, 0.001));

@@ -29,7 +29,7 @@ std::string stress_suite_of(const Results& results) {
 
 BOOST_AUTO_TEST_CASE(items_are_ordered_with_the_worst_of_each_indicator) {
   Results results = with_stress_suite();
-  results.runs[0].checks[1].verdict = Verdict::fail;  // an entry of "exact"
+  results.runs[0].checks[1].verdict = Verdict::fail;  // a value of the indicator "exact"
   const std::string text = stress_suite_of(results);
   BOOST_TEST(text.find("3 items, 3 cases, 3 indicators:") != std::string::npos);
   const std::size_t first = text.find(">1. <"), third = text.find(">3. <"),

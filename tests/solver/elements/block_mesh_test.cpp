@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// NAFEMS LE1: a quarter between two ellipses.
+/// Returns the membrane of NAFEMS LE1: a quarter of the area between two ellipses.
 Block elliptic_quarter(Index cells) {
   Block block;
   block.corners = {Vector2d(2, 0), Vector2d(3.25, 0), Vector2d(0, 2.75), Vector2d(0, 1)};
@@ -44,7 +44,7 @@ Block annulus_quarter(double inner, double outer, Index quarter, Index radial, I
 double area(const Model& model) {
   double sum = 0;
   for (const Triangle& triangle : model.triangles) {
-    const double a = 1.0 / 6;  // degree 2: exact for the determinant of a six-node triangle
+    const double a = 1.0 / 6;  // quadrature of degree 2: exact for the area of six-node triangles
     for (const Vector3d& at :
          {Vector3d(4 * a, a, a), Vector3d(a, 4 * a, a), Vector3d(a, a, 4 * a)}) {
       sum += interpolate(model, triangle, at).signed_area / 3;
@@ -104,7 +104,7 @@ BOOST_AUTO_TEST_CASE(mesh_is_joined_to_existing_nodes) {
   BOOST_TEST(model.nodes.size() == 3u + 9 - 2);
   BOOST_TEST((std::count(nodes.begin(), nodes.end(), 1) == 1));
   BOOST_TEST((std::count(nodes.begin(), nodes.end(), 2) == 1));
-  // A second plate next to the first one shares its three nodes.
+  // A second plate next to the first plate shares the three nodes of the common side.
   for (Vector2d& corner : block.corners) corner.x() += 1;
   append_mesh(model, 0, mesh_blocks({block}, false));
   BOOST_TEST(model.nodes.size() == 10u + 9 - 3);

@@ -17,7 +17,7 @@ const Section kSection = rectangle({2e11, 7800, 0.3}, 0.2, 0.1);
 constexpr double kLength = 1.3;
 const auto kTheories = {BeamTheory::euler_bernoulli, BeamTheory::timoshenko};
 
-/// Returns the stiffness in element axes.
+/// Returns the stiffness matrix of a frame element in element axes.
 Matrix6d frame_stiffness(const Section& section, BeamTheory theory, double length) {
   const FrameDeformation B = frame_deformation_matrix<double>(Eigen::Vector2d::UnitX(), length);
   return B.transpose() * frame_rigidity(section, theory, length).asDiagonal() * B;

@@ -131,7 +131,7 @@ BOOST_AUTO_TEST_CASE(quadratic_displacement_has_its_exact_energy) {
   // u = (x^2, 0): exx = 2 x, energy = t E / (1 - nu^2) integral 4 x^2.
   const Element<6> element;
   const auto u = element.sample([](const Vector2d& p) { return Vector2d(p.x() * p.x(), 0); });
-  double mean = 0;  // mean of x^2: that at the middles of the sides
+  double mean = 0;  // mean of x^2 over the triangle, from the middles of the sides
   for (std::size_t i = 3; i < 6; ++i) mean += element.nodes[i].x() * element.nodes[i].x() / 3;
   const Material& m = kPlate.material;
   BOOST_TEST(u.dot(element.stiffness() * u) ==

@@ -31,7 +31,7 @@ MatrixXd random_matrix(Index rows, Index cols, unsigned seed) {
   return MatrixXd::NullaryExpr(rows, cols, [&](Index, Index) { return uniform(random); });
 }
 
-/// Returns the prediction of Eq. 36 and 37 as printed, in extended precision.
+/// Returns the prediction by Eq. 36 and 37 as printed in the paper, in extended precision.
 double as_printed(const Grnn& g, const Eigen::RowVectorXd& x, Index output) {
   long double above = 0;
   long double below = 0;
@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(predictions_are_those_of_the_printed_formula) {
 BOOST_AUTO_TEST_CASE(samples_at_the_same_distance_have_equal_weights) {
   const Grnn between = make_grnn(column({1, 2, 5}), column({10, 20, 90}), 1e-300);
   BOOST_TEST(predict(between, column({1.5}))(0, 0) == 15.0);
-  // A query at a distance of one rounding error from the middle returns either value, but not 0/0.
+  // Within one rounding error of the middle between two samples, 0/0 must not occur.
   const double y =
       predict(make_grnn(column({0.1, 0.2}), column({1, 2}), 1e-300), column({0.15}))(0);
   BOOST_TEST((y == 1.0 || y == 2.0 || y == 1.5));
@@ -132,7 +132,7 @@ BOOST_AUTO_TEST_CASE(split_has_the_requested_size_and_order) {
   const std::vector<bool> first = training_mask(631, 379, Split::first);
   BOOST_TEST(first[378]);
   BOOST_TEST(!first[379]);
-  // Interleaved split: 60 % of every part, and never two successive samples held out.
+  // The interleaved split trains with 60 % of each part, and never omits two successive samples.
   const std::vector<bool> spread = training_mask(631, 379, Split::interleaved);
   for (std::size_t i = 0; i + 1 < spread.size(); ++i) BOOST_TEST((spread[i] || spread[i + 1]));
   BOOST_TEST(
@@ -144,7 +144,7 @@ BOOST_AUTO_TEST_CASE(split_has_the_requested_size_and_order) {
 }
 
 BOOST_AUTO_TEST_CASE(search_beats_nearest_neighbor_and_mean) {
-  // Noisy sine: the best smoothing is between the nearest neighbor and the mean.
+  // For a noisy sine, the best smoothing is between nearest neighbor and mean of all samples.
   const Index n = 200;
   MatrixXd x(n, 1);
   MatrixXd y(n, 1);

@@ -50,7 +50,7 @@ BOOST_AUTO_TEST_CASE(large_motion_without_inertia_is_large_statics) {
 }
 
 /// Small loads displace P by a few micrometers and rotate the platform by less than 1e-4 rad. The
-/// relative differences between both theories are of the order of these small quantities.
+/// relative differences between linear and geometrically exact theory are of this order.
 BOOST_AUTO_TEST_CASE(small_motions_are_those_of_linear_theory) {
   for (const ElbowKind elbow : kElbows) {
     for (const bool quasi_static : {true, false}) {

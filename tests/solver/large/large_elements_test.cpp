@@ -46,7 +46,7 @@ LineSpringElement some_spring() {
   return {{}, Vector2d(0.7, 0.2), /*initial_elongation=*/0.1, /*flexibility=*/0.01};
 }
 
-/// Returns the residual of the constraint rows and its gradient.
+/// Returns the residual of the constraint rows of an element, and the gradient of the residual.
 template <class Element>
 std::pair<typename Element::Rows, typename Element::Gradient> linearize(
     const Element& element, const typename Element::Coordinates& q) {
@@ -57,8 +57,8 @@ std::pair<typename Element::Rows, typename Element::Gradient> linearize(
 
 constexpr double kStep = 1e-5;
 
-/// Checks the gradient and the geometric stiffness by central differences, and the defining
-/// property of the discrete gradient.
+/// Checks the gradient and the geometric stiffness of an element by central differences. Also
+/// checks the defining property of the discrete gradient.
 template <class Element>
 void check_derivatives(const Element& element) {
   using Coordinates = typename Element::Coordinates;

@@ -30,7 +30,7 @@ struct Elastica {
   double load, transverse, shortening, angle;
 };
 
-/// Exact tip of a cantilever under a transverse load P L^2 / EI, from elliptic integrals.
+/// Exact tip motion of a cantilever under a transverse load P L^2 / EI, from elliptic integrals.
 constexpr Elastica kSmall{1, .301720773799814, .0564332362833769, .461351949711879};
 constexpr Elastica kLarge{10, .810609024880296, .554995597753751, 1.43028553880386};
 
@@ -47,7 +47,7 @@ double elastica_error(const Elastica& exact, Index elements, double angle = 0) {
                    std::abs(moved[2] - exact.angle)});
 }
 
-/// Returns the estimate for the elastica under a force at its tip.
+/// Returns the estimated equilibrium of the elastica under a force at its tip.
 StaticSolution estimate_of(const Vector2d& force) {
   Model model = elastica(8);
   model.loads = {{1, {force.x(), force.y(), 0}}};

@@ -24,12 +24,12 @@ BOOST_AUTO_TEST_CASE(missed_and_repeated_modes_are_counted) {
   BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{1, 1, 2, 2, 5}}) == 1);
   BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{1, 2, 2, 5}}, {}, 7) == 0);
   BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{2, 2, 5}}, {}, 7) == 1);
-  // The gaps decide for a limit below the last eigenvalue or above an eigenvalue that was not
-  // requested.
+  // If the limit is below the last eigenvalue or above an eigenvalue that was not requested, the
+  // count below the last clear gap between eigenvalues is used.
   BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{1, 2, 2, 5}}, {}, 3) == 0);
   BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{1, 2, 2}}, {}, 7) == 0);
   BOOST_TEST(count_dependent_vectors(B, shapes) == 0);
-  // The lowest eigenvalue is missing and another one is repeated, so the number is correct.
+  // The lowest eigenvalue is missing and another is repeated, so the number of values is correct.
   BOOST_TEST(eigenvalue_count_error(A, B, VectorXd{{2, 2, 2, 5}}) == 0);
   shapes.col(0) = 0.6 * shapes.col(1) + 0.8 * shapes.col(2);
   BOOST_TEST(count_dependent_vectors(B, shapes) == 1);

@@ -13,7 +13,7 @@ using Eigen::Index;
 
 namespace {
 
-/// Returns the five-point stencil of a square of n x n points.
+/// Returns the matrix of the five-point stencil on a square grid of n x n points.
 Eigen::SparseMatrix<double> square(Index n) {
   std::vector<Eigen::Triplet<double>> entries;
   for (Index i = 0; i < n * n; ++i) {
@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(factors_are_reused_for_the_same_matrix_only) {
 }
 
 BOOST_AUTO_TEST_CASE(last_correction_is_relative_to_the_solution) {
-  // Solves 4 x = 8 with a factor of 5. Each of the eight steps reduces the error by 1 - 4/5.
+  // Solves 4 x = 8 iteratively with the factor of 5. Each of eight steps divides the error by 5.
   SparseMatrix A(1, 1);
   A.insert(0, 0) = 5;
   Factorization factorization;

@@ -72,7 +72,7 @@ BOOST_AUTO_TEST_CASE(stiff_part_costs_no_digits) {
   }
 }
 
-// With one coordinate the norm is a sum, so the estimate is exact.
+// With one result coordinate, the norm in the error bound is a sum, so the estimate is exact.
 BOOST_AUTO_TEST_CASE(bound_is_the_sum_of_rounded_strains_and_forces) {
   FactoredStiffness K = factors(MatrixXd{{1, 0}, {-3, 2}, {0.5, 1}});
   K.C = Eigen::Vector3d(2, 5, 0.7);

@@ -7,7 +7,8 @@ BOOST_AUTO_TEST_SUITE(lanczos)
 using namespace trammel::solver;
 using Eigen::VectorXd;
 
-// Spectra throws in both cases. This was once reported as an internal error.
+// The library Spectra throws if values overflow or the start vector is zero. The exception was once
+// reported as an internal error.
 BOOST_AUTO_TEST_CASE(overflow_and_zero_start_have_no_eigenpairs) {
   const auto overflowing = [](const VectorXd& x) -> VectorXd { return 1e300 * (1e300 * x); };
   const auto identity = [](const VectorXd& x) { return x; };
@@ -19,7 +20,8 @@ BOOST_AUTO_TEST_CASE(overflow_and_zero_start_have_no_eigenpairs) {
   }
 }
 
-// Spectra's threshold is absolute below eps^(2/3). In small units vectors did once not converge.
+// Spectra's convergence threshold is absolute for eigenvalues below eps^(2/3). In small units,
+// eigenvectors once did not converge.
 BOOST_AUTO_TEST_CASE(vectors_of_small_eigenvalues_are_accurate) {
   constexpr Index kSize = 200;
   const VectorXd start = start_vectors(kSize, 1);

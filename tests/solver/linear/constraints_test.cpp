@@ -14,7 +14,8 @@ using boost::test_tools::tolerance;
 
 namespace {
 
-/// Returns the largest |C T|. Free motions must satisfy all rows, including the dropped ones.
+/// Returns the largest |C T|. The free motions T must satisfy all rows of the constraint matrix C,
+/// including redundant rows that were dropped.
 double violation(const System& system) {
   double largest = 0;
   for (const ConstraintRow& row : system.constraints.rows) {

@@ -77,7 +77,7 @@ BOOST_AUTO_TEST_CASE(rigid_motions_are_counted_beyond_the_modes_requested) {
   }
 }
 
-/// A body floats on a massless beam. Its three rigid motions have all the mass.
+/// Free body on a massless beam. The three rigid motions have the full mass of the model.
 BOOST_AUTO_TEST_CASE(model_with_only_rigid_modes_has_no_vibration) {
   Section section = unit_section();
   section.mass_per_length = 0;

@@ -13,7 +13,7 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Returns a valid model with one part of each type.
+/// Returns a valid model with one component of each type.
 Model valid_model() {
   Model model = cantilever(unit_section(), 1, 2);
   model.nodes.push_back({"C", {1, 1}});

@@ -16,7 +16,7 @@ namespace {
 std::string words(const Model& model) {
   const StaticSolution solution = solve_statics(assemble(model));
   BOOST_TEST((solution.outcome.status == Status::singular));
-  BOOST_TEST(solution.displacement.size() == 0);  // never values
+  BOOST_TEST(solution.displacement.size() == 0);  // a singular model has no displacements
   BOOST_TEST(solution.reaction.size() == 0);
   return solution.outcome.reason;
 }

@@ -76,8 +76,7 @@ BOOST_AUTO_TEST_CASE(motion_without_inertia_is_statics_at_every_pose) {
 }
 
 BOOST_AUTO_TEST_CASE(links_lost_to_round_off_of_a_platform_are_refused) {
-  // The result once had the status solved, although a force of 384 N was unbalanced under a load of
-  // 10 N.
+  // Under a load of 10 N, a result with an unbalanced force of 384 N once had the status solved.
   ElastodynamicsOptions options = resting(1e-2);
   options.design = coarse_design(PlatformKind::triangles);
   options.modal_superposition = true;
@@ -94,7 +93,8 @@ BOOST_AUTO_TEST_CASE(steps_balance_at_their_ends_between_samples) {
   BOOST_TEST(solve_elastodynamics(options).outcome.solved());
   options.design.platform.material.E = 6.9e19;
   BOOST_TEST(!solve_elastodynamics(options).outcome.solved());
-  // Round-off of a stiff part is relative to the loads, not to the terms of its rows.
+  // The residual from round-off in a stiff platform is relative to the loads, not to the large
+  // internal forces of the platform.
   options.design.platform.material.E = 6.9e15;
   const ElastodynamicsSolution s = solve_elastodynamics(options);
   BOOST_TEST(s.evidence.largest(Residual::equation_of_motion) > 1e-10);

@@ -82,7 +82,7 @@ BOOST_AUTO_TEST_CASE(delayed_torques_are_refused) {
   m.gravity = {0, -9.81};
   const Path circle = Circle{{0.25, 0.144}, 0.01, 1};
   for (const double late : {0.0, 1e-3}) {
-    double last = kNaN;  // the integrator evaluates a time before the evidence does
+    double last = kNaN;  // the integrator evaluates each time before the residuals do
     const auto torque = [&](double t) {
       const bool first = t != last;
       last = t;

@@ -1,6 +1,5 @@
 // ctest: labels=manipulator
-// Tests the manipulator model after assembly and solution: mass, limits, symmetry, singular
-// choices.
+// Tests the assembled and solved manipulator: mass, limiting cases, symmetry, singular designs.
 #include <boost/test/unit_test.hpp>
 #include <cmath>
 
@@ -21,7 +20,7 @@ ManipulatorDesign with_platform(PlatformDesign::Kind kind) {
   return design;
 }
 
-/// Pose without symmetry.
+/// Pose of the manipulator without symmetry.
 constexpr Pose kPose{0.26, 0.15, 0.1};
 const Vector3d kForce{10, 4, 0};
 

@@ -15,7 +15,7 @@ namespace {
 using namespace trammel::solver;
 using boost::test_tools::tolerance;
 
-/// Returns "A1-B1" or "B1-C1".
+/// Returns the name of a link of limb i: "A1-B1" or "B1-C1" for the first limb.
 std::string link_name(char first, char second, std::size_t i) {
   const std::string n = std::to_string(i);
   std::string name(1, first);
@@ -71,7 +71,7 @@ Bulk platform_bulk(const Model& model) {
   return bulk;
 }
 
-/// Returns the message that refuses the design, or an empty text.
+/// Returns the error message for an invalid design, or an empty text.
 std::string refusal(const ManipulatorDesign& design, const Pose& pose = centered_pose()) {
   try {
     (void)build_manipulator(design, pose);
@@ -293,12 +293,12 @@ BOOST_AUTO_TEST_CASE(invalid_designs_are_refused_with_the_reason) {
        [](auto& d) { d.platform_joint[1].kind = Kind::welded; }},
       {"platform at C2: a node of constant-strain triangles has no",
        [](auto& d) { d.platform_joint[1].kind = Kind::sprung; }},
-      {"choose the same joint for C1, C2 and C3",
+      {"choose the same joint type for C1, C2 and C3",
        [](auto& d) {
          d = rigid_design();
          d.platform_joint[0].kind = Kind::eq25_sum;
        }},
-      {"choose the same joint for C1, C2 and C3",
+      {"choose the same joint type for C1, C2 and C3",
        [](auto& d) {
          d = rigid_design();
          d.platform_joint[1].kind = d.platform_joint[2].kind = Kind::eq25_sum;

@@ -18,7 +18,7 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Returns a circle with a rotating platform, so that every part moves.
+/// Returns a circular path with a rotating platform, so that every body moves.
 Path circle_with_rotation() {
   std::vector<double> times;
   std::vector<Pose> poses;
@@ -139,8 +139,7 @@ BOOST_AUTO_TEST_CASE(load_of_inertia_is_that_of_equation_14) {
 }
 
 BOOST_AUTO_TEST_CASE(nominal_inertia_carries_the_momentum_of_the_bodies) {
-  // The sum of the loads over all nodes is - sum of m a over the bodies, by independent rigid
-  // dynamics.
+  // The sum of all nodal loads is - sum of m a over the bodies, by independent rigid dynamics.
   for (const ManipulatorDesign& design : designs()) {
     if (design.proximal[0].inertia) continue;
     Walk walk(design, circle_with_rotation(), 0.1, false);
@@ -168,7 +167,8 @@ BOOST_AUTO_TEST_CASE(common_displacement_has_no_gyroscopic_force) {
   const System& system = walk.moving.start();
   VectorXd u = VectorXd::Zero(system.coordinates.size);
   for (const auto& c : system.coordinates.node) u.segment<2>(c[0]) = Vector2d(0.3, -0.8);
-  // Only the rows of the supports differ. They affect only elements at the supports.
+  // A common displacement of all nodes violates only the constraints of the supports. These
+  // constraints affect only elements at the supports.
   VectorXd q(walk.moving.K().rows());
   for (std::size_t i = 0; i < system.constraints.free.size(); ++i) {
     if (system.constraints.free[i] >= 0) q[system.constraints.free[i]] = u[static_cast<Index>(i)];
@@ -210,7 +210,7 @@ BOOST_AUTO_TEST_CASE(refused_pose_leaves_no_trace) {
   for (std::size_t member = 0; member < moving.start().model.members.size(); ++member) {
     const auto& ends = moving.start().model.members[member].nodes;
     const Vector2d d = before.node[0].row(ends[1]) - before.node[0].row(ends[0]);
-    // The link lies along x or y. The component across it is then no pivot.
+    // If the link is along x or y, the elimination has no pivot in the component across the link.
     for (const double along : {0.0, 0.5}) {
       NominalMotion motion = before;
       motion.part[member].angle = along * std::numbers::pi - std::atan2(d.y(), d.x());

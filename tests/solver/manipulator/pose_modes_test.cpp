@@ -1,4 +1,4 @@
-// Frequencies computed along a path are those of every pose solved separately.
+// Tests that frequencies along a path equal those of a separate solution for each pose.
 #include "solver/manipulator/pose_modes.h"
 
 #include <boost/test/unit_test.hpp>
@@ -154,7 +154,7 @@ BOOST_AUTO_TEST_CASE(mode_orthogonal_to_the_previous_pose_is_found) {
   design.proximal[1].material.E *= 480;
   design.distal[1].material.E *= 48000;
   design.distal[1].material.rho *= 100;
-  const auto with_reach = [](double reach) {  // of arm 2, to its upper left
+  const auto with_reach = [](double reach) {  // reach of arm 2, to its upper left
     const double c = std::numbers::sqrt2 / 2;
     return Pose{0.4 - c * reach, c * reach + 0.1 / std::numbers::sqrt3, 0};
   };

@@ -51,7 +51,7 @@ BOOST_AUTO_TEST_CASE(limbs_have_equal_derivatives_in_a_symmetric_pose) {
         BOOST_TEST(std::abs(s.derivative(n, 0) - s.derivative(n, 1)) < 1e-8 * size);
         BOOST_TEST(std::abs(s.derivative(n, 0) - s.derivative(n, 2)) < 1e-8 * size);
       }
-      // One limb separates the pair; all limbs together keep it.
+      // A change of one limb separates a pair of frequencies, but a change of all limbs does not.
       BOOST_TEST(s.derivative(set.first + 1, 0) - s.derivative(set.first, 0) > 0.01 * size);
       BOOST_TEST(std::abs(s.derivative(set.first + 1, 3) - s.derivative(set.first, 3)) <
                  1e-8 * size);
@@ -77,7 +77,8 @@ BOOST_AUTO_TEST_CASE(cut_set_keeps_its_lowest_derivative) {
 }
 
 BOOST_AUTO_TEST_CASE(modes_lost_to_round_off_do_not_crash) {
-  // Free actuators near a folded limb: eigenvalues without vectors were once read out of bounds.
+  // With free actuators near a folded limb, the eigensolver returns eigenvalues without vectors.
+  // The missing vectors were once read out of bounds.
   ManipulatorDesign design = coarse_design();
   design.platform.kind = PlatformKind::rigid;
   design.active.fill({ActiveKind::free});

@@ -18,8 +18,7 @@ namespace {
 
 using Big = boost::multiprecision::cpp_bin_float_100;
 
-/// Returns the response by its Taylor series with 100 digits, in intervals short enough for
-/// convergence.
+/// Returns the impulse response by Taylor series with 100 digits in sufficiently short intervals.
 ImpulseResponse in_long_digits(double omega, double decay, double t) {
   const int pieces = 1 + static_cast<int>(std::max(omega, decay) * t / 4);
   const Big w2 = Big(omega) * Big(omega);

@@ -35,8 +35,8 @@ TransientHistory run(const EquationOfMotion& equation, const TimeScheme& scheme 
   return solve_transient(equation, options);
 }
 
-/// Returns true for the first evaluation at a time. The integrator evaluates a time before the
-/// residuals do.
+/// Returns true for the first evaluation at an instant. The integrator evaluates each instant
+/// before the residuals are evaluated.
 struct AskedFirst {
   double last = kNaN;
   bool operator()(double time) {

@@ -129,8 +129,7 @@ BOOST_AUTO_TEST_CASE(error_control_holds_its_tolerance_and_counts_its_steps) {
       BOOST_TEST(h.summary.accepted > 0);
       BOOST_TEST(h.summary.rejected > 0);
       BOOST_TEST(h.summary.smallest_step < h.summary.largest_step);
-      // One factorization is required for each size of step in each segment, not for each change of
-      // step.
+      // A factorization is required for each size of step in each segment, not for each change.
       BOOST_TEST(h.summary.counters.factorizations < 60);
     }
   }
@@ -181,7 +180,7 @@ BOOST_AUTO_TEST_CASE(ten_thousand_steps_allocate_as_ten, *boost::unit_test::labe
     options.end = end;
     const std::int64_t before = allocations();
     const TransientSummary summary = solve_transient(equation, options, observe);
-    BOOST_TEST(summary.counters.factorizations == 2);  // of the mass and of the step
+    BOOST_TEST(summary.counters.factorizations == 2);  // of the mass matrix and of the step matrix
     return allocations() - before;
   };
   static_cast<void>(cost(0.01));

@@ -23,7 +23,7 @@ inline const std::vector<double>& values(const AnalysisResult& result, const std
   return result.quantities.at(name).values;
 }
 
-/// Returns the value of a quantity with one value.
+/// Returns the single value of a quantity. Fails if the quantity has several values.
 inline double only(const AnalysisResult& result, const std::string& name) {
   BOOST_REQUIRE_MESSAGE(values(result, name).size() == 1, name);
   return values(result, name).front();

@@ -15,15 +15,14 @@ namespace trammel::testing {
 
 struct ExportTwin {
   std::string name;
-  std::string refused = {};  ///< message after the pointer
+  std::string refused = {};  ///< error message without the JSON pointer
   Json json = {};            ///< the exported case
   AnalysisResult exported = {};
-  double difference =
-      0;  ///< largest over all quantities, relative to the largest value with the same head
+  double difference = 0;  ///< largest difference relative to the values of the same quantity
   std::string worst = {};
 };
 
-/// Returns the choices of a case: the variant, and each level of its sweeps.
+/// Returns all models of a case that can be exported: the variant, and each level of its sweeps.
 inline std::vector<ExportChoice> choices_of(const Case& given, const std::string& variant) {
   std::vector<ExportChoice> choices = {{variant}};
   const Document document = patched(given, variant);
@@ -88,7 +87,7 @@ inline void compare(const Quantities& own, const Json& model, ExportTwin& twin) 
   }
 }
 
-/// Exports a case to a file and computes both.
+/// Exports a case to a file, and computes the case and the exported case.
 inline ExportTwin export_twin(const Case& given, const ExportChoice& choice) {
   ExportTwin twin{given.id() + ":" + choice.variant};
   if (choice.level) twin.name += " " + choice.sweep + " " + std::to_string(*choice.level);

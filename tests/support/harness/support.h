@@ -16,7 +16,8 @@ namespace trammel::testing {
 
 using namespace harness;
 
-/// Returns the program under test; the environment may name that of tests/mutation.
+/// Returns the path of the program under test. The environment variable TRAMMEL_PROGRAM can name
+/// another program, such as that of tests/mutation.
 inline std::string trammel_program() {
   const char* other = std::getenv("TRAMMEL_PROGRAM");
   return other != nullptr ? other : TRAMMEL_PROGRAM;
@@ -45,11 +46,11 @@ class Folder {
     std::ofstream(path_ / name, std::ios::binary) << text;
     return path_ / name;
   }
-  /// Writes a case under its id.
+  /// Writes a case to the file <id>.json.
   [[nodiscard]] std::filesystem::path write(const Json& json) const {
     return write(json.at("id").get<std::string>() + ".json", json.dump(1));
   }
-  /// Adds a reference with one value to the file next to the cases.
+  /// Adds a reference with one value to references.json.
   void write_reference(const std::string& id, const char* unit, double value,
                        const Json& uncertainty, const char* kind = "paper") const {
     write_reference({{"id", id},
@@ -61,7 +62,7 @@ class Folder {
                      {"uncertainty", uncertainty},
                      {"place", "here"}});
   }
-  /// Adds a reference to the file next to the cases.
+  /// Adds a reference to references.json, which is next to the cases.
   void write_reference(Json reference) const {
     const std::filesystem::path file = path_ / "references.json";
     Json family = std::filesystem::exists(file) ? harness::read_json(file) : Json::object();
@@ -75,7 +76,7 @@ class Folder {
   std::filesystem::path path_;
 };
 
-/// Returns the message of an InputError, or an empty text.
+/// Returns the message of the InputError that `work` throws, or an empty text.
 template <class Work>
 std::string input_error_message(const Work& work) {
   try {
