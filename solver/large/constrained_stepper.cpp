@@ -202,6 +202,11 @@ StepReport ConstrainedStepper::attempt(const Step& step) {
   if (report.status == Status::solved) {
     const auto norm = [this](const VectorXd& x) { return size(x); };
     relation_residual_ = relation_residual(s, h, from_, A0_, to_, A1_, !projects_, norm, work_);
+    // A system at rest under changing forces moves only by their round-off errors.
+    if (relation_residual_ > 1e-6) {
+      relation_residual_ = relation_residual(s, h, from_, A0_, to_, A1_, !projects_, norm, work_,
+                                             per_acceleration(h) * correction_roundoff(h));
+    }
     work_ = A1_ - A0_;
     if (options_.adaptive)
       report.error = scheme_.error_constant * h * h * size(work_) / options_.adaptive->relative;

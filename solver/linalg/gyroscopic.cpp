@@ -58,8 +58,7 @@ Linearization linearize(const GyroscopicPencil& pencil) {
 /// Returns the Rayleigh functional of a mode shape x: the positive root w of x^H (K + i w C - w^2
 /// M) x = 0.
 double frequency_of(const GyroscopicPencil& pencil, const VectorXcd& x) {
-  const VectorXd a = x.real();
-  const VectorXd b = x.imag();
+  const VectorXd a = x.real(), b = x.imag();
   MatrixXd parts(x.size(), 2);
   parts << a, b;
   const double k = pencil.K_products(parts).trace();

@@ -149,8 +149,7 @@ double arm_moment(const System& system, const ConstraintRow& row, double multipl
 }  // namespace
 
 FrameDeformation frame_chord_rotation_and_bending(const Vector2d& direction, double length) {
-  const double c = direction.x() / length;
-  const double s = direction.y() / length;
+  const double c = direction.x() / length, s = direction.y() / length;
   FrameDeformation B = frame_deformation_matrix(direction, length);
   B.row(0) << s, -c, 0, -s, c, 0;
   return B;

@@ -62,8 +62,7 @@ Outcome outcome_by_error(double error) {
 }
 
 double force_roundoff(const System& system, const VectorXd& q) {
-  const VectorXd length = length_scales(system);
-  const VectorXd u = system.T * q;
+  const VectorXd length = length_scales(system), u = system.T * q;
   double largest = 0, lost = 0;
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
     const auto local = detail::gather(coordinates, u);

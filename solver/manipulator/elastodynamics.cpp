@@ -345,8 +345,7 @@ double mean_platform_rotation(const ManipulatorGeometry& geometry, double phi,
                               const Eigen::Matrix<double, 3, 2>& displacement) {
   const auto& C = geometry.platform;
   const Vector2d center = (C[0] + C[1] + C[2]) / 3;
-  double turning = 0;
-  double size = 0;
+  double turning = 0, size = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector2d arm = rotated(C[i] - center, phi);
     turning += cross(arm, displacement.row(static_cast<Index>(i)));

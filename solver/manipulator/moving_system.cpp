@@ -99,8 +99,7 @@ void MovingSystem::find_spans() {
   const Model& model = start_.model;
   span_.resize(start_.mesh.positions.size());
   for (Index i = 0; i < std::ssize(model.nodes); ++i) span_[to_size(i)].nodes = {i, i};
-  Index before = -1;
-  Index done = 0;
+  Index before = -1, done = 0;
   for (const FrameElement& e : start_.mesh.frame) {
     const Member& member = model.members[to_size(e.member)];
     done = e.member == before ? done + 1 : 1;

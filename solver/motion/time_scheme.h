@@ -101,16 +101,19 @@ inline void change_step(double ratio, const Eigen::VectorXd& a, Eigen::VectorXd&
 /// Returns the largest difference between the two sides of the relations between q, v, a and A in a
 /// step of size h, relative to the sum of the terms of each relation [-]. Without `positions`, the
 /// relation of positions is omitted, because constraints modify it. `norm` returns the norm of a
-/// vector of coordinates, and `defect` is a work vector.
+/// vector of coordinates, `defect` is a work vector, and `force_roundoff` is the size of the
+/// accelerations that result from the round-off errors of forces.
 template <class State, class Norm>
 double relation_residual(const TimeScheme& s, double h, const State& from,
                          const Eigen::VectorXd& A0, const State& to, const Eigen::VectorXd& A1,
-                         bool positions, const Norm& norm, Eigen::VectorXd& defect) {
+                         bool positions, const Norm& norm, Eigen::VectorXd& defect,
+                         double force_roundoff = 0) {
   // If a body stops moving, its accelerations are the round-off error of its positions over beta
   // h^2. The terms below are increased so that round-off is at most this fraction of them. The
   // fraction is a tenth of the residual limit.
   constexpr double kRoundoffShare = 1e-5;
-  const double roundoff = kEps * (norm(from.q) + norm(to.q)) / (std::max(s.beta, 1.0 / 12) * h * h);
+  const double roundoff =
+      kEps * (norm(from.q) + norm(to.q)) / (std::max(s.beta, 1.0 / 12) * h * h) + force_roundoff;
   const double A = norm(A0) + norm(A1) + roundoff / kRoundoffShare;
   const double a = norm(from.a) + norm(to.a) + A;
   const double v = norm(from.v) + norm(to.v) + h * A;

@@ -113,18 +113,19 @@ BOOST_AUTO_TEST_CASE(torque_law_turns_a_wheel_by_its_double_integral) {
 }
 
 /// The scheme computes mean forces of steps and extrapolates them. Here they are linear in time: a
-/// slowly rotating mass is pulled outward by a force of t N.
+/// mass at rest is pulled outward by a force of t N.
 BOOST_AUTO_TEST_CASE(force_after_a_shorter_step_is_that_at_its_end) {
   Model model = simple_pendulum();
   model.gravity = {0, 0};
   LargeMotionModel large_motion;
-  large_motion.initial_velocities = {{1, 1, 0.005}};
   large_motion.follower_loads = {{1, {-1, 0, 0}}};
   large_motion.load_history = [](double t) { return t; };
   const GeometricallyExactSystem system(model, large_motion);
-  TransientOptions options = options_of(Integrator::energy_momentum, 0.1, 0.95);
-  options.sample_times = {0.9, 0.95};
-  BOOST_TEST(reactions(system, run(system, options))(0, 0) == 0.95, tolerance(1e-4));
+  for (const Integrator which : {Integrator::generalized_alpha, Integrator::energy_momentum}) {
+    TransientOptions options = options_of(which, 0.1, 0.95);
+    options.sample_times = {0.9, 0.95};
+    BOOST_TEST(reactions(system, run(system, options))(0, 0) == 0.95, tolerance(1e-12));
+  }
 }
 
 BOOST_AUTO_TEST_CASE(too_many_steps_are_refused_with_their_time) {
