@@ -55,6 +55,7 @@ struct Eigenpairs {
 ///   eigenvalues, 0, and are not returned.
 /// @param count  number of pairs; if B is not assembled, all pairs below `check_shift` are
 ///   returned.
+/// @param method  dense, sparse or automatic.
 /// @param factorization  factors of `shifted(K, B, s)`; overwritten.
 /// @param counters  incremented by the factorizations and solves.
 /// @returns the pairs; `outcome` is not_converged if the matrix is too ill-conditioned or pairs are
@@ -110,6 +111,7 @@ struct LanczosPairs {
 /// Computes the largest eigenvalues of a symmetric operator by Lanczos' method with implicit
 /// restarts (Spectra).
 /// @param apply  x -> A x.
+/// @param start  start vector.
 /// @param options  number of eigenvalues, size of the subspace, tolerance.
 [[nodiscard]] LanczosPairs largest_eigenpairs(
     const std::function<Eigen::VectorXd(const Eigen::Ref<const Eigen::VectorXd>&)>& apply,
@@ -117,6 +119,7 @@ struct LanczosPairs {
 
 /// Returns start vectors for an eigenvalue iteration: numbers in [-1, 1) that are the same on every
 /// machine.
+/// @param rows  number of rows.
 /// @param columns  number of vectors.
 /// @param variant  selects a different sequence of numbers.
 [[nodiscard]] Eigen::MatrixXd start_vectors(Index rows, Index columns, Index variant = 0);

@@ -84,6 +84,7 @@ void for_each_deformation(const System& system, Visit&& visit) {
 }
 
 /// Returns the nodal forces in world axes [N, N m] of a uniform load on an element.
+/// @param element  frame element.
 /// @param load  load per unit length in world axes [N/m].
 [[nodiscard]] Vector6d element_load(const FrameElement& element, const Vector2d& load);
 
@@ -108,8 +109,10 @@ void for_each_deformation(const System& system, Visit&& visit) {
 [[nodiscard]] double strain_magnitude(const System& system, const Eigen::VectorXd& u);
 
 /// Returns the stress (sxx, syy, sxy) [Pa] of a triangle at a point for displacements u.
+/// @param system  assembled model.
 /// @param triangle  triangle of the model.
 /// @param at  area coordinates of the point [-].
+/// @param u  unconstrained coordinates [m].
 [[nodiscard]] Vector3d plate_stress(const System& system, const Triangle& triangle,
                                     const Vector3d& at, const Eigen::VectorXd& u);
 

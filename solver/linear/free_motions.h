@@ -31,6 +31,7 @@ struct ZeroEnergyModes {
 [[nodiscard]] std::string describe_mechanism(const System& system, const ZeroEnergyModes& modes);
 
 /// Returns the outcome `singular` with a description of the zero-energy modes if the model has any.
+/// @param system  assembled model.
 /// @param K  factors of the stiffness.
 /// @param counters  incremented by the factorizations and solves.
 [[nodiscard]] Outcome require_no_mechanism(const System& system, const Factorization& K,

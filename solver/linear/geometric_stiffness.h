@@ -45,6 +45,7 @@ struct BodyForces {
 [[nodiscard]] BodyForces body_forces(const System& system);
 
 /// Computes the internal forces of a state from its displacements.
+/// @param system  assembled model.
 /// @param u  displacements of the unconstrained coordinates [m, rad].
 /// @param multipliers  multipliers of the constraints in the state: forces of inextensible members
 ///   and rigid bodies.
@@ -96,8 +97,10 @@ struct BodyForces {
 
 /// Returns the round-off error of x^T K_G x [J] for free coordinates x, including that of the
 /// internal forces (`prestress_roundoff`).
+/// @param system  assembled model.
 /// @param K_G  geometric stiffness, q x q.
 /// @param roundoff  round-off errors of the forces.
+/// @param x  free coordinates.
 [[nodiscard]] double geometric_energy_roundoff(const System& system, const SparseMatrix& K_G,
                                                const Prestress& roundoff, const Eigen::VectorXd& x);
 

@@ -53,6 +53,7 @@ struct ModalSolution {
 /// frequencies and rigid modes. The count uses the negative pivots of K - (2 pi f)^2 M (Sylvester).
 /// The result is empty if the factorization is dominated by round-off, for example at a natural
 /// frequency.
+/// @param system  assembled model.
 /// @param frequency  f [Hz].
 [[nodiscard]] std::optional<Index> sturm_count(const System& system, double frequency);
 

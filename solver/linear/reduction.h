@@ -19,6 +19,7 @@ namespace trammel::solver {
 /// model, so that its frequencies are not lower.
 /// Source: Guyan (1965); Craig & Bampton (1968).
 ///
+/// @param system  full model.
 /// @param modes  number of modes of the interior of each member. If it is at least the number of
 ///   interior coordinates, the member is not condensed.
 /// @param loads  loads on the free coordinates that act independently [SI].
@@ -37,6 +38,7 @@ namespace trammel::solver {
 /// The response equals that of the full model at frequencies far below the omitted modes. Loads
 /// that the modes represent exactly need no correction r.
 ///
+/// @param system  full model.
 /// @param modes  modes of the same system, with Phi^T M Phi = I.
 /// @param loads  loads on the free coordinates that act independently [SI].
 /// @returns the reduced model, as `reduce_members`.

@@ -92,6 +92,7 @@ struct RayleighDamping {
 ///
 /// All other modes have no damping. The matrix is dense in the coordinates that the modes move.
 /// Large models use `superpose` instead.
+/// @param M  mass matrix.
 /// @param omega  angular frequency of each mode [rad/s].
 /// @param shape  mode shapes, coordinate x mode.
 /// @param ratio  damping ratio of each mode [-].

@@ -34,6 +34,7 @@ struct StaticState {
 [[nodiscard]] double force_roundoff(const System& system, const Eigen::VectorXd& q);
 
 /// Computes the internal forces of a state under loads.
+/// @param system  assembled model.
 /// @param u  displacements of the unconstrained coordinates [m, rad].
 /// @param load  loads on the unconstrained coordinates [N, N m].
 /// @param body  forces on masses and members.
@@ -93,6 +94,7 @@ class StiffenedEquilibrium {
 /// The method follows the equilibria from the unloaded state. If fixed-point iteration with K + K_G
 /// does not converge under the full load, the load is applied in steps. The state is stable in each
 /// step: K + K_G has no negative pivot (Sylvester).
+/// @param system  assembled model.
 /// @param linear  solution of K q = f.
 /// @param counters  incremented by the factorizations and solves.
 [[nodiscard]] StaticState solve_second_order(const System& system, const Eigen::VectorXd& linear,

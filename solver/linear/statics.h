@@ -112,6 +112,7 @@ struct ForceSum {
   void add(const Vector2d& at, const Vector2d& f, double m);
 };
 /// Sums the loads on the unconstrained coordinates and the reactions of supports.
+/// @param system  assembled model.
 /// @param position  positions of the mesh nodes [m].
 /// @param load  loads on the unconstrained coordinates [N, N m].
 /// @param solution  solution that contains the reactions.
@@ -137,6 +138,7 @@ void postprocess(const System& system, const ElasticState& state, StaticSolution
 /// reported forces are section forces at member ends, forces of springs and triangles, reactions,
 /// forces of other constraints, and nodal loads. This check only confirms that the forces belong to
 /// the state. The result is small even if the state does not solve the equation.
+/// @param system  assembled model.
 /// @param state  displacements, loads and accelerations.
 /// @param solution  solution that contains the reported forces.
 /// @param terms  sums of the magnitudes of K u and the loads on the unconstrained coordinates.
