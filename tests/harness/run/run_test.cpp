@@ -157,7 +157,7 @@ BOOST_AUTO_TEST_CASE(singular_model_passes_only_where_expected) {
                          {"bound", {{"at_least", 3}, {"why", "w"}}}};
   std::vector<Run> runs = run_all({testing::read(folder, json)});
   BOOST_TEST((runs.at(0).status == results::Status::singular));
-  BOOST_TEST((find(runs[0], "status").verdict == Verdict::fail));
+  BOOST_TEST((find(runs[0], "unexpected-status").verdict == Verdict::fail));
   BOOST_TEST((find(runs[0], "c").verdict == Verdict::error));
   BOOST_TEST(exit_status(runs) == 1);
   json["expect_status"] = "singular";
