@@ -57,8 +57,7 @@ class StrictReader : public nlohmann::json_sax<Json> {
   bool parse_error(std::size_t, const std::string& token,
                    const nlohmann::detail::exception& error) override {
     const std::string got = " (got '" + printable(token, 30) + "')";
-    const std::string what = error.what();
-    const std::string head = "parse error at ";
+    const std::string what = error.what(), head = "parse error at ";
     const std::size_t place = what.find(head);
     if (place == std::string::npos) {  // the error is a number out of range
       throw InputError(name_, here(), "expected a number within the range of a double" + got);

@@ -93,8 +93,9 @@ void print_reference(const CitedReference& cited) {
                            (source.doi.empty() ? "" : ", doi:" + source.doi),
                        "      ")
             << wrapped(reference.derivation, "      ") << wrapped(reference.notes, "      ");
-  for (const std::string& erratum : reference.errata)
-    std::cout << wrapped("Erratum: " + erratum, "      ");
+  for (const auto& [label, texts] :
+       {std::pair("Erratum: ", reference.errata), {"Ambiguity: ", reference.ambiguities}})
+    for (const std::string& text : texts) std::cout << wrapped(label + text, "      ");
 }
 
 void describe_effects(const Case& given) {
@@ -172,7 +173,8 @@ Json references_json(const std::vector<CitedReference>& all) {
     const std::pair<const char*, Json> rare[] = {{"printed", reference.printed},
                                                  {"notes", reference.notes},
                                                  {"derivation", reference.derivation},
-                                                 {"errata", reference.errata}};
+                                                 {"errata", reference.errata},
+                                                 {"ambiguities", reference.ambiguities}};
     for (const auto& [key, value] : rare)
       if (value != "" && value != Json::array()) row[key] = value;
   }

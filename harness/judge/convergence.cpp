@@ -29,8 +29,7 @@ double order_of_three(const std::vector<double>& v, const std::vector<double>& h
   const double ratio = (v[k - 2] - v[k - 1]) / (v[k - 1] - v[k]);
   if (!std::isfinite(ratio) || ratio <= 0) return kNaN;
   // Sizes are scaled by h1 so that powers with a large p do not overflow.
-  const double coarse = h[k - 2] / h[k - 1];
-  const double fine = h[k] / h[k - 1];
+  const double coarse = h[k - 2] / h[k - 1], fine = h[k] / h[k - 1];
   const auto excess = [&](double p) {
     return (std::pow(coarse, p) - 1) / (1 - std::pow(fine, p)) - ratio;
   };
@@ -309,8 +308,7 @@ double extrapolate_two_terms(const std::array<double, 3>& h, const std::array<do
   const double determinant = p(0) * q(1) - p(1) * q(0);
   if (determinant == 0 || !std::isfinite(determinant))
     return std::numeric_limits<double>::quiet_NaN();
-  const double d0 = v[0] - v[2];
-  const double d1 = v[1] - v[2];
+  const double d0 = v[0] - v[2], d1 = v[1] - v[2];
   const double a = (d0 * q(1) - d1 * q(0)) / determinant;
   const double b = (p(0) * d1 - p(1) * d0) / determinant;
   return v[2] - a - b;

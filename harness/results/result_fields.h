@@ -224,7 +224,7 @@ TRAMMEL_FIELDS(CaseInfo, TRAMMEL_REQUIRED(title, variants),
 TRAMMEL_FIELDS(Solver, TRAMMEL_REQUIRED(name, version, command));
 TRAMMEL_KEY(Reference, id);
 TRAMMEL_FIELDS(Reference, TRAMMEL_REQUIRED(title, kind, unit, values, uncertainty, citation, place),
-               TRAMMEL_OPTIONAL(doi, printed, derivation, errata, notes));
+               TRAMMEL_OPTIONAL(doi, printed, derivation, errata, ambiguities, notes));
 TRAMMEL_FIELDS(UncertaintyCoverage,
                TRAMMEL_REQUIRED(levels, covered, coverage, min_coverage, median_ratio,
                                 max_median_ratio, min_levels, passes));

@@ -78,7 +78,7 @@ struct CaseInfo {
 struct Reference {
   std::string id, title, kind, unit, citation, doi, place, derivation, notes;
   Numbers values, uncertainty;  ///< values, and the absolute half-widths of their uncertainty
-  std::vector<std::string> printed, errata;
+  std::vector<std::string> printed, errata, ambiguities;
 };
 
 /// Fraction of refinement levels whose grid convergence index (GCI) contains the exact value.

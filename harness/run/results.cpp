@@ -64,6 +64,7 @@ results::Reference reference(const std::string& id, const CitedReference& cited)
   out.printed = source.printed;
   out.derivation = source.derivation;
   out.errata = source.errata;
+  out.ambiguities = source.ambiguities;
   out.notes = source.notes;
   return out;
 }

@@ -51,8 +51,7 @@ std::vector<Real> parallelogram_chain_program(const Arguments& arguments) {
   const Real complement = W / sqrt(W * W + 4 * a);
   std::vector<Real> values;
   for (const Real& time : arguments.numbers("times_s")) {
-    Real cn;
-    Real dn;
+    Real cn, dn;
     const Real s = time * sqrt(W * W + 4 * a) / 2;
     const Real sn = boost::math::jacobi_elliptic(k, s, &cn, &dn);
     const Real sine = complement * sn / dn;

@@ -146,7 +146,9 @@ Reference read_reference(const Json& json, const std::string& file, const std::s
   read.source = text("source");
   read.place = text("place");
   read.printed = optional<std::vector<std::string>>(json, place, "printed", "an array of texts");
-  read.errata = optional<std::vector<std::string>>(json, place, "errata", "an array of texts");
+  for (const auto& [key, texts] :
+       {std::pair("errata", &read.errata), {"ambiguities", &read.ambiguities}})
+    *texts = optional<std::vector<std::string>>(json, place, key, "an array of texts");
   read.notes = optional<std::string>(json, place, "notes", "text");
   if (json.contains("probabilities")) read.probabilities = json.at("probabilities").dump();
   if (json.contains("derivation"))

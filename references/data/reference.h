@@ -17,12 +17,13 @@ struct Reference {
   ReferenceKind kind = ReferenceKind::exact;
   std::string unit;  ///< "Hz", "m", "1", ...
   std::vector<double> values;
-  std::vector<double> uncertainty;   ///< absolute half width, one per value, same unit
-  std::string source;                ///< key into references/bibliography.json
-  std::string place;                 ///< location in the source, such as "Table 2, row 1"
-  std::vector<std::string> printed;  ///< digits printed in the source; may be empty
-  std::string derivation;            ///< program and arguments in words; empty if none
-  std::vector<std::string> errata;   ///< errors of the source, with evidence
+  std::vector<double> uncertainty;       ///< absolute half width, one per value, same unit
+  std::string source;                    ///< key into references/bibliography.json
+  std::string place;                     ///< location in the source, such as "Table 2, row 1"
+  std::vector<std::string> printed;      ///< digits printed in the source; may be empty
+  std::string derivation;                ///< program and arguments in words; empty if none
+  std::vector<std::string> errata;       ///< proved misprints and errors of the source
+  std::vector<std::string> ambiguities;  ///< missing or contradictory statements, other models
   std::string notes;
   /// Probabilities of readings (interpretations of a published model), as JSON text; empty: none.
   std::string probabilities;

@@ -196,8 +196,7 @@ FrameStatics unit_load_statics(const Frame& frame) {
   for (std::size_t i = 0; i < frame.members.size(); ++i) {
     const auto load = member_load(frame, frame.members[i]);
     const Real L = member_axis(frame, frame.members[i]).length;
-    const Real N = f[3 * i];
-    const Real V = f[3 * i + 1];
+    const Real N = f[3 * i], V = f[3 * i + 1];
     const Real M = f[3 * i + 2];
     statics.members.push_back(
         {{N, N - load[0] * L}, {V, V - load[1] * L}, {M, M - V * L + load[1] * L * L / 2}});

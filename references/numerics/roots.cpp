@@ -8,8 +8,7 @@
 namespace trammel::references {
 
 Real refined_root(const std::function<Real(const Real&)>& f, const Real& lo, const Real& hi) {
-  const Real f_lo = f(lo);
-  const Real f_hi = f(hi);
+  const Real f_lo = f(lo), f_hi = f(hi);
   if (f_lo == 0) return lo;
   if (f_hi == 0) return hi;
   if ((f_lo > 0) == (f_hi > 0)) throw DerivationError("the function does not change sign");

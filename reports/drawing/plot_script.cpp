@@ -73,8 +73,7 @@ std::size_t characters(const std::string& utf8) {
 
 std::string shortened(const std::string& text, std::size_t max_characters) {
   if (characters(text) <= max_characters) return text;
-  std::size_t seen = 0;
-  std::size_t end = 0;
+  std::size_t seen = 0, end = 0;
   while (end < text.size() && (seen += starts_character(text[end])) < max_characters) ++end;
   return text.substr(0, end) + "…";
 }

@@ -147,8 +147,7 @@ std::string symbols(const std::string& definitions, const std::string& body) {
 
 std::string tidy_svg(const std::string& text, const std::string& id, const std::string& title,
                      const std::string& description) {
-  const std::size_t start = text.find("<svg");
-  const std::size_t end = text.rfind("</svg>");
+  const std::size_t start = text.find("<svg"), end = text.rfind("</svg>");
   if (start == std::string::npos || end == std::string::npos)
     throw std::runtime_error("gnuplot: the SVG drawing is incomplete");
   const std::size_t open = text.find('>', start) + 1;

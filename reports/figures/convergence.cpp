@@ -103,8 +103,7 @@ void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interva
   const double ratio = std::pow(x1 / x0, theory);
   const bool falls = y0 > y1;
   const double top = std::max(y0, y1) / 8;
-  const double bottom = top / ratio;
-  const double x_top = falls ? x0 : x1;
+  const double bottom = top / ratio, x_top = falls ? x0 : x1;
   const double x_bottom = falls ? x1 : x0;
   extent.cover(bottom);
   script.curve({{x_top, top}, {x_top, bottom}, {x_bottom, bottom}, {x_top, top}},

@@ -75,6 +75,8 @@ Data provenance(const Reference& reference, const Results& results) {
                  {"notes", reference.notes},
                  {"has_errata", !reference.errata.empty()},
                  {"errata", texts(reference.errata)},
+                 {"has_ambiguities", !reference.ambiguities.empty()},
+                 {"ambiguities", texts(reference.ambiguities)},
                  {"few_values", few && !reference.values.empty()},
                  {"many_values", few ? "" : count(reference.values.size(), "value")},
                  {"values", values_of(reference)},
