@@ -38,8 +38,7 @@ class FeatureWalk {
   /// @param value  part of the document; null: all values that the schema rule allows
   void visit(const SchemaRule& stated, const Json* value, const std::string& context) {
     if (const SchemaRule* reference = keyword(stated, "$ref")) {
-      const std::string path = string_of(*reference);
-      const std::string name = path.substr(path.rfind('/') + 1);
+      const std::string path = string_of(*reference), name = path.substr(path.rfind('/') + 1);
       if (value != nullptr || seen_.insert(name).second)
         visit(resolved(root_, stated), value, name);
       return;

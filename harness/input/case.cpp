@@ -292,8 +292,7 @@ void warn_of_millimeters(const Lengths& lengths, std::vector<std::string>& warni
 
 std::vector<std::string> unit_warnings(const Document& document) {
   std::vector<std::string> warnings;
-  const Json model = document.value().value("model", Json::object());
-  const Json parts = model.flatten();
+  const Json model = document.value().value("model", Json::object()), parts = model.flatten();
   for (const auto& [place, value] : parts.items()) {
     const bool is_angle = place.ends_with("_rad") && !place.ends_with("per_rad");
     if (is_angle && value.is_number() && std::abs(value.get<double>()) > 2 * std::numbers::pi)

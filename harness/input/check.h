@@ -11,8 +11,7 @@
 namespace trammel::harness {
 
 enum class Role { verification, validation, regression };
-template <>
-inline constexpr std::array kWords<Role> = {"verification", "validation", "regression"};
+TRAMMEL_WORDS(Role, "verification", "validation", "regression");
 
 /// Number that a check limits: relative or absolute difference of the computed from the expected
 /// value, ratio of both values, or the computed value itself.

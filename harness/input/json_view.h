@@ -16,6 +16,9 @@ inline constexpr double kDefaultStep = 1e-3;
 /// Words that denote the values of an enumeration in case files, in the order of the enumeration.
 template <class Enum>
 inline constexpr std::array<const char*, 0> kWords{};
+#define TRAMMEL_WORDS(Enum, ...) \
+  template <>                    \
+  inline constexpr std::array kWords<Enum> = {__VA_ARGS__}
 
 /// View of one value in a document that satisfies its schema. It reads the value and its members,
 /// and reports errors with file and JSON pointer.

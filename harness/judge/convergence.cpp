@@ -309,8 +309,7 @@ double extrapolate_two_terms(const std::array<double, 3>& h, const std::array<do
   if (determinant == 0 || !std::isfinite(determinant))
     return std::numeric_limits<double>::quiet_NaN();
   const double d0 = v[0] - v[2], d1 = v[1] - v[2];
-  const double a = (d0 * q(1) - d1 * q(0)) / determinant;
-  const double b = (p(0) * d1 - p(1) * d0) / determinant;
+  const double a = (d0 * q(1) - d1 * q(0)) / determinant, b = (p(0) * d1 - p(1) * d0) / determinant;
   return v[2] - a - b;
 }
 

@@ -20,12 +20,9 @@
 
 namespace trammel::harness {
 
-template <>
-inline constexpr std::array kWords<solver::InputScaling> = {"none", "deviation", "range"};
-template <>
-inline constexpr std::array kWords<solver::FoldOrder> = {"interleaved", "shuffled", "blocks"};
-template <>
-inline constexpr std::array kWords<solver::Split> = {"first", "interleaved", "shuffled"};
+TRAMMEL_WORDS(solver::InputScaling, "none", "deviation", "range");
+TRAMMEL_WORDS(solver::FoldOrder, "interleaved", "shuffled", "blocks");
+TRAMMEL_WORDS(solver::Split, "first", "interleaved", "shuffled");
 
 namespace {
 
@@ -100,8 +97,7 @@ PathSamples samples_of_path(const solver::RigidManipulator& manipulator,
     }
     samples.inputs.row(k) = found.torque.transpose();
     for (solver::Index i = 0; i < 3; ++i) {
-      const double angle = found.q(i);
-      const double before = k > 0 ? samples.outputs(k - 1, i) : angle;
+      const double angle = found.q(i), before = k > 0 ? samples.outputs(k - 1, i) : angle;
       samples.outputs(k, i) = before + std::remainder(angle - before, 2 * std::numbers::pi);
       samples.outputs(k, 3 + i) = found.q_dot(i);
     }

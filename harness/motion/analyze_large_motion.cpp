@@ -220,8 +220,7 @@ StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_
   const bool damped = case_model.effects.has(solver::Effect::damping) &&
                       (large_motion.mass_damping > 0 || large_motion.strain_rate_damping > 0);
   if (!damped) large_motion.mass_damping = large_motion.strain_rate_damping = 0;
-  const bool extrapolated = analysis.get("extrapolated", false);
-  const bool tracking = analysis.has("track");
+  const bool extrapolated = analysis.get("extrapolated", false), tracking = analysis.has("track");
   if (tracking) {
     add_tracking(analysis["track"],
                  analysis.text("track") == "torques" ? Tracking::torques : Tracking::angles,

@@ -153,7 +153,7 @@ Json sampling_patch(const Document& document, solver::Index intervals) {
   return patch_at(document.value(), sampling.pointer, intervals + (counts_points ? 1 : 0));
 }
 
-std::optional<Json> step_patch(const Document& document, Refine refine) {
+std::optional<Json> step_patch(const Document& document, Refine refine, double largest_step) {
   const std::string kind = discretized_analysis(document), place = analysis_pointer(document);
   const Json& analysis = document.value().at(JsonPointer(place));
   const bool is_exact =
@@ -169,8 +169,12 @@ std::optional<Json> step_patch(const Document& document, Refine refine) {
     if (kind != "transient" && kind != "harmonic") return std::nullopt;
   } else if (analysis.contains("tolerance")) {
     patch["tolerance"] = looser * analysis["tolerance"].get<double>();
+    if (analysis.contains("output_step_s") && refine == Refine::finer)
+      patch["output_step_s"] = longer * analysis["output_step_s"].get<double>();
   } else if (analysis.contains("error_control")) {
     patch["error_control"]["relative"] = looser * analysis["error_control"].value("relative", 1e-4);
+    const double step = analysis.value("step_s", largest_step);
+    if (step > 0) patch["step_s"] = longer * step;
   } else {
     patch["step_s"] = longer * analysis["step_s"].get<double>();
   }

@@ -30,11 +30,14 @@ enum class Refine { coarser, finer };
 
 /// Return merge patches of the case for a finer or coarser discretization:
 /// - mesh: twice or half the elements of every member, plate and platform
-/// - step: half or twice the time step, or a tenth or ten times the tolerance of the step control
+/// - step: half or twice the time step, or a tenth or ten times the tolerance of the step control.
+///   With a tolerance, the limits of the steps are halved or doubled as well: `step_s`, if absent
+///   `largest_step`, and for a finer step of large motion the interval between recorded times.
 ///
 /// The result is empty without a mesh or step, or if a number to be halved is odd.
 [[nodiscard]] std::optional<Json> mesh_patch(const Document& document, Refine refine);
-[[nodiscard]] std::optional<Json> step_patch(const Document& document, Refine refine);
+[[nodiscard]] std::optional<Json> step_patch(const Document& document, Refine refine,
+                                             double largest_step = 0);
 
 /// Return the JSON pointer of the key that determines the mesh or the time step, for messages.
 [[nodiscard]] std::string mesh_pointer(const Document& document);

@@ -91,8 +91,7 @@ solver::Spline read_spline(const JsonView& spline) {
 solver::Path read_path(const std::string& kind, const JsonView& place) {
   if (kind == "circle") return read_circle(place);
   if (kind == "spline") return read_spline(place);
-  const solver::Pose from = read_pose(place["from"]);
-  const solver::Pose to = read_pose(place["to"]);
+  const solver::Pose from = read_pose(place["from"]), to = read_pose(place["to"]);
   const double duration = place.number("duration_s");
   if (kind == "line") return solver::Line{from, to, duration};
   return solver::RestToRest{from, to, duration};

@@ -21,35 +21,20 @@
 /// contain the units.
 namespace trammel::harness {
 
-template <>
-inline constexpr std::array kWords<solver::BeamTheory> = {"euler-bernoulli", "rayleigh", "shear",
-                                                          "timoshenko"};
-template <>
-inline constexpr std::array kWords<solver::MassMatrix> = {"consistent", "lumped"};
-template <>
-inline constexpr std::array kWords<solver::EndFixity> = {"welded", "hinged"};
-template <>
-inline constexpr std::array kWords<solver::Taper> = {"linear-area-and-inertia",
-                                                     "linear-depth-and-width", "exponential"};
-template <>
-inline constexpr std::array kWords<solver::PlatformKind> = {"rigid", "triangles"};
-template <>
-inline constexpr std::array kWords<solver::ActiveKind> = {"locked", "free"};
-template <>
-inline constexpr std::array kWords<solver::ElbowKind> = {"welded", "hinged"};
-template <>
-inline constexpr std::array kWords<solver::PlatformJointKind> = {"hinged", "welded", "",
-                                                                 "eq25-mean", "eq25-sum"};
-template <>
-inline constexpr std::array kWords<solver::SplineEnds> = {"natural", "at-rest", "periodic"};
-template <>
-inline constexpr std::array kWords<solver::EigenMethod> = {"automatic", "dense", "sparse"};
+TRAMMEL_WORDS(solver::BeamTheory, "euler-bernoulli", "rayleigh", "shear", "timoshenko");
+TRAMMEL_WORDS(solver::MassMatrix, "consistent", "lumped");
+TRAMMEL_WORDS(solver::EndFixity, "welded", "hinged");
+TRAMMEL_WORDS(solver::Taper, "linear-area-and-inertia", "linear-depth-and-width", "exponential");
+TRAMMEL_WORDS(solver::PlatformKind, "rigid", "triangles");
+TRAMMEL_WORDS(solver::ActiveKind, "locked", "free");
+TRAMMEL_WORDS(solver::ElbowKind, "welded", "hinged");
+TRAMMEL_WORDS(solver::PlatformJointKind, "hinged", "welded", "", "eq25-mean", "eq25-sum");
+TRAMMEL_WORDS(solver::SplineEnds, "natural", "at-rest", "periodic");
+TRAMMEL_WORDS(solver::EigenMethod, "automatic", "dense", "sparse");
 enum class Axial { flexible, inextensible };
-template <>
-inline constexpr std::array kWords<Axial> = {"flexible", "inextensible"};
+TRAMMEL_WORDS(Axial, "flexible", "inextensible");
 enum class NodeMotion { x, y, rotation };
-template <>
-inline constexpr std::array kWords<NodeMotion> = {"x", "y", "rotation"};
+TRAMMEL_WORDS(NodeMotion, "x", "y", "rotation");
 
 /// Node indices that a case states as names of nodes.
 template <class Indices>

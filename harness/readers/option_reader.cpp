@@ -9,21 +9,9 @@
 
 namespace trammel::harness {
 
-template <>
-inline constexpr std::array kWords<solver::DesignParameter::Kind> = {"length",
-                                                                     "thickness",
-                                                                     "width",
-                                                                     "E",
-                                                                     "density",
-                                                                     "poisson_ratio",
-                                                                     "base_side",
-                                                                     "platform_side",
-                                                                     "platform_mass",
-                                                                     "platform_inertia",
-                                                                     "active_stiffness",
-                                                                     "elbow_stiffness",
-                                                                     "platform_joint_stiffness",
-                                                                     "orientation"};
+TRAMMEL_WORDS(solver::DesignParameter::Kind, "length", "thickness", "width", "E", "density",
+              "poisson_ratio", "base_side", "platform_side", "platform_mass", "platform_inertia",
+              "active_stiffness", "elbow_stiffness", "platform_joint_stiffness", "orientation");
 
 namespace {
 
@@ -201,8 +189,7 @@ solver::large_motion::TimeFunction spin_up(double speed, double duration) {
     const double w = 2 * std::numbers::pi / duration;
     if (t >= duration) return std::array<double, 3>{speed * (t - duration / 2), speed, 0};
     // The half-angle form of 1 - cos avoids cancellation for small t.
-    const double half = std::sin(w * t / 2);
-    const double turned = t * t / 2 - 2 * half * half / (w * w);
+    const double half = std::sin(w * t / 2), turned = t * t / 2 - 2 * half * half / (w * w);
     return std::array<double, 3>{speed / duration * turned,
                                  speed / duration * (t - std::sin(w * t) / w),
                                  speed / duration * 2 * half * half};

@@ -1,5 +1,10 @@
 #pragma once
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <boost/preprocessor/seq/enum.hpp>
 #include <boost/preprocessor/seq/transform.hpp>
@@ -89,9 +94,12 @@ struct None {};
 /// Fields of a struct, in the order in which they are written.
 template <class Struct>
 inline constexpr None kFields{};
-/// Names of an enumeration's values: an array of pairs (name, value).
+/// Names of an enumeration's values, in the order of the enumeration.
 template <class Enum>
 inline constexpr None kNames{};
+#define TRAMMEL_NAMES(Enum, ...) \
+  template <>                    \
+  inline constexpr std::array kNames<Enum> = {__VA_ARGS__}
 /// Member whose value is the key if several structs are written as a JSON object, not as an array.
 template <class Struct>
 inline constexpr None kKeyMember{};
@@ -312,22 +320,16 @@ void list_from_json(const Json& json, const Place& place, std::vector<Entry>& va
 
 template <class Enum>
 const char* name_of(Enum value) {
-  for (const auto& [name, known] : kNames<Enum>)
-    if (known == value) return name;
-  throw std::logic_error("an enumeration value has no name");
+  return kNames<Enum>.at(static_cast<std::size_t>(value));
 }
 
 template <class Enum>
 void enum_from_json(const Json& json, const Place& place, Enum& value) {
-  std::string expected = "one of";
-  for (const auto& [name, known] : kNames<Enum>) {
-    if (json == name) {
-      value = known;
-      return;
-    }
-    expected += std::string(" ") + name;
-  }
-  place.fail(expected);
+  const auto name =
+      std::ranges::find_if(kNames<Enum>, [&](const char* word) { return json == word; });
+  if (name == kNames<Enum>.end())
+    place.fail(fmt::format("one of {}", fmt::join(kNames<Enum>, " ")));
+  value = static_cast<Enum>(name - kNames<Enum>.begin());
 }
 
 /// Reads a pair (x, y), in which null represents a coordinate that is not finite.

@@ -9,31 +9,12 @@
 /// Keys and members of all structs of results.json. Writing and reading use the same list.
 namespace trammel::results {
 
-template <>
-inline constexpr std::array kNames<Verdict> = {
-    std::pair{"pass", Verdict::pass},         std::pair{"fail", Verdict::fail},
-    std::pair{"error", Verdict::error},       std::pair{"not-run", Verdict::not_run},
-    std::pair{"recorded", Verdict::recorded}, std::pair{"not-given", Verdict::not_given}};
-template <>
-inline constexpr std::array kNames<Expectation> = {
-    std::pair{"agrees", Expectation::agrees},
-    std::pair{"known-discrepancy", Expectation::known_discrepancy},
-    std::pair{"none", Expectation::none}};
-template <>
-inline constexpr std::array kNames<Status> = {std::pair{"solved", Status::solved},
-                                              std::pair{"singular", Status::singular},
-                                              std::pair{"not-converged", Status::not_converged},
-                                              std::pair{"error", Status::error},
-                                              std::pair{"not-run", Status::not_run},
-                                              std::pair{"cannot", Status::cannot},
-                                              std::pair{"not-exported", Status::not_exported},
-                                              std::pair{"crashed", Status::crashed},
-                                              std::pair{"timed-out", Status::timed_out}};
+TRAMMEL_NAMES(Verdict, "pass", "fail", "error", "not-run", "recorded", "not-given");
+TRAMMEL_NAMES(Expectation, "agrees", "known-discrepancy", "none");
+TRAMMEL_NAMES(Status, "solved", "singular", "not-converged", "error", "not-run", "cannot",
+              "not-exported", "crashed", "timed-out");
 
-template <>
-inline constexpr std::array kNames<Fault> = {std::pair{"none", Fault::none},
-                                             std::pair{"input", Fault::input},
-                                             std::pair{"internal", Fault::internal}};
+TRAMMEL_NAMES(Fault, "none", "input", "internal");
 
 /// Writes the tolerance of a difference: t for +-t, or [low, high], in which null means no limit.
 template <>
@@ -175,11 +156,7 @@ inline Json to_json(const Run& run, Form form) {
   return detail::object_to_json(run,
                                 run.stored.empty() && form == Form::summary ? Form::text : form);
 }
-template <>
-inline constexpr std::array kNames<SandboxedRun::Termination> = {
-    std::pair{"failed", SandboxedRun::Termination::failed},
-    std::pair{"solved", SandboxedRun::Termination::solved},
-    std::pair{"timed-out", SandboxedRun::Termination::timed_out}};
+TRAMMEL_NAMES(SandboxedRun::Termination, "failed", "solved", "timed-out");
 TRAMMEL_FIELDS(SandboxedRun, TRAMMEL_REQUIRED(termination, values, quantities, counters, cpu_s),
                TRAMMEL_OPTIONAL(reason));
 TRAMMEL_FIELDS(ErrorNorms, TRAMMEL_REQUIRED(max, rms, mean));

@@ -156,8 +156,7 @@ Eigen::Vector2d displacement_along(const solver::FrameElement& element, const Ei
   const Eigen::Vector2d n(-t.y(), t.x());
   const Eigen::Vector2d first(value(0), value(1));
   const Eigen::Vector2d second(value(3), value(4));
-  const double along = (1 - s) * first.dot(t) + s * second.dot(t);
-  const double l = element.length;
+  const double along = (1 - s) * first.dot(t) + s * second.dot(t), l = element.length;
   const double across =
       (1 - 3 * s * s + 2 * s * s * s) * first.dot(n) + (s - 2 * s * s + s * s * s) * l * value(2) +
       (3 * s * s - 2 * s * s * s) * second.dot(n) + (s * s * s - s * s) * l * value(5);

@@ -15,8 +15,7 @@
 
 namespace trammel::harness {
 
-template <>
-inline constexpr std::array kWords<solver::RotationAxis> = {"normal", "x", "y"};
+TRAMMEL_WORDS(solver::RotationAxis, "normal", "x", "y");
 
 namespace {
 

@@ -120,8 +120,7 @@ class Differences {
   }
 
   VectorXd central(double step) {
-    const VectorXd above = frequencies(step);
-    const VectorXd below = frequencies(-step);
+    const VectorXd above = frequencies(step), below = frequencies(-step);
     const Index needed = sets_.empty() ? 0 : sets_.back().first + sets_.back().count;
     if (std::min(above.size(), below.size()) < needed) {  // the modes did not converge
       return VectorXd::Constant(count_, std::numeric_limits<double>::quiet_NaN());

@@ -16,13 +16,9 @@ namespace trammel::harness {
 
 namespace mms = references::manufactured;
 
-template <>
-inline constexpr std::array kWords<mms::MembraneField> = {"clamped", "cantilever", "uniform-strain",
-                                                          "linear-strain"};
-template <>
-inline constexpr std::array kWords<mms::BeamField> = {"smooth", "cubic"};
-template <>
-inline constexpr std::array kWords<mms::ShearStrain> = {"none", "from-bending", "independent"};
+TRAMMEL_WORDS(mms::MembraneField, "clamped", "cantilever", "uniform-strain", "linear-strain");
+TRAMMEL_WORDS(mms::BeamField, "smooth", "cubic");
+TRAMMEL_WORDS(mms::ShearStrain, "none", "from-bending", "independent");
 
 namespace {
 

@@ -27,8 +27,9 @@ Json fixed_outputs(const Document& document) {
   const Json& analysis = document.value().at(JsonPointer(place));
   if (const auto sampling = sampling_of(document))
     return sampling_patch(document, sampling->intervals);
-  if (kind != "large-motion" || analysis.contains("output_step_s")) return Json::object();
-  return patch_at(document.value(), place + "/output_step_s", analysis["step_s"]);
+  if (kind != "large-motion") return Json::object();
+  return patch_at(document.value(), place + "/output_step_s",
+                  analysis.value("output_step_s", analysis["step_s"]));
 }
 
 /// Returns the description of a discretization: "elements 8, step 0.001".
@@ -49,6 +50,7 @@ std::string setting_of(const Document& document) {
     add("divisions ", "/model/plates/" + model["plates"].begin().key() + "/divisions");
   if (companion_of(document, ErrorSource::step, Refine::finer))
     add(has_step_tolerance(document) ? "tolerance " : "step ", step_pointer(document));
+  if (has_step_tolerance(document)) add("largest step ", analysis_pointer(document) + "/step_s");
   return text;
 }
 
@@ -217,13 +219,14 @@ class Search {
 
   /// @returns true if the search can continue with a finer mesh or step
   bool refine(ErrorSource source) {
-    const auto finer = companion_of(current_, source, Refine::finer);
+    auto finer = companion_of(current_, source, Refine::finer, &found_.result);
     const double before = error_by(source);
     if (++refinements_ > 2 * kMaxRefinements || !finer) {
       found_.errors.reason = "the finest permitted mesh and step do not reach this accuracy";
       return false;
     }
     const AnalysisResult coarse = found_.result;
+    if (!sampling_) finer->document.apply_patch("recorded times", "", outputs_);
     if (!solve(finer->document)) {  // for example, an explicit scheme on a finer mesh
       if (source == ErrorSource::mesh && has(ErrorSource::step)) return refine(ErrorSource::step);
       found_.errors.reason = "with " + finer->words + " there is no solution: " + reason_;
@@ -234,6 +237,7 @@ class Search {
         error_bands(found_.result, coarse, source, {current_, false, finer->ratio, ""});
     bands_[source] = narrowed(two_levels, two_levels_[source], finer->ratio);
     two_levels_[source] = std::move(two_levels);
+    if (is_same_result(found_.result, coarse)) bands_.erase(source);
     found_.tried.push_back(current_);
     found_.errors.search.push_back({setting_of(current_), error(), cpu_s_});
     stalled_ = error_by(source) > 0.7 * before ? stalled_ + 1 : 0;

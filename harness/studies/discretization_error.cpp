@@ -217,10 +217,23 @@ class ErrorScales {
 
 }  // namespace
 
-std::optional<Companion> companion_of(const Document& document, ErrorSource source, Refine refine) {
+bool is_same_result(const AnalysisResult& own, const AnalysisResult& other) {
+  return std::ranges::all_of(own.quantities, [&](const auto& item) {
+    const auto found = other.quantities.find(item.first);
+    return !is_estimated(item.first) ||
+           (found != other.quantities.end() && found->second.values == item.second.values);
+  });
+}
+
+std::optional<Companion> companion_of(const Document& document, ErrorSource source, Refine refine,
+                                      const AnalysisResult* own) {
   if (is_closed_form(discretized_analysis(document))) return std::nullopt;
   const bool is_mesh = source == ErrorSource::mesh;
-  const auto patch_of = is_mesh ? mesh_patch : step_patch;
+  const bool has_step = own != nullptr && own->quantities.contains("largest_step_s");
+  const double step = has_step ? own->quantities.at("largest_step_s").values.front() : 0;
+  const auto patch_of = [&](const Document& given, Refine how) {
+    return is_mesh ? mesh_patch(given, how) : step_patch(given, how, step);
+  };
   std::optional<Json> patch = patch_of(document, refine);
   Companion companion{document, refine == Refine::finer, 2, ""};
   if (!patch && refine == Refine::coarser) {
@@ -337,14 +350,16 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& o
   std::map<ErrorSource, ErrorBands> bands;
   solver::Counters counters;
   for (const ErrorSource source : {ErrorSource::mesh, ErrorSource::step}) {
-    auto companion = companion_of(document, source);
+    auto companion = companion_of(document, source, Refine::coarser, &own);
     while (companion) {
       try {
         companion->document.validate("case");
         const AnalysisResult other =
             analyze(companion->document, references, {.drawing = has_shapes(own)});
         counters += other.counters;
-        if (other.outcome.solved()) bands[source] = error_bands(own, other, source, *companion);
+        const bool is_other = companion->finer || !is_same_result(own, other);
+        if (other.outcome.solved() && is_other)
+          bands[source] = error_bands(own, other, source, *companion);
       } catch (const InputError&) {  // fewer modes than the case requests
       }
       if (bands.contains(source)) {
@@ -355,7 +370,7 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& o
         found.reason = "the computation with " + companion->words + " has no solution";
         companion.reset();
       } else {
-        companion = companion_of(document, source, Refine::finer);
+        companion = companion_of(document, source, Refine::finer, &own);
       }
     }
   }

@@ -24,8 +24,14 @@ struct Companion {
 /// Returns the companion with half the elements or twice the step (or the opposite for
 /// Refine::finer). If the number of elements cannot be halved, the companion is finer. Returns
 /// nothing if the analysis has no mesh or no steps.
+/// @param own  result of `document`, from which the largest step of a step control is read
 [[nodiscard]] std::optional<Companion> companion_of(const Document& document, ErrorSource source,
-                                                    Refine refine = Refine::coarser);
+                                                    Refine refine = Refine::coarser,
+                                                    const AnalysisResult* own = nullptr);
+
+/// Returns true if the results of two levels are the same to the last bit. Then both levels had the
+/// same steps, and their difference says nothing about the error.
+[[nodiscard]] bool is_same_result(const AnalysisResult& own, const AnalysisResult& other);
 
 /// Returns the order of convergence, the lowest of the active parts.
 /// Mesh: 4 for straight prismatic members with a consistent mass. 2 for a lumped mass, tapered

@@ -21,8 +21,7 @@ BOOST_AUTO_TEST_CASE(variant_is_a_merge_patch) {
   const Case given = testing::read(folder, json);
   BOOST_TEST((given.variants() == std::vector<std::string>{"base", "deep"}));
   BOOST_TEST(given.variant_title("deep") == "Twice as deep");
-  const Json base = patched(given, "base").value();
-  const Json deep = patched(given, "deep").value();
+  const Json base = patched(given, "base").value(), deep = patched(given, "deep").value();
   const JsonPointer bar("/model/sections/bar/rectangle");
   BOOST_TEST((base.at(bar) == Json{{"thickness_m", 0.1}, {"width_m", 0.05}}));
   BOOST_TEST((deep.at(bar) == Json{{"thickness_m", 0.2}, {"width_m", 0.05}}));

@@ -15,8 +15,7 @@ Convergence power_law(double p, double a, double b, std::size_t levels, double r
   Convergence series;
   series.theory_order = p;
   for (std::size_t k = 0; k < levels; ++k) {
-    const double h = std::exp2(-static_cast<double>(k));
-    const double noise = roundoff * (k % 2 == 0 ? 1 : -1);
+    const double h = std::exp2(-static_cast<double>(k)), noise = roundoff * (k % 2 == 0 ? 1 : -1);
     series.parameter.push_back(1 / h);
     series.size.push_back(h);
     series.values.push_back(10 * (1 + a * std::pow(h, p) + b * std::pow(h, p + 2) + noise));

@@ -175,15 +175,35 @@ BOOST_AUTO_TEST_CASE(errors_of_steps_hold_the_motion_without_them) {
   exact["analysis"]["transient"]["method"] = "modal-superposition";
   exact["model"]["elements"] = 16;
   const std::vector<double> truth = estimated(exact).values("displacement_y_m:B");
-  for (const double step_s : {1e-3, 5e-4, 1e-4}) {
+  for (const double step_s : {1e-3, 5e-4, 1e-4, -1e-3}) {  // negative: as a limit for any tolerance
     Json json = vibrating_cantilever();
-    json["analysis"]["transient"]["step_s"] = step_s;
+    json["analysis"]["transient"]["step_s"] = std::abs(step_s);
+    if (step_s < 0) json["analysis"]["transient"]["error_control"]["relative"] = 10;
     const Estimated found = estimated(json);
     const std::vector<double>& computed = found.values("displacement_y_m:B");
     const double allowed = *found.of("displacement_y_m:B").half_width(0, 0);
     for (std::size_t i = 0; i < truth.size(); ++i)
       BOOST_TEST_REQUIRE(std::abs(computed[i] - truth[i]) <= allowed,
                          "step " << step_s << " s, sample " << i);
+  }
+}
+
+/// All steps have the length of the interval between samples, for any tolerance.
+BOOST_AUTO_TEST_CASE(steps_limited_by_samples_have_an_error) {
+  const std::string name = "displacement_x_m:P";
+  Json json = own_manipulator();
+  json["model"].erase("pose");
+  json["model"]["trajectory"] = Json::parse(R"({"circle": {"center_m": [0.4, 0.23], "points": 41,
+    "radius_m": 0.02, "step_s": 0.005, "angular_speed_rad_s": 31.4, "phi_rad": 0}})");
+  json["analysis"] = {{"elastodynamics", {{"error_control", {{"relative", 10}}}}}};
+  const Estimated limited = estimated(json);
+  const AccuracySearch search = search_accuracy(document_of(json), {1e-3, {name}, 60}, {});
+  json["analysis"] = {{"elastodynamics", {{"step_s", 2e-5}}}};
+  const std::vector<double> truth = estimated(with_links(json, 16)).values(name);
+  const double allowed = *limited.of(name).half_width(0, 0), size = max_abs(truth);
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    BOOST_TEST(std::abs(limited.values(name)[i] - truth[i]) <= allowed);
+    BOOST_TEST(std::abs(search.result.quantities.at(name).values[i] - truth[i]) <= 1e-3 * size);
   }
 }
 

@@ -56,8 +56,7 @@ BOOST_AUTO_TEST_CASE(uncertainties_agree_with_scaling_laws_of_a_beam) {
   const Run found = run(testing::read(folder, beam(folder, 0)));
   BOOST_REQUIRE(found.uncertainty->comparisons.size() == 2U);
   const results::Comparison& entry = found.uncertainty->comparisons[0];
-  const double f = *entry.simulation;
-  const double depth = 0.01 * f / std::sqrt(3.0);
+  const double f = *entry.simulation, depth = 0.01 * f / std::sqrt(3.0);
   const double modulus = 0.5 * 0.01 * f / std::sqrt(3.0);
   BOOST_TEST(f == kExact, boost::test_tools::tolerance(1e-4));
   BOOST_TEST(*entry.contributions[0].second == depth, boost::test_tools::tolerance(1e-4));
@@ -116,8 +115,7 @@ BOOST_AUTO_TEST_CASE(uncertainty_does_not_depend_on_jobs) {
     options.jobs = jobs;
     return to_json(results_of(run_cases({given}, references, options), {given}, references));
   };
-  const Json one = results(1);
-  const Json two = results(2);
+  const Json one = results(1), two = results(2);
   const auto fault = find_schema_fault(one, "results");
   BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
   BOOST_TEST((one["runs"][1]["uncertainty"] == two["runs"][1]["uncertainty"]));

@@ -22,8 +22,7 @@ std::string junit_of(const Results& results) {
 
 BOOST_AUTO_TEST_CASE(each_check_and_each_run_is_a_testcase) {
   const Results results = sample_results();
-  std::size_t testcases = results.runs.size();
-  std::size_t known = 0;
+  std::size_t testcases = results.runs.size(), known = 0;
   for (const Run& run : results.runs)
     for (const trammel::reports::CheckGroup& group : trammel::reports::group_checks(run)) {
       ++testcases;

@@ -74,8 +74,7 @@ BOOST_AUTO_TEST_CASE(four_quarters_close_to_a_ring) {
   for (Index k = 0; k < 4; ++k) blocks.push_back(annulus_quarter(1, 2, k, 2, 3));
   for (const bool six : {false, true}) {
     const BlockMesh mesh = mesh_blocks(blocks, six);
-    const std::size_t around = six ? 24 : 12;
-    const std::size_t across = six ? 5 : 3;
+    const std::size_t around = six ? 24 : 12, across = six ? 5 : 3;
     BOOST_TEST(mesh.positions.size() == around * across);
     BOOST_TEST(mesh.triangles.size() == 4u * 2 * 2 * 3);
   }

@@ -43,9 +43,7 @@ Vector6d rigid_motion(double a, double b, double w, double angle) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(euler_bernoulli_stiffness_is_equation_7) {
-  const double L = kLength;
-  const double EA = kSection.EA;
-  const double EI = kSection.EI;
+  const double L = kLength, EA = kSection.EA, EI = kSection.EI;
   Matrix6d k;
   k << EA / L, 0, 0, -EA / L, 0, 0,                                                               //
       0, 12 * EI / (L * L * L), 6 * EI / (L * L), 0, -12 * EI / (L * L * L), 6 * EI / (L * L),    //

@@ -180,8 +180,7 @@ BOOST_AUTO_TEST_CASE(fold_is_predicted_without_its_samples) {
   const auto error_without = [&](const std::vector<Index>& fold, double sigma) {
     double sum = 0;
     for (Index f = 0; f <= *std::max_element(fold.begin(), fold.end()); ++f) {
-      std::vector<Index> in;
-      std::vector<Index> out;
+      std::vector<Index> in, out;
       for (Index i = 0; i < 20; ++i)
         (fold[static_cast<std::size_t>(i)] == f ? out : in).push_back(i);
       const Grnn g = make_grnn(inputs(in, Eigen::all), outputs(in, Eigen::all), sigma);

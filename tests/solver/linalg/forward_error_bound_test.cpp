@@ -78,14 +78,12 @@ BOOST_AUTO_TEST_CASE(bound_is_the_sum_of_rounded_strains_and_forces) {
   K.C = Eigen::Vector3d(2, 5, 0.7);
   const MatrixXd A = K.A;
   const MatrixXd inverse = (A.transpose() * K.C.asDiagonal() * A).inverse();
-  const VectorXd f = Eigen::Vector2d(0.3, -4);
-  const VectorXd q = inverse * f;
+  const VectorXd f = Eigen::Vector2d(0.3, -4), q = inverse * f;
   SparseMatrix R(1, 2);
   R.insert(0, 1) = 1;
   const VectorXd p = inverse.col(1), s = K.C.cwiseProduct(A * q);
   const VectorXd in_row = Eigen::Vector3d(2, 3, 3).cwiseSqrt();
-  const VectorXd in_column = Eigen::Vector2d(4, 3).cwiseSqrt();
-  const VectorXd size = A.cwiseAbs() * q.cwiseAbs();
+  const VectorXd in_column = Eigen::Vector2d(4, 3).cwiseSqrt(), size = A.cwiseAbs() * q.cwiseAbs();
   const double of_strains = in_row.cwiseProduct(size).cwiseProduct(K.C).dot((A * p).cwiseAbs());
   const VectorXd force = A.cwiseAbs().transpose() * s.cwiseAbs() + f.cwiseAbs();
   const double of_forces = in_column.cwiseProduct(force).dot(p.cwiseAbs());

@@ -239,8 +239,7 @@ BOOST_AUTO_TEST_CASE(pins_hold_the_plate_by_constraints_only) {
   }
   // Every constraint holds for a translation and for a small rotation.
   for (const LinearConstraint& tie : model.constraints) {
-    double translation = 0, rotation = 0;
-    double size = 0;
+    double translation = 0, rotation = 0, size = 0;
     for (const auto& [coordinate, factor] : tie.terms) {
       const Vector2d x = position(model, coordinate.node);
       translation += factor;

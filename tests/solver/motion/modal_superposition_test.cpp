@@ -67,8 +67,7 @@ BOOST_AUTO_TEST_CASE(impulse_response_keeps_its_digits) {
         const ImpulseResponse exact = in_long_digits(omega, decay, t);
         // Errors are relative to the envelopes of an undamped motion; a phase w t has additional
         // round-off.
-        const double phase = 1 + omega * t;
-        const double h_size = std::min(t, 1 / std::max(omega, 1e-300));
+        const double phase = 1 + omega * t, h_size = std::min(t, 1 / std::max(omega, 1e-300));
         worst = std::max({worst, std::abs(r.h - exact.h) / (h_size * phase),
                           std::abs(r.dh - exact.dh) / phase,
                           std::abs(r.h1 - exact.h1) / std::max(exact.h1, h_size * h_size) / phase,

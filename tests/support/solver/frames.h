@@ -14,8 +14,7 @@ using namespace solver;
 /// Returns the rectangle `depth` x `width` of a material; the depth is in the plane.
 inline Section rectangle(const Material& material, double depth, double width,
                          double shear_coefficient = 5.0 / 6.0) {
-  const double A = depth * width;
-  const double I = width * depth * depth * depth / 12;
+  const double A = depth * width, I = width * depth * depth * depth / 12;
   const double G = material.E / (2 * (1 + material.nu));
   return {material.E * A,   material.E * I,   shear_coefficient * G * A,
           material.rho * A, material.rho * I, A,

@@ -85,8 +85,7 @@ class RandomStates {
   explicit RandomStates(unsigned seed) : engine_(seed) {}
   Vector3d vector() {
     std::uniform_real_distribution<double> uniform(-1, 1);
-    const double x = uniform(engine_);
-    const double y = uniform(engine_);
+    const double x = uniform(engine_), y = uniform(engine_);
     return {x, y, uniform(engine_)};
   }
   Pose pose() {
