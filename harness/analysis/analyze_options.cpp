@@ -143,7 +143,8 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
       if (!first) {
         first = std::move(result);
       } else if (result.outcome.status != first->outcome.status) {
-        // The largest finite number is recorded, because infinite numbers are omitted.
+        // Different outcomes count as the largest finite difference, because recorded numbers must
+        // be finite.
         disagree(std::numeric_limits<double>::max(), counts);
       } else {
         disagree(max_relative_difference(first->quantities, result.quantities), counts);

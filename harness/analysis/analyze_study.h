@@ -9,9 +9,9 @@ namespace trammel::harness {
 /// value.
 AnalyseCase analyze_study;
 
-/// Runs other cases with every combination of some options of their analyses. Records the numbers
-/// of outcomes, non-finite results and incomplete reasons, and differences of results that must
-/// agree.
+/// Runs other cases with every combination of some options of their analyses. Records how many
+/// combinations have each outcome, return a non-finite number, or fail without a sufficient reason.
+/// Also records the largest difference of results that must agree.
 AnalyseCase analyze_options;
 
 /// Records the quantities relative_difference and difference_percent for pairs of references.

@@ -19,7 +19,8 @@ struct EffectChoice {
   std::vector<results::EffectRow> rows;
   std::optional<EffectSelection> automatic;  ///< result of the automatic selection
 
-  /// @returns true if large displacement, which the analysis lacks, exceeds the tolerated change
+  /// @returns true if the change by large displacement, which the analysis cannot compute, exceeds
+  /// the tolerance
   [[nodiscard]] bool is_beyond_tier() const {
     return automatic && automatic->beyond_tier.value_or(0) > *tolerance;
   }

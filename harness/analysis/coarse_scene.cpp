@@ -86,7 +86,8 @@ std::optional<Quantities> CoarseScene::compute(Effects effects, std::size_t step
     if (result.outcome.solved()) return record.take_quantities();
     outcome = outcome_at_path_point(scene_, step, result.outcome);
   } catch (const solver::ModelError& error) {
-    // Without an effect, the model may be invalid. In the first run, the model has all effects.
+    // Removal of an effect may make the model invalid. The changed model then counts as unsolved.
+    // The first set of effects is the complete one, so its error is an error of the case.
     if (runs_.size() == 1) throw;
     outcome = {solver::Status::singular, error.what()};
   } catch (const InputError& error) {  // fewer modes than damping ratios, for example

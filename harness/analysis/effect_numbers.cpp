@@ -51,7 +51,8 @@ ResponseScale response_scale(const std::string& analysis_name, const JsonView& a
         static_cast<double>((analysis.get<solver::Index>("count", 1) - 1) / members);
   } else if (analysis_name == "harmonic") {
     // Near a resonance, only damping limits the amplification of a change. The sampled frequencies
-    // rarely contain the peak. The limits cover the random scenes of the tests.
+    // rarely contain the peak. The assumed amplification is between kLeast and kMost, which cover
+    // the random scenes of the tests.
     constexpr double kLeast = 30, kMost = 300;
     const double omega = 2 * std::numbers::pi * analysis.number("to_Hz");
     const auto damping = analysis.find("damping");
@@ -72,8 +73,9 @@ EffectNumbers effect_numbers(const solver::Model& model, const ResponseScale& sc
   /// Ratios of the change of the results to the dimensionless numbers of platform and joints. These
   /// ratios bound the changes in nearly all random scenes of the tests.
   constexpr double kOfPlatform = 17, kOfJoint = 3;
-  /// Ratio of the change of a frequency to the number of geometric stiffening. A cantilever buckles
-  /// at a quarter of pi^2 E I / L^2, and a frequency changes by half as much as the stiffness.
+  /// Ratio of the relative change of a frequency to the dimensionless number of geometric
+  /// stiffening. A cantilever buckles at a quarter of pi^2 E I / L^2, and a frequency changes by
+  /// half as much as the stiffness.
   constexpr double kOfStiffening = 2;
   double shear = 0, rotary = 0, axial = 0, joint = 0, bending = 0, membrane = kInfinite;
   double softest = kInfinite;

@@ -80,8 +80,9 @@ class Selector {
     return true;
   }
 
-  /// Removes effects by dimensionless numbers: first a meshed platform, then effects in ascending
-  /// order of their change, if the sum of changes is within a fraction of the tolerance.
+  /// Removes effects by dimensionless numbers, while the sum of changes is within a fraction of the
+  /// tolerance. Expensive effects (a meshed platform, stiffening of a frame at rest) precede cheap
+  /// ones. Each group is in ascending order of change.
   void apply_numbers(const ResponseScale& scale) {
     const EffectNumbers numbers = effect_numbers(model_, scale);
     const auto change_of = [&](Effect effect) {
@@ -122,9 +123,10 @@ class Selector {
   }
 
   /// Compares linear theory with large displacement on one element per member, which is exact in
-  /// linear theory for prismatic members. Then compares second-order theory with large displacement
-  /// on four elements per member, which reproduce buckling. On a path, only the steps with extreme
-  /// results of linear theory are compared. Steps with a change beyond the tolerance are added.
+  /// linear theory for prismatic members. If linear theory is insufficient near a buckling load,
+  /// compares second-order theory with large displacement on four elements per member, which
+  /// reproduce buckling. On a path, only the steps with extreme results of linear theory are
+  /// compared. Steps with a change beyond the tolerance are added.
   void select_in_statics() {
     CoarseScene single(kind_, analysis_, scene_, 1), finer(kind_, analysis_, scene_, 4);
     const Effects all = selection_.chosen, linear = without(Effect::geometric_stiffening);
@@ -242,8 +244,8 @@ class Selector {
     coarse.effects = scope_.without(scope_.applicable, Effect::large_displacement);
     coarse_model_ = build_model(coarse, 0);
     options_ = read_elastodynamics(analysis_, coarse);
+    // Up to three of the four modes are rigid-body modes.
     const solver::ModalSolution modes =
-        // up to three are rigid-body modes
         solver::solve_modes(solver::assemble(coarse_model_), {.count = 4});
     add_cost(modes.counters, coarse_model_);
     selection_.outcome = modes.outcome;
@@ -265,7 +267,8 @@ class Selector {
     return {.phase = phase, .platform = phase};
   }
 
-  /// @returns true if a vibration persists; a change of its frequency then shifts the phase
+  /// @returns true if a sudden start or a fast path excites elastic vibration. A change of its
+  /// frequency then shifts its phase.
   [[nodiscard]] bool vibrates() const {
     return from_rest_ || frequency_ratio_ * frequency_ratio_ > 0.1;
   }
@@ -310,8 +313,9 @@ class Selector {
     add_cost(coarse.counters, coarse.model());
   }
 
-  /// Removes inertia if the path is slow compared with the first frequency. If this bound is
-  /// inconclusive, measures the change of the motion of the coarse model.
+  /// Removes inertia if the path is slow compared with the first frequency. The bound of the change
+  /// is r^2 + 2 damping r, with the ratio r of path frequency to first frequency. If the bound is
+  /// inconclusive, measures the change on the coarse model.
   void select_inertia(CoarseScene& coarse) {
     constexpr double kSurelyWithin = 0.25, kSurelyBeyond = 10;
     const double r = frequency_ratio_, bound = r * r + 2 * damping_ * r;
@@ -341,7 +345,8 @@ class Selector {
   /// These equilibria include loads, weight and nominal inertia. If the motion starts suddenly, the
   /// change is measured on the first part of the motion. It grows with time during the vibration.
   std::optional<double> change_of_theory() {
-    /// A vibration doubles the quasi-static change (kSwing). kShortened is the simulated fraction.
+    /// A vibration doubles the quasi-static change (kSwing). After a sudden start, only the
+    /// fraction kShortened of the duration is simulated.
     constexpr double kSwing = 2, kShortened = 0.125;
     solver::ElastodynamicsOptions options = options_;
     const bool moves = selection_.chosen.has(Effect::inertia);

@@ -16,9 +16,10 @@ struct SizeEstimate {
   std::string cause;  ///< JSON pointer of the key that causes the most memory
 };
 
-/// Estimates the size from the coordinates, dense solutions, modes, samples, points of paths and
-/// cells of grids. The factor of a frame has 12 non-zeros per coordinate. The factor of a plane
-/// mesh of n coordinates has 16 log2(n) per coordinate, by nested dissection (George 1973).
+/// Estimates the size from the numbers of coordinates, modes, samples, points of paths and cells of
+/// grids. A dense eigensolver and modal superposition require memory proportional to the square of
+/// the number of coordinates. The factor of a frame has 12 non-zeros per coordinate. The factor of
+/// a plane mesh of n coordinates has 16 log2(n) per coordinate, by nested dissection (George 1973).
 [[nodiscard]] SizeEstimate estimate_size(const Document& document);
 
 /// Rejects a computation that requires too much memory.

@@ -23,7 +23,7 @@ std::string file_hash(const std::filesystem::path& file) {
 
 std::string program_hash() {
   dl_phdr_info program{};  // of the first loaded object, which is the program itself
-  // The callback of this C function must not throw, so that it only copies.
+  // The callback only copies, because a C function calls it and must not receive exceptions.
   const auto copy_first = [](dl_phdr_info* object, std::size_t, void* copy) {
     *static_cast<dl_phdr_info*>(copy) = *object;
     return 1;

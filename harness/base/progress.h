@@ -6,8 +6,8 @@
 
 namespace trammel::harness {
 
-/// Progress on standard error: a bar on a terminal, lines in a log. Single items and logs are
-/// updated at most every five seconds.
+/// Progress on standard error: a bar on a terminal, lines in a log. A log is updated at most every
+/// five seconds, and so is a terminal if there is a single item or the total is unknown.
 class Progress {
  public:
   /// @param items  name of the counted items, in the plural: "runs"

@@ -39,7 +39,8 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   if ((word == "entries" || word == "entry") && contains(candidates, std::string("index")))
     return "index";
   std::string best;
-  // A suggestion that changes more than about a third of the word is not helpful.
+  // A suggestion is not helpful if it changes more than two letters and more than two fifths of the
+  // word.
   std::size_t least = std::max<std::size_t>(2, word.size() * 2 / 5) + 1;
   for (const std::string& candidate : candidates) {
     std::size_t distance = edit_distance(word, candidate);

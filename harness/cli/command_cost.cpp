@@ -44,8 +44,9 @@ fs::path find_one(const std::string& word, const std::vector<std::string>& known
     if (word.find('/') != std::string::npos || fs::path(word).extension() == ".json") throw;
     const std::string hint = did_you_mean(word, known);
     if (hint.empty()) throw;
-    throw InputError("expected a family or study of cases/cost, a case or a file (got '" +
-                     printable(word) + "')" + hint);
+    throw InputError(
+        "expected the name or 'family' of a study in cases/cost, a case or a file (got '" +
+        printable(word) + "')" + hint);
   }
 }
 

@@ -104,7 +104,7 @@ void print_run_errors(const std::vector<Run>& runs) {
   std::vector<std::string> told;
   for (const Run& run : runs) {
     if (run.fault == results::Fault::none) continue;
-    // Variants of one case often have the same error, which is printed once.
+    // Variants of one case often fail with the same message, which is printed once.
     if (contains(told, run.reason)) continue;
     told.push_back(run.reason);
     std::cerr << run.reason << '\n';
@@ -201,7 +201,8 @@ int report_results(const CommandOptions& options, const Renderers& renderers) {
   return 0;
 }
 
-/// Returns the selection in a form that does not depend on the working folder.
+/// Returns the selected cases, labels and variant in a form that does not depend on the working
+/// folder.
 Json selection_of(const CommandOptions& options) {
   Json cases = Json::array();
   for (const std::string& word : options.words) {
@@ -242,8 +243,9 @@ int add_studies(results::Results& results, const std::vector<Case>& cases,
   const bool resume = !options.fresh;
   std::vector<std::function<void()>> studies = quick_cost_work(references, store, resume);
   for (auto& work : effect_scene_work(store, resume)) studies.push_back(std::move(work));
-  // Completed work is read from the store. Remaining work is computed here, or reported as
-  // impossible.
+  // The calls of `quick_cost` and `catalogue_effect_scenes` below read the results from the store,
+  // and compute those that are missing. With --fresh, they read only if all functions were
+  // completed.
   const bool measured = do_in_processes(studies, options.jobs, "studies of cost and effects");
   std::vector<std::string> error_messages;
   results.cost = quick_cost(references, store, resume || measured, error_messages);

@@ -100,21 +100,25 @@ Command export_command, solve_command, grade_command;
 [[nodiscard]] std::filesystem::path write_pages(const results::Results& results,
                                                 const std::string& out, const Renderers& renderers);
 
-/// Returns functions that measure the quick sweep of each cost study and store the results.
+/// Returns functions that measure each cost study of the catalogue with its short selection of
+/// settings (SweepExtent::quick) and store the results.
 /// @throws InputError  from the functions, with the message that `quick_cost` reports for the study
 [[nodiscard]] std::vector<std::function<void()>> quick_cost_work(const References& references,
                                                                  const std::filesystem::path& store,
                                                                  bool resume);
 
-/// Returns functions that measure the selection of effects in each suitable case of the catalogue.
+/// Returns functions that measure the automatic selection of effects in each case of the catalogue
+/// with the label "effects", and store the results.
 [[nodiscard]] std::vector<std::function<void()>> effect_scene_work(
     const std::filesystem::path& store, bool resume);
 
-/// Returns these measurements for all cases of the catalogue, as stored in results.json.
+/// Returns the measured selections of effects for all cases of the catalogue with the label
+/// "effects", in the form of results.json.
 [[nodiscard]] std::vector<results::EffectScene> catalogue_effect_scenes(
     const std::filesystem::path& store, bool resume);
 
-/// Returns the quick sweeps of all cost studies of the catalogue, as stored in results.json.
+/// Returns all cost studies of the catalogue, measured with their short selection of settings
+/// (SweepExtent::quick), in the form of results.json.
 /// @param error_messages  receives a line for each study that could not be measured
 [[nodiscard]] results::CostStudies quick_cost(const References& references,
                                               const std::filesystem::path& store, bool resume,

@@ -209,7 +209,8 @@ Json mechanism_of(const Document& document) {
   return mechanism;
 }
 
-/// Lists the nodes that are recorded by default, because unnamed nodes have names after the export.
+/// Lists the named nodes of a large motion under the key "nodes" if this key is absent. Otherwise
+/// the nodes that receive a name by the export would also be recorded.
 void name_recorded_nodes(const solver::Model& model, Json& analysis) {
   if (!analysis.contains("large-motion") || analysis["large-motion"].contains("nodes")) return;
   Json& names = analysis["large-motion"]["nodes"] = Json::array();

@@ -36,10 +36,9 @@ struct ExportedScene {
 [[nodiscard]] ExportedScene exported_scene(const Document& document);
 
 /// Returns the exported case file: model, analysis, and "export" with its origin and the requested
-/// quantities.
-/// The manipulator along its path (kinematics, rigid dynamics, elastodynamics) is kept. Its bodies,
-/// joints and a table over time are added under "export". A network on given samples is exported
-/// unchanged.
+/// quantities. The manipulator along its path (kinematics, rigid dynamics, elastodynamics) is kept.
+/// Its bodies, joints and a table over time are added under "export". A neural network with samples
+/// in the case is exported unchanged.
 /// @throws InputError  as `exported_scene`, and if a case file cannot express a part or a quantity.
 [[nodiscard]] Json export_case(const Case& given, const ExportChoice& choice);
 

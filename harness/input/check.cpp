@@ -75,7 +75,7 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
   const Json own = followed(sweep, quantity);
   if (!sweep.contains("theory_order") && !own.contains("theory_order"))
     throw place["sweep"].error(
-        "an 'order' check requires a sweep with the key 'theory_order' (the named one has none)");
+        "an 'order' check requires a sweep with the key 'theory_order' (this sweep has none)");
   order.of_errors = own.value("is_error", false);
   if (exactly_one(place, {"within", "two_term_within"}) == "within") {
     order.within = place.number("within");
@@ -83,7 +83,7 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
     order.two_term_within = place.number("two_term_within");
     if (!sweep.contains("lower_order"))
       throw place["sweep"].error(
-          "'two_term_within' requires a sweep with the key 'lower_order' (the named one has none)");
+          "'two_term_within' requires a sweep with the key 'lower_order' (this sweep has none)");
   }
   order.meshes = place.get("min_meshes", std::size_t{3});
   if (const auto wave = place.find("wave_number")) {
@@ -99,7 +99,8 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
   return order;
 }
 
-/// Rejects a known discrepancy whose range contains zero, because agreement would go unnoticed.
+/// Rejects a known discrepancy if the windows of all entries contain zero, because agreement would
+/// go unnoticed.
 void require_discrepancy(const JsonView& place, const Check& check) {
   const bool is_difference =
       check.measure == Measure::relative || check.measure == Measure::absolute;

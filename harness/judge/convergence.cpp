@@ -148,7 +148,8 @@ class ConvergenceStudy {
       const auto [value, factor] = expected(k);
       gci_[k] = factor * std::abs((value - v_[k]) / v_[k]) + roundoff_[k];
       factor_[k] = factor;
-      // The extrapolated value with the smallest change between levels and round-off is used.
+      // Each level yields an extrapolated value. The value with the smallest sum of its change from
+      // the previous level and its round-off error is used.
       const double from = std::isfinite(before) ? before : v_[k];
       const double change = std::abs(value - from) + roundoff_[k] * std::abs(value);
       before = value;
@@ -195,7 +196,8 @@ class ConvergenceStudy {
     in_range_.assign(count(), false);
     at_floor_.assign(count(), false);
     for (std::size_t k = 0; k < count(); ++k) {
-      // Because roundoff_ is relative to v_.
+      // The round-off error is relative to the values v_. If the values are errors themselves,
+      // their relative size is 1.
       const double clear = series_.is_error ? 1.0 : error_[k];
       at_floor_[k] = clear <= kRoundoffMargin * roundoff_[k];
     }

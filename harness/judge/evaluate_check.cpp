@@ -168,7 +168,8 @@ void evaluate_entry(const Check& check, const Window* window, double uncertainty
     return;
   }
   entry.tolerance = {window->low, window->high, check.symmetric};
-  // Single entries of a known discrepancy may agree if the tolerance window contains zero.
+  // A known discrepancy may be limited to some entries. An entry whose window contains zero is
+  // expected to agree.
   if (entry.expectation == Expectation::known_discrepancy && window->contains(0) &&
       (check.measure == Measure::relative || check.measure == Measure::absolute)) {
     entry.expectation = Expectation::agrees;

@@ -91,7 +91,8 @@ class OrderCheckEvaluator {
     return check_result;
   }
 
-  /// Returns the value of the qualifying level with the largest distance from `target`.
+  /// Returns the value with the largest distance from `target` over the levels that qualify. These
+  /// are the levels in the asymptotic range or, if the check states a wave number, on fine meshes.
   template <class Value>
   double worst(double target, const Value& value, CheckResult& check_result) const {
     double farthest = kNaN;

@@ -52,8 +52,8 @@ inline constexpr const char* kUndecided = "undecided";
 
 inline constexpr double kCoverageFactor = 2;
 
-/// Judges a row of values, such as frequencies in ascending order, with the u_input of each
-/// comparison and of its `all_inputs`.
+/// Judges the comparisons of one row of printed values, such as frequencies in ascending order. The
+/// uncertainties of each comparison, and u_input of its `all_inputs`, must be set before.
 ///
 /// If symmetry of the model implies a repeated value (equal within 1e-6), the reference must repeat
 /// it. If the reference prints values that differ by more than its digits allow, and the model's

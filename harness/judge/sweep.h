@@ -24,7 +24,7 @@ enum class TrackedQuantities {
   all     ///< every quantity that changes with the level
 };
 
-/// Removes the quantities that TrackedQuantities::named does not select from a sweep.
+/// Removes from a sweep all quantities that TrackedQuantities::named does not select.
 void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Check>& checks);
 
 /// Returns the convergence study of each tracked entry of a sweep.

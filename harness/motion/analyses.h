@@ -35,7 +35,8 @@ AnalysePath analyze_elastodynamics;
 /// Evaluates a general regression neural network on samples of the inverse dynamics along the path.
 /// Records the smoothing parameter, predictions, errors, skill and computing times.
 AnalysePath analyze_grnn;
-/// Evaluates such a network on samples in the case, and records predictions for the case's queries.
+/// Evaluates a general regression neural network on samples stated in the case, and records its
+/// predictions for the queries of the case.
 AnalyseCase analyze_grnn_samples;
 
 /// Reads the options of elastodynamics that do not depend on the model and its effects.

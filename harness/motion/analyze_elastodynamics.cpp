@@ -15,8 +15,8 @@
 namespace trammel::harness {
 namespace {
 
-/// Records the deflection of P from the nominal path. If the path always has a direction, also
-/// records the components along and across it.
+/// Records the deflection of P from the nominal path. If the nominal path has a tangent at every
+/// sample, also records the components along and across the path.
 void record_deflection(const solver::ElastodynamicsSolution& solution, Recorder& record) {
   const bool moves = solution.tangential_error.allFinite();
   for (solver::Index i = 0; i < solution.deflection.rows(); ++i) {
@@ -39,8 +39,8 @@ void record_torques(const solver::ElastodynamicsSolution& solution, Recorder& re
 
 /// Records the energies and the drift of their sum, relative to the largest energy. The drift is
 /// not recorded for quasi-static motion, or if the work of loads and actuators is not computed.
-/// This work is unknown for modes under a varying load, and for inextensible links without the
-/// rates of their constraints.
+/// Modal superposition does not compute this work under varying loads. Time integration does not
+/// compute it for moving inextensible links without gyroscopic terms.
 void record_energy(const solver::ElastodynamicsSolution& solution, bool quasi_static,
                    Recorder& record) {
   quasi_static |= !solution.energy.empty() && std::isnan(solution.energy.front().work);

@@ -37,8 +37,8 @@ struct MotionHistory {
   solver::Counters counters;
   std::vector<double> time;         ///< [s]
   std::vector<double> load_factor;  ///< factor of the loads (without weight) at each time
-  /// Filtered factors of loads and weight, 2 x time, for the delayed strains under
-  /// stiffness-proportional damping. Otherwise empty.
+  /// Factors of the loads (row 0) and of the weight (row 1) at each time, delayed like the strains
+  /// by stiffness-proportional damping. Empty without such damping.
   Eigen::MatrixXd followed_factor;
   Eigen::MatrixXd q, v, a;         ///< one row per coordinate, one column per time
   solver::ViscousDamping damping;  ///< Rayleigh and modal damping

@@ -11,7 +11,8 @@ namespace trammel::harness {
 
 /// Returns the kind of the analysis, such as "modes". For a study, this is the repeated analysis.
 [[nodiscard]] std::string discretized_analysis(const Document& document);
-/// Returns the JSON pointer of this analysis: "/analysis/modes", "/analysis/study/analysis/modes".
+/// Returns the JSON pointer of the analysis that `discretized_analysis` names, such as
+/// "/analysis/modes" or, for a study, "/analysis/study/analysis/modes".
 [[nodiscard]] std::string analysis_pointer(const Document& document);
 
 /// Returns the default number of elements of a link or member: the key "elements" of "model" if

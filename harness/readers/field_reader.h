@@ -141,7 +141,8 @@ template <class T>
   return part;
 }
 
-/// Reads all parts below an optional key, such as "springs". `check(place, part)` may reject one.
+/// Reads all parts below an optional key, such as "springs". `check(place, part)` throws InputError
+/// for an invalid part.
 template <class T, class Check = void (*)(const JsonView&, const T&)>
 [[nodiscard]] std::vector<T> read_parts(
     const JsonView& model, const char* key, const SymbolTable& symbols,

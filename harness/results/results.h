@@ -109,7 +109,8 @@ struct Claim {
 /// An equation, table, figure or statement of the publication, with the cases that reproduce it.
 struct PaperItem {
   struct Counterpart {
-    /// Case, variant (empty: all), quantity (empty: all) and figure (empty: none).
+    /// Case that reproduces the item, its variant (empty: all), its quantity (empty: all) and its
+    /// figure (empty: none).
     std::string case_id, variant, quantity, figure;
     std::string verdict;  ///< verdict in words
   };
@@ -149,7 +150,8 @@ struct EffectScene {
   /// Counted work of the selection and of the run with selected effects, relative to all effects.
   double work_ratio = 0;
   double deciding_work_ratio = 0;  ///< relative work of the selection alone
-  /// Relative change of the results from half the elements to all elements.
+  /// Relative change of the results with the selected effects between half of the elements and all
+  /// elements.
   Number mesh_change;
   /// Relative change due to large displacement, if the analysis cannot represent that effect [-].
   Number beyond_tier;

@@ -142,7 +142,8 @@ struct Comparison : ValidationVerdict {
   Number dominant_share;      ///< fraction of u_input^2 due to `dominant_input`
   /// Signed contribution of each input to u_input.
   std::vector<std::pair<std::string, Number>> contributions;
-  /// Differences of other printed values of this entry from `expected`. The verdict ignores them.
+  /// Differences from `expected` of the values that other references print for the same computed
+  /// value. The verdict ignores them.
   Numbers spread;
   /// Verdict if nominal design values are as uncertain as their printed digits.
   ValidationVerdict all_inputs;

@@ -187,8 +187,8 @@ Interpretation evaluate_interpretation(const JsonView& interpretation,
   if (by_check ? found.metric == "steps" || interpretation.has("statistic")
                : found.metric != "value" && found.metric != "steps") {
     throw interpretation["metric"].error(
-        "expected a check's value, ratio, relative or difference, or a "
-        "quantity's value or steps");
+        "expected 'value', 'ratio', 'relative' or 'difference' for a check, or 'value' or 'steps' "
+        "for a quantity");
   }
   const Rule rule = read_rule(interpretation);
   for (const Run& run : runs) {

@@ -186,7 +186,9 @@ std::optional<SampledModes> drawn_modes(const results::Run& run, const results::
   return modes;
 }
 
-/// Returns true if recomputed modes have the run's frequencies, unlike for rotating, loaded models.
+/// Returns true if the modes recomputed for their shapes have the frequencies of the run. The
+/// recomputation assumes a model at rest without loads, so frequencies of rotating or prestressed
+/// models differ.
 bool are_of(const SampledModes& modes, const results::Run& run) {
   const std::vector<double>& known = *run.quantity("frequency_Hz");
   for (std::size_t i = 0; i < known.size(); ++i)
@@ -433,7 +435,8 @@ std::string conclusion_of_variants(const SideComparison& comparison) {
                      sides.front().label, count, all, most_changed(run, sides));
 }
 
-/// Groups the runs of all sides by name. Variants this call computed the side form one group.
+/// Groups the runs of all sides by name. Runs that this call of the program has computed form one
+/// group, because the names of compared variants differ.
 std::map<std::string, Runs> runs_by_name(std::vector<Side>& sides) {
   std::map<std::string, Runs> by_name;
   for (std::size_t s = 0; s < sides.size(); ++s)

@@ -20,7 +20,8 @@ struct Entry {
   const results::Run* run = nullptr;
   const results::Check* check = nullptr;  ///< check of the entry; null: the entry is a run
 
-  /// Returns true if the verdicts differ, or if the values differ by more than the larger noise.
+  /// Returns true if the verdicts differ, or if the values differ by more than the larger `noise`
+  /// of both entries.
   [[nodiscard]] bool differs(const Entry& other) const;
 };
 
@@ -51,9 +52,10 @@ struct DiffRow {
 struct Side {
   std::string label;
   results::Results results;
-  /// Case of a single run that this call has computed. Such runs are compared in spite of different
-  /// names, and their mode shapes at stations along the members. Without a case, runs of the same
-  /// name are compared, and mode shapes by the drawings.
+  /// Case of a single run that this call of the program has computed; empty for stored results.
+  /// Computed runs are compared even if their names differ, and their mode shapes at stations along
+  /// the members. Of stored results, runs of the same name are compared, and the mode shapes in
+  /// their drawings.
   std::optional<Document> document;
 };
 

@@ -204,7 +204,8 @@ std::vector<HistoryCall> calls_of(Database& database) {
   return calls;
 }
 
-/// Returns the changes since a call. Each change has date and commit of the first call with it.
+/// Returns the changes since a call. Each change has the date and the commit of the first call that
+/// shows the change.
 std::vector<HistoryChange> changes_since(std::int64_t since,
                                          const std::map<std::string, Course>& courses,
                                          const std::vector<HistoryCall>& calls) {

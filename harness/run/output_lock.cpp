@@ -17,7 +17,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns true if the process of the text "process NUMBER" no longer exists.
+/// Returns true if the text is "process NUMBER" and this process no longer exists.
 bool is_gone(const std::string& holder) {
   const int process = std::atoi(holder.substr(holder.find(' ') + 1).c_str());
   return process > 0 && kill(process, 0) != 0 && errno == ESRCH;

@@ -16,8 +16,9 @@
 namespace trammel::harness {
 
 /// Returns the file name of a computation of a case or variant. The name is a hash of the program,
-/// of the case file and of the case with all cases that it extends. It includes the identity of
-/// another solver, and `requested`, because runs needed only by other checks are smaller.
+/// of the case file and of the case with all cases that it extends. The hash includes the identity
+/// of a solver other than trammel. It also includes `requested`, because runs needed only by checks
+/// of other runs are smaller.
 [[nodiscard]] std::string computation_name(const Document& document, bool requested,
                                            const std::string& solver_hash = "");
 

@@ -34,7 +34,7 @@ void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawin
                                         const std::string& label);
 
 /// Returns the samples of a motion that a picture shows: at most 48, and fewer for a fine mesh. If
-/// these would miss vibrations, they cover only the beginning of the motion.
+/// so few samples cannot show the vibrations, they cover only the beginning of the motion.
 /// @param q      coordinates of each sample
 /// @param nodes  number of nodes of the drawing
 [[nodiscard]] std::vector<std::size_t> drawn_samples(const std::vector<Eigen::VectorXd>& q,

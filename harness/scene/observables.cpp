@@ -111,7 +111,8 @@ constexpr auto kObservables = std::to_array<Observable>({
     {"von_mises_stress_Pa", Of::plate, von_mises_stress, true, true},
 });
 
-/// Returns the parts with a name. Parts without a name belong to a plate or a chain of members.
+/// Returns all named parts of one kind, such as nodes. Parts without a name belong to a plate or a
+/// chain of members.
 std::vector<ModelPart> parts_of(const Model& model, Of of) {
   std::vector<ModelPart> parts;
   const auto add_all = [&](const auto& all, Index end, const char* suffix) {

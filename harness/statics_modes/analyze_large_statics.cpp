@@ -91,7 +91,8 @@ StepResult analyze_large_statics(const JsonView& analysis, const CaseModel& case
   solver::large_motion::StaticPathOptions options = read_large_statics_options(analysis);
   if (options.keep_points && (case_model.path || factors.size() > 1))
     throw analysis["whole_path"].error("'whole_path' requires one pose and one load factor");
-  // Small vibration reports an unsupported part as a mode of 0 Hz; in statics it has no position.
+  // With vibration modes, an unsupported part is a mode of 0 Hz. In statics alone, such a part has
+  // no determined position, and the model is singular.
   options.keep_free_parts = analysis.get("vibration_modes", solver::Index{0}) > 0;
   solver::Model model = build_bare_model(case_model, step);
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;

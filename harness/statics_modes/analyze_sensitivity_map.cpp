@@ -73,7 +73,8 @@ Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
   return reading;
 }
 
-/// Records the increase in magnitude from the first orientation to each further orientation.
+/// Records the increase of the magnitudes of sensitivity and frequency from the first orientation
+/// to each further orientation [%].
 void record_rises(const std::vector<Reading>& readings, Recorder& record) {
   const auto rise = [&](const char* name, const char* item, double Reading::*number) {
     const double first = std::abs(readings.front().*number);

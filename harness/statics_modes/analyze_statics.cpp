@@ -46,7 +46,8 @@ StepResult analyze_statics(const JsonView&, const CaseModel& case_model, std::si
   const solver::Model& model = system.model;
   std::vector<std::string> without;
   if (case_model.path) without = {"bending_stress_Pa"};
-  // The pins of a platform are singular points, which no mesh resolves.
+  // Stresses at the pins of a platform do not converge with the mesh, so node stresses are not
+  // recorded.
   if (case_model.manipulator) solution.node_stress.resize(0, 3);
   StateRecorder(model, "statics", without).record(solution, record, roundoff, of_forces);
   warn_of_rotation(largest_rotation(system, system.T * solution.q), result.warnings);

@@ -38,9 +38,9 @@ struct FrequencyDifferences {
 
 /// Computes central differences at steps that shrink by 1.6, extrapolated to zero. From the table,
 /// it selects the entry that agrees best with its neighbors (Ridders 1982; here 7 rows). Steps keep
-/// adjacent frequencies apart and the limbs within reach.
-/// The branches of a repeated frequency are smooth. Therefore the lowest branch for p + h continues
-/// the highest branch for p - h.
+/// adjacent frequencies apart and the limbs within reach. The branches of a repeated frequency are
+/// smooth. Therefore, at a parameter p with step h, the lowest branch for p + h continues the
+/// highest branch for p - h.
 /// @param relative_step  first step over the value of the parameter; reduced if it is too large
 /// @throws ModelError  as `build_manipulator`.
 [[nodiscard]] FrequencyDifferences differentiate_frequencies(

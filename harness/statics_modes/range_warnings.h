@@ -44,8 +44,9 @@ inline constexpr double kMaxWaveNumber = 1.5708;
 void warn_of_wave_length(const solver::System& system, double frequency,
                          std::vector<Warning>& warnings);
 
-/// Limit of the ratio of stiffness at the ends of an element of a tapered member. The element has
-/// the section at its middle. At the limit the error is about 1 %.
+/// Limit of the ratio of the stiffnesses at both ends of an element of a tapered member. The
+/// element has a constant section, that at its middle. At the limit, the error of the axial
+/// flexibility of the element is about 1 %.
 inline constexpr double kMaxTaperRatio = 1.5;
 void warn_of_taper(const solver::Model& model, std::vector<Warning>& warnings);
 

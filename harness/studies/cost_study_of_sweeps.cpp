@@ -98,7 +98,8 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
           : quantities_of_checks(document, comparisons(document, variant, given.variants()),
                                  references));
   if (observed.empty())
-    throw first.error("the sweep has no 'quantities', and no check compares one with a reference");
+    throw first.error(
+        "the sweep has no 'quantities', and no check compares a quantity with a reference");
   const bool exact = keep_exact(observed);
   study.reference_description = "the exact values of " + quantities_of(observed);
   for (const std::string& name : wanted) {

@@ -201,7 +201,8 @@ class ErrorScales {
       return is_curve(name) ? largest : 1e-6 * largest;
     return std::max(largest, found->second);
   }
-  /// Returns the assumed relative round-off error. It is larger for iterations and steps.
+  /// Returns the assumed relative round-off error of a quantity. It is larger for analyses with
+  /// iterations or time steps.
   [[nodiscard]] double roundoff() const {
     return kind_ == "statics" || kind_ == "modes" || kind_ == "buckling" ? 1e-12 : 1e-9;
   }

@@ -33,7 +33,8 @@ struct Companion {
 /// same steps, and their difference says nothing about the error.
 [[nodiscard]] bool is_same_result(const AnalysisResult& own, const AnalysisResult& other);
 
-/// Returns the order of convergence, the lowest of the active parts.
+/// Returns the order of convergence, which is the lowest order of all discretized parts of the
+/// case.
 /// Mesh: 4 for straight prismatic members with a consistent mass. 2 for a lumped mass, tapered
 /// members, chords of arcs and triangles (J. S. Archer, J. Struct. Div. ASCE 89, 1963).
 /// Step: 2 for time schemes, 1 for Newmark's with numerical damping. For an adaptive scheme of

@@ -30,8 +30,8 @@ struct EffectStudy {
   EffectChoice choice;
   double tolerance = 0;
   EffectRun full, chosen;
-  /// Relative change of the results with the chosen effects from half the elements to all elements.
-  /// The change exceeds the error of the mesh. It is empty if no member has two elements.
+  /// Relative change of the results with the chosen effects between half of the elements and all
+  /// elements. The change exceeds the error of the mesh. It is empty if no member has two elements.
   std::optional<double> mesh_change;
   double deciding_cpu_s = 0;
   std::vector<EffectRun> without_one;     ///< the full set without each effect: separate

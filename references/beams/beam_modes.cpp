@@ -20,10 +20,10 @@ Real characteristic(const BeamEnds& ends, const Real& b) {
          mu * j * b * b * b * b * (sech - cos(b));
 }
 
-/// Bending vibration of a clamped-clamped beam of constant thickness and width b exp(-2 a x), whose
-/// equations have constant coefficients. Solutions are exp(a x) {cosh z x, sinh z x}. Deflection
-/// and rotation vanish at both ends. With r^2 = I/A, P = z^2 - a^2, kG = kappa G / rho and e = E /
-/// rho:
+/// Bending vibration of a clamped-clamped beam of constant thickness and width b exp(-2 a x), at
+/// the circular frequency w. Its equations have constant coefficients. Solutions are exp(a x) cosh
+/// z x and exp(a x) sinh z x. Deflection and rotation vanish at both ends. With r^2 = I/A, P = z^2
+/// - a^2, kG = kappa G / rho and e = E / rho:
 ///
 ///   Euler-Bernoulli:  P^2 = w^2 / (e r^2)
 ///   Timoshenko:       (kG P + w^2)(e r^2 P - kG + w^2 r^2) = -kG^2 P
@@ -56,7 +56,8 @@ Real characteristic(const Beam& beam, const Real& w) {
     const Real z2 = P[i] + beam.a * beam.a;
     const auto [C, S] = wave_functions(z2, beam.L);
     const Real unit = z2 > 0 ? Real(1 / cosh(sqrt(z2) * beam.L)) : Real(1);
-    // value and derivative of C = cosh z x (column 2 i) and S (column 2 i + 1) at both ends
+    // Functions F without the factor exp(a x): f[0] is cosh z x, f[1] is (sinh z x)/z. Each row has
+    // value and slope at x = 0, then at x = L. All are divided by cosh z L if z^2 > 0.
     const std::array<std::array<Real, 4>, 2> f = {{{unit, 0, C, z2 * S}, {0, unit, S, C}}};
     for (int j = 0; j < 2; ++j) {
       for (int end = 0; end < 2; ++end) {
@@ -77,7 +78,7 @@ Real characteristic(const Beam& beam, const Real& w) {
 /// 31, where s runs from 0 to 1 along the beam and x = 2 s - 1. The area A is of second and the
 /// moment of inertia I of fourth degree in x, so that all integrals are sums of fractions.
 ///
-/// Coefficients of 1, x, x^2, ...
+/// A polynomial is stored as its coefficients of 1, x, x^2, ...
 using Polynomial = std::vector<Real>;
 
 Polynomial operator*(const Polynomial& a, const Polynomial& b) {
@@ -106,9 +107,10 @@ Polynomial line(const Real& ratio) {
   return {(1 + ratio) / 2, (ratio - 1) / 2};
 }
 
-/// Returns the Ritz values 1/w of a tapered cantilever with `n` functions s^2 x^k, descending, for
-/// unit E I, rho A and length. They are the singular values of L_K^-1 L_M, with K = L_K L_K^T and M
-/// = L_M L_M^T.
+/// Returns the Ritz values of 1/w of a tapered cantilever in descending order, where w is a
+/// circular frequency. The `n` functions are s^2 x^k; E I and rho A at the clamped end and the
+/// length are 1. The Ritz values are the singular values of L_K^-1 L_M, with K = L_K L_K^T and M =
+/// L_M L_M^T.
 RealVector ritz_periods(const Polynomial& depth, const Polynomial& width, std::size_t n) {
   const Polynomial A = depth * width, I = A * depth * depth;
   std::vector<Polynomial> shape(n), bend(n);

@@ -113,7 +113,8 @@ Real load_parameter(const Real& tip_angle) {
   return root * root;
 }
 
-/// Returns all columns of a dimensionless table, or that of "output", in m if it is a length.
+/// Returns a table of three dimensionless columns row by row, or only the column that the argument
+/// output names. Such a column is multiplied by length_m if it is a length.
 std::vector<Real> columns(const Arguments& arguments, const std::vector<Real>& table,
                           const std::array<const char*, 3>& names,
                           const std::array<bool, 3>& is_length) {

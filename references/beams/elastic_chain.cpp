@@ -9,10 +9,10 @@
 /// in extended precision. Source: E. Reissner, On one-dimensional finite-strain beam theory, ZAMP
 /// 23, 1972, 795-804.
 ///
-/// A section has the angle t. The part of the chain after the section exerts the force F and the
-/// moment m on it. Without EA a beam is inextensible, without GA it has no shear. With a = (cos t,
-/// sin t) and
-/// b = (-sin t, cos t):
+/// A section is at the point r and has the angle t, which is t0 in the undeformed chain. The part
+/// of the chain after the section exerts the force F and the moment m on it. Without EA a beam is
+/// inextensible, without GA it has no shear. With a = (cos t, sin t) and b = (-sin t, cos t), the
+/// derivatives with respect to the undeformed arc length are
 ///
 ///   t' = t0' + m/EI,  r' = (1 + F.a/EA) a + (F.b/GA) b,  m' = -r' x F.
 namespace trammel::references {

@@ -19,8 +19,9 @@ constexpr int kMaxWaveNumber = 4001;  // modal stresses decrease as n^-3
 const double kPi = std::acos(-1.0);
 
 /// Forced vibration of a simply supported Timoshenko beam under a load uniform over its span
-/// (NAFEMS R0016, tests 5H and 5T). Its exact modes are w = sin(a x), psi = s cos(a x), in both
-/// branches of each odd n:
+/// (NAFEMS R0016, tests 5H and 5T). Its exact modes have the deflection w = sin(a x) and the
+/// rotation psi = s cos(a x). Each odd n has two modes, with the circular frequencies w_n of the
+/// bending and the shear branch:
 ///
 ///   a = n pi/L,  s = a - rho w_n^2/(kappa G a).
 ///

@@ -43,13 +43,15 @@ namespace trammel::references {
 [[nodiscard]] std::vector<Real> deep_beam_program(const Arguments& arguments);
 
 /// Computes large-displacement equilibria and limit points of a chain of straight elastic beams.
-/// nodes_m: points [x, y]; the first is fixed in x and y.
-/// EI_N_m2; EA_N and GA_N (both infinite by default).
-/// start, end: lists of the fixed motions x, y, rotation, or free; start: rotation or free.
-/// loads: rows [node, Fx, Fy, M], node from 0.
-/// load_factors: each equilibrium is solved from the previous one; or
-/// limit_points: guesses [first angle or moment, Fx, Fy of the first section, load factor]. They
-/// are refined until the load is stationary.
+/// nodes_m: points [x, y] of the nodes; the first node is fixed in x and y.
+/// EI_N_m2, EA_N, GA_N: stiffnesses of all beams; EA_N and GA_N are infinite by default.
+/// start: rotation if the rotation of the first node is fixed, otherwise free.
+/// end: list of the fixed motions x, y and rotation of the last node, or free.
+/// loads: rows [node, Fx, Fy, M] of the loads at load factor 1. Nodes are numbered from 0.
+/// load_factors: load factors of the equilibria. Each solution starts from the previous one.
+/// limit_points (instead of load_factors): initial values of each limit point. They are the moment
+/// at the start (the angle if start is free), Fx and Fy at the start, and the load factor. Newton's
+/// method corrects them until the load is stationary.
 /// outputs: load_factor, displacement_x_m:NODE, displacement_y_m:NODE, rotation_rad:NODE.
 /// steps: integration steps per beam (8 by default).
 /// Values: all outputs of one equilibrium, then those of the next one.
@@ -88,23 +90,30 @@ namespace trammel::references {
 [[nodiscard]] std::vector<Real> parallelogram_chain_program(const Arguments& arguments);
 
 /// Computes the motion of a plane pendulum that is released at rest at the angle a from the lower
-/// vertical, counterclockwise positive. With k = sin(a/2) and w = sqrt(g/l), sin(theta/2) = k cd(w
-/// t, k), and the period is 4 K(k)/w. Values: the period [s]; or for each time x and y from the
-/// pivot [m], or the force of the rod on 1 kg, g (3 cos theta - 2 cos a) [N].
+/// vertical, counterclockwise positive. With k = sin(a/2) and w = sqrt(g/l), the angle theta at the
+/// time t satisfies sin(theta/2) = k cd(w t, k), and the period is 4 K(k)/w. Values: the period
+/// [s]; or for each time x and y from the pivot [m], or the force of the rod on 1 kg, g (3 cos
+/// theta - 2 cos a) [N].
 [[nodiscard]] std::vector<Real> pendulum_program(const Arguments& arguments);
 
-/// Computes the displacement x [m] of a carriage with an unbalanced rotor at each time. Arguments:
-/// unbalance_m (m e/M), angular_frequency_rad_s (w), speed_rad_s (W) and duration_s (T) of the
-/// rotation a' = W (t/T - sin(2 pi t/T)/(2 pi)), times_s, ascending, at most T.
+/// Computes the displacement x [m] of a carriage on a spring, in which an unbalanced rotor starts
+/// from rest. The angular frequency of carriage and spring is w (angular_frequency_rad_s). The
+/// argument unbalance_m is m e/M, with the unbalanced mass m at the radius e and the total mass M.
+/// The speed of the rotor increases from 0 to W (speed_rad_s) during the time T (duration_s): a' =
+/// W (t/T - sin(2 pi t/T)/(2 pi)). The argument times_s is ascending and at most T. Values: x at
+/// each time.
 [[nodiscard]] std::vector<Real> run_up_program(const Arguments& arguments);
 
 /// Computes bending frequencies [Hz] of a linearly tapered cantilever. The arguments thickness_m
 /// (in the plane of bending) and width_m are pairs [clamped end, free end].
-/// @throws DerivationError  if omitting two functions changes an eigenvalue by more than 1e-14.
+/// @throws DerivationError  if omitting two of the Rayleigh-Ritz functions changes an eigenvalue by
+/// more than 1e-14.
 [[nodiscard]] std::vector<Real> tapered_beam_program(const Arguments& arguments);
 
-/// Computes dimensionless frequencies mu of a rotating cantilever at the angular speed eta. The
-/// argument axial_ratio includes the Coriolis coupling to axial motion.
+/// Computes dimensionless frequencies mu = w sqrt(rho A L^4/EI) of a rotating cantilever. The
+/// argument eta is the dimensionless angular speed, Omega sqrt(rho A L^4/EI). With the argument
+/// axial_ratio, EA L^2/EI, the beam is axially flexible. The Coriolis force then couples bending in
+/// the plane of rotation to axial motion.
 [[nodiscard]] std::vector<Real> rotating_beam_roots_program(const Arguments& arguments);
 
 /// Computes frequencies [Hz] of a rotating cantilever. The thickness is in the bending direction.
@@ -145,8 +154,9 @@ struct BeamEnds {
 /// Computes natural frequencies of a uniform beam [Hz]. The thickness lies in the plane of bending.
 [[nodiscard]] std::vector<Real> beam_frequencies_program(const Arguments& arguments);
 
-/// Fraction of the modal mass that the beam contributes, for a cantilever with the tip mass ratio
-/// mu and each root b:
+/// Computes the fraction of the modal mass that the beam contributes, for each mode of a cantilever
+/// with a tip mass. The mode shape is w(x), mu = M/(rho A L) is the tip mass ratio, and b = beta L
+/// is the root of the mode:
 ///
 ///   int w^2 dx / (int w^2 dx + mu L w(L)^2) = 1 + 4 (mu / b) db/dmu.
 ///

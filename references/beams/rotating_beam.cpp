@@ -61,7 +61,8 @@ Tip tip_of_series(const RotatingBeam& beam, const Real& mu, const Tip& start) {
                       U[k + 2] * k2};
     for (int i = 0; i < 3; ++i) tip[i] += step[i];
     largest = std::max({largest, Real(abs(step[1])), Real(abs(step[2]))});
-    // Powers whose exponents differ modulo four can decouple. Four successive terms must be small.
+    // Terms of the power series whose exponents differ modulo four can be independent. The series
+    // is therefore ended only after four successive small terms.
     const bool small = abs(step[0]) + abs(step[1]) + abs(step[2]) < Real(1e-60) * largest;
     small_terms = small ? small_terms + 1 : 0;
     if (small_terms == 4) break;
@@ -82,7 +83,7 @@ Real characteristic(const RotatingBeam& beam, const Real& mu) {
 /// Returns the first `count` natural frequencies mu of a rotating beam.
 std::vector<Real> rotating_beam_roots(const RotatingBeam& beam, int count) {
   // The solutions grow like exp(eta sqrt(r + 1/2)) and become nearly proportional. Their
-  // determinant therefore loses log10 of this factor in digits.
+  // determinant therefore loses log10 of this factor in digits, and 69 corresponds to 30 digits.
   if (beam.eta * sqrt(beam.hub_ratio + Real(0.5)) > 69) {
     throw DerivationError("the beam rotates too fast: round-off exceeds fifty digits");
   }

@@ -38,7 +38,8 @@ struct JsonMember {
 [[nodiscard]] std::optional<std::string_view> find_member(const std::vector<JsonMember>& members,
                                                           std::string_view key);
 
-/// Adds to a reference the common keys of its family that it does not have. Derivations are merged.
+/// Adds to a reference the common keys of its family that the reference does not have. If both have
+/// a derivation, the keys of the two derivations are merged.
 [[nodiscard]] nlohmann::json with_common(const nlohmann::json& common, nlohmann::json reference);
 
 /// Reads the references of a family file by id.
@@ -46,8 +47,8 @@ struct JsonMember {
 [[nodiscard]] std::map<std::string, nlohmann::json> read_family(const std::string& file);
 
 /// Returns the JSON files below a folder, each with its name without ".json"; none if there is no
-/// such folder. It uses readdir, because std::filesystem needs 7,000 instructions per file, and
-/// every command starts with this walk.
+/// such folder. The function uses readdir, because std::filesystem needs 7,000 instructions per
+/// file, and every command starts with this walk.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> json_files(
     const std::string& folder);
 

@@ -38,7 +38,8 @@ struct MembraneState {
 
 [[nodiscard]] MembraneState evaluate(const MembraneProblem& problem, double x, double y);
 
-/// Returns true for each of u and v that is fixed at a point of the boundary, where it is zero.
+/// Returns for u and for v at a point of the boundary: true if the problem fixes this displacement
+/// there. A fixed displacement is zero in the manufactured field.
 [[nodiscard]] std::array<bool, 2> fixed_displacements(const MembraneProblem& problem, double x,
                                                       double y);
 
@@ -73,8 +74,9 @@ struct BeamProblem {
 struct BeamState {
   double axial, deflection, rotation;               ///< u, v [m], θ [rad]
   double axial_force, shear_force, bending_moment;  ///< N, V [N], M [N m]
-  double axial_load, transverse_load, moment_load;  ///< n, q [N/m], m [N m/m]:
-  ///< N' + n + rho A omega^2 u = 0, V' + q + rho A omega^2 v = 0, M' + V + m + rho I omega^2 θ = 0
+  /// Loads n, q [N/m] and m [N m/m], by which the field satisfies the equations of motion
+  /// N' + n + rho A omega^2 u = 0, V' + q + rho A omega^2 v = 0, M' + V + m + rho I omega^2 θ = 0.
+  double axial_load, transverse_load, moment_load;
 };
 
 [[nodiscard]] BeamState evaluate(const BeamProblem& problem, double x);

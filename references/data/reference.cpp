@@ -174,7 +174,8 @@ Source read_source(std::string_view json, const std::string& place) {
     const Json source = Json::parse(json);
     return {source.at("text").get<std::string>(), source.value("doi", "")};
   } catch (const Json::exception& error) {
-    throw ReferenceError(place + ": expected 'text' and 'doi' (" + error.what() + ")");
+    throw ReferenceError(place + ": expected the texts 'text' and, optionally, 'doi' (" +
+                         error.what() + ")");
   }
 }
 

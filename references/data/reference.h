@@ -40,9 +40,10 @@ class ReferenceError : public std::runtime_error {
 
 /// Reads a reference with all its keys, also those that its family has in common.
 /// @param file  name of the file in messages
-/// @throws ReferenceError  if a key is missing or of the wrong type, if lengths differ, or if a
-///                         printed number is not the value. It is also thrown if neither digits nor
-///                         an uncertainty are stated.
+/// @throws ReferenceError  if a key is missing or of the wrong type, or if 'printed' or the
+///                         uncertainty has another number of items than 'values'. It is also thrown
+///                         if 'uncertainty' is missing, and 'printed' is missing or differs from
+///                         'values'.
 [[nodiscard]] Reference read_reference(const nlohmann::json& json, const std::string& file,
                                        const std::string& id);
 
@@ -58,7 +59,7 @@ struct Source {
 
 /// Reads a member of a bibliography, {"key": {"text": "...", "doi": "..."}}.
 /// @param place  location in messages, "file: /key"
-/// @throws ReferenceError  if the member has no 'text' or 'doi'.
+/// @throws ReferenceError  if 'text' is missing, or if 'text' or 'doi' is not a text.
 [[nodiscard]] Source read_source(std::string_view json, const std::string& place);
 
 }  // namespace trammel::references

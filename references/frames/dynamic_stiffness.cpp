@@ -56,8 +56,9 @@ MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const 
   const T p = (g + r - tension / m.EI) / 2;
   const T q = g * r - w2 * m.mass / m.EI;
   const T root = sqrt(p * p - q);
-  // Two roots: `below` < 0 is oscillatory, `above` only beyond the cut-on frequency of shear waves.
-  // The formulas avoid cancellation.
+  // `below` and `above` are the two roots k^2. The root `below` is negative, so that its solution
+  // oscillates along the beam. The root `above` is negative only beyond the cut-on frequency of
+  // shear waves. The formulas avoid cancellation.
   const T below = p >= 0 ? T(-p - root) : T(q / (root - p));
   const T above = p >= 0 ? T(q / below) : T(root - p);
   // The solutions with the roots `above` and `below` are the columns of these matrices.

@@ -16,7 +16,8 @@
 ///   J(w) = J0(w) + s(D(w)).
 namespace trammel::references {
 
-/// Properties of a member in the number type of the evaluation.
+/// Properties of a member as numbers of type T. The Wittrick-Williams count is evaluated with
+/// double, Real or Ball numbers.
 template <class T>
 struct MemberData {
   explicit MemberData(const FrameSection& s, const Real& L)
@@ -33,7 +34,7 @@ struct MemberData {
 template <class T>
 class DynamicStiffness {
  public:
-  /// @throws DerivationError  as `FrameCoordinates`.
+  /// @throws DerivationError  if a member has no length.
   explicit DynamicStiffness(const Frame& frame);
 
   struct Count {

@@ -43,10 +43,11 @@ struct FrameMaterial {
 [[nodiscard]] FrameSection rectangle(const FrameMaterial& material, const Real& thickness,
                                      const Real& width, const Real& shear_coefficient);
 
-/// Restricts a section to the theory of a member: "beam" (euler-bernoulli, by default, shear with
-/// 1/(kappa G A), rayleigh with rho I, timoshenko with both) and "axial" (flexible, by default, or
-/// inextensible).
-/// @throws DerivationError  with the JSON pointer, if the member names another theory.
+/// Returns a section without the compliances and inertias that the theory of the member omits. The
+/// key "beam" is euler-bernoulli (default), shear, rayleigh or timoshenko. Shear and timoshenko
+/// keep 1/(kappa G A); rayleigh and timoshenko keep rho I. The key "axial" is flexible (default) or
+/// inextensible.
+/// @throws DerivationError  with the JSON pointer, if a key has another value.
 [[nodiscard]] FrameSection member_section(FrameSection section, const Arguments& member);
 
 enum class Fixity { welded, hinged, sprung };

@@ -13,7 +13,8 @@
 /// u = N q.
 namespace trammel::references {
 
-/// Spring between two coordinates. Its force is +s on the coordinate `from` and -s on `to`.
+/// Spring between the coordinates `from` and `to` of u. Its tension, stiffness * (u[to] - u[from]),
+/// acts positively on `from` and negatively on `to`.
 struct SpringElement {
   int from, to;  ///< from -1: the ground
   Real stiffness;

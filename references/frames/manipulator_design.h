@@ -66,7 +66,8 @@ struct ManipulatorNumbers {
 
 [[nodiscard]] ManipulatorNumbers read_manipulator_numbers(const Arguments& manipulator);
 
-/// Returns arguments["manipulator"]. Its keys must be known.
+/// Returns arguments["manipulator"].
+/// @throws DerivationError  if it has a key that is not listed at the top of this file.
 [[nodiscard]] Arguments manipulator_arguments(const Arguments& arguments);
 
 /// Returns a planar 3-RRR with a rigid platform as a frame. Closed-form inverse kinematics is used:
@@ -76,7 +77,8 @@ struct ManipulatorNumbers {
 /// The numbers are those of `read_manipulator_numbers`. The platform has the kind "rigid". Joints:
 /// active locked, free or spring; elbow and platform welded, hinged or spring; platform eq25-mean
 /// or eq25-sum.
-/// @throws DerivationError  with the JSON pointer, or if a limb cannot reach.
+/// @throws DerivationError  with the JSON pointer if an argument is invalid, or if a limb cannot
+/// reach its platform joint.
 [[nodiscard]] Frame manipulator_frame(const Arguments& manipulator, const Arguments& pose);
 
 }  // namespace trammel::references

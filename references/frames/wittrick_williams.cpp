@@ -19,7 +19,9 @@ std::pair<Real, Real> coarse_bracket(const CountingFunction& f, int index) {
   double lo = f.lo;
   double hi = f.hi;
   for (int i = 0; f.coarse(hi) < index; ++i) {
-    if (i > 60) throw DerivationError("fewer than " + std::to_string(index) + " roots were found");
+    if (i > 60)
+      throw DerivationError("fewer than " + std::to_string(index) +
+                            " natural frequencies or buckling loads were found");
     lo = hi;
     hi *= 2;
   }
@@ -34,7 +36,8 @@ std::pair<Real, Real> coarse_bracket(const CountingFunction& f, int index) {
 void confirm_bracket(const CountingFunction& f, int index, Real& lo, Real& hi) {
   for (Real relative_width = Real(1e-8); f.fine(lo).below >= index; relative_width *= 10) {
     lo *= 1 - std::min(relative_width, Real(0.5));
-    if (lo < Real(f.lo) * Real(1e-3)) throw DerivationError("the lowest root is too close to zero");
+    if (lo < Real(f.lo) * Real(1e-3))
+      throw DerivationError("the lowest natural frequency or buckling load is too close to zero");
   }
   for (Real relative_width = Real(1e-8); f.fine(hi).below < index; relative_width *= 10)
     hi *= 1 + relative_width;
@@ -101,7 +104,8 @@ Real buckling_scale(const Frame& frame) {
   return scale;
 }
 
-/// Returns a decimal of twelve digits, so that reading it restores the intended number.
+/// Returns the number rounded to twelve significant digits. This removes the round-off of a sum, so
+/// that 0.1 + 0.2 is stored as the decimal 0.3.
 Json decimal(double value) {
   std::ostringstream text;
   text.precision(12);

@@ -88,8 +88,10 @@ class Instant {
     }
   }
 
-  /// Adds the distances from singularities. The rows of the matrix are the Pluecker coordinates of
-  /// the distal links. Moments about P are divided by the platform radius.
+  /// Adds the distances from parallel and serial singularities. The parallel distance is the ratio
+  /// of the smallest to the largest singular value of a matrix. Its rows are the Pluecker
+  /// coordinates of the distal links, with moments about P divided by the platform radius. The
+  /// serial distance is the smallest |sine| of an elbow angle.
   void add_singularities() {
     Real squares = 0;
     for (const LimbNumbers& limb : m_.limbs)

@@ -10,19 +10,22 @@ namespace trammel::references {
 namespace {
 
 /// Vibration of the platform of a planar 3-RRR about its motion along a path, on links without
-/// mass, with distal links hinged at both ends. Each limb is a bar, elastic along B C. With the
+/// mass, with distal links hinged at both ends. Each limb acts on the platform like a bar along B C
+/// with the stiffness k. With the lengths l_p and l_d of the proximal and distal link, and the
 /// angle b between the links:
 ///
 ///   1/k = l_d/EA + l_p cos^2 b/EA + (l_p^3/(3 EI) + l_p/(kappa G A)) sin^2 b.
 ///
-/// The platform has three coordinates about P, q = (u_x, u_y, theta), in world axes. With the
-/// center of mass at s from P, e the axis of rotation, and W q = u + theta e x s its displacement:
+/// The platform has three coordinates about P, q = (u_x, u_y, theta), in world axes, the mass m,
+/// and the moment of inertia J about its center of mass. The vector s points from P to the center
+/// of mass, and e is the axis of rotation. The center of mass moves by W q = u + theta e x s. The
+/// load F acts at P with the factor h(t). The equations of motion are
 ///
 ///   m W^T (W q.. + 2 W. q. + W.. q + r..) + J e (theta.. + phi..) + K(t) q = h(t) F.
 ///
-/// Dots are time derivatives, and r.. is the acceleration of the center of mass in the nominal
-/// motion. The paper omits W. and W.. (`rate_terms` false). The equations are integrated by
-/// Fehlberg's method of order 8 in steps of 0.25 ms.
+/// Dots are time derivatives. In the nominal motion, r.. is the acceleration of the center of mass
+/// and phi.. the angular acceleration of the platform. The paper omits W. and W.. (`rate_terms`
+/// false). The equations are integrated by Fehlberg's method of order 8 in steps of 0.25 ms.
 using State = std::array<Real, 6>;  // u_x, u_y, theta and their rates
 using Three = std::array<Real, 3>;
 
@@ -75,8 +78,9 @@ class Platform {
       const Real tension = one.stiffness * stretch(one, x);
       for (std::size_t c = 0; c < 3; ++c) f[c] -= tension * one.stretch[c];
     }
-    // The moment balance about the center of mass solves the equations of motion. The coefficients
-    // of their mass matrix are m, -m s_y, m s_x and J + m s^2.
+    // Solves the equations of motion. Their mass matrix has the entries m, -m s_y, m s_x and J + m
+    // s^2. The moment balance about the center of mass therefore contains only the angular
+    // acceleration.
     const Real turn = (f[2] - (s[0] * f[1] - s[1] * f[0])) / J;
     dx = {x[3], x[4], x[5], f[0] / m + s[1] * turn, f[1] / m - s[0] * turn, turn};
   }
@@ -340,8 +344,8 @@ class Links {
   std::vector<std::array<Link, 2>> links_;
 };
 
-/// Returns the states of a manipulator at the times. For a rotation of about 1 rad, twelve steps of
-/// order 8 have an error of 1e-13.
+/// Returns the states of a manipulator at the times. If the links rotate by about 1 rad, twelve
+/// integration steps of order 8 have an error of 1e-13.
 std::vector<SystemState> states(const Links& links, const std::vector<Real>& times) {
   constexpr int kSteps = 4;  // steps between two successive times
   const auto rate = [&](const SystemState& x, SystemState& dx, const Real& t) {

@@ -63,7 +63,8 @@ RealVector slopes(const std::vector<Real>& t, const std::vector<Real>& y, const 
   RealVector b = RealVector::Zero(n);
   const auto h = [&](std::size_t k) { return Real(t[k + 1] - t[k]); };
   const auto chord_slope = [&](std::size_t k) { return Real((y[k + 1] - y[k]) / h(k)); };
-  // The second derivatives at the end of interval `k` and at the start of interval `l` are equal.
+  // Sets an equation of the slopes: the second derivatives at the end of interval `k` and at the
+  // start of interval `l` are equal.
   const auto smooth = [&](std::size_t row, std::size_t k, std::size_t l) {
     A(row, k) += 2 / h(k);
     A(row, k + 1) += 4 / h(k);

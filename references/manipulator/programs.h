@@ -63,9 +63,10 @@ namespace trammel::references {
 [[nodiscard]] std::vector<Real> grnn_program(const Arguments& arguments);
 
 /// Computes the angles or velocities of the active joints that a general regression neural network
-/// estimates. It is trained with torques by Newton and Euler along the path. Arguments: step_s,
-/// train (points of the path, from the first), sigma [N m], queries (numbers of points).
-/// Values: the estimates for A1 at each query, for A2, for A3 [rad or rad/s].
+/// estimates. It is trained with torques by Newton and Euler along the path. Point k of the path is
+/// at the time k step_s, and k starts from 0. Arguments: train (the first train points are training
+/// samples), sigma [N m], queries (numbers k of the points to estimate). Values: the estimates for
+/// A1 at each query, then for A2, then for A3 [rad or rad/s].
 [[nodiscard]] std::vector<Real> manipulator_grnn_program(const Arguments& arguments);
 
 }  // namespace trammel::references

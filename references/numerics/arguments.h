@@ -41,7 +41,8 @@ class Arguments {
   [[nodiscard]] Arguments object(const std::string& key,
                                  const std::vector<std::string>& known) const;
 
-  // A number is the decimal number in the file: 0.0015 is 15/10000, not the nearest double.
+  // The functions below return a number as the decimal number in the file: 0.0015 is 15/10000, not
+  // the nearest double.
   [[nodiscard]] Real number(const std::string& key, const Default& default_value = {}) const;
   [[nodiscard]] Real positive(const std::string& key, const Default& default_value = {}) const;
   [[nodiscard]] Real not_negative(const std::string& key, const Real& default_value) const;
@@ -51,7 +52,7 @@ class Arguments {
   /// Returns one of `choices`, or `default_value` if the key is missing.
   [[nodiscard]] std::string choice(const std::string& key, const std::string& default_value,
                                    const std::vector<std::string>& choices) const;
-  /// @param size  required size of the array; 0: any size
+  /// @param size  required length of the array; 0: any length
   [[nodiscard]] std::vector<Real> numbers(const std::string& key, std::size_t size = 0) const;
   /// @param columns  required length of each row; 0: the length of the first row
   [[nodiscard]] std::vector<std::vector<Real>> rows(const std::string& key,

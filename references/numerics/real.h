@@ -19,8 +19,8 @@ template <class T>
   return value;
 }
 
-/// Returns C and its integral S from 0 to x. C is cosh(k x) if k^2 > 0, and cos(|k| x) otherwise.
-/// Both are divided by cosh(k x) if k^2 > 0.
+/// Returns the function C at x and its integral S from 0 to x. If k^2 > 0, C is cosh(k x), and both
+/// values are divided by cosh(k x). Otherwise C is cos(|k| x).
 template <class T>
 [[nodiscard]] std::array<T, 2> wave_functions(const T& k2, const T& x) {
   using std::cos, std::sin, std::sqrt, std::tanh;

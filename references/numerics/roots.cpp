@@ -11,7 +11,8 @@ Real refined_root(const std::function<Real(const Real&)>& f, const Real& lo, con
   const Real f_lo = f(lo), f_hi = f(hi);
   if (f_lo == 0) return lo;
   if (f_hi == 0) return hi;
-  if ((f_lo > 0) == (f_hi > 0)) throw DerivationError("the function does not change sign");
+  if ((f_lo > 0) == (f_hi > 0))
+    throw DerivationError("a function does not change sign in the interval of its root");
   std::uintmax_t iterations = 500;
   const auto close = [](const Real& a, const Real& b) {
     return abs(b - a) <= Real(1e-45) * (abs(a) + abs(b));
@@ -31,7 +32,8 @@ std::vector<Real> first_roots(const std::function<Real(const Real&)>& f, const R
     lo = hi;
     f_lo = f_hi;
   }
-  if (static_cast<int>(roots.size()) < count) throw DerivationError("fewer roots than requested");
+  if (static_cast<int>(roots.size()) < count)
+    throw DerivationError("the characteristic function has fewer roots than requested");
   return roots;
 }
 

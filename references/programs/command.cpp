@@ -109,7 +109,8 @@ int run(const std::vector<std::string>& command_line, std::ostream& out, std::os
                        out);
   }
   for (const std::string& argument : command_line) {
-    if (argument.rfind("--", 0) == 0) throw DerivationError("cannot use '" + argument + "' here");
+    if (argument.rfind("--", 0) == 0)
+      throw DerivationError("cannot use '" + argument + "'; --help lists the options");
   }
   bool holds = true;
   for (const std::string& file : command_line) holds = print_comparisons(file, out) && holds;

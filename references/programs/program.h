@@ -23,7 +23,8 @@ struct Program {
 [[nodiscard]] const std::map<std::string, Program>& programs();
 
 /// Returns the values that a program derives from its arguments, in SI units.
-/// @throws DerivationError  unknown program or invalid arguments, with a JSON pointer into these.
+/// @throws DerivationError  if the program is unknown, or if an argument is invalid. The message
+/// then contains the JSON pointer of the argument.
 [[nodiscard]] std::vector<double> derive(const std::string& program, const Json& arguments);
 
 /// Return proved values of the programs frame-frequencies and beam-roots, 30 digits each.
@@ -31,7 +32,8 @@ struct Program {
 [[nodiscard]] std::vector<std::string> prove_beam_roots(const Arguments& arguments);
 
 /// Returns the values that a program proves, 30 digits each.
-/// @throws DerivationError  if the program has no proof, and in the cases of `derive`.
+/// @throws DerivationError  if the program is unknown or has no proof, or if an argument is
+/// invalid.
 [[nodiscard]] std::vector<std::string> prove(const std::string& program, const Json& arguments);
 
 struct Comparison {

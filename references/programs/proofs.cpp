@@ -51,7 +51,8 @@ class Proof {
     // The bracket is not symmetric, so that bisection avoids x, which may be the exact root.
     Ball low = (x - width).middle(), high = (x + width * 2).middle();
     if (count(low) != below_) low = last_;
-    if (count(low) != below_) throw DerivationError("a frequency lies below the first estimate");
+    if (count(low) != below_)
+      throw DerivationError("a frequency is below a thousandth of the first approximate value");
     for (int i = 0; count(high) <= below_; ++i) {
       if (i > 5) throw DerivationError("no natural frequency is near its approximate value");
       width = width * 1000;

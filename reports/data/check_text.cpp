@@ -105,7 +105,8 @@ std::string difference_text(const Check& check, double difference) {
 
 std::string difference_text(const Check& check) {
   if (check.measure == "bound") {
-    // The text for an upper limit is its used fraction; for a range it is "within" or "outside".
+    // A value with only an upper limit is shown as its fraction of the limit: "12 % of limit". A
+    // value with a lower limit is shown as "within" or "outside" its limits.
     const double used = tolerance_fraction(check);
     if (!std::isfinite(used)) return "–";
     if (check.tolerance->low) return used <= 1 ? "within" : "outside";

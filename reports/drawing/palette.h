@@ -7,7 +7,8 @@ namespace trammel::reports::palette {
 
 /// Colors of all figures. They are distinguishable with the common types of color blindness and in
 /// gray print (after Okabe and Ito, darkened for thin lines on white). The file figure.css maps
-/// each color to a color for dark pages. A new color needs a line in this file.
+/// each color to a color for dark pages. A color that is added to palette.h also needs a line in
+/// figure.css.
 inline constexpr const char* kPaper = "#ffffff";
 inline constexpr const char* kInk = "#1d232b";
 inline constexpr const char* kMuted = "#5b6470";

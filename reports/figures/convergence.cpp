@@ -90,7 +90,8 @@ std::map<double, Interval> error_ranges(const Sweeps& sweeps) {
 void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interval& extent) {
   if (theory <= 0) return;
   const std::map<double, Interval> ranges = error_ranges(sweeps);
-  // The triangle has most room next to the steepest part of the curve.
+  // The slope triangle is drawn next to the steepest part of the lower edge of the curves, which
+  // has most room for it.
   double steepest = 0;
   auto start = ranges.end();
   for (auto k = ranges.begin(); k != ranges.end() && std::next(k) != ranges.end(); ++k) {
@@ -114,7 +115,8 @@ void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interva
                                        " front textcolor rgb '" + palette::kInk + "'");
 }
 
-/// Returns the theoretical error law with terms of two orders: "a h^4 + b h^1.35".
+/// Returns the theoretical law of the error with terms of two orders in the element size or step h:
+/// "a h^4 + b h^1.35".
 std::string law_of(const Convergence& c) {
   return "a h^" + trimmed(*c.theory_order, 3) + " + b h^" + trimmed(*c.lower_order, 3);
 }

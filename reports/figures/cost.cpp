@@ -38,7 +38,8 @@ Interval times_of(const CostStudy& study) {
   return times;
 }
 
-/// Returns the first setting of each curve (a curve is a series of settings).
+/// Returns the first setting of each curve. A setting is a model with one value of a numerical
+/// parameter, such as the number of elements. The settings of a curve differ only in this value.
 std::vector<const CostSetting*> curves_of(const CostStudy& study) {
   std::vector<const CostSetting*> curves;
   for (const CostSetting& setting : study.settings) {

@@ -44,7 +44,8 @@ namespace trammel::reports {
                                                const std::vector<const Run*>& runs,
                                                std::string& problem);
 
-/// Figure of the undeformed mechanism with its joints, drawn over its further poses.
+/// Figure of the undeformed mechanism with its joints in the first pose. If the case has several
+/// poses, the other poses are drawn behind the first.
 [[nodiscard]] std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run);
 
 /// Figure of instants of a motion with magnified deflections, which the script of a page animates.

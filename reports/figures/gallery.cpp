@@ -20,7 +20,8 @@ void append(std::vector<Figure>& figures, std::vector<Figure> more) {
 }
 
 /// Plans the figures of a case. The page shows the geometry, and the shapes and convergence of the
-/// first run that has them. It folds the shapes and convergence of further runs.
+/// first run that has them. The shapes and convergence of further runs are in folded parts of the
+/// page.
 Gallery gallery_of(const CaseInfo& info, const Results& results,
                    const std::vector<const Run*>& runs) {
   Gallery gallery;

@@ -9,7 +9,8 @@
 
 namespace trammel::reports {
 
-/// Figures that a page shows or folds for a case, and reasons for figures that cannot be drawn.
+/// Figures of a case that its page shows openly or in folded parts, and reasons for figures that
+/// cannot be drawn.
 struct Gallery {
   std::vector<Figure> shown, folded;
   std::vector<std::string> problems;

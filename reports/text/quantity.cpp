@@ -60,7 +60,8 @@ QuantityLabel parse_quantity(const std::string& name) {
   const auto [base, unit] = harness::split_unit(name);
   quantity.unit = display_unit(unit);
   if (colon != std::string::npos) quantity.subject = name.substr(colon + 1);
-  // The number in frequency_Hz:1 is that of a mode along a path or over a range of speeds.
+  // A number after the colon is a mode number: frequency_Hz:1 contains the frequency of mode 1 at
+  // each point of a path or at each speed.
   if (quantity.subject.find_first_not_of("0123456789") == std::string::npos &&
       !quantity.subject.empty()) {
     quantity.subject.insert(0, "mode ");

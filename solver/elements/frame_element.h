@@ -134,8 +134,8 @@ template <Real T>
   return (M + M.transpose().eval()) * T(0.5);
 }
 
-/// Returns the mass matrix of a bar that does not bend (E I = 0), 6 x 6. Both displacements are
-/// linear, and rotations are massless.
+/// Returns the mass matrix of a bar that does not bend (E I = 0), 6 x 6. The axial and the
+/// transverse displacement vary linearly along the bar, and rotations are massless.
 [[nodiscard]] Matrix6d bar_mass(const Section& section, MassMatrix mass, double length);
 
 /// Returns the consistent nodal forces [N, N, N m] of a uniform load (qx, qy) [N/m] in element

@@ -107,7 +107,8 @@ template <int nodes>
 template <std::size_t n>
 struct TriangleStiffness {
   static constexpr int kRows = n == 3 ? 3 : 18;
-  /// Deformations at the integration points [1/m].
+  /// Matrix from nodal displacements to deformations (exx + eyy, exx - eyy, gxy) [1/m]. It has
+  /// three rows for each integration point.
   Eigen::Matrix<double, kRows, static_cast<int>(2 * n)> B;
   Eigen::Matrix<double, kRows, 1> c;  ///< [N m]
 };

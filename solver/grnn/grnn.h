@@ -86,7 +86,8 @@ class ExcessDistances {
   const Eigen::ArrayXd& compute(const Eigen::Ref<const Eigen::VectorXd>& query, double reach,
                                 const Eigen::Array<bool, Eigen::Dynamic, 1>* skip = nullptr);
 
-  /// Range [first, last) of samples that contains all samples within reach of the last query.
+  /// Range [first, last) of samples. It contains all samples whose excess is below the argument
+  /// `reach` of the last call of `compute`.
   [[nodiscard]] Index first() const { return first_; }
   [[nodiscard]] Index last() const { return last_; }
 

@@ -102,8 +102,8 @@ class ConsistentInitialization {
 
   bool solve_velocities(const PrescribedVelocities& given) {
     assemble(1e-3);
-    // Penalties enforce the prescribed velocities. They are 1e6 times the masses and the stiffness
-    // in S, for unit changes of the coordinates.
+    // Penalties enforce the prescribed velocities. A penalty is 1e6 times the larger of the masses
+    // and the stiffness in the assembled matrix, for unit changes of the coordinates.
     const VectorXd& scale = system_.scale();
     VectorXd units = VectorXd::Zero(n_ + m_), rows = units;
     units.head(n_) = scale;

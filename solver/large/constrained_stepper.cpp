@@ -202,7 +202,8 @@ StepReport ConstrainedStepper::attempt(const Step& step) {
   if (report.status == Status::solved) {
     const auto norm = [this](const VectorXd& x) { return size(x); };
     relation_residual_ = relation_residual(s, h, from_, A0_, to_, A1_, !projects_, norm, work_);
-    // A system at rest under changing forces moves only by their round-off errors.
+    // A system at rest under changing forces moves only by the round-off errors of these forces.
+    // Compute the residual again, relative to terms that include these errors.
     if (relation_residual_ > 1e-6) {
       relation_residual_ = relation_residual(s, h, from_, A0_, to_, A1_, !projects_, norm, work_,
                                              per_acceleration(h) * correction_roundoff(h));
@@ -264,8 +265,8 @@ StepReport ConstrainedStepper::iterate(const Step& step) {
 }
 
 StepReport ConstrainedStepper::newton(const Step& step, bool exact) {
-  // The energy-momentum method has more iterations. It conserves energy only if the iteration
-  // converges fully, which may be slow.
+  // The energy-momentum method may use more iterations than the generalized-alpha method. It
+  // conserves energy only if the iteration converges fully, which may be slow.
   const int max_iterations = scheme_.keeps_rates ? 20 : 30;
   const Index n = system_.coordinates();
   const double h = step.size;

@@ -14,7 +14,8 @@ namespace trammel::solver::large_motion {
 /// Largest residuals of the rigid constraints of a state.
 struct ConstraintGaps {
   double position = 0, rate = 0;  ///< residual [m or rad], its rate [m/s or rad/s]
-  /// Residual and rate relative to the model size or 1 rad [-], [1/s].
+  /// Largest residual and largest rate over all constraints, relative to the model size for
+  /// translations and to 1 rad for rotations [-], [1/s].
   double relative_position = 0, relative_rate = 0;
 };
 
@@ -42,9 +43,9 @@ class MotionResiduals {
 
 /// Orientation of the assembly of a mechanism: the sign of det G, or of det (G, v) with one degree
 /// of freedom. G is the gradient of the constraints, and v the velocity. The signs of two assembly
-/// branches that meet at a singular position are opposite. A time step that is longer than the
-/// distance of the branches may end on the wrong branch, although its residuals are only round-off
-/// errors.
+/// branches that meet at a singular position are opposite. If the mechanism moves farther in a
+/// time step than the distance between the branches, the step may end on the wrong branch. The
+/// residuals of such a step are only round-off errors.
 class AssemblyBranch {
  public:
   /// @pre The system outlives this object.

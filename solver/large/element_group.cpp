@@ -84,8 +84,8 @@ RowScales PenaltyScales::of_row(std::span<const Index> coordinates, double lever
   const bool turns =
       std::ranges::all_of(coordinates, [&](Index k) { return k < 0 || layout_.is_rotation(k); });
   const auto largest = [&](const Eigen::VectorXd& values, double mean) {
-    // `value` is the largest value of coordinates of the same type as the row (translation or
-    // rotation). `levered` is the largest value of rotations in a row of displacements.
+    // `value` is the largest stiffness or mass of the coordinates of the same type as the row
+    // (translation or rotation). `levered` is that of the rotations in a row of displacements.
     double value = 0, levered = 0;
     for (const Index k : coordinates) {
       if (k < 0) continue;

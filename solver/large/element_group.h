@@ -17,10 +17,12 @@ namespace trammel::solver::large_motion {
 /// Typical stiffness and mass of the parts that a constraint row joins. They determine the penalty
 /// rho of the row (`KktMatrix`).
 struct RowScales {
-  double unit = 1;  ///< unit of the residual: 1 rad if all coordinates are rotations, otherwise the
-                    ///< model size [m]
-  double stiffness = 0, mass = 0;  ///< largest of the coordinates, in the unit of the row; mean
-                                   ///< of the model if they are zero
+  /// Unit of the residual: 1 rad if all coordinates of the row are rotations, otherwise the model
+  /// size [m].
+  double unit = 1;
+  /// Largest stiffness and largest mass of the coordinates of the row, in the unit of the row. If
+  /// all of them are zero, the mean over the model is used.
+  double stiffness = 0, mass = 0;
 };
 
 /// Computes the typical stiffness and mass (`RowScales`) of constraint rows.
@@ -227,7 +229,8 @@ class ElementGroup {
   }
 
   /// Adds the derivatives of `discrete_gradient_forces` and of the constraint rows with respect to
-  /// the state `to`, except terms of the squared step. `midpoint` has the mean coordinates.
+  /// the state `to`. The error of the derivatives is proportional to the square of the step,
+  /// because element matrices are evaluated at the state `midpoint` with the mean coordinates.
   void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
                                  double tau, const TangentCoefficients& coefficients,
                                  KktMatrix& matrix) const {

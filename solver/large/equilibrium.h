@@ -123,9 +123,10 @@ void count_tangents(const large_motion::GeometricallyExactSystem& system, std::i
 [[nodiscard]] StaticSolution solve_large_statics(
     const Model& model, const large_motion::LargeMotionModel& large_motion = {});
 
-/// Solves statics with large displacement to six digits, without evidence. All Newton corrections
-/// use the tangent of the unloaded model. If they decrease too slowly, or the number of unstable
-/// directions changes, the function calls `solve_large_statics`.
+/// Solves statics with large displacement to six digits. Residuals that support the solution
+/// (`Evidence`) are not computed. All Newton corrections use the tangent of the unloaded model. If
+/// they decrease too slowly, or the number of unstable directions changes, the function calls
+/// `solve_large_statics`.
 [[nodiscard]] StaticSolution estimate_large_statics(
     const Model& model, const large_motion::LargeMotionModel& large_motion = {});
 

@@ -45,8 +45,9 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   /// gradient D of the constraints g satisfies D (q1 - q0) = g(q1) - g(q0) exactly.
   void discrete_gradient_residual(const State& from, const State& to, const VectorXd& lambda,
                                   Eigen::Ref<VectorXd> r) const;
-  /// Adds the derivative of `discrete_gradient_residual` with respect to the state `to`, except
-  /// terms of the squared step. The matrix is not symmetric.
+  /// Adds the derivative of `discrete_gradient_residual` with respect to the state `to`. Its error
+  /// is proportional to the square of the step, because element matrices are evaluated at the state
+  /// `midpoint`. The matrix is not symmetric.
   void discrete_gradient_tangent(const State& from, const State& to, const State& midpoint,
                                  const TangentCoefficients& coefficients, KktMatrix& matrix) const;
   [[nodiscard]] Energy energy(const State& state) const;
@@ -90,8 +91,9 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
 
  private:
-  /// Counts the element evaluations of a tangent matrix. @return the coefficients with
-  /// mass-proportional damping.
+  /// Counts the element evaluations of a tangent matrix.
+  /// @return `coefficients`, in which the factor of the mass matrix includes mass-proportional
+  ///   damping.
   TangentCoefficients begin_tangent(TangentCoefficients coefficients) const;
   void add_torques(double factor, double t, Eigen::Ref<VectorXd> r) const;
 

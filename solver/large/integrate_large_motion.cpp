@@ -128,8 +128,9 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
   return {Status::singular, message.str()};
 }
 
-/// Checks if the extrapolated states satisfy the constraints. If errors of second order dominate in
-/// both runs, the residuals of the constraints are much smaller than the difference of the runs.
+/// Checks if the states extrapolated from integrations with `step` and `step`/2 satisfy the
+/// constraints. If errors of second order dominate in both integrations, the residuals of the
+/// constraints are much smaller than the difference between the two integrations.
 Outcome outcome_of_extrapolation(const IntegrationSummary& summary) {
   constexpr double kLimit = 1e-3;
   if (summary.constraints.relative_position <= kLimit) return {};

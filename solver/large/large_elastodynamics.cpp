@@ -76,7 +76,7 @@ class LargeElastodynamics {
     if (const char* reason = beyond_large_displacement(options_, start_.model))
       throw ModelError(std::string("large displacement: ") + reason);
     if (!options_.elastic_inertia && options_.time.sample_times.empty())
-      throw ModelError("equilibria along a path require sample times");
+      throw ModelError("a quasi-static motion with large displacement requires sample times");
   }
 
   ElastodynamicsSolution run() {

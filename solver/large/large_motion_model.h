@@ -66,7 +66,7 @@ struct InitialVelocity {
   double value = 0;
 };
 
-/// Parts of a model in large motion.
+/// Additional parts and properties of a `Model` in large motion.
 struct LargeMotionModel {
   std::vector<Drive> drives;
   std::vector<Torque> torques;
@@ -121,9 +121,12 @@ struct MemberElement {
 };
 
 /// Numbering of the coordinates. Free coordinates come first, then those held by supports. An index
-/// >= `free` therefore means zero displacement. Joined parts share coordinates if possible: a
-/// revolute joint shares the translations, and coordinates that a constraint makes equal are one
-/// coordinate. A welded end and the nodes of a rigid body share the rotation.
+/// >= `free` therefore means zero displacement. Joined parts share coordinates if possible:
+///
+/// - The nodes of a revolute joint share the translations.
+/// - A welded member end and its node share the rotation.
+/// - The nodes of a rigid body share the rotation of the body.
+/// - Coordinates that a constraint makes equal are one coordinate.
 struct Layout {
   Index free = 0;
   Index total = 0;

@@ -266,8 +266,9 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
     stiffened.emplace(system, state, -above);
     const Spectrum clear =
         stiffened->exists() ? spectrum(*stiffened, L, -above, system.symmetric()) : Spectrum();
-    // If both estimates of w^2 differ by more than this factor, the parts above the soft modes are
-    // massless.
+    // `above` and `next` are two estimates of w^2 of the lowest mode above the soft modes. `next`
+    // follows from K with the shift -above. If the estimates differ by more than the factor kAlike,
+    // the parts above the soft modes are massless.
     const double next = lowest_above_soft(clear);
     if (next > above / kAlike && next < kAlike * above) {
       modes = clear;

@@ -5,7 +5,8 @@
 
 namespace trammel::solver::large_motion {
 
-/// Modes q e^{s t} of small vibration about an equilibrium, s = g + 2 pi i f.
+/// Modes q e^{s t} of small vibration about an equilibrium, s = g + 2 pi i f. g is the growth
+/// rate [1/s], and f is the frequency [Hz].
 struct SmallVibration {
   Outcome outcome;
   VectorXd frequency;    ///< f, ascending [Hz]; 0 for monotonic growth or decay

@@ -27,9 +27,10 @@ struct StaticPathOptions {
 
 /// Point of a path of equilibria.
 struct PathPoint {
-  State state;                    ///< state.load is the load factor
-  Index unstable_directions = 0;  ///< negative pivots of the tangent, the number of unstable
-                                  ///< directions; -1 if follower loads prevent such a count
+  State state;  ///< state.load is the load factor
+  /// Number of unstable directions, from the negative pivots of the tangent matrix. It is -1 if
+  /// follower loads prevent this count.
+  Index unstable_directions = 0;
   NewtonResult newton;
 };
 

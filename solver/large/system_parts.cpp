@@ -314,7 +314,8 @@ class SystemBuilder {
         factors.push_back(factor);
         coordinates.push_back(index_of(coordinate));
         if (coordinates.back() < 0)
-          throw ModelError("constraint " + constraint.name + " refers to a missing rotation");
+          throw ModelError("constraint " + constraint.name +
+                           " refers to the rotation of a node or member end without rotation");
       }
       if (factors.size() == 2 && factors[0] != 0 && factors[0] == -factors[1]) {
         shared_.merge(coordinates[0], coordinates[1]);

@@ -22,7 +22,7 @@ struct Pencil {
   double shift = 0;                 ///< shift s, below the requested eigenvalues
   bool indefinite = false;          ///< true: B is indefinite and negative eigenvalues exist
   Operator K_times;                 ///< x -> K x, more accurate than the assembled K
-  /// X -> X^T K X, as accurate as `K_times`.
+  /// Function that returns X^T K X for the columns of X, as accurate as `K_times`.
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> K_products;
   Operator B_times;  ///< x -> B x for a B that is not assembled
   /// Returns the number of eigenvalues below a shift, or an empty value if round-off dominates it.

@@ -22,7 +22,7 @@ void add_body_force(System& system, const BodyForce& force);
 
 /// Adds a traction on the boundary, which consists of the sides that belong to a single triangle.
 /// Forces on supported coordinates act on the ground.
-/// @pre The triangles run counterclockwise, as readers and meshes provide them.
+/// @pre The triangles run counterclockwise, as in all models from case files and mesh functions.
 void add_edge_traction(System& system, const Traction& traction);
 
 /// Adds a line load on all frame elements that bend.

@@ -72,7 +72,8 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
     while (count < block) {
       const VectorXd u = system.T * X.col(count);
       const double energy = strain_products(system, u)(0, 0);
-      // The scale of the energy is at least x^T D x = 1, for motions without any strain.
+      // The limit of the energy is relative to the larger of the sum of magnitudes and x^T D x = 1.
+      // The second value is required for a motion in which both energy and sum are zero.
       if (!(energy <= kDeformation * std::max(1.0, strain_magnitude(system, u)))) break;
       ++count;
     }

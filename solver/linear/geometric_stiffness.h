@@ -25,8 +25,8 @@ struct TurningPart {
 /// Internal forces of a loaded state, from which the geometric stiffness follows.
 struct Prestress {
   Eigen::VectorXd axial;  ///< mean axial force of each frame element, tension positive [N]
-  Eigen::VectorXd axial_variation;  ///< axial force at the second end minus that at the first end
-                                    ///< of each frame element [N]
+  /// Axial force at the second end minus axial force at the first end of each frame element [N].
+  Eigen::VectorXd axial_variation;
   /// Stresses (sxx, syy, sxy) of the triangles in sequence [Pa]. Three-node triangles have one row
   /// at the centroid. Six-node triangles have one row for each integration point.
   Eigen::MatrixX3d stress;

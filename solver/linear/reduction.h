@@ -13,10 +13,10 @@ namespace trammel::solver {
 ///
 ///   \f[ q_i = -K_{ii}^{-1} K_{ib} q_b + X p + r s, \quad K_{ii} x = \omega^2 M_{ii} x. \f]
 ///
-/// r is the part of the static response K_ii^-1 f_i to each of `loads` that X does not represent.
-/// With r, the static response and the internal forces of the members are exact. Without modes and
-/// loads the method is static condensation. The reduced model is more constrained than the full
-/// model, so that its frequencies are not lower.
+/// p and s are coordinates of the reduced model. r is the part of the static response K_ii^-1 f_i
+/// to each of `loads` that X does not represent. With r, the static response and the internal
+/// forces of the members are exact. Without modes and loads the method is static condensation. The
+/// reduced model is more constrained than the full model, so that its frequencies are not lower.
 /// Source: Guyan (1965); Craig & Bampton (1968).
 ///
 /// @param system  full model.
@@ -31,7 +31,8 @@ namespace trammel::solver {
                                     const std::vector<Eigen::VectorXd>& loads = {});
 
 /// Reduces a model to mode shapes Phi with static correction (mode acceleration), q = Phi p + r s.
-/// r is the component of the static response to each load f that the modes do not represent:
+/// p and s are the coordinates of the reduced model. r is the component of the static response to
+/// each load f that the modes do not represent:
 ///
 ///   K r = f - M Phi Phi^T f.
 ///

@@ -17,6 +17,9 @@
 ///
 ///   \f[ M \ddot q + 2 \Omega G \dot q + (K + K_G - \Omega^2 S) q = f + \Omega^2 f_c. \f]
 ///
+/// G is `gyroscopic_matrix`, S is `centrifugal_softening`, and Omega^2 f_c are the centrifugal
+/// forces on the undeformed frame. K_G is the geometric stiffness of the internal forces.
+///
 /// The Coriolis and centrifugal terms do not act on the rotary inertia of point masses, which is
 /// assumed equal along and across the axis. They do not act on the rotary inertia of sections if
 /// the axis is normal to the plane.

@@ -12,8 +12,9 @@ namespace trammel::solver {
 
 /// Displacements of a static state.
 struct StaticState {
-  Outcome outcome;    ///< singular: the reason describes the zero-energy mode; not_converged: less
-                      ///< than one correct digit
+  /// singular: the reason describes the zero-energy mode. not_converged: the displacements have
+  /// less than one correct digit.
+  Outcome outcome;
   Eigen::VectorXd q;  ///< free coordinates [m, rad]
   Prestress forces;   ///< second-order theory: internal forces of q
   double error = 1;   ///< bound of max |du| / max |u|; rotations are multiplied by the model size
@@ -38,7 +39,8 @@ struct StaticState {
 /// @param u  displacements of the unconstrained coordinates [m, rad].
 /// @param load  loads on the unconstrained coordinates [N, N m].
 /// @param body  forces on masses and members.
-/// @param before  internal forces whose geometric stiffness acts on the constraints too, or null.
+/// @param before  internal forces that define a geometric stiffness K_G, or null. The constraints
+///   then also balance the forces K_G u.
 [[nodiscard]] Prestress prestress_of(const System& system, const Eigen::VectorXd& u,
                                      const Eigen::VectorXd& load, const BodyForces& body,
                                      const Prestress* before = nullptr);

@@ -29,8 +29,9 @@ struct StaticSolution {
   Prestress forces;          ///< second-order theory: internal forces of q
   double amplification = 1;  ///< factor by which the loads amplify second-order displacements [-]
   double estimated_correct_digits = 0;  ///< of the largest displacement, from StaticState::error
-  Eigen::MatrixX3d displacement;  ///< model node x (ux [m], uy [m], rotation [rad]); NaN for a node
-                                  ///< without rotation
+  /// Model node x (ux [m], uy [m], rotation [rad]). The rotation is NaN for a node without
+  /// rotation.
+  Eigen::MatrixX3d displacement;
   Eigen::MatrixX2d end_rotation;  ///< member x (first end, second end) [rad]
   /// Support x (Fx, Fy [N], moment [N m]), forces of the ground on the node.
   Eigen::MatrixX3d reaction;
@@ -52,11 +53,12 @@ struct StaticSolution {
 
 /// Displaced and loaded state from which forces and stresses are computed.
 struct ElasticState {
-  Eigen::VectorXd u;             ///< displacements of the unconstrained coordinates [m, rad]
-  double load_factor = 1;        ///< factor of all loads except weight
-  double weight_factor = 1;      ///< factor of the weight
-  Eigen::VectorXd acceleration;  ///< accelerations of the unconstrained coordinates, including the
-                                 ///< effect of mass-proportional damping; empty: at rest
+  Eigen::VectorXd u;         ///< displacements of the unconstrained coordinates [m, rad]
+  double load_factor = 1;    ///< factor of all loads except weight
+  double weight_factor = 1;  ///< factor of the weight
+  /// Accelerations of the unconstrained coordinates, including the effect of mass-proportional
+  /// damping. The vector is empty in a state at rest.
+  Eigen::VectorXd acceleration;
   const Prestress* prestress = nullptr;  ///< forces of second-order theory, or null
   Eigen::VectorXd constraint_forces;     ///< see constraint_forces(); empty: not computed yet
 };

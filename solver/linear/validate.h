@@ -10,7 +10,7 @@ namespace trammel::solver {
 /// @throws ModelError  with one sentence that names the part and the problem.
 void validate(const Model& model);
 
-// Effects are removed from a model before assembly.
+// Removal of inactive physical effects, such as gravity, from a model before its assembly.
 
 /// Returns the effects that the properties of the model cause, such as shear or gravity. Effects of
 /// an analysis are not included: inertia, damping, gyroscopic forces, geometric stiffening and

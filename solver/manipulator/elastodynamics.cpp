@@ -190,7 +190,8 @@ class MotionSolver {
       MotionEnergy energy{.kinetic = v.dot(M * v) / 2, .strain = q.dot(K * q) / 2};
       // The work of a variable load would require an integral over time and is not computed.
       energy.work = options_.load_history.constant() ? f.dot(q - q0) : kNaN;
-      // The missing energy has been dissipated. Without damping, it is only round-off error.
+      // Damping has dissipated the difference between the supplied and the current energy. Without
+      // damping, this difference is only round-off error.
       if (follower_.damped())
         energy.dissipated = strain_at_start + energy.work - energy.kinetic - energy.strain;
       record_exact({0, times[i], q, v, a, energy}, times[i], evidence);
@@ -199,7 +200,7 @@ class MotionSolver {
   }
 
   void find_first_frequency() {
-    // Up to three modes are rigid.
+    // Up to three modes are rigid. The four lowest modes therefore include the first elastic mode.
     const ModalSolution modes = solve_modes(moving_.start(), {.count = 4});
     const auto first = std::find_if(modes.frequency.begin(), modes.frequency.end(),
                                     [](double frequency) { return frequency > 0; });

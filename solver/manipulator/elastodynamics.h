@@ -48,9 +48,11 @@ struct ElastodynamicsOptions {
 struct ElastodynamicsEffects {
   double first_frequency = kNaN;  ///< lowest elastic frequency at the start [Hz]
   double damping_ratio = kNaN;    ///< damping ratio of the lowest elastic mode
-  /// Nominal inertia load over load, |f| / |T^T F| in the norm of K^-1; infinite without a load.
+  /// Inertia load f of the nominal motion over the load F on the platform, |f| / |T^T F| in the
+  /// norm of K^-1; infinite if F is zero.
   double nominal_inertia = 0;
-  /// Square of the path frequency (acceleration over velocity) over the first elastic frequency.
+  /// Square of the ratio of the path frequency to the first elastic frequency. The path frequency
+  /// is the largest acceleration over the largest velocity of the platform.
   double elastic_inertia = 0;
   /// Twice the largest angular velocity of links and platform over the first angular frequency.
   double gyroscopic = 0;

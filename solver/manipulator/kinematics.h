@@ -58,8 +58,9 @@ struct Pose {
 /// Joint positions and absolute link angles of the manipulator at a pose. The elbow positions and
 /// angles of limbs that cannot reach the pose are NaN.
 struct Posture {
-  Outcome outcome;  ///< singular: a limb cannot reach the pose; the reason states the limb and the
-                    ///< missing distance [m]
+  /// singular: a limb cannot reach the pose. The reason states the limb and the missing distance
+  /// [m].
+  Outcome outcome;
   std::array<Vector2d, 3> B, C;
   std::array<double, 3> active{};   ///< theta_ai: absolute angle of A_i B_i, in (-pi, pi] [rad]
   std::array<double, 3> passive{};  ///< absolute angle of B_i C_i, in (-pi, pi] [rad]
@@ -91,8 +92,9 @@ template <Real T>
 
 /// Pose of the platform for given actuator angles, in the assembly mode nearest to a start pose.
 struct ForwardKinematics {
-  Outcome outcome;  ///< singular: the iteration passed a parallel singularity; not_converged: no
-                    ///< pose was found near the start pose
+  /// singular: the iteration passed a parallel singularity. not_converged: no pose was found near
+  /// the start pose.
+  Outcome outcome;
   Pose pose;
   double closure_error = 0;  ///< largest error of a distal length [m]
   int iterations = 0;

@@ -49,11 +49,12 @@ struct LinkDesignOf {
   MassMatrix mass_matrix = MassMatrix::consistent;
   Index elements = 4;
   bool axially_flexible = true;
-  /// Printed total mass, distributed over the length [kg]. If empty, it follows from the density.
+  /// Given total mass (a value printed in a paper, "printed mass"), distributed over the length
+  /// [kg]. If empty, the mass follows from the density.
   std::optional<double> mass;
-  /// Printed inertia J of the link [kg m^2]. J/2 rotates with each end of the link for any number
-  /// of elements, in addition to the inertia of the distributed mass. If empty, only the
-  /// distributed mass has inertia.
+  /// Given inertia J of the link (a value printed in a paper) [kg m^2]. J/2 rotates with each end
+  /// of the link for any number of elements, in addition to the inertia of the distributed mass. If
+  /// empty, only the distributed mass has inertia.
   std::optional<double> inertia;
 };
 using LinkDesign = LinkDesignOf<double>;
@@ -77,11 +78,12 @@ struct PlatformDesignOf {
   /// (`pin_weights`). The response to a force on a pin therefore converges under mesh refinement. A
   /// pin at C_i may contain at most 500 mesh nodes, because its link couples all of them.
   double pin_radius = 0;
-  /// Printed mass [kg], which replaces the density. Empty: the mass follows from the density.
+  /// Given mass of the platform (a value printed in a paper) [kg], which replaces the density. If
+  /// empty, the mass follows from the density.
   std::optional<double> mass;
-  /// Printed inertia of a rigid platform about P [kg m^2]. If empty, it is the inertia of the
-  /// uniform triangle C1 C2 C3 with the mass of the platform. In both cases the center of mass is
-  /// the centroid of this triangle, for any position of P.
+  /// Given inertia of a rigid platform about P (a value printed in a paper) [kg m^2]. If empty, it
+  /// is the inertia of the uniform triangle C1 C2 C3 with the mass of the platform. In both cases
+  /// the center of mass is the centroid of this triangle, for any position of P.
   std::optional<double> inertia;
 };
 using PlatformDesign = PlatformDesignOf<double>;

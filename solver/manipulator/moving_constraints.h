@@ -52,7 +52,8 @@ class MovingConstraints {
   RowMajorMatrix T_dot_, T_ddot_;
   std::vector<std::size_t> dependent_rows_;  // rows of C that eliminate a coordinate, no supports
   std::vector<Index> dependent_row_of_;      // index in dependent_rows_ for each coordinate, or -1
-  // Selection of free coordinates (u x q) and of eliminated coordinates (u x row) by ones.
+  // Matrices of zeros and ones that select the free coordinates (u x q) and the eliminated
+  // coordinates (u x row) among the coordinates u.
   RowMajorMatrix select_free_, select_dependent_;
   Eigen::PartialPivLU<Eigen::MatrixXd> pivots_;
 };

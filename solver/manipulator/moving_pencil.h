@@ -81,8 +81,8 @@ struct ModeMeasures {
 /// the link interiors. Each mode has stiffness 1, and only M couples modes and joint coordinates.
 class MovingPencil {
  public:
-  /// Builds K and M from a model at its pose, without inactive effects. The number of elements of
-  /// each link determines its interior modes.
+  /// Builds K and M from a model at the pose `pose`. Inactive effects must have been removed from
+  /// the model. The number of elements of each link determines its interior modes.
   MovingPencil(const Model& model, const ManipulatorGeometry& geometry, const Pose& pose);
 
   /// Computes K and M at a pose. The outcome is singular if the constraints do not determine the

@@ -54,9 +54,12 @@ class MovingSystem {
   [[nodiscard]] const SparseMatrix& centrifugal_and_euler_matrix() const {
     return K_centrifugal_euler_;
   }
-  /// Returns T^T k T., for damping forces of T. q; gyroscopic effect only.
+  /// Returns T^T k T. with the stiffness k of the coordinates u. It yields the
+  /// stiffness-proportional damping forces of the velocity T. q. It is empty without the gyroscopic
+  /// effect.
   [[nodiscard]] const SparseMatrix& K_T_dot() const { return K_T_dot_; }
-  /// Returns T^T m T., for damping forces of T. q; gyroscopic effect only.
+  /// Returns T^T m T. with the mass m of the coordinates u. It yields the mass-proportional damping
+  /// forces of the velocity T. q. It is empty without the gyroscopic effect.
   [[nodiscard]] const SparseMatrix& M_T_dot() const { return M_T_dot_; }
   /// Returns the inertia load of the nominal motion, - int rho W^T r.. dV [N, N m].
   [[nodiscard]] const Eigen::VectorXd& inertia_load() const { return inertia_load_; }

@@ -246,7 +246,8 @@ void solve_blocks(const Task& task, std::vector<Solver> solvers) {
   std::vector<std::future<void>> threads;
   for (Solver& solver : solvers)
     threads.push_back(std::async(std::launch::async, work, std::ref(solver)));
-  // If one throws, the destructors of the others wait for their threads.
+  // If the call get() of one future throws, the destructors of the other futures wait for their
+  // threads.
   for (std::future<void>& thread : threads) thread.get();
   for (const Solver& solver : solvers) {
     task.result.counters += solver.counters;

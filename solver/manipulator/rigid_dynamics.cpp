@@ -129,7 +129,8 @@ Eigen::Matrix<Dual, 9, 9> mass_matrix(const RigidManipulator& m, const Vector9<D
 }
 
 /// Solves K G = D, where G maps actuator rates to the motion of the platform. The rows of K are
-/// (e^T, cross(c, e)). The rotation is scaled to be comparable with translations.
+/// (e^T, cross(c, e)). D is diagonal with the entries l1 cross(a, e) of the limbs. The rotation is
+/// scaled to be comparable with translations.
 template <Real T>
 Eigen::Matrix<T, 9, 3> motion_map(const RigidManipulator& m, const Vector9<T>& q) {
   const double size = platform_radius(m.geometry);

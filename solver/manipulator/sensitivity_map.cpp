@@ -156,8 +156,8 @@ std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry
   std::vector<Polyline> segments;
   for (Index j = 0; j + 1 < grid.rows; ++j) {
     for (Index i = 0; i + 1 < grid.columns; ++i) {
-      // Search the sides of the cell for zeros of det J_x. A saddle has four zeros and two
-      // segments.
+      // Search the four sides of the cell for zeros of det J_x. A cell with a saddle point of det
+      // J_x may have four zeros, which are the ends of two segments.
       const std::array<Index, 4> di = {0, 1, 1, 0};
       const std::array<Index, 4> dj = {0, 0, 1, 1};
       Polyline crossings;

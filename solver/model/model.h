@@ -85,9 +85,10 @@ enum class Taper {
 struct Member {
   std::string name;
   std::array<Index, 2> nodes{};
-  Section section;      ///< at the first node
-  Section end_section;  ///< at the second node; each element has the section at its midpoint,
-                        ///< according to `taper`
+  Section section;  ///< at the first node
+  /// Section at the second node. Each element has the section at its midpoint, which is
+  /// interpolated according to `taper`.
+  Section end_section;
   Taper taper = Taper::linear_area_and_inertia;
   BeamTheory theory = BeamTheory::euler_bernoulli;
   MassMatrix mass = MassMatrix::consistent;

@@ -53,8 +53,9 @@ struct TransientOptions {
 
 /// Result of an integration in time.
 struct TransientSummary {
-  /// Outcome. singular: a factorization failed. not_converged: the reason states step, time and
-  /// residual, or the evidence does not support the motion.
+  /// Outcome. singular: a factorization failed. not_converged: a step failed, or a residual of the
+  /// motion in `evidence` exceeds its limit. For a failed step, the reason states step, time and
+  /// residual.
   Outcome outcome;
   /// Residuals. The equation of motion and the relations of the scheme are checked for at least 200
   /// steps, distributed over the time. Energy and constraints are checked for all steps.

@@ -195,7 +195,8 @@ namespace {
 ImpulseResponse by_series(double omega, double decay, double t) {
   const double c = decay * t;
   const double w2 = omega * t * omega * t;
-  // h = t sum b_k with b_0 = 1
+  // The series of the impulse response is h = t sum b_k with b_0 = 1. `before` and `b` are two
+  // successive terms b_k.
   double before = 0;
   double b = 1;
   ImpulseResponse r{.dh = 0, .h = 0, .h1 = 0, .h2 = 0};

@@ -114,9 +114,9 @@ class RegularizedMass {
 };
 
 /// Loads and accelerations that balance the elastic forces K q of a motion with
-/// stiffness-proportional damping. Loads and inertia forces balance K (q + t q'), so that q is
-/// delayed relative to them. If x is the solution of x + t x' = loads or accelerations, the balance
-/// is
+/// stiffness-proportional damping. t is the factor of this damping [s]. Loads and inertia forces
+/// balance K (q + t q'), so that q is delayed relative to them. If x is the solution of x + t x' =
+/// loads or accelerations, the balance is
 ///
 ///   K q = x of the loads - M x of the accelerations.
 class LateStrain {

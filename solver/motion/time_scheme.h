@@ -109,8 +109,8 @@ double relation_residual(const TimeScheme& s, double h, const State& from,
                          bool positions, const Norm& norm, Eigen::VectorXd& defect,
                          double force_roundoff = 0) {
   // If a body stops moving, its accelerations are the round-off error of its positions over beta
-  // h^2. The terms below are increased so that round-off is at most this fraction of them. The
-  // fraction is a tenth of the residual limit.
+  // h^2. The sums A, a, v and q of the terms of the relations are increased so that round-off is at
+  // most this fraction of them. The fraction is a tenth of the limit of the residual.
   constexpr double kRoundoffShare = 1e-5;
   const double roundoff =
       kEps * (norm(from.q) + norm(to.q)) / (std::max(s.beta, 1.0 / 12) * h * h) + force_roundoff;

@@ -46,7 +46,7 @@ void check(const EquationOfMotion& e, const TransientOptions& o) {
   if (o.adaptive && !(o.adaptive->relative >= 0 && o.adaptive->absolute >= 0 &&
                       o.adaptive->relative + o.adaptive->absolute > 0 &&
                       o.adaptive->finest_level >= 0 && o.adaptive->finest_level <= 40)) {
-    throw ModelError("error control requires a positive tolerance and at most 40 step levels");
+    throw ModelError("error control requires a positive tolerance and 0 to 40 step halvings");
   }
 }
 
@@ -309,6 +309,7 @@ void LinearStepper::estimate_size_from_load(double begin, double end) {
 }
 
 /// Returns the factors of the step matrix M + gamma' h C + beta' h^2 K, or null if it is singular.
+/// gamma' and beta' are the gains of velocity and position (`TimeScheme`), and h is the step size.
 SparseLdlt* LinearStepper::step_factor(const Step& step) {
   const auto index = matrices_.constant() ? static_cast<std::size_t>(step.level) : 0;
   if (factors_.size() <= index) factors_.resize(index + 1);

@@ -31,8 +31,8 @@ void solve_refined(const SparseMatrix& K, SparseLdlt& factor, const VectorXd& f,
 }  // namespace
 
 double smooth_span(const std::vector<double>& breakpoints, const TransientOptions& options) {
-  // Fraction of the time to a breakpoint. It is below 1, because the load at a jump has the value
-  // after the jump.
+  // Part of the time from the start to a breakpoint that counts as smooth. It is below 1, because
+  // the load at a jump has the value after the jump.
   constexpr double kBefore = 0.999;
   double span = std::min(options.step, options.end - options.start);
   for (const double time : breakpoints)
@@ -98,8 +98,8 @@ Outcome check_stability(const EquationMatrices& matrices, const TransientOptions
 
 namespace {
 
-/// Returns the least ratio of two diagonals among positive entries. An added matrix scaled by it is
-/// small compared with every mass, even if a step covers many periods.
+/// Returns the least ratio of a diagonal entry of M to that of `added`, if both are positive. An
+/// added matrix scaled by it is small compared with every mass, even if a step covers many periods.
 double least_ratio(const SparseMatrix& M, const SparseMatrix& added) {
   double least = std::numeric_limits<double>::infinity();
   const VectorXd mass = M.diagonal(), other = added.diagonal();

@@ -121,7 +121,7 @@ struct Mechanism : System {
     }
     for (const auto& item : model.at("nodes").items())
       if (grouped.count(item.key()) == 0) groups["node " + item.key()] = {item.key()};
-    if (groups.size() > kMaxBodies) throw Cannot("no more than 20 bodies");
+    if (groups.size() > kMaxBodies) throw Cannot("models of more than 20 bodies are not supported");
     for (const auto& [name, nodes] : groups) add_group(model, nodes);
     for (const auto& item : section(model, "pins").items())
       pin(places.at(item.value().at("nodes").at(0)), places.at(item.value().at("nodes").at(1)));
@@ -135,7 +135,8 @@ struct Mechanism : System {
     for (const std::string& node : nodes) {
       const Json taken = section(model, "supports").value(node, Json::array());
       if (taken.empty()) continue;
-      if (taken.size() == 1 || !held.empty()) throw Cannot("no such supports");
+      if (taken.size() == 1 || !held.empty())
+        throw Cannot("supports that slide, or several on a body, are not supported");
       held = node;
       fixed = taken.size() == 3 || nodes.size() == 1;
     }
@@ -154,11 +155,12 @@ struct Mechanism : System {
       parts.emplace_back(part.at("mass_kg").get<double>(), arm);
       inertia += part.value("inertia_kg_m2", 0.0);
     }
-    if (mass == 0 && !fixed) throw Cannot("no bodies without mass");
+    if (mass == 0 && !fixed) throw Cannot("bodies without mass are not supported");
     const Vec3 center = mass > 0 ? Vec3(moment / mass) : Vec3(0);
     for (const auto& [m, arm] : parts) inertia += m * (arm - center).normSqr();
     MobilizedBody body = matter.Ground();
-    if (!fixed && held.empty() && inertia == 0) throw Cannot("no free points with mass alone");
+    if (!fixed && held.empty() && inertia == 0)
+      throw Cannot("free bodies without moment of inertia are not supported");
     if (!fixed) {
       const SimTK::Body::Rigid solid = rigid(mass, center, inertia);
       body = held.empty() ? moving(solid, origin) : turning(solid, origin);
@@ -193,7 +195,7 @@ struct Mechanism : System {
       require_known_keys(item.value(), {"x_m_per_s", "rotation_rad_per_s"}, "initial");
       const Place& place = places.at(item.key());
       if (place.body.isGround() || place.body.getNumU(state) != 1)
-        throw Cannot("no initial velocities but of bodies that turn about the ground");
+        throw Cannot("initial velocities require a body that is pinned to the ground");
       known.emplace_back(place.body,
                          item.value().contains("x_m_per_s")
                              ? -item.value()["x_m_per_s"].get<double>() / place.station[1]
@@ -385,7 +387,7 @@ void load(Manipulator& m, const Json& model) {
 /// Integrates the motion from the first point of the path under constant torques.
 Answer driven(const Json& model, const Json& mechanism, const Json& options) {
   require_known_keys(options, {"torque_N_m", "tolerance"}, "option");
-  if (!options.contains("torque_N_m")) throw Cannot("torques that follow a path");
+  if (!options.contains("torque_N_m")) throw Cannot("torques that follow a path are not supported");
   Manipulator m(mechanism);
   load(m, model);
   for (const int i : {0, 1, 2}) {
@@ -464,7 +466,8 @@ int main(int count, char** words) {
       if (found != answer.end())
         result["quantities"][found->first] = {{"unit", one["unit"]}, {"values", found->second}};
     }
-    if (!result.contains("quantities")) throw Cannot("nothing that is asked for");
+    if (!result.contains("quantities"))
+      throw Cannot("none of the requested quantities is supported");
   } catch (const Cannot& reason) {
     result["status"] = "cannot";
     result["reason"] = reason.what();

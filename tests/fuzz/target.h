@@ -23,7 +23,7 @@ struct Verdict {
   std::string message;
 };
 
-/// Returns results of a few small cases to start from.
+/// Returns results of a few small cases. The mutator changes them to produce results files.
 [[nodiscard]] harness::Json sample_results();
 
 /// Reads an input, and computes and judges it if it is a case.

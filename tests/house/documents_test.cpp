@@ -89,7 +89,7 @@ BOOST_AUTO_TEST_CASE(conventions_have_a_row_for_every_analysis) {
   std::vector<std::string> cases;
   for (const auto& entry : fs::recursive_directory_iterator(root / "cases"))
     cases.push_back(entry.path().stem().string());
-  // The last of four columns lists cases.
+  // The last of the four columns of a table in CONVENTIONS.md lists cases.
   const std::regex last("\n\\|[^|\n]*\\|[^|\n]*\\|[^|\n]*\\|([^|\n]*`[^|\n]*)\\|(?=\n)");
   std::size_t named = 0;
   for (const std::string& column : found(text, last)) {

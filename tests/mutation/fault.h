@@ -39,15 +39,16 @@ inline bool fault(int number) {
   return number == mutation::active;
 }
 
-/// Returns a coefficient, multiplied by 1 + error if the fault is active. Integers become real
-/// numbers.
+/// Returns the coefficient x of a formula, multiplied by 1 + `mutation::error` if the fault with
+/// this number is active. Integers become real numbers.
 template <class T>
 auto scaled(int number, const T& x) {
   using Number = std::conditional_t<std::is_arithmetic_v<T>, double, T>;
   return fault(number) ? Number(Number(x) * (1 + mutation::error)) : Number(x);
 }
 
-/// Factor that is inserted after + or - or a sign. It is `whole`, or `size` if the fault is active.
+/// Factor of the operand that follows + or -. It is `whole`, or `size` if the fault with this
+/// number is active.
 struct Factor {
   int number, size, whole = 1;
 };

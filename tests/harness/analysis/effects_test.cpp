@@ -57,7 +57,8 @@ BOOST_AUTO_TEST_CASE(automatic_effects_state_numbers_and_reasons) {
   Json json = timoshenko_cantilever();
   json["effects"] = {{"auto", {{"tolerance", 0.01}}}};
   const AnalysisResult slender = result_of(json);
-  // E I k^2 / (kappa G A) with k = pi / L: pi^2 * 2.6 / (5/6 * 12) * (0.1 / 2)^2 = 0.64 %.
+  // The dimensionless number of shear is E I k^2 / (kappa G A) with the wave number k = pi / L:
+  // pi^2 * 2.6 / (5/6 * 12) * (0.1 / 2)^2 = 0.64 %.
   const results::EffectRow& shear = slender.effects.at(static_cast<std::size_t>(Effect::shear));
   BOOST_TEST(shear.active);
   BOOST_TEST(*shear.dimensionless_number == 0.006415, boost::test_tools::tolerance(1e-3));
@@ -75,7 +76,8 @@ BOOST_AUTO_TEST_CASE(effect_study_measures_each_contribution) {
   BOOST_TEST(study.is_minimal());
   for (const EffectRun& run : study.without_one) {
     if (!(run.left_out == Effects().with(Effect::shear))) continue;
-    // 3 E I / (kappa G A L^2) = 3 * 2.6 / (5/6 * 12) * (0.1 / 2)^2.
+    // Shear contributes about the following fraction of the tip displacement: 3 E I / (kappa G A
+    // L^2) = 3 * 2.6 / (5/6 * 12) * (0.1 / 2)^2.
     BOOST_TEST(run.changes.at("displacement").value == 0.00195, boost::test_tools::tolerance(2e-3));
     BOOST_TEST(run.changes.at("force").value < 1e-6);
   }
@@ -201,7 +203,9 @@ BOOST_AUTO_TEST_CASE(sudden_start_keeps_stiff_parts) {
   BOOST_TEST(choice.chosen.has(Effect::platform_flexibility));
 }
 
-/// The bound r^2 + 2 zeta r on the inertia forces of a slow path needs no computation of a motion.
+/// Without inertia, the results change by at most about r^2 + 2 zeta r. The ratio of path frequency
+/// to first natural frequency is r, and zeta is the damping ratio. This bound requires no
+/// computation of a motion.
 BOOST_AUTO_TEST_CASE(slower_circle_has_no_inertia_by_its_frequency) {
   Document slower = patched(load_named_case("scene-slow-circle"), "base");
   slower.apply_patch("test", "",

@@ -103,7 +103,7 @@ BOOST_AUTO_TEST_CASE(pipe_is_written_to_and_not_replaced) {
   const testing::Folder folder;
   const auto pipe = folder.path() / "pipe";
   BOOST_REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
-  // Opening for reading and writing does not wait for another process.
+  // A named pipe that is opened for reading and writing does not wait for another process.
   const int end = open(pipe.c_str(), O_RDWR | O_NONBLOCK);
   std::filesystem::create_symlink("pipe", folder.path() / "link");
   write_file(pipe, "[1]");

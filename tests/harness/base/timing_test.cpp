@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(each_repeat_runs_all_tasks_before_the_next) {
     BOOST_TEST(timing.cpu_s.size() == 7U);
     BOOST_TEST(timing.runs_each == 1);
   }
-  // Warm-up calls precede the first repeat.
+  // Each of the three tasks has two warm-up calls before the first repeat.
   BOOST_TEST(after[0] == 3 * 2U + 3U);
 }
 

@@ -145,7 +145,7 @@ const Refusal kRefusals[] = {
     {"compare results holds.json", "expected either cases or results files (got both)"},
     {"converge holds.json", "holds.json: /: expected 'sweeps', which define the refinement"},
     {"cost mods",
-     "expected a family or study of cases/cost, a case or a file (got 'mods'); did "
+     "expected the name or 'family' of a study in cases/cost, a case or a file (got 'mods'); did "
      "you mean 'modes'?"},
     {"cost unjudged.json", "unjudged.json: /: expected 'sweeps', which define the refinement"},
     {"cost unjudged.json --sweep none", "unjudged.json: /: expected 'sweeps'"},
@@ -518,8 +518,9 @@ BOOST_AUTO_TEST_CASE(ending_of_a_singular_run_is_printed_once) {
 
 namespace {
 
-/// Applies a JSON block of a document: references, a case, or changes of it. "..." means unchanged
-/// keys.
+/// Applies a JSON block from the documentation to the case `example`. The block contains a
+/// reference, a complete case, or a merge patch of the case. A line "..." represents keys that do
+/// not change.
 void apply_block(std::string block, Json& example, const Folder& folder) {
   if (const auto dots = block.find("    ...\n"); dots != std::string::npos) block.erase(dots, 8);
   const Json json = parse_json(block.front() == '{' ? block : "{" + block + "}", "block");

@@ -13,8 +13,8 @@ namespace {
 
 using Values = std::vector<double>;
 
-/// Returns the outputs 3 x - 4 y and x^2 of a model, about x = 1. The inputs x and y have the half
-/// widths 0.1 and 0.2.
+/// Returns the outputs 3 d0 - 4 d1 and (1 + d0)^2 of a model. The inputs d0 and d1 deviate from 0
+/// by at most their half widths, 0.1 and 0.2.
 std::optional<Values> linear_and_square(const Values& d) {
   return Values{3 * d[0] - 4 * d[1], (1 + d[0]) * (1 + d[0])};
 }
@@ -38,7 +38,8 @@ BOOST_AUTO_TEST_CASE(sampling_gives_the_deviation_of_a_uniform_input) {
   BOOST_TEST(u.failed == 0);
   BOOST_TEST(u.standard[0] == std::hypot(0.3, 0.8) / std::sqrt(3.0),
              boost::test_tools::tolerance(0.05));  // random correlation of columns, 1/sqrt(400)
-  // The variance of (1 + d)^2 with uniform d in [-h, h] is 4 h^2 / 3 + 4 h^4 / 45.
+  // The variance of (1 + d)^2 with uniform d in [-h, h] is 4 h^2 / 3 + 4 h^4 / 45, here with h =
+  // 0.1.
   BOOST_TEST(u.standard[1] == std::sqrt(0.04 / 3 + 4e-4 / 45), boost::test_tools::tolerance(1e-2));
 }
 

@@ -86,7 +86,8 @@ BOOST_AUTO_TEST_CASE(two_levels_get_the_order_of_theory_and_the_large_factor) {
   series.theory_order = 2;
   const Convergence found = analyze_convergence(series);
   BOOST_TEST(*found.safety_factor[1] == 3);
-  // With safety factor 3, the GCI is 3 |v1 - v0| / (2^2 - 1) = |v1 - v0|.
+  // With the values v0 at h and v1 at h/2, order 2 and safety factor 3, the GCI times v1 is 3 |v1 -
+  // v0| / (2^2 - 1) = |v1 - v0|.
   BOOST_TEST(*found.gci[1] * *series.values[1] == *series.values[0] - *series.values[1],
              boost::test_tools::tolerance(1e-9));
 }

@@ -11,7 +11,8 @@ using namespace trammel::harness;
 
 namespace {
 
-/// Returns a convergence study of 10 (1 + 0.1 h^2) for halved sizes h, with scaled GCI values.
+/// Returns a convergence study of 10 (1 + 0.1 h^2) for h = 1, 1/2, 1/4, ..., whose GCI values are
+/// multiplied by `scale`.
 Convergence synthetic_study(std::size_t levels, double scale) {
   Convergence series;
   series.theory_order = 2;

@@ -35,8 +35,9 @@ Json& options(Json& json) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(platform_at_constant_speed_is_not_at_rest) {
-  // Without acceleration, the characteristic frequency of the path is zero. The motion was once
-  // compared with the motion at a fixed pose.
+  // On a line at constant speed, the characteristic frequency of the path is zero. The moving
+  // platform was once treated as resting, and an integration error was computed from the modes of a
+  // fixed pose.
   Json json = motion(between("line", 0.01));
   options(json)["step_errors"] = true;
   const AnalysisResult moving = result_of(json);
@@ -48,7 +49,8 @@ BOOST_AUTO_TEST_CASE(platform_at_constant_speed_is_not_at_rest) {
 }
 
 BOOST_AUTO_TEST_CASE(quasi_static_motion_has_no_work_of_its_loads) {
-  // The work of the loads was once 0 J, so that the energy drift contained their actual work.
+  // Without elastic inertia, the work of the loads is not computed. It was once reported as 0 J, so
+  // that the energy drift contained the actual work.
   Json json = motion(between("line", 0.01));
   options(json)["effects"] = {{"elastic_inertia", false}};
   const AnalysisResult result = result_of(json);

@@ -10,7 +10,7 @@ namespace results = trammel::results;
 
 namespace {
 
-/// Returns a run of one check with two entries and a tolerance of +-1e-9.
+/// Returns a run with one check of two values, each with a tolerance of +-1e-9.
 Configuration configuration(const std::string& name, double first, double second,
                             results::Verdict verdict = results::Verdict::pass) {
   results::Run run;

@@ -37,7 +37,8 @@ CheckResult entry(const std::string& name, double computed, double expected) {
   return one;
 }
 
-/// Returns a run of the case "bend" with a check of two entries and a quantity.
+/// Returns a run of the case "bend" with the check "tip" of two values, the check "tip-y" of one
+/// value, and the quantity frequency_Hz.
 Run bend(double first, double second) {
   Run run;
   run.case_id = "bend";

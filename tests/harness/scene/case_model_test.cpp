@@ -50,7 +50,8 @@ BOOST_AUTO_TEST_CASE(every_key_of_a_planar_model_reaches_the_model) {
   BOOST_TEST((member.ends[1].fixity == EndFixity::sprung && member.ends[1].stiffness == 7));
   BOOST_TEST((member.load == Vector2d(1, -2)));
   BOOST_TEST(built.members.at(0).elements == 4);  // the model's default
-  // Triangles are counterclockwise for either order of their nodes.
+  // The case has two triangles with the same nodes in opposite order. The reader stores both in
+  // counterclockwise order.
   BOOST_TEST((built.triangles.at(0).nodes == built.triangles.at(1).nodes));
   BOOST_TEST(built.rigid_bodies.at(0).attached.at(0) == 2);
   BOOST_TEST((built.masses.at(0).mass == 2 && built.masses.at(0).inertia == 3));

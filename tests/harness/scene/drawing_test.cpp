@@ -33,7 +33,7 @@ Json on_a_line(const Json& analysis) {
   return json;
 }
 
-/// Returns the value of a quantity at a drawn instant.
+/// Returns the value of a quantity at the time of a pose in the drawing.
 double at(const AnalysisResult& result, const std::string& name, const results::Pose& instant) {
   const std::vector<double>& time = values(result, "time_s");
   const auto found =

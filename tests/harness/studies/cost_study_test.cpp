@@ -118,7 +118,7 @@ BOOST_AUTO_TEST_CASE(each_output_has_a_scale_and_quantities) {
   spoiled = json;
   spoiled["scale"] = "largest";
   BOOST_TEST(contains(fault_of(spoiled), "/scale: each of 'outputs' requires its scale"));
-  // A curve may lack the second output, but not the first.
+  // A curve of a cost study must compute the first output of the study, but not the second.
   spoiled = json;
   spoiled["curves"]["lumped"]["quantities"] = {{"frequency_Hz", {{"index", {0, 1}}}}};
   BOOST_TEST(fault_of(spoiled) == "");

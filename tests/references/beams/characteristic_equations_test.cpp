@@ -15,11 +15,13 @@ using namespace trammel::testing;
 using boost::test_tools::tolerance;
 
 BOOST_AUTO_TEST_CASE(clamped_corner_has_the_known_exponent) {
-  // Szabo and Babuska (1991), Finite Element Analysis: 0.71117 for a square, nu = 0.3.
+  // Szabo and Babuska (1991), Finite Element Analysis, state the exponent 0.71117 for the corner of
+  // a square with nu = 0.3.
   const auto square = run("wedge-exponent", R"({"clamped_side": [0, -1], "free_side": [1, 0],
                                                 "nu": 0.3, "plane": "strain"})");
   BOOST_TEST(std::abs(square.at(0) - 0.71117) < 1e-5);
-  // For nu = 0 the clamped side does not constrain the field, in any orientation.
+  // For nu = 0, the clamped side does not constrain uniaxial tension normal to this side. The
+  // exponent of a right-angled corner is therefore 1.
   for (const char* plane : {"stress", "strain"}) {
     const std::string arguments =
         R"({"clamped_side": [3, 0], "free_side": [0, 2], "nu": 0, "plane": ")" +

@@ -31,7 +31,8 @@ BOOST_AUTO_TEST_CASE(proved_roots_are_the_published_ones) {
   const auto roots = prove("beam-roots", {{"ends", "pinned-pinned"}, {"count", 2}});
   BOOST_TEST(roots.at(0) == "3.14159265358979323846264338328");
   BOOST_TEST(roots.at(1) == "6.28318530717958647692528676656");
-  // Published: 1.8751040687119611664453082410782141625701117...
+  // The published first root beta L of a cantilever is
+  // 1.8751040687119611664453082410782141625701117...
   BOOST_TEST(prove("beam-roots", {{"ends", "clamped-free"}, {"count", 1}}).at(0) ==
              "1.87510406871196116644530824108");
 }

@@ -38,7 +38,8 @@ CostSetting setting_without_result(int elements, const std::string& status,
   return setting;
 }
 
-/// Returns a study of seven sparse settings, six dense ones and two without a result.
+/// Returns a cost study with seven settings of a curve "sparse", six of a curve "dense", and two
+/// settings without a result.
 Results cost_results() {
   CostStudy study;
   study.id = "sample-modes";

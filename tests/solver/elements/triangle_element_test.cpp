@@ -16,7 +16,8 @@ const Plate kPlate = {"plate", {6.9e10, 2700, 0.33}, 0.0015};
 const Vector2d kBulge(0.08, 0.05);  // displacement of the middle of side 12
 const Matrix2d kTurn{{0, -1}, {1, 0}};
 
-/// Triangle of n nodes; side 12 is straight or a parabola.
+/// Triangle of n nodes. The side between the nodes 1 and 2 (counted from 0) is straight or a
+/// parabola.
 template <std::size_t n>
 struct Element {
   TriangleNodes<n> nodes;
@@ -55,7 +56,8 @@ void check_null_space_and_mass(bool curved) {
   for (const auto& u : {along, across, turn}) BOOST_TEST((k * u).norm() < 1e-13 * k.norm());
   const Eigen::SelfAdjointEigenSolver<TriangleMatrix<n>> eigen(k);
   BOOST_TEST(eigen.eigenvalues()[3] > 1e-3 * eigen.eigenvalues()[2 * n - 1]);
-  // A parabolic side increases the area by two thirds of its chord times its height.
+  // The parabolic side increases the area of the triangle by two thirds of the product of its chord
+  // and its height.
   const Vector2d chord = element.nodes[2] - element.nodes[1];
   const double bulge = 2 / 3.0 * std::abs(chord.x() * kBulge.y() - chord.y() * kBulge.x());
   const double area = element.corner_area() + (curved ? bulge : 0);
@@ -128,7 +130,8 @@ BOOST_AUTO_TEST_CASE(uniform_strain_has_its_stress_and_energy) {
 }
 
 BOOST_AUTO_TEST_CASE(quadratic_displacement_has_its_exact_energy) {
-  // u = (x^2, 0): exx = 2 x, energy = t E / (1 - nu^2) integral 4 x^2.
+  // The displacement (x^2, 0) has the strain exx = 2 x. Twice its strain energy is t E / (1 - nu^2)
+  // integral 4 x^2, with the thickness t.
   const Element<6> element;
   const auto u = element.sample([](const Vector2d& p) { return Vector2d(p.x() * p.x(), 0); });
   double mean = 0;  // mean of x^2 over the triangle, from the middles of the sides

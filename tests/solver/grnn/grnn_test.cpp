@@ -132,7 +132,8 @@ BOOST_AUTO_TEST_CASE(split_has_the_requested_size_and_order) {
   const std::vector<bool> first = training_mask(631, 379, Split::first);
   BOOST_TEST(first[378]);
   BOOST_TEST(!first[379]);
-  // The interleaved split trains with 60 % of each part, and never omits two successive samples.
+  // The interleaved split selects 379 of 631 samples (60 %), spread evenly over all samples. It
+  // never omits two successive samples.
   const std::vector<bool> spread = training_mask(631, 379, Split::interleaved);
   for (std::size_t i = 0; i + 1 < spread.size(); ++i) BOOST_TEST((spread[i] || spread[i + 1]));
   BOOST_TEST(

@@ -112,8 +112,9 @@ BOOST_AUTO_TEST_CASE(torque_law_turns_a_wheel_by_its_double_integral) {
   }
 }
 
-/// The scheme computes mean forces of steps and extrapolates them. Here they are linear in time: a
-/// mass at rest is pulled outward by a force of t N.
+/// The energy-momentum method computes the mean force of a rod in each step, and extrapolates it to
+/// the end of the step. In this test, a mass at rest is pulled outward by a force of t N. The
+/// extrapolation is then exact, even for a last step of half length.
 BOOST_AUTO_TEST_CASE(force_after_a_shorter_step_is_that_at_its_end) {
   Model model = simple_pendulum();
   model.gravity = {0, 0};

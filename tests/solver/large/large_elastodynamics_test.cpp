@@ -88,7 +88,9 @@ BOOST_AUTO_TEST_CASE(nominal_inertia_loads_the_equilibria) {
   }
 }
 
-/// The mean motion on a fast circle under 10 N is quasi-static. The error of linear theory is 8 %.
+/// The platform moves on a fast circle under a load of 10 N. The damped motion starts
+/// quasi-statically, so that it nearly equals the motion without elastic inertia. Linear theory
+/// differs from it by 8 %.
 BOOST_AUTO_TEST_CASE(damping_does_not_act_on_the_nominal_motion) {
   ElastodynamicsOptions options = options_of(ElbowKind::hinged, 1, 6, 5e-3);
   options.wrench = {10, 0, 0};
@@ -104,8 +106,9 @@ BOOST_AUTO_TEST_CASE(damping_does_not_act_on_the_nominal_motion) {
   BOOST_TEST(largest(solve_elastodynamics(options).deflection - still.deflection) > 0.03 * size);
 }
 
-/// The initial equilibrium without damping has different rates than the state with damping. The
-/// difference of strain rates once caused spurious damping forces.
+/// A quasi-static start with damping is a different state than the equilibrium without damping, and
+/// has different velocities. The difference of the strain rates once caused spurious damping forces
+/// at the start.
 BOOST_AUTO_TEST_CASE(strong_damping_starts_as_in_linear_theory) {
   ElastodynamicsOptions options = options_of(ElbowKind::hinged, 5, 0.2, 2e-3);
   options.wrench = {1e-3, 5e-4, 0};
@@ -136,8 +139,8 @@ BOOST_AUTO_TEST_CASE(pulse_within_a_step_is_resolved) {
 }
 
 BOOST_AUTO_TEST_CASE(path_out_of_reach_is_reported) {
-  // With steps of 1e-2 s, the vibration is not resolved. Round-off then decides if the motion fails
-  // before the path leaves the workspace.
+  // The steps of 5e-3 s resolve the vibration. With steps of 1e-2 s, round-off decides if the
+  // motion fails before the path leaves the workspace.
   ElastodynamicsOptions options = options_of(ElbowKind::hinged, 1, 1, 5e-3);
   options.path = Line{{0.25, 0.144, 0}, {0.25, 0.9, 0}, 1};
   options.time.sample_times = {0, 1};

@@ -51,7 +51,8 @@ BOOST_AUTO_TEST_CASE(estimated_norm_is_a_close_lower_bound) {
 }
 
 BOOST_AUTO_TEST_CASE(bound_follows_the_condition_of_A_near_a_singularity) {
-  // q = (1 - 1/phi, 1/phi) exactly. K = A^T A has a condition number of about 16/phi^2.
+  // A = [1 1; 1 1 + phi] becomes singular for phi = 0. The exact solution is q = (1 - 1/phi,
+  // 1/phi). K = A^T A has a condition number of about 16/phi^2.
   for (int power = 4; power <= 40; power += 4) {
     const double phi = std::ldexp(1.0, -power);
     const FactoredStiffness K = factors(MatrixXd{{1, 1}, {1, 1 + phi}});
@@ -72,7 +73,8 @@ BOOST_AUTO_TEST_CASE(stiff_part_costs_no_digits) {
   }
 }
 
-// With one result coordinate, the norm in the error bound is a sum, so the estimate is exact.
+// R selects the coordinate q[1] as the only result. The norm in the error bound is then a sum,
+// which the program computes exactly instead of estimating it.
 BOOST_AUTO_TEST_CASE(bound_is_the_sum_of_rounded_strains_and_forces) {
   FactoredStiffness K = factors(MatrixXd{{1, 0}, {-3, 2}, {0.5, 1}});
   K.C = Eigen::Vector3d(2, 5, 0.7);

@@ -40,7 +40,8 @@ BOOST_AUTO_TEST_CASE(terms_that_cancel_in_a_strain_keep_their_size) {
   model.members = {hinged("AB", 0, 1, unit_section())};
   const FactoredStiffness K = factored_stiffness(assemble(model));
   BOOST_TEST(Eigen::MatrixXd(K.A).row(0).lpNorm<Eigen::Infinity>() < 1e-15);
-  // Both ends of the bar move along it by 0.6 x + 0.8 y. A unit rotation moves B by (-4, 3).
+  // A translation (x, y) moves both ends along the bar by 0.6 x + 0.8 y. A unit rotation moves B by
+  // (-4, 3). `size` contains the sums of the absolute terms that cancel in the strain.
   const Eigen::RowVector3d terms = Eigen::RowVector3d(2 * 0.6, 2 * 0.8, 0.6 * 4 + 0.8 * 3);
   const Eigen::MatrixXd size = K.size;
   BOOST_TEST((size.row(0).head<3>() - terms).lpNorm<Eigen::Infinity>() < 1e-14);

@@ -58,7 +58,8 @@ BOOST_AUTO_TEST_CASE(working_mode_mirrors_the_elbow) {
     const Vector2d b = p.B[i] - g.base[i];
     const Vector2d mirrored = 2 * axis.dot(b) * axis - b;
     BOOST_TEST((q.B[i] - g.base[i] - mirrored).norm() < 1e-15);
-    // The elbow bends counterclockwise (positive sine) if it is on the clockwise side.
+    // If the elbow is on the clockwise side of the line from A to C, the distal link turns
+    // counterclockwise from the proximal link (positive sine).
     BOOST_TEST(p.elbow_sine[i] == -q.elbow_sine[i]);
     BOOST_TEST((p.elbow_sine[i] > 0) == (g.working_mode[i] == 1));
     BOOST_TEST(std::abs(p.elbow_sine[i] - std::sin(p.passive[i] - p.active[i])) < 1e-14);

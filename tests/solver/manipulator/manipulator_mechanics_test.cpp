@@ -67,7 +67,8 @@ System without_supports(const ManipulatorDesign& design) {
   return assemble(model);
 }
 
-/// Returns the valid platforms: rigid with each joint, triangles with and without pins.
+/// Returns manipulators with a rigid platform and each kind of platform joint, and with a platform
+/// of triangles with and without pins.
 std::vector<ManipulatorDesign> platforms() {
   std::vector<ManipulatorDesign> designs;
   for (const PlatformJointKind kind : {PlatformJointKind::hinged, PlatformJointKind::welded,

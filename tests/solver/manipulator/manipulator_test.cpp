@@ -214,8 +214,9 @@ BOOST_AUTO_TEST_CASE(pin_weights_reproduce_linear_fields) {
 }
 
 BOOST_AUTO_TEST_CASE(second_moments_of_a_pin_are_those_of_its_kernel) {
-  // int r^2 (1 - r^2)^3 dA / int (1 - r^2)^3 dA = 1/5, half of it in x. Six nodes represent
-  // quadratics.
+  // The weight of a pin is proportional to (1 - r^2)^3, with the distance r from its center
+  // relative to the pin radius. Its mean of r^2 is 1/5, half of it from x^2. Triangles of six nodes
+  // represent x^2 exactly.
   const double radius = 0.02, area = radius * radius;
   const TriangleMesh mesh =
       platform_mesh(uneven_design().geometry.platform, Vector2d::Zero(), 2, true);

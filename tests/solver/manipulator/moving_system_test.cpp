@@ -93,8 +93,8 @@ BOOST_AUTO_TEST_CASE(moved_system_has_the_matrices_of_a_built_one) {
         BOOST_TEST(difference(walk.moving.load(), built.f) < 1e-12);
         continue;
       }
-      // Both systems may have eliminated different coordinates, so that the test compares
-      // eigenvalues instead of matrices.
+      // The moved system and the system that is assembled at this pose may have eliminated
+      // different coordinates. The test therefore compares eigenvalues instead of matrices.
       const VectorXd moved = all_modes(walk.moving.M(), walk.moving.K()).omega;
       const VectorXd there = all_modes(built.M, built.K).omega;
       BOOST_TEST((moved - there).cwiseQuotient(there).cwiseAbs().maxCoeff() < 1e-9);
@@ -103,9 +103,13 @@ BOOST_AUTO_TEST_CASE(moved_system_has_the_matrices_of_a_built_one) {
 }
 
 BOOST_AUTO_TEST_CASE(load_of_inertia_is_that_of_equation_14) {
-  // F = T_s^T (w^2 H7^T - alpha H8^T - H9^T R^T a_A).
-  // H7 = int rho (x, 0) N, H8 = int rho (0, x) N, H9 = int rho N.
-  // The single link is clamped at one node and free at the other.
+  // Equation 14: a link with the angular velocity w, the angular acceleration alpha and the
+  // acceleration a_A of its first node has the inertia load
+  //
+  //   F = T_s^T (w^2 H7^T - alpha H8^T - H9^T R^T a_A).
+  //   H7 = int rho (x, 0) N, H8 = int rho (0, x) N, H9 = int rho N.
+  //
+  // N are the shape functions. T_s and R^T rotate from world axes to link axes.
   const double length = 0.2, angle = 0.7, w = 3, alpha = -11;
   const Vector2d a_A(0.8, -1.7);
   Model model;
@@ -187,8 +191,8 @@ BOOST_AUTO_TEST_CASE(common_displacement_has_no_gyroscopic_force) {
 }
 
 BOOST_AUTO_TEST_CASE(matrices_of_inextensible_links_grow_linearly) {
-  // The elimination of constraints once made each node depend on all previous nodes of its link, so
-  // that the number of entries increased quadratically.
+  // The elimination of constraints once made each node depend on all previous nodes of its link.
+  // The number of nonzeros of the stiffness matrix then increased quadratically.
   std::vector<double> entries;
   for (const Index elements : {8, 16}) {
     ManipulatorDesign design = with_elements(elements);

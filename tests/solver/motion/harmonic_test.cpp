@@ -79,7 +79,9 @@ BOOST_AUTO_TEST_CASE(slowly_shaken_free_body_moves_by_its_mass) {
     BOOST_TEST(response.at(0).size() == 0);
     for (const double f : {1e-7, 1e-5, 1e-3, 0.1, 0.7}) {
       const double w2 = std::pow(kTurn * f, 2);
-      // (50 - 2 w^2) a - 50 b = 0, (50 - 3 w^2) b - 50 a = 7
+      // The amplitudes a and b of the masses satisfy
+      //
+      //   (50 - 2 w^2) a - 50 b = 0, (50 - 3 w^2) b - 50 a = 7.
       const double determinant = w2 * (6 * w2 - 250);
       const Eigen::VectorXcd u = system.T.cast<std::complex<double>>() * response.at(f);
       BOOST_TEST(u[system.coordinates.node[0][0]].real() == 350 / determinant, tolerance(1e-9));

@@ -23,7 +23,8 @@ ImpulseResponse in_long_digits(double omega, double decay, double t) {
   const int pieces = 1 + static_cast<int>(std::max(omega, decay) * t / 4);
   const Big w2 = Big(omega) * Big(omega);
   const Big dt = Big(t) / pieces;
-  // y = (h1, h, h') and h2 under a unit load
+  // The displacement y of an oscillator under a unit load is h1. Its derivatives are h and h', and
+  // its integral is h2.
   Big y = 0;
   Big v = 0;
   Big sum = 0;
@@ -65,8 +66,8 @@ BOOST_AUTO_TEST_CASE(impulse_response_keeps_its_digits) {
         if (decay * t > 500) continue;
         const ImpulseResponse r = impulse_response(omega, decay, t);
         const ImpulseResponse exact = in_long_digits(omega, decay, t);
-        // Errors are relative to the envelopes of an undamped motion; a phase w t has additional
-        // round-off.
+        // Errors are relative to the largest amplitudes of an undamped motion. The factor 1 + w t
+        // allows for the round-off error of the phase w t.
         const double phase = 1 + omega * t, h_size = std::min(t, 1 / std::max(omega, 1e-300));
         worst = std::max({worst, std::abs(r.h - exact.h) / (h_size * phase),
                           std::abs(r.dh - exact.dh) / phase,

@@ -32,7 +32,8 @@ EquationOfMotion chain(Index n, double mass, double stiffness) {
   return equation;
 }
 
-/// Returns a load of two patterns whose slopes jump, and with a jump at 0.3 s.
+/// Returns a load with two patterns. The factors of both patterns are piecewise linear in time and
+/// jump at 0.3 s.
 PiecewiseLinearLoad rough_load(Index n) {
   PiecewiseLinearLoad load;
   load.pattern = Eigen::MatrixXd::Zero(n, 2);

@@ -52,7 +52,9 @@ inline bool is_of_lost_part(const std::string& name, const Json& model) {
          model.at("members").at(item).contains("end_section");
 }
 
-/// Returns the scale of a quantity. The components of a vector have the same scale.
+/// Returns the scale to which differences of a quantity are relative: the largest magnitude among
+/// the quantities with the same name before the colon. The x and y components of a vector have a
+/// common scale.
 inline double largest_of_head(const Quantities& all, const std::string& name) {
   const auto head = [](const std::string& text) {
     const std::string quantity = text.substr(0, text.find(':'));

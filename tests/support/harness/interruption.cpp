@@ -38,7 +38,8 @@ int exit_status(pid_t child) {
   return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-/// Returns the stored computations, without the judged results.
+/// Returns the files of the folder store that contain computed results, without those that contain
+/// judged results.
 std::set<fs::path> stored(const fs::path& out) {
   std::set<fs::path> files;
   std::error_code error;

@@ -91,7 +91,8 @@ inline bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-/// Returns a steel cantilever of 2 m along x, 0.1 m deep, 0.05 m wide, with 100 N across its tip.
+/// Returns a steel cantilever of 2 m along x, 0.1 m deep and 0.05 m wide, with a transverse force
+/// of 100 N at its tip.
 inline Json cantilever() {
   return Json::parse(R"({
     "id": "cantilever", "title": "Cantilever with a force at its tip",
@@ -118,8 +119,8 @@ inline Json endless() {
   return json;
 }
 
-/// Returns a quarter ring between radii 1 m and 2 m, held on its straight edges, under 0.3 MPa
-/// outside.
+/// Returns a quarter of a ring between the radii 1 m and 2 m. Its straight edges cannot move normal
+/// to themselves. A pressure of 0.3 MPa acts on the outer edge.
 inline Json quarter_ring() {
   return Json::parse(R"({
     "id": "ring", "title": "A quarter of a ring under pressure",
@@ -140,7 +141,7 @@ inline Json quarter_ring() {
   })");
 }
 
-/// Returns the manipulator of Table 1 in the center of its base.
+/// Returns the manipulator of Table 1 of the paper, with the platform in the center of the base.
 inline Json manipulator() {
   return Json::parse(R"({
     "id": "robot", "title": "A 3-RRR manipulator",

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 Workspace::Workspace() {
   std::string name = (fs::temp_directory_path() / "trammel-report-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+  if (!mkdtemp(name.data())) throw std::runtime_error("cannot create a temporary folder");
   path_ = name;
 }
 

@@ -13,7 +13,7 @@ using large_motion::GeometricallyExactSystem;
 using large_motion::LargeMotionModel;
 using large_motion::State;
 
-/// Returns the elastica: EI = 1, inextensible, Euler-Bernoulli.
+/// Returns the elastica: an inextensible Euler-Bernoulli cantilever of length 1 with EI = 1.
 inline Model elastica(Index elements, double angle = 0) {
   Model model = cantilever(unit_section(), 1, elements, angle);
   model.members[0].axially_flexible = false;
