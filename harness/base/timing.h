@@ -19,8 +19,7 @@ struct TimingOptions {
 /// Computing times of one computation. Medians are taken over the repeated measurements.
 struct Timing {
   std::vector<double> cpu_s;  ///< processor times of one computation, one per repeat
-  double median_s = 0;
-  double wall_median_s = 0;
+  double median_s = 0, wall_median_s = 0;
   int runs_each = 1;  ///< number of computations in a measurement
 };
 

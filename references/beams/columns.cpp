@@ -195,8 +195,7 @@ std::vector<Real> elastica_column_program(const Arguments& arguments) {
   for (const Real& degrees : arguments.numbers("tip_angle_deg")) {
     if (!(degrees > 0 && degrees < 180))
       arguments.fail("tip_angle_deg", "expected angles between 0 and 180");
-    const Real k = sin(degrees * pi<Real>() / 360);
-    const Real K = ellint_1(k);
+    const Real k = sin(degrees * pi<Real>() / 360), K = ellint_1(k);
     values.push_back(4 * K * K / (pi<Real>() * pi<Real>()));
     values.push_back(2 * k / K);
     values.push_back(2 * ellint_2(k) / K - 2);

@@ -18,8 +18,7 @@ Real bessel(bool second_kind, int n, const Real& x) {
 /// Returns the Bessel function J_n(k r) or Y_n(k r) and its first two derivatives with respect to
 /// r.
 std::array<Real, 3> radial(bool second_kind, int n, const Real& k, const Real& r) {
-  const Real x = k * r;
-  const Real value = bessel(second_kind, n, x);
+  const Real x = k * r, value = bessel(second_kind, n, x);
   const Real slope = n * value / x - bessel(second_kind, n + 1, x);
   return {value, k * slope, k * k * ((n * n / (x * x) - 1) * value - slope / x)};
 }

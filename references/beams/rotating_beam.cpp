@@ -51,8 +51,7 @@ Tip tip_of_series(const RotatingBeam& beam, const Real& mu, const Tip& start) {
   Real largest = 1;
   int small_terms = 0;
   for (int k = 0; k < 4000; ++k) {
-    const Real k1 = k + 1;
-    const Real k2 = k + 2;
+    const Real k1 = k + 1, k2 = k + 2;
     const Real tension =
         at_hub * k1 * k2 * V[k + 2] - beam.hub_ratio * k1 * k1 * V[k + 1] - Real(k) * k1 / 2 * V[k];
     V.push_back((eta2 * tension + m2 * V[k] + coupling * U[k]) / (k1 * k2 * (k + 3) * (k + 4)));

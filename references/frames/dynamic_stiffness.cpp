@@ -185,8 +185,7 @@ template <class T>
 void DynamicStiffness<T>::add_inertia(const Frame& frame, const FrameCoordinates& coordinates) {
   RealMatrix M = RealMatrix::Zero(coordinates.size(), coordinates.size());
   for (const FrameMass& mass : frame.masses) {
-    const int x = coordinates.node_index(mass.node, 0);
-    const int y = coordinates.node_index(mass.node, 1);
+    const int x = coordinates.node_index(mass.node, 0), y = coordinates.node_index(mass.node, 1);
     const int r = coordinates.node_index(mass.node, 2);
     M(x, x) += mass.mass;
     M(y, y) += mass.mass;

@@ -26,8 +26,7 @@ int Frame::find_member(const std::string& name) const {
 MemberAxis member_axis(const Frame& frame, const FrameMember& member) {
   const auto& a = frame.nodes[member.nodes[0]].position;
   const auto& b = frame.nodes[member.nodes[1]].position;
-  const Real dx = b[0] - a[0], dy = b[1] - a[1];
-  const Real length = sqrt(dx * dx + dy * dy);
+  const Real dx = b[0] - a[0], dy = b[1] - a[1], length = sqrt(dx * dx + dy * dy);
   if (length == 0) throw DerivationError("member " + member.name + " has no length");
   return {length, dx / length, dy / length};
 }

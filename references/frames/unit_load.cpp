@@ -81,8 +81,7 @@ void add_loads(const Frame& frame, const FrameCoordinates& coordinates, Equation
     for (int motion = 0; motion < 3; ++motion) add(load.node, motion, load.force[motion]);
   }
   for (const FrameMass& mass : frame.masses) {
-    const Real fx = mass.mass * frame.gravity[0];
-    const Real fy = mass.mass * frame.gravity[1];
+    const Real fx = mass.mass * frame.gravity[0], fy = mass.mass * frame.gravity[1];
     add(mass.node, 0, fx);
     add(mass.node, 1, fy);
     add(mass.node, 2, mass.offset[0] * fy - mass.offset[1] * fx);
@@ -196,8 +195,7 @@ FrameStatics unit_load_statics(const Frame& frame) {
   for (std::size_t i = 0; i < frame.members.size(); ++i) {
     const auto load = member_load(frame, frame.members[i]);
     const Real L = member_axis(frame, frame.members[i]).length;
-    const Real N = f[3 * i], V = f[3 * i + 1];
-    const Real M = f[3 * i + 2];
+    const Real N = f[3 * i], V = f[3 * i + 1], M = f[3 * i + 2];
     statics.members.push_back(
         {{N, N - load[0] * L}, {V, V - load[1] * L}, {M, M - V * L + load[1] * L * L / 2}});
   }

@@ -16,8 +16,7 @@ namespace {
 /// Returns a bracket of relative width 1e-8 about the root `index`, computed in double precision:
 /// the count is less than `index` at its lower end, and at least `index` at its upper end.
 std::pair<Real, Real> coarse_bracket(const CountingFunction& f, int index) {
-  double lo = f.lo;
-  double hi = f.hi;
+  double lo = f.lo, hi = f.hi;
   for (int i = 0; f.coarse(hi) < index; ++i) {
     if (i > 60)
       throw DerivationError("fewer than " + std::to_string(index) +
@@ -229,8 +228,7 @@ std::vector<Real> frame_sensitivity_program(const Arguments& arguments) {
   const std::vector<Real> c = differences.central(step / 4);
   std::vector<Real> rate;
   for (std::size_t i = 0; i < a.size(); ++i) {
-    const Real ab = (4 * b[i] - a[i]) / 3;
-    const Real bc = (4 * c[i] - b[i]) / 3;
+    const Real ab = (4 * b[i] - a[i]) / 3, bc = (4 * c[i] - b[i]) / 3;
     rate.push_back((16 * bc - ab) / 15);
   }
   return rate;

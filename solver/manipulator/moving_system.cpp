@@ -245,8 +245,7 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
   Forces forces;
   forces.working = {.u = T * q, .load = load_u_, .drag = VectorXd::Zero(load_u_.size())};
   if (with_inertia) forces.working.load += inertia_u_;
-  VectorXd u_dot = T * v;
-  VectorXd u_ddot = T * a;
+  VectorXd u_dot = T * v, u_ddot = T * a;
   if (options_.gyroscopic && constraints_.variable()) {
     u_dot += constraints_.T_dot() * q;
     u_ddot += 2 * (constraints_.T_dot() * v) + constraints_.T_ddot() * q;

@@ -58,8 +58,7 @@ double rms(const MatrixXd& m) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(predictions_are_those_of_the_printed_formula) {
-  const MatrixXd inputs = random_matrix(60, 3, 1);
-  const MatrixXd outputs = random_matrix(60, 2, 2);
+  const MatrixXd inputs = random_matrix(60, 3, 1), outputs = random_matrix(60, 2, 2);
   const MatrixXd queries = 1.5 * random_matrix(40, 3, 3);
   for (const InputScaling scaling :
        {InputScaling::none, InputScaling::deviation, InputScaling::range}) {
@@ -84,8 +83,7 @@ BOOST_AUTO_TEST_CASE(samples_at_the_same_distance_have_equal_weights) {
 }
 
 BOOST_AUTO_TEST_CASE(scaled_inputs_do_not_depend_on_their_unit) {
-  const MatrixXd inputs = random_matrix(40, 2, 11);
-  const MatrixXd outputs = random_matrix(40, 2, 12);
+  const MatrixXd inputs = random_matrix(40, 2, 11), outputs = random_matrix(40, 2, 12);
   const MatrixXd queries = random_matrix(25, 2, 13);
   const Eigen::Vector2d units(1e-3, 4e5);
   for (const InputScaling scaling : {InputScaling::deviation, InputScaling::range}) {
@@ -103,8 +101,7 @@ BOOST_AUTO_TEST_CASE(scaled_inputs_do_not_depend_on_their_unit) {
 
 BOOST_AUTO_TEST_CASE(batch_equals_single_queries) {
   const Grnn g = make_grnn(random_matrix(100, 3, 14), random_matrix(100, 2, 15), 0.2);
-  const MatrixXd queries = random_matrix(77, 3, 16);
-  const MatrixXd batch = predict(g, queries);
+  const MatrixXd queries = random_matrix(77, 3, 16), batch = predict(g, queries);
   for (Index k = 0; k < queries.rows(); ++k)
     BOOST_TEST((predict(g, queries.row(k)) - batch.row(k)).norm() < 1e-14);
   BOOST_TEST(predict(g, MatrixXd(0, 3)).rows() == 0);
