@@ -278,12 +278,13 @@ class Selector {
   [[nodiscard]] double path_rate() const {
     constexpr int kSamples = 64;
     double velocity = 0, acceleration = 0;
+    const Eigen::Vector3d unit(1, 1, solver::platform_radius(options_.design.geometry));
     for (int i = 0; i <= kSamples; ++i) {
       const double share = static_cast<double>(i) / kSamples;
       const solver::TrajectoryPoint point = at(
           options_.path, options_.time.start + share * (options_.time.end - options_.time.start));
-      velocity = std::max(velocity, point.velocity.norm());
-      acceleration = std::max(acceleration, point.acceleration.norm());
+      velocity = std::max(velocity, point.velocity.cwiseProduct(unit).norm());
+      acceleration = std::max(acceleration, point.acceleration.cwiseProduct(unit).norm());
     }
     return velocity > 0 ? acceleration / velocity : 0;
   }

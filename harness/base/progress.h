@@ -20,8 +20,7 @@ class Progress {
 
  private:
   std::string items_;
-  bool terminal_;
-  bool bar_shown_ = false;
+  bool terminal_, bar_shown_ = false;
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point last_shown_ = start_;
 };

@@ -316,8 +316,10 @@ class MotionSolver {
     largest = nan_max(largest, share);
     max_angular_velocity_ =
         std::max(max_angular_velocity_, largest_angular_velocity(moving_.motion()));
-    max_velocity_ = std::max(max_velocity_, follower_.point().velocity.norm());
-    max_acceleration_ = std::max(max_acceleration_, follower_.point().acceleration.norm());
+    const Vector3d unit(1, 1, platform_radius(options_.design.geometry));
+    const TrajectoryPoint& point = follower_.point();
+    max_velocity_ = std::max(max_velocity_, point.velocity.cwiseProduct(unit).norm());
+    max_acceleration_ = std::max(max_acceleration_, point.acceleration.cwiseProduct(unit).norm());
   }
 
   void finish() {

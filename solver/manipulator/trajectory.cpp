@@ -66,8 +66,7 @@ TrajectoryPoint evaluate(const Spline& spline, double time) {
   const double h = *next - *(next - 1);
   const double b = (t - *(next - 1)) / h;
   const double a = (*next - t) / h;
-  const Vector3d p0 = spline.pose.row(k - 1);
-  const Vector3d p1 = spline.pose.row(k);
+  const Vector3d p0 = spline.pose.row(k - 1), p1 = spline.pose.row(k);
   const Vector3d a0 = spline.acceleration.row(k - 1);
   const Vector3d a1 = spline.acceleration.row(k);
   return {0, pose_of(a * p0 + b * p1 + (h * h / 6) * (a * (a * a - 1) * a0 + b * (b * b - 1) * a1)),

@@ -93,8 +93,7 @@ ModalResponse superpose(const ModalBasis& basis, const VectorXd& decay, const Sp
     if (x.size() == 0) return VectorXd::Zero(modes);
     return basis.shape.transpose() * (M * x);
   };
-  const VectorXd y0 = project(q0);
-  const VectorXd w0 = project(v0);
+  const VectorXd y0 = project(q0), w0 = project(v0);
   for (Index i = 0; i < modes; ++i) state[to_size(i)] = {y0[i], w0[i]};
 
   Eigen::MatrixXd y(modes, columns);
