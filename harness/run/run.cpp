@@ -260,8 +260,8 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
                           });
 }
 
-/// Adds a check of the status of the run, unless the expected and actual status are "solved". If the
-/// case expects another status, the name of the check does not depend on the actual one.
+/// Adds a check of the status of the run, unless the expected and actual status are "solved". If
+/// the case expects another status, the name of the check does not depend on the actual one.
 /// @returns whether the computation ended as the case expects
 bool evaluate_status_check(const Task& task, Run& run) {
   const std::string expected = task.document.value().value("expect_status", "solved");
