@@ -56,8 +56,7 @@ struct RulePoint {
 
 const std::array<RulePoint, 7>& radon_rule() {
   static const std::array<RulePoint, 7> rule = [] {
-    const double r = std::sqrt(15.0);
-    const double a = (6 - r) / 21;
+    const double r = std::sqrt(15.0), a = (6 - r) / 21;
     const double b = (6 + r) / 21;
     const double wa = (155 - r) / 1200;
     const double wb = (155 + r) / 1200;

@@ -398,6 +398,7 @@ class EnergyMomentum final : public ConstrainedStepper {
                             .resolution = 1e-11,
                             .position_resolution = 1e-17}),
         system_(system),
+        row_unit_(system.row_unit()),
         midpoint_(start),
         mean_lambda_(start.lambda),
         previous_mean_lambda_(start.lambda),
@@ -427,6 +428,7 @@ class EnergyMomentum final : public ConstrainedStepper {
   void advance() override;
 
   const GeometricallyExactSystem& system_;
+  VectorXd row_unit_;
   State midpoint_;
   VectorXd mean_lambda_, previous_mean_lambda_;
   VectorXd previous_constraint_residual_;
@@ -486,6 +488,8 @@ void EnergyMomentum::advance() {
   throughput_ += std::abs(work);
   for (const Energy& e : {before, energy_})
     largest_energy_ = std::max(largest_energy_, e.kinetic + e.strain + std::abs(e.load));
+  // Systems at rest have only the energy of the round-off errors of positions.
+  largest_energy_ = std::max(largest_energy_, kEps * from_.lambda.cwiseAbs().dot(row_unit_));
   largest_gap_ = nan_max(largest_gap_, std::abs(gap_));
 }
 

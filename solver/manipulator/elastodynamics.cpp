@@ -184,8 +184,7 @@ class MotionSolver {
     MotionEvidence evidence(equation);
     for (std::size_t i = 0; i < times.size(); ++i) {
       const auto column = static_cast<Index>(i) + 1;
-      const VectorXd q = response.q.col(column);
-      const VectorXd v = response.v.col(column);
+      const VectorXd q = response.q.col(column), v = response.v.col(column);
       const VectorXd a = response.a.col(column);
       MotionEnergy energy{.kinetic = v.dot(M * v) / 2, .strain = q.dot(K * q) / 2};
       // The work of a variable load would require an integral over time and is not computed.

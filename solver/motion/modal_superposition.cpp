@@ -237,8 +237,7 @@ Decay integrate_decay(double rate, double t) {
 
 /// Computes the response as the difference of two decays whose rates are far apart.
 ImpulseResponse by_decays(double omega, double decay, double root, double t) {
-  const double fast = decay + root;
-  const double slow = omega * omega / fast;
+  const double fast = decay + root, slow = omega * omega / fast;
   const double gap = 2 * root;
   const double e_slow = std::exp(-slow * t);
   const double e_fast = std::exp(-fast * t);
