@@ -105,16 +105,17 @@ std::vector<std::string> error_row(const ErrorEstimate& estimate,
 /// Returns the difference from each printed number and its standard uncertainties (ASME V&V 20),
 /// grouped by variant and reference, in percent of the printed number.
 TextTable uncertainty_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
-  TextTable table{
-      "Validation uncertainty",
-      {"Quantity", ">Printed D", ">E", ">u_num", ">u_input", ">u_D", ">u_val", "Dominant input"}};
+  TextTable table{"Validation uncertainty",
+                  {"Quantity", ">Printed D", ">E (%)", ">u_num (%)", ">u_input (%)", ">u_D (%)",
+                   ">u_val (%)", "Dominant input"}};
   for (const Run* run : runs) {
     std::string last;
     if (!run->uncertainty) continue;
     for (const Comparison& c : run->uncertainty->comparisons) {
       if (!c.expected || !c.u_val) continue;
       const auto percent = [&](Number value, bool sign) {
-        return value ? relative(*value / std::abs(*c.expected), 2, sign) : "";
+        const double size = value.value_or(0) / std::abs(*c.expected) * 100;
+        return !value ? "" : sign ? with_sign(size, 2) : trimmed(size, 2);
       };
       if (std::exchange(last, c.check) != c.check)
         table.rows.push_back({info.variant_title(run->variant) + ", " + c.check});
