@@ -237,7 +237,7 @@ class Search {
         error_bands(found_.result, coarse, source, {current_, false, finer->ratio, ""});
     bands_[source] = narrowed(two_levels, two_levels_[source], finer->ratio);
     two_levels_[source] = std::move(two_levels);
-    if (is_same_result(found_.result, coarse)) bands_.erase(source);
+    if (source == ErrorSource::step && is_same_result(found_.result, coarse)) bands_.erase(source);
     found_.tried.push_back(current_);
     found_.errors.search.push_back({setting_of(current_), error(), cpu_s_});
     stalled_ = error_by(source) > 0.7 * before ? stalled_ + 1 : 0;
