@@ -52,10 +52,9 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   AnalysisResult result{std::move(found), {}, {}};
   if (!kind.evidence.empty())
     result.outcome = solver::outcome_by_evidence(result.outcome, result.evidence, kind.evidence);
-  if (result.outcome.solved() && !record.not_finite().empty()) {
+  if (result.outcome.solved() && !record.not_finite().empty())
     result.outcome = {solver::Status::not_converged,
                       record.not_finite() + " is not a finite number"};
-  }
   if (!result.outcome.solved()) return result;
   result.quantities = record.take_quantities();
   const double of_load =

@@ -43,15 +43,13 @@ KeptQuantity number_of(const Quantities& quantities, const std::string& name,
   }
   const std::vector<double>& values = found->second.values;
   const std::vector<double>& roundoff = found->second.roundoff;
-  if (keep.has("statistic")) {
+  if (keep.has("statistic"))
     return {statistic_of(keep.text("statistic"), values),
             roundoff.empty() ? -1 : statistic_of("max", roundoff)};
-  }
   const auto index = keep.get<std::size_t>("index", 0);
-  if (!keep.has("index") && values.size() != 1) {
+  if (!keep.has("index") && values.size() != 1)
     throw keep.error("the quantity has " + std::to_string(values.size()) +
                      " numbers; expected 'index' or 'statistic'");
-  }
   if (index >= values.size()) return {};
   return {values[index], index < roundoff.size() ? roundoff[index] : -1};
 }

@@ -23,9 +23,8 @@ JsonView analysis_place(const Document& document) {
 /// Returns the value of the key by which the analysis switches an effect; empty without the key.
 std::optional<JsonView> find_key(const Document& document, const EffectKey& effect_key) {
   std::optional<JsonView> place = analysis_place(document);
-  for (const char* key : effect_key.place) {
+  for (const char* key : effect_key.place)
     if (place) place = place->find(key);
-  }
   return place;
 }
 
@@ -83,10 +82,9 @@ Effects read_names(const JsonView& names, const EffectScope& scope, const Effect
                           std::string(solver::name_of(effect)) + "', which requires it");
     }
   }
-  if (!(scope.completed(chosen) == chosen)) {
+  if (!(scope.completed(chosen) == chosen))
     throw names.error(
         "'large-displacement' with 'inertia' requires 'gyroscopic', which they include");
-  }
   return chosen;
 }
 
@@ -178,10 +176,9 @@ EffectChoice choose_effects(const Document& document, const CaseModel& case_mode
     throw specified->error("'effects' excludes this key, which specifies the same effect: " +
                            std::string(solver::name_of(effect_key.effect)));
   }
-  if (requested->json().is_object()) {
+  if (requested->json().is_object())
     return choose_automatically(document, case_model, scope,
                                 (*requested)["auto"].number("tolerance"));
-  }
   choice.chosen = read_names(*requested, scope, rules);
   choice.rows = effect_rows(scope, choice.chosen, rules, "requested");
   return choice;

@@ -52,9 +52,8 @@ std::string quantity_group(const std::string& quantity) {
       {"drive_force_N", "force"},
       {"drive_torque_N_m", "moment"},
       {"frequency_Hz", "frequency"}};
-  for (const auto& [start, kind] : kinds) {
+  for (const auto& [start, kind] : kinds)
     if (quantity.rfind(start, 0) == 0) return kind;
-  }
   return "";
 }
 
@@ -167,9 +166,8 @@ Changes changes_between(const Quantities& full, const Quantities& other, const M
 
 LargestDifference max_change(const Changes& changes) {
   LargestDifference largest;
-  for (const auto& [kind, change] : changes) {
+  for (const auto& [kind, change] : changes)
     if (change.value > largest.value) largest = change;
-  }
   return largest;
 }
 

@@ -176,9 +176,7 @@ std::vector<EffectKey> no_keys(const JsonView&) {
 }
 
 std::vector<EffectKey> modes_keys(const JsonView& analysis) {
-  if (analysis.has("rotating")) {
-    return {{Effect::gyroscopic, {"rotating", "coriolis"}, true}};
-  }
+  if (analysis.has("rotating")) return {{Effect::gyroscopic, {"rotating", "coriolis"}, true}};
   return {{Effect::geometric_stiffening, {"prestressed"}, false}};
 }
 
@@ -197,9 +195,8 @@ Effects EffectScope::completed(Effects set) const {
 
 Effects EffectScope::without(Effects set, Effect effect) const {
   set = set.without(effect);
-  for (const Effect dependent : dependents[static_cast<std::size_t>(effect)].list()) {
+  for (const Effect dependent : dependents[static_cast<std::size_t>(effect)].list())
     if (set.has(dependent)) set = without(set, dependent);
-  }
   return set;
 }
 

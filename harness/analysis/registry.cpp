@@ -108,9 +108,8 @@ const AnalysisKind& find_analysis(const std::string& name) {
 
 std::string analyses_with_effects() {
   std::vector<std::string> names;
-  for (const AnalysisKind& kind : analysis_kinds()) {
+  for (const AnalysisKind& kind : analysis_kinds())
     if (kind.effects != nullptr) names.emplace_back(kind.name);
-  }
   return join(names, "or");
 }
 

@@ -65,9 +65,8 @@ class Estimator {
 
   void count_model(const JsonView& model) {
     count_members(model);
-    if (const auto plates = model.find("plates")) {
+    if (const auto plates = model.find("plates"))
       for (const auto& entry : plates->entries()) count_plate(entry.second);
-    }
     if (const auto manipulator = model.find("manipulator")) {
       const JsonView links = (*manipulator)["links"];
       for (const char* which : {"proximal", "distal"}) {

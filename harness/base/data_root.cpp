@@ -24,9 +24,8 @@ fs::path find_data_root() {
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const std::vector<fs::path> places = {TRAMMEL_SOURCE_DIR,
                                         program.parent_path().parent_path() / "share" / "trammel"};
-  for (const fs::path& place : places) {
+  for (const fs::path& place : places)
     if (holds_the_data(place)) return place;
-  }
   throw InputError("TRAMMEL_HOME: not set; expected the folder of cases/ and references/ (" +
                    places.front().string() + " does not exist)");
 }

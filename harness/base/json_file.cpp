@@ -43,10 +43,9 @@ class StrictReader : public nlohmann::json_sax<Json> {
 
   bool key(string_t& name) override {
     auto& members = open_.back()->get_ref<Json::object_t&>();
-    if (is_known(members, name)) {
+    if (is_known(members, name))
       throw InputError(name_, (pointer() / name).to_string(),
                        "expected every key once (got '" + printable(name) + "' twice)");
-    }
     // `is_known` has already searched all keys, and operator[] would search them again.
     auto& container = static_cast<Json::object_t::Container&>(members);
     make_room(container);
@@ -116,10 +115,9 @@ class StrictReader : public nlohmann::json_sax<Json> {
     return true;
   }
   bool open(Json empty) {
-    if (open_.size() == kMaxDepth) {
+    if (open_.size() == kMaxDepth)
       throw InputError(name_, here(),
                        "expected at most " + std::to_string(kMaxDepth) + " levels of nesting");
-    }
     open_.push_back(place(std::move(empty)));
     keys_.emplace_back();
     return true;

@@ -22,6 +22,7 @@
 #include <fstream>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <stdexcept>
 
 #include "harness/base/errors.h"
@@ -415,6 +416,14 @@ std::size_t folder_bytes(const fs::path& folder, std::size_t enough) {
     }
   }
   return sum;
+}
+
+std::string find_program(const std::string& name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (const fs::path file = fs::path(folder) / name; access(file.c_str(), X_OK) == 0) return file;
+  return "";
 }
 
 ProcessOutcome run_limited(const std::vector<std::string>& words, const fs::path& folder,

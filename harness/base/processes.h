@@ -62,6 +62,9 @@ struct ProgramLimits {
   std::size_t disk_bytes = std::size_t{1} << 30;
 };
 
+/// Returns the path of a program in the folders of PATH; empty if there is none.
+[[nodiscard]] std::string find_program(const std::string& name);
+
 /// Runs a program in a folder, which is also its TMPDIR, in a separate session without standard
 /// input. Then kills it with all its descendants. The outcome is `answered` for any exit status.
 /// This process must have no other children.

@@ -17,10 +17,9 @@ double statistic_of(const std::string& name, const std::vector<double>& values) 
   if (name == "max") return *most;
   if (name == "min") return *least;
   if (name == "max_abs") return std::max(std::abs(*least), std::abs(*most));
-  if (name == "min_abs") {
+  if (name == "min_abs")
     return std::abs(*std::ranges::min_element(
         values, [](double a, double b) { return std::abs(a) < std::abs(b); }));
-  }
   if (name == "sum") return std::accumulate(values.begin(), values.end(), 0.0);
   if (name == "mean") return std::accumulate(values.begin(), values.end(), 0.0) / count;
   if (name == "median") {

@@ -71,13 +71,15 @@ void print(const Convergence& found) {
 }  // namespace
 
 int converge_command(const CommandOptions& options, const Renderers& /*renderers*/) {
-  const Case given = load_named_case(options.word);
+  const auto [name, chosen] = split_case_name(options.word);
+  const std::string variant = options.variant.empty() ? chosen : options.variant;
+  const Case given = load_named_case(name);
   if (!given.document.value().contains("sweeps"))
     throw given.document.error("", "expected 'sweeps', which define the refinement");
-  if (!options.variant.empty()) (void)patched(given, options.variant);
+  if (!variant.empty()) (void)patched(given, variant);
   const References references;
   const std::vector<Run> runs =
-      run_cases({given}, references, {options.variant, options.jobs, TrackedQuantities::all, {}});
+      run_cases({given}, references, {variant, options.jobs, TrackedQuantities::all, {}});
   require_complete(runs);
   for (const Run& run : runs) {
     if (run.fault != results::Fault::none) {

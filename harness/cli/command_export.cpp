@@ -16,10 +16,9 @@ namespace {
 /// Returns the quantities requested by the case, or all if it requests none.
 Json quantities_json(const Case& given, const Quantities& quantities) {
   std::set<std::string> asked;
-  if (const auto exported = JsonView(given.document).find("export")) {
+  if (const auto exported = JsonView(given.document).find("export"))
     for (const auto& [number, place] : (*exported)["quantities"].entries())
       asked.insert(place.text("name"));
-  }
   Json found = Json::object();
   for (const auto& [name, quantity] : quantities) {
     if (!asked.empty() && asked.count(name) == 0) continue;
@@ -34,10 +33,12 @@ Json quantities_json(const Case& given, const Quantities& quantities) {
 
 int export_command(const CommandOptions& options, const Renderers& /*renderers*/) {
   ExportChoice choice;
+  const auto [name, variant] = split_case_name(options.word);
+  if (!variant.empty()) choice.variant = variant;
   if (!options.variant.empty()) choice.variant = options.variant;
   if (!options.sweeps.empty()) choice.sweep = options.sweeps.front();
   if (options.level >= 0) choice.level = static_cast<std::size_t>(options.level);
-  const Case given = load_named_case(options.word);
+  const Case given = load_named_case(name);
   if (!options.matrices.empty()) {
     const Document document = chosen_document(given, choice);
     write_matrices(document, exported_scene(document), options.matrices);
@@ -61,10 +62,9 @@ int solve_command(const CommandOptions& options, const Renderers& /*renderers*/)
   require_complete(runs);
   const Run& run = runs.front();
   require_no_error(run);
-  if (run.is_solved()) {
+  if (run.is_solved())
     for (const std::string& warning : run.warnings)
       std::cerr << "trammel: " << given.id() << ": warning: " << warning << '\n';
-  }
   write_file(options.out,
              format_json({{"status", to_string(run.status)},
                           {"reason", run.reason},

@@ -52,24 +52,29 @@ void print_grades(const std::vector<results::Run>& runs) {
   std::ranges::move(check_columns(), std::back_inserter(columns));
   Rows table(columns);
   std::map<Grade, std::size_t> counts;
+  std::map<std::string, std::vector<std::string>> reasons;  // runs by reason
   for (const results::Run& run : runs) {
     const Grade grade = results::grade_of(run);
     ++counts[grade];
     const auto missing = std::ranges::count_if(run.checks, [](const auto& check) {
       return check.verdict == Verdict::not_given || check.verdict == Verdict::error;
     });
+    const std::string name = run.case_id + (run.variant == kBaseVariant ? "" : ":" + run.variant);
     std::vector<Json> row = {
-        to_string(grade), run.case_id + (run.variant == kBaseVariant ? "" : ":" + run.variant),
+        to_string(grade), name,
         fmt::format("{} of {}", std::ssize(run.checks) - missing, run.checks.size()),
         run.cost.wall_s};
-    const bool is_judged = grade == Grade::agrees || grade == Grade::off;
-    const std::vector<Json> cells =
-        is_judged ? check_cells(*results::decisive_check(run))
-                  : std::vector<Json>{"", printable(reason_of(run, grade), 160)};
-    row.insert(row.end(), cells.begin(), cells.end());
+    if (grade == Grade::agrees || grade == Grade::off)
+      std::ranges::move(check_cells(*results::decisive_check(run)), std::back_inserter(row));
+    else
+      reasons[printable(reason_of(run, grade), 160)].push_back(name);
     table.add(std::move(row));
   }
   table.print(std::cout);
+  for (const auto& [reason, names] : reasons)
+    std::cout << wrapped(
+        (names.size() > 3 ? count_of(names.size(), "run") : join(names, "and")) + ": " + reason,
+        "  ");
   std::vector<std::string> parts;
   for (const auto& [grade, count] : counts)
     parts.push_back(fmt::format("{} {}", count, to_string(grade)));

@@ -86,7 +86,7 @@ CLI::Validator within(double least, double most) {
 
 const std::vector<Option>& all_options() {
   static const std::vector<Option> options = {
-      {"case", &Options::word, "Name or file of a case"},
+      {"case", &Options::word, "Name or file of a case, or case:variant"},
       {"cases", &Options::words,
        "Names or files of cases; default: the catalogue, except for 'run'"},
       {"inputs", &Options::words,
@@ -133,6 +133,9 @@ const std::vector<Option>& all_options() {
       {"-q,--quiet", &Options::quiet, "Print only runs that fail, and the summary"},
       {"--vtk", &Options::vtk,
        "Also write shapes, poses and motions to OUT/vtk for ParaView, as PVD and VTU files"},
+      {"--pdf", &Options::pdf,
+       "Also print the summary on one A4 sheet, OUT/summary.pdf, by Chromium"},
+      {"--open", &Options::open, "Show the report in the default browser"},
       {"--html", &Options::html, "Also write a page with overlaid curves to this file"},
       {"--gate", &Options::gate, "Exit status 1 if something differs beyond round-off"},
       {"--sweep", &Options::sweeps, "Use only this sweep of the cases; default: all sweeps"},
@@ -201,7 +204,7 @@ constexpr CommandEntry kCommands[] = {
     {"effects", effects_command, "cases --label --variant --tolerance --repeats --out --json", ""},
     {"report", report_command,
      "inputs --label --label-any --jobs --out --fresh --store --history --max-memory --errors "
-     "--no-errors --warn-above --accuracy --quantity"},
+     "--no-errors --warn-above --accuracy --quantity --pdf --open"},
     {"export", export_command, "case! --variant --level --sweep --out --matrices", ""},
     {"solve", solve_command, "case! result!", ""},
     {"grade", grade_command,

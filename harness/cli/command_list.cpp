@@ -245,18 +245,19 @@ int list_command(const CommandOptions& options, const Renderers& /*renderers*/) 
 }
 
 int describe_command(const CommandOptions& options, const Renderers& /*renderers*/) {
-  const Case given = load_named_case(options.word);
+  const auto [name, variant] = split_case_name(options.word);
+  const Case given = load_named_case(name);
+  const Document base = patched(given, variant.empty() ? kBaseVariant : variant);
   if (options.json) {
-    Json document = given.document.value();
+    Json document = (variant.empty() ? given.document : base).value();
     document["file"] = given.file.string();
     std::cout << format_json(document);
     return 0;
   }
-  const Document base = patched(given, kBaseVariant);
   require_fits(base);
   std::cout << given.id() << ": " << given.title() << '\n'
             << wrapped(given.document.value().value("description", ""), "  ") << "\nModel     "
-            << describe_model(base) << "\nAnalysis  " << analysis_kind(given.document) << " "
+            << describe_model(base) << "\nAnalysis  " << analysis_kind(base) << " "
             << base.value().at("analysis").begin()->dump() << "\nFile      " << given.file.string()
             << '\n';
   if (given.variants().size() > 1) {

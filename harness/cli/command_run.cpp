@@ -1,3 +1,5 @@
+#include <unistd.h>
+
 #include <algorithm>
 #include <csignal>
 #include <functional>
@@ -60,10 +62,9 @@ void require_distinct(const std::vector<Case>& cases) {
   std::map<std::string, std::string> seen;
   for (const Case& test_case : cases) {
     const auto [entry, fresh] = seen.emplace(test_case.id(), test_case.file.string());
-    if (!fresh) {
+    if (!fresh)
       throw InputError("expected cases of different names (got '" + test_case.id() + "' in " +
                        entry->second + " and in " + test_case.file.string() + ")");
-    }
   }
 }
 
@@ -177,6 +178,52 @@ bool is_results_file(const std::string& name) {
   }
 }
 
+/// Returns the path of the first of these programs that is installed.
+/// @throws InputError  if none is installed
+std::string require_program(const std::string& option, const std::vector<std::string>& names) {
+  for (const std::string& name : names)
+    if (const std::string path = find_program(name); !path.empty()) return path;
+  throw InputError(option + ": expected the program '" + names.front() + "' in PATH");
+}
+std::string chromium() {
+  return require_program("--pdf", {"chromium", "chromium-browser", "google-chrome"});
+}
+std::string opener() {
+  return require_program("--open", {"xdg-open"});
+}
+
+void require_programs(const CommandOptions& options) {
+  if (options.pdf) (void)chromium();
+  if (options.open) (void)opener();
+}
+
+/// Prints summary.html as PDF, and shows the report in a browser, if the options request this.
+void present(const CommandOptions& options, const std::filesystem::path& page) {
+  std::cout << "report in " << page.string() << std::endl;
+  const std::filesystem::path folder = std::filesystem::absolute(page).parent_path();
+  const std::filesystem::path sheet = folder / "summary.html", pdf = folder / "summary.pdf";
+  std::filesystem::remove(pdf);  // of an earlier report
+  if (options.pdf) {
+    if (!std::filesystem::exists(sheet))
+      throw InputError("--pdf: the report has no summary, because no case was run");
+    const std::filesystem::path profile = folder / results::kUnfinishedFolder / "chromium";
+    std::filesystem::create_directories(profile);
+    const ProcessOutcome outcome = run_limited(
+        {chromium(), "--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer",
+         "--user-data-dir=" + profile.string(), "--print-to-pdf=" + pdf.string(), sheet.string()},
+        profile, {});
+    if (!std::filesystem::exists(pdf))
+      throw InputError("--pdf: Chromium failed: " + one_line(outcome.text));
+    std::cout << "summary in " << pdf.string() << std::endl;
+  }
+  if (options.open && fork() == 0) {
+    const std::string program = opener();
+    setsid();  // the browser may remain open after this program
+    execl(program.c_str(), program.c_str(), page.c_str(), nullptr);
+    _exit(127);
+  }
+}
+
 /// Renders existing results without computing: a single file as a report, several files as a page
 /// that compares codes.
 int report_results(const CommandOptions& options, const Renderers& renderers) {
@@ -185,7 +232,10 @@ int report_results(const CommandOptions& options, const Renderers& renderers) {
     for (const auto& file : files)
       if (const auto fault = find_schema_fault(read_json(file), "results"))
         throw InputError(file.string(), fault->pointer, fault->message);
+  if (files.size() > 1 && options.pdf)
+    throw InputError("--pdf: a comparison of codes has no summary; expected one results file");
   if (files.size() == 1) require_drawing(renderers);
+  require_programs(options);
   const OutputLock lock(options.out);
   std::filesystem::path page;
   if (files.size() == 1) {
@@ -197,7 +247,7 @@ int report_results(const CommandOptions& options, const Renderers& renderers) {
   } else {
     page = renderers.codes(files, options.out);
   }
-  std::cout << "report in " << page.string() << std::endl;
+  present(options, page);
   return 0;
 }
 
@@ -331,6 +381,7 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
     return report_results(options, renderers);
   }
   require_drawing(renderers);
+  require_programs(options);
   CommandOptions resuming = options;
   resuming.resume = !options.fresh;
   const Selection selection = select(resuming);
@@ -352,8 +403,8 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
   }
   const auto page = write_pages(results, options.out, renderers);
   print_summary(results);
-  std::cout << "report in " << page.string() << std::endl;
   print_run_errors(runs);
+  present(options, page);
   return std::max(exit_status(runs), status);
 }
 

@@ -36,6 +36,7 @@ struct CommandOptions {
   std::string shard;    ///< "K/N" for `run`: the K-th of N shards
   std::string history;  ///< SQLite file for verdicts and times; empty: none
   bool vtk = false;
+  bool pdf = false, open = false;  ///< for `report`
 
   std::string html;  ///< for `compare`: file of the page; empty: none
   bool gate = false;

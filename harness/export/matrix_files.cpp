@@ -53,10 +53,9 @@ std::string coordinate_table(const solver::System& system) {
       set(system.coordinates.node[node][k], std::array{"x_m", "y_m", "rotation_rad"}[k], of);
   }
   for (std::size_t m = 0; m < system.coordinates.member_end.size(); ++m) {
-    for (std::size_t end = 0; end < 2; ++end) {
+    for (std::size_t end = 0; end < 2; ++end)
       set(system.coordinates.member_end[m][end], "end_rotation_rad",
           system.model.members[m].name + (end == 0 ? ".start" : ".end"));
-    }
   }
   std::string text = "coordinate,motion,of\n";
   for (const std::string& line : lines) text += line;

@@ -89,9 +89,8 @@ solver::Material SectionTable::material_of(const solver::Section& section) const
     if (exactly ? material.rho * A == mass : nearly(material.rho * A, mass)) return material;
     made = material;
   }
-  if (made.E == 0) {
+  if (made.E == 0)
     made.E = first_that(quotients(section.EA, A), [&](double E) { return E * A == section.EA; });
-  }
   made.rho = first_that(quotients(mass, A), [&](double rho) { return rho * A == mass; });
   return made;
 }
@@ -117,9 +116,8 @@ std::string SectionTable::name_of(const solver::Section& section) {
                {"second_moment_m4", second_moment(section, material)},
                {"shear_coefficient", shear_coefficient(section, material)}};
   const double I = made["second_moment_m4"].get<double>(), W = section.section_modulus;
-  if (I > 0 && W > 0 && std::isfinite(W)) {
+  if (I > 0 && W > 0 && std::isfinite(W))
     made["half_depth_m"] = first_that(quotients(I, W), [&](double c) { return I / c == W; });
-  }
   for (const auto& [name, known] : sections_.items())
     if (known == made) return name;
   std::string name = "section-" + std::to_string(sections_.size() + 1);

@@ -144,15 +144,8 @@ std::vector<std::string> adapter_words(const std::string& command) {
     for (std::string word; text >> word;) words.push_back(word);
   }
   if (words.empty()) throw InputError("ADAPTER: the command is empty; expected a program");
-  if (words.front().find('/') == std::string::npos && !fs::is_regular_file(words.front())) {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path == nullptr ? "" : path);
-    for (std::string folder; std::getline(folders, folder, ':');)
-      if (access((fs::path(folder) / words.front()).c_str(), X_OK) == 0) {
-        words.front() = (fs::path(folder) / words.front()).string();
-        break;
-      }
-  }
+  if (words.front().find('/') == std::string::npos && !fs::is_regular_file(words.front()))
+    if (const std::string path = find_program(words.front()); !path.empty()) words.front() = path;
   for (std::string& word : words) {
     if (fs::is_regular_file(word)) {
       word = fs::absolute(word).lexically_normal().string();

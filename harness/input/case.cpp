@@ -22,9 +22,8 @@ namespace fs = std::filesystem;
 /// Returns the keys that a case inherits from an extended case: the computation, but no checks.
 Json inherited(const Json& base) {
   Json inherited_keys = Json::object();
-  for (const char* key : {"model", "analysis", "effects", "variants", "sweeps", "uncertainty"}) {
+  for (const char* key : {"model", "analysis", "effects", "variants", "sweeps", "uncertainty"})
     if (base.contains(key)) inherited_keys[key] = base.at(key);
-  }
   if (!inherited_keys.contains("variants") || !inherited_keys["variants"].is_object())
     return inherited_keys;
   for (auto& variant : inherited_keys["variants"]) {
@@ -59,10 +58,9 @@ void apply_with_bases(Document& document, const fs::path& file, const Catalogue&
 
 void check_variant_names(const Case& given) {
   const JsonView root(given.document);
-  for (const auto& [name, variant] : root.entries("variants")) {
+  for (const auto& [name, variant] : root.entries("variants"))
     if (name == kBaseVariant)
       throw variant.error("the name 'base' denotes the case without patch; expected another name");
-  }
 }
 
 /// Requires that each indicator of the key "stress_suite" is the name of a check of the case.
@@ -129,9 +127,8 @@ std::vector<std::string> Case::labels() const {
 
 std::vector<std::string> Case::variants() const {
   std::vector<std::string> names = {kBaseVariant};
-  if (document.value().contains("variants")) {
+  if (document.value().contains("variants"))
     for (const auto& item : document.value().at("variants").items()) names.push_back(item.key());
-  }
   return names;
 }
 

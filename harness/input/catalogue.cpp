@@ -68,9 +68,8 @@ std::vector<std::string> Catalogue::names() const {
 
 std::vector<fs::path> Catalogue::runnable_files() const {
   std::vector<fs::path> files;
-  for (const auto& item : files_) {
+  for (const auto& item : files_)
     if (has_analysis(item.second)) files.push_back(item.second);
-  }
   return files;
 }
 

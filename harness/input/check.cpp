@@ -86,10 +86,9 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
           "'two_term_within' requires a sweep with the key 'lower_order' (this sweep has none)");
   }
   order.meshes = place.get("min_meshes", std::size_t{3});
-  if (const auto wave = place.find("wave_number")) {
+  if (const auto wave = place.find("wave_number"))
     order.wave_number = {wave->text("reference"), wave->indices("reference_index"),
                          wave->number("at_most"), wave->pointer()};
-  }
   if (const auto term = place.find("leading_term")) {
     if (!order.wave_number) throw term->error("'leading_term' requires the key 'wave_number'");
     order.leading_term = {term->number("coefficient"), term->number("within"),
@@ -149,10 +148,9 @@ void read_expectation(const JsonView& place, Check& check) {
                           "absolute_between", "ratio_between", "value_between"});
   const std::string measure = key.substr(0, key.find('_'));
   const bool is_value = measure == key;
-  if (is_value != place.has("within")) {
+  if (is_value != place.has("within"))
     throw place.error(is_value ? "'" + key + "' requires 'within', the half width of the range"
                                : "'within' requires '" + measure + "' (got '" + key + "')");
-  }
   check.measure = static_cast<Measure>(std::ranges::find(kMeasures, measure) - kMeasures.begin());
   check.windows =
       is_value ? windows_around(place[key], place.number("within")) : read_windows(place[key]);
@@ -270,10 +268,9 @@ Window read_window(const JsonView& place) {
   const Window window{limit(0, -kUnlimited), limit(1, kUnlimited)};
   if (place[0].json().is_null() && place[1].json().is_null())
     throw place.error("expected at least one limit that is a number (got two nulls)");
-  if (window.low > window.high) {
+  if (window.low > window.high)
     throw place.error("expected the lower limit first (got " + shortest_decimal(window.low) + ", " +
                       shortest_decimal(window.high) + ")");
-  }
   return window;
 }
 

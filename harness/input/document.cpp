@@ -71,10 +71,9 @@ Origin Document::origin(const std::string& pointer) const {
     const auto layer = std::find_if(layers_.rbegin(), layers_.rend(), [&](const Layer& candidate) {
       return candidate.patch->contains(at);
     });
-    if (layer != layers_.rend()) {
+    if (layer != layers_.rend())
       return {layer->file, layer->is_value ? layer->origin : layer->origin + pointer,
               layer->is_value};
-    }
     if (at.empty()) return {layers_.empty() ? "" : layers_.back().file, pointer, false};
   }
 }

@@ -36,10 +36,9 @@ std::vector<std::pair<std::string, JsonView>> JsonView::entries() const {
       found.emplace_back(std::to_string(i), (*this)[i]);
     return found;
   }
-  for (const auto& item : json_->items()) {
+  for (const auto& item : json_->items())
     found.emplace_back(item.key(),
                        JsonView(*document_, item.value(), extended(pointer_, item.key())));
-  }
   return found;
 }
 

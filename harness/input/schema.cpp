@@ -24,9 +24,8 @@ bool matches_name_pattern(const std::string& text) {
 }
 
 bool is_unique(const Json& array) {
-  for (auto item = array.begin(); item != array.end(); ++item) {
+  for (auto item = array.begin(); item != array.end(); ++item)
     if (std::find(array.begin(), item, *item) != item) return false;
-  }
   return true;
 }
 
@@ -49,10 +48,9 @@ bool has_type(const Json& value, const SchemaRule& rule) {
 
 /// Returns true if a JSON value satisfies a keyword. The type and nested values are not examined.
 bool obeys(const Json& value, std::string_view name, const SchemaRule& limit) {
-  if (name == "enum") {
+  if (name == "enum")
     return std::any_of(limit.Begin(), limit.End(),
                        [&](const SchemaRule& choice) { return equals(value, choice); });
-  }
   if (value.is_number()) {
     if (name == "minimum") return value.get<double>() >= limit.GetDouble();
     if (name == "maximum") return value.get<double>() <= limit.GetDouble();

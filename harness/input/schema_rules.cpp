@@ -141,9 +141,8 @@ std::vector<std::string> allowed_keys(const Rules& rules) {
   for (const SchemaRule* rule : rules) {
     const SchemaRule* others = keyword(*rule, "additionalProperties");
     if (others == nullptr || !others->IsFalse()) return {};
-    if (const SchemaRule* properties = keyword(*rule, "properties")) {
+    if (const SchemaRule* properties = keyword(*rule, "properties"))
       for (const auto& item : properties->GetObject()) keys.push_back(string_of(item.name));
-    }
   }
   std::ranges::sort(keys);
   return keys;
@@ -175,11 +174,9 @@ std::vector<std::string> needed_keys(const Json& object, const SchemaRule& rule)
     for (const SchemaRule& name : names.GetArray()) keys.push_back(string_of(name));
   };
   if (const SchemaRule* required = keyword(rule, "required")) add(*required);
-  if (const SchemaRule* dependencies = keyword(rule, "dependencies")) {
-    for (const auto& item : dependencies->GetObject()) {
+  if (const SchemaRule* dependencies = keyword(rule, "dependencies"))
+    for (const auto& item : dependencies->GetObject())
       if (object.contains(string_of(item.name))) add(item.value);
-    }
-  }
   return keys;
 }
 
@@ -208,7 +205,7 @@ SchemaFault explain_object(const Json& object, std::vector<std::string> path, co
       const bool one = max_count == needed.size() + 1;
       const std::string count = one ? "exactly one of " : "at least one of ";
       wanted = (allowed.empty() ? "at least one key" : count + all_quoted(others, "or")) +
-               got_keys(object);
+               got_keys(object) + (one && object.size() > max_count ? "; null removes a key" : "");
     }
   }
   return {pointer_to(path), "expected " + wanted};
@@ -220,11 +217,9 @@ SchemaFault explain_value(const SchemaRule& root, const BrokenRules& broken) {
   for (const SchemaRule* rule : broken.rules) {
     const std::string text = describe_rule(root, *rule);
     if (!contains(wanted, text)) wanted.push_back(text);
-    if (const SchemaRule* stated = keyword(*rule, "enum")) {
-      for (const SchemaRule& choice : stated->GetArray()) {
+    if (const SchemaRule* stated = keyword(*rule, "enum"))
+      for (const SchemaRule& choice : stated->GetArray())
         if (choice.IsString()) choices.push_back(string_of(choice));
-      }
-    }
     if (broken.value->is_array() && keyword(*rule, "uniqueItems") != nullptr)
       suffix = " without duplicates";
   }

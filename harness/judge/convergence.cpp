@@ -167,10 +167,9 @@ class ConvergenceStudy {
       if (series_.is_error) error_[k] = std::abs(v_[k]);
       if (!series_.is_error && *reference != 0) error_[k] = relative(v_[k], *reference);
     }
-    for (std::size_t k = 1; k < count(); ++k) {
+    for (std::size_t k = 1; k < count(); ++k)
       order_[k] = series_.exact ? order_of_errors(error_[k - 1], error_[k], h_[k - 1], h_[k])
                                 : observed_[k];
-    }
   }
 
   /// Fits the two-term law a h^p + b h^q to the errors if two orders of convergence mix.

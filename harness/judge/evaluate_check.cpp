@@ -100,9 +100,7 @@ void pair_with_run(const Check& check, const CheckContext& context, ComparedValu
   const std::string name = check.against_quantity.empty() ? check.quantity : check.against_quantity;
   require_unit(check.quantity, unit_of(name), name);
   pairs.expected = pick(find_quantity(*other, name, where), check.index, name);
-  if (!check.statistic.empty()) {
-    pairs.expected = {statistic_of(check.statistic, pairs.expected)};
-  }
+  if (!check.statistic.empty()) pairs.expected = {statistic_of(check.statistic, pairs.expected)};
 }
 
 ComparedValues collect(const Check& check, const CheckContext& context) {
@@ -124,8 +122,10 @@ ComparedValues collect(const Check& check, const CheckContext& context) {
 }
 
 std::string outside(const Check& check, double value, const Window& window) {
+  const bool difference = check.measure == Measure::relative || check.measure == Measure::absolute;
   const std::string where =
-      fmt::format("{} is outside of [{}, {}]", shortest_decimal(value),
+      fmt::format("the {}{} {} is outside of [{}, {}]", to_string(check.measure),
+                  difference ? " difference" : "", shortest_decimal(value),
                   shortest_decimal(window.low), shortest_decimal(window.high));
   if (check.expectation == Expectation::known_discrepancy)
     return "the difference left its recorded range: " + where;

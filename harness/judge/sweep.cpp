@@ -1,7 +1,6 @@
 #include "harness/judge/sweep.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "harness/base/number.h"
 #include "harness/base/quantity.h"

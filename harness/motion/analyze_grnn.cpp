@@ -70,9 +70,8 @@ GrnnSamples read_samples(const JsonView& samples) {
   if (read.inputs.rows() != read.outputs.rows())
     throw samples["outputs"].error("expected one row per row of 'inputs', " +
                                    std::to_string(read.inputs.rows()));
-  for (solver::Index j = 0; j < read.outputs.cols(); ++j) {
+  for (solver::Index j = 0; j < read.outputs.cols(); ++j)
     read.columns.push_back({"", "", std::to_string(j + 1)});
-  }
   return read;
 }
 
@@ -84,9 +83,8 @@ PathSamples samples_of_path(const solver::RigidManipulator& manipulator,
   samples.inputs.resize(count, 3);
   samples.outputs.resize(count, 6);
   for (const char* joint : {"A1", "A2", "A3"}) samples.columns.push_back({"angle", "_rad", joint});
-  for (const char* joint : {"A1", "A2", "A3"}) {
+  for (const char* joint : {"A1", "A2", "A3"})
     samples.columns.push_back({"velocity", "_rad_per_s", joint});
-  }
   for (solver::Index k = 0; k < count; ++k) {
     const solver::TrajectoryPoint& point = case_model.motion[solver::to_size(k)];
     const solver::InverseDynamics found =
@@ -377,10 +375,9 @@ StepResult analyze_grnn(const JsonView& analysis, const CaseModel& case_model, b
   record_positions(manipulator.geometry, case_model, predicted, record);
   record_part("training", parts.training, samples, error, scales, record);
   record_part("held_out", parts.held_out, samples, error, scales, record);
-  if (!parts.held_out.empty() && !spline) {
+  if (!parts.held_out.empty() && !spline)
     record_skill(network, samples, parts.held_out, rms(rows(error, parts.held_out), scales), scales,
                  record);
-  }
   if (!spline) record.add("kernel_evaluations", train);
   if (draw) {
     result.drawing = draw_manipulator(manipulator.geometry, case_model.motion);
@@ -405,10 +402,9 @@ StepResult analyze_grnn_samples(const Document& document, const References&, boo
                                              analysis.get("scaling", solver::InputScaling::none));
     choose_sigma(analysis, network, record);
     const Eigen::MatrixXd predicted = solver::predict(network, queries);
-    for (solver::Index k = 0; k < predicted.rows(); ++k) {
+    for (solver::Index k = 0; k < predicted.rows(); ++k)
       for (solver::Index j = 0; j < predicted.cols(); ++j)
         record.add("prediction", samples.columns[solver::to_size(j)].item, predicted(k, j));
-    }
   } catch (const solver::ModelError& error) {
     throw analysis.error(std::string("expected a valid network: ") + error.what());
   }

@@ -94,10 +94,9 @@ StepResult analyze_inverse_dynamics(const JsonView& analysis, const CaseModel& c
     if (bodies) record_bodies(found, record);
   }
   const auto* circle = case_model.path ? std::get_if<solver::Circle>(&*case_model.path) : nullptr;
-  if (circle && circle->angular_speed != 0) {
+  if (circle && circle->angular_speed != 0)
     record_turn(manipulator, case_model, *circle, analysis.get("points_per_revolution", 64),
                 record);
-  }
   return result;
 }
 

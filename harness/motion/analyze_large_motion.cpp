@@ -48,9 +48,8 @@ OutputSelection read_kept(const JsonView& analysis, const GeometricallyExactSyst
     for (const auto& entry : names->entries())
       selection.nodes.push_back(find_node(entry.second, model));
   } else {
-    for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+    for (std::size_t i = 0; i < model.nodes.size(); ++i)
       if (!model.nodes[i].name.empty()) selection.nodes.push_back(static_cast<solver::Index>(i));
-    }
   }
   if (analysis.has("relative_to"))
     selection.seen_from = find_turning_node(analysis["relative_to"], system);
@@ -226,9 +225,8 @@ StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_
                  analysis.text("track") == "torques" ? Tracking::torques : Tracking::angles,
                  case_model, model, large_motion);
     require_path_to_the_end(analysis, *case_model.path);
-    for (const char* key : {"extrapolated", "initial_velocities"}) {
+    for (const char* key : {"extrapolated", "initial_velocities"})
       if (analysis.has(key)) throw analysis[key].error("not allowed with 'track'");
-    }
     if (analysis.get<std::string>("integrator", "generalized-alpha") != "generalized-alpha")
       throw analysis["integrator"].error("'track' requires the integrator 'generalized-alpha'");
   }

@@ -83,9 +83,8 @@ Eigen::VectorXd uniform_motion(const solver::System& system, const Eigen::Vector
     wanted[node[0]] = velocity.x();
     wanted[node[1]] = velocity.y();
   }
-  for (const solver::ConstraintRow& row : system.constraints.rows) {
+  for (const solver::ConstraintRow& row : system.constraints.rows)
     if (row.source == solver::ConstraintRow::Source::support) wanted[row.terms.front().first] = 0;
-  }
   const Eigen::VectorXd momentum = system.T.transpose() * solver::inertia_forces(system, wanted);
   return solver::RegularizedMass(system).solve(momentum);
 }
@@ -110,18 +109,16 @@ std::vector<double> sample_times(const JsonView& transient) {
   const auto count = transient.get<std::size_t>(
       "samples", static_cast<std::size_t>(std::clamp(steps, 1.0, most_samples)));
   std::vector<double> times;
-  for (std::size_t i = 0; i <= count; ++i) {
+  for (std::size_t i = 0; i <= count; ++i)
     times.push_back(
         std::min(duration, duration * static_cast<double>(i) / static_cast<double>(count)));
-  }
   return times;
 }
 
 /// Reads the rotating axes in which the motion is described.
 solver::PrescribedRotation read_axes(const JsonView& transient) {
-  for (const char* key : {"load_history", "initial_state"}) {
+  for (const char* key : {"load_history", "initial_state"})
     if (transient.has(key)) throw transient[key].error("not allowed with 'rotating_frame'");
-  }
   const JsonView place = transient["rotating_frame"];
   solver::PrescribedRotation axes;
   axes.speed = [law = read_law(place["law"])](double time) {
@@ -187,9 +184,8 @@ class Motion {
     options.sample_times = history_.time;
     options.q0 = initial_.q0;
     options.v0 = initial_.v0;
-    if (const auto control = transient_.find("error_control")) {
+    if (const auto control = transient_.find("error_control"))
       options.adaptive = solver::ErrorControl{control->number("relative")};
-    }
     solver::TransientHistory found = solver::solve_transient(equation, options);
     history_.outcome = found.summary.outcome;
     history_.evidence = found.summary.evidence;

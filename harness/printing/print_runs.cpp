@@ -96,15 +96,19 @@ void print_run(const results::Run& run) {
             << wrapped(run.reason, "  ");
   for (const std::string& warning : run.warnings) std::cout << wrapped("warning: " + warning, "  ");
   if (run.errors && !run.errors->search.empty()) print_search(*run.errors);
-  if (run.checks.empty()) return print_quantities(run);
+  if (run.checks.empty() || run.errors) print_quantities(run);
+  if (run.checks.empty()) return;
   Rows table(check_columns());
   std::string messages;
   for (const results::CheckGroup& group : results::group_checks(run)) {
     const results::Check& check = group.worst();
-    table.add(check_cells(check, group.checks.size() > 1));
+    const std::vector<Json> cells = check_cells(check, group.checks.size() > 1);
+    table.add(cells);
     const bool is_printed = check.quantity == "status" && !run.reason.empty();
     if (fails_gate(check.verdict) && !check.message.empty() && !is_printed)
-      messages += wrapped(check.name + ": " + check.message, "    ");
+      messages +=
+          wrapped(fmt::format("{}, {}: {}", check.name, cells[2].get<std::string>(), check.message),
+                  "    ");
   }
   table.print(std::cout, "  ");
   std::cout << messages;

@@ -132,10 +132,9 @@ void add_pin(const JsonView& place, const Pin& pin, solver::Model& model) {
                         model.nodes[solver::to_size(pin.nodes[1])].position)
                            .norm();
   constexpr double kRoundoff = 1e-12;  // round-off of coordinates over the model's size
-  if (apart > kRoundoff * solver::box_diagonal(model)) {
+  if (apart > kRoundoff * solver::box_diagonal(model))
     throw place["nodes"].error("the nodes of a pin require the same position (got a distance of " +
                                shortest_decimal(apart) + " m)");
-  }
   solver::add_pin(model, pin.name, pin.nodes);
 }
 
@@ -207,9 +206,8 @@ SymbolTable read_symbols(const JsonView& model, solver::Model& structure) {
   for (const auto& [name, place] : model.entries("nodes")) {
     if (name.empty()) throw place.error("the name of the node is empty; expected a name");
     structure.nodes.push_back({name, read_point(place)});
-    if (!add(structure.nodes.size() - 1)) {
+    if (!add(structure.nodes.size() - 1))
       throw place.error("the manipulator already has a node of this name; expected another name");
-    }
   }
   symbols.node.erase("");
   for (const auto& [name, place] : model.entries("materials"))

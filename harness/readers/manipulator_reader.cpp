@@ -8,10 +8,9 @@ namespace {
 /// Requires exactly one of two alternative keys.
 /// @returns true if the first key is present
 bool has_first(const JsonView& place, const char* first, const char* second) {
-  if (place.has(first) == place.has(second)) {
+  if (place.has(first) == place.has(second))
     throw place.error(std::string("expected either '") + first + "' or '" + second + "' (got " +
                       (place.has(first) ? "both; the value null removes a key)" : "none)"));
-  }
   return place.has(first);
 }
 
@@ -81,10 +80,9 @@ solver::Spline read_spline(const JsonView& spline) {
     times.push_back(knot.number("time_s"));
     poses.push_back(read_pose(knot));
   }
-  if (times.front() != 0) {
+  if (times.front() != 0)
     throw spline["knots"][0].error("expected the first knot at 0 s (got " +
                                    shortest_decimal(times.front()) + " s)");
-  }
   return solver::make_spline(times, poses, spline.get("ends", solver::SplineEnds::natural));
 }
 

@@ -36,10 +36,9 @@ std::size_t count_of(const JsonView& modal, std::optional<solver::Index> known) 
 }  // namespace
 
 solver::TimeScheme read_time_scheme(const JsonView& scheme) {
-  if (scheme.json().is_string()) {
+  if (scheme.json().is_string())
     return scheme.get<std::string>() == "linear-acceleration" ? solver::linear_acceleration()
                                                               : solver::average_acceleration();
-  }
   const auto [name, numbers] = scheme.entries().front();
   try {
     return scheme_of(name, numbers);
@@ -178,9 +177,8 @@ solver::Index find_node_by_name(const std::string& word, const JsonView& place,
   const solver::Index found = word.empty() ? -1 : built.find_node(word);
   if (found >= 0) return found;
   std::vector<std::string> names;
-  for (const solver::Node& node : built.nodes) {
+  for (const solver::Node& node : built.nodes)
     if (!node.name.empty()) names.push_back(node.name);
-  }
   throw place.error(unknown_name("the name of a node", word, names));
 }
 

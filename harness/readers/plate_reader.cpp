@@ -190,9 +190,8 @@ void read_plate(const std::string& name, const JsonView& place, const SymbolTabl
   structure.plates.push_back(read_part<solver::Plate>(place, &symbols));
   structure.plates.back().name = name;
   if (place.has("blocks")) return mesh_plate(place, symbols, outline, plate, structure, sides);
-  for (const char* key : {"element", "divisions"}) {
+  for (const char* key : {"element", "divisions"})
     if (place.has(key)) throw place[key].error("'" + std::string(key) + "' requires 'blocks'");
-  }
   for (const auto& entry : place["triangles"].entries())
     structure.triangles.push_back(read_triangle(entry.second, symbols, structure, plate));
 }
@@ -227,11 +226,9 @@ void read_plates(const JsonView& model, SymbolTable& symbols, solver::Model& str
 std::vector<solver::Index> nodes_of(const Edge& edge) {
   std::vector<solver::Index> nodes;
   std::set<solver::Index> seen;
-  for (const Edge::Piece& piece : edge.pieces) {
-    for (const solver::Index node : piece.nodes) {
+  for (const Edge::Piece& piece : edge.pieces)
+    for (const solver::Index node : piece.nodes)
       if (seen.insert(node).second) nodes.push_back(node);
-    }
-  }
   return nodes;
 }
 
@@ -279,9 +276,8 @@ void check_meshed_nodes(const JsonView& model, std::size_t first, const solver::
     if (held[i]) continue;
     const Eigen::Vector2d& here = structure.nodes[i].position;
     double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t k = first; k < structure.nodes.size(); ++k) {
+    for (std::size_t k = first; k < structure.nodes.size(); ++k)
       if (held[k]) nearest = std::min(nearest, (structure.nodes[k].position - here).norm());
-    }
     throw model["nodes"][structure.nodes[i].name].error(
         "the node " + describe_point(here) +
         " is connected to nothing; expected the position of "

@@ -87,11 +87,9 @@ std::vector<Task> prepare_case(const Case& owner, const std::string& chosen) {
   std::vector<Task> tasks;
   for (const std::string& variant : variants) tasks.push_back(prepare(owner, variant, true));
   std::set<std::string> looked_at;
-  for (const Task& task : tasks) {
-    for (const Check& check : task.checks) {
+  for (const Task& task : tasks)
+    for (const Check& check : task.checks)
       if (!check.against_variant.empty()) looked_at.insert(check.against_variant);
-    }
-  }
   for (const std::string& variant : looked_at) {
     const bool there =
         std::ranges::any_of(tasks, [&](const Task& task) { return task.run.variant == variant; });
@@ -321,10 +319,9 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
     std::ranges::move(found, std::back_inserter(run.convergence));
   }
   const auto quantities_of = [&](const std::string& variant) -> const Quantities* {
-    for (const Task& other : tasks) {
+    for (const Task& other : tasks)
       if (other.owner == task.owner && other.run.variant == variant && other.run.is_solved())
         return &other.run.quantities;
-    }
     return nullptr;
   };
   const CheckContext context{task.document,   run.quantities,
@@ -385,9 +382,8 @@ std::vector<Run> run_cases(const std::vector<Case>& cases, const References& ref
       run_guarded(task.run, [&] { evaluate_checks(task, tasks, references, options); });
   }
   std::vector<Run> runs;
-  for (Task& task : tasks) {
+  for (Task& task : tasks)
     if (task.requested) runs.push_back(std::move(task.run));
-  }
   return runs;
 }
 

@@ -84,9 +84,8 @@ CaseModel read_case_model(const Document& document) {
     case_model.path = std::move(motion.path);
     case_model.motion = std::move(motion.points);
   } else {
-    for (const char* key : {"pose", "trajectory"}) {
+    for (const char* key : {"pose", "trajectory"})
       if (model.has(key)) throw model[key].error("this key requires 'manipulator'");
-    }
     if (!model.has("nodes") || model["nodes"].size() == 0)
       throw model.error("the model is empty; expected 'manipulator' or 'nodes'");
   }

@@ -87,10 +87,9 @@ void draw_rigid_bodies(const solver::Model& model, const DrawnNodes& drawn, Draw
     const int reference = drawn.index_of(body.reference);
     const std::size_t count = body.attached.size();
     if (count == 1) drawing.members.push_back({reference, drawn.index_of(body.attached.front())});
-    for (std::size_t k = 0; k + 1 < count || (k + 1 == count && count > 2); ++k) {
+    for (std::size_t k = 0; k + 1 < count || (k + 1 == count && count > 2); ++k)
       drawing.triangles.push_back({reference, drawn.index_of(body.attached[k]),
                                    drawn.index_of(body.attached[(k + 1) % count])});
-    }
   }
 }
 
@@ -117,9 +116,8 @@ void draw_joints(const solver::Model& model, bool is_manipulator, const DrawnNod
   if (is_manipulator) {
     for (std::size_t i = 0; i < 3; ++i) {
       kind[i] = "active";
-      for (const std::size_t node : {3 + i, 6 + i}) {
+      for (const std::size_t node : {3 + i, 6 + i})
         if (kind[node].empty()) kind[node] = "welded";
-      }
     }
   }
   for (std::size_t i = 0; i < kind.size(); ++i) {
@@ -185,10 +183,9 @@ results::Shape draw_shape(const solver::System& system, const Eigen::VectorXd& q
   }
   for (const solver::FrameElement& element : system.mesh.frame) {
     const std::size_t count = pieces(system, element);
-    for (std::size_t k = 1; k < count; ++k) {
+    for (std::size_t k = 1; k < count; ++k)
       shape.displacement.push_back(point_of(
           displacement_along(element, u, static_cast<double>(k) / static_cast<double>(count))));
-    }
   }
   return shape;
 }
@@ -255,10 +252,9 @@ std::vector<results::Point> places(const solver::large_motion::GeometricallyExac
   const solver::Model& model = system.model();
   const Eigen::MatrixX3d motion = node_motion(system, q);
   std::vector<results::Point> nodes;
-  for (std::size_t i = 0; i < model.nodes.size(); ++i) {
+  for (std::size_t i = 0; i < model.nodes.size(); ++i)
     nodes.push_back(point_of(model.nodes[i].position +
                              motion.row(static_cast<solver::Index>(i)).head<2>().transpose()));
-  }
   for (std::size_t m = 0; m < model.members.size(); ++m) {
     const Eigen::MatrixX2d line = member_node_positions(system, q, static_cast<solver::Index>(m));
     for (solver::Index i = 1; i + 1 < line.rows(); ++i)

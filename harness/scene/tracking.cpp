@@ -99,10 +99,9 @@ void release_driven_actuators(const JsonView& analysis, const CaseModel& case_mo
     // The builder's first three supports and nodes belong to the actuators, in the same order.
     if (!case_model.manipulator || drive.direction != 2 || drive.node > 2) continue;
     const auto limb = solver::to_size(drive.node);
-    if (case_model.manipulator->active[limb].kind == solver::ActiveKind::free) {
+    if (case_model.manipulator->active[limb].kind == solver::ActiveKind::free)
       throw analysis["drives"][drive.name].error(
           "a free active joint cannot be driven; expected a locked joint or a spring");
-    }
     model.supports[limb].fixed[2] = false;
   }
   for (const solver::large_motion::Torque& torque : large_motion.torques)

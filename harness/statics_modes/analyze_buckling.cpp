@@ -46,10 +46,9 @@ StepResult analyze_buckling(const JsonView& analysis, const CaseModel& case_mode
     const std::string mode = case_model.path ? std::to_string(i + 1) : "";
     record.add("load_factor", mode, factor, buckling.roundoff[i]);
     record_forces(analysis, mode.empty() ? "" : "." + mode, factor, buckling.roundoff[i], record);
-    if (result.drawing && i < kMaxDrawnShapes) {
+    if (result.drawing && i < kMaxDrawnShapes)
       result.drawing->shapes.push_back(
           draw_shape(system, buckling.shape.col(i), mode_label(i, factor, "times the loads")));
-    }
   }
   if (buckling.load_factor.size() == 0)
     result.warnings.push_back(

@@ -74,10 +74,9 @@ std::optional<Drawing> draw_modes(const CaseModel& case_model, const solver::Sys
                                   const solver::ModalSolution& modes) {
   std::optional<Drawing> drawing = draw_model(system, case_model.manipulator.has_value());
   if (!drawing || !modes.outcome.solved()) return drawing;
-  for (solver::Index i = 0; i < std::min(kMaxDrawnShapes, modes.frequency.size()); ++i) {
+  for (solver::Index i = 0; i < std::min(kMaxDrawnShapes, modes.frequency.size()); ++i)
     drawing->shapes.push_back(
         draw_shape(system, modes.shape.col(i), mode_label(i, modes.frequency[i], "Hz")));
-  }
   return drawing;
 }
 
@@ -86,10 +85,9 @@ Eigen::MatrixXd unit_translations(const solver::System& system, const Eigen::Mat
   const Eigen::MatrixXd u = system.T * shape;
   const auto& nodes = system.coordinates.node;
   Eigen::MatrixXd translations(2 * std::ssize(nodes), u.cols());
-  for (solver::Index i = 0; i < std::ssize(nodes); ++i) {
+  for (solver::Index i = 0; i < std::ssize(nodes); ++i)
     for (std::size_t c = 0; c < 2; ++c)
       translations.row(2 * i + static_cast<solver::Index>(c)) = u.row(nodes[solver::to_size(i)][c]);
-  }
   return translations.colwise().normalized();
 }
 
@@ -177,10 +175,9 @@ StepResult analyze_rotating(const JsonView& modes, const solver::System& system,
     state.displacement = solver::node_motion(system, found.q);
     recorder.record(state, record);
     if (!result.drawing || several) continue;
-    for (solver::Index i = 0; i < std::min(found.frequency.size(), kMaxDrawnShapes); ++i) {
+    for (solver::Index i = 0; i < std::min(found.frequency.size(), kMaxDrawnShapes); ++i)
       result.drawing->shapes.push_back(draw_shape(system, snapshot(found.shape.col(i)),
                                                   mode_label(i, found.frequency[i], "Hz")));
-    }
   }
   record.add("degrees_of_freedom", system.K.rows());
   return result;
@@ -226,10 +223,9 @@ StepResult analyze_modes_at(const JsonView& analysis, const CaseModel& case_mode
 /// joints must also be small.
 bool is_condensable(const solver::ManipulatorDesign& design) {
   constexpr solver::Index kMostElements = 100;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i)
     if (std::max(design.proximal[i].elements, design.distal[i].elements) > kMostElements)
       return false;
-  }
   return design.platform.kind == solver::PlatformKind::rigid ||
          (design.platform.refinements == 0 && design.platform.pin_radius == 0 &&
           !design.platform.six_nodes);

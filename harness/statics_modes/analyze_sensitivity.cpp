@@ -113,9 +113,8 @@ StepResult analyze_sensitivity(const JsonView& analysis, const CaseModel& case_m
     record.add("frequency_Hz", found.frequency[i]);
     if (exactly && std::isfinite(found.gap[i])) record.add("frequency_gap", found.gap[i]);
   }
-  for (const solver::FrequencySet& set : found.sets) {
+  for (const solver::FrequencySet& set : found.sets)
     for (solver::Index i = 0; i < set.count; ++i) record.add("multiplicity", set.count);
-  }
   for (std::size_t p = 0; p < named.size(); ++p) {
     const auto column = static_cast<solver::Index>(p);
     const double value = parameter_value(*case_model.manipulator, named[p].parameter);

@@ -19,10 +19,9 @@ StepResult analyze_exactly(const CaseModel& case_model, std::size_t step, bool d
                                                              : solver::solve_large_statics;
   const ModelState solution{solve(model, case_model.joint_elements)};
   StepResult result{solution.outcome, solution.counters, solution.evidence};
-  if (draw) {
+  if (draw)
     result.drawing = draw_model(solver::assemble(build_model(case_model, step)),
                                 case_model.manipulator.has_value());
-  }
   if (!solution.outcome.solved()) return result;
   StateRecorder(model, "statics", {"bending_stress_Pa"}).record(solution, record);
   warn_of_strain(model, solution, result.warnings);

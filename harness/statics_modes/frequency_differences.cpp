@@ -127,10 +127,9 @@ class Differences {
     }
     VectorXd rate = VectorXd::Zero(count_);
     for (const FrequencySet& set : sets_) {
-      for (Index k = 0; k < set.count && set.first + k < count_; ++k) {
+      for (Index k = 0; k < set.count && set.first + k < count_; ++k)
         rate[set.first + k] =
             (above[set.first + k] - below[set.first + set.count - 1 - k]) / (2 * step);
-      }
     }
     return rate;
   }

@@ -50,9 +50,8 @@ ManufacturedSolution solve(solver::System system, double omega) {
     const solver::RefinedSolution refined = solver::refined_solve(
         omega == 0 ? stiffness : dynamic, factorization, system.f, solution.counters);
     solution.q = refined.x;
-    if (!refined.converged()) {
+    if (!refined.converged())
       solution.outcome = {solver::Status::singular, "round-off error leaves no correct digit"};
-    }
     add_evidence(system, omega, solution);
   } else {
     solution.outcome = {solver::Status::singular,
@@ -203,10 +202,9 @@ StepResult record_norms(const ManufacturedSolution& solution, solver::Index cell
   StepResult result{solution.outcome, solution.counters, solution.evidence};
   if (draw) result.drawing = draw_model(solution.system, false);
   if (!solution.outcome.solved()) return result;
-  if (result.drawing) {
+  if (result.drawing)
     result.drawing->shapes.push_back(
         draw_shape(solution.system, solution.q, "manufactured displacement"));
-  }
   for (const auto& [name, error, derivative] : norms) {
     const double rounding =
         std::numeric_limits<double>::epsilon() * std::pow(static_cast<double>(cells), derivative);

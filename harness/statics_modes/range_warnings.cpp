@@ -36,10 +36,9 @@ double rotation_of(const solver::System& system, const solver::Triangle& triangl
 
 double largest_rotation(const solver::System& system, const Eigen::VectorXd& u) {
   double largest = 0;
-  for (Eigen::Index i = 0; i < u.size(); ++i) {
+  for (Eigen::Index i = 0; i < u.size(); ++i)
     if (system.coordinates.is_rotation[solver::to_size(i)])
       largest = std::max(largest, std::abs(u[i]));
-  }
   for (const solver::FrameElement& e : system.mesh.frame) {
     const Vector2d shift(u[e.coordinates[3]] - u[e.coordinates[0]],
                          u[e.coordinates[4]] - u[e.coordinates[1]]);

@@ -19,18 +19,16 @@ std::vector<double> exact_values(const JsonView& place, const std::string& quant
                                  const References& references) {
   const JsonView id = place["reference"];
   const references::Reference& reference = references.get(id);
-  if (reference.unit != unit_of(quantity)) {
+  if (reference.unit != unit_of(quantity))
     throw id.error("expected a reference in " + unit_of(quantity) + " (got " + reference.unit +
                    ")");
-  }
   const std::vector<std::size_t> chosen = place.indices("reference_index");
   if (chosen.empty()) return reference.values;
   std::vector<double> values;
   for (const std::size_t i : chosen) {
-    if (i >= reference.values.size()) {
+    if (i >= reference.values.size())
       throw place["reference_index"].error("expected indices below " +
                                            std::to_string(reference.values.size()));
-    }
     values.push_back(reference.values[i]);
   }
   return values;
@@ -118,10 +116,9 @@ bool is_swept(const JsonView& curve, double value, SweepExtent extent) {
 void check_quick(const JsonView& curve) {
   if (!curve.has("quick_values") || !curve.has("values")) return;
   const auto values = curve["values"].get<std::vector<double>>();
-  for (const auto& entry : curve["quick_values"].entries()) {
+  for (const auto& entry : curve["quick_values"].entries())
     if (!contains(values, entry.second.get<double>()))
       throw entry.second.error("expected one of the 'values' of this curve");
-  }
 }
 
 std::vector<Setting> read_curve(const JsonView& study, const std::string& name,
@@ -220,10 +217,9 @@ void read_reference_solution(const JsonView& root, CostStudy& study, const Refer
   const std::vector<ObservedQuantity>& wanted = study.settings.front().observed;
   const bool needed = std::ranges::any_of(
       wanted, [](const ObservedQuantity& entry) { return entry.needs_reference_solution(); });
-  if (needed != root.has("reference_solution")) {
+  if (needed != root.has("reference_solution"))
     throw root.error(needed ? "expected 'reference_solution', or a reference for each quantity"
                             : "'reference_solution' excludes references of quantities");
-  }
   if (!needed) {
     const std::string named = references_of(root["quantities"]);
     study.reference_description =
@@ -346,9 +342,8 @@ std::vector<fs::path> cost_study_files() {
   std::vector<fs::path> files;
   const fs::path folder = data_root() / "cases" / "cost";
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
+  for (const auto& entry : fs::directory_iterator(folder, error))
     if (entry.path().extension() == ".json") files.push_back(entry.path());
-  }
   std::ranges::sort(files);
   return files;
 }

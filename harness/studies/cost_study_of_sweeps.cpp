@@ -15,9 +15,8 @@ std::vector<double> exact_values(const TrackedQuantity& tracked) {
   if (reference.unit != unit_of(tracked.quantity)) return {};
   if (tracked.reference_index.empty()) return reference.values;
   std::vector<double> values;
-  for (const std::size_t i : tracked.reference_index) {
+  for (const std::size_t i : tracked.reference_index)
     if (i < reference.values.size()) values.push_back(reference.values[i]);
-  }
   return values;
 }
 
@@ -36,10 +35,9 @@ std::vector<Check> comparisons(const Document& document, const std::string& vari
 
 std::vector<ObservedQuantity> observed_quantities(const std::vector<TrackedQuantity>& named) {
   std::vector<ObservedQuantity> observed;
-  for (const TrackedQuantity& tracked : named) {
+  for (const TrackedQuantity& tracked : named)
     observed.push_back({tracked.quantity, "", tracked.statistic, tracked.index, tracked.is_error,
                         exact_values(tracked)});
-  }
   return observed;
 }
 

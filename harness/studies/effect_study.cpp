@@ -131,10 +131,9 @@ bool EffectStudy::is_minimal() const {
 }
 
 EffectStudy study_effects(const Document& document, const EffectStudyOptions& options) {
-  if (!supports_effects(document)) {
+  if (!supports_effects(document))
     throw JsonView(document)["analysis"].error("this analysis does not support effects; expected " +
                                                analyses_with_effects());
-  }
   require_fits(document);
   return with_model_errors(document, [&] { return Study(document, options).run(); });
 }

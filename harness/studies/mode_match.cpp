@@ -102,18 +102,16 @@ std::pair<SampledModes, SampledModes> sample_modes(const Document& a, const Docu
   const auto [frequency_a, places_a] = located(a);
   const auto [frequency_b, places_b] = located(b);
   std::vector<std::string> common;
-  for (const auto& item : places_a) {
+  for (const auto& item : places_a)
     if (places_b.count(item.first) > 0) common.push_back(item.first);
-  }
   const auto collect = [&](const std::vector<double>& frequency, const Places& places) {
     SampledModes modes{frequency, Eigen::MatrixXd(2 * static_cast<solver::Index>(common.size()),
                                                   static_cast<solver::Index>(frequency.size()))};
     for (std::size_t p = 0; p < common.size(); ++p) {
       const std::vector<Eigen::Vector2d>& at = places.at(common[p]);
-      for (std::size_t m = 0; m < at.size(); ++m) {
+      for (std::size_t m = 0; m < at.size(); ++m)
         modes.shape.block<2, 1>(2 * static_cast<solver::Index>(p), static_cast<solver::Index>(m)) =
             at[m];
-      }
     }
     return modes;
   };

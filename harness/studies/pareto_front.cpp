@@ -41,13 +41,11 @@ std::string alternatives(std::size_t setting, const std::vector<std::size_t>& ti
 std::string describe_finest(const CostPoint& first, const std::optional<CostPoint>& fine,
                             const CostPoint& best, const std::vector<std::string>& titles) {
   if (fine && fine->setting == first.setting) return ", and its error is at most 1e-6 as well.";
-  if (fine) {
+  if (fine)
     return fmt::format("; an error of 1e-6 requires '{}', which takes {} times as long.",
                        titles[fine->setting], times(fine->time / first.time));
-  }
-  if (best.setting == first.setting) {
+  if (best.setting == first.setting)
     return fmt::format("; its error, {}, is the smallest of all settings.", error_text(best.error));
-  }
   return fmt::format("; the smallest error is that of '{}', {}, which takes {} times as long.",
                      titles[best.setting], error_text(best.error), times(best.time / first.time));
 }
@@ -56,9 +54,8 @@ std::string describe_finest(const CostPoint& first, const std::optional<CostPoin
 
 std::optional<CostPoint> cheapest(const std::vector<CostPoint>& points, double error) {
   double min_time = std::numeric_limits<double>::infinity();
-  for (const CostPoint& point : points) {
+  for (const CostPoint& point : points)
     if (point.error <= error) min_time = std::min(min_time, point.time);
-  }
   std::optional<CostPoint> best;
   for (const CostPoint& point : points) {
     if (point.error > error || point.time > (1 + kParetoTolerance) * min_time) continue;
@@ -139,10 +136,9 @@ std::string describe_pareto_front(const std::vector<CostPoint>& points,
   if (front.empty()) return "No setting could be measured.";
   const CostPoint& best = front.back();
   const auto first = cheapest(points, 0.01);
-  if (!first) {
+  if (!first)
     return fmt::format("All errors exceed 1 %: the smallest is that of '{}', {}.",
                        titles[best.setting], error_text(best.error));
-  }
   const std::vector<std::size_t> tied = tied_settings(points, 0.01);
   std::string text = fmt::format("For an error of at most 1 %, {} is the fastest setting{}",
                                  alternatives(first->setting, tied, titles),

@@ -14,10 +14,9 @@ void check_levels(const JsonView& place, const std::vector<Level>& levels) {
   double before = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < levels.size(); ++i) {
     const double size = element_size(measures, levels[i].parameter);
-    if (!(size > 0) || !(size < before) || !std::isfinite(size)) {
+    if (!(size > 0) || !(size < before) || !std::isfinite(size))
       throw place["values"][i].error("expected values from coarse to fine (got " +
                                      std::to_string(levels[i].parameter) + ")");
-    }
     before = size;
   }
 }
@@ -32,10 +31,9 @@ std::vector<Sweep> run_sweeps(const Document& document, const References& refere
     Sweep sweep{name, {}};
     const std::vector<Level> found = levels(document, name);
     check_levels(place, found);
-    for (const Level& level : found) {
+    for (const Level& level : found)
       sweep.levels.push_back(
           {level.parameter, analyze(level.document, references, {false}).quantities});
-    }
     sweeps.push_back(std::move(sweep));
   }
   return sweeps;

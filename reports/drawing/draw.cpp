@@ -63,8 +63,7 @@ std::string preamble(const Figure& figure, const fs::path& svg) {
 /// @param extent  file by gnuplot with the ranges of x and y, and their pixel positions (y upwards)
 std::string axes_of(const Figure& figure, const fs::path& extent) {
   const auto label = [&](const std::string& start) {
-    const std::size_t at = figure.commands.find(start);
-    const std::size_t from = at + start.size();
+    const std::size_t at = figure.commands.find(start), from = at + start.size();
     return at == std::string::npos
                ? std::string()
                : figure.commands.substr(from, figure.commands.find('\'', from) - from);
@@ -170,9 +169,8 @@ void draw(const std::vector<Figure*>& figures, const fs::path& folder, const fs:
           const std::string& program) {
   fs::create_directories(folder);
   std::vector<Figure*> missing;
-  for (Figure* figure : figures) {
+  for (Figure* figure : figures)
     if (former.empty() || !reuse_drawing(former, program, *figure)) missing.push_back(figure);
-  }
   draw_by_gnuplot(missing, folder);
   for (Figure* figure : figures) {
     write_file(svg_path(folder, *figure), head_of(*figure, program, figure->svg) + figure->svg);

@@ -50,7 +50,8 @@ std::string gnuplot_string(const std::string& text) {
 std::string gnuplot_path(const std::filesystem::path& path) {
   std::string out = "\"";
   for (const char c : std::filesystem::absolute(path).string()) {
-    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '/' || c == '.' || c == '-') {
+    // Gnuplot would read a digit after an octal escape as a part of the escape.
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '/' || c == '.' || c == '-') {
       out += c;
       continue;
     }

@@ -32,10 +32,9 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
   if (auto figure = agreement_figure(info, results, *runs.front()))
     gallery.shown.push_back(*figure);
   std::size_t variants = 0;
-  for (const Run* run : runs) {
+  for (const Run* run : runs)
     if (auto shapes = shapes_figure(info, *run); shapes && ++variants <= kMaxDrawnVariants)
       (variants == 1 ? gallery.shown : gallery.folded).push_back(*shapes);
-  }
   if (variants > kMaxDrawnVariants)
     gallery.problems.push_back("The shapes of the first " + std::to_string(kMaxDrawnVariants) +
                                " variants are drawn; those of " +
@@ -133,10 +132,9 @@ std::vector<Family> plan_families(const Results& results) {
     family.galleries[info.id] = gallery_of(info, results, runs);
   }
   std::ranges::stable_sort(families, {}, report_position);
-  for (Family& family : families) {
+  for (Family& family : families)
     if (auto figure = tolerance_figure(family.id, short_titles(family), family.runs))
       family.overview.push_back(*figure);
-  }
   return families;
 }
 

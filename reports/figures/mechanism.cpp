@@ -54,8 +54,7 @@ void draw_joints(PlotScript& script, const Drawing& drawing, const JointSymbol& 
 
 /// Writes the name of each joint on the side away from the center of the drawing.
 void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
-  const double cx = 0.5 * (box.x.low + box.x.high);
-  const double cy = 0.5 * (box.y.low + box.y.high);
+  const double cx = 0.5 * (box.x.low + box.x.high), cy = 0.5 * (box.y.low + box.y.high);
   std::set<std::string> named;
   for (const Joint& joint : drawing.joints) {
     if (joint.name.empty() || !named.insert(joint.name).second) continue;
@@ -117,9 +116,8 @@ std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   if (!run.drawing || run.drawing->nodes.empty()) return std::nullopt;
   const Drawing& drawing = *run.drawing;
   // A model of points only, such as a mass on springs, has no drawing.
-  if (drawing.members.empty() && drawing.triangles.empty() && drawing.joints.empty()) {
+  if (drawing.members.empty() && drawing.triangles.empty() && drawing.joints.empty())
     return std::nullopt;
-  }
   const std::vector<const Pose*> overlays = overlays_of(drawing);
   std::vector<std::vector<Point>> sets = {drawing.nodes};
   for (const Pose* pose : overlays) sets.push_back(pose->nodes);

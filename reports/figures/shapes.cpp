@@ -119,8 +119,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   auto everything = moved;
   everything.push_back(drawing.nodes);
   const Box box = box_around(everything, 0.02, 0.22);
-  const std::size_t columns = n == 1 ? 1 : n <= 4 ? 2 : 3;
-  const std::size_t rows = (n + columns - 1) / columns;
+  const std::size_t columns = n == 1 ? 1 : n <= 4 ? 2 : 3, rows = (n + columns - 1) / columns;
   const double panel = 500.0 / static_cast<double>(columns);
   const double height = std::clamp(panel * box.height() / box.width(), 55.0, 270.0) + 32;
 

@@ -148,7 +148,7 @@ std::string effects_title(const Run& run) {
 
 TextTable effects_table(const Run& run) {
   TextTable table{effects_title(run),
-                  {"Effect", "State", ">Dimensionless number", "Definition", ">Change without it",
+                  {"Effect", "State", ">Dimensionless number", "=Definition", ">Change without it",
                    ">Cumulative change", "Reason"}};
   const auto change = [](Number x) { return x ? relative(*x, 3, false) : ""; };
   for (const EffectRow& e : run.effects) {

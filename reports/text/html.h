@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "reports/text/quantity.h"
+
 /// Data for the Mustache templates of pages. Mustache escapes HTML characters in the value of
 /// {{name}} and copies the value of {{{name}}} unchanged.
 namespace trammel::reports {
@@ -65,22 +67,28 @@ template <typename Range>
 /// one cell is a heading of the rows below it.
 struct TextTable {
   std::string title;
-  std::vector<std::string> heads;  ///< headings of columns; '>' in front marks a column of numbers
+  /// Headings of columns; '>' in front marks a column of numbers, '=' a column of formulas
+  /// (or texts).
+  std::vector<std::string> heads;
   std::vector<std::vector<std::string>> rows = {};
   std::string caption = {};
   std::map<std::string, std::string> links = {};  ///< links of rows, by the heading of the row
 };
 
 [[nodiscard]] inline Data table_data(const TextTable& table) {
-  const auto is_number = [&](std::size_t column) { return table.heads[column].starts_with('>'); };
+  const auto is = [&](char mark, std::size_t i) { return table.heads[i].starts_with(mark); };
   Data heads = list(), rows = list();
   for (std::size_t i = 0; i < table.heads.size(); ++i)
-    heads.push_back(
-        object({{"text", table.heads[i].substr(is_number(i))}, {"is_number", is_number(i)}}));
+    heads.push_back(object(
+        {{"text", table.heads[i].substr(is('>', i) || is('=', i))}, {"is_number", is('>', i)}}));
   for (const auto& row : table.rows) {
     Data cells = list();
-    for (std::size_t i = 1; i < row.size(); ++i)
-      cells.push_back(object({{"text", row[i]}, {"is_number", is_number(i)}}));
+    for (std::size_t i = 1; i < row.size(); ++i) {
+      const bool formula = is('=', i) && row[i].find_first_of("^/=") != std::string::npos;
+      cells.push_back(object({{"text", formula ? "" : row[i]},
+                              {"formula", formula ? math_html(row[i]) : ""},
+                              {"is_number", is('>', i)}}));
+    }
     const auto link = table.links.find(row.front());
     rows.push_back(object({{"head", row.front()},
                            {"link", link == table.links.end() ? "" : link->second},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <regex>
 #include <utility>
 
 #include "harness/base/quantity.h"
@@ -93,6 +94,22 @@ Scale readable_scale(const std::string& unit, double largest) {
   }
   const int exponent = static_cast<int>(std::floor(std::log10(largest)));
   return {std::pow(10.0, -exponent), power_of_ten(exponent) + (unit.empty() ? "" : " " + unit)};
+}
+
+std::string math_html(const std::string& formula) {
+  static const std::regex token(R"(([A-Za-z]+|\d+|\S)(?:\^(\d+))?)");
+  std::string out = "<math>";
+  for (std::sregex_iterator it(formula.begin(), formula.end(), token), end; it != end; ++it) {
+    const std::string word = (*it)[1], power = (*it)[2];
+    const std::string symbol = word == "pi" ? "π" : word == "kappa" ? "κ" : word;
+    const bool letters = std::isalpha(static_cast<unsigned char>(word[0])) != 0;
+    const bool text = letters && symbol == word && word.size() > 1;
+    const std::string base = text      ? "<mtext>&#160;" + word + "&#160;</mtext>"
+                             : letters ? "<mi>" + symbol + "</mi>"
+                                       : "<mo>" + symbol + "</mo>";
+    out += power.empty() ? base : "<msup>" + base + "<mn>" + power + "</mn></msup>";
+  }
+  return out + "</math>";
 }
 
 std::string axis_label(const std::string& label, const std::string& unit) {

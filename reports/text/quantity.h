@@ -27,6 +27,10 @@ struct Scale {
 };
 [[nodiscard]] Scale readable_scale(const std::string& unit, double largest);
 
+/// Returns a formula, such as "E I k^2 / (kappa G A)", as MathML. A word of several letters is a
+/// text, except for the names of Greek letters.
+[[nodiscard]] std::string math_html(const std::string& formula);
+
 /// Returns a label followed by its unit: "x displacement of P (mm)".
 [[nodiscard]] std::string axis_label(const std::string& label, const std::string& unit);
 

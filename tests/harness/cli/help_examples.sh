@@ -13,7 +13,8 @@ cd "$folder"
 mkdir -p bin a b before after clang trammel-results
 ln -s "$program" bin/trammel
 printf '#!/bin/sh\nexec trammel solve "$1" "$2"\n' >my-adapter
-chmod +x my-adapter
+printf '#!/bin/sh\necho "$1" >opened.txt\n' >bin/xdg-open
+chmod +x my-adapter bin/xdg-open
 printf 'import subprocess, sys\nsys.exit(subprocess.call(["trammel", "solve", *sys.argv[-2:]]))\n' >my_adapter.py
 for name in my-robot other a b; do
   sed "s/\"my-robot\"/\"$name\"/" "$source/docs/example/my-robot.json" >"$name.json"
@@ -57,6 +58,13 @@ while IFS= read -r example; do
   fi
   status=0
   bash -c "$example" >out.txt 2>err.txt </dev/null || status=$?
+  if [[ $example == *--pdf* ]]; then
+    sleep 1 # for xdg-open, which is not awaited
+    if ! [[ $(head -c 4 trammel-results/summary.pdf) == %PDF && $(cat opened.txt) == */index.html ]]; then
+      failed=1
+      echo "no PDF, or no page opened: $example"
+    fi
+  fi
   # Status 1 of 'certify' reports verdicts that depend on rounding: hard-07-elements:elastica-3-fine toward zero.
   if [ $status -ne 0 ] && ! { [ $status -eq 1 ] && [[ $example == "trammel certify "* ]]; }; then
     failed=1

@@ -130,9 +130,8 @@ BOOST_AUTO_TEST_CASE(order_of_a_sweep_with_a_missing_level_is_an_error) {
 BOOST_AUTO_TEST_CASE(results_do_not_depend_on_jobs_and_obey_their_schema) {
   const Folder folder;
   Json json = beam(folder);
-  for (int i = 1; i < 6; ++i) {
+  for (int i = 1; i < 6; ++i)
     json["variants"]["v" + std::to_string(i)]["model"]["nodes"]["B"] = {1 + 0.1 * i, 0.2};
-  }
   json["variants"]["nothing-holds"]["model"]["supports"] = {{"A", {"x"}}};
   const std::vector<Case> cases = {testing::read(folder, json)};
   const auto text = [&](unsigned jobs) {

@@ -1,6 +1,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "reports/drawing/figure.h"
+#include "reports/drawing/plot_script.h"
 #include "tests/support/reports/markup.h"
 
 BOOST_AUTO_TEST_SUITE(svg)
@@ -54,6 +55,10 @@ BOOST_AUTO_TEST_CASE(coordinates_and_colors_are_shortened_but_not_texts) {
 
 BOOST_AUTO_TEST_CASE(incomplete_drawing_is_refused) {
   BOOST_CHECK_THROW((void)tidy_svg("<svg viewBox=\"0 0 1 1\">", "a", "t", "d"), std::runtime_error);
+}
+
+BOOST_AUTO_TEST_CASE(digits_of_a_path_do_not_extend_an_escape) {
+  BOOST_TEST(gnuplot_path("/a%20") == R"("/a\045\062\060")");
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -25,6 +25,14 @@ BOOST_AUTO_TEST_CASE(quantity_name_is_split_into_label_subject_and_unit) {
   BOOST_TEST(parse_quantity("frequency_roundoff").unit == "");
 }
 
+BOOST_AUTO_TEST_CASE(formulas_become_mathml) {
+  BOOST_TEST(math_html("(k r)^2 / pi") ==
+             "<math><mo>(</mo><mi>k</mi><mi>r</mi><msup><mo>)</mo><mn>2</mn></msup><mo>/</mo>"
+             "<mi>π</mi></math>");
+  BOOST_TEST(math_html("spring^2") ==
+             "<math><msup><mtext>&#160;spring&#160;</mtext><mn>2</mn></msup></math>");
+}
+
 BOOST_AUTO_TEST_CASE(units_are_written_as_in_print) {
   BOOST_TEST(display_unit("N m") == "N·m");
   BOOST_TEST(display_unit("kg m^2") == "kg·m²");

@@ -76,9 +76,8 @@ BOOST_AUTO_TEST_CASE(digits_next_to_a_singularity_are_kept_and_reported) {
   for (int power = 1; power <= 12; ++power) {
     const double height = std::pow(10.0, -power);
     Model model;
-    for (const Vector2d& p : {Vector2d(-1, 0), Vector2d(1.3, 0), Vector2d(0, height)}) {
+    for (const Vector2d& p : {Vector2d(-1, 0), Vector2d(1.3, 0), Vector2d(0, height)})
       model.nodes.push_back({"", Eigen::Rotation2Dd(0.5) * p});
-    }
     model.members = {hinged("a", 0, 2, unit_section(1)), hinged("b", 1, 2, unit_section(1))};
     model.supports = {pin(0), pin(1)};
     model.loads = {{2, {0, 1, 0}}};

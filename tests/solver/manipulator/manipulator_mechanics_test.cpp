@@ -94,9 +94,8 @@ BOOST_AUTO_TEST_CASE(assembled_mass_and_inertia_are_printed_or_by_density) {
     for (const bool printed : {false, true}) {
       ManipulatorDesign design = by_density;
       if (printed) {
-        for (auto* links : {&design.proximal, &design.distal}) {
+        for (auto* links : {&design.proximal, &design.distal})
           for (LinkDesign& link : *links) link.mass = 0.0234, link.inertia = 0.00078;
-        }
         design.platform.mass = 0.1205;
       }
       const double link_mass = printed ? 0.0234 : 0.0243;

@@ -24,9 +24,8 @@ std::string link_name(char first, char second, std::size_t i) {
 }
 
 const Member& member(const Model& model, const std::string& name) {
-  for (const Member& m : model.members) {
+  for (const Member& m : model.members)
     if (m.name == name) return m;
-  }
   throw std::runtime_error("no member " + name);
 }
 

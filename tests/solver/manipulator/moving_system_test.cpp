@@ -174,9 +174,8 @@ BOOST_AUTO_TEST_CASE(common_displacement_has_no_gyroscopic_force) {
   // A common displacement of all nodes violates only the constraints of the supports. These
   // constraints affect only elements at the supports.
   VectorXd q(walk.moving.K().rows());
-  for (std::size_t i = 0; i < system.constraints.free.size(); ++i) {
+  for (std::size_t i = 0; i < system.constraints.free.size(); ++i)
     if (system.constraints.free[i] >= 0) q[system.constraints.free[i]] = u[static_cast<Index>(i)];
-  }
   const VectorXd damping = walk.moving.gyroscopic_matrix() * q;
   const VectorXd stiffness = walk.moving.centrifugal_and_euler_matrix() * q;
   const double scale = walk.moving.gyroscopic_matrix().norm();

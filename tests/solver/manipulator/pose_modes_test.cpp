@@ -117,9 +117,8 @@ BOOST_AUTO_TEST_CASE(repeated_frequencies_keep_their_copies) {
   for (const Index count : {1, 2, 3, 4, 5, 6}) check("repeated", design, poses, count);
   const PoseModes modes = solve_pose_modes(design, poses, {.count = 6});
   Index pairs = 0;
-  for (Index k = 1; k < 6; ++k) {
+  for (Index k = 1; k < 6; ++k)
     pairs += modes.frequency(k, 2) - modes.frequency(k - 1, 2) < 1e-10 * modes.frequency(k, 2);
-  }
   BOOST_TEST(pairs >= 2);
 }
 

@@ -32,9 +32,8 @@ Model sprung_cantilever() {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(every_effect_has_its_own_name) {
-  for (const Effect effect : Effects::all().list()) {
+  for (const Effect effect : Effects::all().list())
     BOOST_TEST((find_effect(name_of(effect)) == effect));
-  }
   BOOST_TEST(Effects::all().list().size() == kEffectCount);
   BOOST_TEST(!find_effect("friction"));
 }

@@ -33,9 +33,8 @@ double mean(int a, int b, int c) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(line_rule_is_exact_to_degree_9) {
-  for (int power = 0; power <= 9; ++power) {
+  for (int power = 0; power <= 9; ++power)
     BOOST_TEST(line_moment(power) == 1.0 / (power + 1), boost::test_tools::tolerance(1e-14));
-  }
   BOOST_TEST(std::abs(line_moment(10) - 1.0 / 11) > 1e-7);
 }
 

@@ -58,9 +58,8 @@ BOOST_AUTO_TEST_CASE(superposition_equals_the_direct_solution) {
   const System system = assemble(frame());
   const HarmonicSolver direct(system, {{1.0, 1e-4}, {}});
   const HarmonicSolver superposed(system, {{1.0, 1e-4}, std::vector<double>(6, 0.0)});
-  for (const double f : {0.2, 0.7, 3.0}) {
+  for (const double f : {0.2, 0.7, 3.0})
     BOOST_TEST((direct.at(f) - superposed.at(f)).norm() < 1e-9 * direct.at(f).norm());
-  }
 }
 
 // Two free masses of 2 and 3 kg on a spring of 50 N/m. The load displaces both by F / (m w^2), and

@@ -18,9 +18,8 @@ BOOST_AUTO_TEST_CASE(generalized_alpha_has_its_spectral_radius) {
 }
 
 BOOST_AUTO_TEST_CASE(trapezoidal_rule_has_spectral_radius_1) {
-  for (double phase = 1e-3; phase < 1e3; phase *= 1.7) {
+  for (double phase = 1e-3; phase < 1e3; phase *= 1.7)
     BOOST_TEST(spectral_radius(average_acceleration(), phase) == 1, tolerance(1e-9));
-  }
 }
 
 BOOST_AUTO_TEST_CASE(stability_limits_are_those_of_theory) {
