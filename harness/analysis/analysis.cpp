@@ -47,7 +47,8 @@ StepResult analyze_scene(const AnalysisKind& kind, const JsonView& analysis,
   return analyze_steps(case_model, draw, at_step);
 }
 
-/// Requires a solution, sufficiently small residuals and finite numbers for the status "solved".
+/// Returns the result of an analysis. The status "solved" requires a solution, sufficiently small
+/// residuals and finite numbers.
 AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& record) {
   AnalysisResult result{std::move(found), {}, {}};
   if (!kind.evidence.empty())
@@ -67,7 +68,8 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   return result;
 }
 
-/// Records the dimensionless numbers and changes by which effects were selected, for use by checks.
+/// Records the dimensionless numbers and the changes of the results by which effects were selected
+/// automatically. Checks can refer to these quantities.
 void record_evidence(const EffectChoice& choice, Recorder& record) {
   if (!choice.automatic) return;
   for (const solver::Effect effect : solver::Effects::all().list()) {
@@ -119,7 +121,7 @@ std::string analysis_kind(const Document& document) {
 
 AnalysisResult analyze(const Document& document, const References& references,
                        const AnalysisOptions& options) {
-  require_fits(document);
+  require_memory(document);
   const AnalysisKind& kind = find_analysis(analysis_kind(document));
   Recorder record;
   if (!kind.needs_model(document)) {
@@ -140,7 +142,7 @@ AnalysisResult analyze(const Document& document, const References& references,
     result.effects = std::move(choice.rows);
     if (result.outcome.solved() && kind.warns_of_crossing)
       warn_of_crossed_singularity(case_model, result.warnings);
-    if (choice.is_beyond_tier()) {
+    if (choice.is_beyond_linear_theory()) {
       result.warnings.push_back(
           {"the change by large displacement", *choice.automatic->beyond_tier, "",
            "more than the tolerance; fixed steps and driven actuators would allow this effect"});

@@ -23,7 +23,8 @@ struct AnalysisResult : StepResult {
 [[nodiscard]] AnalysisResult analyze(const Document& document, const References& references,
                                      const AnalysisOptions& options);
 
-/// Returns the counters with their names, as results store them.
+/// Returns the numbers of element evaluations, factorizations, solves and steps, by their names in
+/// results.json.
 [[nodiscard]] results::Counters named_counters(const solver::Counters& counters);
 
 /// Returns the name of the analysis of a case, the only key of "analysis": "modes", "statics", ...
@@ -34,7 +35,8 @@ struct AnalysisResult : StepResult {
 void set_solver_rounding(int mode);
 
 /// Adds a warning if the determinant of the parallel Jacobian changes its sign between two points
-/// of a manipulator's path. The path then crosses a singularity that no point of the path shows.
+/// of a manipulator's path. The path then crosses a singularity between these two points, where
+/// nothing is computed.
 void warn_of_crossed_singularity(const CaseModel& case_model, std::vector<Warning>& warnings);
 
 }  // namespace trammel::harness

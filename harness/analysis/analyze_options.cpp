@@ -14,7 +14,8 @@
 namespace trammel::harness {
 namespace {
 
-/// Counts of the outcomes of all combinations of options, by the name of the recorded quantity.
+/// Recorded quantities by name: the number of computations with each outcome, such as "solved", and
+/// the largest difference of results.
 using OptionCounts = std::map<std::string, double>;
 
 OptionCounts no_outcomes() {
@@ -22,7 +23,8 @@ OptionCounts no_outcomes() {
           {"refused", 0},   {"not_finite", 0}, {"unexplained", 0}};
 }
 
-/// Quantity: largest difference of results that must agree, relative to their round-off bounds.
+/// Name of a quantity: the largest difference between results that must not depend on the options,
+/// relative to the sum of their round-off bounds.
 constexpr const char* kDifference = "result_difference_over_roundoff";
 
 void disagree(double by, OptionCounts& counts) {
@@ -34,7 +36,7 @@ void disagree(double by, OptionCounts& counts) {
 struct Options {
   std::vector<Json> combinations;  ///< patches of the analysis, one per combination
   bool must_agree = false;         ///< if true, no combination may change a number
-  /// Words that the reason of a failed convergence must contain.
+  /// Words that the message must contain if a computation does not converge.
   std::vector<std::string> required_terms;
 };
 
@@ -123,7 +125,7 @@ std::string computation_key(const Document& document) {
 }
 
 /// Runs one computation with every combination of options.
-/// @param seen  keys of the computations of the case, each of which runs only once
+/// @param seen  keys of the computations that have been run and are not repeated
 void run_combinations(const Document& document, const JsonView& place, const References& references,
                       std::set<std::string>& seen, OptionCounts& counts) {
   const std::string kind = analysis_kind(document);
@@ -155,7 +157,8 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
   }
 }
 
-/// Returns the computations of a variant: the variant, or the selected levels if it is a study.
+/// Returns the cases to be computed for a variant: the variant itself or, if it is a study, its
+/// selected levels.
 std::vector<Document> computations_of(const Document& document, const JsonView& choice) {
   if (analysis_kind(document) != "study") return {document};
   std::vector<Document> found;

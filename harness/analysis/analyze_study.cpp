@@ -12,7 +12,8 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns the case of a study with the inner analysis in place of the study.
+/// Returns the case with the analysis that the study repeats (inner analysis) in place of the
+/// study.
 Document with_inner_analysis(Document document) {
   const Json inner = document.value().at("analysis").at("study").at("analysis");
   const Origin written = document.origin("/analysis/study/analysis");

@@ -41,9 +41,10 @@ Effects stated_effects(const Document& document, const EffectScope& scope) {
   return stated;
 }
 
-const char* describe_missing(Effect effect, const EffectScope& scope, const EffectRules& rules) {
+const char* reason_not_applicable(Effect effect, const EffectScope& scope,
+                                  const EffectRules& rules) {
   const bool known = effect == Effect::large_displacement && scope.no_large_displacement != nullptr;
-  return known ? scope.no_large_displacement : rules.describe_missing(effect);
+  return known ? scope.no_large_displacement : rules.reason_not_applicable(effect);
 }
 
 /// Returns one row per effect with its state and the reason.
@@ -56,8 +57,8 @@ std::vector<results::EffectRow> effect_rows(const EffectScope& scope, Effects ch
     row.name = solver::name_of(effect);
     row.applicable = scope.applicable.has(effect);
     row.active = row.applicable && chosen.has(effect);
-    row.why = !row.applicable              ? describe_missing(effect, scope, rules)
-              : scope.required.has(effect) ? describe_required(effect)
+    row.why = !row.applicable              ? reason_not_applicable(effect, scope, rules)
+              : scope.required.has(effect) ? reason_required(effect)
               : row.active                 ? reason
                                            : "not " + reason;
   }
@@ -71,7 +72,7 @@ Effects read_names(const JsonView& names, const EffectScope& scope, const Effect
     const auto effect = solver::find_effect(place.get<std::string>());
     if (!scope.applicable.has(*effect))
       throw place.error("this effect is not applicable ('" + std::string(solver::name_of(*effect)) +
-                        "': " + describe_missing(*effect, scope, rules) + ")");
+                        "': " + reason_not_applicable(*effect, scope, rules) + ")");
     chosen = chosen.with(*effect);
   }
   for (const Effect effect : chosen.list()) {
@@ -122,7 +123,7 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
     const EffectEvidence& evidence = selection.evidence[static_cast<std::size_t>(effect)];
     results::EffectRow& row = choice.rows[static_cast<std::size_t>(effect)];
     row.dimensionless_number = evidence.number;
-    if (evidence.number) row.number_definition = describe_number(effect);
+    if (evidence.number) row.number_definition = number_formula(effect);
     if (scope.required.has(effect)) continue;
     row.own_change = evidence.own;
     row.cumulative_change = evidence.cumulative;
@@ -143,7 +144,7 @@ bool supports_effects(const Document& document) {
 }
 
 EffectScope effect_scope(const Document& document, const CaseModel& case_model) {
-  const solver::Model model = first_model(case_model);
+  const solver::Model model = model_at_start(case_model);
   EffectScope scope = effects_of(document)->scope(analysis_place(document), model);
   if (!model.triangles.empty()) {
     scope.applicable = scope.applicable.with(Effect::platform_flexibility);

@@ -19,9 +19,9 @@ struct EffectChoice {
   std::vector<results::EffectRow> rows;
   std::optional<EffectSelection> automatic;  ///< result of the automatic selection
 
-  /// @returns true if the change by large displacement, which the analysis cannot compute, exceeds
-  /// the tolerance
-  [[nodiscard]] bool is_beyond_tier() const {
+  /// @returns true if the analysis cannot compute large displacement, although large displacement
+  /// would change the results by more than the tolerance
+  [[nodiscard]] bool is_beyond_linear_theory() const {
     return automatic && automatic->beyond_tier.value_or(0) > *tolerance;
   }
 };

@@ -32,14 +32,14 @@ CaseModel coarsen_scene(CaseModel scene, solver::Index elements) {
   return scene;
 }
 
-double unknowns_of(const solver::Model& model) {
+double unknown_count(const solver::Model& model) {
   double unknowns = 3 * static_cast<double>(model.nodes.size());
   for (const solver::Member& member : model.members)
     unknowns += 3 * static_cast<double>(member.elements - 1);
   return unknowns;
 }
 
-double work_of(const solver::Counters& counters, double unknowns) {
+double estimated_work(const solver::Counters& counters, double unknowns) {
   constexpr double kFactorization = 8, kElement = 24;
   return unknowns * (kFactorization * static_cast<double>(counters.factorizations) +
                      static_cast<double>(counters.solves)) +

@@ -9,19 +9,21 @@
 #include "harness/analysis/effect_changes.h"
 #include "harness/analysis/registry.h"
 
-/// Coarse models of a case (scene), and estimated work of computations from their counters.
+/// Coarse models of a case (scene). The work of a computation is estimated from its numbers of
+/// solves, factorizations and element matrices.
 namespace trammel::harness {
 
 /// Returns the scene with at most `elements` elements per member and three triangles in a platform.
 [[nodiscard]] CaseModel coarsen_scene(CaseModel scene, solver::Index elements);
 
 /// Returns the number of unknowns of a model before constraints.
-[[nodiscard]] double unknowns_of(const solver::Model& model);
+[[nodiscard]] double unknown_count(const solver::Model& model);
 
-/// Returns the work of a computation, in solves for one unknown. A factorization of a planar frame
-/// takes as long as 8 solves. An element matrix takes as long as a solve for 24 unknowns. Both
-/// weights are medians of measured times over the random scenes of the tests.
-[[nodiscard]] double work_of(const solver::Counters& counters, double unknowns);
+/// Returns the estimated work of a computation. The unit is the time of one solve divided by its
+/// number of unknowns. A factorization of a planar frame counts as 8 solves. An element matrix
+/// counts as one solve for 24 unknowns. Both weights are medians of measured times over the random
+/// scenes of the tests.
+[[nodiscard]] double estimated_work(const solver::Counters& counters, double unknowns);
 
 /// Scene on a coarse mesh. Caches the results for each set of effects at each step of the path.
 class CoarseScene {
@@ -31,8 +33,8 @@ class CoarseScene {
       : kind_(kind),
         analysis_(analysis),
         scene_(coarsen_scene(scene, elements)),
-        model_(first_model(scene_)),
-        size_(scales_of(model_)) {}
+        model_(model_at_start(scene_)),
+        size_(typical_scales(model_)) {}
 
   /// Returns the largest relative change of the results at the steps if the effects `all` are
   /// replaced by `effects`. The change is infinite without a solution.

@@ -10,7 +10,8 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns the y component of the vector whose x component has the name `name`; null for others.
+/// Returns the y component of the vector whose x component has the name `name`; null for other
+/// quantities.
 const Quantity* second_component(const Quantities& all, const std::string& name) {
   const std::size_t place = name.find("_x_");
   if (place == std::string::npos) return nullptr;
@@ -58,8 +59,10 @@ std::string quantity_group(const std::string& quantity) {
 }
 
 std::map<std::string, double> change_scales(const Quantities& full, const ModelScales& model) {
-  // Relative floor of the scales. It hides the round-off error of thousands of steps, about 1e-11.
-  // Every permitted tolerance is much larger than 1e-7.
+  // Lower limit of the scale of a group, relative to the magnitude that the other groups imply,
+  // such as force times length for moments. Without the limit, round-off errors of a group of zeros
+  // would count as large changes. Round-off errors are about 1e-11 after thousands of steps. Common
+  // tolerances are much larger than 1e-7.
   constexpr double kRoundoff = 1e-7;
   std::map<std::string, double> scale;
   for (const auto& [name, quantity] : full) {
@@ -96,7 +99,7 @@ double member_length(const solver::Model& model, const solver::Member& member) {
       .norm();
 }
 
-ModelScales scales_of(const solver::Model& model) {
+ModelScales typical_scales(const solver::Model& model) {
   ModelScales scales;
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
   for (const solver::Node& node : model.nodes)

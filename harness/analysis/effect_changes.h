@@ -12,15 +12,17 @@ namespace trammel::harness {
 /// Returns the distance between the end nodes of a member [m].
 [[nodiscard]] double member_length(const solver::Model& model, const solver::Member& member);
 
-/// Magnitudes estimated from loads and stiffness of a model; zero if unknown. They scale changes of
-/// quantities whose values are all zero up to round-off.
+/// Length, force and displacement of a model, estimated from its nodes, loads and stiffness; zero
+/// if unknown. Changes are relative to these magnitudes if the values of a quantity are all zero up
+/// to round-off.
 struct ModelScales {
   double length = 0;  ///< twice the largest distance of a node from the mean [m]
   double force = 0;   ///< sum of the magnitudes of loads, and of moments / length [N]
-  /// Elongation of a bar of this length with the largest axial stiffness under this force [m].
+  /// Elongation of a bar under `force` [m]. The bar has this `length` and the largest axial
+  /// stiffness of the model.
   double displacement = 0;
 };
-[[nodiscard]] ModelScales scales_of(const solver::Model& model);
+[[nodiscard]] ModelScales typical_scales(const solver::Model& model);
 
 /// Returns the scale of the changes of each group of quantities, such as forces. The scale is the
 /// largest value of the group, or the round-off error of the group if that is larger.

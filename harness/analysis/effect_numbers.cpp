@@ -50,9 +50,10 @@ ResponseScale response_scale(const std::string& analysis_name, const JsonView& a
     scale.half_waves +=
         static_cast<double>((analysis.get<solver::Index>("count", 1) - 1) / members);
   } else if (analysis_name == "harmonic") {
-    // Near a resonance, only damping limits the amplification of a change. The sampled frequencies
-    // rarely contain the peak. The assumed amplification is between kLeast and kMost, which cover
-    // the random scenes of the tests.
+    // Near a resonance, the response changes much more than the stiffness or mass that causes the
+    // change. Only damping limits this amplification. The sampled frequencies rarely contain the
+    // peak. The assumed amplification is between kLeast and kMost, which cover the random scenes of
+    // the tests.
     constexpr double kLeast = 30, kMost = 300;
     const double omega = 2 * std::numbers::pi * analysis.number("to_Hz");
     const auto damping = analysis.find("damping");
@@ -97,7 +98,7 @@ EffectNumbers effect_numbers(const solver::Model& model, const ResponseScale& sc
   }
   for (const solver::Plate& plate : model.plates)
     membrane = std::min(membrane, plate.material.E * plate.thickness);
-  const ModelScales size = scales_of(model);
+  const ModelScales size = typical_scales(model);
   EffectNumbers numbers;
   numbers.fill({std::nullopt, kInfinite});
   const auto set = [&](Effect effect, double value, double of_change) {

@@ -9,7 +9,8 @@
 /// Closed-form dimensionless numbers by which negligible effects are found without a computation.
 namespace trammel::harness {
 
-/// Wave number and duration of the responses of an analysis, which determine the effect numbers.
+/// Wave number and phase of the response of an analysis. They determine the dimensionless numbers
+/// of effects and the estimated changes of the results.
 struct ResponseScale {
   double half_waves = 1;  ///< number of bending half waves per member
   /// Phase angle of the vibration over which a relative change of a frequency accumulates [rad].
@@ -19,7 +20,7 @@ struct ResponseScale {
 };
 
 struct EffectNumber {
-  std::optional<double> value;  ///< dimensionless number, see `describe_number`
+  std::optional<double> value;  ///< dimensionless number, see `number_formula`
   /// Estimated relative change of the results without the effect; infinite without a bound.
   double change;
 };
@@ -32,13 +33,16 @@ using EffectNumbers = std::array<EffectNumber, solver::kEffectCount>;
 /// Computes the dimensionless numbers of axial flexibility, shear, rotary inertia, joint
 /// compliance, platform flexibility and geometric stiffening. The wave number of n half waves in a
 /// member is k = n pi / L, and the numbers are
+///   axial:            E I k^2 / (E A)
 ///   shear:            E I k^2 / (kappa G A)
 ///   rotary inertia:   (k r)^2
 ///   joint compliance: E I k / c
 ///   platform:         (E I / L^3) / (E t)
 ///   stiffening:       P D^2 / (pi^2 E I)
-/// Symbols: c stiffness of a joint's spring [N m/rad], t thickness of the platform [m], P sum of
-/// all loads [N], D diameter of the frame [m]. Each number is the largest over the members.
+/// E, G, A, I, kappa and r are moduli, area, second moment of area, shear coefficient and radius of
+/// gyration of a section. L is the length of a member [m], and c the stiffness of a joint's spring
+/// [N m/rad]. t is the thickness of the platform [m], P the sum of all loads [N], and D the
+/// diameter of the frame [m]. Each number is the largest over the members.
 ///   Source: Timoshenko, Philosophical Magazine 41 (1921), for shear and rotary inertia. The others
 /// are ratios of stiffnesses in series or in parallel.
 [[nodiscard]] EffectNumbers effect_numbers(const solver::Model& model, const ResponseScale& scale);

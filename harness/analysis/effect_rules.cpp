@@ -87,7 +87,7 @@ bool is_loaded(const solver::Model& model) {
   return on_members || !model.loads.empty() || !model.edge_loads.empty();
 }
 
-/// Returns the effects of an analysis of vibration.
+/// Returns the applicable and the required effects of an analysis of vibration.
 EffectScope inertia_scope(const solver::Model& model) {
   EffectScope scope;
   scope.applicable = solver::applicable_effects(model).with(Effect::inertia);
@@ -104,8 +104,8 @@ EffectScope modes_at_rest_scope(const solver::Model& model) {
   return scope;
 }
 
-/// Returns the effects of modes in a rotating frame. Gravity, if present, is required: it cannot be
-/// omitted.
+/// Returns the applicable and the required effects of modes in a rotating frame. Gravity, if
+/// present, is required: it cannot be omitted.
 EffectScope rotating_scope(const JsonView& rotating, const solver::Model& model) {
   EffectScope scope = inertia_scope(model);
   scope.applicable = scope.applicable.with(Effect::geometric_stiffening);
@@ -124,7 +124,8 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   const Effects with_velocity = Effects().with(Effect::damping).with(Effect::gyroscopic);
   if (damping.mass != 0 || damping.stiffness != 0)
     scope.applicable = scope.applicable.with(Effect::damping);
-  // Axial flexibility is required, because constraints of rotating inextensible links cost more.
+  // Axial flexibility is required, because the constraints of rotating inextensible links would
+  // increase the computing time.
   if (scope.applicable.has(Effect::axial_flexibility))
     scope.required = Effects().with(Effect::axial_flexibility);
   scope.no_large_displacement =
@@ -152,8 +153,8 @@ EffectScope vibration_scope(const JsonView& analysis, const solver::Model& model
   return scope;
 }
 
-/// Returns the effects of a harmonic analysis. Damping is required, because only damping bounds a
-/// resonance peak, whose height the sampled frequencies do not show.
+/// Returns the applicable and the required effects of a harmonic analysis. Damping is required,
+/// because only damping bounds a resonance peak, whose height the sampled frequencies do not show.
 EffectScope harmonic_scope(const JsonView& analysis, const solver::Model& model) {
   EffectScope scope = vibration_scope(analysis, model);
   if (scope.applicable.has(Effect::damping)) scope.required = scope.required.with(Effect::damping);
@@ -200,15 +201,15 @@ Effects EffectScope::without(Effects set, Effect effect) const {
   return set;
 }
 
-const char* EffectRules::describe_missing(Effect effect) const {
+const char* EffectRules::reason_not_applicable(Effect effect) const {
   return words_of(effect).missing[column];
 }
 
-const char* describe_number(Effect effect) {
+const char* number_formula(Effect effect) {
   return words_of(effect).number;
 }
 
-const char* describe_required(Effect effect) {
+const char* reason_required(Effect effect) {
   if (effect == Effect::damping) return "required: only damping limits a resonance";
   return effect == Effect::axial_flexibility
              ? "required: inextensible links would increase the computing time"
@@ -238,7 +239,7 @@ const EffectRules kHarmonicEffects = {no_keys, harmonic_scope, 3};
 const EffectRules kTransientEffects = {no_keys, vibration_scope, 3};
 const EffectRules kLargeMotionEffects = {no_keys, large_motion_scope, 3};
 
-solver::Model first_model(const CaseModel& case_model) {
+solver::Model model_at_start(const CaseModel& case_model) {
   const bool only_large = !case_model.joint_elements.line_springs.empty() ||
                           !case_model.joint_elements.follower_loads.empty();
   return only_large ? build_bare_model(case_model, 0) : build_model(case_model, 0);

@@ -22,7 +22,8 @@ struct EffectScope {
   /// For each effect, its dependents, which are meaningless without the effect. In statics, the
   /// mass of links is a dependent of gravity.
   std::array<solver::Effects, solver::kEffectCount> dependents{};
-  /// Reason why large displacement is not applicable; null: no reason in this case.
+  /// Reason why the options or the model exclude large displacement; null if they do not exclude
+  /// it.
   const char* no_large_displacement = nullptr;
 
   /// Adds gyroscopic forces to a set with large displacement and inertia, which imply these forces.
@@ -31,26 +32,27 @@ struct EffectScope {
   [[nodiscard]] solver::Effects without(solver::Effects set, solver::Effect effect) const;
 };
 
-/// Rules of one analysis. The parameter `analysis` is the JSON object with its keys.
+/// Rules of one analysis for the selection of effects. The parameter `analysis` is the JSON object
+/// with the keys of the analysis.
 struct EffectRules {
   std::vector<EffectKey> (*keys)(const JsonView& analysis);
   EffectScope (*scope)(const JsonView& analysis, const solver::Model& model);
   std::size_t column;  ///< column of the analysis in the table of reasons for absent effects
 
   /// Returns the reason why an effect is not applicable.
-  [[nodiscard]] const char* describe_missing(solver::Effect effect) const;
+  [[nodiscard]] const char* reason_not_applicable(solver::Effect effect) const;
 };
 
 /// Returns the formula of an effect's dimensionless number; empty if the effect has no number.
-[[nodiscard]] const char* describe_number(solver::Effect effect);
+[[nodiscard]] const char* number_formula(solver::Effect effect);
 /// Returns the reason why an effect is required.
-[[nodiscard]] const char* describe_required(solver::Effect effect);
+[[nodiscard]] const char* reason_required(solver::Effect effect);
 
 extern const EffectRules kStaticsEffects, kModesEffects, kElastodynamicsEffects, kHarmonicEffects,
     kTransientEffects, kLargeMotionEffects;
 
 /// Returns the model of a case at the start of its path, without line springs and follower loads.
-[[nodiscard]] solver::Model first_model(const CaseModel& case_model);
+[[nodiscard]] solver::Model model_at_start(const CaseModel& case_model);
 
 /// Returns the effects that depend on an effect and are meaningless without it.
 [[nodiscard]] solver::Effects& dependents_of(EffectScope& scope, solver::Effect effect);

@@ -38,7 +38,7 @@ class Selector {
         scene_(scene),
         scope_(scope),
         tolerance_(tolerance),
-        model_(first_model(scene)) {
+        model_(model_at_start(scene)) {
     selection_.chosen = scope.applicable;
   }
 
@@ -119,7 +119,7 @@ class Selector {
   }
 
   void add_cost(const solver::Counters& counters, const solver::Model& model) {
-    selection_.work += work_of(counters, unknowns_of(model));
+    selection_.work += estimated_work(counters, unknown_count(model));
   }
 
   /// Compares linear theory with large displacement on one element per member, which is exact in
@@ -158,7 +158,9 @@ class Selector {
     add_cost(finer.counters, finer.model());
   }
 
-  /// Returns the largest relative change at `steps`. Adds steps at which the change is too large.
+  /// Returns the largest relative change of the results at `steps` if the effects `all` are
+  /// replaced by `effects`. Adds steps at which the change exceeds the permitted fraction of the
+  /// tolerance.
   double change_along(CoarseScene& coarse, Effects all, Effects effects,
                       const std::set<std::size_t>& every, std::set<std::size_t>& steps) const {
     for (;;) {
@@ -221,9 +223,10 @@ class Selector {
     const auto members = std::max<solver::Index>(std::ssize(model_.members), 1);
     CoarseScene coarse(kind_, analysis_, scene_,
                        2 + analysis_.get<solver::Index>("count", 0) / members);
-    constexpr double kPays = 0.25;  // largest ratio of sizes at which two coarse runs cost less
-                                    // than one effect saves
-    if (unknowns_of(coarse.model()) > kPays * unknowns_of(model_)) return;
+    // Largest ratio of the numbers of unknowns of coarse and full model. Below this ratio, two
+    // coarse computations cost less than the removal of one effect saves.
+    constexpr double kPays = 0.25;
+    if (unknown_count(coarse.model()) > kPays * unknown_count(model_)) return;
     for (const Effect effect : {Effect::gyroscopic, Effect::geometric_stiffening}) {
       if (!can_leave_out(effect)) continue;
       const double change = coarse.change(selection_.chosen, without(effect), {0});
@@ -314,8 +317,9 @@ class Selector {
     add_cost(coarse.counters, coarse.model());
   }
 
-  /// Removes inertia if the path is slow compared with the first frequency. The bound of the change
-  /// is r^2 + 2 damping r, with the ratio r of path frequency to first frequency. If the bound is
+  /// Removes inertia if the path is slow compared with the first natural frequency. The relative
+  /// change of the results is at most r^2 + 2 zeta r. Here r is the ratio of path frequency to
+  /// first natural frequency, and zeta the damping ratio of the first mode. If the bound is
   /// inconclusive, measures the change on the coarse model.
   void select_inertia(CoarseScene& coarse) {
     constexpr double kSurelyWithin = 0.25, kSurelyBeyond = 10;
@@ -330,7 +334,8 @@ class Selector {
     }
   }
 
-  /// Removes an effect of a motion if the change in linear theory on the coarse mesh permits it.
+  /// Removes an effect if the resulting change of the motion is within the tolerance. The change is
+  /// measured by linear theory on the coarse mesh.
   void measure_without(CoarseScene& coarse, Effect effect) {
     if (!can_leave_out(effect)) return;
     const auto linear = [&](Effects set) {
@@ -341,10 +346,11 @@ class Selector {
       selection_.change += change;
   }
 
-  /// Returns the relative change of a motion by large displacement. If the motion starts
-  /// quasi-statically, the change is measured on the equilibria at the times with extreme results.
-  /// These equilibria include loads, weight and nominal inertia. If the motion starts suddenly, the
-  /// change is measured on the first part of the motion. It grows with time during the vibration.
+  /// Returns the relative change of the results of a motion by large displacement. If the motion
+  /// starts quasi-statically, the change is measured on the equilibria at the times with extreme
+  /// results. These equilibria include loads, weight and nominal inertia. If the motion starts
+  /// suddenly, the change is measured on the first part of the motion. It grows with time during
+  /// the vibration.
   std::optional<double> change_of_theory() {
     /// A vibration doubles the quasi-static change (kSwing). After a sudden start, only the
     /// fraction kShortened of the duration is simulated.
@@ -370,7 +376,8 @@ class Selector {
     const auto exact = equilibria(solver::solve_large_elastodynamics, options);
     const auto linear = equilibria(solver::solve_elastodynamics, options);
     if (!exact || !linear) return std::nullopt;
-    return growth * max_change(changes_between(*exact, *linear, scales_of(coarse_model_))).value;
+    return growth *
+           max_change(changes_between(*exact, *linear, typical_scales(coarse_model_))).value;
   }
 
   template <class Solve>

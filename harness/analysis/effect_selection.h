@@ -7,22 +7,24 @@
 
 /// Selects the physical effects that the results of a case require within a tolerance.
 ///
-/// Cheap effects change coefficients but neither sizes nor steps: axial flexibility, shear, rotary
-/// inertia, joint compliance, the mass of links and gravity. They are removed by closed-form
-/// dimensionless numbers, without any computation. In case of doubt they remain.
+/// Cheap effects change coefficients but neither matrix sizes nor numbers of steps: axial
+/// flexibility, shear, rotary inertia, joint compliance, the mass of links and gravity. They are
+/// removed by closed-form dimensionless numbers, without any computation. In case of doubt they
+/// remain.
 ///
 /// Expensive effects are large displacement, geometric stiffening, inertia with damping, gyroscopic
-/// terms and a meshed platform. Their changes of the results are measured on a coarse model if this
-/// costs less than it may save. The effect with the largest saving is measured first. Without a
-/// measurement, dimensionless numbers decide.
+/// terms and a meshed platform. The change of the results by such an effect is measured on a coarse
+/// model. This is only done if the measurement costs less than the removal of the effect may save.
+/// The effect with the largest saving is measured first. Without a measurement, dimensionless
+/// numbers decide.
 namespace trammel::harness {
 
 /// Evidence for the importance of one effect.
 struct EffectEvidence {
-  std::optional<double> number;      ///< dimensionless number of the effect
-  std::optional<double> own;         ///< relative change of the results without this effect only
-  std::optional<double> cumulative;  ///< relative change without this effect and those removed
-                                     ///< before it
+  std::optional<double> number;  ///< dimensionless number of the effect
+  std::optional<double> own;     ///< relative change of the results without this effect only
+  /// Relative change of the results without this effect and without the effects removed before it.
+  std::optional<double> cumulative;
   /// True if the changes are measured on a coarse model; otherwise they are bounds.
   bool is_measured = false;
 };
@@ -34,9 +36,10 @@ struct EffectSelection {
   std::array<EffectEvidence, solver::kEffectCount> evidence;
   /// Relative change of the results from all to the chosen effects: sum of measurements and bounds.
   double change = 0;
-  /// Relative change by large displacement, if the analysis cannot compute that effect.
+  /// Relative change of the results by large displacement; empty if the analysis can compute large
+  /// displacement or if there is no estimate.
   std::optional<double> beyond_tier;
-  double work = 0;  ///< work of the selection, as defined by `work_of` in coarse_scene.h
+  double work = 0;  ///< work of the selection, as defined by `estimated_work` in coarse_scene.h
 
   [[nodiscard]] EffectEvidence& of(solver::Effect effect) {
     return evidence[static_cast<std::size_t>(effect)];

@@ -11,16 +11,18 @@
 namespace trammel::harness {
 namespace {
 
-// Bytes per item, measured with a margin (size_estimate_test). Coordinates require memory in the
-// model, matrices and states. Entries of a factor require memory during the factorization. Numbers
-// are recorded, written as JSON and drawn.
+// Bytes per coordinate, per non-zero of a matrix factor and per recorded number. They were measured
+// and include a margin (size_estimate_test). Coordinates require memory in the model, matrices and
+// states. Recorded numbers are also written as JSON and drawn.
 constexpr double kCoordinate = 2500, kEntry = 24, kNumber = 44;
-/// Bytes per number of a map, which is rounded and drawn, and per number of samples read from JSON.
+/// Bytes per number of a sensitivity map, which is rounded and drawn. Bytes per number of the
+/// samples of a neural network, which are read from JSON.
 constexpr double kMapNumber = 90, kSampleNumber = 500;
 /// Bytes per recorded number of a frequency response.
 constexpr double kResponseNumber = 22;
 
-/// Returns the memory per coordinate of an analysis, relative to that of statics, the largest.
+/// Returns the memory per coordinate of an analysis, relative to that of statics, which requires
+/// the most memory.
 double share_of(const std::string& kind, const JsonView& analysis, bool in_plane) {
   if (kind == "manufactured") return 0.5;
   if (kind != "harmonic" || in_plane) return 1;
@@ -182,7 +184,7 @@ SizeEstimate estimate_size(const Document& document) {
   return Estimator(document).run();
 }
 
-void require_fits(const Document& document, double max_memory) {
+void require_memory(const Document& document, double max_memory) {
   const SizeEstimate size = estimate_size(document);
   const bool countable = size.non_zeros <= std::numeric_limits<int>::max();
   if (countable && size.bytes <= max_memory) return;

@@ -25,7 +25,7 @@ struct SizeEstimate {
 /// Rejects a computation that requires too much memory.
 /// @throws InputError  at the key that causes the size, if the estimate exceeds `max_memory` or a
 ///     factor has more entries than 32 bits can count.
-void require_fits(const Document& document,
-                  double max_memory = static_cast<double>(memory_limit_bytes()));
+void require_memory(const Document& document,
+                    double max_memory = static_cast<double>(memory_limit_bytes()));
 
 }  // namespace trammel::harness

@@ -35,7 +35,8 @@ namespace fs = std::filesystem;
 using Termination = ProcessOutcome::Termination;
 
 constexpr int kOutOfMemory = 12;  // exit status of a process that could not allocate memory
-/// Factor of the processor time limit: a process that needs more wall time counts as hung.
+/// A process is stopped as hung if its wall time exceeds this factor times its limit of processor
+/// time.
 constexpr unsigned kHangTimeoutFactor = 20;
 
 #ifndef __has_feature
@@ -51,8 +52,8 @@ constexpr bool kLimitsMemory = true;
 int status_without_memory = 0;
 const char* line_without_memory = "";
 std::terminate_handler otherwise = nullptr;
-/// Records an allocation failure. Inside a noexcept function, such as a directory iterator, the
-/// program terminates without a current exception.
+/// True after an allocation failure. If the failure occurs in a noexcept function, such as a
+/// directory iterator, the program terminates without a current exception.
 std::atomic<bool> found_no_memory{false};
 
 [[noreturn]] void end_by_exception() {
@@ -91,7 +92,8 @@ void limit(__rlimit_resource resource, std::size_t most) {
   close_range(STDERR_FILENO + 1, ~0U, 0);
   setenv("TMPDIR", folder.c_str(), 1);
   const bool there = chdir(folder.c_str()) == 0;
-  // The memory limit is set last, because this process may exceed it, as under a sanitizer.
+  // The memory limit is set last, because this process may already exceed it, for example under a
+  // sanitizer.
   if (limits.memory_bytes > 0) limit(RLIMIT_AS, limits.memory_bytes);
   if (there) execv(words.front(), words.data());
   dprintf(STDERR_FILENO, "not started: %s\n", std::strerror(errno));
@@ -163,8 +165,9 @@ ProcessOutcome reap(const Child& child) {
 
 /// Runs a task in a child process. The parent process handles signals that stop the program.
 [[noreturn]] void compute(const ProcessTask& task, std::size_t memory_bytes, int out) noexcept {
-  end_without_memory(kOutOfMemory, "");
-  // An exception would leave incomplete JSON values, whose destructor reads a null pointer.
+  set_out_of_memory_exit(kOutOfMemory, "");
+  // An allocation failure ends the process without an exception. An exception would leave
+  // incomplete JSON values, whose destructor reads a null pointer.
   std::set_new_handler([] { _exit(kOutOfMemory); });
   const rlimit cpu{task.cpu_limit_s, task.cpu_limit_s + 1};
   setrlimit(RLIMIT_CPU, &cpu);
@@ -325,7 +328,7 @@ extern "C" void print_and_end(int signal) {
 
 }  // namespace
 
-void end_without_memory(int status, const char* line) {
+void set_out_of_memory_exit(int status, const char* line) {
   status_without_memory = status;
   line_without_memory = line;
   if (otherwise == nullptr) otherwise = std::set_terminate(end_by_exception);
@@ -335,7 +338,7 @@ void end_without_memory(int status, const char* line) {
   });
 }
 
-void end_on_signals(const std::string& line) {
+void exit_on_signals(const std::string& line) {
   last_line.fill(0);
   line.copy(last_line.data(), last_line.size() - 1);
   for (const int signal : {SIGINT, SIGTERM})
@@ -386,7 +389,7 @@ void adopt_descendants() {
   prctl(PR_SET_CHILD_SUBREAPER, 1);
 }
 
-void end_descendants() {
+void kill_descendants() {
   for (bool found = true; found;) {
     found = false;
     std::error_code error;
@@ -440,7 +443,7 @@ ProcessOutcome run_limited(const std::vector<std::string>& words, const fs::path
   if (termination != Termination::answered) kill(child.process, SIGKILL);
   ProcessOutcome outcome = reap(child);
   if (termination != Termination::answered) outcome.termination = termination;
-  end_descendants();
+  kill_descendants();
   errno = 0;
   while (drain(child) && errno == 0) {
   }

@@ -28,14 +28,15 @@ struct ProcessOutcome {
 
 struct ProcessOptions {
   unsigned at_once = 1;  ///< maximum number of simultaneous processes
-  /// Address space of each process; 0: no limit. Processes under sanitizers have no limit.
+  /// Limit of the address space of each process [bytes]; 0: no limit. Processes under sanitizers
+  /// have no limit.
   std::size_t memory_bytes = 0;
   std::function<void()> waiting = {};  ///< called about once a second while processes run
 };
 
 /// Sets the exit status and the line on standard error for an allocation failure that no code
 /// catches, such as a failure in a destructor of the JSON library.
-void end_without_memory(int status, const char* line);
+void set_out_of_memory_exit(int status, const char* line);
 
 /// Returns the memory limit of this process: the limit set by `run_in_processes`, else half of the
 /// smallest of machine memory, cgroup limit and address space.
@@ -76,7 +77,7 @@ struct ProgramLimits {
 /// Makes this process the parent of orphaned descendants, from now on.
 void adopt_descendants();
 /// Kills every child of this process, including descendants that become its children.
-void end_descendants();
+void kill_descendants();
 
 /// Returns the size of all files below a folder [bytes]. Counting stops above `enough`.
 [[nodiscard]] std::size_t folder_bytes(const std::filesystem::path& folder, std::size_t enough);
@@ -84,6 +85,6 @@ void end_descendants();
 /// From now on, SIGINT and SIGTERM end the program with exit status 128 + signal, after printing
 /// this line on standard error. Exceptions: `run_in_processes` handles these signals itself, and
 /// signals that were ignored before remain ignored.
-void end_on_signals(const std::string& line);
+void exit_on_signals(const std::string& line);
 
 }  // namespace trammel::harness

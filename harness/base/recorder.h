@@ -21,7 +21,7 @@ class Recorder {
     if (roundoff >= 0) quantity.roundoff.push_back(roundoff);
     if (!std::isfinite(value) && not_finite_.empty()) not_finite_ = key(name, item);
   }
-  /// Adds a number of the complete model or motion.
+  /// Adds a number that belongs to the complete model or motion instead of one part of the model.
   template <class Number>
   requires std::is_arithmetic_v<Number>
   void add(const std::string& name, Number value) { add(name, "", static_cast<double>(value)); }
@@ -57,7 +57,8 @@ class Recorder {
   std::string not_finite_;
 };
 
-/// Records the energies of a motion [J] and keeps the largest change of their sum.
+/// Records the energies of a motion [J] and keeps the largest change of the total energy since the
+/// start.
 class EnergyRecorder {
  public:
   void record(double kinetic, double strain, double total, Recorder& record) {

@@ -22,7 +22,8 @@ Elapsed measure(const std::function<void()>& work, int runs) {
   return {watch.cpu_s() / runs, watch.wall_s() / runs};
 }
 
-/// Calls a function to warm up and returns the number of calls for a measurement of `shortest_s`.
+/// Returns the number of calls of `work` that take about `shortest_s` [s], at most kMaxRunsEach.
+/// Calls `work` once to warm up, and once to measure its time.
 int runs_for(const std::function<void()>& work, double shortest_s) {
   work();
   const double once = std::max(measure(work, 1).cpu_s, 1e-7);

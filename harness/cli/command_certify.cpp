@@ -76,7 +76,8 @@ void print_certificate(const Json& certificate) {
   }
 }
 
-/// Requires results of the same case files, because other inputs also change results.
+/// Requires that stored results belong to the current case files. Otherwise, differences could also
+/// be due to changed inputs.
 void require_same_cases(const std::vector<Case>& cases, const std::filesystem::path& file,
                         const results::Results& stored) {
   for (const Case& one : cases) {

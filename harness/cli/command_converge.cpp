@@ -80,7 +80,7 @@ int converge_command(const CommandOptions& options, const Renderers& /*renderers
   const References references;
   const std::vector<Run> runs =
       run_cases({given}, references, {variant, options.jobs, TrackedQuantities::all, {}});
-  require_complete(runs);
+  require_uninterrupted(runs);
   for (const Run& run : runs) {
     if (run.fault != results::Fault::none) {
       std::cerr << run.reason << '\n';

@@ -158,7 +158,7 @@ results::CostStudy choose_setting(const CommandOptions& options, const CostOptio
     std::cout << format_json(results::to_json(search.errors));
   } else {
     print(measured);
-    print_search(search.errors);
+    print_accuracy_search(search.errors);
   }
   return measured;
 }
@@ -180,7 +180,7 @@ int cost_command(const CommandOptions& options, const Renderers& renderers) {
                      std::to_string(options.repeats) + ")");
   require_drawing(renderers);
   const OutputLock lock(options.out);
-  end_on_signals(kInterrupted);
+  exit_on_signals(kInterrupted);
   const References references;
   const SweepExtent extent = options.quick ? SweepExtent::quick : SweepExtent::full;
   CostOptions cost_options;
@@ -228,8 +228,8 @@ std::vector<std::function<void()>> quick_cost_work(const References& references,
   return work;
 }
 
-results::CostStudies quick_cost(const References& references, const fs::path& store, bool resume,
-                                std::vector<std::string>& error_messages) {
+results::CostStudies quick_cost_studies(const References& references, const fs::path& store,
+                                        bool resume, std::vector<std::string>& error_messages) {
   std::vector<results::CostStudy> measured;
   const CostOptions options;
   for (const fs::path& file : cost_study_files()) {

@@ -42,7 +42,7 @@ int coverage_command(const CommandOptions& options, const Renderers& /*renderers
   if (!options.word.empty()) {
     const results::Results results = load_results(results_path(options.word));
     if (!results.missing.empty()) std::cerr << options.word << ": " << results.missing << '\n';
-    count_series(results, rows);
+    count_quantity_runs(results, rows);
   }
   if (options.json) {
     std::cout << format_json(results::to_json(rows));

@@ -26,7 +26,8 @@ double ratio(double part, double full) {
   return full > 0 ? part / full : 0;
 }
 
-/// Table columns of a model without some effects: its change from the full model, time and work.
+/// Table columns of a model without some effects. They contain the changes of its results from
+/// those of the full model, its computing time and its work.
 const std::vector<Column> kRunColumns = {"left_out",
                                          {"status", ""},
                                          {"change", "change [%]", 3, 100},
@@ -99,7 +100,7 @@ Json study_json(const std::string& id, const std::string& analysis, const Effect
 /// @returns true if the omitted effects change the results by at most the tolerance. This includes
 /// large displacement if the analysis cannot represent it.
 bool holds(const EffectStudy& study) {
-  return study.within_tolerance() && !study.choice.is_beyond_tier();
+  return study.within_tolerance() && !study.choice.is_beyond_linear_theory();
 }
 
 void print_study(const EffectStudy& study) {
@@ -188,7 +189,8 @@ int print_one(const EffectCase& scene, const CommandOptions& options) {
   return holds(study) ? 0 : 1;
 }
 
-/// Returns the effects of a case, possibly from the store; none if the full model has no solution.
+/// Returns the effects selected in a case, measured or read from the store; empty if the model with
+/// all effects has no solution.
 EffectScenes scenes_of(const EffectCase& given, const std::filesystem::path& store, bool resume) {
   const auto measure = [&] {
     const EffectStudy study = study_effects(given.document, {.repeats = 3});
@@ -197,7 +199,7 @@ EffectScenes scenes_of(const EffectCase& given, const std::filesystem::path& sto
       scenes.push_back(scene_of(given.id, analysis_kind(given.document), study));
     return scenes;
   };
-  return cached_scenes(given.document, measure, store, resume);
+  return cached_effect_study(given.document, measure, store, resume);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ int solve_command(const CommandOptions& options, const Renderers& /*renderers*/)
   run_options.variant = kBaseVariant;
   run_options.memory_bytes = options.memory_bytes;
   const std::vector<Run> runs = run_cases({given}, References(), run_options);
-  require_complete(runs);
+  require_uninterrupted(runs);
   const Run& run = runs.front();
   require_no_error(run);
   if (run.is_solved())

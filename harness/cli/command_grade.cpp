@@ -26,18 +26,20 @@ using results::Grade;
 class Descendants {
  public:
   Descendants() { adopt_descendants(); }
-  ~Descendants() { end_descendants(); }
+  ~Descendants() { kill_descendants(); }
   Descendants(const Descendants&) = delete;
   Descendants& operator=(const Descendants&) = delete;
 };
 
-/// Returns true for cases that test only the judging of results, and therefore no other code.
+/// Returns true for cases that test only trammel's evaluation of checks. They do not apply to other
+/// codes.
 bool is_control(const Case& one) {
   const std::vector<std::string> labels = one.labels();
   return contains(labels, "control");
 }
 
-/// Returns the reason why the checks of a run do not decide about its grade.
+/// Returns the reason for a grade other than `agrees` and `off`: the reason of the run, or else the
+/// message of a check without a computed value.
 std::string reason_of(const results::Run& run, Grade grade) {
   if (!run.reason.empty()) return run.reason;
   for (const results::Check& check : run.checks)
@@ -99,7 +101,7 @@ int grade_command(const CommandOptions& options, const Renderers& renderers) {
   std::vector<Case> cases = select_cases(options);
   if (options.words.empty()) std::erase_if(cases, is_control);
   const OutputLock lock(options.out);
-  end_on_signals(kInterrupted);
+  exit_on_signals(kInterrupted);
   const References references;
   const Descendants ended;
   Progress progress("runs");
@@ -107,7 +109,7 @@ int grade_command(const CommandOptions& options, const Renderers& renderers) {
   run_options.progress = [&](std::size_t done, std::size_t of) { progress.show(done, of); };
   run_options.store = store_folder(options.out, options.store);
   run_options.resume = options.resume;
-  run_options.solver = solver_of(adapter);
+  run_options.solver = adapter_solver(adapter);
   results::Results found =
       results_of(run_cases(cases, references, run_options), cases, references, run_options.store);
   found.solver = solver_name(found.runs, options.adapter, adapter.words.front());
@@ -121,7 +123,7 @@ int grade_command(const CommandOptions& options, const Renderers& renderers) {
     print_grades(found.runs);
     std::cout << "results in " << file.string() << ", page in " << page.string() << std::endl;
   }
-  require_complete(found.runs);
+  require_uninterrupted(found.runs);
   const bool failure = std::ranges::any_of(
       found.runs, [](const results::Run& one) { return is_failure(results::grade_of(one)); });
   return failure ? 1 : 0;

@@ -62,7 +62,7 @@ int history_command(const CommandOptions& options, const Renderers& /*renderers*
   } else {
     print_history(json);
   }
-  return history.calls.empty() || history.calls.back().green() ? 0 : 1;
+  return history.calls.empty() || history.calls.back().has_passed() ? 0 : 1;
 }
 
 }  // namespace trammel::harness

@@ -329,7 +329,7 @@ void require_drawing(const Renderers& renderers) {
 
 int run_command_line(const std::vector<std::string>& arguments, const Renderers& renderers) {
   const PrintableStream out(std::cout), err(std::cerr);
-  end_on_signals("trammel: interrupted; the same command starts from the beginning\n");
+  exit_on_signals("trammel: interrupted; the same command starts from the beginning\n");
   std::signal(SIGXFSZ, SIG_IGN);  // writing beyond the file size limit then fails
   try {
     std::vector<std::string> words = arguments;

@@ -124,7 +124,7 @@ void describe_inputs(const Case& given, const References& references) {
   if (!base.value().contains("uncertainty")) return;
   std::cout << "\nInput uncertainties\n";
   Rows table({"input", "half width", "", "why"});
-  for (const results::UncertainInput& input : stated_inputs(base, references))
+  for (const results::UncertainInput& input : uncertain_inputs(base, references))
     table.add({input.name, *input.half_width,
                input.nominal ? "only if nominal lengths are taken literally" : "", input.why});
   table.print(std::cout, "  ");
@@ -202,7 +202,8 @@ Rows analysis_rows() {
   return rows;
 }
 
-/// Returns the meaning of a quantity of a case. In a study, it may belong to the inner analysis.
+/// Returns the meaning of a quantity of a case. In a study, the quantity may belong to the analysis
+/// that the study repeats.
 std::string meaning_of(const std::string& name, const Document& document) {
   const std::string analysis = analysis_kind(document);
   const auto* found = results::find_quantity_definition(name, analysis);
@@ -254,7 +255,7 @@ int describe_command(const CommandOptions& options, const Renderers& /*renderers
     std::cout << format_json(document);
     return 0;
   }
-  require_fits(base);
+  require_memory(base);
   std::cout << given.id() << ": " << given.title() << '\n'
             << wrapped(given.document.value().value("description", ""), "  ") << "\nModel     "
             << describe_model(base) << "\nAnalysis  " << analysis_kind(base) << " "

@@ -272,12 +272,12 @@ int compute_shard(const CommandOptions& options) {
   const Shard shard = parse_shard(options.shard);
   const Selection selection = select(options);
   const OutputLock lock(options.out);
-  end_on_signals(kInterrupted);
+  exit_on_signals(kInterrupted);
   std::filesystem::remove(std::filesystem::path(options.out) / kShardFile);
   Progress progress("runs");
   const ShardRuns shard_runs = run_shard(selection.cases, run_options(options, progress), shard);
   print_run_errors(shard_runs.runs);
-  require_complete(shard_runs.runs);
+  require_uninterrupted(shard_runs.runs);
   write_shard(options.out, shard, selection_of(options), shard_runs);
   std::cout << "shard " << options.shard << ": " << shard_runs.runs.size() << " of "
             << shard_runs.in_all << " computations in " << options.out
@@ -285,7 +285,8 @@ int compute_shard(const CommandOptions& options) {
   return 0;
 }
 
-/// Adds the studies of the catalogue: cost, claims, coverage, effects.
+/// Adds the results of the studies that belong to the complete catalogue: cost, claims, coverage
+/// and effects.
 /// @returns the exit status of the studies
 int add_studies(results::Results& results, const std::vector<Case>& cases,
                 const References& references, const CommandOptions& options) {
@@ -293,19 +294,19 @@ int add_studies(results::Results& results, const std::vector<Case>& cases,
   const bool resume = !options.fresh;
   std::vector<std::function<void()>> studies = quick_cost_work(references, store, resume);
   for (auto& work : effect_scene_work(store, resume)) studies.push_back(std::move(work));
-  // The calls of `quick_cost` and `catalogue_effect_scenes` below read the results from the store,
-  // and compute those that are missing. With --fresh, they read only if all functions were
-  // completed.
+  // The calls of `quick_cost_studies` and `catalogue_effect_scenes` below read the results from the
+  // store, and compute those that are missing. With --fresh, they read stored results only if all
+  // functions in `studies` were completed.
   const bool measured = do_in_processes(studies, options.jobs, "studies of cost and effects");
   std::vector<std::string> error_messages;
-  results.cost = quick_cost(references, store, resume || measured, error_messages);
+  results.cost = quick_cost_studies(references, store, resume || measured, error_messages);
   const Document document = load_claims();
   results.claims = evaluate_claims(document, results.runs);
   results.claims->items = load_paper_items(document, Catalogue());
   judge_paper_items(results, results.claims->items);
   results.coverage = evidence_coverage(cases, references);
   add_reasons(results.coverage);
-  count_series(results, results.coverage);
+  count_quantity_runs(results, results.coverage);
   results.effect_scenes = catalogue_effect_scenes(store, resume || measured);
   for (const std::string& error_message : error_messages) std::cerr << error_message << '\n';
   for (const results::Claim& claim : results.claims->claims)
@@ -346,7 +347,7 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
     throw InputError("expected a case or a label (see trammel run --help)");
   const Selection selection = select(options);
   const OutputLock lock(options.out);
-  end_on_signals(kInterrupted);
+  exit_on_signals(kInterrupted);
   const References references;
   const results::Results results =
       results_of(compute(selection, references, options), selection.cases, references,
@@ -359,7 +360,7 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
   } else {
     for (const Run& run : runs)
       if (run.fault == results::Fault::none && run.interrupted_by == 0 &&
-          (!options.quiet || fails_gate(run)))
+          (!options.quiet || counts_as_failure(run)))
         print_run(run);
     if (runs.size() == 1) print_validation(runs.front());
     print_summary(results);
@@ -368,7 +369,7 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
   if (options.vtk)
     for (const Run& run : runs) write_vtk(run, out / "vtk");
   print_run_errors(runs);
-  require_complete(runs);
+  require_uninterrupted(runs);
   if (!options.history.empty()) append_history(options.history, results);
   return exit_status(runs);
 }
@@ -386,15 +387,15 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
   resuming.resume = !options.fresh;
   const Selection selection = select(resuming);
   const OutputLock lock(options.out);
-  end_on_signals("trammel: interrupted; the same command computes the rest\n");
+  exit_on_signals("trammel: interrupted; the same command computes the rest\n");
   const References references;
   std::vector<Run> computed = compute(selection, references, resuming);
-  require_complete(computed);
+  require_uninterrupted(computed);
   results::Results results = results_of(std::move(computed), selection.cases, references,
                                         store_folder(options.out, options.store));
   const std::vector<Run>& runs = results.runs;
   for (const Run& run : runs)
-    if (fails_gate(run) && run.fault == results::Fault::none) print_run(run);
+    if (counts_as_failure(run) && run.fault == results::Fault::none) print_run(run);
   const int status =
       is_catalogue(options) ? add_studies(results, selection.cases, references, options) : 0;
   if (!options.history.empty()) {

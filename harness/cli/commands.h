@@ -103,7 +103,8 @@ Command export_command, solve_command, grade_command;
 
 /// Returns functions that measure each cost study of the catalogue with its short selection of
 /// settings (SweepExtent::quick) and store the results.
-/// @throws InputError  from the functions, with the message that `quick_cost` reports for the study
+/// @throws InputError  from the functions, with the message that `quick_cost_studies` reports for
+/// the study
 [[nodiscard]] std::vector<std::function<void()>> quick_cost_work(const References& references,
                                                                  const std::filesystem::path& store,
                                                                  bool resume);
@@ -121,8 +122,9 @@ Command export_command, solve_command, grade_command;
 /// Returns all cost studies of the catalogue, measured with their short selection of settings
 /// (SweepExtent::quick), in the form of results.json.
 /// @param error_messages  receives a line for each study that could not be measured
-[[nodiscard]] results::CostStudies quick_cost(const References& references,
-                                              const std::filesystem::path& store, bool resume,
-                                              std::vector<std::string>& error_messages);
+[[nodiscard]] results::CostStudies quick_cost_studies(const References& references,
+                                                      const std::filesystem::path& store,
+                                                      bool resume,
+                                                      std::vector<std::string>& error_messages);
 
 }  // namespace trammel::harness

@@ -142,8 +142,8 @@ std::string kind_of(const Check& check, const Document& document, const Referenc
   return analysis == "manufactured" ? "manufactured" : "self-consistency";
 }
 
-/// Returns the row of a quantity, such as "modes: frequency_Hz"; empty if the quantity is not
-/// defined for the analysis.
+/// Returns the name of the coverage row of a quantity, such as "modes: frequency_Hz"; empty if the
+/// quantity is not defined for the analysis.
 std::string quantity_row(const std::string& quantity, const std::string& analysis) {
   const auto* definition = results::find_quantity_definition(quantity, analysis);
   return definition == nullptr ? "" : analysis + ": " + definition->name;
@@ -243,7 +243,7 @@ void add_reasons(std::vector<CoverageRow>& rows) {
   }
 }
 
-void count_series(const results::Results& results, std::vector<CoverageRow>& rows) {
+void count_quantity_runs(const results::Results& results, std::vector<CoverageRow>& rows) {
   std::map<std::string, std::pair<int, int>> counts;
   for (const results::Run& run : results.runs) {
     std::set<std::string> judged;

@@ -13,7 +13,8 @@
 namespace trammel::harness {
 
 /// Features that a case uses below "model", "analysis" and "effects": keys ("slider.rail") and
-/// values ("beam = timoshenko"). Keys of a schema definition start with its name.
+/// values ("beam = timoshenko"). Keys inside a definition of the schema start with the name of the
+/// definition, such as "slider".
 using CaseFeatures = std::set<std::string>;
 
 /// Returns all features that a case can use.
@@ -43,6 +44,6 @@ using CaseFeatures = std::set<std::string>;
 void add_reasons(std::vector<results::CoverageRow>& rows);
 
 /// Counts the runs that record each quantity, and those in which a passed check judges it.
-void count_series(const results::Results& results, std::vector<results::CoverageRow>& rows);
+void count_quantity_runs(const results::Results& results, std::vector<results::CoverageRow>& rows);
 
 }  // namespace trammel::harness

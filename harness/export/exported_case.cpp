@@ -133,9 +133,9 @@ Json asked_quantities(const Document& document, const std::vector<Check>& checks
       if (!seen.insert(name).second) continue;
       const std::size_t colon = name.find(':');
       if (colon != std::string::npos && lost.count(name.substr(colon + 1)) > 0) {
-        throw document.error(
-            check.pointer, "the exported model does not contain the part of the quantity '" + name +
-                               "', which is an edge or a tapered member");
+        throw document.error(check.pointer,
+                             "the quantity '" + name +
+                                 "' belongs to an edge or a tapered member, which is not exported");
       }
       const auto* known = results::find_quantity_definition(name, analysis_kind(document));
       asked.push_back({{"name", name},

@@ -12,8 +12,9 @@
 #include "solver/large/large_motion_model.h"
 #include "solver/model/model.h"
 
-/// Exports cases for other codes, as one computation each. Everything that a case file leaves to be
-/// resolved is resolved: inheritance, patches, manipulator, pose, meshes, tapers, arcs and effects.
+/// Exports cases for other codes, as one computation each. The exported case contains explicit
+/// nodes, members, loads and effects. They replace inheritance, patches, mesh options, tapers and
+/// arcs, and the manipulator unless it moves along a path.
 namespace trammel::harness {
 
 /// Selects one computation of a case.
@@ -57,9 +58,9 @@ struct ExportedScene {
 void write_matrices(const Document& document, const ExportedScene& scene,
                     const std::filesystem::path& folder);
 
-/// Converts a built model into the format of a case file with nothing left to resolve. Every node
-/// has a name and sections are numbers. Tapered members become chains of uniform members, and edge
-/// loads become nodal loads.
+/// Converts a built model into the format of a case file in which all values are explicit. Every
+/// node has a name and sections are numbers. Tapered members become chains of uniform members, and
+/// edge loads become nodal loads.
 
 /// Names of materials and loads in the case, which a built model does not contain.
 struct WrittenNames {

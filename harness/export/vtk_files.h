@@ -24,8 +24,9 @@ struct VtkCell {
                               const std::vector<results::Point>& displacement = {});
 
 /// Writes the drawings of a run as CASE-VARIANT-shapes.pvd, -poses.pvd and -motion.pvd. They list
-/// one VTU file per mode shape, pose and moment of a motion. Moments are listed by their time [s].
-/// Displaced grids have point vectors "displacement" [m]. Writes nothing if the run has no drawing.
+/// one VTU file per mode shape, per pose and per selected time of a motion. The files of a motion
+/// are listed with their times [s]. Displaced grids have point vectors "displacement" [m]. Writes
+/// nothing if the run has no drawing.
 /// @throws InputError  if the folder cannot be written.
 void write_vtk(const results::Run& run, const std::filesystem::path& folder);
 

@@ -40,8 +40,8 @@ void end_as(Run& run, results::Status status, const std::string& reason) {
   run.reason = reason;
 }
 
-/// Sets the status of a run whose program ended without an answer. Returns false if the answer must
-/// be read.
+/// Sets the status of a run whose adapter failed or exceeded a limit. Returns false if the adapter
+/// ended normally, so that its RESULT.json must be read.
 bool ended_without_answer(const ProcessOutcome& outcome, const ProgramLimits& limits, Run& run) {
   switch (outcome.termination) {
     case Ending::timed_out:
@@ -159,7 +159,7 @@ std::vector<std::string> adapter_words(const std::string& command) {
   return words;
 }
 
-OtherSolver solver_of(const Adapter& adapter) {
+OtherSolver adapter_solver(const Adapter& adapter) {
   OtherSolver solver;
   solver.hash = "adapter";
   for (const std::string& word : adapter.words) solver.hash += " " + word + " " + file_hash(word);

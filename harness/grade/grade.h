@@ -24,7 +24,7 @@ struct Adapter {
 
 /// Returns a solver that runs an adapter for a case or variant. If the adapter reports the order of
 /// its element, it also runs the sweeps whose orders are checked, level by level.
-[[nodiscard]] OtherSolver solver_of(const Adapter& adapter);
+[[nodiscard]] OtherSolver adapter_solver(const Adapter& adapter);
 
 /// Reads the RESULT.json of an adapter into status, reason, quantities and solver. Missing
 /// quantities are not an error.

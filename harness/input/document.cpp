@@ -34,12 +34,12 @@ void merge(Json& target, const Json& patch) {
 
 }  // namespace
 
-void compose(Json& patch, const Json& later) {
+void compose_patches(Json& patch, const Json& later) {
   if (!patch.is_object() || !later.is_object()) {
     patch = later;
     return;
   }
-  for (const auto& item : later.items()) compose(patch[item.key()], item.value());
+  for (const auto& item : later.items()) compose_patches(patch[item.key()], item.value());
 }
 
 Document Document::from_json(const std::string& file, const Json& json) {
@@ -54,7 +54,7 @@ void Document::apply_patch(const std::string& file, const std::string& origin, c
   Json variants = value_.value("variants", Json());
   merge(value_, patch);
   if (const auto stated = patch.find("variants"); stated != patch.end() && stated->is_object()) {
-    compose(variants, *stated);
+    compose_patches(variants, *stated);
     value_["variants"] = std::move(variants);
   }
   layers_.push_back({file, origin, std::make_shared<const Json>(patch), false});

@@ -19,7 +19,7 @@ struct Origin {
 
 /// Combines two merge patches into one: `patch`, followed by `later`. Nulls are kept, because they
 /// remove keys when the combined patch is applied.
-void compose(Json& patch, const Json& later);
+void compose_patches(Json& patch, const Json& later);
 
 /// A JSON document made of layers, each a merge patch (RFC 7386) over the previous ones. It records
 /// the file of each value, so that messages refer to the place written by the user.
@@ -36,7 +36,8 @@ class Document {
 
   [[nodiscard]] const Json& value() const { return value_; }
 
-  /// Returns file and pointer at which the value, or else its innermost object, was last written.
+  /// Returns the file in which a value was last written, and its pointer in this file. If no file
+  /// contains the value, returns the file of the innermost object around it.
   [[nodiscard]] Origin origin(const std::string& pointer) const;
 
   /// Returns an error at a value, with the file and pointer at which the value was written.

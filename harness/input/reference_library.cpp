@@ -88,7 +88,7 @@ bool References::has(const std::string& file, const std::string& id) const {
 const std::vector<References::Key>& References::catalogue_keys() const {
   if (!catalogue_keys_.empty()) return catalogue_keys_;
   for (const std::string& file : catalogue_files())
-    for (const std::string_view key : references::keys_of_blocks(family(file).file.text))
+    for (const std::string_view key : references::top_level_keys(family(file).file.text))
       catalogue_keys_.push_back({key, &file});
   return catalogue_keys_;
 }

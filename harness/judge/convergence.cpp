@@ -125,7 +125,8 @@ class ConvergenceStudy {
     if (!series_.theory_order)
       return {extrapolated(k, std::isnan(seen) ? 1 : std::max(0.5, seen)), 3};
     const double lowest = series_.lower_order.value_or(*series_.theory_order);
-    // Two levels have no observed order. The theoretical order applies, with Roache's factor 3.
+    // Two levels have no observed order. The theoretical order applies, with Roache's safety factor
+    // 3.
     if (k == 1) return {extrapolated(k, lowest), 3};
     // The values oscillate, so that they have no observed order.
     if (std::isnan(seen)) return {extrapolated(k, std::min(1.0, lowest)), 3};
@@ -173,7 +174,7 @@ class ConvergenceStudy {
   }
 
   /// Fits the two-term law a h^p + b h^q to the errors if two orders of convergence mix.
-  /// @returns whether two orders mix
+  /// @returns true if two orders mix
   bool fit_two_orders() {
     if (!series_.theory_order || !series_.lower_order) return false;
     const Number reference = series_.exact ? series_.exact : series_.richardson;

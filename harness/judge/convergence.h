@@ -47,17 +47,18 @@ inline constexpr std::size_t kMinLevels = 100;
 [[nodiscard]] results::UncertaintyCoverage summarize_numerical_uncertainty(
     const std::vector<results::Run>& runs);
 
-/// Errors that are the sum of two powers, a h^p + b h^q. Examples are beam elements with bending of
-/// order 4 and linear axial interpolation of order 2, and Timoshenko elements, in which shear
-/// dominates on short elements. Between coarse and fine meshes no single order is observed.
+/// Errors that are the sum of two powers of the element size h, a h^p + b h^q. One example is beam
+/// elements with bending of order 4 and linear axial interpolation of order 2. Another example is
+/// Timoshenko elements, in which shear dominates on short elements. Between coarse and fine meshes
+/// no single order is observed.
 
 struct TwoTermOrders {
   double p = 4, q = 2;  ///< orders, p > q > 0
 };
 
 /// Fits the law a h^p + b h^q by least squares of the relative residuals over the usable levels.
-/// Coarse levels with further error terms are removed one by one until the largest relative
-/// residual is at most `within`. At least three levels remain.
+/// The coarsest levels, whose errors contain further terms, are removed one by one until the
+/// largest relative residual is at most `within`. At least three levels remain.
 /// @param error   signed error of each level, coarse to fine.
 /// @param usable  false if an error is missing or dominated by round-off.
 /// @return empty for fewer than three usable levels

@@ -12,7 +12,8 @@
 namespace trammel::harness {
 namespace {
 
-/// Maximum number of entries that are reported singly. Of more entries, only the worst is reported.
+/// Maximum number of entries of a quantity that a check reports one by one. If there are more
+/// entries, only the worst is reported.
 constexpr std::size_t kMaxEntries = 16;
 
 /// Reason why a check cannot be judged.
@@ -27,7 +28,8 @@ std::vector<std::string> names_of(const Quantities& quantities) {
   return names;
 }
 
-/// Lists the available quantities, up to the colon: " (known here: frequency_Hz and ...)".
+/// Lists the names of the available quantities without the part after the colon: " (known here:
+/// frequency_Hz and ...)".
 std::string known_kinds(const Quantities& quantities) {
   constexpr std::size_t most = 12;
   std::vector<std::string> kinds;
@@ -288,7 +290,7 @@ const references::Reference& find_reference(const CheckContext& context,
   return context.references.get(place);
 }
 
-bool fails_gate(Verdict verdict) {
+bool counts_as_failure(Verdict verdict) {
   return verdict != Verdict::pass && verdict != Verdict::recorded && verdict != Verdict::not_given;
 }
 

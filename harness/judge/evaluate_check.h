@@ -30,9 +30,9 @@ struct CheckContext {
   const results::SolverIdentity* other_solver = nullptr;
 };
 
-/// Creates a judgment with the check's name, role and reasons, and with the verdict error.
+/// Creates a judgment with the check's name, role and reasons, and with the verdict "error".
 [[nodiscard]] CheckResult start_check_result(const Check& check);
-/// Creates a judgment with the verdict error and this message.
+/// Creates a judgment with the verdict "error" and this message.
 [[nodiscard]] CheckResult failed_check_result(const Check& check, const std::string& message);
 
 /// Returns the reference whose id is at this JSON pointer of the case document.
@@ -40,7 +40,7 @@ struct CheckContext {
                                                           const std::string& pointer);
 
 /// Returns true if the verdict fails a run: any verdict except pass, recorded and not given.
-[[nodiscard]] bool fails_gate(Verdict verdict);
+[[nodiscard]] bool counts_as_failure(Verdict verdict);
 
 /// Returns one judgment per entry of the quantity, but only the worst entry of a long array.
 [[nodiscard]] std::vector<CheckResult> evaluate_check(const Check& check,

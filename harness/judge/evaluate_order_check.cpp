@@ -11,7 +11,8 @@
 namespace trammel::harness {
 namespace {
 
-/// Refinement of one entry of the quantity, with the constants of its theoretical error.
+/// Convergence study of one entry of the checked quantity, with the constants of its theoretical
+/// discretization error.
 struct Entry {
   const Convergence& found;
   double wave_number = kNaN;  ///< wave number times length of the refined member

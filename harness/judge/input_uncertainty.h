@@ -18,7 +18,7 @@ namespace trammel::harness {
 /// each input. Its result is empty if the model has no solution.
 using Response = std::function<std::optional<std::vector<double>>(const std::vector<double>&)>;
 
-/// First-order uncertainty:
+/// First-order standard uncertainty u of an output f due to the inputs x:
 ///   u^2 = sum over inputs of (df/dx half_width)^2 / 3.
 /// Returns the signed contributions df/dx half_width / sqrt(3), input x output [unit of the
 /// output]. The central differences have a step of half_width / 16. Their truncation error is 1/256

@@ -9,7 +9,8 @@
 namespace trammel::harness {
 namespace {
 
-/// Maximum number of entries of a quantity that are tracked if the case selects no entries.
+/// Maximum number of entries of a quantity whose convergence is studied if the case selects no
+/// entries.
 constexpr std::size_t kMaxTrackedEntries = 16;
 
 void add_everything_else(const Sweep& sweep, std::vector<TrackedQuantity>& tracked_quantities) {

@@ -27,7 +27,7 @@ enum class TrackedQuantities {
 /// Removes from a sweep all quantities that TrackedQuantities::named does not select.
 void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Check>& checks);
 
-/// Returns the convergence study of each tracked entry of a sweep.
+/// Returns one convergence study for each entry of the tracked quantities of a sweep.
 /// @param element_order  order of another solver's elements, which replaces the theoretical order
 [[nodiscard]] std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& document,
                                                    const std::vector<Check>& checks,

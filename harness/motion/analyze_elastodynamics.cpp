@@ -129,7 +129,7 @@ void draw_motion(const CaseModel& case_model, const solver::ElastodynamicsSoluti
   for (const solver::StaticSolution& state : solution.state) q.push_back(state.q);
   for (const std::size_t i : drawn_samples(q, drawing.nodes.size())) {
     const solver::System system = solver::assemble(build_model(case_model, i));
-    const std::string label = moment_label(solution.time[i]);
+    const std::string label = time_label(solution.time[i]);
     drawing.poses.push_back({label, draw_model(system, true)->nodes, solution.time[i],
                              draw_shape(system, q[i], label).displacement});
   }
@@ -175,7 +175,7 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
   }
   if (options.modal_superposition && !solver::is_at_rest(options.path))
     throw analysis["modal_superposition"].error(
-        "modal superposition requires constant M and K, and thus a platform at rest");
+        "modal superposition requires constant mass and stiffness, and thus a platform at rest");
   for (const solver::TrajectoryPoint& point : case_model.motion)
     options.time.sample_times.push_back(point.time);
   options.time.start = options.time.sample_times.front();

@@ -38,9 +38,9 @@ struct GrnnSamples {
   std::vector<GrnnOutput> columns;  ///< meaning of each column of the outputs
 };
 
-/// Samples of the paper (Section 4.3). Inputs are the torques of the inverse dynamics at each point
-/// of the path. Outputs are the angles and velocities of the active joints. Angles are continuous
-/// across pi.
+/// Samples as in Varalakshmi and Srinivas (2017), Section 4.3, one for each point of the path.
+/// Inputs are the torques of the inverse dynamics. Outputs are the angles and velocities of the
+/// active joints. Angles are continuous across pi.
 struct PathSamples {
   solver::Outcome outcome;  ///< outcome of the first point without a solution
   GrnnSamples samples;

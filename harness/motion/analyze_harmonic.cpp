@@ -78,8 +78,8 @@ class HarmonicScene {
 
   /// Returns the natural frequencies within the range [Hz]; empty if the eigensolver fails.
   [[nodiscard]] std::optional<std::vector<double>> frequencies_in_range() const {
-    // If the end of the range is a natural frequency to round-off, the count needs a slightly
-    // larger range.
+    // If the upper end of the range is a natural frequency up to round-off, the frequencies are
+    // counted in a slightly larger range.
     for (const double beyond : {1e-9, 1e-6}) {
       const auto count = solver::sturm_count(system, high * (1 + beyond));
       if (!count) continue;

@@ -31,7 +31,7 @@ void record_bodies(const solver::InverseDynamics& found, Recorder& record) {
   }
 }
 
-/// Records the energies and powers.
+/// Records the kinetic energy and the powers of the rigid manipulator at one point of the path.
 /// @returns the residual of the power balance, relative to the sum of all powers
 double record_energy(const solver::InverseDynamics& found, Recorder& record) {
   record.add("kinetic_energy_J", found.kinetic_energy);
@@ -48,9 +48,10 @@ double record_energy(const solver::InverseDynamics& found, Recorder& record) {
   return residual;
 }
 
-/// Records the work of the actuators over exactly one revolution, and the integral of |power|.
-/// Inertia, gravity and a constant load contribute no net work. For a periodic integrand, the
-/// trapezoidal rule converges faster than any power of the step.
+/// Records the work of the actuators during exactly one revolution of P on its circle, and the
+/// integral of the magnitude of the power. Inertia, gravity and a constant load contribute no net
+/// work. For a periodic integrand, the trapezoidal rule converges faster than any power of the
+/// step.
 void record_turn(const solver::RigidManipulator& manipulator, const CaseModel& case_model,
                  const solver::Circle& circle, int points, Recorder& record) {
   const double period = 2 * std::numbers::pi / std::abs(circle.angular_speed);

@@ -235,10 +235,10 @@ StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_
   solver::TransientOptions options = read_large_motion_options(analysis);
   options.breakpoints = system.large_motion().load_breakpoints;
   StepResult result;
-  if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
+  if (draw) result.drawing = draw_initial_pose(system, case_model.manipulator.has_value());
   MotionRecorder log(system, read_kept(analysis, system), record);
   const auto moments =
-      static_cast<double>(result.drawing ? max_drawn_moments(result.drawing->nodes.size()) - 1 : 1);
+      static_cast<double>(result.drawing ? max_drawn_times(result.drawing->nodes.size()) - 1 : 1);
   State last;
   const auto look = [&](const State& state) {
     log.look(state);
@@ -248,7 +248,7 @@ StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_
     std::vector<results::Pose>& poses = result.drawing->poses;
     const double next = options.end * static_cast<double>(poses.size()) / moments;
     if (state.t < next * (1 - 1e-9)) return;
-    poses.push_back(draw_large_pose(system, state.q, moment_label(state.t)));
+    poses.push_back(draw_pose(system, state.q, time_label(state.t)));
     poses.back().time_s = state.t;
   };
   const solver::large_motion::IntegrationSummary summary =

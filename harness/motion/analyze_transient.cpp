@@ -37,8 +37,9 @@ struct MotionHistory {
   solver::Counters counters;
   std::vector<double> time;         ///< [s]
   std::vector<double> load_factor;  ///< factor of the loads (without weight) at each time
-  /// Factors of the loads (row 0) and of the weight (row 1) at each time, delayed like the strains
-  /// by stiffness-proportional damping. Empty without such damping.
+  /// Delayed factors of the loads (row 0) and of the weight (row 1) at each time: solutions y of t
+  /// y' + y = factor. t is the coefficient of stiffness-proportional damping [s]. The matrix is
+  /// empty without such damping.
   Eigen::MatrixXd followed_factor;
   Eigen::MatrixXd q, v, a;         ///< one row per coordinate, one column per time
   solver::ViscousDamping damping;  ///< Rayleigh and modal damping
@@ -121,7 +122,7 @@ solver::PrescribedRotation read_axes(const JsonView& transient) {
     if (transient.has(key)) throw transient[key].error("not allowed with 'rotating_frame'");
   const JsonView place = transient["rotating_frame"];
   solver::PrescribedRotation axes;
-  axes.speed = [law = read_law(place["law"])](double time) {
+  axes.speed = [law = read_motion_law(place["law"])](double time) {
     const std::array<double, 3> motion = law(time);
     return std::array<double, 2>{motion[1], motion[2]};
   };
@@ -147,7 +148,7 @@ class Motion {
     if (!history_.outcome.solved()) return history_;
     for (const double t : history_.time) {
       const bool integrated = !superposes(transient_) && t > history_.time.front();
-      history_.load_factor.push_back(factor_.at(integrated ? factor_.end_of_step(t) : t));
+      history_.load_factor.push_back(factor_.at(integrated ? factor_.step_end_load_time(t) : t));
     }
     if (superposes(transient_)) {
       superpose_modes();
@@ -201,7 +202,8 @@ class Motion {
     return damped_ ? read_damping(transient_, modes) : solver::HarmonicDamping();
   }
 
-  /// Adds the damping to the equation of motion. Returns false if the modes for it are not found.
+  /// Adds the damping to the equation of motion. Returns false if the modes that modal damping
+  /// requires cannot be computed.
   bool damp(solver::EquationOfMotion& equation) {
     solver::HarmonicDamping damping = stated_damping();
     if (damping.modal_ratio.empty()) {
@@ -246,8 +248,8 @@ class Motion {
       decay[i] += damping.modal_ratio[solver::to_size(i)] * basis.omega[i];
     solver::ModalResponse response =
         solver::superpose(basis, decay, system_.M, load_, history_.time, initial_.q0, initial_.v0);
-    solver::add_massless_coordinates(basis, system_.M, system_.K, damping.rayleigh.stiffness, load_,
-                                     history_.time, initial_.q0, response, history_.counters);
+    solver::add_massless_response(basis, system_.M, system_.K, damping.rayleigh.stiffness, load_,
+                                  history_.time, initial_.q0, response, history_.counters);
     history_.q = std::move(response.q);
     history_.v = std::move(response.v);
     history_.a = std::move(response.a);
@@ -355,7 +357,7 @@ void draw_motion(const solver::System& system, const MotionHistory& motion, Draw
   std::vector<Eigen::VectorXd> q;
   for (solver::Index i = 0; i < motion.q.cols(); ++i) q.emplace_back(motion.q.col(i));
   for (const std::size_t i : drawn_samples(q, drawing.nodes.size())) {
-    const std::string label = moment_label(motion.time[i]);
+    const std::string label = time_label(motion.time[i]);
     drawing.poses.push_back(
         {label, drawing.nodes, motion.time[i], draw_shape(system, q[i], label).displacement});
   }

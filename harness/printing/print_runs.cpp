@@ -44,7 +44,8 @@ std::string tolerance_text(const results::Check& check) {
   return high ? "[" + text(low) + ", " + text(high) + "]" : "at least " + text(low);
 }
 
-/// Returns the largest estimated error of a quantity [%]; empty without an estimate.
+/// Returns the largest estimated discretization error of a quantity as text [%]; empty without an
+/// estimate.
 std::string error_text(const results::Run& run, const std::string& quantity) {
   const auto* found = run.errors ? run.errors->find(quantity) : nullptr;
   if (found == nullptr) return "";
@@ -95,7 +96,7 @@ void print_run(const results::Run& run) {
             << to_string(run.status) << ", " << rounded(run.cost.wall_s, 2) << " s\n"
             << wrapped(run.reason, "  ");
   for (const std::string& warning : run.warnings) std::cout << wrapped("warning: " + warning, "  ");
-  if (run.errors && !run.errors->search.empty()) print_search(*run.errors);
+  if (run.errors && !run.errors->search.empty()) print_accuracy_search(*run.errors);
   if (run.checks.empty() || run.errors) print_quantities(run);
   if (run.checks.empty()) return;
   Rows table(check_columns());
@@ -105,7 +106,7 @@ void print_run(const results::Run& run) {
     const std::vector<Json> cells = check_cells(check, group.checks.size() > 1);
     table.add(cells);
     const bool is_printed = check.quantity == "status" && !run.reason.empty();
-    if (fails_gate(check.verdict) && !check.message.empty() && !is_printed)
+    if (counts_as_failure(check.verdict) && !check.message.empty() && !is_printed)
       messages +=
           wrapped(fmt::format("{}, {}: {}", check.name, cells[2].get<std::string>(), check.message),
                   "    ");
@@ -114,7 +115,7 @@ void print_run(const results::Run& run) {
   std::cout << messages;
 }
 
-void print_search(const results::ErrorEstimates& errors) {
+void print_accuracy_search(const results::ErrorEstimates& errors) {
   Rows table({{"setting"}, {"error", "estimated error", 2}, {"cpu_s", "processor time [s]", 2}});
   for (const results::AccuracyStep& step : errors.search)
     table.add({step.setting, number_or_null(step.error), step.cpu_s});

@@ -17,8 +17,8 @@ namespace trammel::harness {
 /// prints its quantities.
 void print_run(const results::Run& run);
 
-/// Prints the discretizations tried in the search for an accuracy, with their estimated errors.
-void print_search(const results::ErrorEstimates& errors);
+/// Prints the discretizations tried for the option --accuracy, with their estimated errors.
+void print_accuracy_search(const results::ErrorEstimates& errors);
 /// Prints the validation comparisons (ASME V&V 20) of a run as a table, if there are any.
 void print_validation(const results::Run& run);
 
@@ -27,7 +27,8 @@ void print_numerical_uncertainty(const results::Results& results);
 
 void print_summary(const results::Results& results);
 
-/// Prints the effects of a case; for automatic effects, also numbers, changes and reasons.
+/// Prints the effects of a case. For automatically selected effects, also prints their
+/// dimensionless numbers and the changes of the results.
 void print_effects(const EffectChoice& choice);
 
 /// Returns the names of effects as a list: "axial-flexibility, shear and gravity", or "none".

@@ -8,7 +8,8 @@
 namespace trammel::harness {
 namespace {
 
-// Angle of an arc per element [deg]. Straight chords of this angle change frequencies by 0.1 %.
+// Central angle of the arc that one straight element replaces [deg]. At this angle, the straight
+// elements change natural frequencies by 0.1 %.
 constexpr double kDegreesOfElement = 7.5;
 constexpr double kToleranceRatio = 10;
 constexpr solver::Index kMaxSamples = 50000;  // half of the largest number in the schema

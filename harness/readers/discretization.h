@@ -31,11 +31,13 @@ enum class Refine { coarser, finer };
 
 /// Return merge patches of the case for a finer or coarser discretization:
 /// - mesh: twice or half the elements of every member, plate and platform
-/// - step: half or twice the time step, or a tenth or ten times the tolerance of the step control.
-///   With a tolerance, the limits of the steps are halved or doubled as well: `step_s`, if absent
-///   `largest_step`, and for a finer step of large motion the interval between recorded times.
+/// - step: half or twice the time step. With a step control: a tenth or ten times its tolerance.
+///   With "error_control", the largest step "step_s" is halved or doubled as well; `largest_step`
+///   replaces it if the case does not state it. A finer step of large motion also halves the
+///   interval "output_step_s" between recorded times.
 ///
-/// The result is empty without a mesh or step, or if a number to be halved is odd.
+/// The result is empty without a mesh or step. It is also empty if an odd number of elements, or of
+/// intervals between the frequencies of a harmonic response, would be halved.
 [[nodiscard]] std::optional<Json> mesh_patch(const Document& document, Refine refine);
 [[nodiscard]] std::optional<Json> step_patch(const Document& document, Refine refine,
                                              double largest_step = 0);

@@ -13,7 +13,7 @@
 
 namespace trammel::harness {
 
-/// Returns the entry of a map with a name that the case states.
+/// Returns the entry of `named` whose key is a name stated in the case.
 /// @param what  text for the message: "a node", "a section"
 /// @throws InputError  at `place`, with the nearest name, if the name is unknown.
 template <class T>
@@ -85,7 +85,7 @@ class FieldReader {
   static void read(const JsonView& place, Eigen::Ref<Eigen::Vector2d> pair) {
     pair << place[0].get<double>(), place[1].get<double>();
   }
-  /// Reads a number. A word instead of a number leaves `value` empty, and the number is computed.
+  /// Reads a mass or moment of inertia. A word in place of the number leaves `value` empty.
   static void read(const JsonView& place, std::optional<double>& value) {
     value.reset();
     if (place.json().is_number()) value = place.get<double>();

@@ -39,8 +39,8 @@ Shape read_shape(const JsonView& section) {
     const double d = section["circle"].number("diameter_m");
     return {std::numbers::pi * d * d / 4, std::numbers::pi * d * d * d * d / 64, d / 2};
   }
-  // A bar has no bending stress. If the outermost fiber is unknown, the stress is not finite and is
-  // omitted from the quantities.
+  // A bar has no bending stress. If the case does not state the half depth, the stress is not
+  // finite and is omitted from the quantities.
   const double second_moment = section.number("second_moment_m4");
   const double unknown = second_moment > 0 ? std::numeric_limits<double>::infinity() : 0.0;
   return {section.number("area_m2"), second_moment, section.get("half_depth_m", unknown)};

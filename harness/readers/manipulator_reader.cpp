@@ -30,7 +30,8 @@ solver::ManipulatorGeometry read_geometry(const JsonView& manipulator) {
   return geometry;
 }
 
-/// Reads the properties shared by all links, or those of individual links.
+/// Adds the properties in a JSON object to those of a link. The object applies to all links, or
+/// only to the proximal or distal links.
 void read_link(const JsonView& place, solver::LinkDesign& link) {
   const FieldReader reader(place);
   reader.optional("thickness_m", link.thickness);

@@ -120,7 +120,7 @@ void fields(Io& io, solver::large_motion::LineSpring& spring) {
   io.optional("rest_length_m", spring.rest_length);
 }
 
-/// Loads on nodes, either fixed in direction or following the rotation.
+/// Loads on nodes. The direction of the force is fixed, or rotates with the node (follower load).
 template <class Io, class Load>
 requires requires(Load load) {
   load.node, load.force;

@@ -19,7 +19,8 @@ struct Structure {
   solver::large_motion::LargeMotionModel joints;
 };
 
-/// Reads the nodes of a planar model and the parts that connect them. Indices start after `before`.
+/// Reads the nodes of a planar model and the parts that connect them. Indices of new nodes follow
+/// those of `before`.
 /// @param model  the JSON object /model of the case
 /// @param before  existing nodes of the manipulator
 /// @throws InputError  if a name is unknown or the geometry is impossible.

@@ -26,7 +26,7 @@ solver::TimeScheme scheme_of(const std::string& name, const JsonView& numbers) {
 
 std::size_t count_of(const JsonView& modal, std::optional<solver::Index> known) {
   if (!modal.has("modes"))
-    throw modal.error("a single 'ratio' requires 'modes', the number of modes (not present)");
+    throw modal.error("a single 'ratio' requires 'modes' (number of modes with this ratio)");
   const JsonView stated = modal["modes"];
   if (!stated.json().is_string()) return stated.get<std::size_t>();
   if (known) return static_cast<std::size_t>(*known);
@@ -206,7 +206,7 @@ solver::large_motion::TimeFunction rest_to_rest(double travel, double duration) 
 
 }  // namespace
 
-solver::large_motion::TimeFunction read_law(const JsonView& law) {
+solver::large_motion::TimeFunction read_motion_law(const JsonView& law) {
   if (const auto place = law.find("constant_speed")) {
     const double speed = place->number("speed_per_s");
     return [speed](double t) { return std::array<double, 3>{speed * t, speed, 0}; };
@@ -232,7 +232,7 @@ void read_drives(const JsonView& analysis, const solver::Model& built,
   for (const auto& [name, place] : analysis.entries("drives")) {
     const auto direction = static_cast<int>(place["motion"].get<NodeMotion>());
     large_motion.drives.push_back(
-        {name, find_node(place["node"], built), direction, read_law(place["law"])});
+        {name, find_node(place["node"], built), direction, read_motion_law(place["law"])});
   }
 }
 
@@ -254,7 +254,7 @@ void read_history(const JsonView& analysis, const solver::Model& built,
           "the factor jumps; expected a continuous function, with increasing times");
     }
     large_motion.load_history = [history](double t) { return history.at(t); };
-    large_motion.load_breakpoints = history.bends();
+    large_motion.load_breakpoints = history.breakpoint_times();
   }
   for (const auto& [name, place] : analysis.entries("initial_velocities")) {
     const solver::Index node = find_node_by_name(name, place, built);

@@ -22,7 +22,7 @@ namespace trammel::harness {
 [[nodiscard]] solver::TimeScheme read_time_scheme(const JsonView& scheme);
 
 /// Limits the number of time steps to ten million.
-/// @param step  value of the case that is a time step
+/// @param step  time step [s] in the case; an error refers to its place
 /// @throws InputError  if the duration contains more steps.
 void require_step_count(const JsonView& step, double duration);
 
@@ -50,7 +50,8 @@ void require_step_count(const JsonView& step, double duration);
 /// @throws InputError  if the selected links or platform do not have this property.
 [[nodiscard]] solver::DesignParameter read_design_parameter(const JsonView& parameter);
 
-/// Returns the name of the sensitivity to a parameter, with its unit: "sensitivity_Hz_per_m".
+/// Returns the name of the quantity for derivatives of natural frequencies with respect to a
+/// parameter. The name contains the unit, as in "sensitivity_Hz_per_m".
 [[nodiscard]] std::string sensitivity_name(solver::DesignParameter::Kind kind);
 
 /// Add prescribed motions ("drives") to a model of large statics or large motion. For large motion,
@@ -62,7 +63,7 @@ void read_history(const JsonView& analysis, const solver::Model& built,
                   solver::large_motion::LargeMotionModel& large_motion);
 
 /// Reads a law of motion, which returns position, velocity and acceleration at a time.
-[[nodiscard]] solver::large_motion::TimeFunction read_law(const JsonView& law);
+[[nodiscard]] solver::large_motion::TimeFunction read_motion_law(const JsonView& law);
 
 /// Returns the index of the node with a name.
 /// @throws InputError  if no node has this name.

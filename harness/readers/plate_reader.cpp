@@ -101,7 +101,7 @@ class Outline {
     if (std::abs(radius - 1) < 1e-6) return;
     throw place.error("expected a node on the curve of the edge (got " + describe_point(point) +
                       ", " + shortest_decimal(radius) +
-                      " times the distance from its center to the curve)");
+                      " times as far from the center as the curve)");
   }
 
   std::map<std::string, std::vector<solver::Index>> corners_;
@@ -206,7 +206,7 @@ Edge find_edge(const JsonView& place, const std::vector<solver::Index>& corners,
           "no side of a block connects the previous node with this one; expected the two corners "
           "of one side");
     edge.pieces.push_back(found->front());
-    // A side between two blocks has no outward normal, so that no plate is stored.
+    // A side between two blocks has no outward normal. The index -1 of its plate excludes loads.
     if (found->size() > 1) edge.pieces.back().plate = -1;
   }
   return edge;

@@ -22,8 +22,8 @@ Number judged_number(const Check& check) {
   return check.measure == "bound" ? check.computed : check.difference;
 }
 
-/// Returns the number that the check judges. Its sign is reversed for a lower bound, so that the
-/// worse of two checks has the larger result.
+/// Returns the difference of a check, or the computed value of a bound. The sign is reversed for a
+/// lower bound. The worse of two checks therefore has the larger result.
 double beyond(const Check& check) {
   const double number = judged_number(check).value_or(0);
   return check.tolerance && !check.tolerance->high ? -number : number;

@@ -8,9 +8,9 @@
 namespace trammel::results {
 
 /// Returns the difference between computed and expected value, divided by the tolerance. The result
-/// is 1 at the limit, and infinity without a number. If the tolerance is a range, the result is the
-/// distance of the difference from the middle of the range, divided by half of the range's width.
-/// If the check is a bound, the computed value replaces the difference.
+/// is 1 at the limit, and infinity if the check has no difference. If the tolerance is a range, the
+/// result is the distance of the difference from the middle of the range, divided by half of the
+/// range's width. If the check is a bound, the computed value replaces the difference.
 [[nodiscard]] double tolerance_fraction(const Check& check);
 
 /// Returns the magnitude of a check's difference, or |ratio - 1| if the check measures a ratio.

@@ -30,7 +30,8 @@ struct ErrorNorms {
 
 struct SettingTime {
   std::vector<double> cpu_s;  ///< processor time of each repeat of the computation
-  /// Limits of the 98 % confidence interval of the median time, relative to the baseline.
+  /// Limits of the 98 % confidence interval of the median processor time, relative to the baseline.
+  /// `wall_median_s` is the median elapsed time [s].
   double relative_low = 0, relative_high = 0, wall_median_s = 0;
   std::size_t runs_per_measurement = 0;
 };

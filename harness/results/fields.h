@@ -257,8 +257,8 @@ Json packed(const std::vector<Entry>& values) {
     for (std::size_t b = 0; b < kBytes; ++b)
       bytes[b * count + i] = static_cast<std::uint8_t>(step >> (8 * b));
   }
-  // The constructor is used, because Json::binary() sets the type before it allocates memory. If
-  // the allocation fails, a null pointer is destroyed.
+  // Json::binary() is not used, because it sets the type before it allocates memory. If the
+  // allocation failed, the destructor would access a null pointer.
   return Json(Json::binary_t(std::move(bytes)));
 }
 

@@ -37,20 +37,20 @@ inline void from_json(const Json& json, const Place& place, Tolerance& tolerance
 }
 
 TRAMMEL_FIELDS(TwoTermLaw, TRAMMEL_REQUIRED(coefficients, max_relative_misfit, used));
-inline std::string usual_unit(const Check& check) {
+inline std::string default_unit(const Check& check) {
   return harness::unit_of(check.quantity);
 }
-inline std::string usual_role(const Check& check) {
+inline std::string default_role(const Check& check) {
   return check.expectation == Expectation::agrees ? "verification" : "validation";
 }
-inline std::string usual_measure(const Check& check) {
+inline std::string default_measure(const Check& check) {
   return check.expected ? "relative" : "bound";
 }
 TRAMMEL_FIELDS(Check, TRAMMEL_REQUIRED(name, quantity), TRAMMEL_OPTIONAL(index, computed, expected),
-               usual("measure", &S::measure, usual_measure),
+               usual("measure", &S::measure, default_measure),
                usual("difference", &S::difference, difference_of),
-               TRAMMEL_REQUIRED(tolerance, why, verdict), usual("unit", &S::unit, usual_unit),
-               TRAMMEL_OPTIONAL(expectation), usual("role", &S::role, usual_role),
+               TRAMMEL_REQUIRED(tolerance, why, verdict), usual("unit", &S::unit, default_unit),
+               TRAMMEL_OPTIONAL(expectation), usual("role", &S::role, default_role),
                TRAMMEL_OPTIONAL(title, message, statistic, reference, against_variant,
                                 against_quantity));
 TRAMMEL_FIELDS(Convergence,
@@ -72,8 +72,10 @@ TRAMMEL_FIELDS(Joint, TRAMMEL_REQUIRED(node, kind, name));
 TRAMMEL_FIELDS(Shape, required("displacement_m", &S::displacement), TRAMMEL_REQUIRED(label));
 TRAMMEL_FIELDS(Pose, required("nodes_m", &S::nodes), TRAMMEL_REQUIRED(label),
                TRAMMEL_OPTIONAL(time_s), optional("displacement_m", &S::displacement));
+TRAMMEL_FIELDS(DrawnForce, TRAMMEL_REQUIRED(node, x, y, unit));
 TRAMMEL_FIELDS(Drawing, required("nodes_m", &S::nodes),
-               TRAMMEL_REQUIRED(members, triangles, joints, shapes), TRAMMEL_OPTIONAL(poses));
+               TRAMMEL_REQUIRED(members, triangles, joints, shapes),
+               TRAMMEL_OPTIONAL(poses, forces));
 TRAMMEL_KEY(harness::EvaluationTime, name);
 TRAMMEL_FIELDS(harness::EvaluationTime, required("per_evaluation_s", &S::wall_s),
                TRAMMEL_REQUIRED(evaluations));
@@ -197,7 +199,7 @@ TRAMMEL_FIELDS(Variant, TRAMMEL_REQUIRED(title));
 TRAMMEL_KEY(CaseInfo, id);
 TRAMMEL_FIELDS(CaseInfo, TRAMMEL_REQUIRED(title, variants),
                TRAMMEL_OPTIONAL(description, family, labels, stress_suite, figures, tables,
-                                analysis, hash));
+                                analysis, hash, inputs));
 TRAMMEL_FIELDS(Solver, TRAMMEL_REQUIRED(name, version, command));
 TRAMMEL_KEY(Reference, id);
 TRAMMEL_FIELDS(Reference, TRAMMEL_REQUIRED(title, kind, unit, values, uncertainty, citation, place),

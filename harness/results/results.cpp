@@ -17,7 +17,7 @@ namespace {
 void complete(Convergence& study, const Place& place) {
   const std::size_t levels = study.parameter.size();
   for (std::size_t i = 0; i < levels; ++i) {
-    // A level without a value of the parameter is numbered, from 1.
+    // If a level has no value of the refined parameter, its number (from 1) replaces the value.
     if (!study.parameter[i]) study.parameter[i] = static_cast<double>(i + 1);
   }
   const auto fit = [&](auto& column, const char* key) {
@@ -195,7 +195,7 @@ void complete(Results& results) {
   for (std::size_t i = 0; i < results.runs.size(); ++i) {
     Run& run = results.runs[i];
     const Place place{&runs, std::to_string(i)};
-    // The report requires the title of the case.
+    // The case must be listed, because the report prints its title.
     if (std::ranges::none_of(results.cases,
                              [&](const CaseInfo& info) { return info.id == run.case_id; }))
       Place{&place, "case"}.fail("a case listed under /cases");

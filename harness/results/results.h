@@ -71,6 +71,8 @@ struct CaseInfo {
   std::vector<TableRequest> tables;
   std::vector<Variant> variants;
   std::string hash;  ///< hash of the case with all cases that it extends
+  /// Inputs of the model of the base variant: path of the key ("links/thickness_m"), and value.
+  std::vector<std::pair<std::string, std::string>> inputs;
 
   [[nodiscard]] std::string variant_title(const std::string& variant) const;
 };
@@ -147,11 +149,11 @@ struct EffectScene {
   double change = 0;  ///< largest relative change of the results from all to the selected effects
   bool minimal = false;  ///< true if no selected effect can be omitted within the tolerance
   double whole_s = 0, chosen_s = 0, deciding_s = 0;  ///< time [s]: all, selected effects, selection
-  /// Counted work of the selection and of the run with selected effects, relative to all effects.
+  /// Counted work of the selection and of the run with selected effects, relative to the work of
+  /// the run with all effects.
   double work_ratio = 0;
   double deciding_work_ratio = 0;  ///< relative work of the selection alone
-  /// Relative change of the results with the selected effects between half of the elements and all
-  /// elements.
+  /// Relative change of the results with the selected effects if the number of elements is halved.
   Number mesh_change;
   /// Relative change due to large displacement, if the analysis cannot represent that effect [-].
   Number beyond_tier;
@@ -168,7 +170,7 @@ struct HistoryCall {
   std::string date, commit, machine;
   std::size_t runs = 0, checks = 0, failures = 0, work = 0;
   double cpu_s = 0;  ///< processor time [s]; 0 if an earlier call computed some of the runs
-  [[nodiscard]] bool green() const { return failures == 0; }
+  [[nodiscard]] bool has_passed() const { return failures == 0; }
 };
 
 /// Change of a verdict or number from the last call without failures (green) to the newest call.
@@ -177,7 +179,7 @@ struct HistoryChange {
   std::string verdict_before, verdict;
   Number before, after;
   std::string commit, date;  ///< commit and date of the first call with the change
-  [[nodiscard]] bool of_verdict() const { return verdict_before != verdict; }
+  [[nodiscard]] bool verdict_changed() const { return verdict_before != verdict; }
 };
 
 /// A value that has changed in one direction in small steps, in at least three calls.

@@ -18,8 +18,9 @@ namespace trammel::results {
 using harness::Number;
 using harness::Numbers;
 
-/// Verdict of a check. recorded: a validation without an expectation. not_given: another solver
-/// does not compute the quantity. The verdicts recorded and not_given never fail a run.
+/// Verdict of a check. recorded: a validation without an expectation, or a regression check that
+/// another solver does not meet. not_given: another solver does not compute the quantity. The
+/// verdicts recorded and not_given never fail a run.
 enum class Verdict { pass, fail, error, not_run, recorded, not_given };
 enum class Expectation { agrees, known_discrepancy, none };
 /// Status of a run. The last four values apply only to solvers other than trammel.
@@ -177,12 +178,20 @@ struct Pose {
 };
 
 /// Drawing of the model: mesh (nodes, members, triangles), joints, and deformed or mode shapes.
+/// A load that is drawn as an arrow: a force at a node, or a uniform load at the end of an element.
+struct DrawnForce {
+  int node = 0;
+  double x = 0, y = 0;
+  std::string unit;  ///< N or N/m
+};
+
 struct Drawing {
   std::vector<Point> nodes;
   std::vector<std::vector<int>> members, triangles;
   std::vector<Joint> joints;
   std::vector<Shape> shapes;
   std::vector<Pose> poses;  ///< further poses of the same mechanism
+  std::vector<DrawnForce> forces;
 };
 
 using Counters = std::vector<std::pair<std::string, std::size_t>>;
@@ -212,10 +221,12 @@ struct ErrorEstimate {
   std::string quantity;
   Numbers relative;  ///< relative to each value or to `scale`, whichever is larger; a curve has a
                      ///< single entry
-  /// Largest value of similar quantities of the structure [unit]; missing: each value is its scale.
+  /// Largest value of all quantities of the same kind, such as all displacements [unit]. If it is
+  /// missing, the error is relative to each value.
   Number scale;
   Number order;  ///< lowest order of all discretizations; missing: the values are exact in theory
-  /// If false, the mesh is too coarse for `order`, so that a lower order is used.
+  /// False if the mesh or step is too coarse for the order `order`. The estimate then assumes a
+  /// lower order.
   bool asymptotic = true;
   std::string setting;  ///< JSON pointer of the setting with the largest effect on the error
 
@@ -244,7 +255,8 @@ struct ErrorEstimates {
   [[nodiscard]] const ErrorEstimate* find(const std::string& quantity) const;
 };
 
-/// Readings (interpretations of the paper's model) that predict the same printed row.
+/// Readings (interpretations of the model in the examined publication) that predict the same values
+/// for a row of printed numbers.
 struct ReadingClass {
   std::string title;  ///< title of the most probable reading of the class
   int readings = 0;
@@ -267,7 +279,8 @@ struct RowProbabilities {
   std::vector<FurtherNumber> further_numbers;
 };
 
-/// Readings that are excluded because their combination of modeling choices is meaningless.
+/// Readings of the model that are excluded because their combination of modeling choices is
+/// meaningless.
 struct ExcludedReadings {
   std::string reason, first;
   int readings = 0;
@@ -304,7 +317,7 @@ struct Run {
   /// File of the run store with series, drawing and studies; empty: this struct contains them.
   std::string stored;
 
-  // The following members are written only in the store. Sweeps are removed after their judgment.
+  // The following members are written only in the store.
   std::vector<Sweep> sweeps;
   std::map<std::string, std::string> references;  ///< hash of each reference, by its location
   std::string machine;                            ///< machine of the time measurements
@@ -312,7 +325,7 @@ struct Run {
 
   Fault fault = Fault::none;  ///< origin of the error, if the status is `error`
 
-  // The following members are not written.
+  // The following members are written neither to results.json nor to the store.
   int interrupted_by = 0;   ///< signal that prevented the computation
   bool was_stored = false;  ///< true if an earlier call computed the run
 

@@ -18,7 +18,8 @@ struct ComparedValue {
   /// estimate.
   Numbers errors;
   double noise = 0;  ///< differences up to this value are round-off
-  /// Largest difference from the first side, relative to the largest value of the series.
+  /// Largest difference from the first side, relative to the largest value of all quantities with
+  /// the same unit.
   double share = 0;
   bool changed = false;  ///< true if the largest difference exceeds `noise`
 };

@@ -66,7 +66,7 @@ Rule read_rule(const JsonView& interpretation) {
   read("contradicts", rule.contradicts, kContradicts);
   if (!rule.confirms && !rule.contradicts)
     throw interpretation.error(
-        "an interpretation requires a range of values, 'confirms' or 'contradicts'");
+        "an interpretation requires a range of values for 'confirms' or 'contradicts'");
   if (rule.confirms && rule.contradicts && rule.confirms->low < rule.contradicts->high &&
       rule.contradicts->low < rule.confirms->high) {
     throw interpretation.error("the ranges 'confirms' and 'contradicts' overlap");
@@ -183,7 +183,7 @@ Interpretation evaluate_interpretation(const JsonView& interpretation,
   found.metric = interpretation.text("metric");
   const bool by_check = interpretation.has("check") || interpretation.has("reference");
   if (by_check == interpretation.has("quantity"))
-    throw interpretation.error("expected either 'quantity', or 'check' or 'reference'");
+    throw interpretation.error("expected either 'quantity', or 'check' and/or 'reference'");
   if (by_check ? found.metric == "steps" || interpretation.has("statistic")
                : found.metric != "value" && found.metric != "steps") {
     throw interpretation["metric"].error(

@@ -30,9 +30,11 @@ using results::SideComparison;
 using Runs =
     std::vector<const results::Run*>;  ///< runs with the same name, one per side; null: missing
 
-/// Values below this fraction of the largest value of their series are zero up to round-off.
+/// Smallest assumed round-off error, relative to the largest value of a group of quantities (see
+/// `series_of`).
 constexpr double kRoundoff = 1e-9;
-/// Upper limit of the relative round-off that a run states. Larger values are not round-off.
+/// Upper limit of the relative round-off errors that are read from a run. Larger values are not
+/// round-off.
 constexpr double kLargestRoundoff = 1e-6;
 constexpr std::size_t kFewEntries = 6;  ///< longer quantities show only the most changed entry
 constexpr std::size_t kDrawnRuns = 8;   ///< maximum number of runs with stored series
@@ -54,8 +56,8 @@ std::map<std::string, double> series_scales(const Runs& runs) {
   return scales;
 }
 
-/// Returns the relative round-off error that a run states for an entry, in a refinement or as the
-/// quantity frequency_roundoff.
+/// Returns the relative round-off error of an entry according to a convergence study of the run or
+/// its quantity frequency_roundoff; 0 if unknown.
 double stated_roundoff(const results::Run& run, const std::string& name, std::size_t i) {
   double stated = 0;
   const auto take = [&](const Numbers& numbers) {
@@ -70,7 +72,8 @@ double stated_roundoff(const results::Run& run, const std::string& name, std::si
   return stated;
 }
 
-/// Order of runs and of numbers by their relative change, largest first.
+/// Order of runs and of numbers: changes above round-off come first, then the larger relative
+/// change.
 constexpr auto changed_more = [](const auto& a, const auto& b) {
   return std::pair(a.changed, a.share) > std::pair(b.changed, b.share);
 };
@@ -170,7 +173,7 @@ std::optional<SampledModes> drawn_modes(const results::Run& run, const results::
     const auto hertz = [&](std::size_t k) { return Number((*frequency)[k]).value_or(0); };
     return hertz(i) - hertz(i - 1) <= 1e-6 * hertz(i);
   };
-  // A partly drawn set of modes of equal frequency is dropped, because it does not span its space.
+  // A set of modes of equal frequency is omitted if only some of its shapes are drawn.
   if (count < frequency->size())
     while (count > 0 && repeats(count)) --count;
   SampledModes modes;
@@ -295,15 +298,12 @@ void add_verdicts(const Runs& runs, const std::vector<std::string>& labels, Comp
   }
 }
 
-Number number_of(double value) {
-  return value;
-}
-
 bool same_bits(const Runs& runs) {
+  const auto number = [](double value) { return Number(value); };  // NaN equals NaN
   return std::ranges::all_of(runs, [&](const results::Run* run) {
-    const auto same = [](const auto& a, const auto& b) {
+    const auto same = [&](const auto& a, const auto& b) {
       return a.first == b.first &&
-             std::ranges::equal(a.second.values, b.second.values, {}, number_of, number_of);
+             std::ranges::equal(a.second.values, b.second.values, {}, number, number);
     };
     return run->status == runs.front()->status &&
            std::ranges::equal(run->quantities, runs.front()->quantities, same);

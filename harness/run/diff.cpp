@@ -18,8 +18,8 @@ std::string entry_name(const results::Check& check) {
   return check.statistic.empty() ? name : name + " " + check.statistic;
 }
 
-/// Returns the largest change that counts as round-off: 1e-9 of the value, or 1e-6 of its
-/// tolerance. For diagnostic quantities, such as residuals, every change is round-off.
+/// Returns the largest change that counts as round-off: 1e-9 of the value or 1e-6 of its tolerance,
+/// whichever is larger. For diagnostic quantities, such as residuals, every change is round-off.
 double noise_of(const results::Check& check) {
   if (is_diagnostic(check.quantity)) return HUGE_VAL;
   double width = 0;

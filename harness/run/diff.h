@@ -48,20 +48,22 @@ struct DiffRow {
 /// Pairs the entries of two sets of results by name. A run precedes its checks.
 [[nodiscard]] std::vector<DiffRow> pair_entries(const Entries& before, const Entries& after);
 
-/// One side of a comparison: results of runs.
+/// Results of runs that form one side of a comparison, such as one variant, date or solver.
 struct Side {
   std::string label;
   results::Results results;
   /// Case of a single run that this call of the program has computed; empty for stored results.
-  /// Computed runs are compared even if their names differ, and their mode shapes at stations along
-  /// the members. Of stored results, runs of the same name are compared, and the mode shapes in
-  /// their drawings.
+  /// Computed runs are compared even if their names differ. Their mode shapes are compared at
+  /// stations along the members. Stored runs are compared only with runs of the same name. Their
+  /// mode shapes are compared at the nodes of the drawings.
   std::optional<Document> document;
 };
 
-/// Compares all sides with the first side. Differences up to the round-off error are ignored. Runs
-/// state this error, but it is at least 1e-9 of the largest number of the series.
-/// @param series  if true, the result contains the series of the runs with the largest changes
+/// Compares all sides with the first side. Differences up to the round-off error are ignored. The
+/// error is read from the runs, but is at least 1e-9 of the largest value of all quantities with
+/// the same unit.
+/// @param series  if true, the result contains all values over time or a path for the runs with the
+///   largest changes
 [[nodiscard]] results::SideComparison compare_sides(std::vector<Side> sides, bool series);
 
 }  // namespace trammel::harness

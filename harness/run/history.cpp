@@ -222,7 +222,8 @@ std::vector<HistoryChange> changes_since(std::int64_t since,
     changes.push_back({row.name, row.before->verdict, row.after->verdict, row.before->value,
                        row.after->value, call.commit, call.date});
   }
-  std::stable_partition(changes.begin(), changes.end(), [](auto& c) { return c.of_verdict(); });
+  std::stable_partition(changes.begin(), changes.end(),
+                        [](auto& c) { return c.verdict_changed(); });
   return changes;
 }
 
@@ -271,7 +272,7 @@ History read_history(const fs::path& file) {
   History history;
   history.calls = calls_of(database);
   for (std::size_t i = 0; i + 1 < history.calls.size(); ++i)
-    if (history.calls[i].green()) history.since = history.calls[i].id;
+    if (history.calls[i].has_passed()) history.since = history.calls[i].id;
   const auto courses = entry_courses(database);
   if (history.since > 0) {
     history.changes = changes_since(history.since, courses, history.calls);

@@ -57,7 +57,8 @@ void OutputLock::acquire() {
       close(descriptor_);
       std::string holder;
       std::getline(std::ifstream(file_), holder);
-      // The process was killed. The lock is released when its child processes end.
+      // The process that acquired the lock no longer exists. The lock is released when its child
+      // processes end.
       if (is_gone(holder) && ++waits < 100) {
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         continue;

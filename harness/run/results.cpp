@@ -34,6 +34,19 @@ void round_drawing(results::Drawing& drawing) {
   for (results::Shape& shape : drawing.shapes) round(shape.displacement);
 }
 
+/// Adds the numbers, texts and short lists in `json` to the inputs of a case.
+void add_inputs(const Json& json, const std::string& path, results::CaseInfo& info) {
+  constexpr std::size_t kMaxLength = 60, kMaxInputs = 60;
+  if (json.is_object()) {
+    for (const auto& [key, value] : json.items())
+      add_inputs(value, path.empty() ? key : path + "/" + key, info);
+    return;
+  }
+  const std::string text = json.is_string() ? json.get<std::string>() : json.dump();
+  if (text.size() <= kMaxLength && info.inputs.size() < kMaxInputs)
+    info.inputs.emplace_back(path, text);
+}
+
 results::CaseInfo case_info(const Case& given) {
   const Json& stated = given.document.value();
   Json json = {{"title", given.title()},
@@ -46,6 +59,7 @@ results::CaseInfo case_info(const Case& given) {
     json["variants"][variant]["title"] = given.variant_title(variant);
   auto info = results::from_json<results::CaseInfo>(json);
   info.id = given.id();
+  add_inputs(patched(given, kBaseVariant).value().value("model", Json::object()), "", info);
   return info;
 }
 

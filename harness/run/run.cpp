@@ -39,8 +39,8 @@ struct Task {
   Run run;
 };
 
-/// Returns true if the run ended without an answer, for example by a crash. It is not stored,
-/// because a later call may succeed.
+/// Returns true if the run ended without an answer, for example by a crash. Such a run is not
+/// stored, because a later call may succeed.
 bool has_broken(const Run& run) {
   return run.status == Status::error || run.status == Status::crashed ||
          run.status == Status::timed_out;
@@ -180,7 +180,7 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
   };
   switch (outcome.termination) {
     case Termination::answered:
-      task.run = run_from(outcome.text);
+      task.run = parse_run(outcome.text);
       break;
     case Termination::timed_out:
       expected("/timeout_s", "a computation that ends within timeout_s");
@@ -216,9 +216,9 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
     std::filesystem::path file;
     if (task.run.status == Status::error) continue;
     if (!options.store.empty())
-      file = options.store / computation_name(task.document, task.requested,
-                                              options.solver.hash + request_of(task));
-    if (options.resume && find_stored(file, task.run, options.any_machine, references)) {
+      file = options.store /
+             run_file_name(task.document, task.requested, options.solver.hash + request_of(task));
+    if (options.resume && load_stored_run(file, task.run, options.any_machine, references)) {
       task.run.stored = file.filename().string();
       task.run.was_stored = true;
       continue;
@@ -230,7 +230,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
   if (!options.store.empty()) remove_unused_files(options.store);
   if (options.resume)
     std::ranges::stable_sort(open, [](const auto& a, const auto& b) {
-      return unfinished_starts(a.second) < unfinished_starts(b.second);
+      return interrupted_starts(a.second) < interrupted_starts(b.second);
     });
   std::vector<ProcessTask> work;
   for (const auto& [task, file] : open)
@@ -332,7 +332,8 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
         run.is_solved()
             ? evaluate_check(check, context)
             : std::vector{failed_check_result(check, "no solution: " + to_string(run.status))};
-    // A regression check compares with earlier results of trammel, so other solvers do not fail it.
+    // A regression check compares with earlier results of trammel. If another solver differs from
+    // them, the verdict is `recorded`, which does not fail the run.
     for (CheckResult& result : judged)
       if (options.solver.compute && check.role == Role::regression &&
           result.verdict == Verdict::fail)
@@ -341,7 +342,8 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
   }
   if (!options.solver.compute && run.is_solved())
     for (const Check& check : task.checks) evaluate_validation_verdicts(check, run);
-  // Negative controls contain wrong orders on purpose. The summary of uncertainty excludes them.
+  // A negative control is a check that is wrong on purpose and must not pass. The summary of
+  // numerical uncertainty excludes the convergence studies of runs with such a check.
   if (std::ranges::any_of(task.checks,
                           [](const Check& check) { return check.negative_control.has_value(); }))
     run.convergence.clear();
@@ -392,7 +394,7 @@ std::vector<Run> run_with_progress(const std::vector<Case>& cases, const Referen
   Progress progress(items);
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };
   std::vector<Run> runs = run_cases(cases, references, options);
-  require_complete(runs);
+  require_uninterrupted(runs);
   return runs;
 }
 
@@ -443,12 +445,13 @@ void require_solved(const Run& run) {
                      ")");
 }
 
-bool fails_gate(const Run& run) {
-  return std::ranges::any_of(
-      run.checks, [](const CheckResult& check_result) { return fails_gate(check_result.verdict); });
+bool counts_as_failure(const Run& run) {
+  return std::ranges::any_of(run.checks, [](const CheckResult& check_result) {
+    return counts_as_failure(check_result.verdict);
+  });
 }
 
-void require_complete(const std::vector<Run>& runs) {
+void require_uninterrupted(const std::vector<Run>& runs) {
   for (const Run& run : runs)
     if (run.interrupted_by != 0) throw Interrupted(run.interrupted_by);
 }
@@ -458,7 +461,7 @@ int exit_status(const std::vector<Run>& runs) {
   for (const Run& run : runs) {
     if (run.fault == Fault::internal) worst = std::max(worst, 3);
     if (run.fault == Fault::input) worst = std::max(worst, 2);
-    if (fails_gate(run)) worst = std::max(worst, 1);
+    if (counts_as_failure(run)) worst = std::max(worst, 1);
   }
   return worst;
 }

@@ -89,10 +89,10 @@ void require_no_error(const Run& run);
 /// @throws InputError  if the run failed because of its input, or has no solution.
 void require_solved(const Run& run);
 /// Returns true if one of the checks has a verdict that fails the run.
-[[nodiscard]] bool fails_gate(const Run& run);
+[[nodiscard]] bool counts_as_failure(const Run& run);
 
 /// @throws Interrupted  if a signal interrupted one of the runs.
-void require_complete(const std::vector<Run>& runs);
+void require_uninterrupted(const std::vector<Run>& runs);
 
 /// Returns the exit status: 0 if all checks hold, 1 if a check or the summary of numerical
 /// uncertainty fails, 2 for bad input, 3 for an internal error.

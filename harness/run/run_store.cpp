@@ -36,7 +36,8 @@ std::string compressed(const std::string& bytes) {
   const std::unique_ptr<ZSTD_CCtx, decltype(&ZSTD_freeCCtx)> context(ZSTD_createCCtx(),
                                                                      &ZSTD_freeCCtx);
   if (!context) throw std::bad_alloc();
-  // Higher levels save at most 2 % of the size, because most bytes are digits of doubles.
+  // Higher compression levels reduce the size by at most 2 %, because most bytes are digits of
+  // doubles.
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_compressionLevel, 3);
   ZSTD_CCtx_setParameter(context.get(), ZSTD_c_checksumFlag, 1);
   std::string out(ZSTD_compressBound(bytes.size()), '\0');
@@ -150,8 +151,8 @@ Json tried_cases(const Document& document) {
 
 }  // namespace
 
-std::string computation_name(const Document& document, bool requested,
-                             const std::string& solver_hash) {
+std::string run_file_name(const Document& document, bool requested,
+                          const std::string& solver_hash) {
   const std::string file = std::filesystem::absolute(document.origin("").file).string();
   return name_of(text_of_json({requested, file, tried_cases(document), solver_hash}) +
                  text_of_json(document.value()));
@@ -160,21 +161,21 @@ std::string computation_name(const Document& document, bool requested,
 std::string to_bytes(const Run& run) {
   return stored_bytes(run);
 }
-Run run_from(const std::string& bytes) {
+Run parse_run(const std::string& bytes) {
   return stored_from<Run>(bytes);
 }
 
 std::string to_bytes(const std::vector<results::Convergence>& studies) {
   return stored_bytes(studies);
 }
-std::vector<results::Convergence> convergence_from(const std::string& bytes) {
+std::vector<results::Convergence> parse_convergence(const std::string& bytes) {
   return stored_from<std::vector<results::Convergence>>(bytes);
 }
 
-bool find_stored(const std::filesystem::path& file, Run& run, bool any_machine,
-                 const References& references) {
+bool load_stored_run(const std::filesystem::path& file, Run& run, bool any_machine,
+                     const References& references) {
   try {
-    Run found = run_from(read_text(file));
+    Run found = parse_run(read_text(file));
     if (!are_unchanged(found.references, references)) return false;
     const bool timed = !any_machine && !found.cost.timings.empty();
     if (timed && found.machine != machine_name()) return false;
@@ -188,7 +189,7 @@ bool find_stored(const std::filesystem::path& file, Run& run, bool any_machine,
   return true;
 }
 
-std::size_t unfinished_starts(const std::filesystem::path& file) {
+std::size_t interrupted_starts(const std::filesystem::path& file) {
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(started(file), error);
   return error ? 0 : static_cast<std::size_t>(bytes);
@@ -222,8 +223,9 @@ SandboxedRun cached_solution(const Setting& setting, int time_limit_s, const Ref
       [&] { return run_sandboxed(setting, time_limit_s, references); });
 }
 
-EffectScenes cached_scenes(const Document& document, const std::function<EffectScenes()>& measure,
-                           const std::filesystem::path& store, bool resume) {
+EffectScenes cached_effect_study(const Document& document,
+                                 const std::function<EffectScenes()>& measure,
+                                 const std::filesystem::path& store, bool resume) {
   return find_or_compute<EffectScenes>(
       store, name_of("effects " + machine_name() + text_of_json(document.value())), resume,
       [](const EffectScenes&) { return true; }, measure);

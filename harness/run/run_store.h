@@ -19,24 +19,25 @@ namespace trammel::harness {
 /// of the case file and of the case with all cases that it extends. The hash includes the identity
 /// of a solver other than trammel. It also includes `requested`, because runs needed only by checks
 /// of other runs are smaller.
-[[nodiscard]] std::string computation_name(const Document& document, bool requested,
-                                           const std::string& solver_hash = "");
+[[nodiscard]] std::string run_file_name(const Document& document, bool requested,
+                                        const std::string& solver_hash = "");
 
 /// Serializes a run for the answer of its process and for a file of the store.
 [[nodiscard]] std::string to_bytes(const Run& run);
 /// @throws std::exception  if the bytes were not written by `to_bytes`.
-[[nodiscard]] Run run_from(const std::string& bytes);
+[[nodiscard]] Run parse_run(const std::string& bytes);
 /// Serializes the convergence studies of a run, which are evaluated after the run is stored.
 [[nodiscard]] std::string to_bytes(const std::vector<results::Convergence>& studies);
-[[nodiscard]] std::vector<results::Convergence> convergence_from(const std::string& bytes);
+[[nodiscard]] std::vector<results::Convergence> parse_convergence(const std::string& bytes);
 
 /// @returns whether the file contains a reusable run. The run must be complete and use the current
 ///     references. Times must be from this machine unless `any_machine` is set.
-[[nodiscard]] bool find_stored(const std::filesystem::path& file, Run& run,
-                               bool any_machine = false, const References& references = {});
+[[nodiscard]] bool load_stored_run(const std::filesystem::path& file, Run& run,
+                                   bool any_machine = false, const References& references = {});
 
 /// Returns the number of interrupted calls that had started the computation stored in `file`.
-[[nodiscard]] std::size_t unfinished_starts(const std::filesystem::path& file);
+[[nodiscard]] std::size_t interrupted_starts(const std::filesystem::path& file);
+/// Record next to a file of the store that its computation has started, and delete this record.
 void mark_started(const std::filesystem::path& file);
 void clear_starts(const std::filesystem::path& file);
 
@@ -55,9 +56,9 @@ void clear_starts(const std::filesystem::path& file);
 using EffectScenes = std::vector<results::EffectScene>;
 /// Returns the effect study of a case computed by `measure`, or the stored study of the same case
 /// by the same program on this machine.
-[[nodiscard]] EffectScenes cached_scenes(const Document& document,
-                                         const std::function<EffectScenes()>& measure,
-                                         const std::filesystem::path& store, bool resume);
+[[nodiscard]] EffectScenes cached_effect_study(const Document& document,
+                                               const std::function<EffectScenes()>& measure,
+                                               const std::filesystem::path& store, bool resume);
 
 /// Removes files that no call has written or read for 30 days.
 void remove_unused_files(const std::filesystem::path& store);

@@ -25,7 +25,8 @@ results::Number as_number(double value) {
   return value;
 }
 
-/// Returns the final folder of a report, which is written in a temporary folder below it.
+/// Returns the final folder of a report. The temporary folder, in which the report is written
+/// first, is a subfolder of the final folder.
 fs::path place_of(const fs::path& folder) {
   return folder.filename() == results::kUnfinishedFolder ? folder.parent_path() : folder;
 }
@@ -63,7 +64,7 @@ results::Results read_summary(const fs::path& file, Json json) {
 
 bool load_stored_data(Run& run, const fs::path& store) {
   try {
-    Run found = run_from(read_text(store / run.stored));
+    Run found = parse_run(read_text(store / run.stored));
     const bool same = std::ranges::all_of(run.quantities, [&](const auto& own) {
       const std::vector<double>* other = found.quantity(own.first);
       return other != nullptr &&
@@ -71,7 +72,7 @@ bool load_stored_data(Run& run, const fs::path& store) {
     });
     if (!same) return false;  // the file belongs to another run
     if (!found.sweeps.empty())
-      run.convergence = convergence_from(read_text(judged_file(store / run.stored)));
+      run.convergence = parse_convergence(read_text(judged_file(store / run.stored)));
     run.quantities = std::move(found.quantities);
     run.drawing = std::move(found.drawing);
     run.uncertainty = std::move(found.uncertainty);

@@ -35,8 +35,8 @@ std::filesystem::path write_results(const results::Results& results,
 /// @throws InputError  with the JSON pointer of an invalid value.
 [[nodiscard]] results::Results load_results(const std::filesystem::path& file);
 
-/// Exclusive access to a results folder during the lifetime of the lock. It is acquired before a
-/// computation.
+/// Exclusive access to a results folder during the lifetime of the lock. The lock is acquired
+/// before a computation.
 class OutputLock {
  public:
   /// @throws InputError  if the folder cannot be created or written, or is locked by another

@@ -110,7 +110,7 @@ solver::Model build_model(const CaseModel& case_model, std::size_t step) {
                           !case_model.joint_elements.follower_loads.empty();
   if (only_large)
     throw solver::ModelError(
-        "line springs and follower loads require large-statics or large-motion (got another one)");
+        "line springs and follower loads require the analysis large-statics or large-motion");
   return model;
 }
 

@@ -25,7 +25,7 @@ struct CaseModel {
   /// Sliders, line springs and follower loads, which linear analysis supports only in part.
   solver::large_motion::LargeMotionModel joint_elements;
   solver::Effects effects = solver::Effects::all();  ///< effects that `build_model` keeps
-  /// If true, statics with large displacement are estimated to six digits, without residual checks.
+  /// If true, statics with large displacement is solved to six digits only, without residuals.
   bool estimates_large_displacement = false;
 
   [[nodiscard]] std::size_t steps() const { return path ? motion.size() : 1; }
@@ -49,8 +49,6 @@ struct CaseModel {
 /// Converts an error of the solver about an invalid model into an input error. The input error
 /// refers to the part of the case that the message names.
 [[nodiscard]] InputError model_error(const Document& document, const solver::ModelError& error);
-
-/// Input of the analyses of the rigid manipulator.
 
 /// Names of joints and bodies of the manipulator, as they occur in names of quantities.
 inline const std::vector<std::string> kActiveJoints = {"A1", "A2", "A3"},

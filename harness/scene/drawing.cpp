@@ -10,8 +10,9 @@ namespace {
 
 constexpr std::size_t kMaxNodesWithMidpoints = 1500;
 constexpr std::size_t kPointsPerMember = 12;
-constexpr std::size_t kMaxMovedNodes = 6000;  ///< maximum number of nodes over all moments
-/// Minimum path length of the drawn coordinates, as a fraction of their path length in all samples.
+constexpr std::size_t kMaxMovedNodes = 6000;  ///< maximum number of nodes over all drawn times
+/// Minimum ratio of two path lengths in the space of coordinates: polygon through the drawn samples
+/// to polygon through all samples.
 constexpr double kShownShare = 0.8;
 
 /// Returns the number of straight pieces by which an element is drawn.
@@ -161,6 +162,18 @@ Eigen::Vector2d displacement_along(const solver::FrameElement& element, const Ei
   return along * t + across * n;
 }
 
+/// Draws the forces on nodes, and the uniform loads of members at the ends of their elements.
+void draw_forces(const solver::System& system, const DrawnNodes& drawn, Drawing& drawing) {
+  for (const solver::NodalLoad& load : system.model.loads)
+    if (!load.force.head<2>().isZero(0))
+      drawing.forces.push_back({drawn.index_of(load.node), load.force[0], load.force[1], "N"});
+  for (const solver::FrameElement& element : system.mesh.frame) {
+    const Eigen::Vector2d& load = system.model.members[solver::to_size(element.member)].load;
+    for (std::size_t i = 0; i < 2 && !load.isZero(0); ++i)
+      drawing.forces.push_back({drawn.index_of(element.nodes[i]), load.x(), load.y(), "N/m"});
+  }
+}
+
 std::optional<Drawing> draw_model(const solver::System& system, bool is_manipulator) {
   Drawing drawing;
   const DrawnNodes drawn = drawn_nodes(system);
@@ -169,6 +182,7 @@ std::optional<Drawing> draw_model(const solver::System& system, bool is_manipula
     drawing.nodes.push_back(point_of(system.mesh.positions[node]));
   draw_members(system, drawn, drawing);
   draw_parts(system.model, is_manipulator, drawn, drawing);
+  draw_forces(system, drawn, drawing);
   if (drawing.nodes.size() > kMaxDrawnNodes) return std::nullopt;
   return drawing;
 }
@@ -190,16 +204,16 @@ results::Shape draw_shape(const solver::System& system, const Eigen::VectorXd& q
   return shape;
 }
 
-std::size_t max_drawn_moments(std::size_t nodes) {
+std::size_t max_drawn_times(std::size_t nodes) {
   return std::clamp<std::size_t>(kMaxMovedNodes / std::max<std::size_t>(nodes, 1), 6, 48);
 }
 
-std::string moment_label(double time) {
+std::string time_label(double time) {
   return rounded(time, 4) + " s";
 }
 
 std::vector<std::size_t> drawn_samples(const std::vector<Eigen::VectorXd>& q, std::size_t nodes) {
-  const std::size_t most = max_drawn_moments(nodes);
+  const std::size_t most = max_drawn_times(nodes);
   std::vector<std::size_t> samples;
   for (std::size_t count = q.size(); count > 1; count = (count + 1) / 2) {
     const std::size_t moments = std::min(count, most);
@@ -235,10 +249,10 @@ Drawing draw_manipulator(const solver::ManipulatorGeometry& geometry,
     drawing.joints.push_back({6 + i, "hinged", "C" + limb});
   }
   if (motion.size() < 2) return drawing;
-  const std::size_t moments = std::min(motion.size(), max_drawn_moments(drawing.nodes.size()));
+  const std::size_t moments = std::min(motion.size(), max_drawn_times(drawing.nodes.size()));
   for (std::size_t k = 0; k < moments; ++k) {
     const solver::TrajectoryPoint& point = motion[k * (motion.size() - 1) / (moments - 1)];
-    drawing.poses.push_back({moment_label(point.time), nodes_at(point.pose), point.time});
+    drawing.poses.push_back({time_label(point.time), nodes_at(point.pose), point.time});
   }
   return drawing;
 }
@@ -265,7 +279,7 @@ std::vector<results::Point> places(const solver::large_motion::GeometricallyExac
 
 }  // namespace
 
-std::optional<Drawing> draw_large_model(
+std::optional<Drawing> draw_initial_pose(
     const solver::large_motion::GeometricallyExactSystem& system, bool is_manipulator) {
   const solver::Model& model = system.model();
   const Eigen::VectorXd reference = system.reference_state().q;
@@ -287,8 +301,8 @@ std::optional<Drawing> draw_large_model(
   return drawing;
 }
 
-results::Pose draw_large_pose(const solver::large_motion::GeometricallyExactSystem& system,
-                              const Eigen::VectorXd& q, const std::string& label) {
+results::Pose draw_pose(const solver::large_motion::GeometricallyExactSystem& system,
+                        const Eigen::VectorXd& q, const std::string& label) {
   return {label, places(system, q)};
 }
 

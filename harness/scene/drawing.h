@@ -40,11 +40,12 @@ void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawin
 [[nodiscard]] std::vector<std::size_t> drawn_samples(const std::vector<Eigen::VectorXd>& q,
                                                      std::size_t nodes);
 
-/// Returns the number of moments of a motion that a picture with that number of nodes can show.
-[[nodiscard]] std::size_t max_drawn_moments(std::size_t nodes);
+/// Returns the maximum number of times at which a motion is drawn, for a drawing with this number
+/// of nodes.
+[[nodiscard]] std::size_t max_drawn_times(std::size_t nodes);
 
-/// Returns the label of a moment: "0.25 s".
-[[nodiscard]] std::string moment_label(double time);
+/// Returns the label of a drawing at one time of a motion: "0.25 s".
+[[nodiscard]] std::string time_label(double time);
 
 /// Returns the displacement at s in [0, 1] along an element, from the unconstrained coordinates u =
 /// T q [m].
@@ -58,12 +59,11 @@ void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawin
 
 /// Draws the model in its initial pose. Returns nothing if it has more nodes than a picture can
 /// show.
-[[nodiscard]] std::optional<Drawing> draw_large_model(
+[[nodiscard]] std::optional<Drawing> draw_initial_pose(
     const solver::large_motion::GeometricallyExactSystem& system, bool is_manipulator);
 
 /// Returns the positions of the drawing's nodes at coordinates q.
-[[nodiscard]] results::Pose draw_large_pose(
-    const solver::large_motion::GeometricallyExactSystem& system, const Eigen::VectorXd& q,
-    const std::string& label);
+[[nodiscard]] results::Pose draw_pose(const solver::large_motion::GeometricallyExactSystem& system,
+                                      const Eigen::VectorXd& q, const std::string& label);
 
 }  // namespace trammel::harness

@@ -17,8 +17,8 @@ using solver::Model;
 using Of = Observable::Of;
 using State = ModelState;
 
-/// Returns a component of a result for a node or member; NaN if the analysis has not computed the
-/// result.
+/// Returns the value in one column of a result matrix for a node or member; NaN if the analysis has
+/// not computed the matrix.
 template <auto matrix, Index component>
 double entry(const Model&, const State& state, const ModelPart& part) {
   const Index row = part.items.front();
@@ -35,7 +35,7 @@ double end_rotation(const Model&, const State& state, const ModelPart& part) {
   return state.end_rotation(part.items.front(), part.end);
 }
 
-/// Returns N, V or M at the end of a member.
+/// Returns the axial force N, shear force V or bending moment M at one end of a member.
 template <Index component>
 double resultant(const Model&, const State& state, const ModelPart& part) {
   return (part.end == 0 ? state.resultant_start : state.resultant_end)(part.items.front(),

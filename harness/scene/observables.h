@@ -12,8 +12,8 @@
 /// results/quantities.txt documents each quantity and the kinds of analysis that have it.
 namespace trammel::harness {
 
-/// State of a model at one moment, or amplitudes of its vibration. An analysis sets the members
-/// that its quantities need.
+/// State of a model at one time, or amplitudes of its vibration. An analysis sets only the matrices
+/// that its quantities require.
 struct ModelState : solver::StaticSolution {
   Eigen::MatrixX3d velocity = {}, acceleration = {};  ///< one row (x, y, rotation) per node
   Eigen::MatrixX3d relative = {};  ///< displacement relative to a node that moves and rotates

@@ -17,8 +17,8 @@ enum class Tracking { angles, torques };
 
 /// Drives the actuators along the trajectory, or applies torques to them.
 /// @param place  the object of the case that requests tracking
-/// @throws InputError  without a trajectory, locked actuators, hinged elbows and hinged platform
-///   joints. For torques, also if the case has parts that rigid dynamics would ignore.
+/// @throws InputError  if the case lacks a trajectory, locked actuators, hinged elbows or hinged
+///   platform joints. For torques, also if the case has parts that rigid dynamics would ignore.
 void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& case_model,
                   const solver::Model& model, solver::large_motion::LargeMotionModel& large_motion);
 
@@ -26,7 +26,8 @@ void record_drives(const solver::large_motion::GeometricallyExactSystem& system,
                    const solver::large_motion::State& state, Recorder& record);
 
 /// Removes the supports that lock actuators which are driven or loaded by a torque.
-/// @throws InputError  if an actuator is free, because no link is attached to its rotation.
+/// @throws InputError  if a drive prescribes the rotation of a free actuator, because no link is
+///   attached to this rotation.
 void release_driven_actuators(const JsonView& analysis, const CaseModel& case_model,
                               const solver::large_motion::LargeMotionModel& large_motion,
                               solver::Model& model);

@@ -5,7 +5,7 @@
 namespace trammel::harness {
 
 /// Calls `work` and returns its result.
-/// @throws InputError  (see `model_error`) if the solver refuses the model.
+/// @throws InputError  (see `model_error`) if the solver throws ModelError for an invalid model.
 template <class Work>
 auto with_model_errors(const Document& document, const Work& work) {
   try {

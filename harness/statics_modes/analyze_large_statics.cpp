@@ -42,7 +42,8 @@ void record_point(const GeometricallyExactSystem& system, const PathPoint& point
   if (point.unstable_directions >= 0) record.add("unstable_directions", point.unstable_directions);
 }
 
-/// Records frequencies about a point of the load path; one quantity per mode for several points.
+/// Records natural frequencies about an equilibrium. If there are several equilibria, each mode has
+/// a separate quantity.
 void record_vibration(const GeometricallyExactSystem& system, const PathPoint& point,
                       solver::Index count, bool several, StepResult& result, Recorder& record) {
   const auto found = solver::large_motion::small_vibration(system, point.state, count);
@@ -75,8 +76,7 @@ void draw_poses(const GeometricallyExactSystem& system, const std::vector<PathPo
   for (std::size_t i = 0; i < points.size(); i += std::max<std::size_t>(stride, 1)) {
     const std::size_t last_first = points.size() - 1 - i;
     const solver::large_motion::State& state = points[last_first].state;
-    drawing.poses.push_back(
-        draw_large_pose(system, state.q, "load factor " + rounded(state.load, 3)));
+    drawing.poses.push_back(draw_pose(system, state.q, "load factor " + rounded(state.load, 3)));
   }
   std::ranges::reverse(drawing.poses);
 }
@@ -100,7 +100,7 @@ StepResult analyze_large_statics(const JsonView& analysis, const CaseModel& case
   release_driven_actuators(analysis, case_model, large_motion, model);
   const GeometricallyExactSystem system(model, large_motion);
   StepResult result;
-  if (draw) result.drawing = draw_large_model(system, case_model.manipulator.has_value());
+  if (draw) result.drawing = draw_initial_pose(system, case_model.manipulator.has_value());
   std::vector<PathPoint> recorded_points;
   std::vector<PathEvent> events;  // critical points up to the largest load factor
   const double longest = *std::ranges::max_element(factors);

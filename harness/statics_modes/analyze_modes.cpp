@@ -219,8 +219,8 @@ StepResult analyze_modes_at(const JsonView& analysis, const CaseModel& case_mode
   return result;
 }
 
-/// Returns true if condensing the links saves more time than it costs. The dense matrices of the
-/// joints must also be small.
+/// Returns true if condensing each link to its ends saves more time than it costs. The dense
+/// matrices of the remaining coordinates must also be small.
 bool is_condensable(const solver::ManipulatorDesign& design) {
   constexpr solver::Index kMostElements = 100;
   for (std::size_t i = 0; i < 3; ++i)
@@ -232,7 +232,7 @@ bool is_condensable(const solver::ManipulatorDesign& design) {
 }
 
 /// Returns true if the modes of all poses are computed together. This requires a manipulator on a
-/// path, without other parts, at rest and without loads that stiffen it.
+/// path, without other parts, rotating frame, reduction or geometric stiffening.
 bool follows_pose(const JsonView& analysis, const CaseModel& case_model) {
   const solver::Model& others = case_model.structure;
   const auto& joints = case_model.joint_elements;

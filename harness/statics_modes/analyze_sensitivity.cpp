@@ -40,8 +40,8 @@ FrequencyDifferences differences_of(const std::optional<JsonView>& method,
                              name == "central-difference");
 }
 
-/// Computes exact derivatives, with differences for parameters that have no exact derivative.
-/// Otherwise computes differences only.
+/// Computes derivatives of the natural frequencies. If `exactly` is true, finite differences serve
+/// only for parameters without an exact derivative. Otherwise they serve for all parameters.
 solver::FrequencySensitivity derive(const JsonView& analysis, const CaseModel& case_model,
                                     const std::vector<solver::DesignParameter>& parameters,
                                     bool exactly) {
@@ -54,7 +54,7 @@ solver::FrequencySensitivity derive(const JsonView& analysis, const CaseModel& c
     count = all.frequency.size();
   }
   for (std::size_t p = 0; p < parameters.size() && all.outcome.solved(); ++p) {
-    if (exactly && solver::is_seeded(parameters[p].kind)) continue;
+    if (exactly && solver::is_dual(parameters[p].kind)) continue;
     const FrequencyDifferences one = differences_of(method, case_model, parameters[p], count);
     all.counters += one.counters;
     all.outcome = one.outcome;

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Results for one orientation. The paper's "sensitivity" may be the value at the center, the mean
-/// or the maximum over the workspace.
+/// Results for one orientation of the platform. The "sensitivity" of the examined publication may
+/// be the value at the center, the mean or the maximum over the workspace.
 struct Reading {
   double center_frequency = kNaN,
          center = kNaN;                       ///< sensitivity at the central position
@@ -102,7 +102,7 @@ StepResult analyze_sensitivity_map(const JsonView& analysis, const CaseModel& ca
     if (!(parameter_value(design, parameter) > 0))
       throw(*given)["property"].error(
           "the manipulator does not have this property; expected another one");
-    if (!solver::is_seeded(parameter.kind))
+    if (!solver::is_dual(parameter.kind))
       throw(*given)["property"].error("expected a length, thickness, width, E or density");
   }
   const std::string quantity = sensitivity_name(parameter.kind);

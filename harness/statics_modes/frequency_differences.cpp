@@ -39,10 +39,10 @@ void for_each_value(ManipulatorDesign& design, const DesignParameter& parameter,
       visit(design.platform_joint[i].stiffness);
     if (parameter.proximal[i])
       meet(length ? &design.geometry.proximal[i]
-                  : solver::detail::link_number(design.proximal[i], kind));
+                  : solver::detail::link_property(design.proximal[i], kind));
     if (parameter.distal[i])
       meet(length ? &design.geometry.distal[i]
-                  : solver::detail::link_number(design.distal[i], kind));
+                  : solver::detail::link_property(design.distal[i], kind));
   }
   if (parameter.platform) meet(solver::detail::number(design.platform, kind));
 }
@@ -58,10 +58,11 @@ void grow(std::array<Vector2d, 3>& triangle, const Vector2d& about, double chang
 
 constexpr int kRows = 7;
 constexpr double kRatio = 1.6;
-/// Number of additional modes, so that the last set of equal frequencies is complete.
+/// Number of modes computed in addition to the requested modes. They complete the last set of equal
+/// frequencies.
 constexpr Index kExtraModes = 3;
-/// Largest change of a frequency by a step, as a fraction of the distance to the nearest other
-/// frequency.
+/// Largest permitted change of a frequency by a finite-difference step, as a fraction of the
+/// distance to the nearest other frequency.
 constexpr double kShareOfGap = 0.1;
 
 class Differences {

@@ -7,8 +7,8 @@
 #include "solver/model/evidence.h"
 
 /// Computes sensitivities of the natural frequencies by finite differences over a design parameter.
-/// This second method shares no derivative with `solver::frequency_sensitivity`. Also reads and
-/// changes the values of design parameters.
+/// The method is independent of the exact derivatives of `solver::frequency_sensitivity`. Other
+/// functions read and change the values of design parameters.
 namespace trammel::harness {
 
 struct DesignInPose {
@@ -36,11 +36,12 @@ struct FrequencyDifferences {
   solver::Counters counters;
 };
 
-/// Computes central differences at steps that shrink by 1.6, extrapolated to zero. From the table,
-/// it selects the entry that agrees best with its neighbors (Ridders 1982; here 7 rows). Steps keep
-/// adjacent frequencies apart and the limbs within reach. The branches of a repeated frequency are
-/// smooth. Therefore, at a parameter p with step h, the lowest branch for p + h continues the
-/// highest branch for p - h.
+/// Computes central differences for up to 7 steps, each smaller than the previous one by the factor
+/// 1.6. Extrapolates the differences to the step zero. From the table of extrapolated values, it
+/// selects the entry that agrees best with its neighbors (Ridders 1982). Steps keep adjacent
+/// frequencies apart and the limbs within reach. The branches of a repeated frequency are smooth.
+/// Therefore, at a parameter p with step h, the lowest branch for p + h continues the highest
+/// branch for p - h.
 /// @param relative_step  first step over the value of the parameter; reduced if it is too large
 /// @throws ModelError  as `build_manipulator`.
 [[nodiscard]] FrequencyDifferences differentiate_frequencies(
@@ -49,7 +50,7 @@ struct FrequencyDifferences {
 
 /// Computes one difference quotient without extrapolation: central over 2 h or forward over h.
 /// @param relative_step  h over the value of the parameter, > 0
-/// @throws ModelError  as `build_manipulator`, also if the step leads out of reach.
+/// @throws ModelError  as `build_manipulator`, also if the changed design cannot reach the pose.
 [[nodiscard]] FrequencyDifferences difference_quotient(const solver::ManipulatorDesign& design,
                                                        const solver::Pose& pose,
                                                        const solver::DesignParameter& parameter,

@@ -22,7 +22,8 @@ TRAMMEL_WORDS(mms::ShearStrain, "none", "from-bending", "independent");
 
 namespace {
 
-/// Adds the residuals of (K - omega^2 M) q = f, with newly assembled matrices, to the evidence.
+/// Adds the residuals of (K - omega^2 M) q = f to `solution.evidence`. The element matrices are
+/// computed again for this purpose.
 void add_evidence(const solver::System& system, double omega, ManufacturedSolution& solution) {
   const Eigen::VectorXd u = system.T * solution.q;
   solver::RowBalance<double> rows(system);
@@ -158,7 +159,8 @@ BeamTestResult run_beam_test(const BeamTest& test) {
 
 namespace {
 
-/// Amplitude of the manufactured solution. Its value is arbitrary, because every error is relative.
+/// Amplitude of the manufactured displacement, relative to the length of the model. Its value is
+/// arbitrary, because all reported errors are relative.
 constexpr double kAmplitudePerLength = 1e-3;
 
 MembraneTest read_membrane(const JsonView& place) {
@@ -196,7 +198,8 @@ struct ErrorNorm {
   int derivative;
 };
 
-/// Records the error norms. Their round-off error grows by the number of cells per derivative.
+/// Records the relative error norms. For each order of the derivative, their round-off error is
+/// multiplied by the number of cells.
 StepResult record_norms(const ManufacturedSolution& solution, solver::Index cells, bool draw,
                         std::initializer_list<ErrorNorm> norms, Recorder& record) {
   StepResult result{solution.outcome, solution.counters, solution.evidence};

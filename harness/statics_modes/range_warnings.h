@@ -11,9 +11,9 @@ namespace trammel::harness {
 /// limit it neglects theta^2 / 2 = 0.5 %.
 inline constexpr double kMaxLinearRotation = 0.1;
 
-/// Limit of the linear law, N = EA times the extension, which ignores changes of the cross-section.
-/// At the limit, the measures of strain (engineering, logarithmic, Green) differ by 5 %, as do the
-/// stresses on the section.
+/// Largest axial or shear strain for which the linear law of a section (axial force = EA times
+/// extension) is accepted. The law ignores changes of the cross-section. At the limit, the measures
+/// of strain (engineering, logarithmic, Green) differ by 5 %, as do the stresses on the section.
 inline constexpr double kMaxStrain = 0.1;
 
 /// Returns the largest rotation of a node, a member's end, a chord or a triangle [rad].

@@ -30,7 +30,7 @@ void add_moment(const CaseModel& case_model, std::size_t step, Drawing found,
   if (!case_model.path || shapes.size() != 1 || nodes.size() != all->nodes.size()) return;
   if (shapes.front().label.starts_with("mode ")) return;
   const double time = case_model.motion[step].time;
-  all->poses.push_back({moment_label(time), nodes, time, shapes.front().displacement});
+  all->poses.push_back({time_label(time), nodes, time, shapes.front().displacement});
 }
 
 }  // namespace

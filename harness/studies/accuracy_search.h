@@ -6,7 +6,8 @@
 #include "harness/studies/cost_study.h"
 #include "harness/studies/discretization_error.h"
 
-/// Searches for the mesh and the step with which a case reaches an accuracy.
+/// Searches for the mesh and the time step with which the results of a case reach a requested
+/// accuracy.
 namespace trammel::harness {
 
 struct AccuracyRequest {
@@ -25,9 +26,10 @@ struct AccuracySearch {
   bool reached = false;
 };
 
-/// Refines mesh and time step until the estimated error is at most `accuracy`. Starts from one
-/// element per member and four times the step, and refines the source of the larger error. Beam
-/// theory and analysis are kept. Each level also serves for the error estimate of the next level.
+/// Refines mesh and time step until the estimated error is at most `accuracy`. Starts from up to
+/// four times the time step, and from numbers of elements that are halved until one of them is odd.
+/// Then refines the source of the larger error, mesh or time step. Beam theory and analysis are
+/// kept. Each level also serves for the error estimate of the next level.
 /// @throws InputError  if the case has no mesh or steps, no solution or no such quantity.
 [[nodiscard]] AccuracySearch search_accuracy(const Document& document,
                                              const AccuracyRequest& request,

@@ -27,7 +27,7 @@ std::vector<double> exact_values(const JsonView& place, const std::string& quant
   std::vector<double> values;
   for (const std::size_t i : chosen) {
     if (i >= reference.values.size())
-      throw place["reference_index"].error("expected indices below " +
+      throw place["reference_index"].error("expected indices of reference values below " +
                                            std::to_string(reference.values.size()));
     values.push_back(reference.values[i]);
   }
@@ -248,7 +248,7 @@ void check_counts(const JsonView& root, const CostStudy& study) {
     for (const auto& entry : names.entries()) wanted += output_number(root, entry.second) == k;
     const std::string expected = "expected " + std::to_string(wanted) + " quantities" +
                                  (k > 0 ? " of '" + study.outputs[k].title + "', or none" : "");
-    if (wanted == 0) throw names.error("expected a quantity of '" + study.outputs[k].title + "'");
+    if (wanted == 0) throw names.error("no quantity of output '" + study.outputs[k].title + "'");
     for (const Setting& setting : study.settings) {
       const std::size_t given = count_of(setting, k);
       if (given != wanted && (k == 0 || given > 0))

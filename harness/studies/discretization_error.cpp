@@ -70,12 +70,14 @@ std::optional<double> mesh_order(const Document& document) {
   return 4;
 }
 
-/// Returns the order of convergence in the time step, or the power of the integrator's tolerance.
+/// Returns the order of convergence in the time step. With a step control, returns the exponent of
+/// the tolerance to which the error is proportional.
 double step_order(const Document& document) {
   const Json& analysis = document.value().at(JsonPointer(analysis_pointer(document)));
   if (discretized_analysis(document) == "forward-dynamics") return 8.0 / 9;  // adaptive Runge-Kutta
-  // With error control, the largest step changes together with the tolerance. If it limits the
-  // steps, half of it leaves a quarter of the error, which is more than 10^(-2/3).
+  // With "error_control", a refinement divides the tolerance by 10 and halves the largest step. If
+  // the largest step limits all steps, the error decreases only to 1/4, and not to 10^(-2/3). The
+  // larger error is assumed.
   if (has_step_tolerance(document))
     return analysis.contains("error_control") ? std::log10(4.0) : 2.0 / 3;
   if (analysis.value("extrapolated", false)) return 3;
@@ -177,7 +179,7 @@ class ErrorScales {
   ErrorScales(const Document& document, const AnalysisResult& own)
       : own_(own.quantities), kind_(discretized_analysis(document)) {
     if (!document.value().contains("model")) return;
-    const ModelScales model = scales_of(first_model(read_case_model(document)));
+    const ModelScales model = typical_scales(model_at_start(read_case_model(document)));
     scales_ = change_scales(own_, model);
     if (!kind_.starts_with("large-") && kind_ != "modes") return;
     for (const auto& [kind, size] : {std::pair("displacement", model.length), {"rotation", 1.0}})
@@ -259,7 +261,7 @@ std::optional<Companion> companion_of(const Document& document, ErrorSource sour
 std::optional<double> order_of(const Document& document, ErrorSource source,
                                const std::string& quantity) {
   if (source == ErrorSource::mesh) return mesh_order(document);
-  // A peak among samples has at most order 2 in the distance between samples.
+  // The largest value among samples converges at most with order 2 in the distance between samples.
   const double order = step_order(document);
   return quantity.starts_with("peak_") ? std::min(order, 2.0) : order;
 }

@@ -31,8 +31,8 @@ class Study {
     automatic_.apply_patch(document.origin("").file, "",
                            Json{{"effects", {{"auto", {{"tolerance", study_.tolerance}}}}}});
     scene_ = read_case_model(automatic_);
-    size_ = scales_of(first_model(scene_));
-    (void)solver::assemble(first_model(scene_));  // throws for an invalid model
+    size_ = typical_scales(model_at_start(scene_));
+    (void)solver::assemble(model_at_start(scene_));  // throws for an invalid model
     study_.scope = effect_scope(document_, scene_);
   }
 
@@ -67,7 +67,7 @@ class Study {
     run.counters = result.counters;
     run.cpu_s = watch.cpu_s();
     scene_.effects = effects;
-    run.work = work_of(result.counters, unknowns_of(first_model(scene_)));
+    run.work = estimated_work(result.counters, unknown_count(model_at_start(scene_)));
     if (run.outcome.solved()) {
       const Quantities& full = study_.full.quantities;
       run.changes = changes_between(full.empty() ? run.quantities : full, run.quantities, size_);
@@ -134,7 +134,7 @@ EffectStudy study_effects(const Document& document, const EffectStudyOptions& op
   if (!supports_effects(document))
     throw JsonView(document)["analysis"].error("this analysis does not support effects; expected " +
                                                analyses_with_effects());
-  require_fits(document);
+  require_memory(document);
   return with_model_errors(document, [&] { return Study(document, options).run(); });
 }
 

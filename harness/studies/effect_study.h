@@ -17,7 +17,7 @@ struct EffectRun {
   solver::Outcome outcome;
   Quantities quantities;
   solver::Counters counters;
-  double work = 0;   ///< counted work, see `work_of` in coarse_scene.h
+  double work = 0;   ///< counted work, see `estimated_work` in coarse_scene.h
   Changes changes;   ///< changes of the results, relative to the scene with all effects
   double cpu_s = 0;  ///< median of the repeats, or time of a single run
 
@@ -30,8 +30,9 @@ struct EffectStudy {
   EffectChoice choice;
   double tolerance = 0;
   EffectRun full, chosen;
-  /// Relative change of the results with the chosen effects between half of the elements and all
-  /// elements. The change exceeds the error of the mesh. It is empty if no member has two elements.
+  /// Relative change of the results with the chosen effects if the number of elements is halved.
+  /// The change exceeds the discretization error of the unchanged mesh. It is empty if no member
+  /// has two elements.
   std::optional<double> mesh_change;
   double deciding_cpu_s = 0;
   std::vector<EffectRun> without_one;     ///< the full set without each effect: separate
@@ -41,7 +42,8 @@ struct EffectStudy {
   [[nodiscard]] bool within_tolerance() const { return chosen.change() <= tolerance; }
   /// @returns true if the tolerance does not permit removal of an expensive chosen effect
   [[nodiscard]] bool is_minimal() const;
-  /// Returns the work of the selection and of the run with chosen effects, relative to all effects.
+  /// Returns the counted work of the selection and of the run with the chosen effects, relative to
+  /// the work of the run with all effects.
   [[nodiscard]] double work_ratio() const {
     return (choice.automatic->work + chosen.work) / full.work;
   }

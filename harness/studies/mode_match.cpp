@@ -17,7 +17,8 @@ namespace {
 using Places = std::map<std::string, std::vector<Eigen::Vector2d>>;  ///< name of a point ->
                                                                      ///< displacement of each mode
 
-/// Number of additional modes, so that the last set of equal frequencies is complete.
+/// Number of modes computed in addition to the requested modes. They complete the last set of equal
+/// frequencies.
 constexpr solver::Index kExtraModes = 4;
 constexpr int kStations = 8;
 /// Relative distance below which adjacent frequencies form one set.

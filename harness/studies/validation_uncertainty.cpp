@@ -113,7 +113,7 @@ class ValidationStudy {
 
   std::optional<results::Uncertainty> run(const results::ErrorEstimates& errors) {
     if (places_.empty()) return std::nullopt;
-    study_.inputs = stated_inputs(document_, references_);
+    study_.inputs = uncertain_inputs(document_, references_);
     for (const Place& place : places_) study_.comparisons.push_back(start(place));
     take_errors(errors);
     derive();
@@ -257,8 +257,8 @@ class ValidationStudy {
 
 }  // namespace
 
-std::vector<results::UncertainInput> stated_inputs(const Document& document,
-                                                   const References& references) {
+std::vector<results::UncertainInput> uncertain_inputs(const Document& document,
+                                                      const References& references) {
   return read_inputs(JsonView(document)["uncertainty"]["inputs"], references);
 }
 

@@ -16,8 +16,8 @@ namespace trammel::harness {
 /// Returns the uncertain inputs of a case or variant with the key "uncertainty". Inputs that are
 /// not numbers in this variant are omitted.
 /// @throws InputError  if a pointer is invalid.
-[[nodiscard]] std::vector<results::UncertainInput> stated_inputs(const Document& document,
-                                                                 const References& references);
+[[nodiscard]] std::vector<results::UncertainInput> uncertain_inputs(const Document& document,
+                                                                    const References& references);
 
 /// Evaluates the validation uncertainty of the compared quantities.
 /// @param document    case or variant with the key "uncertainty"

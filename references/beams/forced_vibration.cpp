@@ -160,9 +160,11 @@ std::vector<Real> deep_beam_program(const Arguments& arguments) {
 }
 
 /// Run-up of a rotor through the resonance of its carriage (F. M. Lewis, Vibration during
-/// acceleration through a critical speed, Transactions of the ASME 54, 1932, 253-261). The
-/// unbalance is m e of the total mass M on a spring, w^2 = k/M. A given law a(t) turns the rotor
-/// from rest, a(0) = 0. Integrating Duhamel's integral twice by parts gives
+/// acceleration through a critical speed, Transactions of the ASME 54, 1932, 253-261). The total
+/// mass M on a spring of stiffness k has the angular frequency w, w^2 = k/M. The unbalance is m e,
+/// with a mass m at the radius e. The rotor has the prescribed angle a(t), and starts from rest at
+/// a(0) = 0. The displacement of the carriage is x. Integrating Duhamel's integral twice by parts
+/// gives
 ///
 ///   x = -(m e/M) (cos a(t) - cos w t - w int_0^t cos a(s) sin w(t - s) ds).
 ///

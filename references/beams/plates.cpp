@@ -120,7 +120,7 @@ std::vector<Real> wedge_exponent_program(const Arguments& arguments) {
     const Real s = sin(l * angle);
     return Real(s * s - (1 + k) * (1 + k) / (4 * k) + l * l * sine * sine / k);
   };
-  // The step avoids l = 1, which is a root for a corner without a singularity.
+  // The grid of the root search avoids l = 1, which is a root for a corner without a singularity.
   return first_roots(f, Real("0.1"), Real("0.0013"), 1);
 }
 

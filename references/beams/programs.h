@@ -13,8 +13,9 @@ namespace trammel::references {
 /// pairs [n, k]: the k-th elastic frequency with n waves around the circumference.
 [[nodiscard]] std::vector<Real> annular_membrane_program(const Arguments& arguments);
 
-/// Computes critical end loads of a uniform column [N], or the critical multiples of its weight
-/// (load self-weight). EI_N_m2, length_m and weight_N_per_m are 1 by default.
+/// Computes critical end loads of a uniform column [N]. If the argument load is self-weight, it
+/// computes the critical factors of the distributed weight instead. EI_N_m2, length_m and
+/// weight_N_per_m are 1 by default.
 [[nodiscard]] std::vector<Real> column_buckling_program(const Arguments& arguments);
 
 /// Computes the stability of a cantilever under follower loads: an end force P = p EI/L^2 along the
@@ -29,9 +30,10 @@ namespace trammel::references {
 /// Values: the flutter load [N or N/m], the two lowest frequencies [Hz], or the growth rate [1/s].
 [[nodiscard]] std::vector<Real> becks_column_program(const Arguments& arguments);
 
-/// Computes the smallest l, if it is real, for which displacements grow like r^l with the distance
-/// r from a corner of a plate between a clamped and a free side. The arguments clamped_side and
-/// free_side are directions [x, y] from the corner. Plane stress is the default.
+/// Computes the exponent l of the displacements r^l at the distance r from a corner of a plate,
+/// between a clamped and a free side. The result is the smallest real exponent above 0.1. Complex
+/// exponents are ignored. The arguments clamped_side and free_side are directions [x, y] from the
+/// corner. Plane stress is the default.
 [[nodiscard]] std::vector<Real> wedge_exponent_program(const Arguments& arguments);
 
 /// Computes the forced vibration of a simply supported Timoshenko beam under a uniform load. The
@@ -99,9 +101,9 @@ namespace trammel::references {
 /// Computes the displacement x [m] of a carriage on a spring, in which an unbalanced rotor starts
 /// from rest. The angular frequency of carriage and spring is w (angular_frequency_rad_s). The
 /// argument unbalance_m is m e/M, with the unbalanced mass m at the radius e and the total mass M.
-/// The speed of the rotor increases from 0 to W (speed_rad_s) during the time T (duration_s): a' =
-/// W (t/T - sin(2 pi t/T)/(2 pi)). The argument times_s is ascending and at most T. Values: x at
-/// each time.
+/// The rotor has the angle a. Its speed a' increases from 0 to W (speed_rad_s) during the time T
+/// (duration_s): a' = W (t/T - sin(2 pi t/T)/(2 pi)). The argument times_s is ascending and at most
+/// T. Values: x at each time.
 [[nodiscard]] std::vector<Real> run_up_program(const Arguments& arguments);
 
 /// Computes bending frequencies [Hz] of a linearly tapered cantilever. The arguments thickness_m
@@ -116,7 +118,8 @@ namespace trammel::references {
 /// the plane of rotation to axial motion.
 [[nodiscard]] std::vector<Real> rotating_beam_roots_program(const Arguments& arguments);
 
-/// Computes frequencies [Hz] of a rotating cantilever. The thickness is in the bending direction.
+/// Computes frequencies [Hz] of a rotating cantilever that bends in the plane of rotation (plane
+/// lag) or out of it (flap). The argument thickness_m is the thickness in the direction of bending.
 [[nodiscard]] std::vector<Real> rotating_beam_frequencies_program(const Arguments& arguments);
 
 /// Bending vibration of one uniform Euler-Bernoulli beam of length L. With the roots b = beta L of

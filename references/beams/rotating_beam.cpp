@@ -84,7 +84,7 @@ std::vector<Real> rotating_beam_roots(const RotatingBeam& beam, int count) {
   // The solutions grow like exp(eta sqrt(r + 1/2)) and become nearly proportional. Their
   // determinant therefore loses log10 of this factor in digits, and 69 corresponds to 30 digits.
   if (beam.eta * sqrt(beam.hub_ratio + Real(0.5)) > 69) {
-    throw DerivationError("the beam rotates too fast: round-off exceeds fifty digits");
+    throw DerivationError("the beam rotates too fast: fewer than twenty digits are correct");
   }
   std::vector<Real> roots = first_roots([&](const Real& m) { return characteristic(beam, m); },
                                         Real("0.1"), Real("0.5"), count);

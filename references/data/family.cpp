@@ -132,7 +132,7 @@ std::optional<std::vector<JsonMember>> json_members(std::string_view text) {
   return members;
 }
 
-std::vector<std::string_view> keys_of_blocks(std::string_view text) {
+std::vector<std::string_view> top_level_keys(std::string_view text) {
   constexpr std::string_view between = "},\n  \"";
   std::vector<std::string_view> keys;
   const auto add_key = [&](std::size_t start) {

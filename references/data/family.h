@@ -32,7 +32,7 @@ struct JsonMember {
 
 /// Returns the first key of an object and those that follow a line "  },". These are all keys of a
 /// family file in its usual form. This takes a tenth of the time of `json_members`.
-[[nodiscard]] std::vector<std::string_view> keys_of_blocks(std::string_view text);
+[[nodiscard]] std::vector<std::string_view> top_level_keys(std::string_view text);
 
 /// Returns the value of a key, or no value if there is no member with this key.
 [[nodiscard]] std::optional<std::string_view> find_member(const std::vector<JsonMember>& members,
@@ -48,7 +48,7 @@ struct JsonMember {
 
 /// Returns the JSON files below a folder, each with its name without ".json"; none if there is no
 /// such folder. The function uses readdir, because std::filesystem needs 7,000 instructions per
-/// file, and every command starts with this walk.
+/// file, and every command lists these files when it starts.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> json_files(
     const std::string& folder);
 

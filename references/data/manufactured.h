@@ -9,7 +9,8 @@
 /// Solutions", J. Fluids Eng. 124(1), 2002, doi:10.1115/1.1436090.
 namespace trammel::references::manufactured {
 
-/// Membranes in plane stress on the rectangle 0 <= x <= length, 0 <= y <= height.
+/// Manufactured displacement fields of a membrane in plane stress on the rectangle 0 <= x <=
+/// length, 0 <= y <= height.
 enum class MembraneField {
   clamped,         ///< trigonometric; zero on all four sides, only body forces
   cantilever,      ///< trigonometric and exponential; zero at x = 0, tractions on other sides
@@ -43,7 +44,8 @@ struct MembraneState {
 [[nodiscard]] std::array<bool, 2> fixed_displacements(const MembraneProblem& problem, double x,
                                                       double y);
 
-/// Beams along 0 <= x <= length, clamped at x = 0 and loaded by (N, V, M) at the other end.
+/// Manufactured displacement fields of a beam along 0 <= x <= length. The beam is clamped at x = 0
+/// and loaded by (N, V, M) at the other end.
 enum class BeamField {
   smooth,  ///< exponential and trigonometric
   cubic,   ///< requires no transverse load; prismatic elements represent it exactly

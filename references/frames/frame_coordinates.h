@@ -10,7 +10,7 @@
 /// Coordinates u of a frame: x, y and (if a part rotates with the node) the rotation of each node,
 /// and the rotation of each hinged or sprung member end. Supports, rigid bodies, inextensible
 /// members and sums of rotations are equations C u = 0. Elimination with full pivoting solves them:
-/// u = N q.
+/// u = N q, with the free coordinates q.
 namespace trammel::references {
 
 /// Spring between the coordinates `from` and `to` of u. Its tension, stiffness * (u[to] - u[from]),

@@ -88,8 +88,8 @@ FrameEnd member_end(const Arguments& joints, const std::string& key) {
   return read_end(constrained ? Json("hinged") : joints[key], joints, key);
 }
 
-/// Adds the constraint of Eq. 25 of the paper: the rotation of the platform is the mean (or, as
-/// printed, the sum) of the rotations of the link ends.
+/// Adds the constraint of Eq. 25 of Varalakshmi and Srinivas (2017): the rotation of the platform
+/// is the mean (or, as printed, the sum) of the rotations of the link ends.
 void add_eq25(const Arguments& joints, Frame& frame) {
   const Json& platform = joints["platform"];
   if (platform != "eq25-mean" && platform != "eq25-sum") return;

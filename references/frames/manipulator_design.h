@@ -7,7 +7,8 @@
 /// Data of a planar 3-RRR in the format of "manipulator" in case files:
 /// base_side_m or base_m.
 /// links: proximal_length_m and distal_length_m (one or three each), thickness_m, width_m, mass_kg,
-/// inertia_kg_m2, beam, shear_coefficient, axial; proximal and distal replace these values.
+/// inertia_kg_m2, beam, shear_coefficient, axial. The objects proximal and distal override these
+/// values for one kind of link.
 /// platform: side_m or vertices_m, thickness_m, mass_kg, inertia_kg_m2.
 /// material, platform_material, joints (active, elbow and platform, equal in all limbs),
 /// working_mode.
@@ -74,9 +75,10 @@ struct ManipulatorNumbers {
 /// each B_i is an intersection of the circles of radius |A_i B_i| about A_i and |B_i C_i| about
 /// C_i, on the side of the working mode. Nodes A1-A3, B1-B3, C1-C3, P; members A1-B1, B1-C1, ...
 ///
-/// The numbers are those of `read_manipulator_numbers`. The platform has the kind "rigid". Joints:
-/// active locked, free or spring; elbow and platform welded, hinged or spring; platform eq25-mean
-/// or eq25-sum.
+/// Lengths, sections and masses are those of `read_manipulator_numbers`. The kind of the platform
+/// must be "rigid". Active joints are locked, free or springs. Elbow and platform joints are
+/// welded, hinged or springs. Platform joints can also be eq25-mean or eq25-sum, which are hinges
+/// with a constraint on the rotation of the platform.
 /// @throws DerivationError  with the JSON pointer if an argument is invalid, or if a limb cannot
 /// reach its platform joint.
 [[nodiscard]] Frame manipulator_frame(const Arguments& manipulator, const Arguments& pose);

@@ -9,7 +9,8 @@ namespace trammel::references {
 
 namespace {
 
-/// Returns the load per unit length with the weight along the axis of a member and to its left.
+/// Returns the components of the load per unit length along the axis of a member and to its left
+/// [N/m]. The load includes the weight.
 std::array<Real, 2> member_load(const Frame& frame, const FrameMember& member) {
   const MemberAxis axis = member_axis(frame, member);
   const Real x = member.load[0] + member.section.mass * frame.gravity[0];
@@ -17,8 +18,9 @@ std::array<Real, 2> member_load(const Frame& frame, const FrameMember& member) {
   return {x * axis.cosine + y * axis.sine, y * axis.cosine - x * axis.sine};
 }
 
-/// Equations of the force method for the internal forces f: forces B f + p on the coordinates, and
-/// deformations Phi f + phi0 of the members.
+/// Matrices of the force method for the internal forces f of members and springs. B f + p are the
+/// forces on the coordinates, with the loads p. Phi f + phi0 are the deformations of members and
+/// springs, with the deformations phi0 due to distributed loads.
 struct Equations {
   RealMatrix B, Phi;
   RealVector p, phi0;
@@ -108,6 +110,7 @@ Equations equations(const Frame& frame, const FrameCoordinates& coordinates) {
 }
 
 /// Minimizes the complementary energy by the equations Phi f + B^T N q = -phi0, N^T (B f + p) = 0.
+/// The matrix N maps the free displacements q to the displacements of all coordinates.
 /// @returns the internal forces f, then the free displacements q.
 RealVector minimize_complementary_energy(const Equations& e, const RealMatrix& N) {
   const RealMatrix G = N.transpose() * e.B;
@@ -141,8 +144,9 @@ void add_node_outputs(const Frame& frame, const FrameCoordinates& coordinates,
   values["deflection_m:" + name] = sqrt(x * x + y * y);
 }
 
-/// Adds the outputs of both ends of a member. The stress |N|/A + |M|/W is its largest stress if the
-/// member has no distributed load, because the largest value is then at an end.
+/// Adds the outputs of both ends of a member. The stress |N|/A + |M|/W, with the section modulus W,
+/// is its largest stress if the member has no distributed load. The largest value is then at an
+/// end.
 void add_member_outputs(const Frame& frame, const FrameCoordinates& coordinates,
                         const FrameStatics& statics, int index, Values& values) {
   const FrameMember& member = frame.members[index];

@@ -30,7 +30,8 @@ struct FrameStatics {
 };
 
 /// Computes the exact statics of a frame.
-/// @throws DerivationError  if the frame can move freely, or its forces are undetermined.
+/// @throws DerivationError  if the frame can move freely, or if a part without compliance is
+/// statically indeterminate.
 [[nodiscard]] FrameStatics unit_load_statics(const Frame& frame);
 
 /// Computes outputs of the exact statics of a frame. Names of outputs: displacement_x_m:NODE,

@@ -43,9 +43,9 @@ void confirm_bracket(const CountingFunction& f, int index, Real& lo, Real& hi) {
 }
 
 /// Returns the argument x at which the count reaches `index`. Let m be the number of roots in the
-/// bracket. The m-th root of |det D|, negative if the count is less than `index`, has a simple root
-/// at x. If the bracket contains a clamped frequency of a member, det D has a pole there, and only
-/// the count is bisected.
+/// bracket. The function |det D|^(1/m), negative if the count is less than `index`, has a simple
+/// zero at x. If the bracket contains a clamped frequency of a member, det D has a pole there, and
+/// only the count is bisected.
 Real refine_root(const CountingFunction& f, int index, const Real& lo, const Real& hi) {
   const auto at_lo = f.fine(lo);
   const auto at_hi = f.fine(hi);

@@ -33,7 +33,8 @@ struct FrameFrequencies {
 /// @throws DerivationError  if the frame has no mass or fewer frequencies are found.
 [[nodiscard]] FrameFrequencies frame_frequencies(const Frame& frame, int count);
 
-/// Returns the lowest sqrt(EI/rho A)/L^2 of the members: a scale of frequencies, no bound [rad/s].
+/// Returns the lowest sqrt(EI/rho A)/L^2 of the members [rad/s]. It is an order of magnitude of the
+/// lowest natural frequencies, not a bound.
 /// @throws DerivationError  if a member has no mass, or there is none.
 [[nodiscard]] Real frequency_scale(const Frame& frame);
 

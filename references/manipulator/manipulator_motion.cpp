@@ -143,7 +143,8 @@ RealVector accelerations(const ManipulatorNumbers& m, const PlanarWrench& wrench
   return solve(A, b, "the pose is singular");
 }
 
-/// Computes the motion under constant torques at the times, with 16 steps between two times.
+/// Computes the motion under constant torques at given times, with 16 integration steps between
+/// successive times.
 std::vector<Motion> driven_motions(const ManipulatorNumbers& m, const PlanarWrench& wrench,
                                    const std::vector<Real>& torque, const Motion& start,
                                    const std::vector<Real>& times) {

@@ -24,8 +24,9 @@ namespace {
 ///   m W^T (W q.. + 2 W. q. + W.. q + r..) + J e (theta.. + phi..) + K(t) q = h(t) F.
 ///
 /// Dots are time derivatives. In the nominal motion, r.. is the acceleration of the center of mass
-/// and phi.. the angular acceleration of the platform. The paper omits W. and W.. (`rate_terms`
-/// false). The equations are integrated by Fehlberg's method of order 8 in steps of 0.25 ms.
+/// and phi.. the angular acceleration of the platform. Varalakshmi and Srinivas (2017) omit W. and
+/// W.. (`rate_terms` false). The equations are integrated by Fehlberg's method of order 8 in steps
+/// of 0.25 ms.
 using State = std::array<Real, 6>;  // u_x, u_y, theta and their rates
 using Three = std::array<Real, 3>;
 
@@ -148,8 +149,9 @@ void advance(const Platform& platform, const History& history, const Real& from,
 ///
 ///   int N^T diag(rho A, rho A, rho I) (R^T p'', theta'') ds.
 ///
-/// The damping forces are b M times the velocities of the displacements in world axes. Fehlberg's
-/// method of order 8 integrates the equations.
+/// The damping forces are b M times the velocities of the displacements in world axes, with the
+/// mass matrix M and the damping coefficient b. Fehlberg's method of order 8 integrates the
+/// equations.
 ///
 /// Coordinates: u_x, u_y, theta of P; then for each limb u_x, u_y of B and the rotations of the
 /// proximal link's end, of the distal link's start and of the distal link's end.

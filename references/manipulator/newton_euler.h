@@ -16,7 +16,7 @@ struct PlanarWrench {
 
 using PointJet = Point2<Jet<Real>>;
 
-/// Return the center of mass of a link between its joints, or of the platform.
+/// Return the center of mass of a link with the joints `from` and `to`, or of the platform.
 [[nodiscard]] PointJet mass_center(const LinkNumbers& link, const PointJet& from,
                                    const PointJet& to);
 [[nodiscard]] PointJet mass_center(const ManipulatorNumbers& manipulator,
@@ -27,7 +27,7 @@ using PointJet = Point2<Jet<Real>>;
 
 /// Returns the joints A_i, B_i and C_i of a limb.
 /// @param motion  x, y of P and orientation of the platform, with their time derivatives
-/// @throws DerivationError  if the limb cannot reach.
+/// @throws DerivationError  if the limb cannot reach its platform joint.
 [[nodiscard]] std::array<PointJet, 3> limb_joints(const LimbNumbers& limb,
                                                   const std::array<Jet<Real>, 3>& motion);
 
@@ -39,7 +39,7 @@ struct ManipulatorForces {
 /// Computes the forces between platform and limbs, and the torques of the base on the three
 /// proximal links, counterclockwise, in SI.
 /// @param motion  as in `limb_joints`
-/// @throws DerivationError  if a limb cannot reach, or if the pose is singular.
+/// @throws DerivationError  if a limb cannot reach its platform joint, or if the pose is singular.
 [[nodiscard]] ManipulatorForces newton_euler_forces(const ManipulatorNumbers& manipulator,
                                                     const std::array<Jet<Real>, 3>& motion,
                                                     const PlanarWrench& wrench);

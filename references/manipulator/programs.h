@@ -59,14 +59,14 @@ namespace trammel::references {
 
 /// Computes the estimates of a general regression neural network at each query. Arguments: inputs,
 /// outputs, queries (arrays of rows); sigma, or spread in the convention of MATLAB's newgrnn,
-/// exp(-(0.8326 D / spread)^2).
+/// exp(-(0.8326 D / spread)^2), where D is the distance between query and training input.
 [[nodiscard]] std::vector<Real> grnn_program(const Arguments& arguments);
 
 /// Computes the angles or velocities of the active joints that a general regression neural network
 /// estimates. It is trained with torques by Newton and Euler along the path. Point k of the path is
-/// at the time k step_s, and k starts from 0. Arguments: train (the first train points are training
-/// samples), sigma [N m], queries (numbers k of the points to estimate). Values: the estimates for
-/// A1 at each query, then for A2, then for A3 [rad or rad/s].
+/// at the time k step_s, and k starts from 0. Arguments: train (number of training samples, which
+/// are the first points of the path), sigma [N m], queries (numbers k of the points to estimate).
+/// Values: the estimates for A1 at each query, then for A2, then for A3 [rad or rad/s].
 [[nodiscard]] std::vector<Real> manipulator_grnn_program(const Arguments& arguments);
 
 }  // namespace trammel::references

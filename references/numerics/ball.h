@@ -15,7 +15,8 @@ class Ball {
  public:
   Ball() { arb_init(x_); }
   Ball(int value) : Ball() { arb_set_si(x_, value); }  // NOLINT(google-explicit-constructor)
-  /// Creates a ball around a number of 50 digits. The radius is 1e-45, or 0 for an integer.
+  /// Creates a ball around a number of 50 digits. The radius is 1e-45 times the magnitude of the
+  /// number, or 0 for an integer with a magnitude below 1e6.
   explicit Ball(const Real& value);
   Ball(const Ball& other) : Ball() { arb_set(x_, other.x_); }
   Ball& operator=(const Ball& other) {

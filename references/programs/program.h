@@ -63,7 +63,7 @@ struct Comparison {
 [[nodiscard]] int derive_command(const std::vector<std::string>& command_line, std::ostream& out,
                                  std::ostream& err);
 
-/// Returns the text of a file that is built into the program.
+/// Returns the text of programs.txt or usage.txt, which are built into the program.
 /// @throws std::logic_error  if there is no such file.
 [[nodiscard]] const std::string& embedded_text(const std::string& file);
 

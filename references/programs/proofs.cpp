@@ -5,8 +5,8 @@
 
 /// Natural frequencies as proved enclosures. In ball arithmetic, rounding cannot change the count
 /// of Wittrick and Williams, which is an integer. If the counts at two frequencies differ by m,
-/// then m natural frequencies lie between these. A proof relies on the theorem, on the formulas of
-/// `dynamic_stiffness.cpp` and on Arb.
+/// then m natural frequencies lie between these. A proof relies on the theorem of Wittrick and
+/// Williams, on the formulas of `dynamic_stiffness.cpp` and on Arb.
 namespace trammel::references {
 namespace {
 
@@ -52,7 +52,7 @@ class Proof {
     Ball low = (x - width).middle(), high = (x + width * 2).middle();
     if (count(low) != below_) low = last_;
     if (count(low) != below_)
-      throw DerivationError("a frequency is below a thousandth of the first approximate value");
+      throw DerivationError("the first frequency is below a thousandth of its approximate value");
     for (int i = 0; count(high) <= below_; ++i) {
       if (i > 5) throw DerivationError("no natural frequency is near its approximate value");
       width = width * 1000;

@@ -57,7 +57,8 @@ static_assert(kStatusStyles[4].status == static_cast<CheckStatus>(4));
 using Counts = std::map<CheckStatus, std::size_t>;
 [[nodiscard]] std::size_t count_of(const Counts& counts, CheckStatus status);
 [[nodiscard]] std::size_t total(const Counts& counts);
-/// Counts the checks of a run. A check of several values counts once, with its worst value.
+/// Adds the numbers of checks of a run to `counts`. A check of several values counts once, with the
+/// status of its worst value.
 void add(Counts& counts, const Run& run);
 [[nodiscard]] bool all_checks_pass(const Counts& counts);
 

@@ -37,13 +37,7 @@ std::string titled(const std::string& title) {
 
 std::string gnuplot_string(const std::string& text) {
   std::string out = "'";
-  for (const char c : text) {
-    if (c == '\'') {
-      out += "’";
-    } else {
-      out += is_control(c) ? ' ' : c;
-    }
-  }
+  for (const char c : text) out += c == '\'' ? "’" : std::string(1, is_control(c) ? ' ' : c);
   return out + '\'';
 }
 

@@ -45,14 +45,10 @@ PlotScript::Rows roundoff_floor(const Sweeps& sweeps) {
   return rows;
 }
 
-std::string entry_name(const Convergence& c) {
-  const std::string word = c.quantity.starts_with("frequency") ? "mode " : "entry ";
-  return word + std::to_string(c.index + 1);
-}
-
 /// Returns the title of a curve in the key, with its fitted order: "mode 3: 3.99".
 std::string series_title(const Convergence& c, bool alone) {
-  std::string title = alone ? to_text(parse_quantity(c.quantity)) : entry_name(c);
+  std::string title = c.quantity.starts_with("frequency") ? "mode " : "entry ";
+  title = alone ? to_text(parse_quantity(c.quantity)) : title + std::to_string(c.index + 1);
   if (c.fitted_order) title += ": " + significant(*c.fitted_order, 3);
   return title;
 }
@@ -99,13 +95,11 @@ void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interva
     if (fall > steepest) steepest = fall, start = k;
   }
   if (start == ranges.end()) return;
-  const double x0 = start->first, y0 = start->second.low;
-  const double x1 = std::next(start)->first, y1 = std::next(start)->second.low;
-  const double ratio = std::pow(x1 / x0, theory);
-  const bool falls = y0 > y1;
-  const double top = std::max(y0, y1) / 8;
-  const double bottom = top / ratio, x_top = falls ? x0 : x1;
-  const double x_bottom = falls ? x1 : x0;
+  const auto& [x0, left] = *start;
+  const auto& [x1, right] = *std::next(start);
+  const bool falls = left.low > right.low;
+  const double top = std::max(left.low, right.low) / 8, bottom = top / std::pow(x1 / x0, theory);
+  const double x_top = falls ? x0 : x1, x_bottom = falls ? x1 : x0;
   extent.cover(bottom);
   script.curve({{x_top, top}, {x_top, bottom}, {x_bottom, bottom}, {x_top, top}},
                "with lines lw 1.4" + lc(palette::kInk));
@@ -113,17 +107,6 @@ void draw_slope(PlotScript& script, const Sweeps& sweeps, double theory, Interva
                                        shortest_decimal(std::sqrt(top * bottom)) +
                                        (falls ? " right offset -0.6,0" : " left offset 0.6,0") +
                                        " front textcolor rgb '" + palette::kInk + "'");
-}
-
-/// Returns the theoretical law of the error with terms of two orders in the element size or step h:
-/// "a h^4 + b h^1.35".
-std::string law_of(const Convergence& c) {
-  return "a h^" + trimmed(*c.theory_order, 3) + " + b h^" + trimmed(*c.lower_order, 3);
-}
-
-bool any_asymptotic(const Sweeps& sweeps) {
-  return std::ranges::any_of(
-      sweeps, [](const Convergence* c) { return harness::contains(c->in_asymptotic_range, true); });
 }
 
 /// Reports the fitted and the theoretical orders of convergence. If the theoretical error has terms
@@ -144,11 +127,16 @@ std::string conclusion(const Sweeps& sweeps) {
   const std::string which = sweeps.size() == 1
                                 ? "The error"
                                 : std::to_string(fitted) + " of " + count(sweeps.size(), "curve");
+  const auto is_asymptotic = [](const Convergence* c) {
+    return harness::contains(c->in_asymptotic_range, true);
+  };
   if (fitted == 0)
-    return any_asymptotic(sweeps) ? "Too few levels lie in the asymptotic range to fit an order."
-                                  : "No level lies in the asymptotic range.";
+    return std::ranges::any_of(sweeps, is_asymptotic)
+               ? "Too few levels lie in the asymptotic range to fit an order."
+               : "No level lies in the asymptotic range.";
   if (mixed)
-    return which + " follows the law " + law_of(first) + ", with the mesh or step size h, within " +
+    return which + " follows the law a h^" + trimmed(*first.theory_order, 3) + " + b h^" +
+           trimmed(*first.lower_order, 3) + ", with the mesh or step size h, within " +
            reports::relative(misfit, 2, false) + ".";
   return which + (fitted == 1 ? " falls" : " fall") + " with order " +
          low_to_high(significant(orders.low, 3), significant(orders.high, 3)) +

@@ -16,7 +16,8 @@ namespace trammel::reports {
 [[nodiscard]] std::optional<Figure> agreement_figure(const CaseInfo& info, const Results& results,
                                                      const Run& run);
 
-/// Figures of the errors of one quantity each in refinement studies (sweeps), on logarithmic axes.
+/// Figures of the refinement studies (sweeps) of a run, one for each study and quantity. They show
+/// the errors of the quantity against the refined parameter, on a logarithmic error axis.
 [[nodiscard]] std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run);
 
 /// Figure of processor time against error on logarithmic axes, with the Pareto front. Settings
@@ -32,14 +33,16 @@ namespace trammel::reports {
                                                   std::string& problem);
 
 /// Figures of the automatic selection of effects. A point for each scene (case with candidate
-/// effects) shows the change of the results against the tolerance.
+/// effects) shows the change of the results due to the omitted effects, against the tolerance for
+/// this change.
 [[nodiscard]] std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes);
 
 /// Figure of processor time and counted work of the calls in a history file, relative to the first
 /// call. Calls with failures are marked.
 [[nodiscard]] Figure history_figure(const History& history);
 
-/// Colored map of a quantity over positions for one variant, with lines, that a case requests.
+/// Colored map of a quantity over positions for one variant, as requested by a case. The curves of
+/// `request.lines` are drawn on the map.
 [[nodiscard]] std::optional<Figure> map_figure(const CaseInfo& info, const PlotRequest& request,
                                                const std::vector<const Run*>& runs,
                                                std::string& problem);

@@ -51,11 +51,10 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
   for (const PlotRequest& request : info.figures) {
     std::string problem;
     const auto draw = request.value.empty() ? curves_figure : map_figure;
-    if (auto figure = draw(info, request, runs, problem)) {
+    if (auto figure = draw(info, request, runs, problem))
       gallery.shown.push_back(*figure);
-    } else {
+    else
       gallery.problems.push_back(request.title + " is not drawn: " + problem + ".");
-    }
   }
   bool first = true;
   for (const Run* run : runs) {
@@ -68,8 +67,8 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
   return gallery;
 }
 
-/// Returns the position of a family in the report: manipulators first, then effects, the paper,
-/// beams, large motion, membranes, benchmarks, stress suite and controls.
+/// Returns the position of a family in the report: the index of the first word in kOrder that its
+/// id contains. Families without such a word, such as the negative controls, are last.
 std::size_t report_position(const Family& family) {
   constexpr std::array<const char*, 19> kOrder = {
       "manipulator", "elastodynamics", "sensitivity", "kinematics", "rigid-dynamics",

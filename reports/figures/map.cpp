@@ -70,7 +70,8 @@ std::vector<double> class_limits(std::vector<double> sorted) {
   return limits;
 }
 
-/// Returns the boxes of each color (center, then edges). Neighbors of one color share one box.
+/// Returns the boxes of each color (center, then edges). Adjacent cells of one row with the same
+/// color share one box.
 std::vector<PlotScript::Rows> boxes(const Field& field) {
   std::vector<PlotScript::Rows> by_color(palette::kSequence.size());
   for (std::size_t from = 0; from < field.cells.size();) {
@@ -81,8 +82,7 @@ std::vector<PlotScript::Rows> boxes(const Field& field) {
            field.cells[to].x - field.cells[to - 1].x < 1.5 * field.dx) {
       ++to;
     }
-    const double left = first.x - 0.5 * field.dx;
-    const double right = field.cells[to - 1].x + 0.5 * field.dx;
+    const double left = first.x - 0.5 * field.dx, right = field.cells[to - 1].x + 0.5 * field.dx;
     by_color[first.color].push_back({0.5 * (left + right), first.y, left, right,
                                      first.y - 0.5 * field.dy, first.y + 0.5 * field.dy});
     from = to;
@@ -179,7 +179,7 @@ struct ColorClasses {
   bool negative, positive;
 };
 
-/// Draws a map with lines. @returns the height of the key [px]
+/// Draws a map, and the requested curves on it. @returns the height of the key [px]
 int draw_map(PlotScript& script, const PlotRequest& request, const Run& run, const Field& field,
              const ColorClasses& classes) {
   script.command("set size ratio -1");

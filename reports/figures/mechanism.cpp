@@ -31,12 +31,7 @@ constexpr std::array<JointSymbol, 7> kJointSymbols = {{
     {"active", "active joint", 7, 1.1, true, palette::kSeries[1]},
 }};
 
-bool is_drawn(const Drawing& drawing, const JointSymbol& symbol) {
-  return std::ranges::any_of(drawing.joints,
-                             [&](const Joint& joint) { return joint.kind == symbol.kind; });
-}
-
-/// Draws the joints of one type. A hinge is a ring that is filled with the color of the paper.
+/// Draws the joints of one type. A hinge is a ring that is filled with the background color.
 void draw_joints(PlotScript& script, const Drawing& drawing, const JointSymbol& symbol) {
   PlotScript::Rows rows;
   for (const Joint& joint : drawing.joints)
@@ -59,13 +54,32 @@ void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
   for (const Joint& joint : drawing.joints) {
     if (joint.name.empty() || !named.insert(joint.name).second) continue;
     const auto& [x, y] = drawing.nodes[joint.node];
-    const double r = std::hypot(x - cx, y - cy) + 1e-300;
-    const double reach = 0.055 * box.side();
+    const double r = std::hypot(x - cx, y - cy) + 1e-300, reach = 0.055 * box.side();
     const double lift = r < reach ? reach : 0;
     script.label(joint.name, shortest_decimal(x + reach * (x - cx) / r) + "," +
                                  shortest_decimal(y + reach * (y - cy) / r + lift) +
                                  " center front textcolor rgb '" + palette::kInk + "'");
   }
+}
+
+/// Arrows of the loads with one unit, with their tips at the loaded nodes.
+struct LoadArrows {
+  PlotScript::Rows rows = {};  ///< x, y, dx, dy
+  std::string title = {};
+};
+LoadArrows load_arrows(const Drawing& drawing, const std::string& unit, double length) {
+  LoadArrows arrows;
+  double largest = 0;
+  for (const DrawnForce& force : drawing.forces) {
+    if (force.unit != unit) continue;
+    const double size = std::hypot(force.x, force.y), scale = length / size;
+    const auto& [x, y] = drawing.nodes[force.node];
+    const double dx = scale * force.x, dy = scale * force.y;
+    arrows.rows.push_back({x - dx, y - dy, dx, dy});
+    largest = std::max(largest, size);
+  }
+  arrows.title = "load of " + trimmed(largest, 3) + "\u202f" + unit;
+  return arrows;
 }
 
 void add_rows(Table& table, const std::string& pose, const Drawing& drawing,
@@ -97,12 +111,18 @@ std::vector<const Pose*> overlays_of(const Drawing& drawing) {
 
 /// Draws further poses. @returns the height of the key [px]
 int draw_overlays(PlotScript& script, Table& data, const std::vector<const Pose*>& overlays,
-                  const std::string& base_label, const Drawing& drawing) {
+                  const std::string& base_label, const Drawing& drawing,
+                  const std::vector<LoadArrows>& loads) {
   std::vector<std::string> titles;
   for (const Pose* pose : overlays) titles.push_back(pose->label);
   if (!titles.empty()) titles.push_back(base_label);
   for (const JointSymbol& symbol : kJointSymbols)
-    if (is_drawn(drawing, symbol)) titles.emplace_back(symbol.words);
+    if (std::ranges::count(drawing.joints, symbol.kind, &Joint::kind) > 0)
+      titles.emplace_back(symbol.words);
+  for (const LoadArrows& arrows : loads) {
+    script.curve(arrows.rows, "with vectors filled lw 1.8" + lc(palette::kSeries[1]), arrows.title);
+    titles.push_back(arrows.title);
+  }
   for (std::size_t i = 0; i < overlays.size(); ++i) {
     draw_body(script, drawing, overlays[i]->nodes, palette::color(2 + i), 1.2, overlays[i]->label);
     add_rows(data, overlays[i]->label, drawing, overlays[i]->nodes);
@@ -122,13 +142,20 @@ std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   std::vector<std::vector<Point>> sets = {drawing.nodes};
   for (const Pose* pose : overlays) sets.push_back(pose->nodes);
   const std::string base_label = overlays.empty() ? "" : "first pose";
+  const Box extent = box_around(sets, 0, 0);
+  std::vector<LoadArrows> loads;
+  for (const auto& [unit, length] : {std::pair("N", 0.14), std::pair("N/m", 0.07)}) {
+    loads.push_back(load_arrows(drawing, unit, length * extent.side()));
+    for (const auto& row : loads.back().rows) sets.push_back({{row[0], row[1]}});
+    if (loads.back().rows.empty()) loads.pop_back();
+  }
   PlotScript script;
   const Box box = box_around(sets, 0.09, 0.2);
   frame(script, box);
   script.axis_label("x", "x (m)");
   script.axis_label("y", "y (m)");
   Table table{words_in("pose node x_m y_m joint name"), {}, kSampleDigits};
-  const int key_height = draw_overlays(script, table, overlays, base_label, drawing);
+  const int key_height = draw_overlays(script, table, overlays, base_label, drawing, loads);
   script.curve(filled_triangles(drawing, drawing.nodes),
                "with filledcurves closed" + lc(palette::kPlate));
   script.curve(rows_of(triangle_edges_inside(drawing), drawing.nodes),
@@ -139,12 +166,12 @@ std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   name_joints(script, drawing, box_around({drawing.nodes}, 0, 0));
   script.plot();
 
-  const std::string caption = mechanism_caption(box_around(sets, 0, 0), sets.size());
+  const std::string caption = mechanism_caption(extent, overlays.size() + 1);
   return Figure{.id = slug(info.id + "-" + run.variant + "-mechanism"),
                 .title = titled("Geometry", info, run),
                 .caption = caption,
                 .alt = "Drawing of the model with its joints. " + caption,
-                .height = height_of(box) + key_height,
+                .height = drawing_height(box) + key_height,
                 .commands = script.commands(),
                 .data = std::move(table)};
 }

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 
@@ -24,7 +25,7 @@ template <class Vectors>
 Largest largest(const std::vector<Pose>& instants, const Vectors& of) {
   Largest found;
   for (const Pose& instant : instants)
-    for (const auto& [x, y] : of(instant))
+    for (const auto& [x, y] : std::invoke(of, instant))
       if (std::hypot(x, y) > found.length) found = {std::hypot(x, y), *instant.time_s};
   return found;
 }
@@ -161,17 +162,14 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
   const Drawing& drawing = *run.drawing;
   const std::vector<Pose> instants = instants_of(drawing);
   if (instants.size() < 2) return std::nullopt;
-  const Largest deflection = largest(
-      instants,
-      [](const Pose& instant) -> const std::vector<Point>& { return instant.displacement; });
+  const Largest deflection = largest(instants, &Pose::displacement);
   const double factor = magnification(deflection.length, box_around({drawing.nodes}, 0, 0).side());
   std::vector<std::vector<Point>> places, everything;
   for (const Pose& instant : instants) {
-    everything.push_back(instant.nodes);
     places.push_back(instant.nodes);
     if (!instant.displacement.empty())
       places.back() = displaced(instant.nodes, {instant.label, instant.displacement}, factor);
-    everything.push_back(places.back());
+    everything.insert(everything.end(), {instant.nodes, places.back()});
   }
   const Box box = box_around(everything, 0.04, 0.22);
   PlotScript script;
@@ -194,7 +192,7 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
                 .title = titled("Motion", info, run),
                 .caption = caption,
                 .alt = "Outlines of the mechanism at a few instants. " + caption,
-                .height = height_of(box),
+                .height = drawing_height(box),
                 .commands = script.commands(),
                 .data = table_of(instants),
                 .moving = moving_poses(drawing, instants, factor, box, 500)};
@@ -205,8 +203,8 @@ bool are_finite(const std::vector<Point>& points) {
       points, [](const Point& p) { return std::isfinite(p.first) && std::isfinite(p.second); });
 }
 
-std::string moving_modes(const Drawing& drawing, const std::vector<double>& factor, const Box& box,
-                         double panel) {
+std::string mode_animation(const Drawing& drawing, const std::vector<double>& factor,
+                           const Box& box, double panel) {
   Panel moving(drawing, box, panel);
   moving.json["nodes"] = moving.places(drawing.nodes);
   for (std::size_t s = 0; s < factor.size(); ++s) {

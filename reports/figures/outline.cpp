@@ -87,11 +87,10 @@ std::string titled(const std::string& what, const CaseInfo& info, const Run& run
 std::vector<std::vector<int>> polylines(const Drawing& drawing) {
   std::vector<std::vector<int>> lines;
   for (const auto& member : drawing.members) {
-    if (!lines.empty() && lines.back().back() == member[0]) {
+    if (!lines.empty() && lines.back().back() == member[0])
       lines.back().push_back(member[1]);
-    } else {
+    else
       lines.push_back(member);
-    }
   }
   return lines;
 }
@@ -160,12 +159,8 @@ std::vector<Point> displaced(const std::vector<Point>& nodes, const Shape& shape
 
 Box box_around(const std::vector<std::vector<Point>>& sets, double margin, double min_aspect) {
   Box box;
-  for (const auto& set : sets) {
-    for (const auto& [x, y] : set) {
-      box.x.cover(x);
-      box.y.cover(y);
-    }
-  }
+  for (const auto& set : sets)
+    for (const auto& [x, y] : set) box.x.cover(x), box.y.cover(y);
   const double side = std::max(box.side(), 1e-12);
   for (Interval* range : {&box.x, &box.y})
     range->widen(margin * side + std::max(0.0, 0.5 * (min_aspect * side - range->length())));
@@ -188,7 +183,7 @@ void draw_body(PlotScript& script, const Drawing& drawing, const std::vector<Poi
   script.curve(rows_of(polylines(drawing), nodes), line + shortest_decimal(width), title);
 }
 
-int height_of(const Box& box) {
+int drawing_height(const Box& box) {
   return static_cast<int>(std::clamp(410.0 * box.height() / box.width(), 90.0, 470.0)) + 80;
 }
 

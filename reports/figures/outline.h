@@ -53,7 +53,7 @@ struct Box {
 void frame(PlotScript& script, const Box& box);
 
 /// Returns the height of a drawing of the box, including the axes [px].
-[[nodiscard]] int height_of(const Box& box);
+[[nodiscard]] int drawing_height(const Box& box);
 
 /// Draws members with the line width `width`, and edges of triangles with half this width.
 void draw_body(PlotScript& script, const Drawing& drawing, const std::vector<Point>& nodes,
@@ -72,7 +72,7 @@ inline constexpr double kDrawnAmplitude = 0.13;  ///< ratio of largest deflectio
 /// Returns the animation of modes as JSON, with one panel for each mode.
 /// @param factor  magnification of each mode shape
 /// @param panel   width of a panel [px]
-[[nodiscard]] std::string moving_modes(const Drawing& drawing, const std::vector<double>& factor,
-                                       const Box& box, double panel);
+[[nodiscard]] std::string mode_animation(const Drawing& drawing, const std::vector<double>& factor,
+                                         const Box& box, double panel);
 
 }  // namespace trammel::reports

@@ -147,7 +147,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
       .height = static_cast<int>(height * static_cast<double>(rows)) + 8,
       .commands = script.commands(),
       .data = std::move(table),
-      .moving = can_move(drawing, n) ? moving_modes(drawing, factors, box, panel) : ""};
+      .moving = can_move(drawing, n) ? mode_animation(drawing, factors, box, panel) : ""};
 }
 
 }  // namespace trammel::reports

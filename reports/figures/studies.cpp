@@ -112,7 +112,7 @@ Figure history_figure(const History& history) {
     if (first_work == 0) first_work = counted;
     if (is_timed) time.push_back({number, call.cpu_s / first_time});
     if (first_work > 0) work.push_back({number, counted / first_work});
-    if (!call.green()) failing.push_back({number, first_work > 0 ? counted / first_work : 1});
+    if (!call.has_passed()) failing.push_back({number, first_work > 0 ? counted / first_work : 1});
     table.rows.push_back({number, call.date, call.commit, static_cast<double>(call.runs),
                           static_cast<double>(call.checks), static_cast<double>(call.failures),
                           call.cpu_s, counted});

@@ -44,7 +44,7 @@ std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string
   const bool one_case = std::ranges::all_of(
       runs, [&](const Run* run) { return run->case_id == runs.front()->case_id; });
   std::vector<ToleranceRow> rows;
-  for (const Run* run : runs) {
+  for (const Run* run : runs)
     for (const Check& check : run->checks) {
       if (!is_shown(check)) continue;
       const std::string label = one_case ? check_title(check) : titles.at(run->case_id);
@@ -53,7 +53,6 @@ std::vector<ToleranceRow> tolerance_rows(const std::map<std::string, std::string
       row.checks.emplace_back(run, &check);
       row.worst = std::max(row.worst, drawn_fraction(check));
     }
-  }
   return rows;
 }
 

@@ -73,8 +73,9 @@ const Check* find_check(const Run& run, const Check& like) {
   return nullptr;
 }
 
-/// Returns the check that represents a row: among the decisive checks of all codes, a failed check,
-/// or else any check, that uses the largest fraction of its tolerance.
+/// Returns the check that represents a row, one of the decisive checks of all codes. Checks with an
+/// expected value come first, then failed checks, then those that use the largest fraction of their
+/// tolerance.
 const Check* shown_check(const Row& row) {
   const Check* shown = nullptr;
   const auto rank = [](const Check& check) {
@@ -165,8 +166,8 @@ TextTable codes_table(const std::vector<Code>& codes) {
 
 }  // namespace
 
-std::filesystem::path write_codes(const std::vector<std::filesystem::path>& results_json,
-                                  const std::filesystem::path& out) {
+std::filesystem::path write_code_comparison(const std::vector<std::filesystem::path>& results_json,
+                                            const std::filesystem::path& out) {
   std::vector<Code> codes;
   for (const auto& file : results_json) codes.push_back(read_code(file));
   const std::vector<Row> rows = plan_rows(codes);

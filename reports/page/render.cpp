@@ -65,7 +65,7 @@ std::string render(const std::string& template_name, Data data) {
   return with_powers_in_text(html);
 }
 
-std::string linked_from(const std::string& html, const std::string& page) {
+std::string with_relative_links(const std::string& html, const std::string& page) {
   const auto change = [&](const std::string& target) {
     if (target.empty() || target[0] == '#' || target.starts_with("https:")) return target;
     if (target.starts_with(page + "#")) return target.substr(page.size());
@@ -74,7 +74,7 @@ std::string linked_from(const std::string& html, const std::string& page) {
   return with_attribute(with_attribute(html, "href", change), "src", change);
 }
 
-std::vector<std::string> targets_in(const std::string& html) {
+std::vector<std::string> link_targets(const std::string& html) {
   std::vector<std::string> targets;
   const auto collect = [&](const std::string& target) { return targets.emplace_back(target); };
   (void)with_attribute(with_attribute(html, "href", collect), "src", collect);

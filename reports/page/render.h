@@ -16,9 +16,9 @@ namespace trammel::reports {
 
 /// Converts links that are relative to the folder of the report ("cases/a.html#check-b") to links
 /// that are relative to the page at `page` ("cases/a.html").
-[[nodiscard]] std::string linked_from(const std::string& html, const std::string& page);
+[[nodiscard]] std::string with_relative_links(const std::string& html, const std::string& page);
 
 /// Returns the values of all href and src attributes of a page.
-[[nodiscard]] std::vector<std::string> targets_in(const std::string& html);
+[[nodiscard]] std::vector<std::string> link_targets(const std::string& html);
 
 }  // namespace trammel::reports

@@ -25,7 +25,7 @@ std::vector<fs::path> earlier_files(const fs::path& out) {
     const std::string html = read_file(out / page);
     if (html.find(kGenerator) == std::string::npos) continue;
     files.insert(page);
-    for (const std::string& target : targets_in(html)) {
+    for (const std::string& target : link_targets(html)) {
       const std::string name = target.substr(0, target.find('#'));
       const fs::path file = (page.parent_path() / name).lexically_normal();
       if (name.empty() || file.is_absolute() || *file.begin() == ".." || files.count(file))

@@ -22,12 +22,12 @@ std::filesystem::path write_report(const Results& results, const std::filesystem
 /// @throws std::runtime_error  if a figure cannot be drawn or the file cannot be written
 void write_comparison(const results::SideComparison& comparison, const std::filesystem::path& file);
 
-/// Writes `index.html` into `out`, which compares the results of several codes, case by case. Each
-/// row has the worst check of a case with its expected value. Each cell has the grade of a code,
-/// its difference from the expected value, and its computing time.
+/// Writes `index.html` into `out`, which compares the results of several simulation codes. Each row
+/// has a variant of a case with one decisive check and its expected value. Each cell has the grade
+/// of a code, its difference from the expected value, and its computing time.
 /// @returns the path of the page. @throws std::runtime_error  if a results file cannot be read.
-std::filesystem::path write_codes(const std::vector<std::filesystem::path>& results_json,
-                                  const std::filesystem::path& out);
+std::filesystem::path write_code_comparison(const std::vector<std::filesystem::path>& results_json,
+                                            const std::filesystem::path& out);
 
 /// Writes results as JUnit XML: a testsuite for each case, a testcase for each check of a run, and
 /// one with the name "status" for each run. The names do not depend on the outcome. A known

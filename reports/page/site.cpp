@@ -62,22 +62,22 @@ Data index_data(const Results& results, const std::vector<Family>& families,
   return object(
       {{"environment", environment_section(results)},
        {"claims", claims_section(results)},
-       {"known", known_section(results, families)},
+       {"known", discrepancy_section(results, families)},
        {"audit", audit_section(results, families, summary)},
        {"cost", cost_section(results, figures)},
        {"stress_suite", stress_suite_section(families)},
        {"effects", effects_section(figures)},
-       {"orders", orders_section(results, families)},
+       {"orders", convergence_section(results, families)},
        {"validation_uncertainty", validation_uncertainty_section(families)},
        {"coverage", coverage_section(results)},
        {"detection", of_catalogue},
        {"certification", of_catalogue},
-       {"history", history_section(results, figures)},
+       {"history", call_history_section(results, figures)},
        {"has_catalogue", results.claims.has_value()},
        {"missing", results.missing},
        {"has_runs", !results.runs.empty() || (figures.cost.empty() && figures.effects.empty())},
        {"summary", summary},
-       {"front", front_section(results, families, figures)},
+       {"front", front_page_section(results, families, figures)},
        {"families", list_of(families, group)}});
 }
 
@@ -197,7 +197,7 @@ std::vector<SiteFile> site_files(const Results& results, const std::vector<Famil
                {"at_references", path == "references.html"},
                {"has_references", !results.references.empty()},
                {"body", body}});
-    files.push_back({path, linked_from(render("page.mustache", page), path)});
+    files.push_back({path, with_relative_links(render("page.mustache", page), path)});
   };
   for (std::size_t f = 0; f < families.size(); ++f) {
     const std::string link = family_link(families[f].id);

@@ -130,6 +130,20 @@ TextTable uncertainty_table(const CaseInfo& info, const std::vector<const Run*>&
   return table;
 }
 
+/// Returns the inputs of the model with a heading for each object of the case file.
+TextTable inputs_table(const CaseInfo& info) {
+  TextTable table{"Inputs of the model", {"Input", ">Value", "Unit"}};
+  std::string last;
+  for (const auto& [path, value] : info.inputs) {
+    const std::size_t slash = path.rfind('/');
+    const std::string object = slash == std::string::npos ? "model" : path.substr(0, slash);
+    if (std::exchange(last, object) != object) table.rows.push_back({object});
+    const QuantityLabel input = parse_quantity(path.substr(slash + 1));
+    table.rows.push_back({input.label, value, input.unit});
+  }
+  return table;
+}
+
 bool selects_effects(const Run* run) {
   return std::ranges::any_of(
       run->effects, [](const EffectRow& effect) { return effect.cumulative_change.has_value(); });
@@ -170,7 +184,8 @@ Data variant_tables(const CaseInfo& info, const std::vector<const Run*>& runs) {
 }
 
 void set_run_tables(Data& data, const CaseInfo& info, const std::vector<const Run*>& runs) {
-  Data errors(false), probabilities = list(), effects(false), uncertainty(false);
+  Data errors(false), probabilities = list(), effects(false), uncertainty(false), inputs(false);
+  if (!info.inputs.empty()) inputs = table_data(inputs_table(info));
   std::vector<std::string> excluded;
   const TextTable comparisons = uncertainty_table(info, runs);
   if (!comparisons.rows.empty()) uncertainty = table_data(comparisons);
@@ -197,6 +212,7 @@ void set_run_tables(Data& data, const CaseInfo& info, const std::vector<const Ru
                          ", as " + readings.first + ": " + readings.reason);
   }
   set(data, {{"errors", errors},
+             {"inputs", inputs},
              {"effects", effects},
              {"uncertainty", uncertainty},
              {"has_probabilities", probabilities.is_non_empty_list()},

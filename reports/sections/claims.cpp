@@ -47,7 +47,7 @@ std::string number_text(const ClaimInterpretation& interpretation, double value)
   return trimmed(value, 4) + (unit.empty() ? "" : "\u202f" + unit);
 }
 
-/// Returns the measured value of an interpretation, or the range of several values.
+/// Returns the measured value of a claim under one interpretation, or the range of several values.
 std::string measured_range_text(const ClaimInterpretation& interpretation) {
   if (interpretation.entries.empty()) return "";
   const auto [lowest, highest] =

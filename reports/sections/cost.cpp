@@ -27,7 +27,8 @@ std::string settings_text(const CostStudy& study, const CheapestSetting& cheapes
   return tied > named ? text + " or one of " + std::to_string(tied - named) + " more" : text;
 }
 
-/// Returns a table without rows for the cheapest settings, with a column for each target error.
+/// Returns the headings of a table of the cheapest settings, with a column for each target error.
+/// The caller adds the rows.
 TextTable cheapest_table(const std::string& title, const std::string& head,
                          const CostStudy& study) {
   TextTable table{title, {head}};

@@ -46,7 +46,7 @@ bool is_in_matrix(const Check& check) {
 
 std::vector<MatrixSubject> subjects(const Family& family) {
   std::vector<MatrixSubject> out;
-  for (const Run* run : family.runs) {
+  for (const Run* run : family.runs)
     for (const Check& check : run->checks) {
       if (!is_in_matrix(check)) continue;
       const auto same = [&](const MatrixSubject& known) {
@@ -61,7 +61,6 @@ std::vector<MatrixSubject> subjects(const Family& family) {
       subject.rows.back().checks[entry] = {&check, find_comparison(*run, check)};
       subject.targets.emplace(entry, *check.expected);
     }
-  }
   return out;
 }
 
@@ -192,7 +191,8 @@ std::string most_probable(const std::string& reference, const Results& results) 
   return text.empty() ? text : text + ".";
 }
 
-/// Returns the variant with the smallest differences, and the targets that no variant reaches.
+/// Returns the most probable reading of the published model, or else the variant with the smallest
+/// differences. Then lists the targets that no variant reaches.
 std::string conclusion(const MatrixSubject& subject, const Family& family, const Results& results) {
   const MatrixRow& best = subject.rows.front();
   std::string text = most_probable(subject.reference, results);

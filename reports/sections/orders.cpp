@@ -146,7 +146,7 @@ Data family_of(const Family& family, Findings& all) {
 
 }  // namespace
 
-Data orders_section(const Results& results, const std::vector<Family>& families) {
+Data convergence_section(const Results& results, const std::vector<Family>& families) {
   Data shown = list();
   std::size_t entries = 0;
   for (const Family& family : families) {

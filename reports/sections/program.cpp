@@ -18,14 +18,15 @@ std::string time_text(const Results& results) {
 constexpr std::array<const char*, 5> kEvidence = {"exact", "published", "manufactured", "code",
                                                   "self-consistency"};
 
-/// Returns a table of the features of a group. Features without independent evidence are first.
+/// Returns a table of the features of one group: keys of a case, pairs of analysis and part, or
+/// quantities. Features without independent evidence are first.
 Data group_data(const std::vector<CoverageRow>& rows, const std::string& group,
                 const std::string& title) {
   TextTable table{title, {"Feature"}};
   table.heads.insert(table.heads.end(), kEvidence.begin(), kEvidence.end());
   table.heads.insert(table.heads.end(), {"Series judged", "Reason for no independent evidence"});
   std::size_t verified = 0, with_reason = 0;
-  for (const bool is_verified : {false, true}) {
+  for (const bool is_verified : {false, true})
     for (const CoverageRow& row : rows) {
       if (row.group != group || row.is_verified() != is_verified) continue;
       if (is_verified) ++verified;
@@ -38,7 +39,6 @@ Data group_data(const std::vector<CoverageRow>& rows, const std::string& group,
                                  : "");
       cells.push_back(row.reason);
     }
-  }
   Data data = table_data(table);
   data.set("count", std::to_string(verified) + " of " + std::to_string(table.rows.size()) +
                         " with independent evidence, " + std::to_string(with_reason) +
@@ -76,7 +76,7 @@ Data environment_section(const Results& results) {
   return data;
 }
 
-Data history_section(const Results& results, const StudyFigures& figures) {
+Data call_history_section(const Results& results, const StudyFigures& figures) {
   if (!results.history || results.history->calls.empty()) return object({{"has_rows", false}});
   const History& history = *results.history;
   const std::size_t changes = history.changes.size() + history.work.size();

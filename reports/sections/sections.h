@@ -17,7 +17,8 @@ namespace trammel::reports {
 /// (`status_text`, `status_class`, `sign`).
 [[nodiscard]] Data with_status(CheckStatus status, std::initializer_list<Entry> entries = {});
 
-/// Returns a list of {n, percent}: number of checks of each status that occurs.
+/// Returns a list with an entry for each status that occurs: number n of its checks, and their
+/// percentage of all checks.
 [[nodiscard]] Data counts_list(const Counts& counts);
 
 /// Return links to the page of a case, a family or a reference, relative to the report folder.
@@ -47,7 +48,7 @@ struct StudyFigures {
 [[nodiscard]] Data effects_section(const StudyFigures& figures);
 
 /// Work and time of the calls of trammel in a history file, and the number of changed values.
-[[nodiscard]] Data history_section(const Results& results, const StudyFigures& figures);
+[[nodiscard]] Data call_history_section(const Results& results, const StudyFigures& figures);
 
 /// Features of the program, each with the types of evidence that verify it.
 [[nodiscard]] Data coverage_section(const Results& results);
@@ -61,13 +62,14 @@ struct StudyFigures {
 /// A family of cases with its common figures and tables, and a line for each case.
 [[nodiscard]] Data family_section(const Family& family, const Results& results);
 
-/// Returns a matrix for each validation check with many variants or a validation uncertainty.
-/// Variants are rows, with the nearest to the published values first. Checked values are columns.
+/// Returns a table ("matrix") of differences for each validation check with many variants or a
+/// validation uncertainty. Variants are rows, with the nearest to the published values first.
+/// Checked values are columns.
 [[nodiscard]] Data comparison_matrices(const Family& family, const Results& results);
 
 /// Observed and theoretical orders of convergence. The section also shows the fraction of
 /// refinement levels on which the numerical uncertainty (GCI) covers the exact value.
-[[nodiscard]] Data orders_section(const Results& results, const std::vector<Family>& families);
+[[nodiscard]] Data convergence_section(const Results& results, const std::vector<Family>& families);
 
 /// Provenance of all references.
 [[nodiscard]] Data references_section(const Results& results);
@@ -85,11 +87,11 @@ struct StudyFigures {
                                  const Data& summary);
 
 /// Known discrepancies by family, with their reasons.
-[[nodiscard]] Data known_section(const Results& results, const std::vector<Family>& families);
+[[nodiscard]] Data discrepancy_section(const Results& results, const std::vector<Family>& families);
 
 /// Key numbers (tiles) and figures of the front page.
-[[nodiscard]] Data front_section(const Results& results, const std::vector<Family>& families,
-                                 const StudyFigures& figures);
+[[nodiscard]] Data front_page_section(const Results& results, const std::vector<Family>& families,
+                                      const StudyFigures& figures);
 
 /// Returns the tables of the checks of a case. If there are many checks, one table has the worst
 /// value of each check, and a folded table has all checks.
@@ -105,9 +107,9 @@ struct StudyFigures {
 /// Returns the tables that a case requests. Variants are rows; quantities and times are columns.
 [[nodiscard]] Data variant_tables(const CaseInfo& info, const std::vector<const Run*>& runs);
 
-/// Sets tables of all validation uncertainties, of discretization errors and of selected effects
-/// (each from the first run with these data), and of the probabilities of interpretations of the
-/// paper. A table without rows is false.
+/// Sets tables of all validation uncertainties, and of the probabilities of interpretations of the
+/// published model. Also sets tables of discretization errors and of selected effects, each from
+/// the first run with these data. A table without rows is false.
 void set_run_tables(Data& data, const CaseInfo& info, const std::vector<const Run*>& runs);
 
 }  // namespace trammel::reports

@@ -17,15 +17,12 @@ struct Indicator {
 
 Indicator worst_of(const std::string& check, const std::vector<const Run*>& runs) {
   Indicator found;
-  for (const Run* run : runs) {
+  for (const Run* run : runs)
     for (const Check& entry : run->checks) {
       if (entry.name != check) continue;
       ++found.entries;
-      if (found.worst && !worse(entry, *found.worst)) continue;
-      found.worst = &entry;
-      found.run = run;
+      if (!found.worst || worse(entry, *found.worst)) found.worst = &entry, found.run = run;
     }
-  }
   return found;
 }
 
@@ -46,14 +43,6 @@ Data row_of(const Indicator& indicator, const CaseInfo& info) {
        {"why", check.why}});
 }
 
-Data missing_row(const std::string& check) {
-  return with_status(CheckStatus::not_run, {{"quantity", check},
-                                            {"of_what", "no run has this check"},
-                                            {"value", "–"},
-                                            {"bound", "–"},
-                                            {"why", ""}});
-}
-
 /// Returns the title of a stress case without its number: "From 1 to 10,000 elements" for "Stress
 /// case 7: from 1 to 10,000 elements".
 std::string title_of(const CaseInfo& info) {
@@ -67,7 +56,10 @@ Data case_of(const CaseInfo& info, const Family& family, Counts& counts) {
   for (const std::string& check : info.stress_suite->indicators) {
     const Indicator indicator = worst_of(check, family.runs_of(info.id));
     ++counts[indicator.worst ? check_status(*indicator.worst) : CheckStatus::not_run];
-    rows.push_back(indicator.worst ? row_of(indicator, info) : missing_row(check));
+    rows.push_back(indicator.worst
+                       ? row_of(indicator, info)
+                       : with_status(CheckStatus::not_run,
+                                     {{"quantity", check}, {"of_what", "no run has this check"}}));
   }
   return object({{"item", std::to_string(info.stress_suite->item)},
                  {"case_title", title_of(info)},
@@ -90,13 +82,12 @@ Data stress_suite_section(const std::vector<Family>& families) {
   std::multimap<int, Data> cases;
   std::set<int> items;
   Counts counts;
-  for (const Family& family : families) {
-    for (const CaseInfo* info : family.cases) {
-      if (!info->stress_suite) continue;
-      cases.emplace(info->stress_suite->item, case_of(*info, family, counts));
-      items.insert(info->stress_suite->item);
-    }
-  }
+  for (const Family& family : families)
+    for (const CaseInfo* info : family.cases)
+      if (info->stress_suite) {
+        cases.emplace(info->stress_suite->item, case_of(*info, family, counts));
+        items.insert(info->stress_suite->item);
+      }
   Data in_order = list();
   for (const auto& [item, data] : cases) in_order.push_back(data);
   return object({{"has_rows", !cases.empty()},

@@ -129,7 +129,7 @@ struct KnownDiscrepancy {
 
 std::vector<KnownDiscrepancy> known_discrepancies(const Family& family, const Results& results) {
   std::vector<KnownDiscrepancy> known;
-  for (const Run* run : family.runs) {
+  for (const Run* run : family.runs)
     for (const Check& check : run->checks) {
       if (check_status(check) != CheckStatus::known_discrepancy) continue;
       const CaseInfo& info = results.case_info(run->case_id);
@@ -140,7 +140,6 @@ std::vector<KnownDiscrepancy> known_discrepancies(const Family& family, const Re
       entries.emplace_back(run, &check);
       if (worse(check, *entries.front().second)) std::swap(entries.front(), entries.back());
     }
-  }
   return known;
 }
 
@@ -272,8 +271,8 @@ Data tiles_of(const Results& results) {
   return tiles;
 }
 
-/// Returns the case that compares most printed numbers with computed ones and their validation
-/// uncertainty, and its figures.
+/// Returns the case with the largest number of comparisons of printed and computed values, and its
+/// figures. Only cases with validation uncertainties are considered.
 std::pair<const CaseInfo*, const Gallery*> find_main_comparison(
     const std::vector<Family>& families) {
   std::pair<const CaseInfo*, const Gallery*> found{nullptr, nullptr};
@@ -331,7 +330,7 @@ Data study_figures(const std::vector<Family>& families, const StudyFigures& stud
 
 }  // namespace
 
-Data known_section(const Results& results, const std::vector<Family>& families) {
+Data discrepancy_section(const Results& results, const std::vector<Family>& families) {
   const Data known = known_by_family(results, families);
   return object({{"has_rows", known.is_non_empty_list()},
                  {"words", targets_of(results).text()},
@@ -377,8 +376,8 @@ Data summary_section(const Results& results, const std::vector<Family>& families
   return data;
 }
 
-Data front_section(const Results& results, const std::vector<Family>& families,
-                   const StudyFigures& studies) {
+Data front_page_section(const Results& results, const std::vector<Family>& families,
+                        const StudyFigures& studies) {
   const Data answer = manipulator_figures(families), questions = study_figures(families, studies);
   return object({{"tiles", tiles_of(results)},
                  {"has_answer", answer.is_non_empty_list()},

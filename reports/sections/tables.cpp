@@ -78,7 +78,8 @@ bool same_reason(const Check& a, const Check& b) {
 }
 
 /// Adds a row for each value of a check, or only for its worst value if there are more than
-/// kMaxEntries. Values with different reasons form separate groups.
+/// kMaxEntries. Values with different references, or different reasons for their tolerances, form
+/// separate groups.
 void add_group(Data& groups, const CheckGroup& group, Rows& table) {
   if (group.checks.size() > kMaxEntries) {
     const Check& worst = group.worst();
@@ -142,7 +143,7 @@ Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows
     std::size_t entries;
   };
   std::vector<Worst> worst;
-  for (const Run* run : runs) {
+  for (const Run* run : runs)
     for (const CheckGroup& group : group_checks(*run)) {
       const Check& check = group.worst();
       const auto same = [&](const Worst& known) {
@@ -152,7 +153,6 @@ Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows
       known.entries += group.checks.size();
       if (worse(check, *known.check)) known.check = &check, known.run = run;
     }
-  }
   Data groups = list();
   for (const Worst& w : worst) {
     std::string entry =

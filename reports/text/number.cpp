@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <iterator>
+#include <regex>
 #include <sstream>
 
 namespace trammel::reports {
@@ -101,27 +101,17 @@ std::string power_of_ten(int exponent) {
 }
 
 std::string with_powers(const std::string& text) {
-  const auto is_word = [](char c) {
-    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-  };
-  const char* const end = text.data() + text.size();
+  static const std::regex number(R"((?:^|\W)(\d+(?:\.\d*)?)[eE]([-+]?\d+)(?!\w))");
+  auto from = text.cbegin();
   std::string out;
-  for (const char* at = text.data(); at != end;) {
-    const char before = at == text.data() ? ' ' : at[-1];
-    double number = 0;
-    const auto [after, error] = std::from_chars(at, end, number, std::chars_format::scientific);
-    if (std::isdigit(static_cast<unsigned char>(*at)) == 0 || is_word(before) ||
-        error != std::errc() || (after != end && is_word(*after))) {
-      out += *at++;
-      continue;
-    }
-    const char* const e = std::find_if(at, after, [](char c) { return c == 'e' || c == 'E'; });
-    const std::string mantissa(at, e);
-    if (mantissa != "1") out += mantissa + "\u202f×\u202f";
-    out += power_of_ten(std::stoi(std::string(e + 1, after)));
-    at = after;
+  for (std::sregex_iterator it(text.begin(), text.end(), number), end; it != end; ++it) {
+    const std::ssub_match mantissa = (*it)[1];
+    out.append(from, mantissa.first);
+    if (mantissa != "1") out += mantissa.str() + "\u202f×\u202f";
+    out += power_of_ten(std::stoi((*it)[2]));
+    from = (*it)[0].second;
   }
-  return out;
+  return out.append(from, text.cend());
 }
 
 std::string count(std::size_t n, const std::string& singular, const std::string& plural) {

@@ -234,7 +234,8 @@ std::vector<Index> append_mesh(Model& model, Index plate, const BlockMesh& mesh,
 
 namespace {
 
-/// Returns the offset -1, 0 or 1 of a node in a pattern with a period of three cells.
+/// Returns the displacement of a node along one axis, divided by the amplitude of the distortion:
+/// -1, 0 or 1. The values repeat with period 3 in n.
 double pattern(Index n) {
   return static_cast<double>(n % 3) - 1;
 }
@@ -251,7 +252,7 @@ Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate) {
   BlockMesh block = mesh_blocks(
       {{{Vector2d::Zero(), x, size, y}, {}, {mesh.cells, mesh.cells}, {1, 1}}}, mesh.six_nodes);
   const auto distort = [&](Vector2d& position) {
-    // Column and row of the corner of a cell.
+    // Column and row of the node at `position`, counted in cells from the origin.
     Vector2d at = (cells * position.cwiseQuotient(size)).array().round();
     const auto i = static_cast<Index>(at.x()), j = static_cast<Index>(at.y());
     const bool inside = i > 0 && j > 0 && i < mesh.cells && j < mesh.cells;

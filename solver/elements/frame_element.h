@@ -114,7 +114,7 @@ template <Real T>
 /// integral of rho A (u^2 + v^2) and, with rotary inertia, of rho I θ^2 over the interpolation. The
 /// lumped matrix assigns half of the mass and of the rotary inertia to each node. Rotations are
 /// therefore massless without rotary inertia.
-/// Source: paper Eq. (6, 7); Friedman & Kosmatka (1993).
+/// Source: Varalakshmi & Srinivas (2017), Eq. 6, 7; Friedman & Kosmatka (1993).
 template <Real T>
 [[nodiscard]] Matrix6<T> frame_mass(const SectionOf<T>& section, BeamTheory theory, MassMatrix mass,
                                     const std::type_identity_t<T>& length) {
@@ -143,7 +143,7 @@ template <Real T>
 [[nodiscard]] Vector6d frame_uniform_load(const Vector2d& load, double length);
 
 /// Returns T_s, 6 x 6, which maps world degrees of freedom to element degrees of freedom.
-/// Source: paper Eq. (10).
+/// Source: Varalakshmi & Srinivas (2017), Eq. 10.
 template <Real T = double>
 [[nodiscard]] Matrix6<T> frame_rotation(const Eigen::Vector2<T>& direction) {
   Matrix6<T> R = Matrix6<T>::Zero();

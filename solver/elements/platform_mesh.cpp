@@ -140,7 +140,7 @@ TriangleMesh platform_mesh(const std::array<Vector2d, 3>& vertices, const Vector
                                             : TriangleMesh::Nodes{i, j, 3, -1, -1, -1};
     const auto corner = [&](std::size_t k) { return mesh.nodes[static_cast<std::size_t>(t[k])]; };
     if (!(twice_area(corner(0), corner(1), corner(2)) > 0))
-      throw ModelError("P must lie inside the triangle C1 C2 C3, which the mesh divides at P");
+      throw ModelError("P must lie inside the triangle C1 C2 C3 of the meshed platform");
     mesh.triangles.push_back(t);
   }
   for (int i = 0; i < refinements; ++i) mesh = split(std::move(mesh));

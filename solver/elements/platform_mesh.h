@@ -17,8 +17,9 @@ struct TriangleMesh {
   std::vector<Nodes> triangles;
 };
 
-/// Meshes the platform by the three triangles of the paper (C1 C2 P, C2 C3 P, C3 C1 P). Each
-/// triangle is split into four `refinements` times. Mid-side nodes are then added for six-node
+/// Meshes a platform with the joints C1, C2, C3 (`vertices`) and the center P. The coarsest mesh
+/// consists of the triangles C1 C2 P, C2 C3 P and C3 C1 P, as in Varalakshmi & Srinivas (2017).
+/// Each triangle is split into four `refinements` times. Mid-side nodes are then added for six-node
 /// triangles.
 /// @throws ModelError  if P is not inside the triangle C1 C2 C3, or refinements is not in 0..10.
 [[nodiscard]] TriangleMesh platform_mesh(const std::array<Vector2d, 3>& vertices, const Vector2d& P,

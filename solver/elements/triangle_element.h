@@ -18,9 +18,10 @@
 ///   d = B u = (exx + eyy, exx - eyy, gxy),
 ///   k = B^T diag(t A E / (2 (1 - nu)), t A G, t A G) B.
 ///
-/// This equals k = t integral B^T D B dA, paper Eq. (8). The six-node triangle sums over the points
-/// of an integration rule that is exact to degree 4. Its strains are linear, so that degree 2
-/// suffices for straight sides. Curved sides require the higher degree.
+/// This equals k = t integral B^T D B dA with the elasticity matrix D, Varalakshmi & Srinivas
+/// (2017), Eq. 8. The six-node triangle sums over the points of an integration rule that is exact
+/// to degree 4. Its strains are linear, so that degree 2 suffices for straight sides. Curved sides
+/// require the higher degree.
 namespace trammel::solver {
 
 template <std::size_t n>
@@ -99,7 +100,7 @@ template <int nodes>
 [[nodiscard]] Vector3d membrane_rigidity(const Material& material, double volume);
 
 /// Returns the stresses (sxx, syy, sxy) [Pa] of the deformation (exx + eyy, exx - eyy, gxy).
-/// Source: paper Eq. (8).
+/// Source: Varalakshmi & Srinivas (2017), Eq. 8.
 [[nodiscard]] Vector3d membrane_stress(const Material& material, const Vector3d& deformation);
 
 /// Stiffness of a triangle in factored form, k = B^T diag(c) B, with three rows per integration
@@ -114,7 +115,7 @@ struct TriangleStiffness {
 };
 
 /// Computes the factored stiffness of a triangle.
-/// Source: paper Eq. (8); Zienkiewicz & Taylor.
+/// Source: Varalakshmi & Srinivas (2017), Eq. 8; Zienkiewicz & Taylor.
 template <std::size_t n>
 [[nodiscard]] TriangleStiffness<n> triangle_stiffness(const TriangleNodes<n>& nodes,
                                                       const Plate& plate);
@@ -124,7 +125,7 @@ template <std::size_t n>
 ///   \f[ m = \rho t \int N^T N \, dA. \f]
 ///
 /// It is also exact for curved sides (integrand of degree 6).
-/// Source: paper Eq. (9).
+/// Source: Varalakshmi & Srinivas (2017), Eq. 9.
 template <std::size_t n>
 [[nodiscard]] TriangleMatrix<n> triangle_mass(const TriangleNodes<n>& nodes, const Plate& plate);
 

@@ -6,7 +6,7 @@
 
 namespace trammel::solver {
 
-Eigen::VectorXd scale_of(const Eigen::MatrixXd& inputs, InputScaling scaling) {
+Eigen::VectorXd input_scales(const Eigen::MatrixXd& inputs, InputScaling scaling) {
   Eigen::VectorXd scale = Eigen::VectorXd::Ones(inputs.cols());
   if (scaling == InputScaling::none) return scale;
   for (Index f = 0; f < inputs.cols(); ++f) {
@@ -45,7 +45,7 @@ Grnn make_grnn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs, do
                InputScaling scaling) {
   require(inputs.rows() >= 1, "a GRNN requires at least one sample");
   require(squarable(inputs), "an input of a GRNN sample is not finite or too large to be squared");
-  return make_grnn(inputs, outputs, sigma, scale_of(inputs, scaling));
+  return make_grnn(inputs, outputs, sigma, input_scales(inputs, scaling));
 }
 
 double sigma_of_spread(double spread) {
@@ -71,7 +71,7 @@ Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
   Eigen::MatrixXd result(queries.rows(), columns), found(kBlock, columns + 1);
   Eigen::MatrixXd weights(samples.rows(), kBlock);
   ExcessDistances excess(samples);
-  const double reach = reach_of_kernel(network.sigma);
+  const double reach = kernel_cutoff(network.sigma);
   for (Index begin = 0; begin < queries.rows(); begin += kBlock) {
     const Index count = std::min(kBlock, queries.rows() - begin);
     Index first = samples.rows(), last = 0;
@@ -116,7 +116,8 @@ const Eigen::ArrayXd& ExcessDistances::compute(const Eigen::Ref<const Eigen::Vec
   for (first_ = 0; first_ < nearest && !(excess_(first_) <= limit);) ++first_;
   for (last_ = count; last_ > nearest + 1 && !(excess_(last_ - 1) <= limit);) --last_;
 
-  // Samples beyond the reach keep the squared distance D_i^2, which is at least their excess.
+  // Samples outside [first_, last_) keep the squared distance D_i^2. It is at least their excess
+  // D_i^2 - D_m^2, where m is the nearest sample.
   auto near = excess_.segment(first_, last_ - first_);
   near.setZero();
   for (Index f = 0; f < samples_.cols(); ++f) {
@@ -140,7 +141,7 @@ void kernel_weights(const double* excess, Index count, double sigma, double* wei
       (-0.5 * (e * inverse) * inverse).max(kLeastExponent).exp();
 }
 
-double reach_of_kernel(double sigma) {
+double kernel_cutoff(double sigma) {
   return -2 * kLeastExponent * sigma * sigma;
 }
 

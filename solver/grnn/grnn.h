@@ -22,7 +22,7 @@ enum class InputScaling {
 ///   \f[ Y(x) = \sum_i Y_i w_i \Big/ \sum_i w_i, \quad w_i = e^{-D_i^2 / 2 \sigma^2}, \quad
 ///       D_i^2 = \sum_f ((x_f - X_{if}) / s_f)^2 \f]
 ///
-/// (paper Eq. 36 and 37) with the scale s of each input.
+/// with the scale s_f of input f. Source: Varalakshmi & Srinivas (2017), Eq. 36, 37.
 struct Grnn {
   Eigen::MatrixXd inputs;   ///< sample x input
   Eigen::MatrixXd outputs;  ///< sample x output
@@ -64,7 +64,7 @@ struct Grnn {
 // Kernel weights of a GRNN, shared by prediction and cross-validation.
 
 /// Returns the scale of each column (input) of the samples; 1 for a constant column.
-[[nodiscard]] Eigen::VectorXd scale_of(const Eigen::MatrixXd& columns, InputScaling scaling);
+[[nodiscard]] Eigen::VectorXd input_scales(const Eigen::MatrixXd& columns, InputScaling scaling);
 /// Returns the inputs divided by their scales, sample x input [-].
 [[nodiscard]] inline Eigen::MatrixXd scaled_inputs(const Grnn& network) {
   return network.inputs * network.scale.cwiseInverse().asDiagonal();
@@ -104,6 +104,6 @@ void kernel_weights(const double* excess, Index count, double sigma, double* wei
 
 /// Returns the excess above which the weight of a sample is negligible; infinite if sigma^2
 /// overflows.
-[[nodiscard]] double reach_of_kernel(double sigma);
+[[nodiscard]] double kernel_cutoff(double sigma);
 
 }  // namespace trammel::solver

@@ -50,7 +50,8 @@ std::vector<bool> training_mask(Index samples, Index train, Split split, std::ui
   const std::vector<Index> order = order_of(samples, split == Split::shuffled, seed);
   std::vector<bool> trains(order.size(), false);
   for (Index k = 0; k < train; ++k) {
-    // Interleaved samples are in the middle of the k-th of `train` equal intervals.
+    // The k-th interleaved training sample is in the middle of the k-th of `train` equal intervals
+    // of the sample indices.
     const Index rank = split == Split::interleaved ? (2 * k + 1) * samples / (2 * train) : k;
     trains[to_size(order[to_size(rank)])] = true;
   }
@@ -65,7 +66,7 @@ Eigen::VectorXd cross_validation_error(const Grnn& network, const Eigen::VectorX
   const Eigen::Map<const Eigen::Array<Index, Eigen::Dynamic, 1>> folds(fold.data(), n);
   const Eigen::MatrixXd samples = scaled_inputs(network);
   const Eigen::RowVectorXd importance =
-      scale_of(network.outputs, InputScaling::deviation).cwiseInverse();
+      input_scales(network.outputs, InputScaling::deviation).cwiseInverse();
 
   // Process samples in blocks. One matrix product combines their weights with the outputs and with
   // a column of ones for the sums of the weights.
@@ -74,7 +75,7 @@ Eigen::VectorXd cross_validation_error(const Grnn& network, const Eigen::VectorX
   Eigen::MatrixXd targets(n, columns + 1);
   targets << network.outputs, Eigen::VectorXd::Ones(n);
   ExcessDistances excess(samples);
-  const double reach = reach_of_kernel(sigmas.maxCoeff());
+  const double reach = kernel_cutoff(sigmas.maxCoeff());
   Eigen::Array<bool, Eigen::Dynamic, 1> own(n);
   Eigen::ArrayXXd excesses(n, kBlock);
   Eigen::MatrixXd weights(n, kBlock), found(kBlock, columns + 1);

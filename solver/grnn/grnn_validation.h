@@ -28,7 +28,9 @@ struct CrossValidation {
 
 /// Choice of the samples that train a network. The other samples are held out for testing.
 enum class Split {
-  first,  ///< first samples in time, as in the paper: the held-out samples require extrapolation
+  /// First samples in time, as in Varalakshmi & Srinivas (2017): the held-out samples require
+  /// extrapolation.
+  first,
   interleaved,  ///< spread evenly over all samples
   shuffled      ///< drawn with `seed`, the same on every machine
 };
@@ -63,10 +65,10 @@ struct SigmaSearch {
 /// all samples.
 [[nodiscard]] Eigen::VectorXd default_grid(const Grnn& network, Index count = 41);
 
-/// Searches the sigma with the least cross-validation error. A grid search as in the paper is
-/// followed by Brent's method in log sigma between the neighbors of the best grid point. If errors
-/// are equal on the grid, the smaller sigma is selected. The result has the least error of all
-/// evaluations. It may be a local minimum if there are several minima.
+/// Searches the sigma with the least cross-validation error. A grid search as in Varalakshmi &
+/// Srinivas (2017) is followed by Brent's method in log sigma between the neighbors of the best
+/// grid point. If errors are equal on the grid, the smaller sigma is selected. The result has the
+/// least error of all evaluations. It may be a local minimum if there are several minima.
 /// @throws ModelError  if the grid does not ascend from a positive number, or for the reasons of
 ///   `fold_of_samples`.
 [[nodiscard]] SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,

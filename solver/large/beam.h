@@ -89,6 +89,7 @@ struct Beam : ElementSizes<12, 6> {
   [[nodiscard]] Square mass() const;
   /// Returns the nodal forces of a distributed load [N/m].
   [[nodiscard]] Coordinates distributed_load(const Vector2d& force_per_length) const;
+  /// Returns the compliance of each constraint row: w h / EA (stretch) or w h / kGA (shear).
   [[nodiscard]] Rows compliance() const;
   /// Returns the penalties rho of the constraint rows (`KktMatrix`). The stiffness term of rho is a
   /// shear stiffness 12 EI/h^2, which is comparable with the bending stiffness. The mass term is

@@ -37,8 +37,9 @@ class ConsistentInitialization {
     return {};
   }
 
-  /// Returns the residuals G v + dg/dt of the constraint rates for the velocities v that satisfy
-  /// these constraints best.
+  /// Computes the velocities v that satisfy the rates of the constraints as well as possible.
+  /// Returns the remaining residuals G v + dg/dt, which are not zero if drives contradict the
+  /// constraints.
   VectorXd rate_defect() {
     state_.v.setZero(n_);
     if (!solve_velocities({})) return VectorXd::Zero(m_);
@@ -65,11 +66,12 @@ class ConsistentInitialization {
   /// Returns the largest residual of the rigid constraints relative to the model size or 1 rad.
   double rigid_constraint_residual() const {
     if (m_ == 0) return 0;
-    return rigid_.cwiseProduct(constraint_residual_.cwiseQuotient(system_.row_unit()))
+    return rigid_.cwiseProduct(constraint_residual_.cwiseQuotient(system_.row_units()))
         .lpNorm<Eigen::Infinity>();
   }
 
-  /// Solves the linear equations for given forces and residuals of the rigid constraint rows.
+  /// Solves S x + G^T y = force, G x - C y = -row with the factored matrix. `solution_` becomes (x,
+  /// y). The right-hand side of elastic rows is 0 instead of -row.
   /// @return false if the matrix is singular.
   bool solve(const VectorXd& force, const VectorXd& row) {
     solution_ << force, -rigid_.cwiseProduct(row);
@@ -102,8 +104,9 @@ class ConsistentInitialization {
 
   bool solve_velocities(const PrescribedVelocities& given) {
     assemble(1e-3);
-    // Penalties enforce the prescribed velocities. A penalty is 1e6 times the larger of the masses
-    // and the stiffness in the assembled matrix, for unit changes of the coordinates.
+    // Penalties enforce the prescribed velocities. For coordinates divided by their units, each
+    // penalty is 1e6 times the larger of two values. These are the sum of all inertia terms, and
+    // the largest row sum of the magnitudes in the assembled matrix.
     const VectorXd& scale = system_.scale();
     VectorXd units = VectorXd::Zero(n_ + m_), rows = units;
     units.head(n_) = scale;
@@ -115,7 +118,8 @@ class ConsistentInitialization {
     if (!matrix_.factor(system_.symmetric())) return false;
     VectorXd penalty_force = VectorXd::Zero(n_);
     for (int i = 0; i < 8; ++i) {
-      // Each pass increases the penalty forces by the remaining error of the given velocities.
+      // Each pass increases the penalty forces by the penalties times the remaining errors of the
+      // prescribed velocities.
       for (const auto& [k, value] : given) penalty_force[k] += penalty(k) * (value - state_.v[k]);
       State at_rest = state_;
       at_rest.v.setZero();
@@ -157,9 +161,10 @@ class ConsistentInitialization {
     system_.force_residual(state_, force_residual_);
     if (!solve_with_mass_scaling(0.5, bias)) return false;
     const VectorXd resolved = solution_;
-    // With this negligible stiffness, the solution is nearly the exact acceleration. It is replaced
-    // by the acceleration of an implicit step if it is more than four times as large. In this case,
-    // the step does not resolve a vibration, or a coordinate is massless.
+    // The fraction 1e-4 makes the stiffness in S negligible, so that the solution is nearly the
+    // exact acceleration. The acceleration `resolved` of an implicit step replaces it if the exact
+    // acceleration is more than four times as large. In this case, the step does not resolve a
+    // vibration, or a coordinate is massless.
     if (!solve_with_mass_scaling(1e-4, bias) ||
         weighted_rms_norm(system_, solution_.head(n_)) >
             4 * weighted_rms_norm(system_, resolved.head(n_))) {
@@ -225,10 +230,11 @@ Outcome make_consistent(const ConstrainedSystem& system, State& state,
   return ConsistentInitialization(system, state, step).run(given);
 }
 
-std::string contradictory_drives(const GeometricallyExactSystem& system, const State& state,
+std::string drive_conflicts_text(const GeometricallyExactSystem& system, const State& state,
                                  double step) {
-  // Smallest velocity error of a drive that counts as a contradiction, relative to the fastest
-  // motion. Round-off errors are much smaller.
+  // Smallest velocity error of a drive that counts as a contradiction. It is relative to the
+  // largest velocity, or the largest velocity error, of the model. Round-off errors are much
+  // smaller.
   constexpr double kContradiction = 1e-3;
   const std::vector<Drive>& drives = system.large_motion().drives;
   if (drives.empty() || !state.q.allFinite()) return "";
@@ -237,7 +243,7 @@ std::string contradictory_drives(const GeometricallyExactSystem& system, const S
     at.t += aside * step;
     at.load = system.load_factor(at.t);
     const VectorXd defect =
-        ConsistentInitialization(system, at, step).rate_defect().cwiseQuotient(system.row_unit());
+        ConsistentInitialization(system, at, step).rate_defect().cwiseQuotient(system.row_units());
     const double fastest =
         at.v.size() > 0 ? at.v.cwiseQuotient(system.scale()).lpNorm<Eigen::Infinity>() : 0;
     const double limit = kContradiction * std::max(fastest, defect.lpNorm<Eigen::Infinity>());
@@ -258,8 +264,9 @@ Outcome make_accelerations_consistent(const ConstrainedSystem& system, State& st
 
 PrescribedVelocities rigid_member_velocities(const GeometricallyExactSystem& system,
                                              const Eigen::MatrixX3d& node, const VectorXd& member) {
-  // If parts share a coordinate, the last velocity of this coordinate is used. A map would be too
-  // slow, because damping requires these velocities in every iteration.
+  // Velocity of each coordinate, or NaN. If several members or nodes share a coordinate, the value
+  // that is set last is used. A map would be too slow, because damping requires these velocities in
+  // every iteration.
   VectorXd values = VectorXd::Constant(system.coordinates(), kNaN);
   const auto set = [&](Index k, double value) {
     if (k >= 0 && k < values.size()) values[k] = value;

@@ -28,7 +28,7 @@ using PrescribedVelocities = std::vector<std::pair<Index, double>>;
 /// Returns a clause for the error message of a failed analysis. It lists drives whose motions
 /// contradict the constraints or other drives half a time step before or after a state. The clause
 /// is empty if there are no such drives.
-[[nodiscard]] std::string contradictory_drives(const GeometricallyExactSystem& system,
+[[nodiscard]] std::string drive_conflicts_text(const GeometricallyExactSystem& system,
                                                const State& state, double step);
 
 /// Computes the accelerations and Lagrange multipliers of a state from its positions and

@@ -13,7 +13,7 @@ namespace trammel::solver::large_motion {
 
 MotionResiduals::MotionResiduals(const ConstrainedSystem& system)
     : system_(system),
-      row_unit_(system.row_unit()),
+      row_unit_(system.row_units()),
       matrix_(system.coordinates(), system.constraints(), system.blocks()),
       unknowns_(VectorXd::Zero(system.coordinates() + system.constraints())),
       terms_(unknowns_),
@@ -87,11 +87,12 @@ double AssemblyBranch::orientation(const State& state) {
   matrix_->clear();
   system_.tangent(state, coefficients, *matrix_);
   Eigen::MatrixXd G(n, n);
-  G.topRows(n - freedom_) = matrix_->constraint_gradient(system_.scale(), system_.row_unit());
+  G.topRows(n - freedom_) = matrix_->constraint_gradient(system_.scale(), system_.row_units());
   if (freedom_ == 1) {
     const VectorXd rate = state.v.cwiseQuotient(system_.scale());
     const double speed = rate.norm();
-    // If a drive moves the mechanism, G v is not zero, and the velocity v has no orientation.
+    // If a drive moves the mechanism, v is not a null vector of G. The sign of det (G, v) then does
+    // not identify the assembly branch.
     if (speed == 0 || (G.topRows(n - 1) * rate).norm() > 1e-6 * speed) return 0;
     G.bottomRows<1>() = rate.normalized().transpose();
   }
@@ -121,7 +122,8 @@ class StepConvergence {
   [[nodiscard]] bool converged(double acceleration, double velocity, double position,
                                double limit) const {
     const double next = next_of(step_correction_, previous_step_correction_);
-    // Near a singular position, corrections amplify the round-off error of positions.
+    // Level at which corrections stagnate. It includes a multiple of the round-off error of the
+    // positions, which corrections amplify near a singular position.
     const double least = 1e-11 * (velocity + acceleration) + 1e-13 * position;
     const bool motion_met = next <= limit || step_correction_ <= 1e-16 * velocity ||
                             (stalled() && step_correction_ <= least);
@@ -202,17 +204,18 @@ StepReport ConstrainedStepper::attempt(const Step& step) {
   if (report.status == Status::solved) {
     const auto norm = [this](const VectorXd& x) { return size(x); };
     relation_residual_ = relation_residual(s, h, from_, A0_, to_, A1_, !projects_, norm, work_);
-    // A system at rest under changing forces moves only by the round-off errors of these forces.
-    // Compute the residual again, relative to terms that include these errors.
+    // If a system remains at rest under changing forces, its motion consists of the round-off
+    // errors of these forces. Compute the residual of the relations of the time scheme again,
+    // relative to terms that include these errors.
     if (relation_residual_ > 1e-6) {
       relation_residual_ = relation_residual(s, h, from_, A0_, to_, A1_, !projects_, norm, work_,
-                                             per_acceleration(h) * correction_roundoff(h));
+                                             acceleration_slope(h) * correction_roundoff(h));
     }
     work_ = A1_ - A0_;
     if (options_.adaptive)
       report.error = scheme_.error_constant * h * h * size(work_) / options_.adaptive->relative;
-    // A path straight through a singular position changes its orientation with steps of any size.
-    // The change is therefore accepted in very short steps.
+    // A motion straight through a singular position changes the orientation for steps of any size.
+    // A change is therefore accepted in steps of at most this fraction of the nominal step.
     constexpr double kShortest = 1e-3;
     report.leaves_branch = h > kShortest * options_.step && branch_.changes(from_, to_);
     end_step(h);
@@ -310,15 +313,15 @@ bool ConstrainedStepper::tangent(double h, bool /*exact*/) {
   coefficients.damping = scheme_.relations.velocity_gain() * h;
   coefficients.stiffness = scheme_.relations.position_gain() * h * h;
   coefficients.compliance =
-      per_acceleration(h) / (1 + system_.strain_rate_damping() * per_velocity(h));
+      acceleration_slope(h) / (1 + system_.strain_rate_damping() * velocity_slope(h));
   system_.tangent(to_, coefficients, matrix_);
   return system_.symmetric();
 }
 
-double ConstrainedStepper::elastic_row(Index r, double h) const {
+double ConstrainedStepper::elastic_residual(Index r, double h) const {
   const double tau = system_.strain_rate_damping();
   const double sum = constraint_residual_[r] + tau * constraint_rate_[r];
-  return -(sum - system_.compliance()[r] * to_.lambda[r]) / (1 + tau * per_velocity(h));
+  return -(sum - system_.compliance()[r] * to_.lambda[r]) / (1 + tau * velocity_slope(h));
 }
 
 /// Computes one Newton correction of a step. Positions are corrected first, with the residuals of
@@ -329,11 +332,11 @@ double ConstrainedStepper::elastic_row(Index r, double h) const {
 void ConstrainedStepper::correct(double h) {
   const Index n = system_.coordinates(), m = system_.constraints();
   residual(velocity_correction_.head(n));
-  velocity_correction_.head(n) /= -per_acceleration(h);
+  velocity_correction_.head(n) /= -acceleration_slope(h);
   system_.constraint_residual(to_, constraint_residual_, constraint_rate_);
   for (Index r = 0; r < m; ++r) {
     velocity_correction_[n + r] =
-        system_.compliance()[r] > 0 ? elastic_row(r, h) : -constraint_residual_[r];
+        system_.compliance()[r] > 0 ? elastic_residual(r, h) : -constraint_residual_[r];
   }
   position_correction_ = velocity_correction_;
   matrix_.solve(position_correction_);
@@ -342,19 +345,20 @@ void ConstrainedStepper::correct(double h) {
     system_.constraint_residual(to_, constraint_residual_, constraint_rate_);
     for (Index r = 0; r < m; ++r) {
       if (system_.compliance()[r] == 0)
-        velocity_correction_[n + r] = -constraint_rate_[r] / per_velocity(h);
+        velocity_correction_[n + r] = -constraint_rate_[r] / velocity_slope(h);
     }
     matrix_.solve(velocity_correction_);
   } else {
     velocity_correction_ = position_correction_;
   }
-  solver::correct(scheme_.relations, h, per_acceleration(h) * velocity_correction_.head(n), to_,
+  solver::correct(scheme_.relations, h, acceleration_slope(h) * velocity_correction_.head(n), to_,
                   A1_);
-  to_.lambda += per_acceleration(h) * velocity_correction_.tail(m);
+  to_.lambda += acceleration_slope(h) * velocity_correction_.tail(m);
 }
 
 bool ConstrainedStepper::has_converged(double h, const StepConvergence& convergence) const {
-  // Ratio of the accumulated round-off error to the estimate for a single rounding of each force.
+  // Largest final correction of a stalled iteration, as a multiple of `correction_roundoff`. This
+  // estimate includes only one rounding of each force.
   constexpr double kRoundoffErrors = 10;
   const double acceleration =
       scheme_.acceleration_share * scheme_.relations.beta * h * h * size(A1_);
@@ -372,9 +376,9 @@ bool ConstrainedStepper::has_converged(double h, const StepConvergence& converge
 double ConstrainedStepper::correction_roundoff(double h) const {
   const Index n = system_.coordinates(), m = system_.constraints();
   VectorXd multipliers = VectorXd::Zero(n + m), errors(n + m);
-  multipliers.tail(m) = to_.lambda / per_acceleration(h);
+  multipliers.tail(m) = to_.lambda / acceleration_slope(h);
   matrix_.term_magnitudes(multipliers, errors);
-  errors.tail(m) = (system_.compliance().array() == 0).select(size(to_.q) * system_.row_unit(), 0);
+  errors.tail(m) = (system_.compliance().array() == 0).select(size(to_.q) * system_.row_units(), 0);
   errors = kEps * errors.cwiseProduct(start_vectors(n + m, 1));
   matrix_.solve(errors);
   return size(errors.head(n));
@@ -398,7 +402,7 @@ class EnergyMomentum final : public ConstrainedStepper {
                             .resolution = 1e-11,
                             .position_resolution = 1e-17}),
         system_(system),
-        row_unit_(system.row_unit()),
+        row_unit_(system.row_units()),
         midpoint_(start),
         mean_lambda_(start.lambda),
         previous_mean_lambda_(start.lambda),
@@ -423,7 +427,7 @@ class EnergyMomentum final : public ConstrainedStepper {
     system_.discrete_gradient_residual(to_, from_, previous_mean_lambda_, r);
   }
   bool tangent(double h, bool exact) override;
-  [[nodiscard]] double elastic_row(Index r, double h) const override;
+  [[nodiscard]] double elastic_residual(Index r, double h) const override;
   void end_step(double h) override;
   void advance() override;
 
@@ -455,7 +459,7 @@ bool EnergyMomentum::tangent(double h, bool exact) {
   return system_.symmetric();
 }
 
-double EnergyMomentum::elastic_row(Index r, double h) const {
+double EnergyMomentum::elastic_residual(Index r, double h) const {
   const double g0 = previous_constraint_residual_[r], g1 = constraint_residual_[r];
   const double rate = system_.strain_rate_damping() / h;
   const double sum = (g0 + g1) / 2 + rate * (g1 - g0);
@@ -488,7 +492,8 @@ void EnergyMomentum::advance() {
   throughput_ += std::abs(work);
   for (const Energy& e : {before, energy_})
     largest_energy_ = std::max(largest_energy_, e.kinetic + e.strain + std::abs(e.load));
-  // Systems at rest have only the energy of the round-off errors of positions.
+  // Lower limit of the energy scale, for systems at rest: work of the constraint forces on the
+  // round-off errors of the positions.
   largest_energy_ = std::max(largest_energy_, kEps * from_.lambda.cwiseAbs().dot(row_unit_));
   largest_gap_ = nan_max(largest_gap_, std::abs(gap_));
 }

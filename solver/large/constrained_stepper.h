@@ -134,7 +134,7 @@ class ConstrainedStepper : public Stepper {
   virtual bool tangent(double h, bool exact);
   /// Returns -(g + tau dg/dt - c lambda) of the elastic constraint row r, divided by d(g + tau
   /// dg/dt)/dg.
-  [[nodiscard]] virtual double elastic_row(Index r, double h) const;
+  [[nodiscard]] virtual double elastic_residual(Index r, double h) const;
   virtual void begin_step() {}
   virtual void end_step(double /*h*/) {}
 
@@ -147,11 +147,11 @@ class ConstrainedStepper : public Stepper {
     return weighted_rms_norm(system_, x);
   }
   /// Returns the change of the acceleration a per unit change of the position q in a step.
-  [[nodiscard]] double per_acceleration(double h) const {
+  [[nodiscard]] double acceleration_slope(double h) const {
     return 1 / (scheme_.relations.position_gain() * h * h);
   }
   /// Returns the change of the velocity v per unit change of the position q in a step.
-  [[nodiscard]] double per_velocity(double h) const {
+  [[nodiscard]] double velocity_slope(double h) const {
     return scheme_.relations.gamma / (scheme_.relations.beta * h);
   }
 

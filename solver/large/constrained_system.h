@@ -60,7 +60,7 @@ class ConstrainedSystem {
   /// Returns the unit change of each coordinate: the model size [m] or 1 rad.
   [[nodiscard]] virtual const VectorXd& scale() const = 0;
   /// Returns the unit of the residual of each constraint: the model size [m] or 1 rad.
-  [[nodiscard]] virtual VectorXd row_unit() const;
+  [[nodiscard]] virtual VectorXd row_units() const;
   /// Returns the unknowns that each element couples, for `KktMatrix`.
   [[nodiscard]] virtual std::vector<std::vector<Index>> blocks() const = 0;
 
@@ -93,7 +93,7 @@ class ConstrainedSystem {
   return least < 1 ? least : system.scale().maxCoeff();
 }
 
-inline VectorXd ConstrainedSystem::row_unit() const {
+inline VectorXd ConstrainedSystem::row_units() const {
   return VectorXd::Constant(constraints(), length_scale(*this));
 }
 

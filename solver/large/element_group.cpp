@@ -80,12 +80,13 @@ PenaltyScales::PenaltyScales(const Model& model, const LargeMotionModel& large_m
       mean_of_positive(of_translations(stiffness_), turning > 0 ? turning : mean_mass_);
 }
 
-RowScales PenaltyScales::of_row(std::span<const Index> coordinates, double lever) const {
+RowScales PenaltyScales::row_scales(std::span<const Index> coordinates, double lever) const {
   const bool turns =
       std::ranges::all_of(coordinates, [&](Index k) { return k < 0 || layout_.is_rotation(k); });
   const auto largest = [&](const Eigen::VectorXd& values, double mean) {
     // `value` is the largest stiffness or mass of the coordinates of the same type as the row
-    // (translation or rotation). `levered` is that of the rotations in a row of displacements.
+    // (translation or rotation). `levered` is the largest value of the rotations in a row that also
+    // contains translations.
     double value = 0, levered = 0;
     for (const Index k : coordinates) {
       if (k < 0) continue;

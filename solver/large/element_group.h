@@ -36,7 +36,7 @@ class PenaltyScales {
   /// Returns the scales of a constraint row with the given coordinates. If the displacements in the
   /// row have no stiffness or mass, the values of the rotations divided by the squared `lever` [m]
   /// are used.
-  [[nodiscard]] RowScales of_row(std::span<const Index> coordinates, double lever) const;
+  [[nodiscard]] RowScales row_scales(std::span<const Index> coordinates, double lever) const;
 
  private:
   const Layout& layout_;
@@ -62,7 +62,8 @@ Eigen::Matrix<double, N, 1> gather(const VectorXd& values, const CoordinateIndic
   return local;
 }
 
-/// Adds values of an element, such as nodal forces, to those of its free coordinates.
+/// Adds the values of an element, such as nodal forces, to the entries of `values` at its free
+/// coordinates.
 template <int N>
 void scatter(const Eigen::Matrix<double, N, 1>& local, const CoordinateIndices<N>& where,
              Eigen::Ref<VectorXd> values) {  // NOLINT(performance-unnecessary-value-param)
@@ -122,8 +123,9 @@ class ElementGroup {
     }
   }
 
-  /// Sets the properties and penalties of the rows in `system` from the parts that they join.
-  /// Coordinates with indices of at least `free` are held by supports.
+  /// Adds the unknowns that each element couples to `system`, and sets the compliances and units of
+  /// its constraint rows. Joints also get the stiffness and mass of the joined parts, which
+  /// determine their penalties. Coordinates with indices of at least `free` are held by supports.
   void connect(Index free, const PenaltyScales& scales, SystemRows& system) {
     first_block_ = std::ssize(system.blocks);
     for (Index e = 0; e < size(); ++e) {
@@ -136,7 +138,7 @@ class ElementGroup {
         system.compliance.segment<R>(first_row(e)) = own.compliance();
         double lever = 0;
         if constexpr (requires { own.offset; }) lever = own.offset.norm();
-        const RowScales row = scales.of_row(joined, lever);
+        const RowScales row = scales.row_scales(joined, lever);
         system.unit.segment<R>(first_row(e)).setConstant(row.unit);
         if constexpr (requires { own.stiffness_scale; }) {
           own.stiffness_scale = row.stiffness;
@@ -153,7 +155,8 @@ class ElementGroup {
       const Coordinates q = gather<N>(state.q, coordinates(e));
       Coordinates f = Coordinates::Zero(q.size());
       if constexpr (R > 0)
-        f += rows_at(e, q, state.t).gradient.transpose() * state.lambda.segment<R>(first_row(e));
+        f += evaluate_rows(e, q, state.t).gradient.transpose() *
+             state.lambda.segment<R>(first_row(e));
       if constexpr (kIsElastic)
         f += element(e).forces(q, tau != 0 ? gather<N>(state.v, coordinates(e)) : q, tau);
       if constexpr (kIsLoad) f -= state.load * element(e).load(q);
@@ -177,7 +180,7 @@ class ElementGroup {
                            Eigen::Ref<VectorXd> rate) const {
     if constexpr (R > 0) {
       for (Index e = 0; e < size(); ++e) {
-        const RowValues rows = rows_at(e, gather<N>(state.q, coordinates(e)), state.t);
+        const RowValues rows = evaluate_rows(e, gather<N>(state.q, coordinates(e)), state.t);
         residual.segment<R>(first_row(e)) = rows.residual;
         rate.segment<R>(first_row(e)) = rows.gradient * gather<N>(state.v, coordinates(e));
         if constexpr (requires { element(e).time_rate(state.t); })
@@ -190,9 +193,9 @@ class ElementGroup {
                KktMatrix& matrix) const {
     for (Index e = 0; e < size(); ++e) {
       const Coordinates q = gather<N>(state.q, coordinates(e));
-      const Square S = coordinate_matrix(state, e, q, tau, coefficients);
+      const Square S = element_tangent(state, e, q, tau, coefficients);
       if constexpr (R > 0) {
-        const Gradient G = rows_at(e, q, state.t).gradient;
+        const Gradient G = evaluate_rows(e, q, state.t).gradient;
         matrix.add(block(e), S, G, G, scaled_compliance(e, coefficients), penalty(e, coefficients));
       } else {
         matrix.add(block(e), S);
@@ -238,9 +241,9 @@ class ElementGroup {
       tangent(midpoint, tau, coefficients, matrix);
     } else {
       for (Index e = 0; e < size(); ++e) {
-        const Gradient G = rows_at(e, gather<N>(to.q, coordinates(e)), to.t).gradient;
+        const Gradient G = evaluate_rows(e, gather<N>(to.q, coordinates(e)), to.t).gradient;
         const Coordinates q = gather<N>(midpoint.q, coordinates(e));
-        matrix.add(block(e), coordinate_matrix(midpoint, e, q, tau, coefficients),
+        matrix.add(block(e), element_tangent(midpoint, e, q, tau, coefficients),
                    discrete_gradient(e, from, to), G, scaled_compliance(e, coefficients),
                    penalty(e, coefficients));
       }
@@ -261,15 +264,14 @@ class ElementGroup {
 
   [[nodiscard]] Index block(Index e) const { return first_block_ + e; }
 
-  [[nodiscard]] RowValues rows_at(Index e, const Coordinates& q, double t) const {
+  [[nodiscard]] RowValues evaluate_rows(Index e, const Coordinates& q, double t) const {
     RowValues rows;
     element(e).constraint_residual(q, t, rows.residual, rows.gradient);
     return rows;
   }
 
-  [[nodiscard]] Square coordinate_matrix(const State& state, Index e, const Coordinates& q,
-                                         double tau,
-                                         const TangentCoefficients& coefficients) const {
+  [[nodiscard]] Square element_tangent(const State& state, Index e, const Coordinates& q,
+                                       double tau, const TangentCoefficients& coefficients) const {
     const Element& own = element(e);
     const double k = coefficients.stiffness;
     Square S = Square::Zero(q.size(), q.size());
@@ -287,7 +289,7 @@ class ElementGroup {
     if constexpr (requires { element(e).discrete_gradient(q0, q1); }) {
       return element(e).discrete_gradient(q0, q1);
     } else {
-      return rows_at(e, q1, to.t).gradient;
+      return evaluate_rows(e, q1, to.t).gradient;
     }
   }
 

@@ -22,13 +22,15 @@ Equilibrium::Equilibrium(const GeometricallyExactSystem& system, const NewtonOpt
       constraint_residual_(VectorXd::Zero(system.constraints())),
       constraint_rate_(VectorXd::Zero(system.constraints())),
       step_(VectorXd::Zero(system.coordinates() + system.constraints())),
-      force_unit_(system.row_unit().cwiseInverse()) {}
+      force_unit_(system.row_units().cwiseInverse()) {}
 
 bool Equilibrium::converged(const std::vector<double>& correction, double displacement) const {
   const std::size_t count = correction.size();
   const double last = correction[count - 1];
-  // Newton's method converges quadratically: the remaining error is the square of the correction.
-  // 1e-15 of the model size is therefore sufficient for any small displacement.
+  // Corrections and displacements are relative to the model size. Newton's method converges
+  // quadratically: the remaining error is about the square of the last correction. The absolute
+  // limit 1e-15 is therefore sufficient even for displacements that are much smaller than the model
+  // size.
   if (last <= options_.tolerance * displacement + 1e-15) return true;
   // Near a bifurcation, corrections stagnate at the round-off error divided by the small stiffness.
   return count > 1 && last < 1e-8 * displacement + 1e-11 && last > 0.3 * correction[count - 2];
@@ -65,7 +67,7 @@ void Equilibrium::residual_of(const State& state, Eigen::Ref<VectorXd> residual)
   if (held_damping_.size() > 0) residual += held_damping_;
 }
 
-void Equilibrium::hold_damping(const State& moving) {
+void Equilibrium::fix_damping_forces(const State& moving) {
   State still = moving;
   still.v.setZero(system_.coordinates());
   VectorXd damped(step_.size()), undamped(step_.size());

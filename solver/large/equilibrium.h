@@ -42,7 +42,7 @@ class Equilibrium {
 
   /// Adds the damping forces at the velocities of a state, as constant loads, to all following
   /// equilibria.
-  void hold_damping(const State& moving);
+  void fix_damping_forces(const State& moving);
 
   /// Computes the equilibrium at the load factor `load`, which is also the time of drives, from a
   /// start state. `control` may change the load factor. The state is unchanged on failure.
@@ -98,8 +98,8 @@ class Equilibrium {
   NewtonOptions options_;
   KktMatrix matrix_;
   VectorXd constraint_residual_, constraint_rate_, step_, load_step_;
-  State factored_;                              ///< state of the last factored tangent
-  VectorXd held_damping_;                       ///< damping forces of `hold_damping`; empty: none
+  State factored_;         ///< state of the last factored tangent
+  VectorXd held_damping_;  ///< damping forces of `fix_damping_forces`; empty: none
   std::vector<std::pair<Index, double>> held_;  ///< held coordinates and their stiffness
   VectorXd force_unit_;                         ///< unit of each multiplier: 1/m or 1/rad
 };
@@ -111,8 +111,8 @@ void apply_correction(State& state, const VectorXd& step, double factor = 1);
 
 namespace trammel::solver {
 
-/// Adds the element evaluations of a number of tangent matrices to the counters of each effect.
-/// `moving` is true if the tangent matrices include masses.
+/// Adds the element evaluations of `tangents` assembled tangent matrices to the counters of the
+/// effects, such as shear or gravity. `moving` is true if the tangent matrices include masses.
 void count_tangents(const large_motion::GeometricallyExactSystem& system, std::int64_t tangents,
                     bool moving, Counters& counters);
 

@@ -93,7 +93,7 @@ void GeometricallyExactSystem::constraint_residual(const State& state,
       [&](const auto& group) { group.constraint_residual(state, residual, rate); });
 }
 
-TangentCoefficients GeometricallyExactSystem::begin_tangent(
+TangentCoefficients GeometricallyExactSystem::prepare_tangent(
     TangentCoefficients coefficients) const {
   element_evaluations_ += std::ssize(layout_.elements) + std::ssize(model_.triangles);
   coefficients.mass += large_motion_.mass_damping * coefficients.damping;
@@ -102,7 +102,7 @@ TangentCoefficients GeometricallyExactSystem::begin_tangent(
 
 void GeometricallyExactSystem::tangent(const State& state, const TangentCoefficients& coefficients,
                                        KktMatrix& matrix) const {
-  const TangentCoefficients damped = begin_tangent(coefficients);
+  const TangentCoefficients damped = prepare_tangent(coefficients);
   parts_.for_each_group([&](const auto& group) {
     group.tangent(state, large_motion_.strain_rate_damping, damped, matrix);
   });
@@ -112,7 +112,7 @@ void GeometricallyExactSystem::discrete_gradient_tangent(const State& from, cons
                                                          const State& midpoint,
                                                          const TangentCoefficients& coefficients,
                                                          KktMatrix& matrix) const {
-  const TangentCoefficients damped = begin_tangent(coefficients);
+  const TangentCoefficients damped = prepare_tangent(coefficients);
   parts_.for_each_group([&](const auto& group) {
     group.discrete_gradient_tangent(from, to, midpoint, large_motion_.strain_rate_damping, damped,
                                     matrix);

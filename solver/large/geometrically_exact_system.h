@@ -25,7 +25,7 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   [[nodiscard]] Index constraints() const override { return parts_.rows; }
   [[nodiscard]] const VectorXd& compliance() const override { return rows_.compliance; }
   [[nodiscard]] const VectorXd& scale() const override { return scale_; }
-  [[nodiscard]] VectorXd row_unit() const override { return rows_.unit; }
+  [[nodiscard]] VectorXd row_units() const override { return rows_.unit; }
   [[nodiscard]] std::vector<std::vector<Index>> blocks() const override { return rows_.blocks; }
   void force_residual(const State& state, Eigen::Ref<VectorXd> r) const override;
   void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
@@ -94,7 +94,7 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   /// Counts the element evaluations of a tangent matrix.
   /// @return `coefficients`, in which the factor of the mass matrix includes mass-proportional
   ///   damping.
-  TangentCoefficients begin_tangent(TangentCoefficients coefficients) const;
+  TangentCoefficients prepare_tangent(TangentCoefficients coefficients) const;
   void add_torques(double factor, double t, Eigen::Ref<VectorXd> r) const;
 
   Model model_;

@@ -48,8 +48,8 @@ IntegrationSummary run(const ConstrainedSystem& system,
   return summary;
 }
 
-/// Returns the coordinate of an initial velocity, or -1 if a support holds the node or the node has
-/// no rotation.
+/// Returns the index of the coordinate to which an initial velocity applies. The result is -1 if a
+/// support holds the coordinate or the node has no rotation.
 Index coordinate_of(const GeometricallyExactSystem& system, const InitialVelocity& initial) {
   const Index k = system.layout().node[static_cast<std::size_t>(initial.node)]
                                       [static_cast<std::size_t>(initial.direction)];
@@ -75,7 +75,8 @@ const InitialVelocity* refused_velocity(const GeometricallyExactSystem& system, 
 
 constexpr std::array kVelocityUnits = {" m/s", " m/s", " rad/s"};
 
-/// Describes a prescribed velocity, such as "node B start with 3 m/s along x".
+/// Returns the part of the error message about an inadmissible initial velocity that follows "the
+/// constraints do not let". An example is "node B start with 3 m/s along x".
 std::string describe_start(const GeometricallyExactSystem& system, const InitialVelocity& initial) {
   constexpr std::array kDirections = {" along x", " along y", ""};
   const auto direction = static_cast<std::size_t>(initial.direction);
@@ -85,7 +86,8 @@ std::string describe_start(const GeometricallyExactSystem& system, const Initial
   return text.str();
 }
 
-/// Computes a consistent start of a model: pose, initial velocities, accelerations, multipliers.
+/// Computes a consistent initial state of a model: displacements, velocities, accelerations and
+/// multipliers.
 Outcome initialize_state(const GeometricallyExactSystem& system, State& state, double step) {
   const std::vector<InitialVelocity>& initial_velocities = system.large_motion().initial_velocities;
   for (const InitialVelocity& initial : initial_velocities) {
@@ -110,8 +112,8 @@ Outcome initialize_state(const GeometricallyExactSystem& system, State& state, d
   std::ostringstream message;
   message.precision(9);
   message << "the constraints do not let " << describe_start(system, *refused);
-  // The other prescribed velocities determine the refused velocity. Otherwise the constraints would
-  // have admitted the refused velocity.
+  // Solve without the refused velocity. The result contains the velocity that the other prescribed
+  // velocities and the constraints require at the same coordinate.
   State admitted;
   if (!start_without(refused, admitted).solved() || refused_velocity(system, admitted, refused)) {
     message << ", nor do they admit the other given velocities together";
@@ -158,8 +160,8 @@ IntegrationSummary integrate(const GeometricallyExactSystem& system, State& stat
   MemberBalance balance;
   Outcome recovered;
   summary = run(system, conserves ? &system : nullptr, state, options, [&](const State& at) {
-    // Skip the first state, because unresolved vibrations start with the acceleration of an
-    // implicit step.
+    // Exclude the first state from the member balance. If the step does not resolve all vibrations,
+    // its accelerations are those of an implicit step and do not satisfy the equation of motion.
     if (at.t > start && !conserves) balance.add(system, at);
     if (!observe) return;
     if (at.t == start || !conserves) return observe(at);
@@ -173,7 +175,7 @@ IntegrationSummary integrate(const GeometricallyExactSystem& system, State& stat
   if (!conserves) summary.evidence.add(Residual::equation_of_motion, balance.residual());
   summary.outcome = outcome_by_evidence(summary.outcome, summary.evidence);
   if (!summary.outcome.solved())
-    summary.outcome.reason += contradictory_drives(system, state, options.step);
+    summary.outcome.reason += drive_conflicts_text(system, state, options.step);
   return summary;
 }
 

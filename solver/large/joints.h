@@ -27,7 +27,8 @@ struct Joint : ElementSizes<Coords, Count> {
 };
 
 /// Rigid link between the nodes a and b of a rigid body, with the vector d from a to b: u_b - u_a -
-/// (R(theta_a) - I) d = 0 (paper Eq. 20-24). The coordinates are ua (2), theta_a, ub (2).
+/// (R(theta_a) - I) d = 0. The coordinates are ua (2), theta_a, ub (2).
+/// Source: Varalakshmi & Srinivas (2017), Eq. 20-24.
 struct RigidLink : Joint<5, 2> {
   Vector2d offset = Vector2d::Zero();  ///< d, vector from a to b without load [m]
 
@@ -205,7 +206,7 @@ struct PointInertia : ElementSizes<1, 0> {
 struct FollowerForce : ElementSizes<3, 0> {
   Vector3d force = Vector3d::Zero();  ///< force and moment in the pose of the model
 
-  /// Returns the force for a load factor of 1.
+  /// Returns the rotated force and the moment for a load factor of 1.
   [[nodiscard]] Coordinates load(const Coordinates& q) const {
     Coordinates f = force;
     f.head<2>() = rotated(force.head<2>(), q[2]);

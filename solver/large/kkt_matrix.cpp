@@ -121,7 +121,7 @@ KktMatrix::Extended KktMatrix::multiply(const Extended& x) const {
 }
 
 Eigen::MatrixXd KktMatrix::constraint_gradient(const VectorXd& scale,
-                                               const VectorXd& row_unit) const {
+                                               const VectorXd& row_units) const {
   const Eigen::PermutationMatrix<Eigen::Dynamic> unknown(permutation_.inverse());
   Eigen::MatrixXd G = Eigen::MatrixXd::Zero(constraints_, coordinates_);
   for (Index k = 0; k < matrix_.cols(); ++k) {
@@ -129,7 +129,7 @@ Eigen::MatrixXd KktMatrix::constraint_gradient(const VectorXd& scale,
     if (column >= coordinates_) continue;
     for (Eigen::SparseMatrix<double>::InnerIterator entry(matrix_, k); entry; ++entry) {
       const Index row = unknown.indices()[entry.row()] - coordinates_;
-      if (row >= 0) G(row, column) = entry.value() * scale[column] / row_unit[row];
+      if (row >= 0) G(row, column) = entry.value() * scale[column] / row_units[row];
     }
   }
   return G;

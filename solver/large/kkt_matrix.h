@@ -99,7 +99,7 @@ class KktMatrix {
   /// Returns G scaled by the units of the rows and of the coordinates: G_rk scale_k / row_unit_r.
   /// @pre The matrix was assembled without penalties.
   [[nodiscard]] Eigen::MatrixXd constraint_gradient(const VectorXd& scale,
-                                                    const VectorXd& row_unit) const;
+                                                    const VectorXd& row_units) const;
 
   /// Returns the energy of a motion relative to its round-off error, which results from the rounded
   /// entries of the matrix. The error is 16 epsilon times the square root of the sum of the squared

@@ -74,7 +74,7 @@ class LargeElastodynamics {
     start_ = at_time(options.time.start);
     if (!start_.dynamics.outcome.solved()) return;
     if (const char* reason = beyond_large_displacement(options_, start_.model))
-      throw ModelError(std::string("large displacement: ") + reason);
+      throw ModelError(std::string("elastodynamics with large displacement: ") + reason);
     if (!options_.elastic_inertia && options_.time.sample_times.empty())
       throw ModelError("a quasi-static motion with large displacement requires sample times");
   }
@@ -95,8 +95,8 @@ class LargeElastodynamics {
     solution_.outcome =
         outcome_by_evidence(solution_.outcome, solution_.evidence, {Residual::equation_of_motion});
     finish();
-    // Geometric stiffening is not counted, because it is a part of large displacement that cannot
-    // be removed separately.
+    // Reset the counter of evaluations of geometric stiffening. This effect is a part of large
+    // displacement that cannot be removed separately.
     solution_.summary.counters.effects[static_cast<std::size_t>(Effect::geometric_stiffening)] = 0;
     return std::move(solution_);
   }
@@ -186,7 +186,7 @@ class LargeElastodynamics {
     now.system->set_undamped_velocities([nominal](double) { return nominal; });
     const VectorXd velocities = state.v = nominal + rates;
     Equilibrium equilibrium(*now.system);
-    equilibrium.hold_damping(state);
+    equilibrium.fix_damping_forces(state);
     state.v.setZero();
     solution_.outcome = equilibrium.solve(state, 1).outcome;
     if (!solution_.outcome.solved()) {
@@ -201,7 +201,7 @@ class LargeElastodynamics {
   /// Computes a quasi-static start with damping, K q = f - C v. The velocities v are second-order
   /// differences of the solutions of K q = f. Linear elastodynamics starts in the same way.
   [[nodiscard]] bool start_quasi_statically(State& state, VectorXd& rates) {
-    const double h = smooth_span(options_.load_history.bends(), options_.time) / 2;
+    const double h = smooth_span(options_.load_history.breakpoint_times(), options_.time) / 2;
     std::array<std::optional<StaticInstant>, 3> found;
     for (std::size_t i = 0; i < 3; ++i) {
       found[i] = equilibrium_at(options_.time.start + static_cast<double>(i) * h);
@@ -274,7 +274,7 @@ class LargeElastodynamics {
     TransientOptions integration = options_.time;
     integration.scheme =
         generalized_alpha(std::clamp(spectral_radius(integration.scheme, kInfinity), 0.0, 1.0));
-    integration.breakpoints = options_.load_history.bends();
+    integration.breakpoints = options_.load_history.breakpoint_times();
     if (integration.sample_times.empty())
       integration.sample_times = even_times(integration.start, integration.end, integration.step);
     const ConstrainedSystem& equations = system;
@@ -367,7 +367,7 @@ const char* beyond_large_displacement(const ElastodynamicsOptions& options, cons
                                      [](const Triangle& triangle) { return triangle.quadratic(); });
   const std::vector<double>& times = options.load_history.time;
   if (!driven) return "it requires actuators that follow the path instead of free ones";
-  if (tied) return "it does not support the rotation constraint of paper Eq. 25";
+  if (tied) return "it does not support platform joints of type eq25-mean or eq25-sum";
   if (!options.nominal_inertia) return "it requires the inertia forces of the nominal motion";
   if (options.modal_superposition) return "it does not support modal superposition";
   if (options.time.adaptive) return "it requires fixed steps without error control";

@@ -9,12 +9,12 @@
 #include "solver/model/model.h"
 
 /// Additional parts of a `Model` in large motion: drives, torques, sliding joints, springs along a
-/// line, follower loads, histories, damping and a start. All quantities are in SI units and refer
-/// to the pose of the model.
+/// line, follower loads, load history, damping and initial velocities. All quantities are in SI
+/// units and refer to the pose of the model.
 namespace trammel::solver::large_motion {
 
-/// Function that returns value, rate and second derivative at a time or, in statics, at a load
-/// factor.
+/// Prescribed displacement or rotation as a function of time, or of the load factor in statics. The
+/// function returns the value and its first and second derivatives.
 using TimeFunction = std::function<std::array<double, 3>(double)>;
 
 /// Displacement or rotation of a node relative to another node or the ground (-1), prescribed as a

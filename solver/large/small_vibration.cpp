@@ -18,7 +18,8 @@ using Eigen::MatrixXd;
 using Eigen::VectorXcd;
 using Extended = KktMatrix::Extended;
 
-/// Fraction of |s| below which the real or imaginary part of s is round-off.
+/// Fraction of |s| below which the real or imaginary part of the exponent s of a mode q e^{s t} is
+/// treated as round-off error.
 constexpr double kRoundoffShare = 1e-7;
 /// Ratio of the squared frequencies w^2 of two successive modes below which the lower modes are
 /// called soft. The computed K^-1 then has few correct digits of the higher modes.
@@ -29,7 +30,8 @@ constexpr double kAlike = 1e6;
 /// Relative distance of the shift from w^2 of a mode in the inverse iteration.
 constexpr double kAside = 1e-3;
 
-/// Matrix of the stiffness K - w2 M and the constraints. It is factored with penalties, and
+/// Matrix [K - w2 M, G^T; G, -C] with the squared frequency w2 as shift. M is the mass matrix, G
+/// the constraint gradient, and C the compliances. The matrix is factored with penalties, and
 /// assembled again without penalties for exact products. Otherwise, round-off errors of stiff
 /// members would hide the stiffness of soft joints.
 class ShiftedStiffness {
@@ -72,10 +74,10 @@ class ShiftedStiffness {
       const VectorXd now = x.cast<double>(), unit = system_.scale().cwiseInverse();
       const double motion = size_of(now, unit, 0);
       const double forces =
-          size_of(now, system_.row_unit(), n) + size_of(force.cast<double>(), system_.scale(), 0);
+          size_of(now, system_.row_units(), n) + size_of(force.cast<double>(), system_.scale(), 0);
       const double share =
           std::max(motion > 0 ? size_of(correction, unit, 0) / motion : 0,
-                   forces > 0 ? size_of(correction, system_.row_unit(), n) / forces : 0);
+                   forces > 0 ? size_of(correction, system_.row_units(), n) / forces : 0);
       const bool stalled = pass > 1 && !(share < 0.5 * last_correction_);
       last_correction_ = share;
       if (share < kEps || (stalled && share < kEnough)) break;
@@ -102,7 +104,7 @@ class ShiftedStiffness {
     residual.head(n) -= inertia;
     terms.head(n) += inertia.cast<double>().cwiseAbs();
     VectorXd unit(mode.size());  // units of forces and of residuals of constraints
-    unit << scale.cwiseInverse(), system_.row_unit();
+    unit << scale.cwiseInverse(), system_.row_units();
     for (const auto& [begin, count] : {std::pair(Index{0}, n), std::pair(n, mode.size() - n)}) {
       if (count == 0) continue;
       auto kind = terms.segment(begin, count);

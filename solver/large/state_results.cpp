@@ -15,7 +15,8 @@ double value_or(const VectorXd& values, Index k, double absent) {
   return k < values.size() ? values[k] : 0.0;
 }
 
-/// Element of a member in a state.
+/// Element of a member with its coordinates q in a state, from which its nodal and section forces
+/// follow.
 template <class Element>
 struct PlacedElement {
   using Coordinates = typename Element::Coordinates;
@@ -230,7 +231,7 @@ Index redundant_constraints(const GeometricallyExactSystem& system, const State&
   matrix.clear();
   system.tangent(state, coefficients, matrix);
   Eigen::SparseMatrix<double> columns =
-      matrix.constraint_gradient(system.scale(), system.row_unit()).transpose().sparseView();
+      matrix.constraint_gradient(system.scale(), system.row_units()).transpose().sparseView();
   VectorXd factor = VectorXd::Zero(columns.cols());
   for (Index r = 0; r < columns.cols(); ++r) {
     const double size = columns.col(r).norm();  // 0 if supports hold both ends

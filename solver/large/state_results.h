@@ -16,7 +16,7 @@ namespace trammel::solver::large_motion {
 
 /// Returns the forces of the ground on the supported nodes, including inertia: one row per support,
 /// with columns Fx, Fy [N], moment [N m]. If several supports hold the same coordinate, each row
-/// contains its full reaction.
+/// contains the full reaction of this coordinate.
 [[nodiscard]] Eigen::MatrixX3d reactions(const GeometricallyExactSystem& system,
                                          const State& state);
 
@@ -55,8 +55,8 @@ class MemberBalance {
 /// constraints, the factorization that yields their rank would take longer than statics.
 inline constexpr Index kMaxCountedConstraints = 400;
 
-/// Returns the number of redundant rigid constraints in a state. Equilibrium does not determine the
-/// forces of the same number of constraints. The result is 0 if there are more than
+/// Returns the number of redundant rigid constraints in a state. Equilibrium leaves the same number
+/// of constraint forces undetermined. The result is 0 if there are more than
 /// `kMaxCountedConstraints`.
 [[nodiscard]] Index redundant_constraints(const GeometricallyExactSystem& system,
                                           const State& state);

@@ -171,8 +171,9 @@ class PathFollower {
     return true;
   }
 
-  /// Returns the displacement per load factor from the start to the target in linear theory. It is
-  /// used for drives that start from rest, because their initial response is zero.
+  /// Returns the displacement from the start to the target load by linear theory, divided by the
+  /// target load factor. It is used for drives that start from rest, because their initial response
+  /// is zero.
   double mean_response(const State& start) {
     State end = start;
     system_.set_load(end, options_.target);
@@ -188,7 +189,8 @@ class PathFollower {
     return false;
   }
 
-  // Direction vectors in (q, lambda, load) have unit length in the metric of the path.
+  // Direction vectors (dq, dlambda, dload) are normalized to d^T diag(metric_) d = 1. The metric
+  // weights displacements and the load factor. The weight of the multipliers is 0.
 
   static VectorXd with_load(const VectorXd& step, double load) {
     return (VectorXd(step.size() + 1) << step, load).finished();
@@ -430,8 +432,9 @@ class PathFollower {
     direction_.setZero();
     direction_.head(n) = shape;
     direction_ = normalized(direction_);
-    // Start with a displacement of 1e-3 of the model size, independent of the previous response.
-    // The buckling shape is noticeable at this amplitude.
+    // The first step on the new branch displaces the structure by 1e-3 of the model size,
+    // independent of its response before the bifurcation. The buckling shape is noticeable at this
+    // amplitude.
     arc_step_ = 1e-3 * std::sqrt(displacement_weight_);
     append(critical);
     path_.points.back().unstable_directions = -1;
@@ -443,7 +446,7 @@ class PathFollower {
     message << why << " after point " << point_count_ << " at load factor " << point.state.load
             << ", arc step " << arc_step_ << ", residual "
             << (point.newton.force_residual.empty() ? 0.0 : point.newton.force_residual.back())
-            << " N m" << contradictory_drives(system_, point.state, std::abs(arc_step_));
+            << " N m" << drive_conflicts_text(system_, point.state, std::abs(arc_step_));
     return stop({Status::not_converged, message.str()});
   }
 

@@ -31,8 +31,8 @@ class Triangle2d : public ElementSizes<2 * Nodes, 0> {
   [[nodiscard]] double energy(const Coordinates& q) const;
   /// Returns the nodal forces dEnergy/dq with strain-rate damping, S = D (E + tau dE/dt).
   [[nodiscard]] Coordinates forces(const Coordinates& q, const Coordinates& v, double tau) const;
-  /// Returns stiffness K + damping K_material, where K is the derivative of `forces` with v = 0,
-  /// and `damping` includes the factor tau.
+  /// Returns `stiffness` K + `damping` K_m. K is the derivative of `forces` with v = 0, and K_m is
+  /// K without the geometric stiffness. `damping` includes the factor tau.
   [[nodiscard]] Square tangent(const Coordinates& q, double stiffness, double damping) const;
   /// Returns forces f with f . (q1 - q0) = energy(q1) - energy(q0) if tau = 0 (J. C. Simo, N.
   /// Tarnow, ZAMP 43, 1992). `rate` is tau over the step.

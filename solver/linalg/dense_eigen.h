@@ -48,8 +48,9 @@ struct PivotedSolution {
 /// Source: Oettli and Prager (1964).
 [[nodiscard]] double row_backward_error(const Eigen::VectorXd& sum, const Eigen::VectorXd& terms);
 
-/// Lower limit of the coordinates and forces in the terms of a row, relative to the largest
-/// coordinate or force. Without the limit, a residual could be relative to round-off errors.
+/// Lower limit of coordinates and forces in the terms that scale the residual of a row, relative to
+/// the largest coordinate or force. Without the limit, these terms could consist of round-off
+/// errors.
 inline constexpr double kLeastFraction = 1e-3;
 
 }  // namespace trammel::solver

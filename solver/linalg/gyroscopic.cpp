@@ -29,7 +29,8 @@ struct Linearization {
 };
 
 Linearization linearize(const GyroscopicPencil& pencil) {
-  // Relative increase of the diagonal of the mass matrix, which is singular for an offset mass.
+  // Relative increase of the diagonal of the mass matrix, which makes it positive definite. Without
+  // the increase, it is singular if a point mass has an offset from its node.
   constexpr double kHelp = 1e-12;
   const Index n = pencil.K.rows();
   const VectorXd diagonal = pencil.M.diagonal();

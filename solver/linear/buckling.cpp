@@ -27,8 +27,8 @@ FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
                                  Factorization& factorization, Counters& counters) {
   constexpr int kHalvings = 200;  // 120 orders of magnitude
   FirstFactor first;
-  // Entries of B relative to those of K, which is scaled to a unit diagonal. `least` excludes the
-  // round-off error of the largest entry.
+  // `largest` and `least` are the extreme magnitudes of the entries of B in coordinates that give K
+  // a unit diagonal. `least` excludes entries within the round-off error of the largest entry.
   constexpr double kRoundoff = 1e4 * kEps;
   const Eigen::VectorXd scale = K.diagonal().cwiseSqrt().cwiseInverse();
   const SparseMatrix scaled = (scale.asDiagonal() * B * scale.asDiagonal()).cwiseAbs();
@@ -115,7 +115,7 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   const Prestress roundoff = prestress_roundoff(system, statics.q);
   for (Index j = 0; j < pairs.value.size(); ++j) {
     const Eigen::VectorXd x = pairs.vector.col(j);
-    const double elastic = strain_roundoff(system, system.T * x) / pairs.value[j];
+    const double elastic = strain_energy_roundoff(system, system.T * x) / pairs.value[j];
     const double geometric = geometric_energy_roundoff(system, softening, roundoff, x);
     solution.roundoff[j] = elastic + geometric + pairs.error[j] + 4 * kEps;
   }

@@ -49,7 +49,7 @@ struct Coordinates {
   /// Returns the indices in u of the translations (u1 v1 u2 v2 ...) of the first n / 2 nodes of a
   /// triangle. The indices of a missing mid-side node are -1.
   template <std::size_t n>
-  [[nodiscard]] std::array<Index, n> of_triangle(const Triangle& triangle) const {
+  [[nodiscard]] std::array<Index, n> triangle_dofs(const Triangle& triangle) const {
     std::array<Index, n> numbers{};
     for (std::size_t i = 0; i < n; ++i)
       numbers[i] = triangle.nodes[i / 2] < 0 ? -1 : node[to_size(triangle.nodes[i / 2])][i % 2];

@@ -7,7 +7,8 @@ namespace trammel::solver {
 
 namespace {
 
-/// Sums forces(B, c, values of the element coordinates) over all elements.
+/// Returns the sum of the nodal forces `forces(B, c, u_e)` of all elements. B is the deformation
+/// matrix of an element, c its rigidities, and u_e its entries of u.
 template <class Forces>
 Eigen::VectorXd sum_of_elements(const System& system, const Eigen::VectorXd& u, Forces&& forces) {
   Eigen::VectorXd sum = Eigen::VectorXd::Zero(u.size());
@@ -17,14 +18,14 @@ Eigen::VectorXd sum_of_elements(const System& system, const Eigen::VectorXd& u, 
   return sum;
 }
 
-/// Returns the stress of the deformation that `apply` computes from the matrix and the
-/// displacements of a triangle.
+/// Returns the stress [Pa] of a triangle at a point for the deformation `apply(B, u_e)`. B is the
+/// deformation matrix at the point, and u_e are the nodal displacements.
 template <class Apply>
 Vector3d stress_by_deformation(const System& system, const Triangle& triangle, const Vector3d& at,
                                const Eigen::VectorXd& u, Apply&& apply) {
   const auto deform = [&]<std::size_t n>(const TriangleNodes<n>& nodes) -> Vector3d {
     return apply(triangle_deformation<n>(interpolate(nodes, at)),
-                 detail::gather(system.coordinates.of_triangle<2 * n>(triangle), u));
+                 detail::gather(system.coordinates.triangle_dofs<2 * n>(triangle), u));
   };
   return membrane_stress(system.model.plates[to_size(triangle.plate)].material,
                          visit_nodes(system.model, triangle, deform));
@@ -61,7 +62,7 @@ Eigen::MatrixXd strain_products(const System& system, const Eigen::MatrixXd& U) 
   return products.selfadjointView<Eigen::Lower>();
 }
 
-double strain_roundoff(const System& system, const Eigen::VectorXd& u) {
+double strain_energy_roundoff(const System& system, const Eigen::VectorXd& u) {
   double sum = 0;
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
     const auto local = detail::gather(coordinates, u);
@@ -71,7 +72,7 @@ double strain_roundoff(const System& system, const Eigen::VectorXd& u) {
   return 2 * std::numeric_limits<double>::epsilon() * sum;
 }
 
-double strain_magnitude(const System& system, const Eigen::VectorXd& u) {
+double strain_energy_magnitude(const System& system, const Eigen::VectorXd& u) {
   double sum = 0;
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
     const auto size = (B.cwiseAbs() * detail::gather(coordinates, u).cwiseAbs()).eval();

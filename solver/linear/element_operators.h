@@ -60,7 +60,7 @@ void for_each_plate_deformation(const System& system, Visit&& visit) {
     const Plate& plate = system.model.plates[to_size(triangle.plate)];
     visit_nodes(system.model, triangle, [&]<std::size_t n>(const TriangleNodes<n>& nodes) {
       const TriangleStiffness<n> k = triangle_stiffness(nodes, plate);
-      visit(system.coordinates.of_triangle<2 * n>(triangle), k.B, k.c);
+      visit(system.coordinates.triangle_dofs<2 * n>(triangle), k.B, k.c);
     });
   }
 }
@@ -101,12 +101,12 @@ void for_each_deformation(const System& system, Visit&& visit) {
 
 /// Returns the change of u^T K u caused by rounding u [J]: 2 eps times the sum of |d|^T C |B| |u|
 /// over all elements, with the deformations d = B u.
-[[nodiscard]] double strain_roundoff(const System& system, const Eigen::VectorXd& u);
+[[nodiscard]] double strain_energy_roundoff(const System& system, const Eigen::VectorXd& u);
 
 /// Returns the scale of the round-off error of the strain energy [J]: the sum of (|B| |u|)^T C (|B|
 /// |u|) over all elements. A motion causes no deformation if its u^T K u is below about eps^2 times
 /// this value.
-[[nodiscard]] double strain_magnitude(const System& system, const Eigen::VectorXd& u);
+[[nodiscard]] double strain_energy_magnitude(const System& system, const Eigen::VectorXd& u);
 
 /// Returns the stress (sxx, syy, sxy) [Pa] of a triangle at a point for displacements u.
 /// @param system  assembled model.
@@ -136,7 +136,7 @@ void for_each_plate_mass(const System& system, Visit&& visit) {
   for (const Triangle& triangle : system.model.triangles) {
     const Plate& plate = system.model.plates[to_size(triangle.plate)];
     visit_nodes(system.model, triangle, [&]<std::size_t n>(const TriangleNodes<n>& nodes) {
-      visit(system.coordinates.of_triangle<2 * n>(triangle), triangle_mass(nodes, plate));
+      visit(system.coordinates.triangle_dofs<2 * n>(triangle), triangle_mass(nodes, plate));
     });
   }
 }

@@ -41,7 +41,7 @@ void add_body_force(System& system, const BodyForce& force) {
       const TriangleInterpolation at = interpolate(system.model, triangle, point.area_coordinates);
       forces += point.weight * at.area * thickness * force(at.position) * at.N.transpose();
     }
-    detail::scatter(system.coordinates.of_triangle<12>(triangle), forces.reshaped(), system.load);
+    detail::scatter(system.coordinates.triangle_dofs<12>(triangle), forces.reshaped(), system.load);
   }
   project(system);
 }
@@ -105,7 +105,7 @@ struct Squares {
 MembraneFieldPoint membrane_point(const System& system, const Triangle& triangle,
                                   const TriangleInterpolation& at, const Eigen::VectorXd& u) {
   const Eigen::Matrix<double, 2, 6> d =
-      detail::gather(system.coordinates.of_triangle<12>(triangle), u).reshaped(2, 6);
+      detail::gather(system.coordinates.triangle_dofs<12>(triangle), u).reshaped(2, 6);
   const Eigen::Matrix2d gradient = d * at.gradient.transpose();  // rows u, v; columns d/dx, d/dy
   MembraneFieldPoint point;
   point.displacement = d * at.N;

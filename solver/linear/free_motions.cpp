@@ -25,7 +25,7 @@ constexpr double kShift = 1e-12;  // shift of K, relative to its diagonal
 /// A pivot below this limit starts the search for zero-energy modes. Pivots of a mechanism are
 /// round-off errors, up to 1.2e-9 for 1152 coordinates if all errors have the same sign.
 constexpr double kSmallPivot = 1e-8;
-// (45 eps)^2, relative to `strain_magnitude`; smaller strain energies are round-off errors.
+// (45 eps)^2, relative to `strain_energy_magnitude`; smaller strain energies are round-off errors.
 constexpr double kDeformation = 1e-28;
 constexpr Index kMaxModes = 48;
 
@@ -36,8 +36,8 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
   const Index n = system.K.rows();
   ZeroEnergyModes modes{MatrixXd(n, 0), true};
   if (n == 0 || (K.exists() && K.smallest_pivot() > kSmallPivot)) return modes;
-  // Inverse iteration with K + t D on a block of vectors. D is the diagonal of K, and the block is
-  // D-orthonormal.
+  // Inverse iteration with K + kShift D on a block of vectors. D is the diagonal of K, and the
+  // block is D-orthonormal.
   VectorXd D = system.K.diagonal();
   const double largest = D.maxCoeff();
   D = D.unaryExpr([&](double d) { return d > 0 ? d : largest > 0 ? largest : 1; }).eval();
@@ -74,7 +74,7 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
       const double energy = strain_products(system, u)(0, 0);
       // The limit of the energy is relative to the larger of the sum of magnitudes and x^T D x = 1.
       // The second value is required for a motion in which both energy and sum are zero.
-      if (!(energy <= kDeformation * std::max(1.0, strain_magnitude(system, u)))) break;
+      if (!(energy <= kDeformation * std::max(1.0, strain_energy_magnitude(system, u)))) break;
       ++count;
     }
     modes.basis = X.leftCols(count);

@@ -29,8 +29,9 @@ Eigen::Matrix3d geometric_rigidity(const FrameElement& e, BeamTheory theory, dou
   return e.length * H;
 }
 
-/// Calls visit(coordinates, B, H) at one point of a triangle. B contains the gradients of u and v
-/// along the principal axes of the stress, and H is the diagonal of their stiffness.
+/// Calls visit(coordinates, B, H) at one point of a triangle. B maps nodal displacements to the
+/// gradients of u and v along the principal axes of the stress. H is the diagonal matrix of
+/// principal stress times volume.
 template <std::size_t n, class Visit>
 void visit_plate_geometric_stiffness(const std::array<Index, n>& coordinates,
                                      const TriangleInterpolation& at,
@@ -118,7 +119,7 @@ void for_each_geometric_stiffness(const System& system, const Prestress& state, 
         const TriangleInterpolation point = interpolate(model, triangle, at);
         const double volume = model.plates[to_size(triangle.plate)].thickness * point.area * weight;
         visit_nodes(model, triangle, [&]<std::size_t n>(const TriangleNodes<n>&) {
-          visit_plate_geometric_stiffness(system.coordinates.of_triangle<2 * n>(triangle), point,
+          visit_plate_geometric_stiffness(system.coordinates.triangle_dofs<2 * n>(triangle), point,
                                           stress, volume, visit);
         });
       });

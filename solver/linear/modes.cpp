@@ -139,7 +139,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
   for (Index j = 0; j < elastic; ++j) {
     const double w2 = pairs.value[j];
     const VectorXd x = pairs.vector.col(j);
-    double rounding = strain_roundoff(system, system.T * x);
+    double rounding = strain_energy_roundoff(system, system.T * x);
     if (state) rounding += geometric_energy_roundoff(system, K_G, of_forces, x);
     solution.frequency[rigid + j] = std::sqrt(w2) / (2 * std::numbers::pi);
     solution.roundoff[rigid + j] = 0.5 * (rounding / w2 + pairs.error[j]) + 4 * kEps;

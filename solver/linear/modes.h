@@ -14,7 +14,8 @@ struct ModesOptions {
   EigenMethod method = EigenMethod::automatic;  ///< automatic: dense for small models
 };
 
-/// Result of free vibration, K x = w^2 M x (paper Eq. 28, 29) with x^T M x = 1 (Eq. 33).
+/// Result of free vibration, K x = w^2 M x with x^T M x = 1 (Varalakshmi & Srinivas 2017, Eq. 28,
+/// 29, 33).
 ///
 /// Frequencies are Rayleigh quotients. Their strain energy is summed over the deformations of the
 /// elements (element_operators.h). Inverse iteration improves the mode shapes with residuals from
@@ -22,13 +23,15 @@ struct ModesOptions {
 /// number of elements per wavelength, as deformations lose digits. It does not grow with the
 /// condition number of K, which is proportional to the fourth power of this number.
 struct ModalSolution {
-  /// singular: a massless part moves freely; not_converged: fewer modes than counted (Sylvester)
+  /// Outcome. singular: a massless part moves freely, or the loads of a prestressed model reach the
+  /// buckling load. not_converged: a residual exceeds its limit. Residual::mode_count is such a
+  /// residual, if Sylvester's law of inertia counts more modes than were computed.
   Outcome outcome;
   Eigen::VectorXd
       frequency;  ///< ascending, including copies of repeated frequencies [Hz]; rigid modes have 0
   /// Estimated relative round-off error of each frequency [-]. It is half the relative error of
   /// w^2, which is a sum of two terms: the effect of rounding the mode shape on its strain energy
-  /// (`strain_roundoff`) over w^2, and the estimated error of the eigenvalue iteration.
+  /// (`strain_energy_roundoff`) over w^2, and the estimated error of the eigenvalue iteration.
   Eigen::VectorXd roundoff;
   Eigen::MatrixXd shape;             ///< free coordinate x mode; see node_motion
   Index zero_energy_mode_count = 0;  ///< number of leading frequencies that are zero

@@ -87,7 +87,8 @@ void add_column(const VectorXd& values, const std::vector<Index>& set, Index col
   }
 }
 
-/// Relative norm or energy below which the remainder of a load or response is round-off.
+/// Limit for the part of a load or static response that the modes do not represent. A part whose
+/// norm (load) or strain energy (response) is a smaller fraction of the total counts as round-off.
 constexpr double kCarried = 1e-10;
 
 /// Returns the components of static responses that the modes do not represent. Each component has

@@ -35,8 +35,9 @@ Eigen::Matrix<double, 2, 3> center_of_mass_interpolation(const PointMass& point_
   return B;
 }
 
-/// Returns integral rho N^T A N of a frame element in its axes, with the interpolation N. Lumped
-/// mass acts on translations only.
+/// Returns the integral of rho N^T A N over the volume of a frame element, in element axes. The
+/// symbol rho is the density. N interpolates the translations, and A is a 2 x 2 matrix between
+/// them. Lumped mass acts on translations only.
 Matrix6d frame_mass_with(const Eigen::Matrix2d& A, const FrameElement& e, const Member& member) {
   Matrix6d integral = Matrix6d::Zero();
   if (member.mass == MassMatrix::lumped || e.is_bar()) {
@@ -57,7 +58,7 @@ Matrix6d frame_mass_with(const Eigen::Matrix2d& A, const FrameElement& e, const 
   return integral;
 }
 
-/// Returns integral rho I N^T N of the rotation of the sections of a frame element, in world axes.
+/// Returns the mass matrix of the rotary inertia of the sections of a frame element, in world axes.
 Matrix6d rotary_mass(FrameElement e, const Member& member) {
   e.section.mass_per_length = 0;
   return world_mass(e, member);
@@ -241,7 +242,8 @@ bool find_steady_state(const System& system, const RotatingOptions& options,
   return steady.solve(rhs, state);
 }
 
-/// Returns the backward error of the steady state, (K + K_G - W^2 S) q = f + W^2 f_c.
+/// Returns the backward error of the steady state, (K + K_G - W^2 S) q = f + W^2 f_c, at the
+/// angular speed W of the frame.
 double steady_backward_error(const System& system, const SparseMatrix& added, const VectorXd& q,
                              const RotatingFrame& frame) {
   RowBalance<double> rows(system);
@@ -253,7 +255,8 @@ double steady_backward_error(const System& system, const SparseMatrix& added, co
 }
 
 /// Returns the largest backward error of the modes, (K + K_G - W^2 S + s 2 W G + s^2 M) x = 0 with
-/// s = growth rate + i w.
+/// s = growth rate + i w. W is the angular speed of the frame, and w the angular frequency of a
+/// mode.
 double mode_backward_error(const System& system, const SparseMatrix& added, const SparseMatrix& C,
                            const MatrixXcd& x, const VectorXcd& s) {
   const MatrixXcd u = system.T * x;

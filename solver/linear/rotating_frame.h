@@ -18,7 +18,7 @@
 ///   \f[ M \ddot q + 2 \Omega G \dot q + (K + K_G - \Omega^2 S) q = f + \Omega^2 f_c. \f]
 ///
 /// G is `gyroscopic_matrix`, S is `centrifugal_softening`, and Omega^2 f_c are the centrifugal
-/// forces on the undeformed frame. K_G is the geometric stiffness of the internal forces.
+/// forces on the undeformed structure. K_G is the geometric stiffness of the internal forces.
 ///
 /// The Coriolis and centrifugal terms do not act on the rotary inertia of point masses, which is
 /// assumed equal along and across the axis. They do not act on the rotary inertia of sections if
@@ -65,7 +65,8 @@ struct RotatingOptions {
   bool gyroscopic = true;      ///< false: omit the Coriolis forces G
   bool stiffening = true;      ///< false: omit the geometric stiffness K_G
   /// true: K_G follows from the forces in the steady state. false: K_G follows from linear statics
-  /// under the centrifugal forces on the undeformed frame, as in the classical equations of blades.
+  /// under the centrifugal forces on the undeformed structure, as in the classical equations of
+  /// blades.
   bool prestress_at_steady_state = true;
 };
 

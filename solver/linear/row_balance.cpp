@@ -36,7 +36,7 @@ RowBalance<Scalar>::RowBalance(const System& system, Index states)
       free_terms_(MatrixXd::Zero(system.T.cols(), states)) {}
 
 template <class Scalar>
-MatrixXd RowBalance<Scalar>::sizes_of(const Matrix& u) const {
+MatrixXd RowBalance<Scalar>::bounded_magnitudes(const Matrix& u) const {
   MatrixXd size = u.cwiseAbs();
   for (auto column : size.colwise()) {
     const double largest = column.size() > 0 ? column.cwiseProduct(length_).maxCoeff() : 0;
@@ -47,7 +47,7 @@ MatrixXd RowBalance<Scalar>::sizes_of(const Matrix& u) const {
 
 template <class Scalar>
 void RowBalance<Scalar>::add_stiffness(const Matrix& u) {
-  const MatrixXd size = sizes_of(u);
+  const MatrixXd size = bounded_magnitudes(u);
   for_each_deformation(system_, [&](const auto& coordinates, const auto& B, const auto& c) {
     const auto k = (B.transpose() * c.asDiagonal() * B).eval();
     add_product(coordinates, k, u, sum_);
@@ -57,7 +57,7 @@ void RowBalance<Scalar>::add_stiffness(const Matrix& u) {
 
 template <class Scalar>
 void RowBalance<Scalar>::add_inertia(const Matrix& acceleration) {
-  const MatrixXd size = sizes_of(acceleration);
+  const MatrixXd size = bounded_magnitudes(acceleration);
   for_each_inertia(system_, [&](const auto& coordinates, const auto& m) {
     add_product(coordinates, m, acceleration, sum_);
     add_product(coordinates, m.cwiseAbs().eval(), size, terms_);

@@ -27,7 +27,8 @@ class RowBalance {
   void add_load(const Matrix& load);
   /// Adds the forces A q on the free coordinates q.
   void add(const SparseMatrix& A, const Matrix& q);
-  /// Adds magnitudes to the scale, for a term that was added as a difference of larger values.
+  /// Adds magnitudes to the scales of the rows of the unconstrained coordinates. They are the
+  /// larger values if a term was added as their difference.
   void add_terms(const Eigen::VectorXd& magnitudes) { terms_ += magnitudes; }
 
   /// Returns the largest ratio of a residual to its scale over all rows of the free coordinates. It
@@ -44,7 +45,7 @@ class RowBalance {
 
  private:
   /// Returns the magnitudes of u, each at least `kLeastFraction` of the largest of its column.
-  [[nodiscard]] Eigen::MatrixXd sizes_of(const Matrix& u) const;
+  [[nodiscard]] Eigen::MatrixXd bounded_magnitudes(const Matrix& u) const;
   [[nodiscard]] Matrix rows() const;
   [[nodiscard]] Eigen::MatrixXd row_terms() const;
 
@@ -56,7 +57,8 @@ class RowBalance {
 
 // Viscous damping: parameters and damping matrix.
 
-/// Rayleigh damping, C = mass * M + stiffness * K (paper Eq. 19 with w1 and w2).
+/// Rayleigh damping, C = mass * M + stiffness * K. The factors are w1 and w2 in Varalakshmi &
+/// Srinivas (2017), Eq. 19.
 struct RayleighDamping {
   double mass = 0;       ///< >= 0 [1/s]
   double stiffness = 0;  ///< >= 0 [s]

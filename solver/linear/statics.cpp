@@ -159,7 +159,7 @@ double largest_stress(const Member& member, const FrameElement& e, double from_s
 void recover_displacements(const System& system, const RecoveredForces& forces,
                            StaticSolution& solution) {
   const Model& model = system.model;
-  solution.displacement = motion_of_nodes(system, forces.u);
+  solution.displacement = full_node_motion(system, forces.u);
   solution.end_rotation.resize(std::ssize(model.members), 2);
   for (std::size_t i = 0; i < model.members.size(); ++i) {
     const auto& [first, second] = model.members[i].nodes;
@@ -360,7 +360,8 @@ void add_members(const System& system, const ElasticState& state, const StaticSo
     if (first) force.head<3>() = -solution.resultant_start.row(e.member).transpose();
     if (last) force.tail<3>() = solution.resultant_end.row(e.member).transpose();
     force = frame_rotation(e.direction).transpose() * force;
-    // The section forces exclude the element load, which is part of the acting load.
+    // Add the nodal forces of the load along the element, because the section forces at its ends do
+    // not include them.
     detail::scatter(e.coordinates, (force + element_load(e, acting_load(system, state, e))).eval(),
                     sum);
   }

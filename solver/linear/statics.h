@@ -18,9 +18,9 @@ struct StaticsOptions {
   bool second_order = false;
 };
 
-/// Result of statics, K q = f (paper Eq. 11). Section forces N, V, M act on a face whose normal
-/// points from the first to the second node of a member. x points along the member and y to its
-/// left. Tension is positive:
+/// Result of statics, K q = f (Varalakshmi & Srinivas 2017, Eq. 11). Section forces N, V, M act on
+/// a face whose normal points from the first to the second node of a member. x points along the
+/// member and y to its left. Tension is positive:
 ///
 ///   \f[ EI\, v'' = M, \quad dM/dx = -V, \quad dV/dx = -q_y, \quad dN/dx = -q_x. \f]
 struct StaticSolution {
@@ -73,7 +73,8 @@ struct ElasticState {
 /// axial force, transverse force and moment at the first node, then at the second node [N, N, N m].
 using ElementForces = Eigen::Matrix<double, 6, Eigen::Dynamic>;
 
-/// Forces on the frame elements and in the constraints of a state, for any theory.
+/// Displacements of a state, its forces on the frame elements and its constraint forces. They are
+/// computed by linear, second-order or geometrically exact theory.
 struct RecoveredForces {
   const std::vector<Vector2d>& position;  ///< positions of the mesh nodes, model nodes first [m]
   const Eigen::VectorXd& u;               ///< unconstrained coordinates [m, rad]

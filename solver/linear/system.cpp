@@ -32,8 +32,8 @@ std::vector<SpringElement> spring_elements(const Model& model, const Coordinates
   return springs;
 }
 
-/// Returns an empty sum with a zero on each diagonal position, so that free coordinates without
-/// entries remain in the pattern.
+/// Returns a matrix sum over elements, with an explicit zero at each diagonal position. The
+/// sparsity pattern therefore contains free coordinates to which no element contributes.
 Projection empty_sum(const System& system) {
   const auto& triangles = system.model.triangles;
   const bool quadratic = !triangles.empty() && triangles.front().quadratic();
@@ -166,7 +166,7 @@ System assemble(const Model& model, Effects active) {
   return system;
 }
 
-Eigen::MatrixX3d motion_of_nodes(const System& system, const Eigen::VectorXd& u) {
+Eigen::MatrixX3d full_node_motion(const System& system, const Eigen::VectorXd& u) {
   Eigen::MatrixX3d motion(std::ssize(system.model.nodes), 3);
   for (Index node = 0; node < motion.rows(); ++node) {
     const auto& c = system.coordinates.node[to_size(node)];
@@ -176,7 +176,7 @@ Eigen::MatrixX3d motion_of_nodes(const System& system, const Eigen::VectorXd& u)
 }
 
 Eigen::MatrixX3d node_motion(const System& system, const Eigen::VectorXd& q) {
-  return motion_of_nodes(system, system.T * q);
+  return full_node_motion(system, system.T * q);
 }
 
 }  // namespace trammel::solver

@@ -20,7 +20,8 @@ struct SpringElement {
 
 /// Assembled linear model. The unconstrained coordinates u are node translations, node rotations,
 /// and rotations of released member ends. They follow from the free coordinates q by u = T q. T
-/// enforces supports, hinges, rigid bodies, paper Eq. 25 and inextensible members.
+/// enforces supports, hinges, rigid bodies, linear constraints (LinearConstraint) and inextensible
+/// members.
 struct System {
   Model model;
   Mesh mesh;                ///< node positions and elements, also for drawing
@@ -37,8 +38,8 @@ struct System {
   Counters counters;
 };
 
-/// Builds K, M and f of the free coordinates (paper Eq. 7-11). Effects that are not active are
-/// removed from the model first. M is empty if inertia is not active.
+/// Builds K, M and f of the free coordinates (Varalakshmi & Srinivas 2017, Eq. 7-11). Effects that
+/// are not active are removed from the model first. M is empty if inertia is not active.
 /// @throws ModelError  if the model is invalid.
 [[nodiscard]] System assemble(const Model& model, Effects active = Effects::all());
 
@@ -47,7 +48,7 @@ struct System {
 [[nodiscard]] Eigen::MatrixX3d node_motion(const System& system, const Eigen::VectorXd& q);
 
 /// Returns the node motions of unconstrained coordinates u.
-[[nodiscard]] Eigen::MatrixX3d motion_of_nodes(const System& system, const Eigen::VectorXd& u);
+[[nodiscard]] Eigen::MatrixX3d full_node_motion(const System& system, const Eigen::VectorXd& u);
 
 /// Returns factors that convert the unconstrained coordinates u to lengths: 1 for translations, the
 /// model size [m] for rotations.

@@ -43,7 +43,7 @@ using Eigen::VectorXd;
 std::vector<double> sample_times(const TransientOptions& options) {
   if (!options.sample_times.empty()) return options.sample_times;
   if (!(options.step > 0 && options.end > options.start)) {
-    throw ModelError("a motion must end after its start, and its step must be positive");
+    throw ModelError("the motion must end after its start, and the time step must be positive");
   }
   return even_times(options.start, options.end, options.step);
 }
@@ -116,7 +116,7 @@ class MotionSolver {
   /// there.
   [[nodiscard]] double load_time(double time) const {
     const bool begins = time == options_.time.start;
-    return begins ? time : options_.load_history.end_of_step(time);
+    return begins ? time : options_.load_history.step_end_load_time(time);
   }
 
   /// Solves the quasi-static equation K q = F + f at every sample.
@@ -209,9 +209,9 @@ class MotionSolver {
         damping_ratio(options_.damping, 2 * std::numbers::pi * *first);
   }
 
-  /// Computes a quasi-static start with the time derivative of the constraint matrix T. It solves K
-  /// q = f - T^T C u., where u. is the velocity of the solution of K q = f. Elastic inertia is
-  /// omitted, because each of its terms depends on the choice of free coordinates.
+  /// Computes a quasi-static start with the time derivative T. of the constraint matrix T. It
+  /// solves K q = f - T^T C u., where u. is the velocity of the solution of K q = f. Elastic
+  /// inertia is omitted, because each of its terms depends on the choice of free coordinates.
   Outcome start_with_rates(TransientOptions& time, Counters& counters) {
     EquationOfMotion equation = this->equation();
     equation.C = {};
@@ -412,7 +412,7 @@ void set_triangle_stress(const MovingSystem& moving, const VectorXd& u, StaticSo
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     TrianglePoints points;
     for (std::size_t k = 0; k < 3; ++k) points[k] = moving.position(triangles[i].nodes[k]);
-    const auto local = detail::gather(moving.start().coordinates.of_triangle<6>(triangles[i]), u);
+    const auto local = detail::gather(moving.start().coordinates.triangle_dofs<6>(triangles[i]), u);
     const Plate& plate = moving.start().model.plates[to_size(triangles[i].plate)];
     state.triangle_stress.row(static_cast<Index>(i)) =
         membrane_stress(plate.material, triangle_deformation(points) * local);

@@ -11,15 +11,15 @@
 #include "solver/motion/equation_of_motion.h"
 #include "solver/motion/transient.h"
 
-/// Elastic vibration of the manipulator about its nominal rigid motion along a path (paper Eq.
-/// 12-19, with the rigid platform of Eq. 20-27):
+/// Elastic vibration of the manipulator about its nominal rigid motion along a path (Varalakshmi &
+/// Srinivas 2017, Eq. 12-19, with the rigid platform of Eq. 20-27):
 ///
 ///   \f[ M \ddot q + (C + G) \dot q + (K + S) q = T^T F + f(t), \quad C = w_1 M + w_2 K. \f]
 ///
 /// The actuators follow the nominal motion exactly. q are the elastic displacements relative to
-/// this motion. F is the load on the platform, and f the inertia load of the nominal motion. G and
-/// S are the gyroscopic, centrifugal and Euler terms of the moving links (moving_system.h), which
-/// form a separate effect.
+/// this motion. F is the weight and the load on the platform, and f the inertia load of the nominal
+/// motion. G and S are the gyroscopic, centrifugal and Euler terms of the moving links
+/// (moving_system.h), which form a separate effect.
 namespace trammel::solver {
 
 /// Options of an elastodynamic analysis.
@@ -29,7 +29,7 @@ struct ElastodynamicsOptions {
   Vector3d wrench = Vector3d::Zero();  ///< on the platform at P, world axes (Fx, Fy [N], M [N m])
   LoadHistory load_history;  ///< factor on the wrench only; weight and inertia do not change
   Vector2d gravity = Vector2d::Zero();                        ///< in the plane [m/s^2]
-  RayleighDamping damping{.mass = 0.02, .stiffness = 0.003};  ///< as printed in paper Eq. 19
+  RayleighDamping damping{.mass = 0.02, .stiffness = 0.003};  ///< as printed in Eq. 19
 
   bool nominal_inertia = true;  ///< true: inertia load f of the nominal motion, Eq. 14-17
   bool elastic_inertia = true;  ///< true: M q.. and damping; false: quasi-static, K q = F + f
@@ -48,7 +48,7 @@ struct ElastodynamicsOptions {
 struct ElastodynamicsEffects {
   double first_frequency = kNaN;  ///< lowest elastic frequency at the start [Hz]
   double damping_ratio = kNaN;    ///< damping ratio of the lowest elastic mode
-  /// Inertia load f of the nominal motion over the load F on the platform, |f| / |T^T F| in the
+  /// Inertia load f of the nominal motion over the weight and platform load F, |f| / |T^T F| in the
   /// norm of K^-1; infinite if F is zero.
   double nominal_inertia = 0;
   /// Square of the ratio of the path frequency to the first elastic frequency. The path frequency
@@ -76,7 +76,7 @@ struct ElastodynamicsSolution {
   Eigen::MatrixX2d quasi_static_deflection;
   /// Deflections of P along the nominal velocity and to the left of it [m]; NaN at zero velocity.
   Eigen::VectorXd tangential_error, normal_error;
-  Eigen::VectorXd platform_rotation;  ///< mean elastic rotation of C1 C2 C3 about P [rad]
+  Eigen::VectorXd platform_rotation;  ///< mean elastic rotation of the triangle C1 C2 C3 [rad]
   Eigen::MatrixX3d torque;            ///< torques of the actuators on the proximal links [N m]
   Eigen::MatrixX3d rigid_torque;      ///< torques with rigid links and free passive joints [N m]
   /// Energies of the elastic motion. The work is NaN if links are inextensible and the platform

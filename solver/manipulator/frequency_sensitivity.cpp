@@ -75,8 +75,8 @@ SeededDesign seed_design(const ManipulatorDesign& design, const Posture& posture
   for (std::size_t i = 0; i < 3; ++i) {
     LinkDesignOf<Dual> proximal = lifted(design.proximal[i]);
     LinkDesignOf<Dual> distal = lifted(design.distal[i]);
-    if (parameter.proximal[i]) seed(detail::link_number(proximal, parameter.kind));
-    if (parameter.distal[i]) seed(detail::link_number(distal, parameter.kind));
+    if (parameter.proximal[i]) seed(detail::link_property(proximal, parameter.kind));
+    if (parameter.distal[i]) seed(detail::link_property(distal, parameter.kind));
     const Dual a = with_derivative(g.proximal[i], length && parameter.proximal[i] ? 1 : 0);
     const Dual b = with_derivative(g.distal[i], length && parameter.distal[i] ? 1 : 0);
     const Eigen::Vector2<Dual> A = g.base[i].cast<Dual>();
@@ -285,7 +285,7 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
 
   std::vector<std::optional<SeededDesign>> designs(parameters.size());
   for (std::size_t p = 0; p < parameters.size(); ++p) {
-    if (is_seeded(parameters[p].kind)) designs[p] = seed_design(design, posture, parameters[p]);
+    if (is_dual(parameters[p].kind)) designs[p] = seed_design(design, posture, parameters[p]);
   }
   for (const FrequencySet& set : equal_frequencies(modes.frequency)) {
     if (set.first >= kept) break;

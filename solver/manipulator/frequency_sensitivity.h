@@ -36,7 +36,7 @@ struct DesignParameter {
 
 /// Returns true for parameters with exact derivatives by dual numbers: lengths, thickness, width, E
 /// and density.
-[[nodiscard]] inline bool is_seeded(DesignParameter::Kind kind) {
+[[nodiscard]] inline bool is_dual(DesignParameter::Kind kind) {
   return kind <= DesignParameter::Kind::density;
 }
 
@@ -61,20 +61,21 @@ template <class Part>
 
 /// Returns the property of a link to which the parameter refers, or null.
 template <class T>
-[[nodiscard]] T* link_number(LinkDesignOf<T>& link, DesignParameter::Kind kind) {
+[[nodiscard]] T* link_property(LinkDesignOf<T>& link, DesignParameter::Kind kind) {
   return kind == DesignParameter::Kind::width ? &link.width : number(link, kind);
 }
 
 }  // namespace detail
 
-// Derivatives of natural frequencies f (mode shapes x) by design parameters p (paper Eq. 30-35):
+// Derivatives of natural frequencies f (mode shapes x) by design parameters p (Varalakshmi &
+// Srinivas 2017, Eq. 30-35):
 //
 //   d f / dp = (1 / 8 pi^2 f) x^T (dK/dp - (2 pi f)^2 dM/dp) x,   x^T M x = 1.
 //
 // The pose is fixed, so that the joint angles change with the link lengths. dK/dp and dM/dp are
 // exact, because sections and elements are computed with dual numbers (numbers.h). Derivatives by
-// parameters without dual numbers (`is_seeded`) are NaN. The mass of a link follows from its
-// density unless the design contains a printed mass.
+// parameters without dual numbers (`is_dual`) are NaN. The mass of a link follows from
+// its density unless the design contains a printed mass.
 
 /// Set of modes whose frequencies are equal up to round-off. Their shapes are an arbitrary basis of
 /// a subspace. Only the derivatives of all modes of the set together are meaningful.

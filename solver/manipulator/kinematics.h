@@ -16,14 +16,16 @@ inline constexpr double kSingularRatio = 64 * kEps;
 
 using Eigen::Matrix3d;
 
-/// Dimensions of the manipulator.
+/// Dimensions of the manipulator. The platform joints are defined as in Varalakshmi & Srinivas
+/// (2017), Eq. 23.
 struct ManipulatorGeometry {
   std::array<Vector2d, 3> base;      ///< base joints A_i, world axes [m]
-  std::array<Vector2d, 3> platform;  ///< joints C_i relative to P, platform axes [m] (paper Eq. 23)
+  std::array<Vector2d, 3> platform;  ///< joints C_i relative to P, platform axes [m]
   std::array<double, 3> proximal{};  ///< lengths |A_i B_i| of the proximal links [m]
   std::array<double, 3> distal{};    ///< lengths |B_i C_i| of the distal links [m]
-  /// Side of A_i C_i on which the elbow B_i lies: +1 counterclockwise, -1 clockwise (paper). The
-  /// angle of A_i B_i is direction(A_i C_i) + working_mode_i * (angle between A_i C_i and A_i B_i).
+  /// Side of A_i C_i on which the elbow B_i lies: +1 counterclockwise, -1 clockwise (Varalakshmi &
+  /// Srinivas 2017). The angle of A_i B_i is direction(A_i C_i) + working_mode_i * (angle between
+  /// A_i C_i and A_i B_i).
   std::array<int, 3> working_mode{-1, -1, -1};
 };
 
@@ -129,7 +131,8 @@ struct Jacobians {
 /// reach the pose.
 [[nodiscard]] double parallel_determinant(const ManipulatorGeometry& geometry, const Pose& pose);
 
-/// Actuator torques that hold the platform in equilibrium under a wrench (paper Fig. 5).
+/// Actuator torques that hold the platform in equilibrium under a wrench (Varalakshmi & Srinivas
+/// 2017, Fig. 5).
 struct HoldingTorques {
   Outcome outcome;   ///< singular: no finite torques hold the wrench at a parallel singularity
   Vector3d torque;   ///< actuator torques on the proximal links, counterclockwise [N m]

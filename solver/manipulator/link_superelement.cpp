@@ -43,7 +43,8 @@ MatrixXd motions_of(const std::vector<Index>& coordinates, const MatrixXd& value
 
 /// Returns the modes X of the given coordinates as motions of all nodes, with all other coordinates
 /// fixed. They satisfy X^T K X = I and are in descending order of the period. Bending and axial
-/// modes are uncoupled. They are computed separately, so that zeros remain exact.
+/// modes are uncoupled. They are computed separately, so that the couplings between them remain
+/// exactly zero.
 MatrixXd modes_of(const ElementChain& chain, const std::vector<Index>& coordinates) {
   const Index size = 3 * (chain.elements + 1);
   const auto count = static_cast<Index>(coordinates.size());

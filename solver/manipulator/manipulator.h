@@ -9,8 +9,8 @@
 #include "solver/model/model.h"
 #include "solver/model/numbers.h"
 
-/// Builds the Model of a planar 3-RRR manipulator from its geometry, its pose and modeling options
-/// that the paper does not specify.
+/// Builds the Model of a planar 3-RRR manipulator from its geometry, its pose and modeling options.
+/// Varalakshmi & Srinivas (2017) do not specify these options.
 namespace trammel::solver {
 
 /// Joint of the manipulator: its type and its stiffness. Only the type `sprung` uses the stiffness.
@@ -27,10 +27,11 @@ enum class ActiveKind { locked, free, sprung };
 /// proximal link. A hinge or a torsion spring connects the end of the distal link to this node.
 enum class ElbowKind { welded, hinged, sprung };
 /// Type of the joint at C_i, between distal link and platform. hinged: only the displacements of
-/// link and platform are equal (paper Eq. 24). eq25_*: hinged, and Eq. 25 sets the platform
-/// rotation zeta to the mean or, as printed, to the sum of the rotations of the three link ends.
-/// Eq. 25 is one equation for all three joints, which then have the same type. All types except
-/// `hinged` require a rigid platform, because a node of triangles has no rotation.
+/// link and platform are equal (Varalakshmi & Srinivas 2017, Eq. 24). eq25_*: hinged, and Eq. 25 of
+/// this paper sets the platform rotation zeta. It is the mean (eq25_mean) or, as printed, the sum
+/// (eq25_sum) of the rotations of the three link ends. Eq. 25 is one equation for all three joints,
+/// which then have the same type. All types except `hinged` require a rigid platform, because a
+/// node of triangles has no rotation.
 enum class PlatformJointKind { hinged, welded, sprung, eq25_mean, eq25_sum };
 
 using ActiveJoint = Joint<ActiveKind>;
@@ -69,8 +70,8 @@ struct PlatformDesignOf {
   Kind kind = Kind::triangles;
   T thickness = T(0);  ///< [m]
   MaterialOf<T> material;
-  /// Number of refinements of a platform of triangles. The mesh without refinement is that of the
-  /// paper: C1 C2 P, C2 C3 P, C3 C1 P. Each refinement splits every triangle into four.
+  /// Number of refinements of a platform of triangles. The mesh without refinement has the
+  /// triangles C1 C2 P, C2 C3 P and C3 C1 P. Each refinement splits every triangle into four.
   int refinements = 0;
   bool six_nodes = false;  ///< true: a platform of triangles has six nodes per triangle
   /// Radius of the pins at P and C_i of a platform of triangles [m]. If it is positive, P and C_i

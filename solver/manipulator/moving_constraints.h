@@ -11,7 +11,7 @@ namespace trammel::solver {
 
 /// Constraints C u = 0 of a moving manipulator, expressed as u = T q with free coordinates q, and
 /// the time derivatives of T. At every pose C T = 0. The eliminated coordinates are those of the
-/// start pose:
+/// start pose. A dot denotes the time derivative:
 ///
 ///   C_p X = - C_f,   C_p X. = - C. T,   C_p X.. = - C.. T - 2 C. T.
 ///
@@ -24,8 +24,10 @@ class MovingConstraints {
   /// is true.
   MovingConstraints(const System& start, const NominalMotion& motion, bool derivatives);
 
-  /// Computes T for the nominal motion `to`. The outcome is singular if the constraints do not
-  /// determine the eliminated coordinates at this pose. T is then unchanged.
+  /// Computes T for the nominal motion `to`. T is kept if all parts have the same motion in `from`,
+  /// the nominal motion of the present T. The outcome is singular if the constraints do not
+  /// determine the eliminated coordinates at the pose of `to`. T is then also kept. `start` is the
+  /// system at the pose at which it was built.
   [[nodiscard]] Outcome move(const System& start, const NominalMotion& from,
                              const NominalMotion& to);
 
@@ -33,7 +35,7 @@ class MovingConstraints {
   /// pose.
   [[nodiscard]] const Constraints& constraints() const { return constraints_; }
   [[nodiscard]] const RowMajorMatrix& T() const { return constraints_.T; }
-  /// Returns the time derivative of T; empty if T is the same at every pose.
+  /// First and second time derivative of T; empty if T is the same at every pose.
   [[nodiscard]] const RowMajorMatrix& T_dot() const { return T_dot_; }
   [[nodiscard]] const RowMajorMatrix& T_ddot() const { return T_ddot_; }
   [[nodiscard]] bool variable() const { return variable_; }  ///< true if T changes with the pose

@@ -65,9 +65,11 @@ const Eigen::Matrix3d& generator() {
   return J;
 }
 
-/// Adds one integration point of int rho N^T X and int rho N^T (J X - X J6). X = J N - N J6 is the
-/// derivative of the rotating interpolation W = R N R6^T with respect to its angle. The weights are
-/// rho times (1, 1, radius of gyration squared).
+/// Adds one integration point of int rho N^T X and int rho N^T (J X - X J6), in element axes. N is
+/// the interpolation of an element and W = R N R6^T the interpolation in world axes. R rotates a
+/// vector (x, y, rotation) by the angle of the element, and R6 contains R for both nodes. J is
+/// dR/dangle R^-1, and J6 contains J for both nodes. X = J N - N J6 is the derivative of W with
+/// respect to the angle at R = I. The weights are rho times (1, 1, radius of gyration squared).
 void add_derivatives(const Eigen::Matrix<double, 3, 6>& N, const Vector3d& weights,
                      MovingElement& element) {
   Matrix6d J6 = Matrix6d::Zero();
@@ -109,7 +111,7 @@ void add_triangles(const System& system, std::vector<MovingElement>& elements) {
     if (triangle.quadratic())
       throw ModelError("six-node triangles are not supported in a moving manipulator");
     const TrianglePoints points = triangle_nodes<3>(system.model, triangle);
-    element.coordinates = system.coordinates.of_triangle<6>(triangle);
+    element.coordinates = system.coordinates.triangle_dofs<6>(triangle);
     const Plate& plate = system.model.plates[to_size(triangle.plate)];
     const TriangleStiffness<3> k = triangle_stiffness(points, plate);
     element.B = k.B;

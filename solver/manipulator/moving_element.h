@@ -103,7 +103,7 @@ struct MovingElement {
   }
   /// Rotates the columns of a block from world axes to element axes.
   template <class Block>
-  void to_own(Block& v, const Vector2d& direction) const {
+  void to_element_axes(Block& v, const Vector2d& direction) const {
     to_world(v, Vector2d(direction.x(), -direction.y()));
   }
   /// Transforms an element matrix A from element axes to world axes.

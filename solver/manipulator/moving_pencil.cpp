@@ -170,7 +170,7 @@ void MovingPencil::measure_strain(const VectorBlock<rows>& X,
       const Index u = element.coordinates[to_size(i)];
       if (u >= 0) v.col(i) = U.col(u);
     }
-    element.to_own(v, element.direction(system_.motion()));
+    element.to_element_axes(v, element.direction(system_.motion()));
     for (Index k = 0; k < 3; ++k) {
       if (element.c[k] == 0) continue;
       Eigen::Array<double, rows, 1> d = Eigen::Array<double, rows, 1>::Zero(), magnitude = d;

@@ -72,7 +72,8 @@ struct ModeMeasures {
   Numbers strain;    ///< x^T K x from the deformations [J]
   Numbers rounding;  ///< effect of rounding x on `strain`, 2 eps sum |d|^T c |B| |u|
   Numbers inertia;   ///< x^T M x [J s^2]
-  /// Largest ratio of a row of (K - strain / inertia M) x to the magnitudes of its terms.
+  /// Largest ratio of a row of K x - w^2 M x to the magnitudes of its terms, with the Rayleigh
+  /// quotient w^2 = strain / inertia.
   Numbers backward_error;
 };
 
@@ -82,7 +83,7 @@ struct ModeMeasures {
 class MovingPencil {
  public:
   /// Builds K and M from a model at the pose `pose`. Inactive effects must have been removed from
-  /// the model. The number of elements of each link determines its interior modes.
+  /// the model. The number of interior modes of a link follows from its number of elements.
   MovingPencil(const Model& model, const ManipulatorGeometry& geometry, const Pose& pose);
 
   /// Computes K and M at a pose. The outcome is singular if the constraints do not determine the

@@ -46,8 +46,9 @@ std::vector<LinkSuperelement> condense_members(const Model& model, const Mesh& m
   return links;
 }
 
-/// Calls visit(local, a, b, row, column) for the products T(a) A(local) T(b) that form T^T A T. A
-/// is an element matrix, and local = i + 6 j.
+/// Calls visit(local, a, b, row, column) for each product T(a) A(local) T(b) that contributes to
+/// the entry (row, column) of T^T A T, where A is an element matrix. The entry (i, j) of A has the
+/// position local = i + 6 j. The positions a and b refer to the array of the values of T.
 template <class Visit>
 void for_each_contribution(const MovingElement& element, const RowMajorMatrix& T, Visit&& visit) {
   for (int i = 0; i < 6; ++i) {
@@ -66,11 +67,12 @@ void for_each_contribution(const MovingElement& element, const RowMajorMatrix& T
 /// Returns the values of the coordinates of an element in element axes.
 Vector6d gather_own(const MovingElement& element, const Vector2d& direction, const VectorXd& u) {
   Eigen::Matrix<double, 1, 6> v = detail::gather(element.coordinates, u).transpose();
-  element.to_own(v, direction);
+  element.to_element_axes(v, direction);
   return v.transpose();
 }
 
-/// Adds the forces of an element, given in element axes, to the forces u of its coordinates.
+/// Adds the forces of an element, given in element axes, to the vector `u` of forces on the
+/// unconstrained coordinates, in world axes.
 void scatter_own(const MovingElement& element, const Vector2d& direction, const Vector6d& force,
                  VectorXd& u) {
   Eigen::Matrix<double, 1, 6> f = force.transpose();
@@ -158,7 +160,7 @@ Vector6d MovingSystem::nominal_inertia(const MovingElement& element, const PartM
                     : at_mesh_node(start_.coordinates.node_of[to_size(u)],
                                    motion_.node[2])[i % element.stride()];
   }
-  element.to_own(a, direction);
+  element.to_element_axes(a, direction);
   Vector6d f = -element.m * a.transpose();
   f.head<2>() += part.rate * part.rate * element.first_moment;
   return f;
@@ -170,7 +172,7 @@ Vector6d MovingSystem::weight(const MovingElement& element, const Vector2d& dire
   if (element.layout == MovingElement::Layout::scalar || motion_.gravity.isZero(0))
     return Vector6d::Zero();
   for (Index i = 0; i + 1 < 6; i += element.stride()) g.segment<2>(i) = motion_.gravity;
-  element.to_own(g, direction);
+  element.to_element_axes(g, direction);
   return element.m * g.transpose();
 }
 

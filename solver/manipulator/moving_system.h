@@ -28,15 +28,17 @@ struct MovingSystemOptions {
 ///
 /// The elastic displacements u(t) = T(t) q(t) are components in world axes, relative to the moving
 /// nominal position. W = R N T_s is the interpolation of an element in world axes, which rotates
-/// with the element. The virtual work of inertia is
+/// with the element. T_s rotates the displacements of its nodes to element axes. N interpolates
+/// them within the element, and R rotates the result to world axes. A dot denotes the time
+/// derivative. The virtual work of inertia is
 ///
 ///   int rho W^T (r.. + W u.. + 2 W. u. + W.. u) dV,
 ///
-/// where r.. is the nominal acceleration. The paper keeps the first two terms: inertia loads, Eq.
-/// 14-17, and the mass. The last two terms follow from the time derivatives of T_s and R. Together
-/// with the same terms of T(t) they form the `gyroscopic` effect. 2 W^T W. is a damping matrix, and
-/// W^T W.. a stiffness matrix. With this effect, damping acts on u. = T q. + T. q. Without it,
-/// damping acts on T q. only.
+/// where r.. is the nominal acceleration. Varalakshmi & Srinivas (2017) keep the first two terms:
+/// inertia loads, Eq. 14-17, and the mass. The last two terms follow from the time derivatives of
+/// T_s and R. Together with the same terms of T(t) they form the `gyroscopic` effect. 2 W^T W. is a
+/// damping matrix, and W^T W.. a stiffness matrix. With this effect, damping acts on u. = T q. + T.
+/// q. Without it, damping acts on T q. only.
 class MovingSystem {
  public:
   /// Assembles the model at its pose.
@@ -54,12 +56,13 @@ class MovingSystem {
   [[nodiscard]] const SparseMatrix& centrifugal_and_euler_matrix() const {
     return K_centrifugal_euler_;
   }
-  /// Returns T^T k T. with the stiffness k of the coordinates u. It yields the
-  /// stiffness-proportional damping forces of the velocity T. q. It is empty without the gyroscopic
-  /// effect.
+  /// Returns the product of T^T, the stiffness matrix k of the coordinates u, and dT/dt. It yields
+  /// the stiffness-proportional damping forces of the velocity dT/dt q. It is empty without the
+  /// gyroscopic effect.
   [[nodiscard]] const SparseMatrix& K_T_dot() const { return K_T_dot_; }
-  /// Returns T^T m T. with the mass m of the coordinates u. It yields the mass-proportional damping
-  /// forces of the velocity T. q. It is empty without the gyroscopic effect.
+  /// Returns the product of T^T, the mass matrix m of the coordinates u, and dT/dt. It yields the
+  /// mass-proportional damping forces of the velocity dT/dt q. It is empty without the gyroscopic
+  /// effect.
   [[nodiscard]] const SparseMatrix& M_T_dot() const { return M_T_dot_; }
   /// Returns the inertia load of the nominal motion, - int rho W^T r.. dV [N, N m].
   [[nodiscard]] const Eigen::VectorXd& inertia_load() const { return inertia_load_; }
@@ -98,7 +101,10 @@ class MovingSystem {
 
  private:
   /// Contribution of an element matrix to an entry of K, M and the other matrices:
-  /// value(destination) += T(a) * element(local) * T(b), with local = i + 6 j.
+  /// value(destination) += T(a) * element(local) * T(b).
+  ///
+  /// The entry (i, j) of the element matrix has the position local = i + 6 j. The positions a, b
+  /// and destination refer to the arrays of the values of T and of the matrix.
   struct Contribution {
     int local, a, b, destination;
   };
@@ -162,10 +168,11 @@ class PathFollower {
 
   // Quantities at the current pose, in free coordinates.
 
-  /// Returns the load F including weight plus, if active, the nominal inertia load f [N, N m].
+  /// Returns the weight and the load on the platform plus, if active, the inertia load of the
+  /// nominal motion [N, N m].
   [[nodiscard]] Eigen::VectorXd load() const;
-  /// Computes M, C + G and K + S, including damping forces of the velocity T. q. C is unchanged
-  /// without damping and gyroscopic terms.
+  /// Computes M, C + G and K + S (elastodynamics.h), including damping forces of the velocity dT/dt
+  /// q. C is unchanged without damping and gyroscopic terms.
   void matrices(SparseMatrix& M, SparseMatrix& C, SparseMatrix& K);
   /// Solves K q = f. Returns false if K is singular.
   [[nodiscard]] bool solve_statically(const Eigen::VectorXd& f, Eigen::VectorXd& q);
@@ -177,8 +184,8 @@ class PathFollower {
   [[nodiscard]] Vector3d rigid_torque() const;
 
   /// Returns the numbers of element evaluations, factorizations and solutions, and the evaluations
-  /// that effects cause. Damping and gyroscopic effects count at each evaluation, other effects
-  /// once.
+  /// that effects cause. Damping and gyroscopic effects count each time their matrices are
+  /// computed, and other effects once in an analysis.
   [[nodiscard]] Counters counters() const;
 
  private:

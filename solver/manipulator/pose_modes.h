@@ -16,8 +16,9 @@ struct PoseModesOptions {
   Index threads = 0;  ///< 0: one thread per core; results are bit-identical for any number
 };
 
-/// Natural frequencies of a manipulator at many poses (paper Eq. 28, 29), one column per pose.
-/// Columns without a solution are NaN. Missing modes at the end of a column are NaN.
+/// Natural frequencies of a manipulator at many poses (Varalakshmi & Srinivas 2017, Eq. 28, 29),
+/// one column per pose. Columns without a solution are NaN. Missing modes at the end of a column
+/// are NaN.
 struct PoseModes {
   std::vector<Outcome> outcome;  ///< singular: out of reach, or as ModalSolution
   Eigen::MatrixXd frequency;     ///< ascending, 0 for rigid modes [Hz]

@@ -7,19 +7,23 @@
 #include "solver/model/evidence.h"
 #include "solver/model/numbers.h"
 
-/// Rigid dynamics of the 3-RRR manipulator in nine coordinates (paper Eq. 1-5), with absolute link
-/// angles:
+/// Rigid dynamics of the 3-RRR manipulator in nine coordinates (Varalakshmi & Srinivas 2017, Eq.
+/// 1-5), with absolute link angles:
 ///
 ///   M(q) q.. + C(q, q.) q. + N(q) = forces,  q = [theta_a (3), theta_p (3), x, y, phi].
 ///
-/// The closed loops give q. = W theta_a. and the reduced equation
+/// A dot denotes the time derivative. N is the derivative of the potential energy of gravity by q.
+/// The forces on the right are those of the actuators, the load and the closed loops. The closed
+/// loops give q. = W theta_a. and the reduced equation
 ///
 ///   Mh theta_a.. + Ch theta_a. + Nh = tau + (dx/dtheta_a)^T wrench,
 ///
 ///   Mh = W^T M W,  Ch = W^T M W. + W^T C W,  Nh = W^T N.
 ///
-/// a and e are unit vectors along proximal and distal link, l1 and l2 the link lengths, and c = C -
-/// P. The loop P + c = A + l1 a + l2 e of a limb gives, along e and along perp(e),
+/// The actuator torques are tau, and dx/dtheta_a are the last three rows of W. The wrench acts on
+/// the platform at P. Unit vectors along proximal and distal link are a and e, the link lengths are
+/// l1 and l2, and c = C - P. The loop P + c = A + l1 a + l2 e of a limb gives, along e and along
+/// perp(e),
 ///
 ///   e . C. = l1 s theta_a.,   perp(e) . C. = l1 (a . e) theta_a. + l2 theta_p.,  s = cross(a, e).
 ///
@@ -93,7 +97,8 @@ struct BodyTerms {
   Eigen::Matrix<double, 3, 9> J, J_dot;
 };
 
-/// Terms of the equations of motion (paper Eq. 1-5) in one state; NaN unless solved.
+/// Terms of the equations of motion (Varalakshmi & Srinivas 2017, Eq. 1-5) in one state; NaN unless
+/// solved.
 struct RigidTerms {
   /// singular: out of reach, at a parallel singularity (no W), or at a serial singularity. At a
   /// serial singularity, the velocity of the platform requires an infinite velocity of an actuator.
@@ -115,8 +120,8 @@ struct RigidTerms {
 [[nodiscard]] RigidTerms rigid_terms(const RigidManipulator& manipulator, const Pose& pose,
                                      const Vector3d& velocity);
 
-/// Residuals of the symmetry of Mh and the skew symmetry of Mh. - 2 Ch in one state (paper Eq. 4,
-/// 5).
+/// Residuals of the symmetry of Mh and the skew symmetry of Mh. - 2 Ch in one state (Varalakshmi &
+/// Srinivas 2017, Eq. 4, 5).
 struct PropertyResiduals {
   double symmetry = 0;  ///< |Mh - Mh^T| / |Mh| [-]
   /// |S + S^T| / (|Mh.| + 2 |Ch|) of S = Mh. - 2 Ch [-], with Mh. computed independently of C. It

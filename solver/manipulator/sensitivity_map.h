@@ -5,8 +5,9 @@
 
 #include "solver/manipulator/frequency_sensitivity.h"
 
-/// First elastic frequency and its sensitivity over the workspace (paper Fig. 16), and singularity
-/// curves. All results are for one orientation of the platform.
+/// First elastic frequency and its derivative by a design parameter over the workspace (Varalakshmi
+/// & Srinivas 2017, Fig. 16), and singularity curves. All results are for one orientation of the
+/// platform.
 namespace trammel::solver {
 
 /// First elastic frequency at one pose; NaN unless solved.
@@ -14,7 +15,8 @@ struct FirstFrequency {
   Outcome outcome;    ///< singular: infinite derivative or only rigid modes; not_converged: modes
   Evidence evidence;  ///< residuals of the modes
   double frequency = 0;  ///< [Hz]; also defined if a limb is straight or folded
-  /// Derivative for an increasing parameter; the lowest for a repeated frequency [Hz / unit].
+  /// Derivative of the frequency by the parameter [Hz / unit of the parameter]. For a repeated
+  /// frequency, it is the lowest derivative in the direction of an increasing parameter.
   double derivative = 0;
   Counters counters;
 };

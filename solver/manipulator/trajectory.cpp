@@ -89,7 +89,9 @@ bool is_still(const Way& line) {
 
 }  // namespace
 
-// Unknowns are the accelerations a_k. Velocities are continuous if, with h_k = t_{k+1} - t_k,
+// Unknowns are the accelerations a_k at the times t_k of the given poses. The time intervals are
+// h_k = t_{k+1} - t_k, and slope_k is the difference of the poses k + 1 and k over h_k. Velocities
+// are continuous if
 //
 //   h_{k-1} a_{k-1} + 2 (h_{k-1} + h_k) a_k + h_k a_{k+1} = 6 (slope_k - slope_{k-1}).
 Spline make_spline(const std::vector<double>& times, const std::vector<Pose>& poses,

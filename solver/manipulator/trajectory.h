@@ -24,8 +24,8 @@ struct TrajectoryPoint {
   Vector3d acceleration = Vector3d::Zero();  ///< (xddot, yddot [m/s^2], phiddot [rad/s^2])
 };
 
-/// Circle x = x_c + r cos(w t), y = y_c + r sin(w t) with constant phi (paper Eq. 38, with w = 1
-/// rad/s).
+/// Circle x = x_c + r cos(w t), y = y_c + r sin(w t) with constant phi (Varalakshmi & Srinivas
+/// 2017, Eq. 38, with w = 1 rad/s).
 struct Circle {
   Vector2d center = Vector2d::Zero();  ///< [m]
   double radius = 0;                   ///< [m]

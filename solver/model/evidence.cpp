@@ -19,7 +19,7 @@ constexpr double kRowLimit = 1e-10;
 
 /// Limit for the equation of motion. Newton's method ends a time step when its last correction is
 /// small. The remaining residual is 1e-5 of the terms of a row where four-bar linkages pass
-/// singular positions. It is at most 3e-11 in the other cases of the catalogue. Missing inertia, an
+/// singular positions. It is at most 3e-11 in the other cases of the suite. Missing inertia, an
 /// outdated load or a velocity of the wrong sign leaves a residual above this limit
 /// (motion_residuals_test.cpp).
 constexpr double kStepLimit = 1e-4;

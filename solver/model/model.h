@@ -119,7 +119,8 @@ struct Node {
 };
 
 /// Rigid body of several nodes. The rotation of the reference node is the rotation of the body.
-/// Every member end that is welded to an attached node turns with the body (paper Eq. 20-24).
+/// Every member end that is welded to an attached node turns with the body (Varalakshmi & Srinivas
+/// 2017, Eq. 20-24).
 struct RigidBody {
   std::string name;
   Index reference = 0;
@@ -158,7 +159,7 @@ struct Coordinate {
 };
 
 /// Homogeneous linear constraint on the motion of the model: sum of coefficient * coordinate = 0.
-/// Eq. 25 of the paper and pins of finite radius have this form.
+/// Eq. 25 of Varalakshmi & Srinivas (2017) and pins of finite radius have this form.
 struct LinearConstraint {
   /// Slider on a straight rail, if the constraint is the linearized condition that keeps the slider
   /// on the rail. The rail rotates with `node`.

@@ -90,7 +90,7 @@ double LoadHistory::at(double t) const {
   return factor[to_size(left)] * (1 - share) + factor[to_size(right)] * share;
 }
 
-std::vector<double> LoadHistory::bends() const {
+std::vector<double> LoadHistory::breakpoint_times() const {
   std::vector<double> bends;
   double before = 0;
   for (std::size_t k = 0; k < time.size(); ++k) {
@@ -103,7 +103,7 @@ std::vector<double> LoadHistory::bends() const {
   return bends;
 }
 
-double LoadHistory::end_of_step(double t) const {
+double LoadHistory::step_end_load_time(double t) const {
   const auto [first, last] = std::equal_range(time.begin(), time.end(), t);
   return last - first > 1 ? std::nextafter(t, -std::numeric_limits<double>::infinity()) : t;
 }

@@ -7,7 +7,8 @@
 #include "solver/model/effects.h"
 #include "solver/model/numbers.h"
 
-/// Equation of motion (paper Eq. 13, 18), M(t) q'' + C(t) q' + K(t) q = f(t).
+/// Equation of motion (Varalakshmi & Srinivas 2017, Eq. 13, 18), M(t) q'' + C(t) q' + K(t) q =
+/// f(t).
 namespace trammel::solver {
 
 /// State from which energies are computed if q is measured relative to moving axes. It consists of
@@ -29,7 +30,8 @@ struct EquationOfMotion {
   /// entries of the three matrices have the same positions, which do not change.
   std::function<void(double time, SparseMatrix& M, SparseMatrix& C, SparseMatrix& K)> update;
   /// Function that returns the working motion of a state at a time, after a jump at this time. If
-  /// it is empty, u is q, and load and drag are the forces of the equation of motion.
+  /// it is empty, energies are computed with u = q, and with the forces f and C q' of the equation
+  /// of motion.
   std::function<WorkingMotion(double time, const Eigen::VectorXd& q, const Eigen::VectorXd& v)>
       working_motion;
   /// Times at which the load or its slope jumps [s]. A step ends at each of them.
@@ -87,12 +89,12 @@ struct LoadHistory {
 
   [[nodiscard]] bool constant() const { return time.size() == 1; }
   /// Returns the times of jumps of the factor or its slope [s].
-  [[nodiscard]] std::vector<double> bends() const;
+  [[nodiscard]] std::vector<double> breakpoint_times() const;
   /// Returns the factor at a time [-].
   [[nodiscard]] double at(double t) const;
   /// Returns the time [s] at which loads are evaluated for the end `t` of a step. If the factor
   /// jumps at `t`, this time is just before `t`.
-  [[nodiscard]] double end_of_step(double t) const;
+  [[nodiscard]] double step_end_load_time(double t) const;
 };
 
 /// Load f(t) = pattern * factor(t).

@@ -31,17 +31,19 @@ struct HarmonicAmplitudes {
 ///
 ///   \f[ (K + i \omega C - \omega^2 M) q = f. \f]
 ///
-/// Modes with a damping ratio and rigid modes are superposed. The equation is solved directly for
-/// the remaining load, so that no mode is truncated.
+/// The responses of rigid modes and of modes with a modal damping ratio are superposed. The
+/// equation is solved directly for the part of the load that does not excite these modes. No mode
+/// is therefore truncated.
 class HarmonicSolver {
  public:
-  /// Computes the modes with a damping ratio, and rigid modes.
+  /// Computes the modes with a modal damping ratio, and rigid modes.
   /// @throws ModelError  if a ratio is negative or infinite, or there are fewer modes than ratios.
   HarmonicSolver(const System& system, const HarmonicDamping& damping);
 
   /// Returns the outcome. singular: the model is a mechanism; not_converged: modes were not found.
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
-  /// Returns the frequencies of the damped modes [Hz].
+  /// Returns the natural frequencies of the modes with a modal damping ratio, in the order of
+  /// `HarmonicDamping::modal_ratio` [Hz].
   [[nodiscard]] Eigen::VectorXd frequencies() const {
     return modes_.frequency.head(damping_.ratio.size());
   }
@@ -69,7 +71,8 @@ class HarmonicSolver {
   /// stiffness-proportional damping.
   [[nodiscard]] Eigen::VectorXcd acceleration(const Eigen::VectorXcd& q, double omega) const;
 
-  /// Computes the modes with a damping ratio, and the rigid modes of an unsupported model.
+  /// Computes the first `damped` modes, which have a modal damping ratio, and the rigid modes of an
+  /// unsupported model.
   void compute_modes(Index damped);
 
   const System& system_;

@@ -18,8 +18,8 @@ struct Stop {
 /// Returns the sample times, breakpoints after the start, and the end, in ascending order.
 std::vector<Stop> stops_of(const TransientOptions& options, const std::vector<double>& samples,
                            const std::vector<double>& breakpoints) {
-  // Round-off error of a time that is a multiple of a step. Breakpoints with a larger distance get
-  // separate stops, which resolves short pulses of the load.
+  // Round-off error of a time that is a multiple of a step [s]. A breakpoint at a larger distance
+  // from every other stop gets a separate stop, so that short load pulses are resolved.
   const double apart = 8 * kEps * std::max(std::abs(options.start), std::abs(options.end));
   std::vector<Stop> stops;
   for (const double time : samples) stops.push_back({time, true, false});
@@ -46,8 +46,8 @@ std::vector<Stop> stops_of(const TransientOptions& options, const std::vector<do
   return stops;
 }
 
-/// Returns the least number of equal steps until a stop, such that no step exceeds the requested
-/// step.
+/// Returns the least number of equal steps in the time `span` [s], such that no step exceeds `step`
+/// [s]. The number is a multiple of `multiple`.
 double equal_steps(double span, double step, int multiple = 1) {
   return multiple * std::max(1.0, std::ceil(span / (multiple * step) * (1 - 1e-9)));
 }

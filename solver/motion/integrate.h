@@ -42,7 +42,7 @@ struct TransientOptions {
   bool quasi_static_start = false;
   Eigen::VectorXd q0, v0;  ///< empty: zero
 
-  // Options of geometrically exact systems.
+  // Breakpoints and multiples of steps of geometrically exact systems, and a limit for all systems.
   std::vector<double> breakpoints;  ///< ascending; a step ends at each of them [s]
   int steps_in_multiples_of = 1;    ///< divides the number of steps between stops; fixed steps only
   std::int64_t max_steps = 100'000'000;  ///< limit of the number of steps, with rejected ones
@@ -57,8 +57,9 @@ struct TransientSummary {
   /// motion in `evidence` exceeds its limit. For a failed step, the reason states step, time and
   /// residual.
   Outcome outcome;
-  /// Residuals. The equation of motion and the relations of the scheme are checked for at least 200
-  /// steps, distributed over the time. Energy and constraints are checked for all steps.
+  /// Residuals. The equation of motion and the relations of the scheme are checked in up to about
+  /// 200 steps, distributed over the time. In linear systems, they are also checked in each step
+  /// that contains a sample. Energy and constraints are checked in all steps.
   Evidence evidence;
   double time = 0;  ///< end of the last step [s]
   std::int64_t accepted = 0;

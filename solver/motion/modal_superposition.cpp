@@ -150,10 +150,10 @@ DelayedFactors delayed_factors(const PiecewiseLinearLoad& load, double relaxatio
   return found;
 }
 
-void add_massless_coordinates(const ModalBasis& basis, const SparseMatrix& M, const SparseMatrix& K,
-                              double relaxation, const PiecewiseLinearLoad& load,
-                              const std::vector<double>& times, const VectorXd& q0,
-                              ModalResponse& response, Counters& counters) {
+void add_massless_response(const ModalBasis& basis, const SparseMatrix& M, const SparseMatrix& K,
+                           double relaxation, const PiecewiseLinearLoad& load,
+                           const std::vector<double>& times, const VectorXd& q0,
+                           ModalResponse& response, Counters& counters) {
   const auto beside_modes = [&](const VectorXd& x) -> VectorXd {
     return x - basis.shape * (basis.shape.transpose() * (M * x));
   };

@@ -14,7 +14,7 @@
 /// It is the reference for time integration, and an efficient method if few modes are relevant.
 namespace trammel::solver {
 
-/// Modes for superposition, with x^T M x = 1 (paper Eq. 33).
+/// Modes for superposition, with x^T M x = 1 (Varalakshmi & Srinivas 2017, Eq. 33).
 struct ModalBasis {
   Outcome outcome;        ///< singular, not_converged: there are no modes
   Eigen::VectorXd omega;  ///< ascending [rad/s]; 0 for rigid modes
@@ -60,10 +60,10 @@ struct DelayedFactors {
 /// `relaxation` is the factor of stiffness-proportional damping [s]. Without relaxation, massless
 /// coordinates follow this load at once. `basis` contains all modes. q0 are the displacements at
 /// times.front(); empty: zero.
-void add_massless_coordinates(const ModalBasis& basis, const SparseMatrix& M, const SparseMatrix& K,
-                              double relaxation, const PiecewiseLinearLoad& load,
-                              const std::vector<double>& times, const Eigen::VectorXd& q0,
-                              ModalResponse& response, Counters& counters);
+void add_massless_response(const ModalBasis& basis, const SparseMatrix& M, const SparseMatrix& K,
+                           double relaxation, const PiecewiseLinearLoad& load,
+                           const std::vector<double>& times, const Eigen::VectorXd& q0,
+                           ModalResponse& response, Counters& counters);
 
 /// Impulse response h of y'' + 2 c y' + w^2 y = p and its integrals over a time t:
 ///

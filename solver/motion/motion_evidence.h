@@ -18,7 +18,8 @@ inline constexpr double kUnderflow = std::numeric_limits<double>::min() / kEps;
 ///
 /// The expected change of energy in a step of size h follows from equilibrium at both ends of the
 /// step and from the relations of the scheme (time_scheme.h). x- is the mean of x at both ends and
-/// dx its change. T and V are the kinetic and the strain energy:
+/// dx its change. T and V are the kinetic and the strain energy. In this equation, A is the
+/// acceleration that satisfies the equation of motion, and a the algorithmic acceleration:
 ///
 ///   dT + dV = dq.f- - dq.(C v)- + h (a- + (gamma - 1/2) da).(M v)-
 ///             - (h v- + h^2 (beta - gamma/2) da).(M A)-.
@@ -33,10 +34,10 @@ class MotionEvidence {
   /// @pre The equation outlives this object.
   explicit MotionEvidence(const EquationOfMotion& equation, const TimeScheme& scheme = {});
 
-  /// Adds the largest residual |M A + C v + K q - f| of a row, relative to its terms. Each
-  /// coordinate counts in the terms with at least `kLeastFraction` of the largest, after scaling by
-  /// the diagonal of M + step^2 K. Otherwise, rows whose motions are only round-off errors would
-  /// have no scale.
+  /// Adds the largest residual |M A + C v + K q - f| of a row, relative to its terms. The load f is
+  /// that at `load_time`, and the matrices are those at `time`. Each coordinate counts in the terms
+  /// with at least `kLeastFraction` of the largest, after scaling by the diagonal of M + step^2 K.
+  /// Otherwise, rows whose motions are only round-off errors would have no scale.
   void add_equilibrium(double time, double load_time, const Eigen::VectorXd& q,
                        const Eigen::VectorXd& v, const Eigen::VectorXd& A, double step);
   /// Adds the residuals of the relations of the scheme between q, v, a and A in a step of size h.

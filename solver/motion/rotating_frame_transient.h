@@ -16,8 +16,8 @@ struct PrescribedRotation {
   std::function<std::array<double, 2>(double time)> speed;
   Vector2d center = Vector2d::Zero();  ///< center of rotation [m]
   /// true: include K_1, the geometric stiffness of the centrifugal forces at 1 rad/s on the
-  /// undeformed frame, from linear statics. Without K_1 the frame loses stiffness with increasing
-  /// speed (Kane, Ryan and Banerjee 1987).
+  /// undeformed structure, from linear statics. Without K_1 the structure loses stiffness with
+  /// increasing speed (Kane, Ryan and Banerjee 1987).
   bool stiffening = true;
 };
 

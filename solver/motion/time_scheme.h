@@ -108,9 +108,10 @@ double relation_residual(const TimeScheme& s, double h, const State& from,
                          const Eigen::VectorXd& A0, const State& to, const Eigen::VectorXd& A1,
                          bool positions, const Norm& norm, Eigen::VectorXd& defect,
                          double force_roundoff = 0) {
-  // If a body stops moving, its accelerations are the round-off error of its positions over beta
-  // h^2. The sums A, a, v and q of the terms of the relations are increased so that round-off is at
-  // most this fraction of them. The fraction is a tenth of the limit of the residual.
+  // If a body stops moving, its computed accelerations are the round-off error of its positions
+  // over beta h^2. A, a, v and q are sums of magnitudes by which the differences are divided. They
+  // are increased, so that the quotient of round-off error and sum is at most kRoundoffShare. This
+  // value is a tenth of the limit for Residual::equation_of_motion.
   constexpr double kRoundoffShare = 1e-5;
   const double roundoff =
       kEps * (norm(from.q) + norm(to.q)) / (std::max(s.beta, 1.0 / 12) * h * h) + force_roundoff;

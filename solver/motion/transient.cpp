@@ -19,8 +19,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Limit of the residual of a solved step relative to its terms. A residual at the round-off level
-/// of the largest products is also accepted.
+/// Limit of the residual of the equation of motion at the end of a step, relative to the sum of its
+/// terms. Round-off errors of the products of M, C and K with the motion are added to the limit.
 constexpr double kResidual = 1e-10;
 constexpr int kMaxRefinements = 40;
 
@@ -96,8 +96,8 @@ class SampleOutput {
 };
 
 void SampleOutput::step(const TransientState& begin, const TransientState& end, double h) {
-  // The time of a step end is a sum of step sizes. A sample within the round-off error of a step
-  // end is not inside the step.
+  // The time at the end of a step is a sum of step sizes with round-off errors. A sample counts as
+  // the end of the step if its distance from the end is at most this fraction of the step.
   constexpr double kEndOfStep = 1e-6;
   if (times_.empty()) {
     emit(end.time, end.q, end.v, end.a, end.shown);

@@ -98,8 +98,9 @@ Outcome check_stability(const EquationMatrices& matrices, const TransientOptions
 
 namespace {
 
-/// Returns the least ratio of a diagonal entry of M to that of `added`, if both are positive. An
-/// added matrix scaled by it is small compared with every mass, even if a step covers many periods.
+/// Returns the least ratio of a diagonal entry of M to that of `added` over all coordinates with
+/// positive entries in both. A much smaller multiple of `added` is negligible for every mass, even
+/// if a step covers many periods.
 double least_ratio(const SparseMatrix& M, const SparseMatrix& added) {
   double least = std::numeric_limits<double>::infinity();
   const VectorXd mass = M.diagonal(), other = added.diagonal();
@@ -131,8 +132,9 @@ bool MasslessCoordinates::factor(const EquationMatrices& matrices, double h, Cou
 }
 
 void MasslessCoordinates::balance(const VectorXd& residual, VectorXd& x) {
-  // (M + share B) s = residual moves not only massless coordinates, but also masses. (M + share B)
-  // w = M s moves the masses by the same amount, and only masses.
+  // B is C or K, and share is a small factor. The solution s of (M + share B) s = residual moves
+  // both massless coordinates and masses. The solution w of (M + share B) w = M s moves the masses
+  // by the same amount, and only masses. s - w therefore moves only massless coordinates.
   factor_.solve(residual, s_);
   const VectorXd image = matrices_->M() * s_;
   factor_.solve(image, w_);

@@ -1,6 +1,6 @@
 // Measures the rates of the solver's inner loops relative to their roofline: the lower of the peak
-// rate of one core and the bandwidth of its memory. Operations and bytes are counted from sizes.
-// Run by hand: build/release/tests/roofline
+// rate of one core and the bandwidth of its memory. Numbers of operations and bytes follow from the
+// sizes of the matrices. Run by hand: build/release/tests/roofline
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
@@ -99,8 +99,9 @@ void add_factorization(std::vector<LoopRate>& loops) {
 
 void add_network(std::vector<LoopRate>& loops) {
   constexpr Index kSamples = 379, kInputs = 3, kOutputs = 6, kQueries = 1000;
-  // Operations for each pair of query and sample: squares and their minimum, excess and its
-  // minimum, exponential, products with the outputs.
+  // Floating-point operations of the regression network for each pair of query and sample: squared
+  // distance and its minimum, excess over the minimum and minimum of the excess, exponential,
+  // products with the outputs.
   constexpr double kPair = 3 * kInputs + 1 + 5 * kInputs + 2 + 24 + 2 * (kOutputs + 1);
   const solver::Grnn network = solver::make_grnn(Eigen::MatrixXd::Random(kSamples, kInputs),
                                                  Eigen::MatrixXd::Random(kSamples, kOutputs), 1);

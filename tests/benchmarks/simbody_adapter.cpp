@@ -136,7 +136,7 @@ struct Mechanism : System {
       const Json taken = section(model, "supports").value(node, Json::array());
       if (taken.empty()) continue;
       if (taken.size() == 1 || !held.empty())
-        throw Cannot("supports that slide, or several on a body, are not supported");
+        throw Cannot("sliding supports and several supports of a body are not supported");
       held = node;
       fixed = taken.size() == 3 || nodes.size() == 1;
     }
@@ -264,7 +264,8 @@ Answer motion(const Json& model, const Json& options) {
   return answer;
 }
 
-/// Manipulator of a case with "export": {"mechanism"}: three chains and the platform.
+/// Rigid manipulator of the object "mechanism" of an exported case: three chains of two links, and
+/// the platform.
 struct Manipulator : System {
   std::map<std::string, MobilizedBody> bodies;
   std::map<std::string, Vec3> centers;  ///< centers of mass from body origins, in ground axes
@@ -387,7 +388,7 @@ void load(Manipulator& m, const Json& model) {
 /// Integrates the motion from the first point of the path under constant torques.
 Answer driven(const Json& model, const Json& mechanism, const Json& options) {
   require_known_keys(options, {"torque_N_m", "tolerance"}, "option");
-  if (!options.contains("torque_N_m")) throw Cannot("torques that follow a path are not supported");
+  if (!options.contains("torque_N_m")) throw Cannot("only constant drive torques are supported");
   Manipulator m(mechanism);
   load(m, model);
   for (const int i : {0, 1, 2}) {

@@ -22,7 +22,8 @@ struct Input {
 
 class Mutator {
  public:
-  /// Reads the catalogue. @param results  results files that are changed, too
+  /// Reads the catalogue of cases. @param results  sample results, which are also changed to make
+  /// inputs
   explicit Mutator(const std::vector<Json>& results);
 
   /// Returns input `number` of the random sequence of `seed`.

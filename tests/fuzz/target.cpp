@@ -59,7 +59,7 @@ void compute(const Case& given, const std::string& variant, bool all) {
       for (CheckResult& judged : evaluate_check(check, context))
         run.checks.push_back(std::move(judged));
   }
-  run = run_from(to_bytes(run));
+  run = parse_run(to_bytes(run));
   (void)results::read_results(results::to_json(results_of({run}, {given}, references)));
 }
 

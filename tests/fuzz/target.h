@@ -6,8 +6,8 @@
 
 #include "tests/fuzz/mutator.h"
 
-/// Code under test: reads an input file and computes and judges it as the program does, in this
-/// process.
+/// Code under test, which runs in this process. It reads an input file, computes the case in it and
+/// judges the results, as the program does.
 namespace trammel::fuzz {
 
 enum class Outcome { unfinished, valid, refused, no_memory, crash, hang, stopped, internal, wrong };
@@ -26,7 +26,7 @@ struct Verdict {
 /// Returns results of a few small cases. The mutator changes them to produce results files.
 [[nodiscard]] harness::Json sample_results();
 
-/// Reads an input, and computes and judges it if it is a case.
+/// Reads an input. If it is a case, computes it and judges the results.
 /// @param folder     folder for the input file
 /// @param computing  called after reading, before the computation
 [[nodiscard]] Verdict test_input(const Input& input, const std::filesystem::path& folder,

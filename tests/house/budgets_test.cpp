@@ -42,7 +42,7 @@ bool is_made(const fs::path& folder) {
          (name[0] == '.' && name != ".ci");
 }
 
-Sizes sizes_of(const fs::path& root) {
+Sizes bounded_magnitudes(const fs::path& root) {
   Sizes sizes;
   for (auto it = fs::recursive_directory_iterator(root); it != fs::end(it); ++it) {
     if (it->is_directory()) {
@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(sizes_are_within_limits_that_follow_them) {
   const fs::path root = TRAMMEL_SOURCE_DIR;
   std::ifstream in(root / "tests/house/budgets.json");
   const nlohmann::json budgets = nlohmann::json::parse(in);
-  const Sizes sizes = sizes_of(root);
+  const Sizes sizes = bounded_magnitudes(root);
   for (const auto& [name, entry] : budgets.at("code_lines").items())
     check(name, sizes.code_lines.at(name), entry);
   check("files", sizes.files, budgets.at("files"));

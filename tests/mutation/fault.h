@@ -47,8 +47,8 @@ auto scaled(int number, const T& x) {
   return fault(number) ? Number(Number(x) * (1 + mutation::error)) : Number(x);
 }
 
-/// Factor of the operand that follows + or -. It is `whole`, or `size` if the fault with this
-/// number is active.
+/// Factor that is inserted before the operand of a + or -. It is `whole` (1, or -1 after an
+/// inserted sign). If the fault with this number is active, it is `size` (-1, 0 or 1).
 struct Factor {
   int number, size, whole = 1;
 };

@@ -158,7 +158,7 @@ BOOST_AUTO_TEST_CASE(intended_nan_does_not_prevent_the_status_solved) {
 
 BOOST_AUTO_TEST_CASE(too_large_computation_is_refused_at_its_cause) {
   const auto refusal = [](const Json& json) {
-    return input_error_message([&] { require_fits(document_of(json), 1e8); });
+    return input_error_message([&] { require_memory(document_of(json), 1e8); });
   };
   Json json = testing::cantilever();
   BOOST_TEST(refusal(json) == "");

@@ -123,7 +123,7 @@ BOOST_AUTO_TEST_CASE(series_with_a_failed_check_is_not_counted) {
     made.runs = {run};
     std::vector<results::CoverageRow> rows = {
         {"quantity", "modes: " + results::find_quantity_definition("frequency_Hz", "modes")->name}};
-    count_series(made, rows);
+    count_quantity_runs(made, rows);
     BOOST_TEST(rows[0].judged == judged);
   }
 }

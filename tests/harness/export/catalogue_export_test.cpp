@@ -9,8 +9,8 @@
 
 BOOST_AUTO_TEST_SUITE(catalogue_export)
 
-/// Exports every case of the catalogue with its variants and levels, and computes the exported
-/// cases.
+/// Exports every case of the catalogue with its variants and the levels of its sweeps, and computes
+/// the exported cases.
 using namespace trammel;
 using namespace trammel::harness;
 using namespace trammel::testing;

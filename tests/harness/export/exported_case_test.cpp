@@ -23,7 +23,8 @@ using namespace trammel::testing;
 
 namespace {
 
-/// @param limit  permitted difference of exported cases; 0 requires bit-identical numbers
+/// @param limit  largest permitted relative difference between the results of a case and of the
+/// exported case; 0 requires bit-identical numbers
 void check_twins(const std::vector<std::string>& names, double limit) {
   for (const std::string& name : names) {
     const Case given = load_named_case(name);
@@ -46,7 +47,7 @@ void require_no_key(const Json& json, const std::set<std::string>& keys) {
   }
 }
 
-/// Reads a complete Matrix Market file.
+/// Reads a file in coordinate format (Matrix Market) as a dense matrix.
 Eigen::MatrixXd read_matrix(const std::filesystem::path& file) {
   std::ifstream in(file);
   std::string head, line;
@@ -210,7 +211,8 @@ BOOST_AUTO_TEST_CASE(manipulator_on_a_path_is_bodies_joints_and_a_table) {
   BOOST_TEST(vibrating.json["export"]["mechanism"]["elastic_model"].contains("members"));
 }
 
-// The cantilever's tip displacement follows from the matrices alone: u = T K^-1 f.
+// The tip displacement of the cantilever follows from the exported matrices alone. The free
+// coordinates are K^-1 f, and T maps them to the displacements u.
 BOOST_AUTO_TEST_CASE(exported_matrices_solve_the_case) {
   const Folder folder;
   const Document document = document_of(cantilever());

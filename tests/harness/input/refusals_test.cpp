@@ -150,7 +150,7 @@ const Refusal kMotions[] = {
         "transformation_rate_terms": true}}}})",
      "/analysis/elastodynamics/effects/transformation_rate_terms"},
     {"motion", R"({"analysis": {"elastodynamics": {"modal_superposition": true}}})",
-     "/analysis/elastodynamics/modal_superposition: modal superposition requires constant M and K"},
+     "/analysis/elastodynamics/modal_superposition: modal superposition requires constant mass"},
     {"motion", R"({"analysis": {"elastodynamics": {"step_s": 1e-12}}})",
      "/analysis/elastodynamics/step_s: the step is too small; expected at most ten million steps"},
     {"motion", R"({"analysis": {"elastodynamics": {"load_history": {"time_s": [0, 1],
@@ -229,7 +229,7 @@ const Refusal kModels[] = {
      "/model/members/AB/end_section: expected two rectangles or two circles"},
     {"ring", R"({"model": {"nodes": {"B": [2.1, 0]}}})",
      "/model/edges/outer/nodes/0: expected a node on the curve of the edge (got (2.1, 0) m, 1.05 "
-     "times the distance from its center to the curve)"},
+     "times as far from the center as the curve)"},
     {"ring", R"({"model": {"edges": {"bottom": {"nodes": ["A", "C"]}}}})",
      "/model/edges/bottom/nodes/1: no side of a block connects the previous node with this one"},
     {"ring", R"({"model": {"edges": {"bottom": {"nodes": ["A", "A"]}}}})",

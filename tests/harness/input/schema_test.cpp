@@ -127,9 +127,9 @@ BOOST_AUTO_TEST_CASE(every_stored_reference_obeys_the_schema) {
     const Json json = read_json(file);
     const auto found = find_schema_fault(json, "reference");
     BOOST_TEST(!found.has_value(), family << (found ? ": " + found->pointer + found->message : ""));
-    // `keys_of_blocks` finds all references of a family file. This requires the usual line breaks,
+    // `top_level_keys` finds all references of a family file. This requires the usual line breaks,
     // and replaces parsing the file.
-    const auto keys = keys_of_blocks(read_file(file).text);
+    const auto keys = top_level_keys(read_file(file).text);
     const bool has_schema = json.contains("$schema");
     BOOST_TEST(keys.size() == json.size() - (has_schema ? 1 : 0), family);
     ++seen;

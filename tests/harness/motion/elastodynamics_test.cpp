@@ -9,8 +9,8 @@ using namespace trammel::testing;
 
 namespace {
 
-/// Returns the manipulator of Table 1 with a rigid platform and one element per link on a
-/// trajectory.
+/// Returns a motion along a trajectory of the manipulator of Table 1 of Varalakshmi and Srinivas
+/// (2017). It has a rigid platform and one element per link.
 Json motion(const Json& trajectory) {
   Json json = testing::manipulator();
   json["model"].erase("pose");

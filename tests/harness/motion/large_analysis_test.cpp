@@ -11,7 +11,8 @@ using boost::test_tools::tolerance;
 
 namespace {
 
-/// Returns the paper's manipulator with hinged elbows, a rigid platform and one element per link.
+/// Returns the manipulator of Table 1 of Varalakshmi and Srinivas (2017), but with hinged elbows.
+/// It has a rigid platform and one element per link.
 Json hinged_manipulator() {
   return Json::parse(R"({
     "id": "hinged", "title": "Hinged elbows", "extends": "table-1.json",

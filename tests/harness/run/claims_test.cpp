@@ -208,7 +208,7 @@ BOOST_AUTO_TEST_CASE(eleven_claims_name_existing_cases_and_checks) {
     const bool undecidable = !claim.undecidable.empty();
     BOOST_TEST((claim.verdict == (undecidable ? "cannot be decided" : "not measured")));
   }
-  // Every interpretation names an existing case and check.
+  // Every interpretation of a claim names an existing case and check.
   const std::vector<Case> catalogue = Catalogue().load();
   for (const auto& [id, claim] : JsonView(document)["claims"].entries()) {
     if (!claim.has("interpretations")) continue;

@@ -67,7 +67,7 @@ BOOST_AUTO_TEST_CASE(stored_computation_is_bit_identical) {
   computation.effects = {{"shear", "", "why", true, false, 0, {}, 1.0 / 3, {}}};
   computation.sweeps = {{"s", {{2, computation.quantities}}}};
   const std::string bytes = to_bytes(computation);
-  const Run again = run_from(bytes);
+  const Run again = parse_run(bytes);
   BOOST_TEST(to_bytes(again) == bytes);
   const auto& values = again.quantities.at("q").values;
   BOOST_TEST((values[0] == 0.1 && std::signbit(values[1]) && values[2] == 5e-324 &&
@@ -87,13 +87,13 @@ BOOST_AUTO_TEST_CASE(interrupted_run_is_resumed_last) {
   const Json json = cases(folder, 100);
   const Document base = patched(testing::read(folder, json), kBaseVariant);
   const fs::path store = folder.path() / "store",
-                 first = store / computation_name(base, true, "errors");
+                 first = store / run_file_name(base, true, "errors");
   fs::create_directories(store);
   mark_started(first);
   mark_started(first);
-  BOOST_TEST(unfinished_starts(first) == 2U);
+  BOOST_TEST(interrupted_starts(first) == 2U);
   (void)run_all(folder, json, true);
-  BOOST_TEST(unfinished_starts(first) == 0U);
+  BOOST_TEST(interrupted_starts(first) == 0U);
   const auto files = entries(store);
   BOOST_TEST(files.size() == 3U);
   for (const fs::path& file : files)
@@ -116,7 +116,7 @@ BOOST_AUTO_TEST_CASE(corrupted_entry_is_computed_again) {
     for (std::size_t i = 0; i < 3; ++i) kept += int(again.wall_s[i] == first.wall_s[i]);
     BOOST_TEST(kept == 2);
     Run found;
-    BOOST_TEST(find_stored(files[0], found));
+    BOOST_TEST(load_stored_run(files[0], found));
     write_file(files[0], whole);
   }
 }
@@ -124,10 +124,10 @@ BOOST_AUTO_TEST_CASE(corrupted_entry_is_computed_again) {
 BOOST_AUTO_TEST_CASE(name_of_a_run_depends_on_its_inputs) {
   const Folder folder;
   Json json = cases(folder, 100);
-  const auto name = [&] { return computation_name(testing::read(folder, json).document, true); };
+  const auto name = [&] { return run_file_name(testing::read(folder, json).document, true); };
   const std::string first = name();
   BOOST_TEST(name() == first);
-  BOOST_TEST(computation_name(testing::read(folder, json).document, false) != first);
+  BOOST_TEST(run_file_name(testing::read(folder, json).document, false) != first);
   json["model"]["elements"] = 5;
   BOOST_TEST(name() != first);
 }
@@ -140,7 +140,7 @@ BOOST_AUTO_TEST_CASE(changed_tried_case_changes_the_name_of_options) {
     "options": {"cases": {"tried": {}}, "analyses": {"statics": {}}}}})");
   const auto name = [&] {
     (void)folder.write(tried);
-    return computation_name(load_case(folder.write(options)).document, true);
+    return run_file_name(load_case(folder.write(options)).document, true);
   };
   const std::string first = name();
   tried["model"]["elements"] = 5;
@@ -155,14 +155,14 @@ BOOST_AUTO_TEST_CASE(changed_or_added_reference_invalidates_an_entry) {
   computation.references[place + "r"] = "0";
   const auto entry = folder.path() / "entry";
   write_file(entry, to_bytes(computation));
-  BOOST_TEST(!find_stored(entry, computation));
+  BOOST_TEST(!load_stored_run(entry, computation));
   computation.references = {{place + "r", References().hash(place + "r")}, {place + "absent", ""}};
   write_file(entry, to_bytes(computation));
-  BOOST_TEST(find_stored(entry, computation));
+  BOOST_TEST(load_stored_run(entry, computation));
   folder.write_reference({{"id", "other"}, {"values", {1}}});
-  BOOST_TEST(find_stored(entry, computation));
+  BOOST_TEST(load_stored_run(entry, computation));
   folder.write_reference({{"id", "absent"}, {"values", {1}}});
-  BOOST_TEST(!find_stored(entry, computation));
+  BOOST_TEST(!load_stored_run(entry, computation));
 }
 
 BOOST_AUTO_TEST_CASE(times_of_another_machine_are_not_reused) {
@@ -171,13 +171,13 @@ BOOST_AUTO_TEST_CASE(times_of_another_machine_are_not_reused) {
   computation.machine = "another";
   const auto entry = folder.path() / "entry";
   write_file(entry, to_bytes(computation));
-  BOOST_TEST(find_stored(entry, computation));
+  BOOST_TEST(load_stored_run(entry, computation));
   computation.cost.timings = {{"t", 1, 1}};
   write_file(entry, to_bytes(computation));
-  BOOST_TEST(!find_stored(entry, computation));
+  BOOST_TEST(!load_stored_run(entry, computation));
   computation.machine = machine_name();
   write_file(entry, to_bytes(computation));
-  BOOST_TEST(find_stored(entry, computation));
+  BOOST_TEST(load_stored_run(entry, computation));
 }
 
 BOOST_AUTO_TEST_CASE(unchanged_scenes_of_effects_are_measured_once) {
@@ -190,7 +190,7 @@ BOOST_AUTO_TEST_CASE(unchanged_scenes_of_effects_are_measured_once) {
   Json json = testing::cantilever();
   const auto scenes = [&](bool resume) {
     const Case given = testing::read(folder, json);
-    return cached_scenes(given.document, measure, folder.path() / "store", resume);
+    return cached_effect_study(given.document, measure, folder.path() / "store", resume);
   };
   (void)scenes(true);
   const EffectScenes again = scenes(true);
@@ -214,7 +214,7 @@ BOOST_AUTO_TEST_CASE(entries_unused_for_a_month_are_removed) {
     std::filesystem::last_write_time(
         file, std::filesystem::file_time_type::clock::now() - std::chrono::days(31));
   }
-  BOOST_TEST(find_stored(used, computation));
+  BOOST_TEST(load_stored_run(used, computation));
   remove_unused_files(folder.path());
   BOOST_TEST(!std::filesystem::exists(old));
   BOOST_TEST(std::filesystem::exists(used));

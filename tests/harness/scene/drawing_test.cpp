@@ -75,7 +75,7 @@ BOOST_AUTO_TEST_CASE(instant_along_a_path_is_drawn_with_its_deflection) {
         analysis.contains("statics") ? "displacement_x_m:P" : "deflection_m:P";
     for (const results::Pose& instant : instants(result, 6)) {
       BOOST_TEST(instant.nodes.at(kP).first == 0.25 + 0.1 * *instant.time_s, tolerance(1e-12));
-      BOOST_TEST(instant.label == moment_label(*instant.time_s));
+      BOOST_TEST(instant.label == time_label(*instant.time_s));
       if (analysis.contains("kinematics")) continue;
       const auto [x, y] = instant.displacement.at(kP);
       BOOST_TEST(

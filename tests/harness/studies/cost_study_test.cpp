@@ -106,7 +106,7 @@ BOOST_AUTO_TEST_CASE(each_output_has_a_scale_and_quantities) {
   Json json = study_json();
   json["outputs"] = {{"tones", {{"title", "frequencies"}}},
                      {"size", {{"title", "coordinates"}, {"scale", "largest"}}}};
-  BOOST_TEST(contains(fault_of(json), "/quantities: expected a quantity of 'coordinates'"));
+  BOOST_TEST(contains(fault_of(json), "/quantities: no quantity of output 'coordinates'"));
   json["quantities"]["degrees_of_freedom"] = {{"output", "size"}};
   const CostStudy study = load(json);
   BOOST_TEST_REQUIRE(study.outputs.size() == 2U);

@@ -27,11 +27,11 @@ BOOST_AUTO_TEST_CASE(text_that_is_no_object_of_unique_keys_is_not_split) {
 }
 
 BOOST_AUTO_TEST_CASE(keys_of_blocks_are_found_in_formatted_text) {
-  const auto keys = keys_of_blocks(
+  const auto keys = top_level_keys(
       "{\n  \"$schema\": \"s\",\n  \"common\": {\n    \"x\": {\n    },\n    \"y\": {}\n  },\n"
       "  \"first\": {\n  },\n  \"second\": {}\n}\n");
   BOOST_TEST((keys == std::vector<std::string_view>{"common", "first", "second"}));
-  BOOST_TEST(keys_of_blocks("").empty());
+  BOOST_TEST(top_level_keys("").empty());
 }
 
 BOOST_AUTO_TEST_CASE(keys_of_a_reference_override_those_of_its_family) {

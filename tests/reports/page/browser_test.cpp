@@ -16,7 +16,8 @@ namespace {
 constexpr const char* kPages[] = {"index.html", "families/beam-modes.html",
                                   "cases/beam-pinned-pinned.html", "references.html"};
 
-/// Opens a page of the sample report with a width [px], and checks conditions for any width.
+/// Opens a page of the sample report with a width [px], and checks the conditions that hold for
+/// every width.
 void check_at(int width, const std::string& name) {
   const auto page = sample_report() / name;
   const auto figures = static_cast<int>(occurrences(read_text_file(page), "<svg "));

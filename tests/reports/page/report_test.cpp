@@ -312,14 +312,14 @@ BOOST_AUTO_TEST_CASE(failed_report_leaves_the_former_one) {
   }
   BOOST_TEST((read_text_file(out / "index.html") == before));
   BOOST_TEST(count() == files);
-  // A link out of the folder is not followed, but replaced.
+  // A symbolic link to a folder outside the report is replaced and not followed.
   fs::rename(out / "checks", elsewhere);
   fs::create_directory_symlink(elsewhere, out / "checks");
   for (const auto& entry : fs::directory_iterator(elsewhere)) fs::remove(entry);
   write_report(all, out);
   BOOST_TEST(fs::is_empty(elsewhere));
   BOOST_TEST(count() == files);
-  // A file of the user is not replaced.
+  // A file of the user with the name of a folder of the report is not replaced.
   fs::remove_all(out / "checks");
   std::ofstream(out / "checks") << "mine";
   BOOST_CHECK_THROW(write_report(all, out), std::system_error);

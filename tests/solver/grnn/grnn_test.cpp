@@ -31,7 +31,8 @@ MatrixXd random_matrix(Index rows, Index cols, unsigned seed) {
   return MatrixXd::NullaryExpr(rows, cols, [&](Index, Index) { return uniform(random); });
 }
 
-/// Returns the prediction by Eq. 36 and 37 as printed in the paper, in extended precision.
+/// Returns the prediction by Eq. 36 and 37 as printed by Varalakshmi and Srinivas (2017), in
+/// extended precision.
 double as_printed(const Grnn& g, const Eigen::RowVectorXd& x, Index output) {
   long double above = 0;
   long double below = 0;

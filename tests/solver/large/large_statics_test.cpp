@@ -47,7 +47,8 @@ double elastica_error(const Elastica& exact, Index elements, double angle = 0) {
                    std::abs(moved[2] - exact.angle)});
 }
 
-/// Returns the estimated equilibrium of the elastica under a force at its tip.
+/// Returns the equilibrium of the elastica under a force at its tip, as `estimate_large_statics`
+/// approximates it.
 StaticSolution estimate_of(const Vector2d& force) {
   Model model = elastica(8);
   model.loads = {{1, {force.x(), force.y(), 0}}};

@@ -30,7 +30,8 @@ TransientOptions options_for(double end) {
   return options_to(end, 0.01, generalized_alpha(0.9));
 }
 
-/// Returns the outcome of ten steps after a change of the last state.
+/// Integrates a motion of the pendulum, and changes its last state. @returns the outcome of the
+/// checks of the residuals of the changed state
 Outcome outcome_of(const std::function<void(State&)>& change) {
   const GeometricallyExactSystem system = pendulum();
   State state;

@@ -27,7 +27,8 @@ struct Solved {
   }
 };
 
-/// Returns the Table 1 manipulator with welded elbows, gravity and a force at P.
+/// Returns the statics of the manipulator of Table 1 of Varalakshmi and Srinivas (2017) with welded
+/// elbows, under gravity and a force at A1.
 Solved manipulator() {
   Model model = build_manipulator(table_1_design(), centered_pose(0.1));
   model.gravity = {0.5, -9.81};
@@ -46,7 +47,8 @@ BOOST_AUTO_TEST_CASE(reported_forces_balance_at_every_node) {
 }
 
 BOOST_AUTO_TEST_CASE(constraint_forces_are_terms_of_their_rows) {
-  // Only axial force acts along the girder of a portal. Its round-off was once divided by zero.
+  // Along the girder of this portal, only the constraint forces of inextensible members act. The
+  // round-off of their balance was once divided by a scale of zero.
   Model model;
   model.nodes = {{"A", {0, 0}},
                  {"B", {0, 10.16}},

@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(errors_along_and_across_the_path_are_the_deflection) {
     const auto k = static_cast<Index>(i);
     const Vector2d radial(std::cos(s.time[i]), std::sin(s.time[i]));
     const Vector2d u = s.deflection.row(k);
-    // The left side of the path is inside the circle.
+    // The normal error is positive to the left of the path, toward the center of the circle.
     BOOST_TEST(std::abs(s.normal_error[k] + radial.dot(u)) < 1e-14);
     BOOST_TEST(std::abs(std::hypot(s.normal_error[k], s.tangential_error[k]) - u.norm()) < 1e-14);
   }

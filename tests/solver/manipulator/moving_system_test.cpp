@@ -103,8 +103,8 @@ BOOST_AUTO_TEST_CASE(moved_system_has_the_matrices_of_a_built_one) {
 }
 
 BOOST_AUTO_TEST_CASE(load_of_inertia_is_that_of_equation_14) {
-  // Equation 14: a link with the angular velocity w, the angular acceleration alpha and the
-  // acceleration a_A of its first node has the inertia load
+  // Eq. 14 of Varalakshmi and Srinivas (2017): a link with the angular velocity w, the angular
+  // acceleration alpha and the acceleration a_A of its first node has the inertia load
   //
   //   F = T_s^T (w^2 H7^T - alpha H8^T - H9^T R^T a_A).
   //   H7 = int rho (x, 0) N, H8 = int rho (0, x) N, H9 = int rho N.

@@ -130,7 +130,8 @@ BOOST_AUTO_TEST_CASE(error_control_holds_its_tolerance_and_counts_its_steps) {
       BOOST_TEST(h.summary.accepted > 0);
       BOOST_TEST(h.summary.rejected > 0);
       BOOST_TEST(h.summary.smallest_step < h.summary.largest_step);
-      // A factorization is required for each size of step in each segment, not for each change.
+      // A factorization is required for each step size in each segment between breakpoints of the
+      // load, not for each change of the step size.
       BOOST_TEST(h.summary.counters.factorizations < 60);
     }
   }

@@ -10,7 +10,7 @@
 #include "harness/export/exported_case.h"
 #include "tests/support/harness/support.h"
 
-/// Comparison of an exported case with its original.
+/// Compares the results of an exported case file with the results of the original case.
 namespace trammel::testing {
 
 struct ExportTwin {
@@ -42,8 +42,8 @@ inline bool is_roundoff(const std::string& name) {
          has("estimated_correct_digits") || has("peak_time_s");
 }
 
-/// Returns true for quantities that an exported case lacks: sums over edges, and values of tapered
-/// members.
+/// Returns true for quantities of edges and of tapered members. They have no counterpart in an
+/// exported case.
 inline bool is_of_lost_part(const std::string& name, const Json& model) {
   std::string item = name.substr(std::min(name.size(), name.find(':') + 1));
   if (model.contains("edges") && model.at("edges").contains(item)) return true;

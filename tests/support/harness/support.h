@@ -109,7 +109,7 @@ inline Json cantilever() {
   })");
 }
 
-/// Returns the cantilever in ten million time steps, which take minutes.
+/// Returns a motion of the cantilever with ten million time steps, whose computation takes minutes.
 inline Json endless() {
   Json json = cantilever();
   json["id"] = "endless";
@@ -141,7 +141,8 @@ inline Json quarter_ring() {
   })");
 }
 
-/// Returns the manipulator of Table 1 of the paper, with the platform in the center of the base.
+/// Returns the manipulator of Table 1 of Varalakshmi and Srinivas (2017), with the platform in the
+/// center of the base.
 inline Json manipulator() {
   return Json::parse(R"({
     "id": "robot", "title": "A 3-RRR manipulator",

@@ -15,10 +15,10 @@ struct Visit {
 
 /// Loads a page in a frame of this width, because windows cannot be as narrow as a phone. All
 /// folded parts are open. The <html> element then has these attributes:
-///   data-width, data-scroll-width   widths [px].
-///   data-figures, data-empty        drawings with and without a size.
-///   data-wide, data-wide-names      elements that extend beyond the right side.
-///   data-misplaced                  targets that are not aligned with their column header.
+///   data-width, data-scroll-width   widths of the frame and of its content [px].
+///   data-figures, data-empty        numbers of drawings with and without a size.
+///   data-wide, data-wide-names      number and names of elements beyond the right side.
+///   data-misplaced                  number of cells not aligned with the header "Target".
 [[nodiscard]] Visit visit_framed(const std::filesystem::path& page, int width);
 
 /// Returns the number in data-<name>, or -1 if it is missing.

@@ -38,11 +38,11 @@ class Workspace {
 ///     trammel run manipulator-modes table-1-audit --variant base --json >results/manipulator.json
 [[nodiscard]] results::Results sample_results();
 
-/// Returns the sample with the runs of one case only.
+/// Returns the sample results with the runs of one case only.
 [[nodiscard]] results::Results sample_of(const std::string& case_id);
 
-/// Returns the folder of a report of the sample, which is written once for all tests of this
-/// program.
+/// Returns the folder of a report of the sample results, which is written once for all tests of
+/// this program.
 [[nodiscard]] const std::filesystem::path& sample_report();
 
 /// Returns the first page of a report of these results, or all pages as one text.

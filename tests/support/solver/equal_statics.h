@@ -7,7 +7,8 @@
 
 namespace trammel::solver {
 
-/// Returns the manipulator of a motion at one pose of its path, with its load at P and its weight.
+/// Returns a static model of the manipulator at one point of its path, with the load at P and
+/// gravity.
 inline Model static_model(const ElastodynamicsOptions& options, const TrajectoryPoint& point) {
   Model model = build_manipulator(options.design, point.pose);
   model.loads.push_back({model.find_node("P"), options.wrench});

@@ -11,7 +11,8 @@ namespace trammel::testing {
 
 using namespace solver;
 
-/// Returns the rectangle `depth` x `width` of a material; the depth is in the plane.
+/// Returns a rectangular section with the size `depth` x `width`. The depth is in the plane of the
+/// frame.
 inline Section rectangle(const Material& material, double depth, double width,
                          double shear_coefficient = 5.0 / 6.0) {
   const double A = depth * width, I = width * depth * depth * depth / 12;

@@ -6,7 +6,7 @@
 #include "solver/manipulator/manipulator.h"
 #include "solver/manipulator/rigid_dynamics.h"
 
-/// The manipulator of the paper's Table 1, for the tests.
+/// Manipulators for tests, such as that of Table 1 of Varalakshmi and Srinivas (2017).
 namespace trammel::solver {
 
 inline ManipulatorGeometry table_1_geometry() {
@@ -79,7 +79,8 @@ inline RigidManipulator uneven_bodies() {
   return m;
 }
 
-/// Seeded random states near the middle of the workspace, of the order of 1 rad/s and 1 m/s.
+/// Random poses, velocities and accelerations of the platform from a seed. Poses are near the
+/// middle of the workspace. Velocities are of the order of 1 m/s and 1 rad/s.
 class RandomStates {
  public:
   explicit RandomStates(unsigned seed) : engine_(seed) {}
