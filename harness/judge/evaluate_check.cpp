@@ -124,10 +124,10 @@ ComparedValues collect(const Check& check, const CheckContext& context) {
 }
 
 std::string outside(const Check& check, double value, const Window& window) {
-  const bool difference = check.measure == Measure::relative || check.measure == Measure::absolute;
+  std::string what = check.measure == Measure::value ? "value" : to_string(check.measure);
+  if (check.measure < Measure::ratio) what += " difference";
   const std::string where =
-      fmt::format("the {}{} {} is outside of [{}, {}]", to_string(check.measure),
-                  difference ? " difference" : "", shortest_decimal(value),
+      fmt::format("the {} {} is outside of [{}, {}]", what, shortest_decimal(value),
                   shortest_decimal(window.low), shortest_decimal(window.high));
   if (check.expectation == Expectation::known_discrepancy)
     return "the difference left its recorded range: " + where;

@@ -119,10 +119,7 @@ int draw_overlays(PlotScript& script, Table& data, const std::vector<const Pose*
   for (const JointSymbol& symbol : kJointSymbols)
     if (std::ranges::count(drawing.joints, symbol.kind, &Joint::kind) > 0)
       titles.emplace_back(symbol.words);
-  for (const LoadArrows& arrows : loads) {
-    script.curve(arrows.rows, "with vectors filled lw 1.8" + lc(palette::kSeries[1]), arrows.title);
-    titles.push_back(arrows.title);
-  }
+  for (const LoadArrows& arrows : loads) titles.push_back(arrows.title);
   for (std::size_t i = 0; i < overlays.size(); ++i) {
     draw_body(script, drawing, overlays[i]->nodes, palette::color(2 + i), 1.2, overlays[i]->label);
     add_rows(data, overlays[i]->label, drawing, overlays[i]->nodes);
@@ -163,6 +160,8 @@ std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   draw_body(script, drawing, drawing.nodes, palette::color(0), 2.6, base_label);
   add_rows(table, base_label.empty() ? "pose" : base_label, drawing, drawing.nodes);
   for (const JointSymbol& symbol : kJointSymbols) draw_joints(script, drawing, symbol);
+  for (const LoadArrows& arrows : loads)
+    script.curve(arrows.rows, "with vectors filled lw 2" + lc(palette::kSeries[1]), arrows.title);
   name_joints(script, drawing, box_around({drawing.nodes}, 0, 0));
   script.plot();
 
