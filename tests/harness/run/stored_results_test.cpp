@@ -1,6 +1,7 @@
 #include "harness/run/stored_results.h"
 
 #include <boost/test/unit_test.hpp>
+#include <map>
 
 #include "harness/base/json_file.h"
 #include "harness/run/results.h"
@@ -40,6 +41,9 @@ BOOST_AUTO_TEST_CASE(results_read_back_with_their_store_are_unchanged) {
   BOOST_TEST(after.missing == "");
   BOOST_TEST(!before.runs[0].convergence.empty());
   BOOST_TEST(before.runs[0].drawing.has_value());
+  const std::map inputs(after.cases[0].inputs.begin(), after.cases[0].inputs.end());
+  BOOST_TEST(inputs.at("loads/tip/force_N") == "[0,100]");
+  BOOST_TEST(inputs.at("members/AB/section") == "bar");
   results::complete(before);
   Json a = to_json(before), b = to_json(after);
   a.erase("store"), b.erase("store");

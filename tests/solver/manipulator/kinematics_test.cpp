@@ -29,7 +29,7 @@ Pose moved(const Pose& pose, const Vector3d& direction, double s) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(loops_close_to_round_off_around_the_circle) {
-  for (const ManipulatorGeometry& g : {table_1_geometry(), uneven_geometry()}) {
+  for (const ManipulatorGeometry& g : {table_1_geometry(), uneven_geometry()})
     for (int k = 0; k < 631; ++k) {
       const double t = 0.01 * k;
       const Posture p =
@@ -44,7 +44,6 @@ BOOST_AUTO_TEST_CASE(loops_close_to_round_off_around_the_circle) {
         BOOST_TEST((tip - p.C[i]).norm() < 1e-15);
       }
     }
-  }
 }
 
 BOOST_AUTO_TEST_CASE(working_mode_mirrors_the_elbow) {
@@ -108,7 +107,7 @@ BOOST_AUTO_TEST_CASE(elbow_angle_keeps_its_digits_near_full_stretch) {
 
 BOOST_AUTO_TEST_CASE(jacobians_are_the_derivative_of_inverse_kinematics) {
   RandomStates random(7);
-  for (const ManipulatorGeometry& g : {table_1_geometry(), uneven_geometry()}) {
+  for (const ManipulatorGeometry& g : {table_1_geometry(), uneven_geometry()})
     for (int trial = 0; trial < 50; ++trial) {
       const Pose pose = random.pose();
       const Vector3d rate = random.vector();
@@ -121,7 +120,6 @@ BOOST_AUTO_TEST_CASE(jacobians_are_the_derivative_of_inverse_kinematics) {
           4e-3);
       BOOST_TEST((exact - difference).norm() < 1e-8 * exact.norm());
     }
-  }
 }
 
 BOOST_AUTO_TEST_CASE(forward_kinematics_inverts_inverse_kinematics) {
@@ -149,7 +147,7 @@ BOOST_AUTO_TEST_CASE(elbows_too_far_apart_admit_no_assembly) {
 
 BOOST_AUTO_TEST_CASE(holding_torques_do_the_opposite_work_of_the_load) {
   RandomStates random(9);
-  for (const ManipulatorGeometry& g : {table_1_geometry(), uneven_geometry()}) {
+  for (const ManipulatorGeometry& g : {table_1_geometry(), uneven_geometry()})
     for (int trial = 0; trial < 50; ++trial) {
       const Pose pose = random.pose();
       const Posture p = inverse_kinematics(g, pose);
@@ -171,7 +169,6 @@ BOOST_AUTO_TEST_CASE(holding_torques_do_the_opposite_work_of_the_load) {
       }
       BOOST_TEST(sum.norm() < 1e-13 * wrench.norm() / j.parallel_distance);
     }
-  }
 }
 
 BOOST_AUTO_TEST_CASE(distal_links_through_one_point_hold_no_moment) {

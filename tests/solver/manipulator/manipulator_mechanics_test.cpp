@@ -104,11 +104,10 @@ BOOST_AUTO_TEST_CASE(assembled_mass_and_inertia_are_printed_or_by_density) {
                  tolerance(1e-14));
       double inertia = plate.inertia + plate.mass * Vector2d(kPose.x, kPose.y).squaredNorm() +
                        (printed ? 6 * 0.00078 : 0.0);
-      for (std::size_t i = 0; i < 3; ++i) {
+      for (std::size_t i = 0; i < 3; ++i)
         for (const auto& [from, to] : {std::pair{design.geometry.base[i], posture.B[i]},
                                        std::pair{posture.B[i], posture.C[i]}})
           inertia += link_mass * ((from + to).squaredNorm() / 4 + (to - from).squaredNorm() / 12);
-      }
       const System system = without_supports(design);
       const auto twice_the_energy = [&](const Vector3d& field) {
         const Eigen::VectorXd q = rigid_motion(system, field);
@@ -177,7 +176,7 @@ BOOST_AUTO_TEST_CASE(clamps_carry_the_holding_torques) {
 }
 
 BOOST_AUTO_TEST_CASE(threefold_pose_repeats_its_frequencies) {
-  for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles}) {
+  for (const auto kind : {PlatformDesign::Kind::rigid, PlatformDesign::Kind::triangles})
     for (const double phi : {0.0, 0.3}) {
       const ModalSolution m = modes(with_platform(kind), centered_pose(phi), 9);
       BOOST_TEST_REQUIRE(m.outcome.solved(), m.outcome.reason);
@@ -190,7 +189,6 @@ BOOST_AUTO_TEST_CASE(threefold_pose_repeats_its_frequencies) {
       }
       BOOST_TEST(pairs == 3);
     }
-  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -25,7 +25,7 @@ TrajectoryPoint along(const TrajectoryPoint& p, double s) {
 
 BOOST_AUTO_TEST_CASE(velocities_and_accelerations_are_derivatives) {
   RandomStates random(1);
-  for (const RigidManipulator& m : {rigid_manipulator(table_1_design()), uneven_bodies()}) {
+  for (const RigidManipulator& m : {rigid_manipulator(table_1_design()), uneven_bodies()})
     for (int trial = 0; trial < 50; ++trial) {
       const TrajectoryPoint p = random.point();
       const InverseDynamics d = inverse_dynamics(m, p);
@@ -45,12 +45,11 @@ BOOST_AUTO_TEST_CASE(velocities_and_accelerations_are_derivatives) {
         BOOST_TEST((richardson(velocity, 4e-3) - d.bodies[b].acceleration).norm() < 1e-6);
       }
     }
-  }
 }
 
 BOOST_AUTO_TEST_CASE(actuator_map_returns_velocities_and_energy) {
   RandomStates random(2);
-  for (const RigidManipulator& m : {rigid_manipulator(table_1_design()), uneven_bodies()}) {
+  for (const RigidManipulator& m : {rigid_manipulator(table_1_design()), uneven_bodies()})
     for (int trial = 0; trial < 200; ++trial) {
       const TrajectoryPoint p = random.point();
       const RigidTerms t = rigid_terms(m, p.pose, p.velocity);
@@ -63,7 +62,6 @@ BOOST_AUTO_TEST_CASE(actuator_map_returns_velocities_and_energy) {
       BOOST_TEST(t.q_dot.dot(t.M * t.q_dot) / 2 == d.kinetic_energy, tolerance(1e-13));
       BOOST_TEST(rates.dot(t.Mh * rates) / 2 == d.kinetic_energy, tolerance(1e-12));
     }
-  }
 }
 
 BOOST_AUTO_TEST_CASE(torques_at_rest_hold_the_load) {
@@ -82,12 +80,11 @@ BOOST_AUTO_TEST_CASE(torques_scale_with_the_square_of_speed_and_with_mass) {
   RandomStates random(8);
   const RigidManipulator m = uneven_bodies();
   RigidManipulator heavy = m;
-  for (std::size_t k = 0; k < 3; ++k) {
+  for (std::size_t k = 0; k < 3; ++k)
     for (RigidLink* link : {&heavy.proximal[k], &heavy.distal[k]}) {
       link->mass *= 2;
       link->inertia *= 2;
     }
-  }
   heavy.platform.mass *= 2;
   heavy.platform.inertia *= 2;
   for (int trial = 0; trial < 20; ++trial) {

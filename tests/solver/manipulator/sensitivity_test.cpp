@@ -94,7 +94,7 @@ BOOST_AUTO_TEST_CASE(map_covers_the_reach_and_equals_single_poses) {
   const SensitivityMap map = map_first_frequency(design, all(Kind::length), grid);
   BOOST_TEST(map.frequency.rows() == grid.rows);
   Index reachable = 0;
-  for (Index j = 0; j < grid.rows; ++j) {
+  for (Index j = 0; j < grid.rows; ++j)
     for (Index i = 0; i < grid.columns; ++i) {
       const Pose pose{grid.x0 + static_cast<double>(i) * grid.dx,
                       grid.y0 + static_cast<double>(j) * grid.dy, grid.phi};
@@ -106,7 +106,6 @@ BOOST_AUTO_TEST_CASE(map_covers_the_reach_and_equals_single_poses) {
       BOOST_TEST(map.frequency(j, i) == s.frequency[0]);
       BOOST_TEST(map.derivative(j, i) == s.derivative(0, 0));
     }
-  }
   BOOST_TEST(reachable > grid.rows * grid.columns / 4);
 }
 
@@ -137,14 +136,13 @@ BOOST_AUTO_TEST_CASE(singular_curve_has_no_parallel_distance) {
   const PoseGrid grid = reachable_grid(geometry, 0.1, 81);
   const std::vector<Polyline> curve = parallel_singularities(geometry, grid);
   BOOST_TEST(curve.size() > 20U);
-  for (const Polyline& segment : curve) {
+  for (const Polyline& segment : curve)
     for (const Vector2d& P : segment) {
       const Pose pose{P.x(), P.y(), 0.1};
       const Posture posture = inverse_kinematics(geometry, pose);
       BOOST_TEST_REQUIRE(posture.outcome.solved());
       BOOST_TEST(jacobians(geometry, pose, posture).parallel_distance < 1e-9);
     }
-  }
 }
 
 BOOST_AUTO_TEST_SUITE_END()
