@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "harness/base/find_or_add.h"
 #include "harness/base/text.h"
 #include "solver/large/state_results.h"
 
@@ -36,15 +37,13 @@ struct DrawnNodes {
 DrawnNodes drawn_nodes(const solver::System& system) {
   DrawnNodes drawn;
   drawn.number.assign(system.mesh.positions.size(), 0);
-  if (drawn.number.size() > kMaxNodesWithMidpoints) {
-    for (const solver::Triangle& triangle : system.model.triangles) {
+  if (drawn.number.size() > kMaxNodesWithMidpoints)
+    for (const solver::Triangle& triangle : system.model.triangles)
       for (std::size_t k = 3; triangle.quadratic() && k < 6; ++k) {
         const solver::Index middle = triangle.nodes[k];
         if (system.model.nodes[solver::to_size(middle)].name.empty())
           drawn.number[solver::to_size(middle)] = -1;
       }
-    }
-  }
   for (std::size_t i = 0; i < drawn.number.size(); ++i) {
     if (drawn.number[i] < 0) continue;
     drawn.number[i] = static_cast<solver::Index>(drawn.mesh.size());
@@ -98,13 +97,12 @@ void draw_rigid_bodies(const solver::Model& model, const DrawnNodes& drawn, Draw
 void draw_joints(const solver::Model& model, bool is_manipulator, const DrawnNodes& drawn,
                  Drawing& drawing) {
   std::vector<std::string> kind(model.nodes.size());
-  for (const solver::Member& member : model.members) {
+  for (const solver::Member& member : model.members)
     for (std::size_t end = 0; end < 2; ++end) {
       std::string& word = kind[solver::to_size(member.nodes[end])];
       if (member.ends[end].fixity == solver::EndFixity::hinged) word = "hinged";
       if (member.ends[end].fixity == solver::EndFixity::sprung) word = "sprung";
     }
-  }
   for (const solver::RigidBody& body : model.rigid_bodies) {
     std::string& word = kind[solver::to_size(body.reference)];
     if (word.empty()) word = "rigid";
@@ -114,13 +112,12 @@ void draw_joints(const solver::Model& model, bool is_manipulator, const DrawnNod
         !support.name.empty() && !model.nodes[solver::to_size(support.node)].name.empty();
     if (named) kind[solver::to_size(support.node)] = "support";
   }
-  if (is_manipulator) {
+  if (is_manipulator)
     for (std::size_t i = 0; i < 3; ++i) {
       kind[i] = "active";
       for (const std::size_t node : {3 + i, 6 + i})
         if (kind[node].empty()) kind[node] = "welded";
     }
-  }
   for (std::size_t i = 0; i < kind.size(); ++i) {
     if (kind[i].empty()) continue;
     drawing.joints.push_back(
@@ -162,11 +159,14 @@ Eigen::Vector2d displacement_along(const solver::FrameElement& element, const Ei
   return along * t + across * n;
 }
 
-/// Draws the forces on nodes, and the uniform loads of members at the ends of their elements.
+/// Draws the sum of the forces on each node, and uniform loads of members at the element ends.
 void draw_forces(const solver::System& system, const DrawnNodes& drawn, Drawing& drawing) {
-  for (const solver::NodalLoad& load : system.model.loads)
-    if (!load.force.head<2>().isZero(0))
-      drawing.forces.push_back({drawn.index_of(load.node), load.force[0], load.force[1], "N"});
+  for (const solver::NodalLoad& load : system.model.loads) {
+    const int node = drawn.index_of(load.node);
+    results::DrawnForce& sum = find_or_add(
+        drawing.forces, [&](const auto& other) { return other.node == node; }, {node, 0, 0, "N"});
+    sum.x += load.force[0], sum.y += load.force[1];
+  }
   for (const solver::FrameElement& element : system.mesh.frame) {
     const Eigen::Vector2d& load = system.model.members[solver::to_size(element.member)].load;
     for (std::size_t i = 0; i < 2 && !load.isZero(0); ++i)

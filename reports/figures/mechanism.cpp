@@ -71,8 +71,8 @@ LoadArrows load_arrows(const Drawing& drawing, const std::string& unit, double l
   LoadArrows arrows;
   double largest = 0;
   for (const DrawnForce& force : drawing.forces) {
-    if (force.unit != unit) continue;
     const double size = std::hypot(force.x, force.y), scale = length / size;
+    if (force.unit != unit || size == 0) continue;
     const auto& [x, y] = drawing.nodes[force.node];
     const double dx = scale * force.x, dy = scale * force.y;
     arrows.rows.push_back({x - dx, y - dy, dx, dy});
