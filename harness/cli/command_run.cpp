@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <functional>
 #include <iostream>
 #include <map>
@@ -126,13 +127,12 @@ Selection select(const CommandOptions& options) {
   }
   Selection selection = load(files, catalogue);
   for (Case& test_case : selection.cases) test_case.chosen_variants = chosen[test_case.file];
-  if (!options.labels.empty() || !options.any_labels.empty()) {
+  if (!options.labels.empty() || !options.any_labels.empty())
     for (Case& test_case : catalogue.load(options.labels, options.any_labels)) {
       const bool there = std::ranges::any_of(
           selection.cases, [&](const Case& other) { return other.id() == test_case.id(); });
       if (!there) selection.cases.push_back(std::move(test_case));
     }
-  }
   require_distinct(selection.cases);
   require_variants(selection.cases, options.variant);
   return selection;
@@ -206,12 +206,15 @@ void present(const CommandOptions& options, const std::filesystem::path& page) {
   if (options.pdf) {
     if (!std::filesystem::exists(sheet))
       throw InputError("--pdf: the report has no summary, because no case was run");
-    const std::filesystem::path profile = folder / results::kUnfinishedFolder / "chromium";
-    std::filesystem::create_directories(profile);
+    // Below the system's folder for temporary files, because Chromium limits the length of the
+    // path.
+    std::string profile = (std::filesystem::temp_directory_path() / "trammel-XXXXXX").string();
+    if (mkdtemp(profile.data()) == nullptr) throw InputError(profile + ": cannot be created");
     const ProcessOutcome outcome = run_limited(
         {chromium(), "--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer",
-         "--user-data-dir=" + profile.string(), "--print-to-pdf=" + pdf.string(), sheet.string()},
+         "--user-data-dir=" + profile, "--print-to-pdf=" + pdf.string(), sheet.string()},
         profile, {});
+    std::filesystem::remove_all(profile);
     if (!std::filesystem::exists(pdf))
       throw InputError("--pdf: Chromium failed: " + one_line(outcome.text));
     std::cout << "summary in " << pdf.string() << std::endl;

@@ -132,11 +132,10 @@ Json asked_quantities(const Document& document, const std::vector<Check>& checks
     for (const std::string& name : {check.quantity, check.against_quantity}) {
       if (!seen.insert(name).second) continue;
       const std::size_t colon = name.find(':');
-      if (colon != std::string::npos && lost.count(name.substr(colon + 1)) > 0) {
+      if (colon != std::string::npos && lost.count(name.substr(colon + 1)) > 0)
         throw document.error(check.pointer,
                              "the quantity '" + name +
                                  "' belongs to an edge or a tapered member, which is not exported");
-      }
       const auto* known = results::find_quantity_definition(name, analysis_kind(document));
       asked.push_back({{"name", name},
                        {"unit", unit_of(name)},

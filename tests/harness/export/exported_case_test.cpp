@@ -180,7 +180,7 @@ BOOST_AUTO_TEST_CASE(inexpressible_parts_are_refused_by_name) {
   ring["checks"]["sum"] = {{"quantity", "reaction_y_N:bottom"},
                            {"role", "regression"},
                            {"bound", {{"at_least", 0}, {"why", "it presses"}}}};
-  BOOST_TEST(contains(refusal_of(ring), "'reaction_y_N:bottom', which is an edge"));
+  BOOST_TEST(contains(refusal_of(ring), "'reaction_y_N:bottom' belongs to an edge"));
 }
 
 BOOST_AUTO_TEST_CASE(network_with_its_own_samples_is_exported_without_model) {
