@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cerrno>
 #include <fstream>
 #include <new>
 #include <unordered_set>
@@ -241,13 +242,17 @@ void write_file(const std::filesystem::path& file, const std::string& text) {
   const bool in_place = is_written_in_place(file);
   std::filesystem::path part = file;
   if (!in_place) part += ".part-" + std::to_string(getpid()) + "-" + std::to_string(count++);
+  errno = 0;
   std::ofstream out(part, std::ios::binary);
   out << text;
   out.close();
+  const int cause = errno != 0 ? errno : EIO;  // such as a full disk
   if (out && !in_place) std::filesystem::rename(part, file, error);
   if (out && !error) return;
+  if (!out) error.assign(cause, std::generic_category());
   if (!in_place) std::filesystem::remove(part, ignored);
-  throw InputError(file.string() + ": cannot be written; expected a writable file or folder");
+  throw InputError(file.string() + ": cannot be written (" + error.message() +
+                   "); expected a writable file or folder");
 }
 
 }  // namespace trammel::harness

@@ -225,8 +225,8 @@ std::vector<CoverageRow> evidence_coverage(const std::vector<Case>& cases,
 void add_reasons(std::vector<CoverageRow>& rows) {
   const auto file = data_root() / "cases" / "schema" / "without_evidence.json";
   const Json stated = read_json(file);
-  for (const auto& [group, reasons] : stated.items()) {
-    for (const auto& [reason, names] : reasons.items()) {
+  for (const auto& [group, reasons] : stated.items())
+    for (const auto& [reason, names] : reasons.items())
       for (const Json& name : names) {
         bool found = false;
         for (CoverageRow& row : rows) {
@@ -239,8 +239,6 @@ void add_reasons(std::vector<CoverageRow>& rows) {
                            "expected a feature without independent evidence (got '" +
                                name.get<std::string>() + "')");
       }
-    }
-  }
 }
 
 void count_quantity_runs(const results::Results& results, std::vector<CoverageRow>& rows) {

@@ -22,14 +22,13 @@ using solver::SparseMatrix;
 std::string matrix_market(const SparseMatrix& matrix, bool symmetric, const char* what) {
   std::string entries;
   std::size_t count = 0;
-  for (Index column = 0; column < matrix.outerSize(); ++column) {
+  for (Index column = 0; column < matrix.outerSize(); ++column)
     for (SparseMatrix::InnerIterator it(matrix, column); it; ++it) {
       if (it.value() == 0 || (symmetric && it.row() < it.col())) continue;
       fmt::format_to(std::back_inserter(entries), "{} {} {}\n", it.row() + 1, it.col() + 1,
                      it.value());
       ++count;
     }
-  }
   return fmt::format("%%MatrixMarket matrix coordinate real {}\n% {}\n{} {} {}\n",
                      symmetric ? "symmetric" : "general", what, matrix.rows(), matrix.cols(),
                      count) +
@@ -52,11 +51,10 @@ std::string coordinate_table(const solver::System& system) {
     for (std::size_t k = 0; k < 3; ++k)
       set(system.coordinates.node[node][k], std::array{"x_m", "y_m", "rotation_rad"}[k], of);
   }
-  for (std::size_t m = 0; m < system.coordinates.member_end.size(); ++m) {
+  for (std::size_t m = 0; m < system.coordinates.member_end.size(); ++m)
     for (std::size_t end = 0; end < 2; ++end)
       set(system.coordinates.member_end[m][end], "end_rotation_rad",
           system.model.members[m].name + (end == 0 ? ".start" : ".end"));
-  }
   std::string text = "coordinate,motion,of\n";
   for (const std::string& line : lines) text += line;
   return text;

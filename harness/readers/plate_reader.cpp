@@ -173,13 +173,12 @@ void mesh_plate(const JsonView& place, const SymbolTable& symbols, const Outline
   }
   const solver::BlockMesh mesh = solver::mesh_blocks(blocks, six_nodes);
   const std::vector<solver::Index> nodes = solver::append_mesh(structure, plate, mesh, corners);
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
+  for (std::size_t b = 0; b < blocks.size(); ++b)
     for (const std::vector<solver::Index>& of_mesh : mesh.sides[b]) {
       Edge::Piece piece{plate, {}, six_nodes};
       for (const solver::Index node : of_mesh) piece.nodes.push_back(nodes[solver::to_size(node)]);
       sides.add(places[b], std::move(piece));
     }
-  }
 }
 
 void read_plate(const std::string& name, const JsonView& place, const SymbolTable& symbols,

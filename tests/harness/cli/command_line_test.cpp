@@ -137,6 +137,7 @@ const Refusal kRefusals[] = {
     {"describe", "case is required (see trammel describe --help)"},
     {"describe twofold.json",
      "/checks/c/tolerance: expected exactly one of 'absolute' or 'relative'"},
+    {"export holds.json --out /dev/full", "cannot be written (No space left on device)"},
     {"compare a", "expected a case of the catalogue or a file (got 'a')"},
     {"compare results", "expected at least two results files (got one)"},
     {"compare holds.json:base", "expected at least two variants or cases (got one"},
