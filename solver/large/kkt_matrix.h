@@ -102,9 +102,10 @@ class KktMatrix {
                                                     const VectorXd& row_units) const;
 
   /// Returns the energy of a motion relative to its round-off error, which results from the rounded
-  /// entries of the matrix. The error is 16 epsilon times the square root of the sum of the squared
-  /// terms of the energy. A motion with a value of at most 1 is free. With the sum of magnitudes as
-  /// error, smooth motions of fine meshes would count as free.
+  /// entries of the matrix A. Coordinate i contributes |x_i| sum_j |A_ij x_j|, and the error is
+  /// 16 epsilon times the root of the sum of the squared contributions. A motion with a value of at
+  /// most 1 is free. With the sum of contributions as error, smooth motions of fine meshes would
+  /// count as free.
   [[nodiscard]] double energy_over_roundoff(const Extended& x) const;
 
   /// Computes the sum of the magnitudes of the terms of each equation with the unknowns x = (q,
