@@ -161,12 +161,12 @@ Eigen::Vector2d displacement_along(const solver::FrameElement& element, const Ei
 
 /// Draws the sum of the forces on each node, and uniform loads of members at the element ends.
 void draw_forces(const solver::System& system, const DrawnNodes& drawn, Drawing& drawing) {
-  for (const solver::NodalLoad& load : system.model.loads) {
-    const int node = drawn.index_of(load.node);
-    results::DrawnForce& sum = find_or_add(
-        drawing.forces, [&](const auto& other) { return other.node == node; }, {node, 0, 0, "N"});
-    sum.x += load.force[0], sum.y += load.force[1];
-  }
+  for (const solver::NodalLoad& load : system.model.loads)
+    if (const int node = drawn.index_of(load.node); node >= 0) {
+      const auto same = [node](const results::DrawnForce& other) { return other.node == node; };
+      auto& sum = find_or_add(drawing.forces, same, {node, 0, 0, "N"});
+      sum.x += load.force[0], sum.y += load.force[1];
+    }
   for (const solver::FrameElement& element : system.mesh.frame) {
     const Eigen::Vector2d& load = system.model.members[solver::to_size(element.member)].load;
     for (std::size_t i = 0; i < 2 && !load.isZero(0); ++i)
