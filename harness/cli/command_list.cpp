@@ -246,11 +246,11 @@ int list_command(const CommandOptions& options, const Renderers& /*renderers*/) 
 }
 
 int describe_command(const CommandOptions& options, const Renderers& /*renderers*/) {
-  const auto [name, variant] = split_case_name(options.word);
+  const auto [name, chosen] = split_case_name(options.word);
   const Case given = load_named_case(name);
-  const Document base = patched(given, variant.empty() ? kBaseVariant : variant);
+  const Document base = patched(given, chosen.empty() ? kBaseVariant : chosen);
   if (options.json) {
-    Json document = (variant.empty() ? given.document : base).value();
+    Json document = (chosen.empty() ? given.document : base).value();
     document["file"] = given.file.string();
     std::cout << format_json(document);
     return 0;
