@@ -31,14 +31,13 @@ class RoundingScope {
 
 StepResult analyze_scene(const AnalysisKind& kind, const JsonView& analysis,
                          const CaseModel& case_model, bool draw, Recorder& record) {
-  if (case_model.path && !kind.has_own_times) {
+  if (case_model.path && !kind.has_own_times)
     for (const solver::TrajectoryPoint& point : case_model.motion) {
       record.add("time_s", point.time);
       record.add("pose_x_m", point.pose.x);
       record.add("pose_y_m", point.pose.y);
       record.add("pose_phi_rad", point.pose.phi);
     }
-  }
   if (const auto* along_path = std::get_if<AnalysePath*>(&kind.of_scene))
     return (*along_path)(analysis, case_model, draw, record);
   const auto at_step = [&](std::size_t step, bool drawn) {
@@ -60,11 +59,10 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   result.quantities = record.take_quantities();
   const double of_load =
       result.evidence.has(Residual::load) ? result.evidence.largest(Residual::load) : 0;
-  if (of_load > solver::kLoadWarning) {
+  if (of_load > solver::kLoadWarning)
     result.warnings.push_back(
         {"the residual over the loads", of_load, "",
          "the model is ill-conditioned, so that round-off dominates its forces"});
-  }
   return result;
 }
 
@@ -142,11 +140,10 @@ AnalysisResult analyze(const Document& document, const References& references,
     result.effects = std::move(choice.rows);
     if (result.outcome.solved() && kind.warns_of_crossing)
       warn_of_crossed_singularity(case_model, result.warnings);
-    if (choice.is_beyond_linear_theory()) {
+    if (choice.is_beyond_linear_theory())
       result.warnings.push_back(
           {"the change by large displacement", *choice.automatic->beyond_tier, "",
            "more than the tolerance; fixed steps and driven actuators would allow this effect"});
-    }
     return result;
   });
 }

@@ -46,12 +46,11 @@ std::vector<Json> combinations_of(const JsonView& place) {
   if (!place.has("vary")) return found;
   for (const auto& [option, values] : place["vary"].entries()) {
     std::vector<Json> more;
-    for (const Json& added : found) {
+    for (const Json& added : found)
       for (const Json& value : values.json()) {
         more.push_back(added);
         more.back()[option] = value;
       }
-    }
     found = std::move(more);
   }
   return found;

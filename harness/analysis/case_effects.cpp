@@ -75,14 +75,13 @@ Effects read_names(const JsonView& names, const EffectScope& scope, const Effect
                         "': " + reason_not_applicable(*effect, scope, rules) + ")");
     chosen = chosen.with(*effect);
   }
-  for (const Effect effect : chosen.list()) {
+  for (const Effect effect : chosen.list())
     for (const Effect carrier : scope.applicable.list()) {
       const bool carried = scope.dependents[static_cast<std::size_t>(carrier)].has(effect);
       if (carried && !chosen.has(carrier))
         throw names.error("expected '" + std::string(solver::name_of(carrier)) + "' with '" +
                           std::string(solver::name_of(effect)) + "', which requires it");
     }
-  }
   if (!(scope.completed(chosen) == chosen))
     throw names.error(
         "'large-displacement' with 'inertia' requires 'gyroscopic', which they include");

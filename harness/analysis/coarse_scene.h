@@ -9,8 +9,9 @@
 #include "harness/analysis/effect_changes.h"
 #include "harness/analysis/registry.h"
 
-/// Coarse models of a case (scene). The work of a computation is estimated from its numbers of
-/// solves, factorizations and element matrices.
+/// Coarse models of a scene (a case whose effects are selected), which cost less than the complete
+/// model. The work of a computation is estimated from its numbers of solves, factorizations and
+/// element matrices.
 namespace trammel::harness {
 
 /// Returns the scene with at most `elements` elements per member and three triangles in a platform.

@@ -129,7 +129,7 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   if (scope.applicable.has(Effect::axial_flexibility))
     scope.required = Effects().with(Effect::axial_flexibility);
   scope.no_large_displacement =
-      solver::beyond_large_displacement(read_motion_options(analysis), model);
+      solver::reason_no_large_displacement(read_motion_options(analysis), model);
   if (scope.no_large_displacement == nullptr)
     scope.applicable = scope.applicable.with(Effect::large_displacement);
   dependents_of(scope, Effect::inertia) = with_velocity;

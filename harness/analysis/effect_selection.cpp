@@ -238,11 +238,10 @@ class Selector {
 
   /// Computes first frequency and damping ratio at the start of a motion, on one element per link.
   ResponseScale scale_of_motion() {
-    if (const auto history = analysis_.find("load_history")) {
+    if (const auto history = analysis_.find("load_history"))
       throw history->error(
           "automatic effects require a constant load; a pulse may fall between the times at which "
           "they are measured");
-    }
     CaseModel coarse = coarsen_scene(scene_, 1);
     coarse.effects = scope_.without(scope_.applicable, Effect::large_displacement);
     coarse_model_ = build_model(coarse, 0);

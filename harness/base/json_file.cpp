@@ -28,11 +28,10 @@ class StrictReader : public nlohmann::json_sax<Json> {
   bool number_unsigned(number_unsigned_t value) override { return add(value); }
   bool number_float(number_float_t value, const string_t& token) override {
     const std::string mantissa = token.substr(0, token.find_first_of("eE"));
-    if (value == 0 && mantissa.find_first_of("123456789") != std::string::npos) {
+    if (value == 0 && mantissa.find_first_of("123456789") != std::string::npos)
       throw InputError(name_, here(),
                        "expected 0 or a number that is not rounded to 0 as a double (got '" +
                            printable(token, 30) + "')");
-    }
     return add(value);
   }
   bool string(string_t& value) override { return add(std::move(value)); }

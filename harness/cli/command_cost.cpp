@@ -158,7 +158,7 @@ results::CostStudy choose_setting(const CommandOptions& options, const CostOptio
     std::cout << format_json(results::to_json(search.errors));
   } else {
     print(measured);
-    print_accuracy_search(search.errors);
+    print_tried_settings(search.errors);
   }
   return measured;
 }

@@ -209,7 +209,7 @@ void present(const CommandOptions& options, const std::filesystem::path& page) {
     // Below the system's folder for temporary files, because Chromium limits the length of the
     // path.
     std::string profile = (std::filesystem::temp_directory_path() / "trammel-XXXXXX").string();
-    if (mkdtemp(profile.data()) == nullptr) throw InputError(profile + ": cannot be created");
+    if (mkdtemp(profile.data()) == nullptr) throw InputError(profile + ": the folder for the profile of Chromium cannot be created");
     const ProcessOutcome outcome = run_limited(
         {chromium(), "--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer",
          "--user-data-dir=" + profile, "--print-to-pdf=" + pdf.string(), sheet.string()},

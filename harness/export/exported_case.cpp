@@ -59,11 +59,10 @@ Json stated_analysis(const Document& document, solver::Effects chosen) {
   if (!document.value().contains("effects")) return analysis;
   const JsonView place = analysis_place(document);
   const bool kept = !place.has("rotating") || chosen.has(Effect::geometric_stiffening);
-  if (chosen.has(Effect::large_displacement) || !kept) {
+  if (chosen.has(Effect::large_displacement) || !kept)
     throw JsonView(document)["effects"].error(
         "large displacement, and a rotating frame without geometric stiffening, cannot be "
         "exported, because no key of the analysis expresses them");
-  }
   if (!chosen.has(Effect::damping))
     for (const char* key : {"damping", "mass_damping_per_s", "strain_rate_damping_s"})
       analysis[analysis_kind(document)].erase(key);
@@ -128,7 +127,7 @@ Json asked_quantities(const Document& document, const std::vector<Check>& checks
   const std::set<std::string> lost = lost_parts(document, model);
   Json asked = Json::array();
   std::set<std::string> seen = {""};
-  for (const Check& check : checks) {
+  for (const Check& check : checks)
     for (const std::string& name : {check.quantity, check.against_quantity}) {
       if (!seen.insert(name).second) continue;
       const std::size_t colon = name.find(':');
@@ -142,7 +141,6 @@ Json asked_quantities(const Document& document, const std::vector<Check>& checks
                        {"length", length_of(document, name)},
                        {"about", known == nullptr ? "" : known->meaning}});
     }
-  }
   return asked;
 }
 
@@ -225,17 +223,15 @@ Document chosen_document(const Case& given, const ExportChoice& choice) {
   std::vector<std::string> names;
   for (const auto& sweep : JsonView(document).entries("sweeps")) names.push_back(sweep.first);
   const std::string name = choice.sweep.empty() && names.size() == 1 ? names[0] : choice.sweep;
-  if (!contains(names, name)) {
+  if (!contains(names, name))
     throw document.error("/sweeps", "expected the name of a sweep (got '" + printable(name) +
                                         "'; the case has " +
                                         (names.empty() ? "none" : join(names, "and")) + ")");
-  }
   std::vector<Level> all = levels(document, name);
-  if (*choice.level >= all.size()) {
+  if (*choice.level >= all.size())
     throw document.error("/sweeps/" + name, "expected a level from 0 to " +
                                                 std::to_string(all.size() - 1) + " (got " +
                                                 std::to_string(*choice.level) + ")");
-  }
   return all[*choice.level].document;
 }
 

@@ -81,7 +81,7 @@ void write_matrices(const Document& document, const ExportedScene& scene,
     solver::require(scene.joints.line_springs.empty() && scene.joints.follower_loads.empty(),
                     "line springs and follower loads have no matrices");
     solver::Model model = scene.model;
-    for (const auto& slider : scene.joints.sliders) solver::add_linear_slider(model, slider);
+    for (const auto& slider : scene.joints.sliders) solver::add_small_motion_slider(model, slider);
     return solver::assemble(model, scene.effects);
   });
   std::error_code error;

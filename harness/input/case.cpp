@@ -45,11 +45,10 @@ void apply_with_bases(Document& document, const fs::path& file, const Catalogue&
     if (!extends->is_string())
       throw InputError(file.string(), "/extends", "expected the name or the file of a case");
     const fs::path base = catalogue.find_base_case(extends->get<std::string>(), file);
-    if (contains(seen, fs::weakly_canonical(base))) {
+    if (contains(seen, fs::weakly_canonical(base)))
       throw InputError(file.string(), "/extends",
                        "the case extends itself, directly or through other cases; expected a case "
                        "that does not extend this case");
-    }
     apply_with_bases(document, base, catalogue, seen);
   }
   const bool outermost = seen.size() == 1;
@@ -248,11 +247,10 @@ std::vector<Level> levels(const Document& variant, const JsonView& sweep) {
   const bool by_patches = sweep.has("patches");
   if (by_patches == sweep.has("pointers"))
     throw sweep.error("expected exactly one of 'pointers' and 'patches' (got both or neither)");
-  if (by_patches && sweep["patches"].size() != values.size()) {
+  if (by_patches && sweep["patches"].size() != values.size())
     throw sweep["patches"].error("expected one patch for each of the " +
                                  std::to_string(values.size()) + " values (got " +
                                  std::to_string(sweep["patches"].size()) + " patches)");
-  }
   std::vector<Level> found;
   for (std::size_t i = 0; i < values.size(); ++i) {
     Level level{values[i].get<double>(), variant};

@@ -106,11 +106,10 @@ void require_discrepancy(const JsonView& place, const Check& check) {
   if (!is_difference || check.expectation != Expectation::known_discrepancy) return;
   const bool everywhere =
       std::ranges::all_of(check.windows, [](const Window& window) { return window.contains(0); });
-  if (everywhere) {
+  if (everywhere)
     throw place.error(
         "expected a window without 0 for a known discrepancy: if the window contains 0, "
         "agreement cannot be detected");
-  }
 }
 
 /// Removes round-off from a sum of decimal numbers: 0.033 for 0.038 - 0.005.
@@ -175,11 +174,10 @@ void require_target(const JsonView& place, const Check& check) {
     throw place.error(
         "the check has no value to compare with: it requires 'reference', 'against_variant' or "
         "'against_quantity'");
-  if (!needs && targets > 0) {
+  if (!needs && targets > 0)
     throw place.error("expected no 'reference', 'against_variant' or 'against_quantity': " +
                       std::string(of_errors ? "the quantity is itself an error"
                                             : "a bound limits the value itself"));
-  }
   if (check.order && !of_errors && check.reference.empty())
     throw place.error("'order' requires 'reference', a reference with the exact values");
 }
@@ -188,11 +186,10 @@ void require_target(const JsonView& place, const Check& check) {
 void read_criterion(const JsonView& place, const Document& document, Check& check) {
   if (check.role == Role::validation) {
     for (const char* key : {"tolerance", "bound", "order"}) {
-      if (place.has(key)) {
+      if (place.has(key))
         throw place[key].error(
             "a check of role validation does not use this key; expected 'expect', "
             "which records its expected result");
-      }
     }
     check.expectation = Expectation::none;
     if (place.has("expect")) read_expectation(place["expect"], check);

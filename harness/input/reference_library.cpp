@@ -68,10 +68,8 @@ References::Family& References::family(const std::string& file) const {
 const std::vector<references::JsonMember>& References::members(const std::string& file) const {
   Family& split = family(file);
   if (!split.members) split.members = references::json_members(split.file.text);
-  if (!split.members) {
-    (void)read_json(file);  // throws with the line or key of the fault
-    throw InputError(file, "", "expected an object with one key per reference or source");
-  }
+  if (!split.members) (void)read_json(file);  // throws with the line or key of the fault
+  throw InputError(file, "", "expected an object with one key per reference or source");
   return *split.members;
 }
 
@@ -180,14 +178,13 @@ const references::Reference& References::add(const std::string& place) const {
 
 std::map<std::string, std::string> References::catalogue() const {
   std::map<std::string, std::string> places;
-  for (const std::string& file : catalogue_files()) {
+  for (const std::string& file : catalogue_files())
     for (const references::JsonMember& member : members(file)) {
       if (!references::is_reference_id(member.key)) continue;
       const std::string id(member.key);
       const auto [place, is_new] = places.emplace(id, place_of(file, id));
       if (!is_new) throw not_unique(file, id, parts_of(place->second).first);
     }
-  }
   return places;
 }
 

@@ -237,11 +237,10 @@ std::vector<CheckResult> evaluate_order_check(const Check& check, const CheckCon
     ++position;
   }
   const std::size_t wanted = std::max<std::size_t>(1, check.index.size());
-  if (position < wanted) {
+  if (position < wanted)
     all.push_back(failed_check_result(
         check, fmt::format("the sweep '{}' records {} entries of {}, {} are judged",
                            criterion.sweep, position, check.quantity, wanted)));
-  }
   std::ranges::stable_sort(
       all, [](const CheckResult& a, const CheckResult& b) { return a.name < b.name; });
   return all;

@@ -259,11 +259,10 @@ std::vector<EvaluationTime> time_against_solving(const solver::Grnn& network,
       sink += solver::predict(network, samples.inputs.row(k))(0, 0);
   }));
   timings.push_back(time_evaluation("inverse_dynamics", count, [&] {
-    for (const solver::TrajectoryPoint& point : case_model.motion) {
+    for (const solver::TrajectoryPoint& point : case_model.motion)
       sink +=
           solver::inverse_dynamics(manipulator, point, wrench_on_platform(case_model, point.pose))
               .torque(0);
-    }
   }));
   if (count < 2 || !loads_at_P_only(case_model)) return timings;
   const Eigen::Vector3d wrench = wrench_on_platform(case_model, case_model.motion.front().pose);

@@ -53,14 +53,13 @@ OutputSelection read_kept(const JsonView& analysis, const GeometricallyExactSyst
   }
   if (analysis.has("relative_to"))
     selection.seen_from = find_turning_node(analysis["relative_to"], system);
-  if (const auto angles = analysis.find("angles")) {
+  if (const auto angles = analysis.find("angles"))
     for (const auto& [name, place] : angles->entries()) {
       Angle angle{name, find_turning_node(place["node"], system), -1,
                   place.get("initial_rad", 0.0)};
       if (place.has("from")) angle.from = find_turning_node(place["from"], system);
       selection.angles.push_back(angle);
     }
-  }
   return selection;
 }
 

@@ -32,14 +32,13 @@ void print_effects(const EffectChoice& choice) {
               {"definition"},
               {"own", "own [%]", 3, 100},
               {"cumulative", "cumulative [%]", 3, 100}});
-  for (const results::EffectRow& row : choice.rows) {
+  for (const results::EffectRow& row : choice.rows)
     table.add({row.name,
                row.active       ? "on"
                : row.applicable ? "off"
                                 : "-",
                number_or_null(row.dimensionless_number), row.number_definition,
                number_or_null(row.own_change), number_or_null(row.cumulative_change)});
-  }
   table.print(std::cout, "  ");
   std::cout << "  own: change of the results without this effect alone; cumulative: also without "
                "those removed earlier\n";

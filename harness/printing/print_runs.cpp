@@ -96,7 +96,7 @@ void print_run(const results::Run& run) {
             << to_string(run.status) << ", " << rounded(run.cost.wall_s, 2) << " s\n"
             << wrapped(run.reason, "  ");
   for (const std::string& warning : run.warnings) std::cout << wrapped("warning: " + warning, "  ");
-  if (run.errors && !run.errors->search.empty()) print_accuracy_search(*run.errors);
+  if (run.errors && !run.errors->search.empty()) print_tried_settings(*run.errors);
   if (run.checks.empty() || run.errors) print_quantities(run);
   if (run.checks.empty()) return;
   Rows table(check_columns());
@@ -115,7 +115,7 @@ void print_run(const results::Run& run) {
   std::cout << messages;
 }
 
-void print_accuracy_search(const results::ErrorEstimates& errors) {
+void print_tried_settings(const results::ErrorEstimates& errors) {
   Rows table({{"setting"}, {"error", "estimated error", 2}, {"cpu_s", "processor time [s]", 2}});
   for (const results::AccuracyStep& step : errors.search)
     table.add({step.setting, number_or_null(step.error), step.cpu_s});

@@ -18,7 +18,7 @@ namespace trammel::harness {
 void print_run(const results::Run& run);
 
 /// Prints the discretizations tried for the option --accuracy, with their estimated errors.
-void print_accuracy_search(const results::ErrorEstimates& errors);
+void print_tried_settings(const results::ErrorEstimates& errors);
 /// Prints the validation comparisons (ASME V&V 20) of a run as a table, if there are any.
 void print_validation(const results::Run& run);
 

@@ -22,11 +22,10 @@ Shape read_shape(const JsonView& section) {
   const bool plain = section.has("area_m2") || section.has("second_moment_m4");
   const int ways =
       (section.has("rectangle") ? 1 : 0) + (section.has("circle") ? 1 : 0) + (plain ? 1 : 0);
-  if (ways != 1 || (plain && !(section.has("area_m2") && section.has("second_moment_m4")))) {
+  if (ways != 1 || (plain && !(section.has("area_m2") && section.has("second_moment_m4"))))
     throw section.error(
         "expected exactly one of 'rectangle', 'circle', and 'area_m2' with 'second_moment_m4' "
         "(got none, several or an incomplete pair)");
-  }
   if (!plain && section.has("half_depth_m"))
     throw section["half_depth_m"].error(
         "'half_depth_m' requires 'area_m2' (got 'rectangle' or 'circle')");
@@ -67,11 +66,10 @@ solver::Taper read_taper(const JsonView& place, const SymbolTable& symbols) {
   if (taper != solver::Taper::linear_depth_and_width) return taper;
   const std::string& first = symbols.section_shape.at(place.text("section"));
   const std::string& second = symbols.section_shape.at(place.text("end_section"));
-  if (first != second || first.empty()) {
+  if (first != second || first.empty())
     throw place["end_section"].error(
         "expected two rectangles or two circles, or 'taper' as 'linear-area-and-inertia' or "
         "'exponential': other sections have no depth and width that could vary");
-  }
   return taper;
 }
 
@@ -162,7 +160,7 @@ void support_edge(const JsonView& place, const solver::Support& all, const Edge&
 
 /// Reads supports of nodes before those of edges. Nodes of a supported edge keep their reactions.
 void read_supports(const JsonView& model, const SymbolTable& symbols, solver::Model& structure) {
-  for (const bool of_edges : {false, true}) {
+  for (const bool of_edges : {false, true})
     for (const auto& [name, place] : model.entries("supports")) {
       const auto edge = symbols.edge.find(name);
       if (of_edges != (edge != symbols.edge.end())) continue;
@@ -176,7 +174,6 @@ void read_supports(const JsonView& model, const SymbolTable& symbols, solver::Mo
         structure.supports.push_back(support);
       }
     }
-  }
 }
 
 void read_load(const JsonView& place, const SymbolTable& symbols, solver::Model& model) {
@@ -275,11 +272,10 @@ class ChainPath {
     if (!center_) return;
     const Eigen::Vector2d a = start - *center_;
     const Eigen::Vector2d b = end - *center_;
-    if (!(std::abs(a.norm() - b.norm()) <= 1e-9 * a.norm())) {
+    if (!(std::abs(a.norm() - b.norm()) <= 1e-9 * a.norm()))
       throw solver::ModelError(
           "the center of an arc requires equal distances from both nodes (got " +
           std::to_string(a.norm()) + " m and " + std::to_string(b.norm()) + " m)");
-    }
     radius_ = a.norm();
     angle_ = std::atan2(a.y(), a.x());
     turn_ = std::atan2(solver::cross(a, b), a.dot(b));

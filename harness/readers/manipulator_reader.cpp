@@ -104,7 +104,7 @@ PlatformMotion read_trajectory(const JsonView& trajectory) {
     return {path,
             solver::sample(path, place["points"].get<solver::Index>(), place.number("step_s"))};
   } catch (const solver::ModelError& error) {
-    throw place.error(std::string("expected a valid path: ") + error.what());
+    throw place.error(std::string("expected a valid trajectory: ") + error.what());
   }
 }
 

@@ -196,6 +196,8 @@ TRAMMEL_FIELDS(TableRequest, TRAMMEL_REQUIRED(columns), TRAMMEL_OPTIONAL(title, 
 TRAMMEL_FIELDS(StressSuiteEntry, TRAMMEL_REQUIRED(item, indicators));
 TRAMMEL_KEY(Variant, id);
 TRAMMEL_FIELDS(Variant, TRAMMEL_REQUIRED(title));
+TRAMMEL_KEY(CaseInput, path);
+TRAMMEL_FIELDS(CaseInput, TRAMMEL_REQUIRED(value), TRAMMEL_OPTIONAL(source));
 TRAMMEL_KEY(CaseInfo, id);
 TRAMMEL_FIELDS(CaseInfo, TRAMMEL_REQUIRED(title, variants),
                TRAMMEL_OPTIONAL(description, family, labels, stress_suite, figures, tables,

@@ -63,6 +63,12 @@ struct Variant {
   std::string id, title;
 };
 
+/// One input of a model: path of its key ("links/thickness_m"), its value, and the file that states
+/// it if this is not the file of the case.
+struct CaseInput {
+  std::string path, value, source;
+};
+
 struct CaseInfo {
   std::string id, title, description, family, analysis;
   std::vector<std::string> labels;
@@ -70,9 +76,8 @@ struct CaseInfo {
   std::vector<PlotRequest> figures;
   std::vector<TableRequest> tables;
   std::vector<Variant> variants;
-  std::string hash;  ///< hash of the case with all cases that it extends
-  /// Inputs of the model of the base variant: path of the key ("links/thickness_m"), and value.
-  std::vector<std::pair<std::string, std::string>> inputs;
+  std::string hash;               ///< hash of the case with all cases that it extends
+  std::vector<CaseInput> inputs;  ///< inputs of the model of the base variant
 
   [[nodiscard]] std::string variant_title(const std::string& variant) const;
 };

@@ -230,7 +230,7 @@ struct ErrorEstimate {
   bool asymptotic = true;
   std::string setting;  ///< JSON pointer of the setting with the largest effect on the error
 
-  /// Returns the half-width about one of the quantity's values [unit].
+  /// Returns the half-width of the error band about one of the quantity's values [unit].
   [[nodiscard]] Number half_width(std::size_t index, double value) const;
 };
 

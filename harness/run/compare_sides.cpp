@@ -33,8 +33,8 @@ using Runs =
 /// Smallest assumed round-off error, relative to the largest value of a group of quantities (see
 /// `series_of`).
 constexpr double kRoundoff = 1e-9;
-/// Upper limit of the relative round-off errors that are read from a run. Larger values are not
-/// round-off.
+/// Largest relative round-off error that is taken from the estimates stored with a run. Larger
+/// estimates are ignored, because they are not due to round-off.
 constexpr double kLargestRoundoff = 1e-6;
 constexpr std::size_t kFewEntries = 6;  ///< longer quantities show only the most changed entry
 constexpr std::size_t kDrawnRuns = 8;   ///< maximum number of runs with stored series

@@ -34,17 +34,18 @@ void round_drawing(results::Drawing& drawing) {
   for (results::Shape& shape : drawing.shapes) round(shape.displacement);
 }
 
-/// Adds the numbers, texts and short lists in `json` to the inputs of a case.
-void add_inputs(const Json& json, const std::string& path, results::CaseInfo& info) {
+/// Adds the numbers, texts and short lists at `place` in the model to the inputs of a case.
+void add_inputs(const Document& document, const JsonPointer& place, const std::string& case_file,
+                results::CaseInfo& info) {
   constexpr std::size_t kMaxLength = 60, kMaxInputs = 60;
-  if (json.is_object()) {
-    for (const auto& [key, value] : json.items())
-      add_inputs(value, path.empty() ? key : path + "/" + key, info);
-    return;
-  }
+  const Json& json = document.value().at(place);
+  if (json.is_object())
+    for (const auto& item : json.items()) add_inputs(document, place / item.key(), case_file, info);
   const std::string text = json.is_string() ? json.get<std::string>() : json.dump();
-  if (text.size() <= kMaxLength && info.inputs.size() < kMaxInputs)
-    info.inputs.emplace_back(path, text);
+  if (json.is_object() || text.size() > kMaxLength || info.inputs.size() == kMaxInputs) return;
+  const std::string pointer = place.to_string(), file = document.origin(pointer).file;
+  info.inputs.push_back({pointer.substr(std::string("/model/").size()), text,
+                         file == case_file ? "" : std::filesystem::path(file).filename().string()});
 }
 
 results::CaseInfo case_info(const Case& given) {
@@ -59,7 +60,9 @@ results::CaseInfo case_info(const Case& given) {
     json["variants"][variant]["title"] = given.variant_title(variant);
   auto info = results::from_json<results::CaseInfo>(json);
   info.id = given.id();
-  add_inputs(patched(given, kBaseVariant).value().value("model", Json::object()), "", info);
+  const Document base = patched(given, kBaseVariant);
+  if (base.value().contains("model"))
+    add_inputs(base, JsonPointer("/model"), given.file.string(), info);
   return info;
 }
 

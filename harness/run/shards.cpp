@@ -98,7 +98,7 @@ Json merge_shards(const std::vector<fs::path>& folders, const fs::path& store) {
   std::map<fs::path, Json> shards;
   for (const fs::path& folder : folders) shards[folder] = read_shard(folder);
   std::map<std::string, fs::path> computed;
-  for (const auto& [number, folder] : require_all(folders, shards)) {
+  for (const auto& [number, folder] : require_all(folders, shards))
     for (const Json& name : shards[folder]["computations"]) {
       const auto [place, fresh] = computed.emplace(name.get<std::string>(), folder);
       if (!fresh)
@@ -106,7 +106,6 @@ Json merge_shards(const std::vector<fs::path>& folders, const fs::path& store) {
                          "expected each computation in one shard (" + place->first +
                              " is also in " + place->second.string() + ")");
     }
-  }
   const Json& first = shards[folders.front()];
   if (first["in_all"] != computed.size())
     throw InputError("expected " + first["in_all"].dump() + " computations in all shards (got " +

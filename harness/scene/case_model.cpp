@@ -105,7 +105,7 @@ CaseModel read_case_model(const Document& document) {
 solver::Model build_model(const CaseModel& case_model, std::size_t step) {
   solver::Model model = build_bare_model(case_model, step);
   for (const solver::large_motion::Slider& slider : case_model.joint_elements.sliders)
-    solver::add_linear_slider(model, slider);
+    solver::add_small_motion_slider(model, slider);
   const bool only_large = !case_model.joint_elements.line_springs.empty() ||
                           !case_model.joint_elements.follower_loads.empty();
   if (only_large)

@@ -212,14 +212,13 @@ StateRecorder::StateRecorder(const solver::Model& model, const std::string& anal
 
 void StateRecorder::record(const ModelState& state, Recorder& record, double displacement_roundoff,
                            double force_roundoff) const {
-  for (const auto& [observable, parts] : rows_) {
+  for (const auto& [observable, parts] : rows_)
     for (const ModelPart& part : parts) {
       const double value = observable->value(model_, state, part);
       if (observable->is_optional && std::isnan(value)) continue;
       record.add(observable->name, part.name, value,
                  observable->is_force ? force_roundoff : displacement_roundoff);
     }
-  }
 }
 
 bool needs_forces(const std::vector<Output>& outputs) {

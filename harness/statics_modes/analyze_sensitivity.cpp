@@ -54,7 +54,7 @@ solver::FrequencySensitivity derive(const JsonView& analysis, const CaseModel& c
     count = all.frequency.size();
   }
   for (std::size_t p = 0; p < parameters.size() && all.outcome.solved(); ++p) {
-    if (exactly && solver::is_dual(parameters[p].kind)) continue;
+    if (exactly && solver::has_exact_derivative(parameters[p].kind)) continue;
     const FrequencyDifferences one = differences_of(method, case_model, parameters[p], count);
     all.counters += one.counters;
     all.outcome = one.outcome;

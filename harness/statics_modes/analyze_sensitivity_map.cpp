@@ -50,7 +50,7 @@ Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
                  const std::string& item, double margin, bool positions, Recorder& record) {
   Reading reading{.mean_frequency = 0, .mean = 0, .largest = 0};
   double count = 0;
-  for (solver::Index j = 0; j < map.grid.rows; ++j) {
+  for (solver::Index j = 0; j < map.grid.rows; ++j)
     for (solver::Index i = 0; i < map.grid.columns; ++i) {
       const double rate = map.derivative(j, i);
       if (!std::isfinite(rate)) continue;  // outside or on the boundary of the workspace
@@ -67,7 +67,6 @@ Reading read_map(const solver::SensitivityMap& map, const std::string& quantity,
       if (map.serial_distance(j, i) < margin) continue;
       reading.largest = std::max(reading.largest, std::abs(rate));
     }
-  }
   reading.mean_frequency /= count;
   reading.mean /= count;
   return reading;
@@ -102,7 +101,7 @@ StepResult analyze_sensitivity_map(const JsonView& analysis, const CaseModel& ca
     if (!(parameter_value(design, parameter) > 0))
       throw(*given)["property"].error(
           "the manipulator does not have this property; expected another one");
-    if (!solver::is_dual(parameter.kind))
+    if (!solver::has_exact_derivative(parameter.kind))
       throw(*given)["property"].error("expected a length, thickness, width, E or density");
   }
   const std::string quantity = sensitivity_name(parameter.kind);

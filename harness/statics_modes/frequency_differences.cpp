@@ -127,11 +127,10 @@ class Differences {
       return VectorXd::Constant(count_, std::numeric_limits<double>::quiet_NaN());
     }
     VectorXd rate = VectorXd::Zero(count_);
-    for (const FrequencySet& set : sets_) {
+    for (const FrequencySet& set : sets_)
       for (Index k = 0; k < set.count && set.first + k < count_; ++k)
         rate[set.first + k] =
             (above[set.first + k] - below[set.first + set.count - 1 - k]) / (2 * step);
-    }
     return rate;
   }
 

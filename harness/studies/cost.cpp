@@ -215,7 +215,7 @@ ErrorNorms error_norms(const Observations& found, const Observations& reference_
       ++count;
     }
   }
-  if (count == 0) throw std::runtime_error("the observed quantities have no values");
+  if (count == 0) throw std::runtime_error("the quantities that the study compares have no values");
   const auto n = static_cast<double>(count);
   return {max, std::sqrt(squares / n), sum / n};
 }

@@ -38,12 +38,11 @@ std::vector<double> exact_values(const JsonView& place, const std::string& quant
 std::size_t output_number(const JsonView& study, const JsonView& place) {
   if (!place.has("output")) return 0;
   std::size_t number = 0;
-  if (const auto outputs = study.find("outputs")) {
+  if (const auto outputs = study.find("outputs"))
     for (const auto& entry : outputs->entries()) {
       if (entry.first == place.text("output")) return number;
       ++number;
     }
-  }
   throw place["output"].error("expected one of the 'outputs' of the study");
 }
 

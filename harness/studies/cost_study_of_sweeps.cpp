@@ -71,11 +71,10 @@ std::vector<Setting> settings_of(const Document& document, const std::string& sw
                                  const std::vector<ObservedQuantity>& observed) {
   const JsonView place = JsonView(document)["sweeps"][sweep];
   std::vector<Setting> settings;
-  for (Level& level : levels(document, sweep)) {
+  for (Level& level : levels(document, sweep))
     settings.push_back({sweep, place.get<std::string>("title", sweep),
                         sweep + " " + shortest_decimal(level.parameter), level.parameter,
                         std::move(level.document), observed});
-  }
   return settings;
 }
 

@@ -80,7 +80,7 @@ std::vector<UncertainInput> read_inputs(const JsonView& place, const References&
     input.name = name;
     input.nominal = entry.get("nominal", false);
     if (entry.has("half_width") == entry.has("reference"))
-      throw entry.error("expected exactly one of 'half_width' and 'reference'");
+      throw entry.error("expected either 'half_width' or 'reference' of the uncertain input (got both or neither)");
     if (entry.has("reference")) {
       const references::Reference& reference = references.get(entry["reference"]);
       input.half_width = reference.uncertainty.at(0);

@@ -220,7 +220,7 @@ std::vector<Real> frame_buckling_program(const Arguments& arguments) {
       0, arguments.count("count"));
 }
 
-std::vector<Real> frame_sensitivity_program(const Arguments& arguments) {
+std::vector<Real> frame_frequency_sensitivity_program(const Arguments& arguments) {
   const auto step = static_cast<double>(arguments.positive("step"));
   const Differences differences(arguments);
   const std::vector<Real> a = differences.central(step);

@@ -52,7 +52,7 @@ struct FrameFrequencies {
 /// each frequency has the error 1e-20. Frequencies that remain repeated have a common derivative.
 /// The argument pointers contains JSON pointers into the arguments, to equal numbers that change
 /// together by step. Values: [Hz / unit of the numbers], ascending in frequency.
-[[nodiscard]] std::vector<Real> frame_sensitivity_program(const Arguments& arguments);
+[[nodiscard]] std::vector<Real> frame_frequency_sensitivity_program(const Arguments& arguments);
 
 /// Computes the first `count` positive factors of the loads at which a frame buckles. The axial
 /// forces of unit_load_statics are multiplied by the factor, and natural frequencies are counted

@@ -199,7 +199,7 @@ Real absolute_work(const ManipulatorNumbers& m, const Arguments& trajectory,
 std::vector<Real> manipulator_motion_program(const Arguments& arguments) {
   const ManipulatorNumbers manipulator = read_planar_manipulator(arguments);
   const PlanarWrench wrench = read_wrench(arguments);
-  const Arguments trajectory = read_trajectory(arguments);
+  const Arguments trajectory = trajectory_arguments(arguments);
   const std::vector<std::string> outputs = arguments.texts("outputs");
   if (outputs.front() == "cycle_absolute_work_J")
     return {absolute_work(manipulator, trajectory, wrench)};

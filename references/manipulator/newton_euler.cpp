@@ -122,14 +122,14 @@ PlanarWrench read_wrench(const Arguments& arguments) {
   return {force[0], force[1], arguments.number("moment_N_m", 0)};
 }
 
-Arguments read_trajectory(const Arguments& arguments) {
+Arguments trajectory_arguments(const Arguments& arguments) {
   return arguments.object("trajectory", {"circle", "line", "rest_to_rest", "spline"});
 }
 
 std::vector<Real> manipulator_torques_program(const Arguments& arguments) {
   const ManipulatorNumbers manipulator = read_planar_manipulator(arguments);
   const PlanarWrench wrench = read_wrench(arguments);
-  const Arguments trajectory = read_trajectory(arguments);
+  const Arguments trajectory = trajectory_arguments(arguments);
   const std::vector<Real> times = arguments.numbers("times_s");
   std::vector<Real> values(3 * times.size());
   for (std::size_t k = 0; k < times.size(); ++k) {

@@ -98,7 +98,7 @@ const std::map<std::string, Program>& programs() {
       {"frame-buckling", {frame_buckling_program}},
       {"frame-count", {frame_count_program}},
       {"frame-frequencies", {frame_frequencies_program, prove_frame_frequencies}},
-      {"frame-frequency-sensitivity", {frame_sensitivity_program}},
+      {"frame-frequency-sensitivity", {frame_frequency_sensitivity_program}},
       {"frame-statics", {frame_statics_program}},
       {"grnn", {grnn_program}},
       {"manipulator-grnn", {manipulator_grnn_program}},

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 
 #include "harness/base/find_or_add.h"
 #include "reports/drawing/interval.h"
@@ -49,25 +50,6 @@ std::vector<const CostSetting*> curves_of(const CostStudy& study) {
   return curves;
 }
 
-/// Positions of the strip to the right of the error axis, which shows settings without a result.
-struct Strip {
-  double left = 0, middle = 0, right = 0;
-};
-
-Strip strip_of(double low, double high) {
-  const double width = std::max(0.35, 0.12 * std::log10(high / low));
-  return {high, high * std::pow(10, width / 2), high * std::pow(10, width)};
-}
-
-void draw_strip(PlotScript& script, const Strip& strip) {
-  script.command("set object 1 rectangle from " + shortest_decimal(strip.left) + ", graph 0 to " +
-                 shortest_decimal(strip.right) +
-                 ", graph 1 behind fillstyle solid noborder fc rgb '" + palette::kBlush + "'");
-  script.label("no result", shortest_decimal(strip.middle) +
-                                ", graph 0.5 center rotate front textcolor rgb '" +
-                                palette::kMuted + "'");
-}
-
 /// Returns the Pareto front as steps: the time of the cheapest setting for each permitted error.
 /// @param right  largest error of the curve
 PlotScript::Rows steps_of(const CostStudy& study, double right) {
@@ -86,13 +68,10 @@ PlotScript::Rows steps_of(const CostStudy& study, double right) {
 
 /// @param first  first setting of the curve
 void draw_curve(PlotScript& script, const CostStudy& study, const CostSetting& first,
-                std::size_t number, const Strip& strip) {
-  PlotScript::Rows points, outside;
+                std::size_t number) {
+  PlotScript::Rows points;
   for (const CostSetting& setting : study.settings) {
-    if (setting.curve != first.curve) continue;
-    if (setting.without_result() && setting.relative && *setting.relative > 0)
-      outside.push_back({strip.middle, *setting.relative});
-    if (!is_drawn(study, setting)) continue;
+    if (setting.curve != first.curve || !is_drawn(study, setting)) continue;
     const double time = *setting.relative;
     points.push_back({drawn_error(study, setting), time,
                       setting.time ? setting.time->relative_low : time,
@@ -103,7 +82,6 @@ void draw_curve(PlotScript& script, const CostStudy& study, const CostSetting& f
   const std::string mark = filled ? palette::filled_point(number) : palette::open_point(number);
   script.curve(points, "using 1:2 with lines lw 1.2" + color);
   script.curve(points, "using 1:2:3:4 with yerrorbars lw 1.2 ps 0.8 pt " + mark + color);
-  script.curve(outside, "using 1:2 with points lw 1.6 ps 1 pt 2" + color);
   script.key_entry("with linespoints lw 1.2 ps 0.8 pt " + mark + color, first.curve_title);
 }
 
@@ -115,19 +93,13 @@ Table table_of(const CostStudy& study) {
   for (const auto& counter : study.settings.front().counters) table.heads.push_back(counter.first);
   for (const CostSetting& s : study.settings) {
     const ErrorNorms errors = s.errors.value_or(ErrorNorms{});
-    std::vector<Table::Cell> row = {s.title,
-                                    s.curve,
-                                    cell(s.value),
-                                    s.status,
-                                    s.reason,
-                                    cell(errors.max),
-                                    cell(errors.rms),
-                                    cell(errors.mean),
-                                    s.cpu_s,
-                                    cell(s.relative),
-                                    cell(s.time ? Number(s.time->relative_low) : Number()),
-                                    cell(s.time ? Number(s.time->relative_high) : Number()),
-                                    std::string(s.pareto_optimal ? "yes" : "no")};
+    std::vector<Table::Cell> row = {s.title, s.curve, cell(s.value), s.status, s.reason};
+    const Number low = s.time ? s.time->relative_low : Number();
+    const Number high = s.time ? s.time->relative_high : Number();
+    for (const Number& x : std::initializer_list<Number>{errors.max, errors.rms, errors.mean,
+                                                         s.cpu_s, s.relative, low, high})
+      row.push_back(cell(x));
+    row.emplace_back(std::string(s.pareto_optimal ? "yes" : "no"));
     for (const auto& counter : s.counters) row.emplace_back(static_cast<double>(counter.second));
     table.rows.push_back(std::move(row));
   }
@@ -143,13 +115,7 @@ Figure cost_figure(const CostStudy& study) {
       static_cast<std::size_t>(std::ranges::count_if(study.settings, &CostSetting::without_result));
   script.log_axis("x", errors.low, errors.high);
   script.log_axis("y", times.low, times.high);
-  const double low = std::pow(10, std::floor(std::log10(errors.low) + 1e-9));
   const double high = std::pow(10, std::ceil(std::log10(errors.high) - 1e-9));
-  const Strip strip = strip_of(low, high);
-  if (outside > 0) {
-    script.range("x", low, strip.right);
-    draw_strip(script, strip);
-  }
   script.axis_label("x", "relative error (" + study.norm + ")");
   script.axis_label("y", "time, relative to the baseline");
   script.curve(steps_of(study, high), "using 1:2 with lines lw 5" + lc(palette::kPlate),
@@ -157,13 +123,12 @@ Figure cost_figure(const CostStudy& study) {
   const std::vector<const CostSetting*> curves = curves_of(study);
   std::vector<std::string> keys = {"Pareto front"};
   for (std::size_t i = 0; i < curves.size(); ++i) {
-    draw_curve(script, study, *curves[i], i, strip);
+    draw_curve(script, study, *curves[i], i);
     keys.push_back(curves[i]->curve_title);
   }
   const int key_height = script.key_below(keys);
   script.plot();
-  const std::string note =
-      " The strip at the right edge contains " + count(outside, "setting") + " without a result.";
+  const std::string note = " Not drawn: " + count(outside, "setting") + " without a result.";
   return {.id = slug("cost-" + study.id),
           .title = study.title,
           .caption = "Processor time against error, one curve for each series of settings. " +

@@ -20,8 +20,8 @@ namespace trammel::reports {
 /// the errors of the quantity against the refined parameter, on a logarithmic error axis.
 [[nodiscard]] std::vector<Figure> convergence_figures(const CaseInfo& info, const Run& run);
 
-/// Figure of processor time against error on logarithmic axes, with the Pareto front. Settings
-/// without a result are in a strip at the right edge.
+/// Figure of processor time against error on logarithmic axes, with the Pareto front. The caption
+/// states the number of settings without a result.
 [[nodiscard]] Figure cost_figure(const CostStudy& study);
 
 /// Returns the run of a variant, or nullptr if there is no such run.
@@ -31,6 +31,11 @@ namespace trammel::reports {
 [[nodiscard]] std::optional<Figure> curves_figure(const CaseInfo& info, const PlotRequest& request,
                                                   const std::vector<const Run*>& runs,
                                                   std::string& problem);
+
+/// Bars of the change of a run's results without each measured effect. Empty if no effect was
+/// measured.
+[[nodiscard]] std::optional<Figure> effects_figure(const CaseInfo& info, const Results& results,
+                                                   const Run& run);
 
 /// Figures of the automatic selection of effects. A point for each scene (case with candidate
 /// effects) shows the change of the results due to the omitted effects, against the tolerance for

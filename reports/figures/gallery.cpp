@@ -15,10 +15,6 @@ namespace {
 
 constexpr std::size_t kMaxDrawnVariants = 12;  ///< largest number of figures of shapes of a case
 
-void append(std::vector<Figure>& figures, std::vector<Figure> more) {
-  std::ranges::move(more, std::back_inserter(figures));
-}
-
 /// Plans the figures of a case. The page shows the geometry, and the shapes and convergence of the
 /// first run that has them. The shapes and convergence of further runs are in folded parts of the
 /// page.
@@ -31,6 +27,8 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
     if (auto figure = mechanism_figure(info, **drawn)) gallery.shown.push_back(*figure);
   if (auto figure = agreement_figure(info, results, *runs.front()))
     gallery.shown.push_back(*figure);
+  for (const Run* run : runs)
+    if (auto figure = effects_figure(info, results, *run)) gallery.shown.push_back(*figure);
   std::size_t variants = 0;
   for (const Run* run : runs)
     if (auto shapes = shapes_figure(info, *run); shapes && ++variants <= kMaxDrawnVariants)
@@ -58,10 +56,9 @@ Gallery gallery_of(const CaseInfo& info, const Results& results,
   }
   bool first = true;
   for (const Run* run : runs) {
-    auto figures = convergence_figures(info, *run);
-    const bool any = !figures.empty();
-    append(first ? gallery.shown : gallery.folded, std::move(figures));
-    first = first && !any;
+    std::vector<Figure> figures = convergence_figures(info, *run);
+    std::ranges::move(figures, std::back_inserter(first ? gallery.shown : gallery.folded));
+    first = first && figures.empty();
   }
   for (Figure& figure : gallery.folded) figure.is_linked = true;
   return gallery;
@@ -118,14 +115,9 @@ std::vector<Family> plan_families(const Results& results) {
     for (const Run& run : results.runs)
       if (run.case_id == info.id) runs.push_back(&run);
     if (runs.empty()) continue;
-    Family& family = harness::find_or_add(
-        families, [&](const Family& known) { return known.id == info.family; },
-        Family{info.family,
-               info.family.empty() ? "Own cases" : capitalized(spaced(info.family)),
-               {},
-               {},
-               {},
-               {}});
+    const auto same = [&](const Family& known) { return known.id == info.family; };
+    const std::string title = info.family.empty() ? "Own cases" : capitalized(spaced(info.family));
+    Family& family = harness::find_or_add(families, same, {.id = info.family, .title = title});
     family.cases.push_back(&info);
     family.runs.insert(family.runs.end(), runs.begin(), runs.end());
     family.galleries[info.id] = gallery_of(info, results, runs);

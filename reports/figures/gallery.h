@@ -19,10 +19,10 @@ struct Gallery {
 /// A family of cases with their runs and all figures.
 struct Family {
   std::string id, title;
-  std::vector<const CaseInfo*> cases;
-  std::vector<const Run*> runs;
-  std::vector<Figure> overview;
-  std::map<std::string, Gallery> galleries;  ///< by case id
+  std::vector<const CaseInfo*> cases = {};
+  std::vector<const Run*> runs = {};
+  std::vector<Figure> overview = {};
+  std::map<std::string, Gallery> galleries = {};  ///< by case id
 
   /// Returns the words of a title that distinguish a case from other cases of its family: "start of
   /// the circle" for "10 N at P, start of the circle".

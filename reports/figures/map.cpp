@@ -182,13 +182,11 @@ struct ColorClasses {
 /// Draws a map, and the requested curves on it. @returns the height of the key [px]
 int draw_map(PlotScript& script, const PlotRequest& request, const Run& run, const Field& field,
              const ColorClasses& classes) {
-  script.command("set size ratio -1");
-  const auto [low, high] = std::ranges::minmax_element(field.cells, {}, &Cell::x);
-  const std::string step = shortest_decimal(round_step((high->x - low->x + field.dx) / 4));
-  script.command("set xtics " + step);
-  script.command("set ytics " + step);
-  script.axis_label("x", axis_label(parse_quantity(request.x).label, "m"));
-  script.axis_label("y", axis_label(parse_quantity(request.y.front()).label, "m"));
+  Box box;
+  for (const Cell& cell : field.cells) box.x.cover(cell.x), box.y.cover(cell.y);
+  box.x.widen(0.5 * field.dx);
+  box.y.widen(0.5 * field.dy);
+  frame(script, box);
   std::vector<std::string> titles;
   const auto by_color = boxes(field);
   for (std::size_t k = 0; k < by_color.size(); ++k) {

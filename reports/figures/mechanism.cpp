@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -47,6 +48,12 @@ void draw_joints(PlotScript& script, const Drawing& drawing, const JointSymbol& 
   script.key_entry("with points pt 6 ps 1 lw 2" + lc(palette::kInk), symbol.words);
 }
 
+/// Writes a text centered at a point.
+void write_at(PlotScript& script, double x, double y, const std::string& text, const char* color) {
+  script.label(text, shortest_decimal(x) + "," + shortest_decimal(y) +
+                         " center front textcolor rgb '" + color + "'");
+}
+
 /// Writes the name of each joint on the side away from the center of the drawing.
 void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
   const double cx = 0.5 * (box.x.low + box.x.high), cy = 0.5 * (box.y.low + box.y.high);
@@ -56,9 +63,32 @@ void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
     const auto& [x, y] = drawing.nodes[joint.node];
     const double r = std::hypot(x - cx, y - cy) + 1e-300, reach = 0.055 * box.side();
     const double lift = r < reach ? reach : 0;
-    script.label(joint.name, shortest_decimal(x + reach * (x - cx) / r) + "," +
-                                 shortest_decimal(y + reach * (y - cy) / r + lift) +
-                                 " center front textcolor rgb '" + palette::kInk + "'");
+    write_at(script, x + reach * (x - cx) / r, y + reach * (y - cy) / r + lift, joint.name,
+             palette::kInk);
+  }
+}
+
+/// Draws a dimension line with the length at one straight part of the body for each length, on the
+/// side away from the center of the drawing. Parts shorter than 0.12 of its longer side have none.
+void draw_dimensions(PlotScript& script, const Drawing& drawing, const Box& box) {
+  constexpr std::size_t kMaxDimensions = 6;
+  const double cx = 0.5 * (box.x.low + box.x.high), cy = 0.5 * (box.y.low + box.y.high);
+  std::set<std::string> lengths;
+  std::vector<std::vector<int>> parts = polylines(drawing);
+  std::ranges::move(triangle_edges(drawing), std::back_inserter(parts));
+  const PlotScript::Rows lines = rows_of(parts, drawing.nodes);
+  for (std::size_t i = 1; i < lines.size() && lengths.size() < kMaxDimensions; ++i) {
+    if (lines[i].empty() || lines[i - 1].empty()) continue;
+    const double x = lines[i - 1][0], y = lines[i - 1][1], dx = lines[i][0] - x;
+    const double dy = lines[i][1] - y, length = std::hypot(dx, dy);
+    const std::string text = trimmed(length, 3) + "\u202fm";
+    if (length < 0.12 * box.side() || !lengths.insert(text).second) continue;
+    const double gap = 0.04 * box.side() / length;
+    const double turned = std::copysign(gap, dx * (cy - y) - dy * (cx - x));
+    const double nx = turned * dy, ny = -turned * dx;
+    script.curve({{x + nx, y + ny, dx, dy}},
+                 "with vectors heads size graph 0.012,20 lw 1" + lc(palette::kMuted));
+    write_at(script, x + 0.5 * dx + 2 * nx, y + 0.5 * dy + 2 * ny, text, palette::kMuted);
   }
 }
 
@@ -140,17 +170,14 @@ std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   for (const Pose* pose : overlays) sets.push_back(pose->nodes);
   const std::string base_label = overlays.empty() ? "" : "first pose";
   const Box extent = box_around(sets, 0, 0);
-  std::vector<LoadArrows> loads;
-  for (const auto& [unit, length] : {std::pair("N", 0.14), std::pair("N/m", 0.07)}) {
-    loads.push_back(load_arrows(drawing, unit, length * extent.side()));
-    for (const auto& row : loads.back().rows) sets.push_back({{row[0], row[1]}});
-    if (loads.back().rows.empty()) loads.pop_back();
-  }
+  std::vector<LoadArrows> loads = {load_arrows(drawing, "N", 0.14 * extent.side()),
+                                   load_arrows(drawing, "N/m", 0.07 * extent.side())};
+  std::erase_if(loads, [](const LoadArrows& arrows) { return arrows.rows.empty(); });
+  for (const LoadArrows& arrows : loads)
+    for (const auto& row : arrows.rows) sets.push_back({{row[0], row[1]}});
   PlotScript script;
-  const Box box = box_around(sets, 0.09, 0.2);
+  const Box box = box_around(sets, 0.12, 0.2);
   frame(script, box);
-  script.axis_label("x", "x (m)");
-  script.axis_label("y", "y (m)");
   Table table{words_in("pose node x_m y_m joint name"), {}, kSampleDigits};
   const int key_height = draw_overlays(script, table, overlays, base_label, drawing, loads);
   script.curve(filled_triangles(drawing, drawing.nodes),
@@ -163,6 +190,7 @@ std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   for (const LoadArrows& arrows : loads)
     script.curve(arrows.rows, "with vectors filled lw 2" + lc(palette::kSeries[1]), arrows.title);
   name_joints(script, drawing, box_around({drawing.nodes}, 0, 0));
+  draw_dimensions(script, drawing, box_around({drawing.nodes}, 0, 0));
   script.plot();
 
   const std::string caption = mechanism_caption(extent, overlays.size() + 1);

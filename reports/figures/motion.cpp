@@ -174,8 +174,6 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
   const Box box = box_around(everything, 0.04, 0.22);
   PlotScript script;
   frame(script, box);
-  script.axis_label("x", "x (m)");
-  script.axis_label("y", "y (m)");
   const std::size_t stride = (instants.size() + kMaxDrawnInstants - 2) / (kMaxDrawnInstants - 1);
   std::string drawn;
   for (std::size_t k = 0; k < instants.size(); ++k) {

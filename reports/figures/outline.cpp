@@ -171,6 +171,8 @@ void frame(PlotScript& script, const Box& box) {
   script.range("x", box.x.low, box.x.high);
   script.range("y", box.y.low, box.y.high);
   script.command("set size ratio -1");
+  script.axis_label("x", "x (m)");
+  script.axis_label("y", "y (m)");
   const std::string step = shortest_decimal(round_step(box.side() / 5));
   script.command("set xtics " + step + "; set ytics " + step);
 }

@@ -45,7 +45,7 @@ bool can_move(const Drawing& drawing, std::size_t shapes) {
   return finite;
 }
 
-/// Returns "1 mode is a rigid-body mode. Modes 2 to 6 have 15.1 Hz to 98.3 Hz; 4 and 5 are equal."
+/// Returns "1 mode is a rigid-body mode. Modes 2 to 6 have 15.1 Hz to 98.3 Hz."
 std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
   if (!is_mode(drawing.shapes.front())) {
     const std::string label = drawing.shapes.front().label;
@@ -64,19 +64,8 @@ std::string modes_text(const Drawing& drawing, std::size_t n, const Run& run) {
   if (free == n) return text;
   if (free + 1 == n)
     return text + " Mode " + std::to_string(n) + " has " + hertz(values.back()) + ".";
-  const auto gap = [&](std::size_t s) { return 1 - values[s] / values[s + 1]; };
-  std::size_t nearest = free;
-  std::string equal;
-  for (std::size_t s = free; s + 1 < n; ++s) {
-    const std::string pair = std::to_string(s + 1) + " and " + std::to_string(s + 2);
-    if (gap(s) < 1e-9) add_item(equal, pair);
-    if (gap(s) < gap(nearest)) nearest = s;
-  }
-  text += " Modes " + std::to_string(free + 1) + " to " + std::to_string(n) + " have " +
-          hertz(values[free]) + " to " + hertz(values.back()) + "; ";
-  if (!equal.empty()) return text + equal + " are equal.";
-  return text + std::to_string(nearest + 1) + " and " + std::to_string(nearest + 2) +
-         " are nearest to each other, " + relative(gap(nearest), 2, false) + " apart.";
+  return text + " Modes " + std::to_string(free + 1) + " to " + std::to_string(n) + " have " +
+         hertz(values[free]) + " to " + hertz(values.back()) + ".";
 }
 
 /// Returns "The largest displacement is 1.2 mm, magnified 83 times."
@@ -126,7 +115,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
   PlotScript script;
   script.command("set lmargin 0; set rmargin 0; set tmargin 2; set bmargin 0");
   frame(script, box);
-  script.command("unset border; unset tics; unset grid; unset key");
+  script.command("unset border; unset tics; unset xlabel; unset ylabel; unset grid; unset key");
   script.command("set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns));
   for (std::size_t s = 0; s < n; ++s)
     draw_panel(script, drawing, moved[s], drawing.shapes[s].label, n);

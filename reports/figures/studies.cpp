@@ -5,6 +5,7 @@
 #include "reports/drawing/palette.h"
 #include "reports/drawing/plot_script.h"
 #include "reports/figures/figures.h"
+#include "reports/figures/outline.h"
 #include "reports/text/number.h"
 
 namespace trammel::reports {
@@ -55,6 +56,59 @@ std::string caption_of(const PlotScript::Rows& work, const PlotScript::Rows& tim
 }
 
 }  // namespace
+
+std::optional<Figure> effects_figure(const CaseInfo& info, const Results& results, const Run& run) {
+  PlotScript::Rows kept, omitted, cumulative;
+  std::string tics, needed, others;
+  double y = 0, largest = 1e-2;
+  Table table{words_in("effect state change_without_it cumulative_change"), {}};
+  for (const EffectRow& effect : run.effects) {
+    if (!effect.own_change) continue;
+    const double change = std::max(*effect.own_change, kSmallestDrawnChange);
+    add_item(tics, tic(spaced(effect.name), --y), ",");
+    (effect.active ? kept : omitted)
+        .push_back({change, y, kSmallestDrawnChange, change, y - 0.3, y + 0.3});
+    add_item(effect.active ? needed : others,
+             spaced(effect.name) + " (" + relative(*effect.own_change, 2, false) + ")");
+    const double sum = std::max(effect.cumulative_change.value_or(0), kSmallestDrawnChange);
+    if (effect.cumulative_change) cumulative.push_back({sum, y});
+    largest = std::max({largest, change, sum});
+    table.rows.push_back({effect.name, std::string(effect.active ? "on" : "off"),
+                          cell(effect.own_change), cell(effect.cumulative_change)});
+  }
+  if (table.rows.empty()) return std::nullopt;
+  PlotScript script;
+  script.log_axis("x", kSmallestDrawnChange, largest);
+  script.range("y", y - 0.6, -0.4);
+  script.command("set ytics (" + tics + ")");
+  script.axis_label("x", "relative change of the results without the effect");
+  const std::string boxes = "using 1:2:3:4:5:6 with boxxyerror lw 1.5" + lc(palette::color(0));
+  script.curve(kept, boxes + " fs solid", "needed");
+  script.curve(omitted, boxes + " fs empty", "not needed");
+  script.curve(cumulative, "with points pt 5 ps 0.9" + lc(palette::color(1)), "cumulative");
+  std::string caption =
+      (needed.empty() ? "No measured effect is needed." : "Needed: " + needed + ".") +
+      (others.empty() ? "" : " Not needed: " + others + ".");
+  const auto scene = std::ranges::find(results.effect_scenes, info.id, &EffectScene::scene);
+  if (scene != results.effect_scenes.end()) {
+    script.curve({{scene->tolerance, y - 0.6}, {scene->tolerance, -0.4}},
+                 "with lines lw 1.5 dt 2" + lc(palette::kMuted), "tolerance");
+    caption += " Requested " + relative(scene->tolerance, 2, false) + ", obtained " +
+               relative(scene->change, 2, false) + ".";
+  }
+  const int key = script.key_below({"needed", "not needed", "cumulative", "tolerance"});
+  script.plot();
+  return Figure{.id = slug(info.id + "-" + run.variant + "-effects"),
+                .title = titled("Effects", info, run),
+                .caption =
+                    "Change of the results without each effect alone, and without it and the "
+                    "effects removed before (cumulative). " +
+                    caption,
+                .alt = caption,
+                .height = 120 + 34 * static_cast<int>(table.rows.size()) + key,
+                .commands = script.commands(),
+                .data = std::move(table)};
+}
 
 std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes) {
   if (scenes.empty()) return {};

@@ -50,12 +50,11 @@ void copy(const Data& from, Data& to, std::initializer_list<const char*> keys) {
 
 /// Returns the data of the front page and of all pages of sections.
 Data index_data(const Results& results, const std::vector<Family>& families,
-                const StudyFigures& figures) {
+                const std::vector<Data>& sections, const StudyFigures& figures) {
   const Data of_catalogue = object({{"has_rows", results.claims.has_value()}});
-  const auto group = [&](const Family& family) {
+  const auto group = [](const Data& section) {
     Data data = object();
-    copy(family_section(family, results), data,
-         {"family_link", "family_title", "extent", "counts"});
+    copy(section, data, {"family_link", "family_title", "extent", "counts"});
     return data;
   };
   const Data summary = summary_section(results, families);
@@ -66,7 +65,7 @@ Data index_data(const Results& results, const std::vector<Family>& families,
        {"audit", audit_section(results, families, summary)},
        {"cost", cost_section(results, figures)},
        {"stress_suite", stress_suite_section(families)},
-       {"effects", effects_section(figures)},
+       {"effects", effects_section(results, figures)},
        {"orders", convergence_section(results, families)},
        {"validation_uncertainty", validation_uncertainty_section(families)},
        {"coverage", coverage_section(results)},
@@ -78,7 +77,7 @@ Data index_data(const Results& results, const std::vector<Family>& families,
        {"has_runs", !results.runs.empty() || (figures.cost.empty() && figures.effects.empty())},
        {"summary", summary},
        {"front", front_page_section(results, families, figures)},
-       {"families", list_of(families, group)}});
+       {"families", list_of(sections, group)}});
 }
 
 /// Returns links to the front page and to the pages of sections, for the table of contents.
@@ -185,9 +184,10 @@ std::string index_body(const Data& index) {
 
 std::vector<SiteFile> site_files(const Results& results, const std::vector<Family>& families,
                                  const StudyFigures& figures) {
-  const Data index = index_data(results, families, figures), contents = index_contents(index);
   std::vector<Data> sections;
   for (const Family& family : families) sections.push_back(family_section(family, results));
+  const Data index = index_data(results, families, sections, figures);
+  const Data contents = index_contents(index);
   std::vector<SiteFile> files;
   const auto add = [&](const std::string& path, Data page, const std::string& body) {
     set(page, {{"environment", *index.get("environment")},

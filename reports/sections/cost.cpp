@@ -6,8 +6,6 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxNamedSettings = 3;  ///< limit of listed settings with the shortest time
-
 /// Returns a time relative to the baseline setting: "2.4 ×".
 std::string times(Number factor) {
   return factor ? trimmed(*factor, *factor < 10 ? 2 : 3) + "\u202f×" : "–";
@@ -20,11 +18,10 @@ std::string error_text(double error) {
 /// Returns the setting with the shortest time, and the settings whose measured times cannot be
 /// distinguished from this time.
 std::string settings_text(const CostStudy& study, const CheapestSetting& cheapest) {
-  std::string text = study.settings[*cheapest.setting].title;
+  const std::string text = study.settings[*cheapest.setting].title;
   const std::size_t tied = cheapest.tied.size();
-  const std::size_t named = tied <= kMaxNamedSettings ? tied : kMaxNamedSettings - 1;
-  for (std::size_t i = 0; i < named; ++i) text += " or " + study.settings[cheapest.tied[i]].title;
-  return tied > named ? text + " or one of " + std::to_string(tied - named) + " more" : text;
+  if (tied == 1) return text + " or " + study.settings[cheapest.tied.front()].title;
+  return tied == 0 ? text : text + " or one of " + std::to_string(tied) + " others";
 }
 
 /// Returns the headings of a table of the cheapest settings, with a column for each target error.
@@ -141,9 +138,19 @@ Data cost_section(const Results& results, const StudyFigures& figures) {
                  {"studies", studies}});
 }
 
-Data effects_section(const StudyFigures& figures) {
-  return object(
-      {{"has_rows", !figures.effects.empty()}, {"figures", list_of(figures.effects, figure_data)}});
+Data effects_section(const Results& results, const StudyFigures& figures) {
+  TextTable scenes{"Scenes",
+                   {"Scene", "Selected effects", ">Requested", ">Obtained", ">Selection", ">Run",
+                    ">With all effects"}};
+  for (const EffectScene& scene : results.effect_scenes) {
+    scenes.rows.push_back({scene.scene, scene.chosen, relative(scene.tolerance, 2, false),
+                           relative(scene.change, 2, false), duration(scene.deciding_s),
+                           duration(scene.chosen_s), duration(scene.whole_s)});
+    if (!results.runs.empty()) scenes.links[scene.scene] = case_link(scene.scene);
+  }
+  return object({{"has_rows", !figures.effects.empty()},
+                 {"figures", list_of(figures.effects, figure_data)},
+                 {"scenes", table_data(scenes)}});
 }
 
 }  // namespace trammel::reports

@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
+#include <utility>
 
 #include "harness/base/find_or_add.h"
 #include "reports/sections/sections.h"
@@ -73,9 +75,8 @@ void sort_rows(MatrixSubject& subject) {
       sum += *cell.check->difference * *cell.check->difference;
     row.distance = std::sqrt(sum / static_cast<double>(row.checks.size()));
   }
-  std::ranges::stable_sort(subject.rows, [](const MatrixRow& a, const MatrixRow& b) {
-    if (a.checks.size() != b.checks.size()) return a.checks.size() > b.checks.size();
-    return a.distance < b.distance;
+  std::ranges::stable_sort(subject.rows, {}, [](const MatrixRow& row) {
+    return std::pair(-std::ssize(row.checks), row.distance);
   });
 }
 
@@ -108,9 +109,9 @@ Data cell_of(const MatrixCell& cell) {
   return data;
 }
 
-/// Number of comparisons by verdict, and by the input that dominates the validation uncertainty.
+/// Number of comparisons by verdict.
 struct Tally {
-  std::map<std::string, std::size_t> verdict, dominant;
+  std::map<std::string, std::size_t> verdict;
   std::size_t entries = 0;
 
   void add(const MatrixRow& row) {
@@ -118,7 +119,6 @@ struct Tally {
       if (!cell.comparison) continue;
       ++entries;
       ++verdict[cell.comparison->verdict];
-      if (!cell.comparison->dominant_input.empty()) ++dominant[cell.comparison->dominant_input];
     }
   }
   [[nodiscard]] std::string text() const {
@@ -131,29 +131,9 @@ struct Tally {
     std::string text;
     for (const auto& [key, words] : kWords)
       if (verdict.contains(key)) add_item(text, std::to_string(verdict.at(key)) + " " + words);
-    text += ".";
-    const auto most =
-        std::ranges::max_element(dominant, {}, [](const auto& input) { return input.second; });
-    if (most != dominant.end())
-      text += " The input that contributes most to the uncertainty is the " + spaced(most->first) +
-              ", for " + std::to_string(most->second) + " of " + std::to_string(entries) + ".";
-    return text;
+    return text + ".";
   }
 };
-
-/// Returns the inputs that dominate the validation uncertainty of a row, with their contributions.
-std::string dominant_text(const MatrixRow& row) {
-  std::map<std::string, double> shares;
-  for (const auto& [_, cell] : row.checks) {
-    if (!cell.comparison || cell.comparison->dominant_input.empty()) continue;
-    double& share = shares[cell.comparison->dominant_input];
-    share = std::max(share, cell.comparison->dominant_share.value_or(0));
-  }
-  std::string text;
-  for (const auto& [name, share] : shares)
-    add_item(text, spaced(name) + ", up to " + relative(share, 2, false), "; ");
-  return text;
-}
 
 std::string entry_word(const MatrixSubject& subject) {
   return subject.quantity.starts_with("frequency") ? "mode" : "entry";
@@ -230,8 +210,7 @@ Data matrix_row(const MatrixSubject& subject, const MatrixRow& row, const Family
        {"partial", row.checks.size() == complete ? ""
                                                  : count(row.checks.size(), entry_word(subject)) +
                                                        " only, ranked after complete rows"},
-       {"cells", cells_of(subject, row.checks)},
-       {"dominant", dominant_text(row)}});
+       {"cells", cells_of(subject, row.checks)}});
 }
 
 Data matrix_of(const MatrixSubject& subject, const Family& family, const Results& results) {

@@ -45,7 +45,7 @@ struct StudyFigures {
 [[nodiscard]] Data cost_section(const Results& results, const StudyFigures& figures);
 
 /// Automatic selection of mechanical effects in the cases with candidate effects (scenes).
-[[nodiscard]] Data effects_section(const StudyFigures& figures);
+[[nodiscard]] Data effects_section(const Results& results, const StudyFigures& figures);
 
 /// Work and time of the calls of trammel in a history file, and the number of changed values.
 [[nodiscard]] Data call_history_section(const Results& results, const StudyFigures& figures);

@@ -43,14 +43,6 @@ Data row_of(const Indicator& indicator, const CaseInfo& info) {
        {"why", check.why}});
 }
 
-/// Returns the title of a stress case without its number: "From 1 to 10,000 elements" for "Stress
-/// case 7: from 1 to 10,000 elements".
-std::string title_of(const CaseInfo& info) {
-  const std::string prefix = "Stress case " + std::to_string(info.stress_suite->item) + ": ";
-  if (!info.title.starts_with(prefix)) return info.title;
-  return capitalized(info.title.substr(prefix.size()));
-}
-
 Data case_of(const CaseInfo& info, const Family& family, Counts& counts) {
   Data rows = list();
   for (const std::string& check : info.stress_suite->indicators) {
@@ -61,10 +53,7 @@ Data case_of(const CaseInfo& info, const Family& family, Counts& counts) {
                        : with_status(CheckStatus::not_run,
                                      {{"quantity", check}, {"of_what", "no run has this check"}}));
   }
-  return object({{"item", std::to_string(info.stress_suite->item)},
-                 {"case_title", title_of(info)},
-                 {"case_link", case_link(info.id)},
-                 {"rows", rows}});
+  return object({{"case_title", info.title}, {"case_link", case_link(info.id)}, {"rows", rows}});
 }
 
 std::string counts_text(const Counts& counts, std::size_t items, std::size_t cases) {

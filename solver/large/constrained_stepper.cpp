@@ -69,9 +69,9 @@ AssemblyBranch::AssemblyBranch(const ConstrainedSystem& system) : system_(system
 
 bool AssemblyBranch::changes(const State& from, const State& to) {
   if (!matrix_) return false;
-  if (last_time_ != from.t) last_sign_ = orientation(from);
+  if (last_time_ != from.t) last_sign_ = branch_sign(from);
   last_time_ = from.t;
-  const double sign = orientation(to);
+  const double sign = branch_sign(to);
   const VectorXd weight = system_.scale().cwiseAbs2().cwiseInverse();
   const bool reverses = freedom_ == 1 && from.v.cwiseProduct(weight).dot(to.v) < 0;
   if (last_sign_ * sign * (reverses ? -1 : 1) < 0) return true;
@@ -80,7 +80,7 @@ bool AssemblyBranch::changes(const State& from, const State& to) {
   return false;
 }
 
-double AssemblyBranch::orientation(const State& state) {
+double AssemblyBranch::branch_sign(const State& state) {
   const Index n = system_.coordinates();
   TangentCoefficients coefficients;
   coefficients.has_penalty = false;

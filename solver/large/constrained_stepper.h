@@ -54,9 +54,9 @@ class AssemblyBranch {
   [[nodiscard]] bool changes(const State& from, const State& to);
 
  private:
-  /// Returns the sign of the determinant, or 0 if it is undefined, as at a singular position or at
-  /// rest.
-  [[nodiscard]] double orientation(const State& state);
+  /// Returns the sign of the determinant of the constraint matrix, or 0 if it is undefined, as at a
+  /// singular position or at rest.
+  [[nodiscard]] double branch_sign(const State& state);
 
   const ConstrainedSystem& system_;
   Index freedom_ = 0;

@@ -101,14 +101,14 @@ class ElementGroup {
   [[nodiscard]] const CoordinateIndices<N>& coordinates(Index e) const {
     return where_[to_size(e)];
   }
-  [[nodiscard]] Index first_row(Index e) const { return first_row_ + R * e; }
+  [[nodiscard]] Index first_constraint_row(Index e) const { return first_constraint_row_ + R * e; }
   template <class Function>
   void for_each_coordinate(const Function& function) {
     for (CoordinateIndices<N>& where : where_) std::ranges::for_each(where, function);
   }
   /// Sets the index of the first row of this group. The rows of all groups are numbered in
   /// sequence.
-  void set_first_row(Index row) { first_row_ = row; }
+  void set_first_constraint_row(Index row) { first_constraint_row_ = row; }
 
   void append_masses(std::vector<Eigen::Triplet<double>>& masses) const {
     if constexpr (kHasMass) {
@@ -132,14 +132,14 @@ class ElementGroup {
       std::vector<Index>& block = system.blocks.emplace_back();
       for (const Index k : coordinates(e)) block.push_back(k < free ? k : -1);
       if constexpr (R > 0) {
-        for (Index r = 0; r < R; ++r) block.push_back(free + first_row(e) + r);
+        for (Index r = 0; r < R; ++r) block.push_back(free + first_constraint_row(e) + r);
         const std::span<const Index> joined(coordinates(e).data(), where_[to_size(e)].size());
         Element& own = elements_[to_size(e)];
-        system.compliance.segment<R>(first_row(e)) = own.compliance();
+        system.compliance.segment<R>(first_constraint_row(e)) = own.compliance();
         double lever = 0;
         if constexpr (requires { own.offset; }) lever = own.offset.norm();
         const RowScales row = scales.row_scales(joined, lever);
-        system.unit.segment<R>(first_row(e)).setConstant(row.unit);
+        system.unit.segment<R>(first_constraint_row(e)).setConstant(row.unit);
         if constexpr (requires { own.stiffness_scale; }) {
           own.stiffness_scale = row.stiffness;
           own.mass_scale = row.mass;
@@ -156,7 +156,7 @@ class ElementGroup {
       Coordinates f = Coordinates::Zero(q.size());
       if constexpr (R > 0)
         f += evaluate_rows(e, q, state.t).gradient.transpose() *
-             state.lambda.segment<R>(first_row(e));
+             state.lambda.segment<R>(first_constraint_row(e));
       if constexpr (kIsElastic)
         f += element(e).forces(q, tau != 0 ? gather<N>(state.v, coordinates(e)) : q, tau);
       if constexpr (kIsLoad) f -= state.load * element(e).load(q);
@@ -181,10 +181,10 @@ class ElementGroup {
     if constexpr (R > 0) {
       for (Index e = 0; e < size(); ++e) {
         const RowValues rows = evaluate_rows(e, gather<N>(state.q, coordinates(e)), state.t);
-        residual.segment<R>(first_row(e)) = rows.residual;
-        rate.segment<R>(first_row(e)) = rows.gradient * gather<N>(state.v, coordinates(e));
+        residual.segment<R>(first_constraint_row(e)) = rows.residual;
+        rate.segment<R>(first_constraint_row(e)) = rows.gradient * gather<N>(state.v, coordinates(e));
         if constexpr (requires { element(e).time_rate(state.t); })
-          rate.segment<R>(first_row(e)) += element(e).time_rate(state.t);
+          rate.segment<R>(first_constraint_row(e)) += element(e).time_rate(state.t);
       }
     }
   }
@@ -223,7 +223,7 @@ class ElementGroup {
       const Coordinates q1 = gather<N>(to.q, coordinates(e));
       Coordinates f = Coordinates::Zero(q0.size());
       if constexpr (R > 0)
-        f.noalias() += discrete_gradient(e, from, to).transpose() * lambda.segment<R>(first_row(e));
+        f.noalias() += discrete_gradient(e, from, to).transpose() * lambda.segment<R>(first_constraint_row(e));
       if constexpr (kIsElastic)
         f += element(e).discrete_gradient_forces(q0, q1, tau / (to.t - from.t));
       if constexpr (kIsLoad) f -= (from.load + to.load) / 2 * element(e).load((q0 + q1) / 2);
@@ -277,7 +277,7 @@ class ElementGroup {
     Square S = Square::Zero(q.size(), q.size());
     if constexpr (kIsElastic) S += own.tangent(q, k, tau * coefficients.damping);
     if constexpr (requires(const Rows& lambda) { own.geometric_stiffness(q, lambda); })
-      S += k * own.geometric_stiffness(q, state.lambda.segment<R>(first_row(e)));
+      S += k * own.geometric_stiffness(q, state.lambda.segment<R>(first_constraint_row(e)));
     if constexpr (kIsLoad) S -= k * state.load * own.load_derivative(q);
     if constexpr (kHasMass) S += coefficients.mass * own.mass();
     return S;
@@ -302,7 +302,7 @@ class ElementGroup {
     return coefficients.compliance * element(e).compliance();
   }
 
-  Index first_row_ = 0, first_block_ = 0;
+  Index first_constraint_row_ = 0, first_block_ = 0;
   std::vector<Element> elements_;
   std::vector<CoordinateIndices<N>> where_;
 };

@@ -73,7 +73,7 @@ class LargeElastodynamics {
     rigid_.gravity = options.gravity;
     start_ = at_time(options.time.start);
     if (!start_.dynamics.outcome.solved()) return;
-    if (const char* reason = beyond_large_displacement(options_, start_.model))
+    if (const char* reason = reason_no_large_displacement(options_, start_.model))
       throw ModelError(std::string("elastodynamics with large displacement: ") + reason);
     if (!options_.elastic_inertia && options_.time.sample_times.empty())
       throw ModelError("a quasi-static motion with large displacement requires sample times");
@@ -356,7 +356,7 @@ class LargeElastodynamics {
 
 namespace trammel::solver {
 
-const char* beyond_large_displacement(const ElastodynamicsOptions& options, const Model& model) {
+const char* reason_no_large_displacement(const ElastodynamicsOptions& options, const Model& model) {
   const bool driven = std::all_of(model.supports.begin(), model.supports.end(),
                                   [](const Support& support) { return support.fixed[2]; });
   const bool tied = std::any_of(

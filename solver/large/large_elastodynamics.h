@@ -29,14 +29,14 @@ namespace trammel::solver {
 ///   equilibrium is then corrected for the damping forces at these rates.
 ///
 /// The outcome is not_converged if a path of equilibria or a step fails.
-/// @throws ModelError  as `solve_elastodynamics`; if `beyond_large_displacement` returns a reason;
+/// @throws ModelError  as `solve_elastodynamics`; if `reason_no_large_displacement` returns a reason;
 ///   or without elastic inertia if there are no sample times.
 [[nodiscard]] ElastodynamicsSolution solve_large_elastodynamics(
     const ElastodynamicsOptions& options);
 
 /// Returns the reason why `solve_large_elastodynamics` does not support a motion, or null. `model`
 /// is the manipulator at the start of the motion.
-[[nodiscard]] const char* beyond_large_displacement(const ElastodynamicsOptions& options,
+[[nodiscard]] const char* reason_no_large_displacement(const ElastodynamicsOptions& options,
                                                     const Model& model);
 
 }  // namespace trammel::solver

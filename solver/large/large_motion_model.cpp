@@ -74,7 +74,7 @@ void add_pin(Model& model, const std::string& name, const std::array<Index, 2>& 
   }
 }
 
-void add_linear_slider(Model& model, const large_motion::Slider& slider) {
+void add_small_motion_slider(Model& model, const large_motion::Slider& slider) {
   const Vector2d direction(std::cos(slider.direction), std::sin(slider.direction));
   const Vector2d normal = perpendicular(direction);
   using Kind = Coordinate::Kind;

@@ -97,7 +97,7 @@ void add_pin(Model& model, const std::string& name, const std::array<Index, 2>& 
 /// unit vector k normal to the plane:
 ///
 ///   n . (u - u_rail) = n . (k x (p - p_rail)) theta_rail.
-void add_linear_slider(Model& model, const large_motion::Slider& slider);
+void add_small_motion_slider(Model& model, const large_motion::Slider& slider);
 
 }  // namespace trammel::solver
 

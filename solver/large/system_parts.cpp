@@ -62,7 +62,7 @@ class SystemBuilder {
     add_loads();
     renumber_free_first();
     parts_.for_each_group([&](auto& group) {
-      group.set_first_row(parts_.rows);
+      group.set_first_constraint_row(parts_.rows);
       parts_.rows += group.rows();
     });
     return std::move(parts_);

@@ -285,7 +285,7 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
 
   std::vector<std::optional<SeededDesign>> designs(parameters.size());
   for (std::size_t p = 0; p < parameters.size(); ++p) {
-    if (is_dual(parameters[p].kind)) designs[p] = seed_design(design, posture, parameters[p]);
+    if (has_exact_derivative(parameters[p].kind)) designs[p] = seed_design(design, posture, parameters[p]);
   }
   for (const FrequencySet& set : equal_frequencies(modes.frequency)) {
     if (set.first >= kept) break;

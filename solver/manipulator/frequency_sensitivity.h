@@ -36,7 +36,7 @@ struct DesignParameter {
 
 /// Returns true for parameters with exact derivatives by dual numbers: lengths, thickness, width, E
 /// and density.
-[[nodiscard]] inline bool is_dual(DesignParameter::Kind kind) {
+[[nodiscard]] inline bool has_exact_derivative(DesignParameter::Kind kind) {
   return kind <= DesignParameter::Kind::density;
 }
 
@@ -74,7 +74,7 @@ template <class T>
 //
 // The pose is fixed, so that the joint angles change with the link lengths. dK/dp and dM/dp are
 // exact, because sections and elements are computed with dual numbers (numbers.h). Derivatives by
-// parameters without dual numbers (`is_dual`) are NaN. The mass of a link follows from
+// parameters without dual numbers (`has_exact_derivative`) are NaN. The mass of a link follows from
 // its density unless the design contains a printed mass.
 
 /// Set of modes whose frequencies are equal up to round-off. Their shapes are an arbitrary basis of

@@ -213,7 +213,7 @@ Outcome LinearStepper::start() {
   }
   matrices_.update(now_->time);
   if (!options_.adaptive) {
-    Outcome outcome = check_stability(matrices_, options_, counters_);
+    Outcome outcome = check_time_step_stability(matrices_, options_, counters_);
     if (!outcome.solved()) return outcome;
   }
   now_->Mv.noalias() = matrices_.M() * now_->v;

@@ -65,7 +65,7 @@ Outcome start_quasi_statically(EquationMatrices& matrices, const TransientOption
   return {};
 }
 
-Outcome check_stability(const EquationMatrices& matrices, const TransientOptions& options,
+Outcome check_time_step_stability(const EquationMatrices& matrices, const TransientOptions& options,
                         Counters& counters) {
   const double limit = stability_limit(options.scheme);
   if (!std::isfinite(limit) || matrices.M().rows() == 0) return {};

@@ -26,7 +26,7 @@ inline constexpr double kSingularMass = 1e-13;
 
 /// Returns a failure if the time step is unstable at the highest natural frequency. Power iteration
 /// estimates this frequency from below, so that all stable steps are accepted.
-[[nodiscard]] Outcome check_stability(const EquationMatrices& matrices,
+[[nodiscard]] Outcome check_time_step_stability(const EquationMatrices& matrices,
                                       const TransientOptions& options, Counters& counters);
 
 /// Massless coordinates of constant matrices: directions z with M z = 0. The time scheme does not

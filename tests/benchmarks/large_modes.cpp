@@ -29,13 +29,12 @@ double seconds() {
 /// Grid of n x n nodes in a square of 1 m, clamped along x = 0.
 Model square(Index n, bool rotations) {
   Model model;
-  for (Index j = 0; j < n; ++j) {
+  for (Index j = 0; j < n; ++j)
     for (Index i = 0; i < n; ++i) {
       const auto steps = static_cast<double>(n - 1);
       model.nodes.push_back({"", {static_cast<double>(i) / steps, static_cast<double>(j) / steps}});
       if (i == 0) model.supports.push_back({"", j * n, {true, true, rotations}});
     }
-  }
   return model;
 }
 
@@ -46,14 +45,13 @@ Model lattice(Index members) {
   const double h = 0.2 / static_cast<double>(n - 1);
   member.section = {2e11 * h * h, 2e11 * h * h * h * h / 12, 0, 8000 * h * h, 0, h * h, 0};
   member.end_section = member.section;
-  for (Index j = 0; j < n; ++j) {
+  for (Index j = 0; j < n; ++j)
     for (Index i = 0; i < n; ++i) {
       member.nodes = {j * n + i, j * n + i + 1};
       if (i + 1 < n) model.members.push_back(member);
       member.nodes = {j * n + i, (j + 1) * n + i};
       if (j + 1 < n) model.members.push_back(member);
     }
-  }
   return model;
 }
 
@@ -61,13 +59,12 @@ Model plate(Index triangles) {
   const auto n = static_cast<Index>(std::lround(std::sqrt(static_cast<double>(triangles) / 2)) + 1);
   Model model = square(n, false);
   model.plates.push_back({"plate", {2e11, 8000, 0.3}, 0.01});
-  for (Index j = 0; j + 1 < n; ++j) {
+  for (Index j = 0; j + 1 < n; ++j)
     for (Index i = 0; i + 1 < n; ++i) {
       const Index a = j * n + i;
       model.triangles.push_back({0, {a, a + 1, a + n + 1, -1, -1, -1}});
       model.triangles.push_back({0, {a, a + n + 1, a + n, -1, -1, -1}});
     }
-  }
   return model;
 }
 

@@ -160,7 +160,7 @@ struct Mechanism : System {
     for (const auto& [m, arm] : parts) inertia += m * (arm - center).normSqr();
     MobilizedBody body = matter.Ground();
     if (!fixed && held.empty() && inertia == 0)
-      throw Cannot("free bodies without moment of inertia are not supported");
+      throw Cannot("bodies that move freely require a moment of inertia");
     if (!fixed) {
       const SimTK::Body::Rigid solid = rigid(mass, center, inertia);
       body = held.empty() ? moving(solid, origin) : turning(solid, origin);

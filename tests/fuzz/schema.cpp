@@ -84,10 +84,9 @@ bool forbids(const Json& rule, const Json& value) {
     });
     if (!fits) return true;
   }
-  if (value.is_object() && rule.contains("required")) {
+  if (value.is_object() && rule.contains("required"))
     for (const Json& key : rule.at("required"))
       if (!value.contains(key.get<std::string>())) return true;
-  }
   if (!value.is_number()) return false;
   const auto number = value.get<double>();
   return (rule.contains("minimum") && number < rule.at("minimum").get<double>()) ||

@@ -118,12 +118,11 @@ const Rooms& rooms() {
     for (const std::string& room : rooms.order) {
       std::set<std::string>& all = rooms.all[room];
       all.insert(room);
-      for (const std::string& name : names_in(rooms.arrows[room])) {
+      for (const std::string& name : names_in(rooms.arrows[room]))
         for (const std::string& target : resolve(name, room, rooms.order)) {
           rooms.direct[room].insert(target);
           all.insert(rooms.all[target].begin(), rooms.all[target].end());
         }
-      }
     }
     return rooms;
   }();
@@ -169,10 +168,9 @@ BOOST_AUTO_TEST_CASE(room_includes_only_rooms_above_it_in_the_table) {
     for (const std::string& name : names_in(rooms().arrows.at(room)))
       BOOST_TEST(!resolve(name, room, rooms().order).empty(), room << " names " << name);
     const auto direct = rooms().direct.find(room);
-    if (direct != rooms().direct.end()) {
+    if (direct != rooms().direct.end())
       for (const std::string& target : direct->second)
         BOOST_TEST(above.count(target) == 1U, target << " is not above " << room);
-    }
     above.insert(room);
   }
 }
@@ -229,7 +227,7 @@ BOOST_AUTO_TEST_CASE(types_of_a_namespace_have_unique_names) {
   static const std::regex space("^namespace (trammel\\S*) \\{"),
       type("^(struct|class|enum class) (\\w+)(<.*>)? (: .*)?\\{.*");
   std::map<std::string, std::string> first;
-  for (const std::string& top : rooms().tops()) {
+  for (const std::string& top : rooms().tops())
     for (const auto& entry : fs::recursive_directory_iterator(kRoot / top)) {
       if (entry.path().extension() != ".h") continue;
       std::string inside;
@@ -241,7 +239,6 @@ BOOST_AUTO_TEST_CASE(types_of_a_namespace_have_unique_names) {
         BOOST_TEST(fresh, known->first << " in " << known->second << " and " << entry.path());
       }
     }
-  }
   BOOST_TEST(first.size() > 100U);
 }
 

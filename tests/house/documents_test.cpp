@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(files_named_in_folder_readmes_exist) {
 BOOST_AUTO_TEST_CASE(named_schema_of_a_file_exists) {
   const std::regex schema("\"\\$schema\": \"(\\.[^\"]*)\"");
   std::size_t named = 0;
-  for (const char* folder : {"cases", "references/values"}) {
+  for (const char* folder : {"cases", "references/values"})
     for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
       if (entry.path().extension() != ".json") continue;
       const fs::path file = fs::relative(entry.path(), root);
@@ -67,7 +67,6 @@ BOOST_AUTO_TEST_CASE(named_schema_of_a_file_exists) {
         BOOST_TEST(fs::exists(entry.path().parent_path() / path), file << " names " << path);
       }
     }
-  }
   BOOST_TEST(named > 300U);
 }
 
@@ -92,12 +91,11 @@ BOOST_AUTO_TEST_CASE(conventions_have_a_row_for_every_analysis) {
   // The last of the four columns of a table in CONVENTIONS.md lists cases.
   const std::regex last("\n\\|[^|\n]*\\|[^|\n]*\\|[^|\n]*\\|([^|\n]*`[^|\n]*)\\|(?=\n)");
   std::size_t named = 0;
-  for (const std::string& column : found(text, last)) {
+  for (const std::string& column : found(text, last))
     for (const std::string& name : found(column, std::regex("`([\\w-]+)`"))) {
       ++named;
       BOOST_TEST((std::find(cases.begin(), cases.end(), name) != cases.end()), name);
     }
-  }
   BOOST_TEST(named > 40U);
 }
 

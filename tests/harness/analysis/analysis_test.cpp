@@ -71,7 +71,7 @@ BOOST_AUTO_TEST_CASE(largest_network_error_includes_negative_errors) {
   json["analysis"] = {{"grnn", {{"train", 60}, {"split", "first"}}}};
   const AnalysisResult result = result_of(json);
   double upwards = 0, largest = 0;
-  for (const char* item : {"A1", "A2", "A3"}) {
+  for (const char* item : {"A1", "A2", "A3"})
     for (const auto& [error, active] :
          {std::pair{"held_out_angle_error_rad:", "active_angle_rad:"},
           std::pair{"held_out_velocity_error_rad_per_s:", "active_velocity_rad_per_s:"}}) {
@@ -82,7 +82,6 @@ BOOST_AUTO_TEST_CASE(largest_network_error_includes_negative_errors) {
         largest = std::max(largest, std::abs(one) / (*most - *least));
       }
     }
-  }
   BOOST_TEST(largest > 1.01 * upwards);
   BOOST_TEST(only(result, "held_out_largest_error_of_range") == largest,
              boost::test_tools::tolerance(1e-12));

@@ -20,7 +20,7 @@ BOOST_AUTO_TEST_CASE(exported_catalogue_has_the_same_numbers) {
   int same = 0, close = 0;
   for (const auto& file : Catalogue().runnable_files()) {
     const Case given = load_case(file);
-    for (const std::string& variant : given.variants()) {
+    for (const std::string& variant : given.variants())
       for (const ExportChoice& choice : choices_of(given, variant)) {
         const ExportTwin twin = export_twin(given, choice);
         if (!twin.refused.empty()) {
@@ -32,7 +32,6 @@ BOOST_AUTO_TEST_CASE(exported_catalogue_has_the_same_numbers) {
           std::cout << twin.name << " " << twin.difference << " " << twin.worst << std::endl;
         BOOST_TEST(twin.difference <= 1e-12, twin.name << ": " << twin.worst);
       }
-    }
   }
   std::cout << same << " the same, " << close << " close\n";
   for (const auto& [reason, count] : refused) std::cout << count << " refused: " << reason << '\n';

@@ -281,7 +281,7 @@ const Refusal kModels[] = {
         "knots": [{"time_s": 0, "x_m": 0.25, "y_m": 0.144, "phi_rad": 0},
         {"time_s": 0.1, "x_m": 0.26, "y_m": 0.144, "phi_rad": 0},
         {"time_s": 0.2, "x_m": 0.25, "y_m": 0.144, "phi_rad": 0}]}}}})",
-     "/model/trajectory/spline: expected a valid path: the time"},
+     "/model/trajectory/spline: expected a valid trajectory: the time"},
     {"motion", R"({"model": {"trajectory": {"line": null, "spline": {"points": 2, "step_s": 0.1,
         "knots": [{"time_s": 0.05, "x_m": 0.25, "y_m": 0.144, "phi_rad": 0},
         {"time_s": 0.1, "x_m": 0.26, "y_m": 0.144, "phi_rad": 0},

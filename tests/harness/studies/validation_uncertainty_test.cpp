@@ -136,7 +136,7 @@ BOOST_AUTO_TEST_CASE(input_with_two_half_widths_is_refused) {
   Json json = beam(folder, 0);
   json["uncertainty"]["inputs"]["depth"]["half_width"] = 1e-3;
   BOOST_TEST(testing::contains(run(testing::read(folder, json)).reason,
-                               "expected exactly one of 'half_width' and 'reference'"));
+                               "expected either 'half_width' or 'reference' of the uncertain input"));
 }
 
 BOOST_AUTO_TEST_CASE(verdict_other_than_the_recorded_one_fails) {

@@ -21,13 +21,12 @@ CaseInfo workspace() {
 /// Returns a field x + 10 y at columns x rows positions, 0.1 m apart.
 Run field(int columns, int rows) {
   std::vector<double> x, y, value;
-  for (int j = 0; j < rows; ++j) {
+  for (int j = 0; j < rows; ++j)
     for (int i = 0; i < columns; ++i) {
       x.emplace_back(0.1 * i);
       y.emplace_back(0.1 * j);
       value.emplace_back(0.1 * i + 1.0 * j);
     }
-  }
   Run run;
   run.case_id = "workspace";
   run.variant = "base";

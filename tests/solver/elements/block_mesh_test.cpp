@@ -141,7 +141,7 @@ BOOST_AUTO_TEST_CASE(pressure_on_a_curved_side_is_that_on_its_chord) {
 }
 
 BOOST_AUTO_TEST_CASE(distorted_triangles_cover_the_rectangle) {
-  for (const double distortion : {0.0, 0.29}) {
+  for (const double distortion : {0.0, 0.29})
     for (const bool six : {false, true}) {
       const Model model = mesh_rectangle({0.8, 0.5, 9, six, distortion}, {});
       double sum = 0, smallest = 1, largest = 0;
@@ -157,7 +157,6 @@ BOOST_AUTO_TEST_CASE(distorted_triangles_cover_the_rectangle) {
       BOOST_TEST(model.nodes.size() == (six ? 19U * 19U : 100U));
       BOOST_TEST(sum == 0.4, tolerance(1e-13));
     }
-  }
 }
 
 BOOST_AUTO_TEST_CASE(members_of_a_line_alternate_between_long_and_short) {

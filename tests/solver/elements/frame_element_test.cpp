@@ -56,7 +56,7 @@ BOOST_AUTO_TEST_CASE(euler_bernoulli_stiffness_is_equation_7) {
 }
 
 BOOST_AUTO_TEST_CASE(rigid_motions_store_no_energy_and_are_the_only_ones) {
-  for (const BeamTheory theory : kTheories) {
+  for (const BeamTheory theory : kTheories)
     for (const double angle : {0.0, 0.7, 2.5}) {
       const Matrix6d k = world(frame_stiffness(kSection, theory, kLength), angle);
       for (const Vector6d& u : {rigid_motion(1, 0, 0, angle), rigid_motion(0, 1, 0, angle),
@@ -66,7 +66,6 @@ BOOST_AUTO_TEST_CASE(rigid_motions_store_no_energy_and_are_the_only_ones) {
       const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(k);
       BOOST_TEST(eigen.eigenvalues()[3] > 1e-6 * eigen.eigenvalues()[5]);
     }
-  }
 }
 
 BOOST_AUTO_TEST_CASE(deformations_rebuild_the_stiffness_of_equation_10) {
@@ -82,7 +81,7 @@ BOOST_AUTO_TEST_CASE(deformations_rebuild_the_stiffness_of_equation_10) {
 
 BOOST_AUTO_TEST_CASE(mass_matrices_carry_the_mass_of_the_member) {
   const double mass = kSection.mass_per_length * kLength;
-  for (const BeamTheory theory : kTheories) {
+  for (const BeamTheory theory : kTheories)
     for (const MassMatrix kind : {MassMatrix::consistent, MassMatrix::lumped}) {
       const Matrix6d M = frame_mass(kSection, theory, kind, kLength);
       for (const double angle : {0.0, 1.0}) {
@@ -95,7 +94,6 @@ BOOST_AUTO_TEST_CASE(mass_matrices_carry_the_mass_of_the_member) {
       }
       BOOST_TEST(largest_difference(M, M.transpose()) == 0);
     }
-  }
 }
 
 BOOST_AUTO_TEST_CASE(mass_matrices_have_the_inertia_of_a_rod) {

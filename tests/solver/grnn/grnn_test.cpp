@@ -66,10 +66,9 @@ BOOST_AUTO_TEST_CASE(predictions_are_those_of_the_printed_formula) {
     for (const double sigma : {0.05, 0.3, 1.0, 10.0, 1e6}) {
       const Grnn g = make_grnn(inputs, outputs, sigma, scaling);
       const MatrixXd y = predict(g, queries);
-      for (Index k = 0; k < queries.rows(); ++k) {
+      for (Index k = 0; k < queries.rows(); ++k)
         for (Index j = 0; j < 2; ++j)
           BOOST_TEST(std::abs(y(k, j) - as_printed(g, queries.row(k), j)) < 1e-12);
-      }
     }
   }
 }
@@ -123,10 +122,9 @@ BOOST_AUTO_TEST_CASE(split_has_the_requested_size_and_order) {
   const auto count = [](const std::vector<bool>& part) {
     return std::count(part.begin(), part.end(), true);
   };
-  for (const Split split : {Split::first, Split::interleaved, Split::shuffled}) {
+  for (const Split split : {Split::first, Split::interleaved, Split::shuffled})
     for (const Index train : {1, 379, 631})
       BOOST_TEST(count(training_mask(631, train, split)) == train);
-  }
   const std::vector<bool> first = training_mask(631, 379, Split::first);
   BOOST_TEST(first[378]);
   BOOST_TEST(!first[379]);

@@ -52,7 +52,7 @@ BOOST_AUTO_TEST_CASE(large_motion_without_inertia_is_large_statics) {
 /// Small loads displace P by a few micrometers and rotate the platform by less than 1e-4 rad. The
 /// relative differences between linear and geometrically exact theory are of this order.
 BOOST_AUTO_TEST_CASE(small_motions_are_those_of_linear_theory) {
-  for (const ElbowKind elbow : kElbows) {
+  for (const ElbowKind elbow : kElbows)
     for (const bool quasi_static : {true, false}) {
       ElastodynamicsOptions options = options_of(elbow, 1, 0.4, 1e-3);
       options.wrench = {1e-3, 2e-3, 0};
@@ -71,7 +71,6 @@ BOOST_AUTO_TEST_CASE(small_motions_are_those_of_linear_theory) {
       BOOST_TEST((large.rigid_torque - linear.rigid_torque).norm() <=
                  1e-12 * linear.rigid_torque.norm());
     }
-  }
 }
 
 BOOST_AUTO_TEST_CASE(nominal_inertia_loads_the_equilibria) {

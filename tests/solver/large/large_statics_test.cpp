@@ -112,7 +112,7 @@ BOOST_AUTO_TEST_CASE(newton_corrections_shrink_quadratically) {
 
 // A straight column under a follower load has no static instability (M. Beck, ZAMP 3, 1952).
 BOOST_AUTO_TEST_CASE(follower_load_converges_in_any_unit_and_direction) {
-  for (const double stiffness : {1e-10, 1e5, 1e20}) {
+  for (const double stiffness : {1e-10, 1e5, 1e20})
     for (const double angle : {0.1, 0.36, 1.4}) {
       Model model = elastica(16, angle);
       model.members[0].section.EI = stiffness;
@@ -122,7 +122,6 @@ BOOST_AUTO_TEST_CASE(follower_load_converges_in_any_unit_and_direction) {
       const StaticPath path = follow_static_path(GeometricallyExactSystem(model, follower));
       BOOST_TEST(path.outcome.solved(), path.outcome.reason);
     }
-  }
 }
 
 BOOST_AUTO_TEST_CASE(section_forces_balance_the_loads_in_the_bent_shape) {

@@ -45,7 +45,7 @@ BOOST_AUTO_TEST_CASE(round_off_estimate_bounds_the_error) {
 BOOST_AUTO_TEST_CASE(both_methods_agree_on_repeated_modes_and_cuts) {
   const System system = assemble(pinned_double_cross(8));
   const ModalSolution all = solve_modes(system, {16, EigenMethod::dense});
-  for (const EigenMethod path : kPaths) {
+  for (const EigenMethod path : kPaths)
     for (const Index count : {1, 4, 6, 13, 16}) {  // 4, 6 and 13 are inside a cluster
       const ModalSolution m = solve_modes(system, {count, path});
       BOOST_REQUIRE(m.outcome.solved());
@@ -61,12 +61,11 @@ BOOST_AUTO_TEST_CASE(both_methods_agree_on_repeated_modes_and_cuts) {
       const ModalSolution again = solve_modes(system, {count, path});
       BOOST_TEST((again.shape.array() == m.shape.array()).all());
     }
-  }
 }
 
 BOOST_AUTO_TEST_CASE(rigid_motions_are_counted_beyond_the_modes_requested) {
   const Model model = beam(unit_section(1e7), 1, 8);
-  for (const EigenMethod path : kPaths) {
+  for (const EigenMethod path : kPaths)
     for (const Index count : {1, 3}) {
       const ModalSolution m = solve(model, count, path);
       BOOST_REQUIRE(m.outcome.solved());
@@ -74,7 +73,6 @@ BOOST_AUTO_TEST_CASE(rigid_motions_are_counted_beyond_the_modes_requested) {
       BOOST_TEST(m.frequency.isZero(0));
       BOOST_TEST(m.zero_energy_mode_count == 3);
     }
-  }
 }
 
 /// Free body on a massless beam. The three rigid motions have the full mass of the model.

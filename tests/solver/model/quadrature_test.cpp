@@ -39,14 +39,12 @@ BOOST_AUTO_TEST_CASE(line_rule_is_exact_to_degree_9) {
 }
 
 BOOST_AUTO_TEST_CASE(triangle_rule_is_exact_to_degree_8) {
-  for (int degree = 0; degree <= 8; ++degree) {
-    for (int a = 0; a <= degree; ++a) {
+  for (int degree = 0; degree <= 8; ++degree)
+    for (int a = 0; a <= degree; ++a)
       for (int b = 0; a + b <= degree; ++b) {
         BOOST_TEST(mean(a, b, degree - a - b) == exact_mean(a, b, degree - a - b),
                    boost::test_tools::tolerance(1e-13));
       }
-    }
-  }
   BOOST_TEST(std::abs(mean(10, 0, 0) / exact_mean(10, 0, 0) - 1) > 1e-6);
 }
 

@@ -26,11 +26,10 @@ struct ExportTwin {
 inline std::vector<ExportChoice> choices_of(const Case& given, const std::string& variant) {
   std::vector<ExportChoice> choices = {{variant}};
   const Document document = patched(given, variant);
-  if (const auto sweeps = JsonView(document).find("sweeps")) {
+  if (const auto sweeps = JsonView(document).find("sweeps"))
     for (const auto& [name, sweep] : sweeps->entries())
       for (std::size_t k = 0; k < sweep["values"].size(); ++k)
         choices.push_back({variant, name, k});
-  }
   return choices;
 }
 
