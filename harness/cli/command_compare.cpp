@@ -86,9 +86,10 @@ std::vector<Side> sides_of(const std::vector<std::string>& names) {
     }
   }
   if (sides.empty()) return sides_of_cases(names);
-  if (!others.empty())
+  if (!others.empty()) {
     (void)load_named_case(split_case_name(others.front()).first);  // throws if this is no case
-  throw InputError("expected either cases or results files (got both)");
+    throw InputError("expected either cases or results files (got both)");
+  }
   if (sides.size() < 2) throw InputError("expected at least two results files (got one)");
   return sides;
 }

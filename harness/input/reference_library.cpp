@@ -68,8 +68,10 @@ References::Family& References::family(const std::string& file) const {
 const std::vector<references::JsonMember>& References::members(const std::string& file) const {
   Family& split = family(file);
   if (!split.members) split.members = references::json_members(split.file.text);
-  if (!split.members) (void)read_json(file);  // throws with the line or key of the fault
-  throw InputError(file, "", "expected an object with one key per reference or source");
+  if (!split.members) {
+    (void)read_json(file);  // throws with the line or key of the fault
+    throw InputError(file, "", "expected an object with one key per reference or source");
+  }
   return *split.members;
 }
 
