@@ -7,7 +7,7 @@
 #include "harness/analysis/coarse_scene.h"
 #include "harness/analysis/registry.h"
 #include "harness/analysis/size_estimate.h"
-#include "harness/scene/with_model_errors.h"
+#include "harness/scene/rethrow_as_input.h"
 #include "solver/manipulator/kinematics.h"
 
 namespace trammel::harness {
@@ -43,7 +43,7 @@ StepResult analyze_scene(const AnalysisKind& kind, const JsonView& analysis,
   const auto at_step = [&](std::size_t step, bool drawn) {
     return std::get<AnalyseStep*>(kind.of_scene)(analysis, case_model, step, drawn, record);
   };
-  return analyze_steps(case_model, draw, at_step);
+  return analyze_path_points(case_model, draw, at_step);
 }
 
 /// Returns the result of an analysis. The status "solved" requires a solution, sufficiently small
@@ -52,9 +52,9 @@ AnalysisResult result_of(const AnalysisKind& kind, StepResult found, Recorder& r
   AnalysisResult result{std::move(found), {}, {}};
   if (!kind.evidence.empty())
     result.outcome = solver::outcome_by_evidence(result.outcome, result.evidence, kind.evidence);
-  if (result.outcome.solved() && !record.not_finite().empty())
+  if (result.outcome.solved() && !record.first_nonfinite_quantity().empty())
     result.outcome = {solver::Status::not_converged,
-                      record.not_finite() + " is not a finite number"};
+                      record.first_nonfinite_quantity() + " is not a finite number"};
   if (!result.outcome.solved()) return result;
   result.quantities = record.take_quantities();
   const double of_load =
@@ -130,7 +130,7 @@ AnalysisResult analyze(const Document& document, const References& references,
   CaseModel case_model = read_case_model(document);
   if (kind.needs_manipulator && !case_model.manipulator)
     throw place.error("this analysis requires a model with 'manipulator'");
-  return with_model_errors(document, [&] {
+  return rethrow_as_input(document, [&] {
     const RoundingScope scope;
     EffectChoice choice = choose_effects(document, case_model);
     case_model.effects = choice.chosen;

@@ -79,7 +79,7 @@ void record_errors(const std::string& name, const std::vector<KeptQuantity>& kep
   for (std::size_t i = 0; i < kept.size(); ++i) {
     const double error =
         std::abs(kept[i].value - reference_solution[i]) / std::abs(reference_solution[i]);
-    record.add_or_gap("relative_error", name, error);
+    record.add_or_missing("relative_error", name, error);
     if (error < min_error) {
       min_error = error;
       best = parameter[i];
@@ -88,8 +88,8 @@ void record_errors(const std::string& name, const std::vector<KeptQuantity>& kep
       record.add("roundoff", name, kept[i].roundoff);
       record.add("error_over_roundoff", name, error / kept[i].roundoff);
     } else if (std::isnan(kept[i].value)) {
-      record.add_gap("roundoff", name);
-      record.add_gap("error_over_roundoff", name);
+      record.add_missing_value("roundoff", name);
+      record.add_missing_value("error_over_roundoff", name);
     }
   }
   if (keep.has("reference") && !std::isnan(best)) record.add("min_error_at", name, best);
@@ -120,7 +120,8 @@ std::vector<Level> study_levels(const Document& document) {
   const bool along = study.get("trajectory", false);
   if (along == study.has("values"))
     throw study.error("expected exactly one of 'values' and 'trajectory'");
-  std::vector<Level> found = along ? trajectory_levels(document, study) : levels(document, study);
+  std::vector<Level> found =
+      along ? trajectory_levels(document, study) : sweep_levels(document, study);
   for (Level& level : found) level.document = with_inner_analysis(std::move(level.document));
   return found;
 }
@@ -152,7 +153,7 @@ StepResult analyze_study(const Document& document, const References& references,
     warn_of_crossed_singularity(read_case_model(document), result.warnings);
   for (std::size_t k = 0; k < keep.size(); ++k) {
     const auto& [name, place] = keep[k];
-    for (const KeptQuantity& one : kept[k]) record.add_or_gap(name, "", one.value);
+    for (const KeptQuantity& one : kept[k]) record.add_or_missing(name, "", one.value);
     record_errors(name, kept[k], parameter, place, references, record);
   }
   return result;

@@ -122,7 +122,7 @@ EffectChoice choose_automatically(const Document& document, const CaseModel& cas
     const EffectEvidence& evidence = selection.evidence[static_cast<std::size_t>(effect)];
     results::EffectRow& row = choice.rows[static_cast<std::size_t>(effect)];
     row.dimensionless_number = evidence.number;
-    if (evidence.number) row.number_definition = number_formula(effect);
+    if (evidence.number) row.number_definition = dimensionless_number_formula(effect);
     if (scope.required.has(effect)) continue;
     row.own_change = evidence.own;
     row.cumulative_change = evidence.cumulative;
@@ -143,7 +143,7 @@ bool supports_effects(const Document& document) {
 }
 
 EffectScope effect_scope(const Document& document, const CaseModel& case_model) {
-  const solver::Model model = model_at_start(case_model);
+  const solver::Model model = model_at_path_start(case_model);
   EffectScope scope = effects_of(document)->scope(analysis_place(document), model);
   if (!model.triangles.empty()) {
     scope.applicable = scope.applicable.with(Effect::platform_flexibility);

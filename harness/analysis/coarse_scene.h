@@ -34,7 +34,7 @@ class CoarseScene {
       : kind_(kind),
         analysis_(analysis),
         scene_(coarsen_scene(scene, elements)),
-        model_(model_at_start(scene_)),
+        model_(model_at_path_start(scene_)),
         size_(typical_scales(model_)) {}
 
   /// Returns the largest relative change of the results at the steps if the effects `all` are

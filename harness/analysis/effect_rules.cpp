@@ -129,7 +129,7 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   if (scope.applicable.has(Effect::axial_flexibility))
     scope.required = Effects().with(Effect::axial_flexibility);
   scope.no_large_displacement =
-      solver::reason_no_large_displacement(read_motion_options(analysis), model);
+      solver::reason_no_large_displacement(read_model_independent_options(analysis), model);
   if (scope.no_large_displacement == nullptr)
     scope.applicable = scope.applicable.with(Effect::large_displacement);
   dependents_of(scope, Effect::inertia) = with_velocity;
@@ -205,7 +205,7 @@ const char* EffectRules::reason_not_applicable(Effect effect) const {
   return words_of(effect).missing[column];
 }
 
-const char* number_formula(Effect effect) {
+const char* dimensionless_number_formula(Effect effect) {
   return words_of(effect).number;
 }
 
@@ -239,10 +239,10 @@ const EffectRules kHarmonicEffects = {no_keys, harmonic_scope, 3};
 const EffectRules kTransientEffects = {no_keys, vibration_scope, 3};
 const EffectRules kLargeMotionEffects = {no_keys, large_motion_scope, 3};
 
-solver::Model model_at_start(const CaseModel& case_model) {
+solver::Model model_at_path_start(const CaseModel& case_model) {
   const bool only_large = !case_model.joint_elements.line_springs.empty() ||
                           !case_model.joint_elements.follower_loads.empty();
-  return only_large ? build_bare_model(case_model, 0) : build_model(case_model, 0);
+  return only_large ? build_without_joint_elements(case_model, 0) : build_model(case_model, 0);
 }
 
 }  // namespace trammel::harness

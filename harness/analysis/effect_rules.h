@@ -44,7 +44,7 @@ struct EffectRules {
 };
 
 /// Returns the formula of an effect's dimensionless number; empty if the effect has no number.
-[[nodiscard]] const char* number_formula(solver::Effect effect);
+[[nodiscard]] const char* dimensionless_number_formula(solver::Effect effect);
 /// Returns the reason why an effect is required.
 [[nodiscard]] const char* reason_required(solver::Effect effect);
 
@@ -52,7 +52,7 @@ extern const EffectRules kStaticsEffects, kModesEffects, kElastodynamicsEffects,
     kTransientEffects, kLargeMotionEffects;
 
 /// Returns the model of a case at the start of its path, without line springs and follower loads.
-[[nodiscard]] solver::Model model_at_start(const CaseModel& case_model);
+[[nodiscard]] solver::Model model_at_path_start(const CaseModel& case_model);
 
 /// Returns the effects that depend on an effect and are meaningless without it.
 [[nodiscard]] solver::Effects& dependents_of(EffectScope& scope, solver::Effect effect);

@@ -38,7 +38,7 @@ class Selector {
         scene_(scene),
         scope_(scope),
         tolerance_(tolerance),
-        model_(model_at_start(scene)) {
+        model_(model_at_path_start(scene)) {
     selection_.chosen = scope.applicable;
   }
 
@@ -245,7 +245,7 @@ class Selector {
     CaseModel coarse = coarsen_scene(scene_, 1);
     coarse.effects = scope_.without(scope_.applicable, Effect::large_displacement);
     coarse_model_ = build_model(coarse, 0);
-    options_ = read_elastodynamics(analysis_, coarse);
+    options_ = read_elastodynamics_options(analysis_, coarse);
     // Up to three of the four modes are rigid-body modes.
     const solver::ModalSolution modes =
         solver::solve_modes(solver::assemble(coarse_model_), {.count = 4});

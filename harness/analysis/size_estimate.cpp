@@ -180,12 +180,12 @@ class Estimator {
 
 }  // namespace
 
-SizeEstimate estimate_size(const Document& document) {
+SizeEstimate estimate_problem_size(const Document& document) {
   return Estimator(document).run();
 }
 
 void require_memory(const Document& document, double max_memory) {
-  const SizeEstimate size = estimate_size(document);
+  const SizeEstimate size = estimate_problem_size(document);
   const bool countable = size.non_zeros <= std::numeric_limits<int>::max();
   if (countable && size.bytes <= max_memory) return;
   throw document.error(size.cause,

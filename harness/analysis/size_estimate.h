@@ -20,7 +20,7 @@ struct SizeEstimate {
 /// grids. A dense eigensolver and modal superposition require memory proportional to the square of
 /// the number of coordinates. The factor of a frame has 12 non-zeros per coordinate. The factor of
 /// a plane mesh of n coordinates has 16 log2(n) per coordinate, by nested dissection (George 1973).
-[[nodiscard]] SizeEstimate estimate_size(const Document& document);
+[[nodiscard]] SizeEstimate estimate_problem_size(const Document& document);
 
 /// Rejects a computation that requires too much memory.
 /// @throws InputError  at the key that causes the size, if the estimate exceeds `max_memory` or a

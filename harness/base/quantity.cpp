@@ -68,7 +68,7 @@ bool is_count(const std::string& name) {
   return counts.count(name) > 0;
 }
 
-bool is_diagnostic(const std::string& name) {
+bool is_error_measure(const std::string& name) {
   const std::string head = name.substr(0, name.find(':'));
   return head.find("roundoff") != std::string::npos || head.find("residual") != std::string::npos;
 }

@@ -32,6 +32,6 @@ struct NameAndUnit {
 
 /// Returns true if a quantity is an error measure (round-off, residual). Under mesh refinement,
 /// such a quantity does not converge to a limit.
-[[nodiscard]] bool is_diagnostic(const std::string& name);
+[[nodiscard]] bool is_error_measure(const std::string& name);
 
 }  // namespace trammel::harness

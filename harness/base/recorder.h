@@ -33,16 +33,16 @@ class Recorder {
   }
   /// Records a missing number, such as a break in a curve or a study level without solution. It is
   /// written as null. A check fails only if it requires this number.
-  void add_gap(const std::string& name, const std::string& item) {
+  void add_missing_value(const std::string& name, const std::string& item) {
     quantity_of(name, item).values.push_back(std::numeric_limits<double>::quiet_NaN());
   }
   /// Adds a number. NaN is recorded as a missing number.
-  void add_or_gap(const std::string& name, const std::string& item, double value) {
-    std::isnan(value) ? add_gap(name, item) : add(name, item, value);
+  void add_or_missing(const std::string& name, const std::string& item, double value) {
+    std::isnan(value) ? add_missing_value(name, item) : add(name, item, value);
   }
   /// Returns the name of the first quantity with an infinite or undefined number that was not
   /// recorded as missing; empty if there is none.
-  [[nodiscard]] const std::string& not_finite() const { return not_finite_; }
+  [[nodiscard]] const std::string& first_nonfinite_quantity() const { return not_finite_; }
   [[nodiscard]] Quantities take_quantities() { return std::move(quantities_); }
 
  private:
@@ -69,9 +69,9 @@ class EnergyRecorder {
     change_ = std::max(change_, std::abs(total - *start_));
     largest_kinetic_ = std::max(largest_kinetic_, kinetic);
   }
-  [[nodiscard]] double largest_kinetic() const { return largest_kinetic_; }
+  [[nodiscard]] double largest_kinetic_energy() const { return largest_kinetic_; }
   /// Returns the largest change of total energy over the largest kinetic energy; 0 without motion.
-  [[nodiscard]] double drift() const {
+  [[nodiscard]] double relative_drift() const {
     return largest_kinetic_ > 0 ? change_ / largest_kinetic_ : 0;
   }
 

@@ -59,8 +59,8 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return best.empty() ? "" : "; did you mean '" + best + "'?";
 }
 
-std::string unknown_name(const std::string& expected, const std::string& name,
-                         const std::vector<std::string>& candidates) {
+std::string unknown_name_message(const std::string& expected, const std::string& name,
+                                 const std::vector<std::string>& candidates) {
   return "expected " + expected + " (got '" + printable(name) + "')" +
          did_you_mean(name, candidates);
 }

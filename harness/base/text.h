@@ -15,8 +15,8 @@ namespace trammel::harness {
                                        const std::vector<std::string>& candidates);
 
 /// Returns the message for an unknown name: "expected X (got 'name'); did you mean 'y'?".
-[[nodiscard]] std::string unknown_name(const std::string& expected, const std::string& name,
-                                       const std::vector<std::string>& candidates);
+[[nodiscard]] std::string unknown_name_message(const std::string& expected, const std::string& name,
+                                               const std::vector<std::string>& candidates);
 
 [[nodiscard]] std::string quoted(const std::string& word);
 

@@ -46,7 +46,7 @@ std::vector<Configuration> computed(const std::vector<Case>& cases, const Comman
     const std::vector<Run> runs =
         run_with_progress(cases, references, options, std::string("runs rounded ") + name);
     set_solver_rounding(FE_TONEAREST);
-    configurations.push_back({name, results_of(runs, cases, references)});
+    configurations.push_back({name, collect_results(runs, cases, references)});
   }
   return configurations;
 }
@@ -95,7 +95,7 @@ int certify_command(const CommandOptions& options, const Renderers& /*renderers*
   std::vector<Configuration> stored;
   for (const std::string& name : options.builds) {
     const std::filesystem::path file = results_path(name);
-    stored.push_back({name, read_summary(file)});
+    stored.push_back({name, read_results_json(file)});
     require_same_cases(cases, file, stored.back().results);
   }
   std::vector<Configuration> configurations = computed(cases, options);

@@ -85,7 +85,7 @@ int paper_command(const CommandOptions& options, const Renderers& /*renderers*/)
   results::Claims shown;
   shown.items = load_paper_items(claim_set, Catalogue());
   if (!options.word.empty())
-    judge_paper_items(read_summary(results_path(options.word)), shown.items);
+    judge_paper_items(read_results_json(results_path(options.word)), shown.items);
   if (options.json) {
     std::cout << format_json(results::to_json(shown).at("items"));
   } else {

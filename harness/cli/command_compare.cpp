@@ -38,7 +38,7 @@ Side side_of(const Case& given, const std::string& variant) {
   options.studies = false;
   const std::vector<Run> runs = run_with_progress({given}, references, options);
   require_solved(runs.front());
-  return {given.id() + ":" + variant, results_of(runs, {given}, references),
+  return {given.id() + ":" + variant, collect_results(runs, {given}, references),
           patched(given, variant)};
 }
 
@@ -80,7 +80,7 @@ std::vector<Side> sides_of(const std::vector<std::string>& names) {
   for (const std::string& name : names) {
     const fs::path file = results_path(name);
     if (Json json = read_if_results(file); !json.is_null()) {
-      sides.push_back({name, read_summary(file, std::move(json)), std::nullopt});
+      sides.push_back({name, read_results_json(file, std::move(json)), std::nullopt});
     } else {
       others.push_back(name);
     }

@@ -91,7 +91,7 @@ int converge_command(const CommandOptions& options, const Renderers& /*renderers
     for (const Convergence& found : run.convergence) print(found);
   }
   const int status = exit_status(runs) == 3 ? 3 : 0;
-  const results::Results results = results_of(runs, {given}, references);
+  const results::Results results = collect_results(runs, {given}, references);
   if (options.json) {
     std::cout << format_json(to_json(results), kLineDepth);
     return status;

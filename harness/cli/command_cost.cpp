@@ -203,7 +203,7 @@ int cost_command(const CommandOptions& options, const Renderers& renderers) {
     }
     if (!options.json) print(measured.back());
   }
-  results::Results results = results_of({}, {}, references);
+  results::Results results = collect_results({}, {}, references);
   const bool any_lost = std::ranges::any_of(
       measured, [](const results::CostStudy& study) { return cost_points(study).empty(); });
   results.cost = cost_results(std::move(measured), extent, cost_options.timing);

@@ -38,7 +38,7 @@ void print_group(const std::vector<CoverageRow>& rows, const std::string& group,
 
 int coverage_command(const CommandOptions& options, const Renderers& /*renderers*/) {
   std::vector<CoverageRow> rows = evidence_coverage(Catalogue().load(), References());
-  add_reasons(rows);
+  add_missing_evidence_reasons(rows);
   if (!options.word.empty()) {
     const results::Results results = load_results(results_path(options.word));
     if (!results.missing.empty()) std::cerr << options.word << ": " << results.missing << '\n';

@@ -135,7 +135,7 @@ void print_study(const EffectStudy& study) {
 /// Writes results.json and a page with the effects selected in these cases.
 void write_scenes(std::vector<results::EffectScene> scenes, const CommandOptions& options,
                   const Renderers& renderers) {
-  results::Results results = results_of({}, {}, References());
+  results::Results results = collect_results({}, {}, References());
   results.effect_scenes = std::move(scenes);
   const OutputLock lock(options.out);
   const auto unfinished = std::filesystem::path(options.out) / results::kUnfinishedFolder;

@@ -41,7 +41,7 @@ int export_command(const CommandOptions& options, const Renderers& /*renderers*/
   const Case given = load_named_case(name);
   if (!options.matrices.empty()) {
     const Document document = chosen_document(given, choice);
-    write_matrices(document, exported_scene(document), options.matrices);
+    write_system_matrices(document, exported_scene(document), options.matrices);
     if (options.out.empty()) return 0;
   }
   const std::string text = format_json(export_case(given, choice));

@@ -95,7 +95,7 @@ results::Solver solver_name(const std::vector<Run>& runs, const std::string& com
 }  // namespace
 
 int grade_command(const CommandOptions& options, const Renderers& renderers) {
-  Adapter adapter{adapter_words(options.adapter),
+  Adapter adapter{split_adapter_command(options.adapter),
                   std::filesystem::absolute(options.out) / "calls",
                   {options.max_time_s, options.memory_bytes, options.max_disk_bytes}};
   std::vector<Case> cases = select_cases(options);
@@ -110,8 +110,8 @@ int grade_command(const CommandOptions& options, const Renderers& renderers) {
   run_options.store = store_folder(options.out, options.store);
   run_options.resume = options.resume;
   run_options.solver = adapter_solver(adapter);
-  results::Results found =
-      results_of(run_cases(cases, references, run_options), cases, references, run_options.store);
+  results::Results found = collect_results(run_cases(cases, references, run_options), cases,
+                                           references, run_options.store);
   found.solver = solver_name(found.runs, options.adapter, adapter.words.front());
   found.uncertainty_coverage.reset();  // valid only for refinements by trammel
   const auto file = write_results(found, options.out);

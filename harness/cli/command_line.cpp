@@ -323,7 +323,7 @@ class CommandLine {
 }  // namespace
 
 void require_drawing(const Renderers& renderers) {
-  if (!renderers.can_draw())
+  if (!renderers.has_gnuplot())
     throw InputError("PATH: expected a folder with gnuplot, which draws the report");
 }
 

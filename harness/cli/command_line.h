@@ -18,7 +18,8 @@ struct Renderers {
                                       const std::filesystem::path& folder)>
       report;
   std::function<void(const results::Results& results, const std::filesystem::path& junit)> junit;
-  std::function<bool()> can_draw;  ///< returns true if the tools for drawing a report are available
+  std::function<bool()>
+      has_gnuplot;  ///< returns true if the tools for drawing a report are available
   /// Writes a page that compares the results of several codes.
   std::function<std::filesystem::path(const std::vector<std::filesystem::path>& results,
                                       const std::filesystem::path& folder)>

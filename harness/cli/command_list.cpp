@@ -21,7 +21,7 @@
 #include "harness/results/quantity_definitions.h"
 #include "harness/run/run.h"
 #include "harness/scene/case_model.h"
-#include "harness/scene/with_model_errors.h"
+#include "harness/scene/rethrow_as_input.h"
 #include "harness/studies/validation_uncertainty.h"
 
 namespace trammel::harness {
@@ -31,7 +31,7 @@ std::string describe_model(const Document& document) {
   const char* without_model = find_analysis(analysis_kind(document)).without_model;
   if (!document.value().contains("model") && *without_model != 0) return without_model;
   const CaseModel case_model = read_case_model(document);
-  const solver::Model model = build_bare_model(case_model, 0);
+  const solver::Model model = build_without_joint_elements(case_model, 0);
   std::string text = "planar model";
   if (case_model.manipulator) {
     const bool rigid = case_model.manipulator->platform.kind == solver::PlatformDesign::Kind::rigid;
@@ -102,7 +102,7 @@ void describe_effects(const Case& given) {
   const Document base = patched(given, kBaseVariant);
   if (!supports_effects(base)) return;
   const EffectChoice choice =
-      with_model_errors(base, [&] { return choose_effects(base, read_case_model(base)); });
+      rethrow_as_input(base, [&] { return choose_effects(base, read_case_model(base)); });
   print_effects(choice);
 }
 
@@ -197,7 +197,7 @@ Rows analysis_rows() {
   Rows rows({"analysis", "quantity", "unit", "meaning"});
   for (const AnalysisKind& kind : analysis_kinds())
     for (const results::QuantityDefinition& definition : results::quantity_definitions())
-      if (definition.is_of(kind.name))
+      if (definition.belongs_to_analysis(kind.name))
         rows.add({kind.name, definition.name, unit_of(definition.name), definition.meaning});
   return rows;
 }
@@ -218,7 +218,7 @@ std::string meaning_of(const std::string& name, const Document& document) {
 Rows quantity_rows(const Case& given) {
   const Document document = patched(given, kBaseVariant);
   Rows rows({"quantity", "entries", "unit", "meaning"});
-  for (const auto& [name, quantity] : solution_of(given, kBaseVariant).quantities)
+  for (const auto& [name, quantity] : run_variant(given, kBaseVariant).quantities)
     rows.add({name, quantity.values.size(), unit_of(name), meaning_of(name, document)});
   return rows;
 }
@@ -273,7 +273,7 @@ int describe_command(const CommandOptions& options, const Renderers& /*renderers
   describe_effects(given);
   describe_inputs(given, references);
   describe_checks(given, references);
-  const auto used = references.used();
+  const auto used = references.requested_references();
   if (!used.empty()) std::cout << "\nReferences\n";
   for (const auto& item : used) print_reference(item.second);
   return 0;
@@ -302,7 +302,7 @@ int references_command(const CommandOptions& options, const Renderers& /*rendere
     (void)library.add(places.at(name));
   }
   std::vector<CitedReference> all;
-  for (const auto& [id, reference] : library.used()) all.push_back(reference);
+  for (const auto& [id, reference] : library.requested_references()) all.push_back(reference);
   if (options.csv) {
     std::cout << value_rows(all).csv();
   } else if (options.json) {

@@ -209,7 +209,8 @@ void present(const CommandOptions& options, const std::filesystem::path& page) {
     // Below the system's folder for temporary files, because Chromium limits the length of the
     // path.
     std::string profile = (std::filesystem::temp_directory_path() / "trammel-XXXXXX").string();
-    if (mkdtemp(profile.data()) == nullptr) throw InputError(profile + ": the folder for the profile of Chromium cannot be created");
+    if (mkdtemp(profile.data()) == nullptr)
+      throw InputError(profile + ": no folder for Chromium can be created");
     const ProcessOutcome outcome = run_limited(
         {chromium(), "--headless", "--no-sandbox", "--disable-gpu", "--no-pdf-header-footer",
          "--user-data-dir=" + profile, "--print-to-pdf=" + pdf.string(), sheet.string()},
@@ -308,7 +309,7 @@ int add_studies(results::Results& results, const std::vector<Case>& cases,
   results.claims->items = load_paper_items(document, Catalogue());
   judge_paper_items(results, results.claims->items);
   results.coverage = evidence_coverage(cases, references);
-  add_reasons(results.coverage);
+  add_missing_evidence_reasons(results.coverage);
   count_quantity_runs(results, results.coverage);
   results.effect_scenes = catalogue_effect_scenes(store, resume || measured);
   for (const std::string& error_message : error_messages) std::cerr << error_message << '\n';
@@ -353,8 +354,8 @@ int run_command(const CommandOptions& options, const Renderers& renderers) {
   exit_on_signals(kInterrupted);
   const References references;
   const results::Results results =
-      results_of(compute(selection, references, options), selection.cases, references,
-                 store_folder(options.out, options.store));
+      collect_results(compute(selection, references, options), selection.cases, references,
+                      store_folder(options.out, options.store));
   const std::vector<Run>& runs = results.runs;
   const std::filesystem::path out = options.out, file = write_results(results, out);
   renderers.junit(results, out / "junit.xml");
@@ -394,8 +395,8 @@ int report_command(const CommandOptions& options, const Renderers& renderers) {
   const References references;
   std::vector<Run> computed = compute(selection, references, resuming);
   require_uninterrupted(computed);
-  results::Results results = results_of(std::move(computed), selection.cases, references,
-                                        store_folder(options.out, options.store));
+  results::Results results = collect_results(std::move(computed), selection.cases, references,
+                                             store_folder(options.out, options.store));
   const std::vector<Run>& runs = results.runs;
   for (const Run& run : runs)
     if (counts_as_failure(run) && run.fault == results::Fault::none) print_run(run);

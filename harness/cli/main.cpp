@@ -19,6 +19,6 @@ int main(int argc, char** argv) {
   const std::vector<std::string> arguments(argv + 1, argv + argc);
   return trammel::harness::run_command_line(
       arguments,
-      {trammel::reports::write_report, trammel::reports::write_junit, trammel::reports::can_draw,
+      {trammel::reports::write_report, trammel::reports::write_junit, trammel::reports::has_gnuplot,
        trammel::reports::write_code_comparison, trammel::reports::write_comparison});
 }

@@ -13,8 +13,8 @@
 #include "harness/readers/field_reader.h"
 #include "harness/readers/option_reader.h"
 #include "harness/results/quantity_definitions.h"
+#include "harness/scene/rethrow_as_input.h"
 #include "harness/scene/tracking.h"
-#include "harness/scene/with_model_errors.h"
 #include "solver/manipulator/rigid_dynamics.h"
 #include "trammel_build.h"
 
@@ -145,7 +145,7 @@ Json asked_quantities(const Document& document, const std::vector<Check>& checks
 }
 
 Json plain_model(const Document& document, const ExportedScene& scene) {
-  return with_model_errors(
+  return rethrow_as_input(
       document, [&] { return model_json(scene.model, scene.joints, written_names(document)); });
 }
 
@@ -199,8 +199,9 @@ Json mechanism_of(const Document& document) {
   if (!case_model.manipulator) throw analysis_place(document).error("requires a 'manipulator'");
   Json mechanism = mechanism_json(case_model);
   if (analysis_kind(document) == "elastodynamics") {
-    mechanism["elastic_model"] = with_model_errors(document, [&] {
-      return plain_model(document, {build_bare_model(case_model, 0), case_model.joint_elements});
+    mechanism["elastic_model"] = rethrow_as_input(document, [&] {
+      return plain_model(document,
+                         {build_without_joint_elements(case_model, 0), case_model.joint_elements});
     });
   }
   return mechanism;
@@ -227,7 +228,7 @@ Document chosen_document(const Case& given, const ExportChoice& choice) {
     throw document.error("/sweeps", "expected the name of a sweep (got '" + printable(name) +
                                         "'; the case has " +
                                         (names.empty() ? "none" : join(names, "and")) + ")");
-  std::vector<Level> all = levels(document, name);
+  std::vector<Level> all = sweep_levels(document, name);
   if (*choice.level >= all.size())
     throw document.error("/sweeps/" + name, "expected a level from 0 to " +
                                                 std::to_string(all.size() - 1) + " (got " +
@@ -238,15 +239,15 @@ Document chosen_document(const Case& given, const ExportChoice& choice) {
 ExportedScene exported_scene(const Document& document) {
   require_exportable(document);
   CaseModel case_model = read_case_model(document);
-  return with_model_errors(document, [&] {
+  return rethrow_as_input(document, [&] {
     if (document.value().contains("effects"))
       case_model.effects = choose_effects(document, case_model).chosen;
-    ExportedScene scene{build_bare_model(case_model, 0), case_model.joint_elements,
+    ExportedScene scene{build_without_joint_elements(case_model, 0), case_model.joint_elements,
                         case_model.effects};
     if (analysis_kind(document).starts_with("large-")) {
       const JsonView place = analysis_place(document);
       solver::large_motion::LargeMotionModel driven = scene.joints;
-      read_drives(place, scene.model, driven);
+      read_prescribed_motions(place, scene.model, driven);
       release_driven_actuators(place, case_model, driven, scene.model);
     }
     return scene;

@@ -55,8 +55,8 @@ struct ExportedScene {
 /// The format is Matrix Market in SI units. Symmetric matrices are stored as their lower triangles.
 /// @throws InputError  if the folder cannot be written, or for springs along a line and follower
 ///   loads, which have no matrices.
-void write_matrices(const Document& document, const ExportedScene& scene,
-                    const std::filesystem::path& folder);
+void write_system_matrices(const Document& document, const ExportedScene& scene,
+                           const std::filesystem::path& folder);
 
 /// Converts a built model into the format of a case file in which all values are explicit. Every
 /// node has a name and sections are numbers. Tapered members become chains of uniform members, and

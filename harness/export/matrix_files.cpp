@@ -8,7 +8,7 @@
 #include "harness/export/exported_case.h"
 #include "harness/export/vtk_files.h"
 #include "harness/readers/option_reader.h"
-#include "harness/scene/with_model_errors.h"
+#include "harness/scene/rethrow_as_input.h"
 #include "solver/large/large_motion_model.h"
 #include "solver/linear/row_balance.h"
 #include "solver/linear/system.h"
@@ -75,9 +75,9 @@ std::string mesh_text(const solver::System& system) {
 
 }  // namespace
 
-void write_matrices(const Document& document, const ExportedScene& scene,
-                    const std::filesystem::path& folder) {
-  const solver::System system = with_model_errors(document, [&] {
+void write_system_matrices(const Document& document, const ExportedScene& scene,
+                           const std::filesystem::path& folder) {
+  const solver::System system = rethrow_as_input(document, [&] {
     solver::require(scene.joints.line_springs.empty() && scene.joints.follower_loads.empty(),
                     "line springs and follower loads have no matrices");
     solver::Model model = scene.model;

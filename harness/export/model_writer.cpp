@@ -228,7 +228,7 @@ void cut_tapers(Model& model) {
       const auto at = [&](std::size_t end) -> Eigen::Vector2d {
         return model.nodes[solver::to_size(member.nodes[end])].position;
       };
-      add_chain(member, {}, at(0), at(1), std::ssize(model.nodes), model);
+      add_member_chain(member, {}, at(0), at(1), std::ssize(model.nodes), model);
     }
     for (std::size_t i = first; i < model.members.size(); ++i) {
       solver::Member& piece = model.members[i];

@@ -118,7 +118,7 @@ std::vector<results::Sweep> swept(const Adapter& adapter, const fs::path& folder
   std::vector<results::Sweep> sweeps;
   for (const std::string& name : names) {
     results::Sweep sweep{name, {}};
-    for (const Level& level : levels(document, name)) {
+    for (const Level& level : sweep_levels(document, name)) {
       Run found;
       const std::size_t number = sweep.levels.size();
       call(adapter, folder / (name + "-" + std::to_string(number)),
@@ -135,7 +135,7 @@ std::vector<results::Sweep> swept(const Adapter& adapter, const fs::path& folder
 
 }  // namespace
 
-std::vector<std::string> adapter_words(const std::string& command) {
+std::vector<std::string> split_adapter_command(const std::string& command) {
   std::vector<std::string> words;
   if (fs::is_regular_file(command)) {
     words = {command};

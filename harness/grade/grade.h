@@ -20,7 +20,7 @@ struct Adapter {
 /// Splits a command into words. The command is an executable file, or a program of the PATH with
 /// arguments. Words that name files become absolute, because each call runs in another folder.
 /// @throws InputError  if there is no such program.
-[[nodiscard]] std::vector<std::string> adapter_words(const std::string& command);
+[[nodiscard]] std::vector<std::string> split_adapter_command(const std::string& command);
 
 /// Returns a solver that runs an adapter for a case or variant. If the adapter reports the order of
 /// its element, it also runs the sweeps whose orders are checked, level by level.

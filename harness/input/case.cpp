@@ -71,7 +71,7 @@ void check_indicators(const Case& given) {
   for (const auto& [number, place] : root["stress_suite"]["indicators"].entries()) {
     const auto name = place.get<std::string>();
     if (contains(names, name)) continue;
-    throw place.error(unknown_name("the name of a check of the case", name, names));
+    throw place.error(unknown_name_message("the name of a check of the case", name, names));
   }
 }
 
@@ -113,7 +113,7 @@ Json patch_of_pointers(const JsonView& sweep, const Document& document, const Js
   Json patch = Json::object();
   for (const auto& [number, at] : sweep["pointers"].entries()) {
     require_place(document, at, value);
-    patch.merge_patch(patch_at(document.value(), at.get<std::string>(), value));
+    patch.merge_patch(patch_setting_value(document.value(), at.get<std::string>(), value));
   }
   return patch;
 }
@@ -198,7 +198,8 @@ Document patched(const Case& given, const std::string& variant) {
   if (variant != kBaseVariant) {
     const std::vector<std::string> names = given.variants();
     if (!contains(names, variant))
-      throw InputError(file, "/variants", unknown_name("the name of a variant", variant, names));
+      throw InputError(file, "/variants",
+                       unknown_name_message("the name of a variant", variant, names));
     Json patch = given.document.value().at("variants").at(variant);
     patch.erase("title");
     const Origin written = given.document.origin((JsonPointer("/variants") / variant).to_string());
@@ -221,7 +222,7 @@ void require_pointer(const Document& document, const JsonView& pointer) {
   if (!found || text.empty()) throw no_such_place(pointer, "");
 }
 
-Json patch_at(const Json& document, const std::string& pointer, const Json& value) {
+Json patch_setting_value(const Json& document, const std::string& pointer, const Json& value) {
   // Builds the patch from the inside out. A patch replaces complete arrays, so an item is set in a
   // copy of its array.
   Json nested = value;
@@ -238,11 +239,11 @@ Json patch_at(const Json& document, const std::string& pointer, const Json& valu
   return nested;
 }
 
-std::vector<Level> levels(const Document& variant, const std::string& sweep_name) {
-  return levels(variant, JsonView(variant)["sweeps"][sweep_name]);
+std::vector<Level> sweep_levels(const Document& variant, const std::string& sweep_name) {
+  return sweep_levels(variant, JsonView(variant)["sweeps"][sweep_name]);
 }
 
-std::vector<Level> levels(const Document& variant, const JsonView& sweep) {
+std::vector<Level> sweep_levels(const Document& variant, const JsonView& sweep) {
   const JsonView values = sweep["values"];
   const bool by_patches = sweep.has("patches");
   if (by_patches == sweep.has("pointers"))

@@ -49,7 +49,8 @@ inline constexpr const char* kBaseVariant = "base";
 void require_pointer(const Document& document, const JsonView& pointer);
 
 /// Returns the merge patch (RFC 7386) that sets the value at an existing pointer of a document.
-[[nodiscard]] Json patch_at(const Json& document, const std::string& pointer, const Json& value);
+[[nodiscard]] Json patch_setting_value(const Json& document, const std::string& pointer,
+                                       const Json& value);
 
 /// Level of a parameter sweep: the parameter value, and the case with the patch for this value.
 struct Level {
@@ -59,8 +60,8 @@ struct Level {
 
 /// @param variant  case with the patch of a variant, as returned by `patched`
 /// @throws InputError  if a swept pointer does not exist or a level violates the schema.
-[[nodiscard]] std::vector<Level> levels(const Document& variant, const std::string& sweep);
+[[nodiscard]] std::vector<Level> sweep_levels(const Document& variant, const std::string& sweep);
 /// Returns the levels of a sweep or study with the keys "values", and "pointers" or "patches".
-[[nodiscard]] std::vector<Level> levels(const Document& variant, const JsonView& sweep);
+[[nodiscard]] std::vector<Level> sweep_levels(const Document& variant, const JsonView& sweep);
 
 }  // namespace trammel::harness

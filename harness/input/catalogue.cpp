@@ -80,7 +80,8 @@ fs::path Catalogue::find_case(const std::string& name_or_file) const {
   if (looks_like_file && fs::exists(file, error)) return file;
   if (fs::path found = by_name(name_or_file); !found.empty()) return found;
   if (looks_like_file) throw InputError(name_or_file + ": expected a readable file (not found)");
-  throw InputError(unknown_name("a case of the catalogue or a file", name_or_file, names()));
+  throw InputError(
+      unknown_name_message("a case of the catalogue or a file", name_or_file, names()));
 }
 
 fs::path Catalogue::find_base_case(const std::string& name_or_file, const fs::path& from) const {
@@ -91,8 +92,8 @@ fs::path Catalogue::find_base_case(const std::string& name_or_file, const fs::pa
   if (fs::is_regular_file(file, error)) return file;
   if (fs::path found = by_name(name_or_file); !found.empty()) return found;
   throw InputError(from.string(), "/extends",
-                   unknown_name("a file relative to this one or a case of the catalogue",
-                                name_or_file, names()));
+                   unknown_name_message("a file relative to this one or a case of the catalogue",
+                                        name_or_file, names()));
 }
 
 std::vector<Case> Catalogue::load(const std::vector<std::string>& labels,
@@ -112,7 +113,7 @@ std::vector<Case> Catalogue::load(const std::vector<std::string>& labels,
     for (const std::string& label : *given)
       if (!known.contains(label))
         throw InputError(
-            unknown_name("a label of the catalogue", label, {known.begin(), known.end()}));
+            unknown_name_message("a label of the catalogue", label, {known.begin(), known.end()}));
   if (chosen.empty() && !known.empty())
     throw InputError(
         "no case of the catalogue has this combination of labels; expected labels "

@@ -18,7 +18,7 @@ constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 void require_variant(const JsonView& place, const std::vector<std::string>& variants) {
   const auto name = place.get<std::string>();
   if (contains(variants, name)) return;
-  throw place.error(unknown_name("a variant of the case", name, variants));
+  throw place.error(unknown_name_message("a variant of the case", name, variants));
 }
 
 /// Returns the present key. Exactly one of the alternative `keys` must be present.
@@ -69,7 +69,7 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
   if (!sweeps.contains(order.sweep)) {
     std::vector<std::string> names;
     for (const auto& item : sweeps.items()) names.push_back(item.key());
-    throw place["sweep"].error(unknown_name("a sweep of the case", order.sweep, names));
+    throw place["sweep"].error(unknown_name_message("a sweep of the case", order.sweep, names));
   }
   const Json& sweep = sweeps.at(order.sweep);
   const Json own = followed(sweep, quantity);

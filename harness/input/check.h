@@ -78,7 +78,7 @@ struct Check {
   std::string pointer;  ///< JSON pointer of the check in the case
 
   /// Returns true if the check compares a quantity with a reference, a variant or another quantity.
-  [[nodiscard]] bool has_target() const {
+  [[nodiscard]] bool has_comparison_target() const {
     return !reference.empty() || !against_variant.empty() || !against_quantity.empty();
   }
 };

@@ -136,7 +136,7 @@ CitedReference References::read(const std::string& place) const {
   if (const auto schema_error = find_schema_fault(json, "reference"))
     throw InputError(file, schema_error->pointer, schema_error->message);
   try {
-    const nlohmann::json merged = references::with_common(
+    const nlohmann::json merged = references::with_common_keys(
         common ? nlohmann::json(json.front()) : nlohmann::json(), nlohmann::json(json.back()));
     CitedReference cited{references::read_reference(merged, file, id), {}};
     cited.source = source(cited.reference.source, file);
@@ -208,7 +208,7 @@ std::map<std::string, std::string> References::hashes() const {
   return hashes;
 }
 
-std::map<std::string, CitedReference> References::used() const {
+std::map<std::string, CitedReference> References::requested_references() const {
   std::map<std::string, CitedReference> by_id;
   for (const auto& item : read_) by_id.emplace(item.second.reference.id, item.second);
   return by_id;

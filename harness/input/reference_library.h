@@ -41,7 +41,7 @@ class References {
   [[nodiscard]] std::string hash(const std::string& place) const;
 
   /// Returns all references that have been requested, by id.
-  [[nodiscard]] std::map<std::string, CitedReference> used() const;
+  [[nodiscard]] std::map<std::string, CitedReference> requested_references() const;
 
  private:
   /// Text of a file with several references. The text is split into references on first use.

@@ -132,8 +132,8 @@ class ConvergenceStudy {
     if (std::isnan(seen)) return {extrapolated(k, std::min(1.0, lowest)), 3};
     if (is_theoretical_order(seen) && series_.lower_order) {
       const double value =
-          extrapolate_two_terms({h_[k - 2], h_[k - 1], h_[k]}, {v_[k - 2], v_[k - 1], v_[k]},
-                                {*series_.theory_order, *series_.lower_order});
+          extrapolate_two_term_law({h_[k - 2], h_[k - 1], h_[k]}, {v_[k - 2], v_[k - 1], v_[k]},
+                                   {*series_.theory_order, *series_.lower_order});
       if (std::isfinite(value)) return {value, 1.25};
     }
     if (is_theoretical_order(seen)) return {extrapolated(k, *series_.theory_order), 1.25};
@@ -185,7 +185,7 @@ class ConvergenceStudy {
       signed_error.push_back((v_[k] - *reference) / std::abs(*reference));
       usable.push_back(!at_floor_[k]);
     }
-    series_.two_term = fit_two_terms(
+    series_.two_term = fit_two_term_error_law(
         h_, signed_error, usable, {*series_.theory_order, *series_.lower_order}, kTwoTermTolerance);
     if (series_.two_term && series_.two_term->max_relative_misfit <= kTwoTermTolerance)
       in_range_ = series_.two_term->used;
@@ -284,10 +284,10 @@ class Fit {
 
 }  // namespace
 
-std::optional<TwoTermLaw> fit_two_terms(const std::vector<double>& h,
-                                        const std::vector<double>& error,
-                                        const std::vector<bool>& usable, const TwoTermOrders& law,
-                                        double within) {
+std::optional<TwoTermLaw> fit_two_term_error_law(const std::vector<double>& h,
+                                                 const std::vector<double>& error,
+                                                 const std::vector<bool>& usable,
+                                                 const TwoTermOrders& law, double within) {
   std::vector<bool> levels = usable;
   for (std::size_t k = 0; k < levels.size(); ++k)
     levels[k] = levels[k] && std::isfinite(error[k]) && error[k] != 0;
@@ -301,8 +301,8 @@ std::optional<TwoTermLaw> fit_two_terms(const std::vector<double>& h,
   return found;
 }
 
-double extrapolate_two_terms(const std::array<double, 3>& h, const std::array<double, 3>& v,
-                             const TwoTermOrders& law) {
+double extrapolate_two_term_law(const std::array<double, 3>& h, const std::array<double, 3>& v,
+                                const TwoTermOrders& law) {
   // Differences eliminate the limit: v_i - v_2 = a (h_i^p - h_2^p) + b (h_i^q - h_2^q).
   const double fine = h[2];
   const auto p = [&](std::size_t i) { return std::pow(h[i] / fine, law.p) - 1; };

@@ -62,16 +62,14 @@ struct TwoTermOrders {
 /// @param error   signed error of each level, coarse to fine.
 /// @param usable  false if an error is missing or dominated by round-off.
 /// @return empty for fewer than three usable levels
-[[nodiscard]] std::optional<results::TwoTermLaw> fit_two_terms(const std::vector<double>& h,
-                                                               const std::vector<double>& error,
-                                                               const std::vector<bool>& usable,
-                                                               const TwoTermOrders& law,
-                                                               double within);
+[[nodiscard]] std::optional<results::TwoTermLaw> fit_two_term_error_law(
+    const std::vector<double>& h, const std::vector<double>& error, const std::vector<bool>& usable,
+    const TwoTermOrders& law, double within);
 
 /// Returns the limit of values v = limit + a h^p + b h^q through three levels; NaN if two levels
 /// have the same size.
-[[nodiscard]] double extrapolate_two_terms(const std::array<double, 3>& h,
-                                           const std::array<double, 3>& v,
-                                           const TwoTermOrders& law);
+[[nodiscard]] double extrapolate_two_term_law(const std::array<double, 3>& h,
+                                              const std::array<double, 3>& v,
+                                              const TwoTermOrders& law);
 
 }  // namespace trammel::harness

@@ -114,7 +114,7 @@ ComparedValues collect(const Check& check, const CheckContext& context) {
   if (!check.reference.empty()) pair_with_reference(check, context, pairs);
   if (!check.against_variant.empty() || !check.against_quantity.empty())
     pair_with_run(check, context, pairs);
-  if (check.has_target() && pairs.expected.size() != pairs.computed.size())
+  if (check.has_comparison_target() && pairs.expected.size() != pairs.computed.size())
     throw NotComparable{fmt::format("the lengths differ: {} computed, {} expected",
                                     pairs.computed.size(), pairs.expected.size())};
   if (check.windows.size() > 1 && check.windows.size() != pairs.computed.size())
@@ -148,7 +148,7 @@ Window widened(const Window& window, const Check& check, const CheckResult& entr
 /// Sets the verdict of an entry, whose computed and expected values are set, by its tolerance.
 void evaluate_entry(const Check& check, const Window* window, double uncertainty,
                     CheckResult& entry) {
-  const double expected = check.has_target() ? *entry.expected : 0;
+  const double expected = check.has_comparison_target() ? *entry.expected : 0;
   if (!std::isfinite(*entry.computed)) {
     entry.message = "the computed value is " + shortest_decimal(*entry.computed);
     return;

@@ -15,7 +15,7 @@ constexpr std::size_t kMaxTrackedEntries = 16;
 
 void add_everything_else(const Sweep& sweep, std::vector<TrackedQuantity>& tracked_quantities) {
   for (const auto& item : sweep.levels.back().quantities) {
-    if (is_diagnostic(item.first)) continue;
+    if (is_error_measure(item.first)) continue;
     const bool known =
         std::ranges::any_of(tracked_quantities, [&](const TrackedQuantity& tracked_quantity) {
           return tracked_quantity.quantity == item.first;
@@ -120,9 +120,10 @@ void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Ch
   for (results::SweepLevel& level : sweep.levels) std::erase_if(level.quantities, is_untracked);
 }
 
-std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& document,
-                                     const std::vector<Check>& checks, const References& references,
-                                     TrackedQuantities tracked, results::Number element_order) {
+std::vector<Convergence> sweep_convergence(const Sweep& sweep, const Document& document,
+                                           const std::vector<Check>& checks,
+                                           const References& references, TrackedQuantities tracked,
+                                           results::Number element_order) {
   const JsonView place = JsonView(document)["sweeps"][sweep.name];
   std::vector<TrackedQuantity> tracked_quantities =
       place.has("quantities") ? quantities_of_sweep(place["quantities"], references)

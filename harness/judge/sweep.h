@@ -29,11 +29,9 @@ void drop_untracked(Sweep& sweep, const Document& document, const std::vector<Ch
 
 /// Returns one convergence study for each entry of the tracked quantities of a sweep.
 /// @param element_order  order of another solver's elements, which replaces the theoretical order
-[[nodiscard]] std::vector<Convergence> study_sweep(const Sweep& sweep, const Document& document,
-                                                   const std::vector<Check>& checks,
-                                                   const References& references,
-                                                   TrackedQuantities tracked,
-                                                   results::Number element_order = {});
+[[nodiscard]] std::vector<Convergence> sweep_convergence(
+    const Sweep& sweep, const Document& document, const std::vector<Check>& checks,
+    const References& references, TrackedQuantities tracked, results::Number element_order = {});
 
 /// A quantity whose convergence along a sweep is studied, with the stored reference that gives its
 /// exact values.

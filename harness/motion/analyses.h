@@ -40,12 +40,13 @@ AnalysePath analyze_grnn;
 AnalyseCase analyze_grnn_samples;
 
 /// Reads the options of elastodynamics that do not depend on the model and its effects.
-[[nodiscard]] solver::ElastodynamicsOptions read_motion_options(const JsonView& analysis);
+[[nodiscard]] solver::ElastodynamicsOptions read_model_independent_options(
+    const JsonView& analysis);
 
 /// Reads the motion of an elastodynamics case, with the chosen effects.
 /// @throws InputError  if the model has parts besides the manipulator or the trajectory has no
 ///   time.
-[[nodiscard]] solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
-                                                                const CaseModel& case_model);
+[[nodiscard]] solver::ElastodynamicsOptions read_elastodynamics_options(
+    const JsonView& analysis, const CaseModel& case_model);
 
 }  // namespace trammel::harness

@@ -98,7 +98,7 @@ void record_damping(const solver::RayleighDamping& damping, const solver::System
   if (!std::isfinite(above)) return;
   record.add("overdamped_above_Hz", above);
   const std::optional<solver::Index> below = solver::sturm_count(start, above);
-  record.add_or_gap("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
+  record.add_or_missing("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
 }
 
 /// Records dimensionless numbers that predict the importance of effects, and integration
@@ -137,7 +137,7 @@ void draw_motion(const CaseModel& case_model, const solver::ElastodynamicsSoluti
 
 }  // namespace
 
-solver::ElastodynamicsOptions read_motion_options(const JsonView& analysis) {
+solver::ElastodynamicsOptions read_model_independent_options(const JsonView& analysis) {
   solver::ElastodynamicsOptions options;
   options.load_history = read_load_history(analysis);
   if (const auto approximations = analysis.find("effects"))
@@ -148,15 +148,15 @@ solver::ElastodynamicsOptions read_motion_options(const JsonView& analysis) {
   return options;
 }
 
-solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
-                                                  const CaseModel& case_model) {
+solver::ElastodynamicsOptions read_elastodynamics_options(const JsonView& analysis,
+                                                          const CaseModel& case_model) {
   // Checks the restrictions of rigid-link dynamics, which apply to elastodynamics as well.
   static_cast<void>(read_rigid_manipulator(analysis, case_model));
   if (!case_model.path)
     throw analysis.error("elastodynamics requires a model with 'trajectory' (got 'pose')");
   if (!loads_at_P_only(case_model))
     throw analysis.error("elastodynamics supports only loads at P (got a load at C1, C2 or C3)");
-  solver::ElastodynamicsOptions options = read_motion_options(analysis);
+  solver::ElastodynamicsOptions options = read_model_independent_options(analysis);
   const solver::Effects effects = case_model.effects;
   options.design = solver::restrict_effects(*case_model.manipulator, effects);
   options.path = *case_model.path;
@@ -185,14 +185,14 @@ solver::ElastodynamicsOptions read_elastodynamics(const JsonView& analysis,
   if (!analysis.has("step_s")) {
     options.time.step = kDefaultStep * (options.time.end - options.time.start);
   } else if (options.elastic_inertia) {
-    require_step_count(analysis["step_s"], options.time.end - options.time.start);
+    limit_time_step_count(analysis["step_s"], options.time.end - options.time.start);
   }
   return options;
 }
 
 StepResult analyze_elastodynamics(const JsonView& analysis, const CaseModel& case_model, bool draw,
                                   Recorder& record) {
-  const solver::ElastodynamicsOptions options = read_elastodynamics(analysis, case_model);
+  const solver::ElastodynamicsOptions options = read_elastodynamics_options(analysis, case_model);
   const bool large = case_model.effects.has(solver::Effect::large_displacement);
   const solver::ElastodynamicsSolution solution = solve(options, large);
   StepResult result{solution.outcome, solution.summary.counters, solution.evidence};
@@ -208,7 +208,7 @@ StepResult analyze_elastodynamics(const JsonView& analysis, const CaseModel& cas
     record.add("equilibrium_residual_N", solution.state[i].equilibrium_residual);
     record.add("moment_residual_N_m", solution.state[i].moment_residual);
   }
-  if (!large) warn_of_redundancy(start, result.warnings);
+  if (!large) warn_of_redundant_constraints(start, result.warnings);
   record_deflection(solution, record);
   record_torques(solution, record);
   record_energy(solution, !options.elastic_inertia, record);

@@ -108,7 +108,7 @@ PathSamples samples_of_path(const solver::RigidManipulator& manipulator,
 /// @param place  "flexible_links" of the case
 /// @throws InputError  as `add_tracking`, and if points of the path are not evenly spaced.
 void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamples& path) {
-  solver::Model model = build_bare_model(case_model, 0);
+  solver::Model model = build_without_joint_elements(case_model, 0);
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
   large_motion.strain_rate_damping = place.get("strain_rate_damping_s", 0.0);
   add_tracking(place, Tracking::torques, case_model, model, large_motion);
@@ -118,7 +118,7 @@ void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamp
   options.scheme = solver::generalized_alpha(0.9);
   options.end = case_model.motion.back().time;
   options.step = place.number("step_s");
-  require_step_count(place["step_s"], options.end);
+  limit_time_step_count(place["step_s"], options.end);
   const double output_step =
       case_model.motion.size() > 1 ? case_model.motion[1].time : options.step;
   options.sample_times = solver::even_times(0, options.end, output_step);
@@ -145,7 +145,7 @@ void choose_sigma(const JsonView& analysis, solver::Grnn& network, Recorder& rec
   if (analysis.has("sigma")) {
     network.sigma = analysis.number("sigma");
   } else if (analysis.has("spread")) {
-    network.sigma = solver::sigma_of_spread(analysis.number("spread"));
+    network.sigma = solver::sigma_of_newgrnn_spread(analysis.number("spread"));
   } else {
     const JsonView search = analysis.has("search") ? analysis["search"] : analysis;
     const solver::Index count = search.get<solver::Index>("count", 41);
@@ -153,7 +153,7 @@ void choose_sigma(const JsonView& analysis, solver::Grnn& network, Recorder& rec
     const solver::SigmaSearch found = solver::search_sigma(
         network,
         given ? solver::logarithmic_grid(search.number("from"), search.number("to"), count)
-              : solver::default_grid(network, count),
+              : solver::default_sigma_grid(network, count),
         {.folds = search.get<solver::Index>("folds", 0),
          .order = search.get("order", solver::FoldOrder::interleaved),
          .seed = search.get<std::uint64_t>("seed", 1)});
@@ -305,8 +305,8 @@ void record_positions(const solver::ManipulatorGeometry& geometry, const CaseMod
     const solver::ForwardKinematics found =
         solver::forward_kinematics(geometry, active, case_model.motion[k].pose);
     const bool solved = found.outcome.solved();
-    record.add_or_gap("predicted_position_x_m", "P", solved ? found.pose.x : std::nan(""));
-    record.add_or_gap("predicted_position_y_m", "P", solved ? found.pose.y : std::nan(""));
+    record.add_or_missing("predicted_position_x_m", "P", solved ? found.pose.x : std::nan(""));
+    record.add_or_missing("predicted_position_y_m", "P", solved ? found.pose.y : std::nan(""));
   }
 }
 

@@ -48,7 +48,7 @@ class HarmonicScene {
     const ModelState amplitudes = q.size() > 0 ? amplitudes_of(q, frequency) : ModelState();
     for (const Output& output : outputs) {
       if (q.size() == 0) {
-        record.add_gap(output.name, "");
+        record.add_missing_value(output.name, "");
       } else {
         record.add(output.name, output.value(system.model, amplitudes));
       }
@@ -118,7 +118,7 @@ class HarmonicScene {
                      Recorder& record) const {
     for (const double resonance : resonances) {
       if (bounded_ || !is_pole(resonance, output)) continue;
-      record.add_gap("peak_" + output.name, "");
+      record.add_missing_value("peak_" + output.name, "");
       record.add("peak_frequency_Hz", output.name, resonance);
       return resonance;
     }
@@ -168,7 +168,7 @@ StepResult analyze_harmonic(const JsonView& analysis, const CaseModel& case_mode
   if (draw) result.drawing = draw_model(scene.system, case_model.manipulator.has_value());
   if (!result.outcome.solved()) return result;
   for (std::size_t point = 0; point < scene.points; ++point) scene.record_at(point, record, result);
-  if (needs_forces(scene.outputs)) warn_of_redundancy(scene.system, result.warnings);
+  if (needs_forces(scene.outputs)) warn_of_redundant_constraints(scene.system, result.warnings);
   const double peak = scene.record_peaks(record, result.warnings);
   if (result.drawing && !scene.outputs.empty()) scene.draw_at(peak, *result.drawing);
   for (const double frequency : scene.response->frequencies())

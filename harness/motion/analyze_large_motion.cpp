@@ -77,10 +77,10 @@ solver::TransientOptions read_large_motion_options(const JsonView& analysis) {
   if (analysis.has("tolerance")) {
     options.adaptive = {.relative = analysis.number("tolerance")};
   } else {
-    require_step_count(analysis["step_s"], options.end);
+    limit_time_step_count(analysis["step_s"], options.end);
   }
   const double output_step = analysis.get("output_step_s", options.adaptive ? 0 : options.step);
-  if (analysis.has("output_step_s")) require_step_count(analysis["output_step_s"], options.end);
+  if (analysis.has("output_step_s")) limit_time_step_count(analysis["output_step_s"], options.end);
   if (output_step > 0) options.sample_times = solver::even_times(0, options.end, output_step);
   options.max_steps = analysis.get("steps", options.max_steps);
   return options;
@@ -150,7 +150,7 @@ class MotionRecorder {
     energy_.record(energy.kinetic, energy.strain, energy.total(), record_);
   }
 
-  [[nodiscard]] double energy_drift() const { return energy_.drift(); }
+  [[nodiscard]] double energy_drift() const { return energy_.relative_drift(); }
 
  private:
   const GeometricallyExactSystem& system_;
@@ -211,9 +211,9 @@ void record_summary(const solver::large_motion::IntegrationSummary& summary,
 
 StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_model, bool draw,
                                 Recorder& record) {
-  solver::Model model = build_bare_model(case_model, 0);
+  solver::Model model = build_without_joint_elements(case_model, 0);
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
-  read_drives(analysis, model, large_motion);
+  read_prescribed_motions(analysis, model, large_motion);
   read_history(analysis, model, large_motion);
   const bool damped = case_model.effects.has(solver::Effect::damping) &&
                       (large_motion.mass_damping > 0 || large_motion.strain_rate_damping > 0);
@@ -255,12 +255,12 @@ StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_
   result.outcome = summary.outcome;
   result.evidence = summary.evidence;
   result.counters = summary.counters;
-  solver::count_tangents(system, summary.iterations, true, result.counters);
+  solver::count_element_evaluations(system, summary.iterations, true, result.counters);
   if (damped) result.counters.count(solver::Effect::damping, summary.iterations);
   result.counters.element_evaluations = system.element_evaluations();
   record_summary(summary, log, record);
   if (result.outcome.solved() && last.q.size() > 0)
-    warn_of_redundancy(redundant_constraints(system, last), result.warnings);
+    warn_of_redundant_constraints(redundant_constraint_count(system, last), result.warnings);
   return result;
 }
 

@@ -104,7 +104,7 @@ InitialState read_initial(const JsonView& transient, const solver::System& syste
 
 std::vector<double> sample_times(const JsonView& transient) {
   const double duration = transient.number("duration_s");
-  require_step_count(transient["step_s"], duration);
+  limit_time_step_count(transient["step_s"], duration);
   const double steps = std::ceil(duration / transient.number("step_s") * (1 - 1e-12));
   constexpr double most_samples = 10000;
   const auto count = transient.get<std::size_t>(
@@ -321,7 +321,8 @@ ModelState state_of(const solver::System& system, const MotionHistory& motion,
     elastic.acceleration =
         system.T * (motion.a.col(sample) + damping_acceleration(motion.damping, system.M, v));
     elastic.load_factor = motion.load_factor[solver::to_size(sample)];
-    elastic.constraint_forces = constraint_forces(system, elastic);  // these forces include damping
+    elastic.constraint_forces =
+        constraint_multipliers(system, elastic);  // these forces include damping
     elastic.u = system.T * motion.q.col(sample);
     if (late) late->set_loads(motion.q.col(sample), motion.followed_factor.col(sample), elastic);
     postprocess(system, elastic, state);
@@ -389,7 +390,7 @@ StepResult analyze_transient(const JsonView& analysis, const CaseModel& case_mod
       result.outcome.reason += "; component modes may be too few for the loads within members";
     return result;
   }
-  if (with_forces) warn_of_redundancy(system, result.warnings);
+  if (with_forces) warn_of_redundant_constraints(system, result.warnings);
   warn_of_taper(system.model, result.warnings);
   if (full) warn_of_basis(unrepresented_velocity(analysis, *full, system), result.warnings);
   Eigen::MatrixXd values(std::ssize(outputs), std::ssize(motion.time));
@@ -411,7 +412,8 @@ StepResult analyze_transient(const JsonView& analysis, const CaseModel& case_mod
   }
   record_peaks(motion, outputs, values, record);
   const bool is_free = system.load.isZero(0) && !analysis.has("rotating_frame");
-  if (is_free && energy.largest_kinetic() > 0) record.add("energy_drift", energy.drift());
+  if (is_free && energy.largest_kinetic_energy() > 0)
+    record.add("energy_drift", energy.relative_drift());
   record.add("steps", motion.steps);
   record.add("degrees_of_freedom", system.K.rows());
   if (result.drawing) draw_motion(system, motion, *result.drawing);

@@ -60,7 +60,7 @@ void print_quantities(const results::Run& run) {
   Rows table({"quantity", "entries", {"values", "", 8}, {"discretization"}});
   for (const auto& [name, quantity] : run.quantities) {
     const std::vector<double>& values = quantity.values;
-    if (values.empty() || is_diagnostic(name)) continue;
+    if (values.empty() || is_error_measure(name)) continue;
     Json cells = Json::array();
     for (const double value : values) cells.push_back(number_or_null(value));
     if (values.size() > kMostValues) {

@@ -57,7 +57,7 @@ bool refine_links(const Document& document, Refine refine, Json& patch) {
   const Json& links = manipulator["links"];
   Json& refined_links = patch["manipulator"]["links"];
   bool all = set_refined_count(refined_links["elements"],
-                               links.value("elements", default_elements(document)), refine);
+                               links.value("elements", default_element_count(document)), refine);
   for (const char* kind : {"proximal", "distal"}) {
     const Json* own = find(links, std::string("/") + kind + "/elements");
     if (own != nullptr)
@@ -85,7 +85,7 @@ std::string analysis_pointer(const Document& document) {
          discretized_analysis(document);
 }
 
-solver::Index default_elements(const Document& document) {
+solver::Index default_element_count(const Document& document) {
   const Json* stated = find(document.value(), "/model/elements");
   if (stated != nullptr) return stated->get<solver::Index>();
   const std::string kind = discretized_analysis(document);
@@ -95,19 +95,19 @@ solver::Index default_elements(const Document& document) {
   return kind == "statics" && is_linear ? 1 : 4;
 }
 
-solver::Index elements_of(const Document& document, const std::string& name) {
+solver::Index element_count_of(const Document& document, const std::string& name) {
   constexpr solver::Index kLeastOfArc = 4, kTapered = 8;
   const Json& model = document.value()["model"];
   const Json& member = model["members"][name];
   if (member.contains("elements")) return member["elements"].get<solver::Index>();
-  if (model.contains("elements")) return default_elements(document);
+  if (model.contains("elements")) return default_element_count(document);
   if (is_bar(model, member)) return 1;
   if (member.contains("arc_center_m")) {
     const double degrees = angle_of_arc(model, member) * 180 / std::numbers::pi;
     return std::max(kLeastOfArc, static_cast<solver::Index>(
                                      std::ceil(degrees / kDegreesOfElement * (1 - 1e-12))));
   }
-  return member.contains("end_section") ? kTapered : default_elements(document);
+  return member.contains("end_section") ? kTapered : default_element_count(document);
 }
 
 std::optional<Json> mesh_patch(const Document& document, Refine refine) {
@@ -117,9 +117,9 @@ std::optional<Json> mesh_patch(const Document& document, Refine refine) {
   bool all = true;
   if (model.contains("members"))
     for (const auto& [name, member] : model["members"].items())
-      if (!is_bar(model, member) || elements_of(document, name) > 1)
-        all = set_refined_count(patch["members"][name]["elements"], elements_of(document, name),
-                                refine) &&
+      if (!is_bar(model, member) || element_count_of(document, name) > 1)
+        all = set_refined_count(patch["members"][name]["elements"],
+                                element_count_of(document, name), refine) &&
               all;
   if (model.contains("plates"))
     for (const auto& [name, plate] : model["plates"].items())
@@ -137,7 +137,7 @@ bool has_step_tolerance(const Document& document) {
   return analysis.contains("tolerance") || analysis.contains("error_control");
 }
 
-std::optional<Sampling> sampling_of(const Document& document) {
+std::optional<Sampling> output_sampling(const Document& document) {
   const std::string kind = discretized_analysis(document), place = analysis_pointer(document);
   const Json& analysis = document.value().at(JsonPointer(place));
   if (kind == "harmonic") return Sampling{place + "/points", analysis.value("points", 101) - 1};
@@ -149,12 +149,13 @@ std::optional<Sampling> sampling_of(const Document& document) {
 }
 
 Json sampling_patch(const Document& document, solver::Index intervals) {
-  const Sampling sampling = *sampling_of(document);
+  const Sampling sampling = *output_sampling(document);
   const bool counts_points = sampling.pointer.ends_with("/points");
-  return patch_at(document.value(), sampling.pointer, intervals + (counts_points ? 1 : 0));
+  return patch_setting_value(document.value(), sampling.pointer,
+                             intervals + (counts_points ? 1 : 0));
 }
 
-std::optional<Json> step_patch(const Document& document, Refine refine, double largest_step) {
+std::optional<Json> time_step_patch(const Document& document, Refine refine, double largest_step) {
   const std::string kind = discretized_analysis(document), place = analysis_pointer(document);
   const Json& analysis = document.value().at(JsonPointer(place));
   const bool is_exact =
@@ -179,8 +180,8 @@ std::optional<Json> step_patch(const Document& document, Refine refine, double l
   } else {
     patch["step_s"] = longer * analysis["step_s"].get<double>();
   }
-  Json all = patch_at(document.value(), place, patch);
-  if (const auto sampling = sampling_of(document)) {  // peak values are determined from samples
+  Json all = patch_setting_value(document.value(), place, patch);
+  if (const auto sampling = output_sampling(document)) {  // peak values are determined from samples
     const auto intervals = refined(sampling->intervals, refine);
     const bool fits = intervals && *intervals <= kMaxSamples;
     if (!fits && kind == "harmonic") return std::nullopt;
@@ -195,7 +196,7 @@ std::string mesh_pointer(const Document& document) {
   return model.contains("members") ? "/model/elements" : "/model/plates";
 }
 
-std::string step_pointer(const Document& document) {
+std::string time_step_pointer(const Document& document) {
   const Json& analysis = document.value().at(JsonPointer(analysis_pointer(document)));
   const std::string place = analysis_pointer(document);
   if (analysis.contains("error_control")) return place + "/error_control/relative";

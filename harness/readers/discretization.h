@@ -18,14 +18,14 @@ namespace trammel::harness {
 /// Returns the default number of elements of a link or member: the key "elements" of "model" if
 /// present. Else it is 1 in linear statics, where nodal values are exact, and in large statics;
 /// else 4.
-[[nodiscard]] solver::Index default_elements(const Document& document);
+[[nodiscard]] solver::Index default_element_count(const Document& document);
 /// Returns the number of elements of a member, in this order of precedence:
 /// - the number stated by the member, or by "model".
 /// - 1 for a bar, which does not bend.
 /// - 8 for a tapered member.
 /// - one element for each 7.5 degrees of an arc, and at least 4.
 /// - the number returned by `default_elements`.
-[[nodiscard]] solver::Index elements_of(const Document& document, const std::string& member);
+[[nodiscard]] solver::Index element_count_of(const Document& document, const std::string& member);
 
 enum class Refine { coarser, finer };
 
@@ -39,18 +39,18 @@ enum class Refine { coarser, finer };
 /// The result is empty without a mesh or step. It is also empty if an odd number of elements, or of
 /// intervals between the frequencies of a harmonic response, would be halved.
 [[nodiscard]] std::optional<Json> mesh_patch(const Document& document, Refine refine);
-[[nodiscard]] std::optional<Json> step_patch(const Document& document, Refine refine,
-                                             double largest_step = 0);
+[[nodiscard]] std::optional<Json> time_step_patch(const Document& document, Refine refine,
+                                                  double largest_step = 0);
 
 /// Return the JSON pointer of the key that determines the mesh or the time step, for messages.
 [[nodiscard]] std::string mesh_pointer(const Document& document);
-[[nodiscard]] std::string step_pointer(const Document& document);
+[[nodiscard]] std::string time_step_pointer(const Document& document);
 /// Number of intervals between recorded times or, in a harmonic response, between frequencies.
 struct Sampling {
   std::string pointer;
   solver::Index intervals = 0;
 };
-[[nodiscard]] std::optional<Sampling> sampling_of(const Document& document);
+[[nodiscard]] std::optional<Sampling> output_sampling(const Document& document);
 /// Returns a patch that sets the number of intervals between recorded times or frequencies.
 [[nodiscard]] Json sampling_patch(const Document& document, solver::Index intervals);
 /// Returns true if the time steps are controlled by an error tolerance.

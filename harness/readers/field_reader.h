@@ -23,7 +23,7 @@ template <class T>
   if (found != named.end()) return found->second;
   std::vector<std::string> names;
   for (const auto& item : named) names.push_back(item.first);
-  throw place.error(unknown_name("the name of " + what, name, names));
+  throw place.error(unknown_name_message("the name of " + what, name, names));
 }
 
 template <class T>
@@ -183,6 +183,7 @@ void read_edge_load(const JsonView& place, const SymbolTable& symbols, solver::M
 /// Requires that every named node of a meshed model is connected to an element, body or spring.
 /// @param first  index of the first node that does not belong to the manipulator
 /// @throws InputError  at a node that is not connected.
-void check_meshed_nodes(const JsonView& model, std::size_t first, const solver::Model& structure);
+void require_connected_nodes(const JsonView& model, std::size_t first,
+                             const solver::Model& structure);
 
 }  // namespace trammel::harness

@@ -97,8 +97,8 @@ solver::Member read_member(const std::string& name, const JsonView& place,
 
 void read_members(const JsonView& model, const SymbolTable& symbols, solver::Model& structure) {
   for (const auto& [name, place] : model.entries("members")) {
-    const solver::Member member =
-        read_member(name, place, symbols, structure.nodes, elements_of(model.document(), name));
+    const solver::Member member = read_member(name, place, symbols, structure.nodes,
+                                              element_count_of(model.document(), name));
     MemberChain chain;
     const FieldReader reader(place);
     if (place.has("arc_center_m")) reader.optional("arc_center_m", chain.arc_center.emplace());
@@ -111,7 +111,7 @@ void read_members(const JsonView& model, const SymbolTable& symbols, solver::Mod
       return structure.nodes[solver::to_size(member.nodes[end])].position;
     };
     try {
-      add_chain(member, chain, at(0), at(1), std::ssize(structure.nodes), structure);
+      add_member_chain(member, chain, at(0), at(1), std::ssize(structure.nodes), structure);
     } catch (const solver::ModelError& error) {
       throw place["arc_center_m"].error(error.what());
     }
@@ -255,7 +255,7 @@ Structure read_structure(const JsonView& model, const std::vector<solver::Node>&
   });
   for (const auto& [name, place] : model.entries("loads")) read_load(place, symbols, structure);
   FieldReader(model).optional("gravity_m_s2", structure.gravity);
-  check_meshed_nodes(model, before.size(), structure);
+  require_connected_nodes(model, before.size(), structure);
   read.joints = read_joint_elements(model, symbols);
   structure.nodes.erase(structure.nodes.begin(),
                         structure.nodes.begin() + static_cast<solver::Index>(before.size()));
@@ -296,8 +296,9 @@ class ChainPath {
 
 }  // namespace
 
-void add_chain(const solver::Member& member, const MemberChain& chain, const Eigen::Vector2d& start,
-               const Eigen::Vector2d& end, solver::Index first_node, solver::Model& structure) {
+void add_member_chain(const solver::Member& member, const MemberChain& chain,
+                      const Eigen::Vector2d& start, const Eigen::Vector2d& end,
+                      solver::Index first_node, solver::Model& structure) {
   const ChainPath path(chain, start, end);
   const bool is_bar = solver::section_at(member, 0.5).EI == 0;
   const solver::MemberEnd inner{is_bar ? solver::EndFixity::hinged : solver::EndFixity::welded, 0,

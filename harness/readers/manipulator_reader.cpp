@@ -121,7 +121,7 @@ solver::ManipulatorDesign read_manipulator(const JsonView& manipulator) {
   const JsonView links = manipulator["links"];
   solver::LinkDesign link;
   link.material = read_material(manipulator["material"]);
-  link.elements = default_elements(manipulator.document());
+  link.elements = default_element_count(manipulator.document());
   read_link(links, link);
   design.proximal.fill(link);
   design.distal.fill(link);

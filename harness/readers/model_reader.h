@@ -58,7 +58,8 @@ struct MemberChain {
 /// @param start, end  positions of the member's nodes [m].
 /// @param first_node  index of the first intermediate node in the complete model.
 /// @throws ModelError  if the two ends have different distances from the center of an arc.
-void add_chain(const solver::Member& member, const MemberChain& chain, const Eigen::Vector2d& start,
-               const Eigen::Vector2d& end, solver::Index first_node, solver::Model& structure);
+void add_member_chain(const solver::Member& member, const MemberChain& chain,
+                      const Eigen::Vector2d& start, const Eigen::Vector2d& end,
+                      solver::Index first_node, solver::Model& structure);
 
 }  // namespace trammel::harness

@@ -47,7 +47,7 @@ solver::TimeScheme read_time_scheme(const JsonView& scheme) {
   }
 }
 
-void require_step_count(const JsonView& step, double duration) {
+void limit_time_step_count(const JsonView& step, double duration) {
   const double steps = std::ceil(duration / step.get<double>() * (1 - 1e-12));
   if (steps <= 1e7) return;
   throw step.error("the step is too small; expected at most ten million steps (got " +
@@ -179,7 +179,7 @@ solver::Index find_node_by_name(const std::string& word, const JsonView& place,
   std::vector<std::string> names;
   for (const solver::Node& node : built.nodes)
     if (!node.name.empty()) names.push_back(node.name);
-  throw place.error(unknown_name("the name of a node", word, names));
+  throw place.error(unknown_name_message("the name of a node", word, names));
 }
 
 solver::large_motion::TimeFunction spin_up(double speed, double duration) {
@@ -227,8 +227,8 @@ solver::Index find_node(const JsonView& name, const solver::Model& built) {
   return find_node_by_name(name.get<std::string>(), name, built);
 }
 
-void read_drives(const JsonView& analysis, const solver::Model& built,
-                 solver::large_motion::LargeMotionModel& large_motion) {
+void read_prescribed_motions(const JsonView& analysis, const solver::Model& built,
+                             solver::large_motion::LargeMotionModel& large_motion) {
   for (const auto& [name, place] : analysis.entries("drives")) {
     const auto direction = static_cast<int>(place["motion"].get<NodeMotion>());
     large_motion.drives.push_back(

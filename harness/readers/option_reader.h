@@ -24,7 +24,7 @@ namespace trammel::harness {
 /// Limits the number of time steps to ten million.
 /// @param step  time step [s] in the case; an error refers to its place
 /// @throws InputError  if the duration contains more steps.
-void require_step_count(const JsonView& step, double duration);
+void limit_time_step_count(const JsonView& step, double duration);
 
 /// Reads Rayleigh damping w1 M + w2 K: {"mass_per_s": w1, "stiffness_s": w2}; none by default.
 [[nodiscard]] solver::RayleighDamping read_rayleigh(const std::optional<JsonView>& damping);
@@ -57,8 +57,8 @@ void require_step_count(const JsonView& step, double duration);
 /// Add prescribed motions ("drives") to a model of large statics or large motion. For large motion,
 /// `read_history` adds damping, load history and initial velocities.
 /// @throws InputError  if a name is unknown.
-void read_drives(const JsonView& analysis, const solver::Model& built,
-                 solver::large_motion::LargeMotionModel& large_motion);
+void read_prescribed_motions(const JsonView& analysis, const solver::Model& built,
+                             solver::large_motion::LargeMotionModel& large_motion);
 void read_history(const JsonView& analysis, const solver::Model& built,
                   solver::large_motion::LargeMotionModel& large_motion);
 

@@ -251,7 +251,8 @@ void read_edge_load(const JsonView& place, const SymbolTable& symbols, solver::M
   }
 }
 
-void check_meshed_nodes(const JsonView& model, std::size_t first, const solver::Model& structure) {
+void require_connected_nodes(const JsonView& model, std::size_t first,
+                             const solver::Model& structure) {
   std::vector<bool> held(structure.nodes.size(), false);
   const auto hold = [&](solver::Index node) {
     if (node >= 0) held[solver::to_size(node)] = true;

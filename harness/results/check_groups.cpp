@@ -31,7 +31,7 @@ double beyond(const Check& check) {
 
 }  // namespace
 
-double tolerance_fraction(const Check& check) {
+double share_of_tolerance(const Check& check) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const Number judged = judged_number(check);
   if (!check.tolerance || !judged) return infinity;
@@ -56,7 +56,7 @@ bool worse(const Check& a, const Check& b) {
   if (severity(a) != severity(b)) return severity(a) > severity(b);
   if (a.known_discrepancy() && b.known_discrepancy())
     return size_of_difference(a) > size_of_difference(b);
-  const double share_a = tolerance_fraction(a), share_b = tolerance_fraction(b);
+  const double share_a = share_of_tolerance(a), share_b = share_of_tolerance(b);
   if (share_a != share_b) return share_a > share_b;
   return beyond(a) > beyond(b);  // if both limits are zero, the fractions are equal
 }

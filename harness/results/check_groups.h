@@ -11,7 +11,7 @@ namespace trammel::results {
 /// is 1 at the limit, and infinity if the check has no difference. If the tolerance is a range, the
 /// result is the distance of the difference from the middle of the range, divided by half of the
 /// range's width. If the check is a bound, the computed value replaces the difference.
-[[nodiscard]] double tolerance_fraction(const Check& check);
+[[nodiscard]] double share_of_tolerance(const Check& check);
 
 /// Returns the magnitude of a check's difference, or |ratio - 1| if the check measures a ratio.
 [[nodiscard]] double size_of_difference(const Check& check);

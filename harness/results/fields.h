@@ -241,7 +241,7 @@ constexpr std::size_t kBytes = sizeof(double);
 
 /// Returns the bits of the number two positions before index i. In a list of pairs (x, y), that
 /// number is the same coordinate of the previous pair.
-inline std::uint64_t bits_before(const double* numbers, std::size_t i) {
+inline std::uint64_t bits_two_before(const double* numbers, std::size_t i) {
   return i < 2 ? 0 : std::bit_cast<std::uint64_t>(numbers[i - 2]);
 }
 
@@ -253,7 +253,8 @@ Json packed(const std::vector<Entry>& values) {
   const std::size_t count = values.size() * sizeof(Entry) / kBytes;
   std::vector<std::uint8_t> bytes(count * kBytes);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint64_t step = std::bit_cast<std::uint64_t>(numbers[i]) - bits_before(numbers, i);
+    const std::uint64_t step =
+        std::bit_cast<std::uint64_t>(numbers[i]) - bits_two_before(numbers, i);
     for (std::size_t b = 0; b < kBytes; ++b)
       bytes[b * count + i] = static_cast<std::uint8_t>(step >> (8 * b));
   }
@@ -270,7 +271,7 @@ void unpack(const Json& json, const Place& place, std::vector<Entry>& values) {
   auto* const numbers = reinterpret_cast<double*>(values.data());
   const std::size_t count = bytes.size() / kBytes;
   for (std::size_t i = 0; i < count; ++i) {
-    std::uint64_t bits = bits_before(numbers, i);
+    std::uint64_t bits = bits_two_before(numbers, i);
     for (std::size_t b = 0; b < kBytes; ++b)
       bits += static_cast<std::uint64_t>(bytes[b * count + i]) << (8 * b);
     numbers[i] = std::bit_cast<double>(bits);

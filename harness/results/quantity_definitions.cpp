@@ -45,7 +45,7 @@ const std::vector<QuantityDefinition>& quantity_definitions() {
   return all;
 }
 
-bool QuantityDefinition::is_of(const std::string& analysis) const {
+bool QuantityDefinition::belongs_to_analysis(const std::string& analysis) const {
   return harness::contains(analyses, analysis);
 }
 
@@ -59,7 +59,7 @@ const QuantityDefinition* find_quantity_definition(const std::string& name,
   const auto found = by_head.find(name.substr(0, name.find(':')));
   if (found == by_head.end()) return nullptr;
   for (const QuantityDefinition* one : found->second)
-    if (analysis.empty() || one->is_of(analysis)) return one;
+    if (analysis.empty() || one->belongs_to_analysis(analysis)) return one;
   return nullptr;
 }
 

@@ -14,7 +14,7 @@ struct QuantityDefinition {
   std::string meaning;
 
   [[nodiscard]] std::string head() const { return name.substr(0, name.find(':')); }
-  [[nodiscard]] bool is_of(const std::string& analysis) const;
+  [[nodiscard]] bool belongs_to_analysis(const std::string& analysis) const;
 };
 
 [[nodiscard]] const std::vector<QuantityDefinition>& quantity_definitions();

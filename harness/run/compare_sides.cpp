@@ -140,7 +140,7 @@ void add_numbers(const Runs& runs, const std::vector<std::string>& labels, Compa
   std::set<std::string> names;
   for (const results::Run* run : runs)
     for (const auto& quantity : run->quantities)
-      if (!is_diagnostic(quantity.first)) names.insert(quantity.first);
+      if (!is_error_measure(quantity.first)) names.insert(quantity.first);
   const std::map<std::string, double> scales = series_scales(runs);
   std::map<std::string, std::vector<std::string>> absent;  // quantities by the sides that lack them
   for (const std::string& name : names) {

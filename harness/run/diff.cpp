@@ -21,7 +21,7 @@ std::string entry_name(const results::Check& check) {
 /// Returns the largest change that counts as round-off: 1e-9 of the value or 1e-6 of its tolerance,
 /// whichever is larger. For diagnostic quantities, such as residuals, every change is round-off.
 double noise_of(const results::Check& check) {
-  if (is_diagnostic(check.quantity)) return HUGE_VAL;
+  if (is_error_measure(check.quantity)) return HUGE_VAL;
   double width = 0;
   if (check.tolerance)
     for (const results::Number& end : {check.tolerance->low, check.tolerance->high})

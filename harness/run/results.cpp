@@ -110,14 +110,15 @@ std::string case_hash(const Case& given) {
   return content_hash(given.document.value().dump());
 }
 
-results::Results results_of(std::vector<Run> runs, const std::vector<Case>& cases,
-                            const References& references, const std::filesystem::path& store) {
+results::Results collect_results(std::vector<Run> runs, const std::vector<Case>& cases,
+                                 const References& references, const std::filesystem::path& store) {
   results::Results out;
   out.environment = results::from_json<results::Environment>(environment());
   out.environment.stored_runs =
       static_cast<int>(std::ranges::count_if(runs, [](const Run& run) { return run.was_stored; }));
   std::ranges::transform(cases, std::back_inserter(out.cases), case_info);
-  for (const auto& [id, cited] : references.used()) out.references.push_back(reference(id, cited));
+  for (const auto& [id, cited] : references.requested_references())
+    out.references.push_back(reference(id, cited));
   out.uncertainty_coverage = summarize_numerical_uncertainty(runs);
   if (out.uncertainty_coverage->levels == 0) out.uncertainty_coverage.reset();
   for (const Run& run : runs) {

@@ -15,9 +15,10 @@ void record_result(AnalysisResult result, Run& run);
 
 /// Returns the contents of results.json: the runs with their cases, references and environment.
 /// @param store  folder of the run store
-[[nodiscard]] results::Results results_of(std::vector<Run> runs, const std::vector<Case>& cases,
-                                          const References& references,
-                                          const std::filesystem::path& store = {});
+[[nodiscard]] results::Results collect_results(std::vector<Run> runs,
+                                               const std::vector<Case>& cases,
+                                               const References& references,
+                                               const std::filesystem::path& store = {});
 
 /// Returns the hash of a case with all cases that it extends, for CaseInfo::hash.
 [[nodiscard]] std::string case_hash(const Case& given);

@@ -125,7 +125,8 @@ void compute(Task& task, const References& references) {
   const Stopwatch watch;
   run_guarded(task.run, [&] {
     compute_with_errors(task, references);
-    if (task.requested && task.studies) task.run.sweeps = run_sweeps(task.document, references);
+    if (task.requested && task.studies)
+      task.run.sweeps = run_sweep_levels(task.document, references);
   });
   task.run.cost.wall_s = watch.wall_s();
   task.run.cost.cpu_s = watch.cpu_s();
@@ -186,7 +187,7 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
       expected("/timeout_s", "a computation that ends within timeout_s");
       break;
     case Termination::out_of_memory:
-      expected(estimate_size(task.document).cause, "a model that fits into memory");
+      expected(estimate_problem_size(task.document).cause, "a model that fits into memory");
       break;
     case Termination::not_started:
       expected("", "a system that can start another process");
@@ -230,7 +231,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
   if (!options.store.empty()) remove_unused_files(options.store);
   if (options.resume)
     std::ranges::stable_sort(open, [](const auto& a, const auto& b) {
-      return interrupted_starts(a.second) < interrupted_starts(b.second);
+      return count_interrupted_starts(a.second) < count_interrupted_starts(b.second);
     });
   std::vector<ProcessTask> work;
   for (const auto& [task, file] : open)
@@ -248,7 +249,7 @@ int compute_all(std::vector<Task>& tasks, const RunOptions& options) {
                           [&](std::size_t i, const ProcessOutcome& outcome) {
                             const auto& [task, file] = open[i];
                             mark_ended(*task, outcome, options);
-                            if (!file.empty()) clear_starts(file);
+                            if (!file.empty()) clear_start_record(file);
                             if (!file.empty() && !has_broken(task->run)) {
                               write_file(file, outcome.text);
                               task->run.stored = file.filename().string();
@@ -314,8 +315,8 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
   // If the case expects a computation without solution, no other check applies.
   if (evaluate_status_check(task, run) && !run.is_solved()) return;
   for (const Sweep& sweep : run.sweeps) {
-    auto found = study_sweep(sweep, task.document, task.checks, references, options.tracked,
-                             run.solver.element_order);
+    auto found = sweep_convergence(sweep, task.document, task.checks, references, options.tracked,
+                                   run.solver.element_order);
     std::ranges::move(found, std::back_inserter(run.convergence));
   }
   const auto quantities_of = [&](const std::string& variant) -> const Quantities* {
@@ -421,7 +422,7 @@ ShardRuns run_shard(const std::vector<Case>& cases, const RunOptions& options, c
   return found;
 }
 
-Run solution_of(const Case& owner, const std::string& variant) {
+Run run_variant(const Case& owner, const std::string& variant) {
   Progress progress("runs");
   RunOptions options;
   options.progress = [&](std::size_t done, std::size_t all) { progress.show(done, all); };

@@ -81,7 +81,7 @@ struct ShardRuns {
 /// Computes a variant in a separate process, without sweeps and checks.
 /// @throws InputError  if the variant has no solution, and Interrupted if SIGINT or SIGTERM was
 /// received.
-[[nodiscard]] Run solution_of(const Case& owner, const std::string& variant);
+[[nodiscard]] Run run_variant(const Case& owner, const std::string& variant);
 
 /// @throws InputError  if the run failed because of its input, and std::runtime_error if the run
 ///     failed by an internal error.

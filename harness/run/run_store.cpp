@@ -189,7 +189,7 @@ bool load_stored_run(const std::filesystem::path& file, Run& run, bool any_machi
   return true;
 }
 
-std::size_t interrupted_starts(const std::filesystem::path& file) {
+std::size_t count_interrupted_starts(const std::filesystem::path& file) {
   std::error_code error;
   const std::uintmax_t bytes = std::filesystem::file_size(started(file), error);
   return error ? 0 : static_cast<std::size_t>(bytes);
@@ -199,7 +199,7 @@ void mark_started(const std::filesystem::path& file) {
   std::ofstream(started(file), std::ios::app) << '.';
 }
 
-void clear_starts(const std::filesystem::path& file) {
+void clear_start_record(const std::filesystem::path& file) {
   std::error_code error;
   std::filesystem::remove(started(file), error);
 }

@@ -36,10 +36,10 @@ namespace trammel::harness {
                                    bool any_machine = false, const References& references = {});
 
 /// Returns the number of interrupted calls that had started the computation stored in `file`.
-[[nodiscard]] std::size_t interrupted_starts(const std::filesystem::path& file);
+[[nodiscard]] std::size_t count_interrupted_starts(const std::filesystem::path& file);
 /// Record next to a file of the store that its computation has started, and delete this record.
 void mark_started(const std::filesystem::path& file);
-void clear_starts(const std::filesystem::path& file);
+void clear_start_record(const std::filesystem::path& file);
 
 /// Measures a cost study, or reads its results from the store. The stored study must have the same
 /// settings, program, options, machine and references.

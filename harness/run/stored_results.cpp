@@ -45,11 +45,11 @@ fs::path write_results(const results::Results& results, const fs::path& folder) 
   return file;
 }
 
-results::Results read_summary(const fs::path& file) {
-  return read_summary(file, read_json(file));
+results::Results read_results_json(const fs::path& file) {
+  return read_results_json(file, read_json(file));
 }
 
-results::Results read_summary(const fs::path& file, Json json) {
+results::Results read_results_json(const fs::path& file, Json json) {
   if (const auto fault = find_schema_fault(json, "results"))
     throw InputError(file.string(), fault->pointer, fault->message);
   try {
@@ -85,7 +85,7 @@ bool load_stored_data(Run& run, const fs::path& store) {
 }
 
 results::Results load_results(const fs::path& file) {
-  results::Results results = read_summary(file);
+  results::Results results = read_results_json(file);
   if (results.store.empty()) return results;
   std::size_t missing = 0;
   for (Run& run : results.runs)

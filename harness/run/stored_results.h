@@ -22,9 +22,9 @@ std::filesystem::path write_results(const results::Results& results,
 /// Reads results.json without the run store. The path of the store becomes relative to the working
 /// directory.
 /// @throws InputError  with the JSON pointer of an invalid value.
-[[nodiscard]] results::Results read_summary(const std::filesystem::path& file);
+[[nodiscard]] results::Results read_results_json(const std::filesystem::path& file);
 /// Reads the contents of results.json from parsed JSON; `file` is used for paths and messages.
-[[nodiscard]] results::Results read_summary(const std::filesystem::path& file, Json json);
+[[nodiscard]] results::Results read_results_json(const std::filesystem::path& file, Json json);
 
 /// Adds the series, drawing and studies of a run from the store.
 /// @returns whether the store contains these data

@@ -5,7 +5,7 @@
 
 #include "harness/base/text.h"
 #include "harness/readers/model_reader.h"
-#include "harness/scene/with_model_errors.h"
+#include "harness/scene/rethrow_as_input.h"
 #include "solver/large/large_motion_model.h"
 #include "solver/linear/validate.h"
 #include "solver/manipulator/manipulator.h"
@@ -89,7 +89,7 @@ CaseModel read_case_model(const Document& document) {
     if (!model.has("nodes") || model["nodes"].size() == 0)
       throw model.error("the model is empty; expected 'manipulator' or 'nodes'");
   }
-  with_model_errors(document, [&] {
+  rethrow_as_input(document, [&] {
     const solver::Model bare =
         case_model.manipulator
             ? solver::build_manipulator(*case_model.manipulator, case_model.motion.front().pose)
@@ -103,7 +103,7 @@ CaseModel read_case_model(const Document& document) {
 }
 
 solver::Model build_model(const CaseModel& case_model, std::size_t step) {
-  solver::Model model = build_bare_model(case_model, step);
+  solver::Model model = build_without_joint_elements(case_model, step);
   for (const solver::large_motion::Slider& slider : case_model.joint_elements.sliders)
     solver::add_small_motion_slider(model, slider);
   const bool only_large = !case_model.joint_elements.line_springs.empty() ||
@@ -114,7 +114,7 @@ solver::Model build_model(const CaseModel& case_model, std::size_t step) {
   return model;
 }
 
-solver::Model build_bare_model(const CaseModel& case_model, std::size_t step) {
+solver::Model build_without_joint_elements(const CaseModel& case_model, std::size_t step) {
   if (!case_model.manipulator)
     return solver::restrict_effects(case_model.structure, case_model.effects);
   solver::Model model = solver::build_manipulator(
@@ -142,7 +142,7 @@ solver::Model build_bare_model(const CaseModel& case_model, std::size_t step) {
   return solver::restrict_effects(std::move(model), case_model.effects);
 }
 
-InputError model_error(const Document& document, const solver::ModelError& error) {
+InputError to_input_error(const Document& document, const solver::ModelError& error) {
   const std::string text = error.what(), message = "the model is invalid: " + text;
   const JsonView model = JsonView(document)["model"];
   const JsonView analysis = JsonView(document)["analysis"].entries().front().second;

@@ -44,11 +44,12 @@ struct CaseModel {
 
 /// Builds the planar model for large motion, in which sliders, line springs and follower loads are
 /// not part of the model.
-[[nodiscard]] solver::Model build_bare_model(const CaseModel& case_model, std::size_t step);
+[[nodiscard]] solver::Model build_without_joint_elements(const CaseModel& case_model,
+                                                         std::size_t step);
 
 /// Converts an error of the solver about an invalid model into an input error. The input error
 /// refers to the part of the case that the message names.
-[[nodiscard]] InputError model_error(const Document& document, const solver::ModelError& error);
+[[nodiscard]] InputError to_input_error(const Document& document, const solver::ModelError& error);
 
 /// Names of joints and bodies of the manipulator, as they occur in names of quantities.
 inline const std::vector<std::string> kActiveJoints = {"A1", "A2", "A3"},

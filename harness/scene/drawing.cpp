@@ -143,8 +143,8 @@ void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawin
   draw_parts(model, is_manipulator, all, drawing);
 }
 
-Eigen::Vector2d displacement_along(const solver::FrameElement& element, const Eigen::VectorXd& u,
-                                   double s) {
+Eigen::Vector2d displacement_at_fraction(const solver::FrameElement& element,
+                                         const Eigen::VectorXd& u, double s) {
   const auto value = [&](std::size_t k) {
     return element.coordinates[k] < 0 ? 0 : u[element.coordinates[k]];
   };
@@ -198,8 +198,8 @@ results::Shape draw_shape(const solver::System& system, const Eigen::VectorXd& q
   for (const solver::FrameElement& element : system.mesh.frame) {
     const std::size_t count = pieces(system, element);
     for (std::size_t k = 1; k < count; ++k)
-      shape.displacement.push_back(point_of(
-          displacement_along(element, u, static_cast<double>(k) / static_cast<double>(count))));
+      shape.displacement.push_back(point_of(displacement_at_fraction(
+          element, u, static_cast<double>(k) / static_cast<double>(count))));
   }
   return shape;
 }

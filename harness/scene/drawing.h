@@ -49,8 +49,8 @@ void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawin
 
 /// Returns the displacement at s in [0, 1] along an element, from the unconstrained coordinates u =
 /// T q [m].
-[[nodiscard]] Eigen::Vector2d displacement_along(const solver::FrameElement& element,
-                                                 const Eigen::VectorXd& u, double s);
+[[nodiscard]] Eigen::Vector2d displacement_at_fraction(const solver::FrameElement& element,
+                                                       const Eigen::VectorXd& u, double s);
 
 /// Draws a rigid manipulator at the first point of its path and, if the path has several points, at
 /// further times.

@@ -43,8 +43,8 @@ solver::large_motion::PrescribedVelocities tracking_start(
   const solver::TrajectoryPoint start = solver::at(*case_model.path, 0);
   const solver::InverseDynamics twin =
       solver::inverse_dynamics(solver::rigid_manipulator(*case_model.manipulator), start);
-  const Eigen::VectorXd rates =
-      nominal_rates(system, solver::nominal_motion(system.model(), twin, twin.q, start, {0, 0}), 1);
+  const Eigen::VectorXd rates = nominal_motion_derivative(
+      system, solver::nominal_motion(system.model(), twin, twin.q, start, {0, 0}), 1);
   solver::large_motion::PrescribedVelocities velocities;
   for (solver::Index k = 0; k < rates.size(); ++k) velocities.emplace_back(k, rates[k]);
   return velocities;
@@ -78,8 +78,8 @@ void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& cas
     } else {
       large_motion.drives.push_back(
           {name, node, 2,
-           solver::large_motion::joint_law(motion, *case_model.path, 0,
-                                           static_cast<solver::Index>(i))});
+           solver::large_motion::joint_rotation_law(motion, *case_model.path, 0,
+                                                    static_cast<solver::Index>(i))});
     }
   }
 }

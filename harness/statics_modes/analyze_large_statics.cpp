@@ -94,9 +94,9 @@ StepResult analyze_large_statics(const JsonView& analysis, const CaseModel& case
   // With vibration modes, an unsupported part is a mode of 0 Hz. In statics alone, such a part has
   // no determined position, and the model is singular.
   options.keep_free_parts = analysis.get("vibration_modes", solver::Index{0}) > 0;
-  solver::Model model = build_bare_model(case_model, step);
+  solver::Model model = build_without_joint_elements(case_model, step);
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
-  read_drives(analysis, model, large_motion);
+  read_prescribed_motions(analysis, model, large_motion);
   release_driven_actuators(analysis, case_model, large_motion, model);
   const GeometricallyExactSystem system(model, large_motion);
   StepResult result;
@@ -117,7 +117,8 @@ StepResult analyze_large_statics(const JsonView& analysis, const CaseModel& case
     recorded_points.insert(recorded_points.end(), path.points.begin(), path.points.end());
     if (factor == longest) events = std::move(path.events);
   }
-  warn_of_redundancy(redundant_constraints(system, recorded_points.back().state), result.warnings);
+  warn_of_redundant_constraints(redundant_constraint_count(system, recorded_points.back().state),
+                                result.warnings);
   const auto vibrations = analysis.get("vibration_modes", solver::Index{0});
   if (!large_motion.follower_loads.empty() && vibrations == 0)
     result.warnings.push_back(

@@ -112,8 +112,8 @@ class ShapeTracker {
       assurance.col(mode).setConstant(-1);
     }
     for (solver::Index k = 0; k < frequency.size(); ++k) {
-      record.add_or_gap("tracked_frequency_Hz", std::to_string(k + 1), frequency[k]);
-      record.add_or_gap("shape_assurance", std::to_string(k + 1), alike[k]);
+      record.add_or_missing("tracked_frequency_Hz", std::to_string(k + 1), frequency[k]);
+      record.add_or_missing("shape_assurance", std::to_string(k + 1), alike[k]);
     }
   }
 
@@ -211,7 +211,8 @@ StepResult analyze_modes_at(const JsonView& analysis, const CaseModel& case_mode
   if (analysis.has("count_below_Hz")) {
     const std::optional<solver::Index> below =
         solver::sturm_count(system, analysis.number("count_below_Hz"));
-    record.add_or_gap("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
+    record.add_or_missing("mode_count_below", "",
+                          below ? static_cast<double>(*below) : std::nan(""));
   }
   if (tracker != nullptr) tracker->record(system, modes, record);
   record.add("rigid_body_modes", modes.zero_energy_mode_count);
@@ -289,7 +290,7 @@ StepResult analyze_modes(const JsonView& analysis, const CaseModel& case_model, 
     return analyze_modes_of_poses(analysis, case_model, draw, record);
   }
   ShapeTracker tracker;
-  return analyze_steps(case_model, draw, [&](std::size_t step, bool drawn) {
+  return analyze_path_points(case_model, draw, [&](std::size_t step, bool drawn) {
     return analyze_modes_at(analysis, case_model, step, drawn, tracks ? &tracker : nullptr, record);
   });
 }

@@ -52,7 +52,7 @@ Body body_of_six_nodes(const solver::Model& model, const solver::Triangle& trian
   const solver::Plate& plate = model.plates[solver::to_size(triangle.plate)];
   Body whole;
   for (const solver::TriangleQuadraturePoint& point : solver::triangle_quadrature()) {
-    const auto here = solver::interpolate(model, triangle, point.area_coordinates);
+    const auto here = solver::evaluate_shape_functions(model, triangle, point.area_coordinates);
     const double mass = plate.material.rho * plate.thickness * here.area * point.weight;
     whole = join(whole, {mass, here.position, 0});
   }

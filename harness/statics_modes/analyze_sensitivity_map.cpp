@@ -32,8 +32,8 @@ void record_curves(const std::string& name, const std::string& item,
       record.add(name + "_x_m", item, point.x());
       record.add(name + "_y_m", item, point.y());
     }
-    record.add_gap(name + "_x_m", item);
-    record.add_gap(name + "_y_m", item);
+    record.add_missing_value(name + "_x_m", item);
+    record.add_missing_value(name + "_y_m", item);
   }
 }
 
@@ -78,7 +78,7 @@ void record_rises(const std::vector<Reading>& readings, Recorder& record) {
   const auto rise = [&](const char* name, const char* item, double Reading::*number) {
     const double first = std::abs(readings.front().*number);
     for (std::size_t k = 1; k < readings.size(); ++k)
-      record.add_or_gap(name, item, 100 * (std::abs(readings[k].*number) / first - 1));
+      record.add_or_missing(name, item, 100 * (std::abs(readings[k].*number) / first - 1));
   };
   rise("sensitivity_rise_percent", "center", &Reading::center);
   rise("sensitivity_rise_percent", "mean", &Reading::mean);
@@ -136,11 +136,11 @@ StepResult analyze_sensitivity_map(const JsonView& analysis, const CaseModel& ca
       record_curves("singular", item, solver::parallel_singularities(design.geometry, grid),
                     record);
     }
-    record.add_or_gap("center_frequency_Hz", "", reading.center_frequency);
-    record.add_or_gap("center_" + quantity, "", reading.center);
-    record.add_or_gap("mean_frequency_Hz", "", reading.mean_frequency);
-    record.add_or_gap("mean_" + quantity, "", reading.mean);
-    record.add_or_gap("largest_" + quantity, "", reading.largest);
+    record.add_or_missing("center_frequency_Hz", "", reading.center_frequency);
+    record.add_or_missing("center_" + quantity, "", reading.center);
+    record.add_or_missing("mean_frequency_Hz", "", reading.mean_frequency);
+    record.add_or_missing("mean_" + quantity, "", reading.mean);
+    record.add_or_missing("largest_" + quantity, "", reading.largest);
   }
   record_rises(readings, record);
   return result;

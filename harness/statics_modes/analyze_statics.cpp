@@ -14,7 +14,7 @@ namespace {
 /// Solves statics with large displacement, as geometrically exact statics.
 StepResult analyze_exactly(const CaseModel& case_model, std::size_t step, bool draw,
                            Recorder& record) {
-  const solver::Model model = build_bare_model(case_model, step);
+  const solver::Model model = build_without_joint_elements(case_model, step);
   const auto solve = case_model.estimates_large_displacement ? solver::estimate_large_statics
                                                              : solver::solve_large_statics;
   const ModelState solution{solve(model, case_model.joint_elements)};
@@ -51,9 +51,9 @@ StepResult analyze_statics(const JsonView&, const CaseModel& case_model, std::si
   StateRecorder(model, "statics", without).record(solution, record, roundoff, of_forces);
   warn_of_rotation(largest_rotation(system, system.T * solution.q), result.warnings);
   warn_of_strain(model, solution, result.warnings);
-  warn_of_redundancy(system, result.warnings);
+  warn_of_redundant_constraints(system, result.warnings);
   warn_of_taper(model, result.warnings);
-  warn_of_amplification(solution, result.warnings);
+  warn_of_near_buckling(solution, result.warnings);
   // The work of the loads is twice the strain energy.
   record.add("compliance_J", "", system.f.dot(solution.q), roundoff);
   record.add("equilibrium_residual_N", solution.equilibrium_residual);

@@ -27,8 +27,8 @@ namespace {
 void add_evidence(const solver::System& system, double omega, ManufacturedSolution& solution) {
   const Eigen::VectorXd u = system.T * solution.q;
   solver::RowBalance<double> rows(system);
-  rows.add_stiffness(u);
-  if (omega != 0) rows.add_inertia(-omega * omega * u);
+  rows.add_elastic_forces(u);
+  if (omega != 0) rows.add_inertia_forces(-omega * omega * u);
   rows.add_load(-system.load);
   solution.evidence.add(solver::Residual::equilibrium, rows.backward_error());
   solution.evidence.add(solver::Residual::load, rows.residual_over_load());
@@ -43,7 +43,7 @@ ManufacturedSolution solve(solver::System system, double omega) {
   factorization.compute(omega == 0 ? system.K
                                    : solver::SparseMatrix(system.K - omega * omega * system.M));
   ++solution.counters.factorizations;
-  if (factorization.exists()) {
+  if (factorization.is_nonsingular()) {
     const solver::Operator stiffness = solver::stiffness_operator(system);
     const solver::Operator dynamic = [&](const Eigen::VectorXd& x) -> Eigen::VectorXd {
       return stiffness(x) - omega * omega * (system.M * x);

@@ -89,7 +89,7 @@ void warn_of_strain(const solver::Model& model, const solver::StaticSolution& so
                        ", where engineering, logarithmic and Green strain differ by 5 %"});
 }
 
-void warn_of_amplification(const solver::StaticSolution& solution, std::vector<Warning>& warnings) {
+void warn_of_near_buckling(const solver::StaticSolution& solution, std::vector<Warning>& warnings) {
   if (!(solution.amplification > kMaxAmplification)) return;
   add_warning(warnings, {"the amplification by second-order theory", solution.amplification, "",
                          "the loads are near those of buckling, and errors of the mesh are "
@@ -129,12 +129,12 @@ void warn_of_taper(const solver::Model& model, std::vector<Warning>& warnings) {
                          "'elements' of the member make results accurate"});
 }
 
-void warn_of_redundancy(const solver::System& system, std::vector<Warning>& warnings) {
+void warn_of_redundant_constraints(const solver::System& system, std::vector<Warning>& warnings) {
   const std::vector<solver::Index>& pivot = system.constraints.pivot;
-  warn_of_redundancy(std::ranges::count(pivot, -1), warnings);
+  warn_of_redundant_constraints(std::ranges::count(pivot, -1), warnings);
 }
 
-void warn_of_redundancy(Eigen::Index redundant, std::vector<Warning>& warnings) {
+void warn_of_redundant_constraints(Eigen::Index redundant, std::vector<Warning>& warnings) {
   if (redundant == 0) return;
   add_warning(warnings, {"the number of redundant constraints", static_cast<double>(redundant), "",
                          "equilibrium alone does not determine their forces: the reported "

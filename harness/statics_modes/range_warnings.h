@@ -34,7 +34,7 @@ void warn_of_strain(const solver::Model& model, const solver::StaticSolution& so
 /// Limit of the amplification of displacements near a buckling load. Errors of the stiffness are
 /// amplified by the same factor, so that one digit is lost at the limit.
 inline constexpr double kMaxAmplification = 10;
-void warn_of_amplification(const solver::StaticSolution& solution, std::vector<Warning>& warnings);
+void warn_of_near_buckling(const solver::StaticSolution& solution, std::vector<Warning>& warnings);
 
 /// Limit of the dimensionless wave number beta l of an element with cubic deflection. A half wave
 /// of bending has the length pi / beta, with beta^4 = w^2 m / EI. The limit is half of a half wave.
@@ -57,9 +57,9 @@ void warn_of_roundoff(double of_frequency, std::vector<Warning>& warnings);
 /// Warns of redundant constraints among supports, rigid bodies and inextensible members.
 /// Equilibrium does not determine how they share the loads. The reported forces are one of many
 /// solutions.
-void warn_of_redundancy(const solver::System& system, std::vector<Warning>& warnings);
+void warn_of_redundant_constraints(const solver::System& system, std::vector<Warning>& warnings);
 /// Warns if there are redundant constraints.
 /// @param redundant  number of redundant constraints
-void warn_of_redundancy(Eigen::Index redundant, std::vector<Warning>& warnings);
+void warn_of_redundant_constraints(Eigen::Index redundant, std::vector<Warning>& warnings);
 
 }  // namespace trammel::harness

@@ -35,7 +35,7 @@ void add_moment(const CaseModel& case_model, std::size_t step, Drawing found,
 
 }  // namespace
 
-StepResult analyze_steps(
+StepResult analyze_path_points(
     const CaseModel& case_model, bool draw,
     const std::function<StepResult(std::size_t step, bool draw)>& analyze_step) {
   StepResult all;

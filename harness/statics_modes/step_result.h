@@ -40,7 +40,7 @@ using AnalyseCase = StepResult(const Document& document, const References& refer
                                Recorder& record);
 
 /// Runs the steps along the path in order. Stops at the first step without a solution.
-[[nodiscard]] StepResult analyze_steps(
+[[nodiscard]] StepResult analyze_path_points(
     const CaseModel& case_model, bool draw,
     const std::function<StepResult(std::size_t step, bool draw)>& analyze_step);
 

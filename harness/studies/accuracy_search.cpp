@@ -25,11 +25,11 @@ bool is_asked(const std::string& name, const std::vector<std::string>& names) {
 Json fixed_outputs(const Document& document) {
   const std::string kind = discretized_analysis(document), place = analysis_pointer(document);
   const Json& analysis = document.value().at(JsonPointer(place));
-  if (const auto sampling = sampling_of(document))
+  if (const auto sampling = output_sampling(document))
     return sampling_patch(document, sampling->intervals);
   if (kind != "large-motion") return Json::object();
-  return patch_at(document.value(), place + "/output_step_s",
-                  analysis.value("output_step_s", analysis["step_s"]));
+  return patch_setting_value(document.value(), place + "/output_step_s",
+                             analysis.value("output_step_s", analysis["step_s"]));
 }
 
 /// Returns the description of a discretization: "elements 8, step 0.001".
@@ -45,11 +45,11 @@ std::string setting_of(const Document& document) {
   if (model.contains("manipulator")) add("elements ", mesh_pointer(document));
   if (model.contains("members"))
     text += (text.empty() ? "" : ", ") + std::string("elements ") +
-            std::to_string(elements_of(document, model["members"].begin().key()));
+            std::to_string(element_count_of(document, model["members"].begin().key()));
   if (model.contains("plates"))
     add("divisions ", "/model/plates/" + model["plates"].begin().key() + "/divisions");
-  if (companion_of(document, ErrorSource::step, Refine::finer))
-    add(has_step_tolerance(document) ? "tolerance " : "step ", step_pointer(document));
+  if (adjacent_refinement_level(document, ErrorSource::step, Refine::finer))
+    add(has_step_tolerance(document) ? "tolerance " : "step ", time_step_pointer(document));
   if (has_step_tolerance(document)) add("largest step ", analysis_pointer(document) + "/step_s");
   return text;
 }
@@ -77,7 +77,7 @@ class Search {
         references_(references),
         current_(document),
         outputs_(fixed_outputs(document)),
-        sampling_(sampling_of(document)) {
+        sampling_(output_sampling(document)) {
     current_.apply_patch("recorded times", "", outputs_);
   }
 
@@ -102,7 +102,7 @@ class Search {
 
  private:
   [[nodiscard]] bool has(ErrorSource source) const {
-    return companion_of(current_, source, Refine::finer).has_value();
+    return adjacent_refinement_level(current_, source, Refine::finer).has_value();
   }
 
   void coarsen() {
@@ -112,7 +112,7 @@ class Search {
          patch = mesh_patch(current_, Refine::coarser))
       current_.apply_patch("coarser mesh", "", *patch);
     for (int i = 0; i < kCoarserSteps && has(ErrorSource::step) && may_be_longer(); ++i)
-      if (const auto patch = step_patch(current_, Refine::coarser))
+      if (const auto patch = time_step_patch(current_, Refine::coarser))
         current_.apply_patch("longer step", "", *patch);
     current_.apply_patch("recorded times", "", outputs_);
   }
@@ -128,7 +128,7 @@ class Search {
   /// Removes the samples that refinements have added between the samples of the case.
   void keep_requested_samples() {
     if (!sampling_) return;
-    const auto factor = sampling_of(current_)->intervals / sampling_->intervals;
+    const auto factor = output_sampling(current_)->intervals / sampling_->intervals;
     Quantities& quantities = found_.result.quantities;
     const auto axis = quantities.find(quantities.contains("time_s") ? "time_s" : "frequency_Hz");
     if (factor < 2 || axis == quantities.end()) return;
@@ -171,7 +171,7 @@ class Search {
         reason_ = error.what();
       }
       for (const ErrorSource source : {ErrorSource::mesh, ErrorSource::step})
-        if (const auto finer = companion_of(current_, source, Refine::finer))
+        if (const auto finer = adjacent_refinement_level(current_, source, Refine::finer))
           current_ = finer->document;
     }
     throw current_.error(
@@ -187,7 +187,8 @@ class Search {
     for (const std::string& asked : request_.quantities) {
       if (std::ranges::any_of(names, [&](const auto& name) { return is_asked(name, {asked}); }))
         continue;
-      throw InputError("--quantity: " + unknown_name("a quantity of the case", asked, names));
+      throw InputError("--quantity: " +
+                       unknown_name_message("a quantity of the case", asked, names));
     }
     asked_ = request_.quantities.empty() ? kUsual : request_.quantities;
     if (std::ranges::none_of(names, [&](const auto& name) { return is_asked(name, asked_); }))
@@ -219,7 +220,7 @@ class Search {
 
   /// @returns true if the search can continue with a finer mesh or step
   bool refine(ErrorSource source) {
-    auto finer = companion_of(current_, source, Refine::finer, &found_.result);
+    auto finer = adjacent_refinement_level(current_, source, Refine::finer, &found_.result);
     const double before = error_by(source);
     if (++refinements_ > 2 * kMaxRefinements || !finer) {
       found_.errors.reason = "the finest permitted mesh and step do not reach this accuracy";
@@ -271,7 +272,7 @@ AccuracySearch search_accuracy(const Document& document, const AccuracyRequest& 
 
 CostStudy cost_study_of_search(const Case& given, const std::string& variant,
                                const AccuracySearch& search, const AccuracyRequest& request) {
-  CostStudy study = empty_study(given, variant);
+  CostStudy study = cost_study_without_settings(given, variant);
   std::vector<ObservedQuantity> observed;
   for (const auto& estimate : search.errors.quantities) {
     const bool is_zero = max_abs(search.result.quantities.at(estimate.quantity).values) == 0;
@@ -289,7 +290,8 @@ CostStudy cost_study_of_search(const Case& given, const std::string& variant,
   for (const Document& document : search.tried) study.settings.push_back(add(document));
   Document finest = search.tried.back();
   for (const ErrorSource source : {ErrorSource::mesh, ErrorSource::step})
-    if (const auto finer = companion_of(finest, source, Refine::finer)) finest = finer->document;
+    if (const auto finer = adjacent_refinement_level(finest, source, Refine::finer))
+      finest = finer->document;
   study.reference_solution = add(finest);
   study.reference_description = study.reference_solution->title;
   const std::string kind = discretized_analysis(finest);

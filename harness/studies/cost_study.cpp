@@ -141,7 +141,7 @@ std::vector<Setting> read_curve(const JsonView& study, const std::string& name,
     settings.push_back(std::move(setting));
     return settings;
   }
-  for (Level& level : levels(start, curve)) {
+  for (Level& level : sweep_levels(start, curve)) {
     if (!is_swept(curve, level.parameter, extent)) continue;
     Setting& added = settings.emplace_back(setting);
     added.value = level.parameter;
@@ -268,7 +268,8 @@ const std::vector<double>& values_of(const Quantities& quantities, const std::st
   if (found == quantities.end()) {
     std::vector<std::string> names;
     for (const auto& item : quantities) names.push_back(item.first);
-    throw std::runtime_error(unknown_name("a quantity that the computation returns", name, names));
+    throw std::runtime_error(
+        unknown_name_message("a quantity that the computation returns", name, names));
   }
   return found->second.values;
 }
@@ -323,7 +324,7 @@ CostStudy load_cost_study(const fs::path& file, SweepExtent extent, const Refere
   return study;
 }
 
-CostStudy empty_study(const Case& given, const std::string& variant) {
+CostStudy cost_study_without_settings(const Case& given, const std::string& variant) {
   CostStudy study;
   study.id = given.id() + (variant == kBaseVariant ? "" : "-" + variant);
   study.family = given.document.value().value("family", given.id());

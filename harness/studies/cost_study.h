@@ -90,7 +90,7 @@ enum class SweepExtent { full, quick };
                                         const References& references);
 
 /// Returns a study without settings, named after the case or variant.
-[[nodiscard]] CostStudy empty_study(const Case& given, const std::string& variant);
+[[nodiscard]] CostStudy cost_study_without_settings(const Case& given, const std::string& variant);
 
 /// Returns true if a file contains a study, not a case.
 [[nodiscard]] bool is_cost_study(const std::filesystem::path& file);

@@ -62,7 +62,7 @@ std::vector<std::string> sweeps_wanted(const JsonView& sweeps,
   for (const auto& entry : sweeps.entries()) there.push_back(entry.first);
   for (const std::string& name : asked) {
     if (contains(there, name)) continue;
-    throw sweeps.error(unknown_name("the name of a sweep", name, there));
+    throw sweeps.error(unknown_name_message("the name of a sweep", name, there));
   }
   return asked.empty() ? there : asked;
 }
@@ -71,7 +71,7 @@ std::vector<Setting> settings_of(const Document& document, const std::string& sw
                                  const std::vector<ObservedQuantity>& observed) {
   const JsonView place = JsonView(document)["sweeps"][sweep];
   std::vector<Setting> settings;
-  for (Level& level : levels(document, sweep))
+  for (Level& level : sweep_levels(document, sweep))
     settings.push_back({sweep, place.get<std::string>("title", sweep),
                         sweep + " " + shortest_decimal(level.parameter), level.parameter,
                         std::move(level.document), observed});
@@ -87,7 +87,7 @@ CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
   const JsonView root(document);
   if (!root.has("sweeps")) throw root.error("expected 'sweeps', which define the refinement");
   const std::vector<std::string> wanted = sweeps_wanted(root["sweeps"], sweeps);
-  CostStudy study = empty_study(given, variant);
+  CostStudy study = cost_study_without_settings(given, variant);
   const JsonView first = root["sweeps"][wanted.front()];
   std::vector<ObservedQuantity> observed = observed_quantities(
       first.has("quantities")

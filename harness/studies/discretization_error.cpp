@@ -170,7 +170,7 @@ bool is_estimated(const std::string& name) {
   const auto is_other = [&](const std::string& part) {
     return head.find(part) != std::string::npos;
   };
-  return !is_diagnostic(name) && !is_count(head) && std::ranges::none_of(others, is_other);
+  return !is_error_measure(name) && !is_count(head) && std::ranges::none_of(others, is_other);
 }
 
 /// Scales by which errors of quantities are divided to obtain relative errors.
@@ -179,7 +179,7 @@ class ErrorScales {
   ErrorScales(const Document& document, const AnalysisResult& own)
       : own_(own.quantities), kind_(discretized_analysis(document)) {
     if (!document.value().contains("model")) return;
-    const ModelScales model = typical_scales(model_at_start(read_case_model(document)));
+    const ModelScales model = typical_scales(model_at_path_start(read_case_model(document)));
     scales_ = change_scales(own_, model);
     if (!kind_.starts_with("large-") && kind_ != "modes") return;
     for (const auto& [kind, size] : {std::pair("displacement", model.length), {"rotation", 1.0}})
@@ -231,14 +231,14 @@ bool is_same_result(const AnalysisResult& own, const AnalysisResult& other) {
   });
 }
 
-std::optional<Companion> companion_of(const Document& document, ErrorSource source, Refine refine,
-                                      const AnalysisResult* own) {
+std::optional<Companion> adjacent_refinement_level(const Document& document, ErrorSource source,
+                                                   Refine refine, const AnalysisResult* own) {
   if (is_closed_form(discretized_analysis(document))) return std::nullopt;
   const bool is_mesh = source == ErrorSource::mesh;
   const bool has_step = own != nullptr && own->quantities.contains("largest_step_s");
   const double step = has_step ? own->quantities.at("largest_step_s").values.front() : 0;
   const auto patch_of = [&](const Document& given, Refine how) {
-    return is_mesh ? mesh_patch(given, how) : step_patch(given, how, step);
+    return is_mesh ? mesh_patch(given, how) : time_step_patch(given, how, step);
   };
   std::optional<Json> patch = patch_of(document, refine);
   Companion companion{document, refine == Refine::finer, 2, ""};
@@ -258,8 +258,8 @@ std::optional<Companion> companion_of(const Document& document, ErrorSource sour
   return companion;
 }
 
-std::optional<double> order_of(const Document& document, ErrorSource source,
-                               const std::string& quantity) {
+std::optional<double> theoretical_order(const Document& document, ErrorSource source,
+                                        const std::string& quantity) {
   if (source == ErrorSource::mesh) return mesh_order(document);
   // The largest value among samples converges at most with order 2 in the distance between samples.
   const double order = step_order(document);
@@ -282,7 +282,7 @@ ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other, E
         is_frequency ? matched_modes(own, other)
                      : aligned(own.quantities, other.quantities, values.size(), others.size());
     const double scale = scales.of(name);
-    const std::optional<double> order = order_of(document, source, name);
+    const std::optional<double> order = theoretical_order(document, source, name);
     ErrorBand band{std::vector<double>(values.size(), kNaN), order, true};
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (!places[i] || *places[i] >= others.size()) continue;
@@ -334,7 +334,7 @@ std::vector<ErrorEstimate> relative_errors(const Document& document, const Analy
       if (largest <= dominant) continue;
       dominant = largest;
       estimate.setting =
-          source == ErrorSource::mesh ? mesh_pointer(document) : step_pointer(document);
+          source == ErrorSource::mesh ? mesh_pointer(document) : time_step_pointer(document);
     }
     Number of_curve;
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -356,7 +356,7 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& o
   std::map<ErrorSource, ErrorBands> bands;
   solver::Counters counters;
   for (const ErrorSource source : {ErrorSource::mesh, ErrorSource::step}) {
-    auto companion = companion_of(document, source, Refine::coarser, &own);
+    auto companion = adjacent_refinement_level(document, source, Refine::coarser, &own);
     while (companion) {
       try {
         companion->document.validate("case");
@@ -375,7 +375,7 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& o
         found.reason = "the computation with " + companion->words + " has no solution";
         companion.reset();
       } else {
-        companion = companion_of(document, source, Refine::finer, &own);
+        companion = adjacent_refinement_level(document, source, Refine::finer, &own);
       }
     }
   }

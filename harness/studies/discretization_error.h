@@ -25,9 +25,9 @@ struct Companion {
 /// Refine::finer). If the number of elements cannot be halved, the companion is finer. Returns
 /// nothing if the analysis has no mesh or no steps.
 /// @param own  result of `document`, from which the largest step of a step control is read
-[[nodiscard]] std::optional<Companion> companion_of(const Document& document, ErrorSource source,
-                                                    Refine refine = Refine::coarser,
-                                                    const AnalysisResult* own = nullptr);
+[[nodiscard]] std::optional<Companion> adjacent_refinement_level(
+    const Document& document, ErrorSource source, Refine refine = Refine::coarser,
+    const AnalysisResult* own = nullptr);
 
 /// Returns true if the results of two levels are the same to the last bit. Then both levels had the
 /// same steps, and their difference says nothing about the error.
@@ -40,8 +40,8 @@ struct Companion {
 /// Step: 2 for time schemes, 1 for Newmark's with numerical damping. For an adaptive scheme of
 /// order p, the error is proportional to the tolerance to the power p/(p + 1). The result is empty
 /// if nodal values are exact in theory.
-[[nodiscard]] std::optional<double> order_of(const Document& document, ErrorSource source,
-                                             const std::string& quantity);
+[[nodiscard]] std::optional<double> theoretical_order(const Document& document, ErrorSource source,
+                                                      const std::string& quantity);
 
 /// Bands of the discretization error about the values of a quantity, with 95 % confidence.
 struct ErrorBand {

@@ -10,7 +10,7 @@
 #include "harness/base/stopwatch.h"
 #include "harness/base/timing.h"
 #include "harness/input/reference_library.h"
-#include "harness/scene/with_model_errors.h"
+#include "harness/scene/rethrow_as_input.h"
 #include "harness/studies/discretization_error.h"
 #include "solver/linear/system.h"
 
@@ -31,8 +31,8 @@ class Study {
     automatic_.apply_patch(document.origin("").file, "",
                            Json{{"effects", {{"auto", {{"tolerance", study_.tolerance}}}}}});
     scene_ = read_case_model(automatic_);
-    size_ = typical_scales(model_at_start(scene_));
-    (void)solver::assemble(model_at_start(scene_));  // throws for an invalid model
+    size_ = typical_scales(model_at_path_start(scene_));
+    (void)solver::assemble(model_at_path_start(scene_));  // throws for an invalid model
     study_.scope = effect_scope(document_, scene_);
   }
 
@@ -67,7 +67,7 @@ class Study {
     run.counters = result.counters;
     run.cpu_s = watch.cpu_s();
     scene_.effects = effects;
-    run.work = estimated_work(result.counters, unknown_count(model_at_start(scene_)));
+    run.work = estimated_work(result.counters, unknown_count(model_at_path_start(scene_)));
     if (run.outcome.solved()) {
       const Quantities& full = study_.full.quantities;
       run.changes = changes_between(full.empty() ? run.quantities : full, run.quantities, size_);
@@ -78,7 +78,7 @@ class Study {
   }
 
   void compare_meshes() {
-    const auto coarser = companion_of(document_, ErrorSource::mesh);
+    const auto coarser = adjacent_refinement_level(document_, ErrorSource::mesh);
     if (!study_.chosen.outcome.solved() || !coarser || coarser->finer) return;
     const AnalysisResult result = analyze(with_effects(coarser->document, study_.choice.chosen),
                                           references_, {.drawing = false});
@@ -135,7 +135,7 @@ EffectStudy study_effects(const Document& document, const EffectStudyOptions& op
     throw JsonView(document)["analysis"].error("this analysis does not support effects; expected " +
                                                analyses_with_effects());
   require_memory(document);
-  return with_model_errors(document, [&] { return Study(document, options).run(); });
+  return rethrow_as_input(document, [&] { return Study(document, options).run(); });
 }
 
 }  // namespace trammel::harness

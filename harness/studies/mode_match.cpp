@@ -8,7 +8,7 @@
 #include "harness/analysis/case_effects.h"
 #include "harness/scene/case_model.h"
 #include "harness/scene/drawing.h"
-#include "harness/scene/with_model_errors.h"
+#include "harness/scene/rethrow_as_input.h"
 #include "solver/linear/modes.h"
 
 namespace trammel::harness {
@@ -42,7 +42,7 @@ void sample_members(const solver::System& system, const Eigen::VectorXd& u, Plac
     for (int k = 1; k < kStations; ++k) {
       const double along = static_cast<double>(k) / kStations * static_cast<double>(count);
       const std::size_t element = std::min(count - 1, static_cast<std::size_t>(along));
-      places["member " + member.name + " " + std::to_string(k)].push_back(displacement_along(
+      places["member " + member.name + " " + std::to_string(k)].push_back(displacement_at_fraction(
           system.mesh.frame[first + element], u, along - static_cast<double>(element)));
     }
     first += count;
@@ -98,7 +98,7 @@ Eigen::MatrixXd basis(const SampledModes& modes, const std::vector<std::size_t>&
 
 std::pair<SampledModes, SampledModes> sample_modes(const Document& a, const Document& b) {
   const auto located = [](const Document& document) {
-    return with_model_errors(document, [&] { return solve_and_sample(document); });
+    return rethrow_as_input(document, [&] { return solve_and_sample(document); });
   };
   const auto [frequency_a, places_a] = located(a);
   const auto [frequency_b, places_b] = located(b);

@@ -23,13 +23,13 @@ void check_levels(const JsonView& place, const std::vector<Level>& levels) {
 
 }  // namespace
 
-std::vector<Sweep> run_sweeps(const Document& document, const References& references) {
+std::vector<Sweep> run_sweep_levels(const Document& document, const References& references) {
   std::vector<Sweep> sweeps;
   const auto places = JsonView(document).find("sweeps");
   if (!places) return sweeps;
   for (const auto& [name, place] : places->entries()) {
     Sweep sweep{name, {}};
-    const std::vector<Level> found = levels(document, name);
+    const std::vector<Level> found = sweep_levels(document, name);
     check_levels(place, found);
     for (const Level& level : found)
       sweep.levels.push_back(

@@ -62,7 +62,7 @@ Document moved(const Document& document, const std::vector<std::string>& pointer
     const double value = document.value().at(JsonPointer(pointer)).get<double>();
     const Origin written = document.origin(pointer);
     copy.apply_value_patch(written.file, written.pointer,
-                           patch_at(copy.value(), pointer, move(value)));
+                           patch_setting_value(copy.value(), pointer, move(value)));
   }
   return copy;
 }
@@ -80,7 +80,7 @@ std::vector<UncertainInput> read_inputs(const JsonView& place, const References&
     input.name = name;
     input.nominal = entry.get("nominal", false);
     if (entry.has("half_width") == entry.has("reference"))
-      throw entry.error("expected either 'half_width' or 'reference' of the uncertain input (got both or neither)");
+      throw entry.error("expected either 'half_width' or 'reference' of an uncertain input");
     if (entry.has("reference")) {
       const references::Reference& reference = references.get(entry["reference"]);
       input.half_width = reference.uncertainty.at(0);

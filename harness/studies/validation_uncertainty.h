@@ -31,6 +31,7 @@ namespace trammel::harness {
 
 /// Computes all levels of all refinement sweeps of a case or variant.
 /// @throws InputError  if the values are not ordered from coarse to fine.
-[[nodiscard]] std::vector<Sweep> run_sweeps(const Document& document, const References& references);
+[[nodiscard]] std::vector<Sweep> run_sweep_levels(const Document& document,
+                                                  const References& references);
 
 }  // namespace trammel::harness

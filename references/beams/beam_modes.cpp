@@ -54,7 +54,7 @@ Real characteristic(const Beam& beam, const Real& w) {
   Eigen::Matrix<Real, 4, 4> m;
   for (int i = 0; i < 2; ++i) {
     const Real z2 = P[i] + beam.a * beam.a;
-    const auto [C, S] = wave_functions(z2, beam.L);
+    const auto [C, S] = scaled_cosine_and_integral(z2, beam.L);
     const Real unit = z2 > 0 ? Real(1 / cosh(sqrt(z2) * beam.L)) : Real(1);
     // Functions F without the factor exp(a x): f[0] is cosh z x, f[1] is (sinh z x)/z. Each row has
     // value and slope at x = 0, then at x = L. All are divided by cosh z L if z^2 > 0.

@@ -127,7 +127,7 @@ double maximizer(std::function<double(double)> f, double lo, double hi, int grid
 
 }  // namespace
 
-std::vector<Real> deep_beam_program(const Arguments& arguments) {
+std::vector<Real> forced_timoshenko_beam_program(const Arguments& arguments) {
   const std::vector<Mode> all = modes(arguments);
   const std::string response =
       arguments.choice("response", "", {"static", "harmonic-peak", "step-peak"});
@@ -169,7 +169,7 @@ std::vector<Real> deep_beam_program(const Arguments& arguments) {
 ///   x = -(m e/M) (cos a(t) - cos w t - w int_0^t cos a(s) sin w(t - s) ds).
 ///
 /// Gauss' rule of 20 points in intervals of 0.01 s computes the integral.
-std::vector<Real> run_up_program(const Arguments& arguments) {
+std::vector<Real> rotor_run_up_program(const Arguments& arguments) {
   const Real w = arguments.positive("angular_frequency_rad_s"),
              T = arguments.positive("duration_s");
   const Real speed = arguments.positive("speed_rad_s"), turn = 2 * pi<Real>();

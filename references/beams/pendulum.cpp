@@ -13,9 +13,7 @@ std::vector<Real> pendulum_program(const Arguments& arguments) {
   const Real k = sin(arguments.number("start_angle_deg") * pi<Real>() / 360);
   if (k == 0 || abs(k) >= 1) arguments.fail("start_angle_deg", "expected an angle within +-180");
   const std::string output = arguments.choice("output", "", {"period", "position", "tension"});
-  if (output == "period") {
-    return {4 * boost::math::ellint_1(k) / w};
-  }
+  if (output == "period") return {4 * boost::math::ellint_1(k) / w};
   std::vector<Real> values;
   for (const Real& time : arguments.numbers("times_s")) {
     const Real half = k * boost::math::jacobi_cd(Real(abs(k)), Real(w * time));  // sin(theta/2)

@@ -74,14 +74,13 @@ std::vector<std::pair<int, int>> wanted_modes(const Arguments& arguments) {
 
 }  // namespace
 
-std::vector<Real> annular_membrane_program(const Arguments& arguments) {
+std::vector<Real> annular_plate_inplane_program(const Arguments& arguments) {
   const Real e = arguments.positive("E_Pa") / arguments.positive("rho_kg_m3");
   const Real nu = arguments.number("nu");
   const Annulus annulus{arguments.positive("inner_radius_m"), arguments.positive("outer_radius_m"),
                         sqrt(e / (1 - nu * nu)), sqrt(e / (2 * (1 + nu))), nu};
-  if (annulus.inner >= annulus.outer) {
+  if (annulus.inner >= annulus.outer)
     arguments.fail("outer_radius_m", "expected more than the inner radius");
-  }
   const auto wanted = wanted_modes(arguments);
   const Real step = annulus.c_s / annulus.outer / 50;
   std::map<int, int> counts;  // number n of waves -> number of frequencies to compute

@@ -11,7 +11,7 @@ namespace trammel::references {
 
 /// Computes in-plane frequencies of a free annular plate [Hz]. The argument modes is an array of
 /// pairs [n, k]: the k-th elastic frequency with n waves around the circumference.
-[[nodiscard]] std::vector<Real> annular_membrane_program(const Arguments& arguments);
+[[nodiscard]] std::vector<Real> annular_plate_inplane_program(const Arguments& arguments);
 
 /// Computes critical end loads of a uniform column [N]. If the argument load is self-weight, it
 /// computes the critical factors of the distributed weight instead. EI_N_m2, length_m and
@@ -42,7 +42,7 @@ namespace trammel::references {
 /// (first maximum after the load is applied at once). Values, one per output: displacement_m
 /// (mid-span), stress_Pa (outer fiber at mid-span), frequency_Hz or time_s (of the peak
 /// displacement).
-[[nodiscard]] std::vector<Real> deep_beam_program(const Arguments& arguments);
+[[nodiscard]] std::vector<Real> forced_timoshenko_beam_program(const Arguments& arguments);
 
 /// Computes large-displacement equilibria and limit points of a chain of straight elastic beams.
 /// nodes_m: points [x, y] of the nodes; the first node is fixed in x and y.
@@ -104,7 +104,7 @@ namespace trammel::references {
 /// The rotor has the angle a. Its speed a' increases from 0 to W (speed_rad_s) during the time T
 /// (duration_s): a' = W (t/T - sin(2 pi t/T)/(2 pi)). The argument times_s is ascending and at most
 /// T. Values: x at each time.
-[[nodiscard]] std::vector<Real> run_up_program(const Arguments& arguments);
+[[nodiscard]] std::vector<Real> rotor_run_up_program(const Arguments& arguments);
 
 /// Computes bending frequencies [Hz] of a linearly tapered cantilever. The arguments thickness_m
 /// (in the plane of bending) and width_m are pairs [clamped end, free end].

@@ -83,9 +83,8 @@ Real characteristic(const RotatingBeam& beam, const Real& mu) {
 std::vector<Real> rotating_beam_roots(const RotatingBeam& beam, int count) {
   // The solutions grow like exp(eta sqrt(r + 1/2)) and become nearly proportional. Their
   // determinant therefore loses log10 of this factor in digits, and 69 corresponds to 30 digits.
-  if (beam.eta * sqrt(beam.hub_ratio + Real(0.5)) > 69) {
+  if (beam.eta * sqrt(beam.hub_ratio + Real(0.5)) > 69)
     throw DerivationError("the beam rotates too fast: fewer than twenty digits are correct");
-  }
   std::vector<Real> roots = first_roots([&](const Real& m) { return characteristic(beam, m); },
                                         Real("0.1"), Real("0.5"), count);
   if (!beam.in_plane || beam.axial_ratio) return roots;
@@ -110,9 +109,8 @@ std::vector<Real> rotating_beam_roots_program(const Arguments& arguments) {
   beam.eta = arguments.not_negative("eta", 0);
   beam.hub_ratio = arguments.not_negative("hub_ratio", 0);
   if (arguments.has("axial_ratio")) beam.axial_ratio = arguments.positive("axial_ratio");
-  if (beam.axial_ratio && !beam.in_plane) {
+  if (beam.axial_ratio && !beam.in_plane)
     arguments.fail("axial_ratio", "requires bending in the plane of rotation");
-  }
   return rotating_beam_roots(beam, arguments.count("count"));
 }
 

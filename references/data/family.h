@@ -40,7 +40,8 @@ struct JsonMember {
 
 /// Adds to a reference the common keys of its family that the reference does not have. If both have
 /// a derivation, the keys of the two derivations are merged.
-[[nodiscard]] nlohmann::json with_common(const nlohmann::json& common, nlohmann::json reference);
+[[nodiscard]] nlohmann::json with_common_keys(const nlohmann::json& common,
+                                              nlohmann::json reference);
 
 /// Reads the references of a family file by id.
 /// @throws ReferenceError  if the file is not a JSON object of objects, or if a key is repeated.

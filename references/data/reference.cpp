@@ -69,14 +69,12 @@ std::vector<double> read_uncertainty(const Json& json, const Reference& referenc
   if (stated != json.end()) {
     const bool relative = stated->contains("relative");
     const char* key = relative ? "relative" : "absolute";
-    if (!stated->is_object() || !stated->contains(key)) {
+    if (!stated->is_object() || !stated->contains(key))
       fail(place, "/uncertainty", "'relative' or 'absolute'");
-    }
     const std::string pointer = std::string("/uncertainty/") + key;
     auto half_widths = expand(stated->at(key), place, pointer.c_str(), reference.values.size());
-    for (std::size_t i = 0; relative && i < half_widths.size(); ++i) {
+    for (std::size_t i = 0; relative && i < half_widths.size(); ++i)
       half_widths[i] *= std::abs(reference.values[i]);
-    }
     return half_widths;
   }
   if (reference.printed.empty())
@@ -86,11 +84,10 @@ std::vector<double> read_uncertainty(const Json& json, const Reference& referenc
     // If the value differs from the printed digits (corrected, or in another unit), these do not
     // determine the uncertainty.
     const double read = std::strtod(reference.printed[i].c_str(), nullptr);
-    if (std::abs(read - reference.values[i]) > 1e-12 * std::abs(read)) {
+    if (std::abs(read - reference.values[i]) > 1e-12 * std::abs(read))
       fail(place, "/printed/" + std::to_string(i),
            "the digits of the value, or 'uncertainty' in addition (got '" + reference.printed[i] +
                "')");
-    }
     half_widths.push_back(half_unit_in_last_place(reference.printed[i]));
   }
   return half_widths;
@@ -116,9 +113,8 @@ double half_unit_in_last_place(const std::string& printed) {
   char* end = nullptr;
   (void)std::strtod(printed.c_str(), &end);
   const bool plain = printed.find_first_not_of("+-.0123456789eE") == std::string::npos;
-  if (printed.empty() || *end != '\0' || !plain) {
+  if (printed.empty() || *end != '\0' || !plain)
     throw ReferenceError("expected a decimal number as printed (got '" + printed + "')");
-  }
   const auto mantissa = printed.find_first_of("eE");
   const auto point = printed.find('.');
   const auto last = std::min(mantissa, printed.size());
@@ -154,11 +150,10 @@ Reference read_reference(const Json& json, const std::string& file, const std::s
   if (json.contains("derivation"))
     read.derivation = describe_derivation(json.at("derivation"), place);
   if (read.values.empty()) fail(place, "/values", "at least one number");
-  if (!read.printed.empty() && read.printed.size() != read.values.size()) {
+  if (!read.printed.empty() && read.printed.size() != read.values.size())
     fail(place, "/printed",
          "as many texts as values (got " + std::to_string(read.printed.size()) + " for " +
              std::to_string(read.values.size()) + ")");
-  }
   const bool proved = read.kind == ReferenceKind::proved;
   if ((proved || read.kind == ReferenceKind::exact) && read.derivation.empty())
     fail(place, "",

@@ -65,7 +65,7 @@ MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const 
   Eigen::Matrix<T, 2, 2> even_motion, even_force, odd_motion, odd_force;
   for (int i = 0; i < 2; ++i) {
     const T k2 = i == 0 ? above : below;
-    const auto [C, S] = wave_functions(k2, h);
+    const auto [C, S] = scaled_cosine_and_integral(k2, h);
     const T slope = k2 + g;
     const T shear = -slope * (m.EI * k2 + w2 * m.rotary_inertia) + tension * k2;
     even_motion(0, i) = C;
@@ -185,8 +185,9 @@ template <class T>
 void DynamicStiffness<T>::add_inertia(const Frame& frame, const FrameCoordinates& coordinates) {
   RealMatrix M = RealMatrix::Zero(coordinates.size(), coordinates.size());
   for (const FrameMass& mass : frame.masses) {
-    const int x = coordinates.node_index(mass.node, 0), y = coordinates.node_index(mass.node, 1);
-    const int r = coordinates.node_index(mass.node, 2);
+    const int x = coordinates.node_coordinate_index(mass.node, 0),
+              y = coordinates.node_coordinate_index(mass.node, 1);
+    const int r = coordinates.node_coordinate_index(mass.node, 2);
     M(x, x) += mass.mass;
     M(y, y) += mass.mass;
     if (r < 0) continue;
@@ -200,7 +201,7 @@ void DynamicStiffness<T>::add_inertia(const Frame& frame, const FrameCoordinates
   }
   for (std::size_t e = 0; e < frame.members.size(); ++e) {
     for (int end = 0; end < 2; ++end) {
-      const int r = coordinates.end_index(static_cast<int>(e), end);
+      const int r = coordinates.end_rotation_index(static_cast<int>(e), end);
       M(r, r) += frame.members[e].ends[end].inertia;
     }
   }

@@ -37,9 +37,9 @@ FrameMaterial read_material(const Arguments& where, const std::string& key) {
           material.number("nu", 0)};
 }
 
-FrameSection elastic_section(const FrameMaterial& material, const Real& area,
-                             const Real& second_moment, const Real& half_depth,
-                             const Real& shear_coefficient) {
+FrameSection timoshenko_section(const FrameMaterial& material, const Real& area,
+                                const Real& second_moment, const Real& half_depth,
+                                const Real& shear_coefficient) {
   const Real G = material.E / (2 * (1 + material.nu));
   FrameSection section;
   section.axial_compliance = 1 / (material.E * area);
@@ -52,14 +52,14 @@ FrameSection elastic_section(const FrameMaterial& material, const Real& area,
   return section;
 }
 
-FrameSection rectangle(const FrameMaterial& material, const Real& thickness, const Real& width,
-                       const Real& shear_coefficient) {
+FrameSection rectangular_section(const FrameMaterial& material, const Real& thickness,
+                                 const Real& width, const Real& shear_coefficient) {
   const Real area = thickness * width;
-  return elastic_section(material, area, area * thickness * thickness / 12, thickness / 2,
-                         shear_coefficient);
+  return timoshenko_section(material, area, area * thickness * thickness / 12, thickness / 2,
+                            shear_coefficient);
 }
 
-FrameSection member_section(FrameSection section, const Arguments& member) {
+FrameSection section_for_beam_theory(FrameSection section, const Arguments& member) {
   if (member.choice("axial", "flexible", {"flexible", "inextensible"}) == "inextensible")
     section.axial_compliance = 0;
   const std::string beam = member.choice("beam", "euler-bernoulli",
@@ -69,7 +69,7 @@ FrameSection member_section(FrameSection section, const Arguments& member) {
   return section;
 }
 
-FrameEnd read_end(const Json& value, const Arguments& where, const std::string& key) {
+FrameEnd read_end_fixity(const Json& value, const Arguments& where, const std::string& key) {
   if (value == "welded" || value == "locked") return {};
   if (value == "hinged" || value == "free") return {Fixity::hinged, 0, 0};
   if (!value.is_object())

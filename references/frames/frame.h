@@ -34,21 +34,21 @@ struct FrameMaterial {
 
 /// Returns a section with all compliances and inertias, whatever beam theory uses them.
 /// @param half_depth  distance of the outermost fiber from the axis; 0 if it is unknown [m].
-[[nodiscard]] FrameSection elastic_section(const FrameMaterial& material, const Real& area,
-                                           const Real& second_moment, const Real& half_depth,
-                                           const Real& shear_coefficient);
+[[nodiscard]] FrameSection timoshenko_section(const FrameMaterial& material, const Real& area,
+                                              const Real& second_moment, const Real& half_depth,
+                                              const Real& shear_coefficient);
 
 /// Returns the section of a rectangle.
 /// @param thickness  in the plane of the frame [m];  @param width  across it [m].
-[[nodiscard]] FrameSection rectangle(const FrameMaterial& material, const Real& thickness,
-                                     const Real& width, const Real& shear_coefficient);
+[[nodiscard]] FrameSection rectangular_section(const FrameMaterial& material, const Real& thickness,
+                                               const Real& width, const Real& shear_coefficient);
 
 /// Returns a section without the compliances and inertias that the theory of the member omits. The
 /// key "beam" is euler-bernoulli (default), shear, rayleigh or timoshenko. Shear and timoshenko
 /// keep 1/(kappa G A); rayleigh and timoshenko keep rho I. The key "axial" is flexible (default) or
 /// inextensible.
 /// @throws DerivationError  with the JSON pointer, if a key has another value.
-[[nodiscard]] FrameSection member_section(FrameSection section, const Arguments& member);
+[[nodiscard]] FrameSection section_for_beam_theory(FrameSection section, const Arguments& member);
 
 enum class Fixity { welded, hinged, sprung };
 
@@ -100,7 +100,8 @@ struct FrameLoad {
 
 /// Reads a joint: "welded" or "locked", "hinged" or "free", or {"spring_N_m_per_rad": k}.
 /// @throws DerivationError  with the JSON pointer, if the value is none of these.
-[[nodiscard]] FrameEnd read_end(const Json& value, const Arguments& where, const std::string& key);
+[[nodiscard]] FrameEnd read_end_fixity(const Json& value, const Arguments& where,
+                                       const std::string& key);
 
 /// Constraint of a node: its rotation is `share` times the sum of the rotations of member ends.
 struct RotationConstraint {

@@ -55,8 +55,8 @@ std::vector<SpringElement> FrameCoordinates::springs(const Frame& frame) const {
   for (const FrameSpring& spring : frame.springs) {
     for (int motion = 0; motion < 3; ++motion) {
       if (spring.stiffness[motion] == 0) continue;
-      const int to = node_index(spring.nodes[0], motion);
-      const int from = spring.nodes[1] < 0 ? -1 : node_index(spring.nodes[1], motion);
+      const int to = node_coordinate_index(spring.nodes[0], motion);
+      const int from = spring.nodes[1] < 0 ? -1 : node_coordinate_index(spring.nodes[1], motion);
       result.push_back({from, to, spring.stiffness[motion]});
     }
   }
@@ -64,8 +64,8 @@ std::vector<SpringElement> FrameCoordinates::springs(const Frame& frame) const {
     const FrameMember& member = frame.members[i];
     for (int end = 0; end < 2; ++end) {
       if (member.ends[end].fixity != Fixity::sprung) continue;
-      result.push_back({node_index(member.nodes[end], 2), end_index(static_cast<int>(i), end),
-                        member.ends[end].stiffness});
+      result.push_back({node_coordinate_index(member.nodes[end], 2),
+                        end_rotation_index(static_cast<int>(i), end), member.ends[end].stiffness});
     }
   }
   return result;
@@ -102,7 +102,7 @@ std::vector<FrameCoordinates::Row> FrameCoordinates::equations(const Frame& fram
   for (const RotationConstraint& constraint : frame.constraints) {
     rows.push_back({{node_[constraint.node][2], Real(-1)}});
     for (const auto& [member, end] : constraint.ends)
-      rows.back()[end_index(member, end)] += constraint.share;
+      rows.back()[end_rotation_index(member, end)] += constraint.share;
   }
   return rows;
 }

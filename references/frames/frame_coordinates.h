@@ -32,9 +32,13 @@ class FrameCoordinates {
   [[nodiscard]] const RealMatrix& N() const { return N_; }                ///< matrix of u = N q
 
   /// Index in u of motion 0 (x), 1 (y) or 2 (rotation) of a node; -1 if it has no rotation.
-  [[nodiscard]] int node_index(int node, int motion) const { return node_[node][motion]; }
+  [[nodiscard]] int node_coordinate_index(int node, int motion) const {
+    return node_[node][motion];
+  }
   /// Index in u of the rotation of a member's end.
-  [[nodiscard]] int end_index(int member, int end) const { return member_[member][3 * end + 2]; }
+  [[nodiscard]] int end_rotation_index(int member, int end) const {
+    return member_[member][3 * end + 2];
+  }
   /// Indices in u of x, y, rotation at both ends of a member.
   [[nodiscard]] const std::array<int, 6>& member_indices(int member) const {
     return member_[member];

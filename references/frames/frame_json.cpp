@@ -30,17 +30,18 @@ FrameSection read_section(const Arguments& materials, const Arguments& section) 
   const Real shear_coefficient = section.number("shear_coefficient", Real(5) / 6);
   if (section.has("rectangle")) {
     const Arguments r = section.object("rectangle", {"thickness_m", "width_m"});
-    return rectangle(material, r.positive("thickness_m"), r.positive("width_m"), shear_coefficient);
+    return rectangular_section(material, r.positive("thickness_m"), r.positive("width_m"),
+                               shear_coefficient);
   }
   if (section.has("circle")) {
     const Real diameter = section.object("circle", {"diameter_m"}).positive("diameter_m");
     const Real area = pi<Real>() * diameter * diameter / 4;
-    return elastic_section(material, area, area * diameter * diameter / 16, diameter / 2,
-                           shear_coefficient);
+    return timoshenko_section(material, area, area * diameter * diameter / 16, diameter / 2,
+                              shear_coefficient);
   }
-  return elastic_section(material, section.positive("area_m2"),
-                         section.positive("second_moment_m4"), section.number("half_depth_m", 0),
-                         shear_coefficient);
+  return timoshenko_section(material, section.positive("area_m2"),
+                            section.positive("second_moment_m4"), section.number("half_depth_m", 0),
+                            shear_coefficient);
 }
 
 Sections read_sections(const Arguments& model) {
@@ -74,15 +75,14 @@ FrameMember read_member(const Frame& frame, const Sections& sections, const std:
   member.nodes = {nodes[0], nodes[1]};
   const auto section = sections.find(object.text("section"));
   if (section == sections.end()) object.fail("section", "expected the name of a section");
-  member.section = member_section(section->second, object);
+  member.section = section_for_beam_theory(section->second, object);
   member.section.tension = object.number("axial_force_N", 0);
-  if (member.section.shear_compliance > 0 && member.section.tension != 0) {
+  if (member.section.shear_compliance > 0 && member.section.tension != 0)
     object.fail("axial_force_N", "requires an Euler-Bernoulli member");
-  }
   if (object.has("ends")) {
     const Json& ends = object["ends"];
     if (!ends.is_array() || ends.size() != 2) object.fail("ends", "expected two ends");
-    for (std::size_t i = 0; i < 2; ++i) member.ends[i] = read_end(ends[i], object, "ends");
+    for (std::size_t i = 0; i < 2; ++i) member.ends[i] = read_end_fixity(ends[i], object, "ends");
   }
   member.load = object.point_or_origin("load_N_per_m");
   return member;
@@ -90,9 +90,7 @@ FrameMember read_member(const Frame& frame, const Sections& sections, const std:
 
 void read_nodes(const Arguments& model, Frame& frame) {
   const Arguments nodes(model["nodes"], model.pointer("nodes"));
-  for (const std::string& name : nodes.keys()) {
-    frame.nodes.push_back({name, nodes.point(name)});
-  }
+  for (const std::string& name : nodes.keys()) frame.nodes.push_back({name, nodes.point(name)});
 }
 
 void read_members(const Arguments& model, Frame& frame) {
@@ -105,10 +103,9 @@ void read_members(const Arguments& model, Frame& frame) {
 }
 
 void read_bodies(const Arguments& model, Frame& frame) {
-  for (const auto& [name, object] : objects_of(model, "rigid_bodies", {"reference", "nodes"})) {
+  for (const auto& [name, object] : objects_of(model, "rigid_bodies", {"reference", "nodes"}))
     frame.bodies.push_back(
         {nodes_at(frame, object, "reference")[0], nodes_at(frame, object, "nodes")});
-  }
 }
 
 void read_masses(const Arguments& model, Frame& frame) {

@@ -39,10 +39,10 @@ LinkNumbers link(const Arguments& links, const FrameMaterial& material, const st
   result.length =
       links[length].is_array() ? links.numbers(length, 3)[limb] : links.positive(length);
   result.center = result.length / 2;
-  result.section =
-      member_section(rectangle(material, links.positive("thickness_m"), links.positive("width_m"),
-                               links.number("shear_coefficient", Real(5) / 6)),
-                     links);
+  result.section = section_for_beam_theory(
+      rectangular_section(material, links.positive("thickness_m"), links.positive("width_m"),
+                          links.number("shear_coefficient", Real(5) / 6)),
+      links);
   result.mass = given_or(links, "mass_kg", result.section.mass * result.length);
   const Real scale = result.mass / (result.section.mass * result.length);
   result.section.mass *= scale;
@@ -85,7 +85,7 @@ void read_platform(const Arguments& manipulator, ManipulatorNumbers& result) {
 
 FrameEnd member_end(const Arguments& joints, const std::string& key) {
   const bool constrained = joints[key] == "eq25-mean" || joints[key] == "eq25-sum";
-  return read_end(constrained ? Json("hinged") : joints[key], joints, key);
+  return read_end_fixity(constrained ? Json("hinged") : joints[key], joints, key);
 }
 
 /// Adds the constraint of Eq. 25 of Varalakshmi and Srinivas (2017): the rotation of the platform
@@ -183,9 +183,8 @@ Frame manipulator_frame(const Arguments& manipulator, const Arguments& pose) {
   frame.bodies.push_back(
       {at, {frame.find_node("C1"), frame.find_node("C2"), frame.find_node("C3")}});
   add_eq25(joints, frame);
-  for (const char* base : {"A1", "A2", "A3"}) {
+  for (const char* base : {"A1", "A2", "A3"})
     frame.supports.push_back({frame.find_node(base), {true, true, true}});
-  }
   return frame;
 }
 

@@ -72,7 +72,7 @@ void add_member(const Frame& frame, int index, const FrameCoordinates& coordinat
 
 void add_loads(const Frame& frame, const FrameCoordinates& coordinates, Equations& e) {
   const auto add = [&](int node, int motion, const Real& force) {
-    const int index = coordinates.node_index(node, motion);
+    const int index = coordinates.node_coordinate_index(node, motion);
     if (index >= 0) {
       e.p[index] += force;
     } else if (force != 0) {
@@ -96,9 +96,8 @@ Equations equations(const Frame& frame, const FrameCoordinates& coordinates) {
   const std::size_t n = coordinates.size();
   Equations e{RealMatrix::Zero(n, forces), RealMatrix::Zero(forces, forces), RealVector::Zero(n),
               RealVector::Zero(forces)};
-  for (std::size_t i = 0; i < frame.members.size(); ++i) {
+  for (std::size_t i = 0; i < frame.members.size(); ++i)
     add_member(frame, static_cast<int>(i), coordinates, e);
-  }
   for (std::size_t i = 0; i < springs.size(); ++i) {
     const std::size_t f = 3 * frame.members.size() + i;
     if (springs[i].from >= 0) e.B(springs[i].from, f) += 1;
@@ -135,7 +134,7 @@ void add_node_outputs(const Frame& frame, const FrameCoordinates& coordinates,
     return body.reference == node || std::ranges::count(body.attached, node) > 0;
   });
   for (int motion = 0; motion < 3; ++motion) {
-    const int index = coordinates.node_index(node, motion);
+    const int index = coordinates.node_coordinate_index(node, motion);
     if (index < 0) continue;
     values[displacements[motion] + name] = statics.displacement[index];
     if (!is_in_body) values[reactions[motion] + name] = -statics.residual_force[index];
@@ -157,7 +156,8 @@ void add_member_outputs(const Frame& frame, const FrameCoordinates& coordinates,
     values["axial_force_N" + name] = forces.N[end];
     values["shear_force_N" + name] = forces.V[end];
     values["bending_moment_N_m" + name] = forces.M[end];
-    values["end_rotation_rad" + name] = statics.displacement[coordinates.end_index(index, end)];
+    values["end_rotation_rad" + name] =
+        statics.displacement[coordinates.end_rotation_index(index, end)];
     if (!has_stress) continue;
     Real& stress = values["stress_Pa:" + member.name];
     stress = std::max(stress, Real(abs(forces.N[end]) / member.section.area +
@@ -168,7 +168,7 @@ void add_member_outputs(const Frame& frame, const FrameCoordinates& coordinates,
 /// Returns all outputs of the statics of a frame by name.
 Values outputs(const Frame& frame) {
   const FrameCoordinates coordinates(frame, false);
-  const FrameStatics statics = unit_load_statics(frame);
+  const FrameStatics statics = force_method_statics(frame);
   Values values;
   for (std::size_t i = 0; i < frame.nodes.size(); ++i)
     add_node_outputs(frame, coordinates, statics, static_cast<int>(i), values);
@@ -177,7 +177,7 @@ Values outputs(const Frame& frame) {
   Real& work = values["load_work_J"];
   for (const FrameLoad& load : frame.loads) {
     for (int motion = 0; motion < 3; ++motion) {
-      const int index = coordinates.node_index(load.node, motion);
+      const int index = coordinates.node_coordinate_index(load.node, motion);
       if (index >= 0) work += load.force[motion] * statics.displacement[index];
     }
   }
@@ -187,7 +187,7 @@ Values outputs(const Frame& frame) {
 
 }  // namespace
 
-FrameStatics unit_load_statics(const Frame& frame) {
+FrameStatics force_method_statics(const Frame& frame) {
   const FrameCoordinates coordinates(frame, false);
   const Equations e = equations(frame, coordinates);
   const RealVector x = minimize_complementary_energy(e, coordinates.N());

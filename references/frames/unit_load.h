@@ -32,7 +32,7 @@ struct FrameStatics {
 /// Computes the exact statics of a frame.
 /// @throws DerivationError  if the frame can move freely, or if a part without compliance is
 /// statically indeterminate.
-[[nodiscard]] FrameStatics unit_load_statics(const Frame& frame);
+[[nodiscard]] FrameStatics force_method_statics(const Frame& frame);
 
 /// Computes outputs of the exact statics of a frame. Names of outputs: displacement_x_m:NODE,
 /// displacement_y_m:NODE, rotation_rad:NODE, end_rotation_rad:MEMBER.start, reaction_x_N:NODE,

@@ -73,16 +73,14 @@ Real counted_root(const CountingFunction& f, int index) {
 
 /// Returns the frame with the axial forces of its members that its loads cause.
 Frame with_axial_forces(Frame frame) {
-  const FrameStatics statics = unit_load_statics(frame);
+  const FrameStatics statics = force_method_statics(frame);
   for (std::size_t i = 0; i < frame.members.size(); ++i) {
     FrameMember& member = frame.members[i];
     const auto& N = statics.members[i].N;
-    if (N[0] != N[1]) {
+    if (N[0] != N[1])
       throw DerivationError("buckling requires a constant axial force in member " + member.name);
-    }
-    if (member.section.shear_compliance > 0) {
+    if (member.section.shear_compliance > 0)
       throw DerivationError("buckling requires Euler-Bernoulli members");
-    }
     member.section.tension = N[0];
   }
   return frame;
@@ -119,12 +117,10 @@ class Differences {
     const Json& json = arguments.json();
     for (const std::string& text : arguments.texts("pointers")) {
       const Json::json_pointer pointer(text);
-      if (!json.contains(pointer) || !json[pointer].is_number()) {
+      if (!json.contains(pointer) || !json[pointer].is_number())
         arguments.fail("pointers", "expected pointers to numbers (got " + text + ")");
-      }
-      if (!pointers_.empty() && json[pointer] != json[pointers_.front()]) {
+      if (!pointers_.empty() && json[pointer] != json[pointers_.front()])
         arguments.fail("pointers", "expected pointers to equal numbers");
-      }
       pointers_.push_back(pointer);
     }
   }
@@ -133,9 +129,8 @@ class Differences {
     const std::vector<Real> above = frequencies(step);
     const std::vector<Real> below = frequencies(-step);
     std::vector<Real> rate;
-    for (std::size_t i = 0; i < above.size(); ++i) {
+    for (std::size_t i = 0; i < above.size(); ++i)
       rate.push_back((above[i] - below[i]) / (2 * Real(decimal(step).dump())));
-    }
     return rate;
   }
 
@@ -166,7 +161,7 @@ std::vector<Real> counted_roots(const CountingFunction& f, int first, int count)
   return roots;
 }
 
-Real frequency_scale(const Frame& frame) {
+Real frequency_order_of_magnitude(const Frame& frame) {
   Real scale = 0;
   for (const FrameMember& member : frame.members) {
     const Real L = member_axis(frame, member).length;
@@ -181,7 +176,7 @@ Real frequency_scale(const Frame& frame) {
 FrameFrequencies frame_frequencies(const Frame& frame, int count) {
   const DynamicStiffness<double> coarse(frame);
   const DynamicStiffness<Real> fine(frame);
-  const Real scale = frequency_scale(frame);
+  const Real scale = frequency_order_of_magnitude(frame);
   const CountingFunction f{[&](double w) { return coarse.count(w).below; },
                            [&](const Real& w) { return fine.count(w); },
                            1e-3 * static_cast<double>(scale), static_cast<double>(scale)};
@@ -200,7 +195,7 @@ std::vector<Real> frame_frequencies_program(const Arguments& arguments) {
   return frame_frequencies(frame_from_arguments(arguments), arguments.count("count")).frequencies;
 }
 
-std::vector<Real> frame_count_program(const Arguments& arguments) {
+std::vector<Real> frame_frequency_count_program(const Arguments& arguments) {
   return {frequencies_below(frame_from_arguments(arguments), arguments.positive("below_Hz"))};
 }
 
@@ -208,11 +203,11 @@ std::vector<Real> frame_buckling_program(const Arguments& arguments) {
   const Frame frame = with_axial_forces(frame_from_arguments(arguments));
   const DynamicStiffness<double> coarse(frame);
   const DynamicStiffness<Real> fine(frame);
-  const Real w = frequency_scale(frame) * Real(1e-11);  // w^2 changes a load factor by 1e-22
-  const auto coarse_w = static_cast<double>(frequency_scale(frame)) * 1e-3;
-  if (fine.count(w, Real(1e-6) * buckling_scale(frame)).below > 0) {
+  const Real w =
+      frequency_order_of_magnitude(frame) * Real(1e-11);  // w^2 changes a load factor by 1e-22
+  const auto coarse_w = static_cast<double>(frequency_order_of_magnitude(frame)) * 1e-3;
+  if (fine.count(w, Real(1e-6) * buckling_scale(frame)).below > 0)
     throw DerivationError("the frame can move freely");
-  }
   const auto scale = static_cast<double>(buckling_scale(frame));
   return counted_roots(
       {[&](double factor) { return coarse.count(coarse_w, factor).below; },

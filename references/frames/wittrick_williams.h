@@ -36,7 +36,7 @@ struct FrameFrequencies {
 /// Returns the lowest sqrt(EI/rho A)/L^2 of the members [rad/s]. It is an order of magnitude of the
 /// lowest natural frequencies, not a bound.
 /// @throws DerivationError  if a member has no mass, or there is none.
-[[nodiscard]] Real frequency_scale(const Frame& frame);
+[[nodiscard]] Real frequency_order_of_magnitude(const Frame& frame);
 
 /// Returns the number of natural frequencies below `frequency` [Hz], including rigid motions.
 [[nodiscard]] int frequencies_below(const Frame& frame, const Real& frequency);
@@ -45,7 +45,7 @@ struct FrameFrequencies {
 [[nodiscard]] std::vector<Real> frame_frequencies_program(const Arguments& arguments);
 
 /// Computes the number of natural frequencies of a frame below below_Hz, including rigid motions.
-[[nodiscard]] std::vector<Real> frame_count_program(const Arguments& arguments);
+[[nodiscard]] std::vector<Real> frame_frequency_count_program(const Arguments& arguments);
 
 /// Computes derivatives of frequencies by central differences of `frame_frequencies` at step, step
 /// / 2 and step / 4, extrapolated twice. The error is O(step^6) plus 1e-20 over the step, because
@@ -55,7 +55,7 @@ struct FrameFrequencies {
 [[nodiscard]] std::vector<Real> frame_frequency_sensitivity_program(const Arguments& arguments);
 
 /// Computes the first `count` positive factors of the loads at which a frame buckles. The axial
-/// forces of unit_load_statics are multiplied by the factor, and natural frequencies are counted
+/// forces of force_method_statics are multiplied by the factor, and natural frequencies are counted
 /// near w = 0. The count increases at each buckling load.
 /// @throws DerivationError  if an axial force varies along its member.
 [[nodiscard]] std::vector<Real> frame_buckling_program(const Arguments& arguments);

@@ -63,10 +63,9 @@ Limbs read_limbs(const Arguments& arguments) {
   limbs.distal = arguments.numbers("distal_m", 3);
   const auto proximal = arguments.numbers("proximal_m", 3);
   const auto angle = arguments.numbers("angles_rad", 3);
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i)
     limbs.elbow[i] = {base[i][0] + proximal[i] * cos(angle[i]),
                       base[i][1] + proximal[i] * sin(angle[i])};
-  }
   return limbs;
 }
 
@@ -83,8 +82,8 @@ struct Search {
     return Q(limbs, Jet<Real>(phi, Real(1), Real(0)));
   }
 
-  /// Adds the zero of Q in an interval in which Q is monotonic, if there is one. A zero at the
-  /// common end of two intervals is added once.
+  /// Adds the zero of the polynomial Q(phi), phi being the angle of the platform, in an interval in
+  /// which Q is monotonic, if there is one. A zero at the common end of two intervals is added once.
   void add_crossing(const Real& from, const Real& to) {
     if ((at(from) < 0) == (at(to) < 0)) return;
     zeros.push_back(refined_root([&](const Real& phi) { return at(phi); }, from, to));

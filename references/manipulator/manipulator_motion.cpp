@@ -31,7 +31,8 @@ class Instant {
         wrench.x * motion[0].rate + wrench.y * motion[1].rate + wrench.moment * motion[2].rate;
     values_["gravity_power_W"] = 0;
     for (std::size_t i = 0; i < 3; ++i) add_limb(i);
-    add_body("platform", mass_center(m_, motion), motion[2], m_.platform_mass, m_.platform_inertia);
+    add_body("platform", platform_mass_center(m_, motion), motion[2], m_.platform_mass,
+             m_.platform_inertia);
     add_singularities();
   }
 
@@ -46,7 +47,7 @@ class Instant {
     const LimbNumbers& limb = m_.limbs[i];
     const auto [A, B, C] = limb_joints(limb, motion_);
     const std::string n = std::to_string(i + 1);
-    const Jet<Real> active = direction(A, B), passive = direction(B, C);
+    const Jet<Real> active = direction_angle(A, B), passive = direction_angle(B, C);
     add_angle("active_", ":A" + n, active);
     add_angle("passive_", ":B" + n, passive);
     const auto cross = [](const PointJet& o, const PointJet& p, const PointJet& q) {

@@ -41,7 +41,7 @@ class Platform {
  public:
   explicit Platform(const Arguments& arguments)
       : numbers_(read_planar_manipulator(arguments)),
-        trajectory_(read_trajectory(arguments)),
+        trajectory_(trajectory_arguments(arguments)),
         wrench_(read_wrench(arguments)),
         rates_(arguments.flag("rate_terms", false)) {}
 
@@ -190,7 +190,7 @@ struct LinkPose {
       : from(start),
         c((end[0] - start[0]) / length),
         s((end[1] - start[1]) / length),
-        angle(direction(start, end)) {}
+        angle(direction_angle(start, end)) {}
   PointJet from;
   Jet<Real> c, s, angle;
 };
@@ -241,7 +241,7 @@ class Links {
  public:
   explicit Links(const Arguments& arguments)
       : numbers_(read_planar_manipulator(arguments)),
-        trajectory_(read_trajectory(arguments)),
+        trajectory_(trajectory_arguments(arguments)),
         wrench_(read_wrench(arguments)),
         damping_(arguments.number("mass_damping_per_s", 0)) {
     for (const LimbNumbers& limb : numbers_.limbs)
@@ -368,7 +368,7 @@ std::vector<SystemState> states(const Links& links, const std::vector<Real>& tim
 
 }  // namespace
 
-std::vector<Real> moving_platform_program(const Arguments& arguments) {
+std::vector<Real> platform_vibration_program(const Arguments& arguments) {
   const Platform platform(arguments);
   History history{{Real(0)}, {Real(1)}};
   if (arguments.has("load_history")) {
@@ -394,7 +394,7 @@ std::vector<Real> moving_platform_program(const Arguments& arguments) {
   return values;
 }
 
-std::vector<Real> moving_links_program(const Arguments& arguments) {
+std::vector<Real> link_vibration_program(const Arguments& arguments) {
   const Links links(arguments);
   const std::vector<Real> times = arguments.numbers("times_s");
   if (!std::ranges::is_sorted(times)) arguments.fail("times_s", "expected ascending times");

@@ -27,7 +27,7 @@ Sample sample_at(const ManipulatorNumbers& manipulator, const Arguments& traject
   Sample sample{{torques.begin(), torques.end()}, std::vector<Real>(6)};
   for (std::size_t i = 0; i < 3; ++i) {
     const auto joints = limb_joints(manipulator.limbs[i], motion);
-    const Jet<Real> angle = direction(joints[0], joints[1]);
+    const Jet<Real> angle = direction_angle(joints[0], joints[1]);
     sample.joints[i] = angle.value;
     sample.joints[3 + i] = angle.rate;
   }
@@ -40,9 +40,8 @@ std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
   std::vector<Real> squared_distance;
   for (const auto& input : inputs) {
     Real sum = 0;
-    for (std::size_t f = 0; f < query.size(); ++f) {
+    for (std::size_t f = 0; f < query.size(); ++f)
       sum += (query[f] - input[f]) * (query[f] - input[f]);
-    }
     squared_distance.push_back(sum);
   }
   const Real min_squared_distance = *std::ranges::min_element(squared_distance);
@@ -59,7 +58,7 @@ std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
 
 }  // namespace
 
-std::vector<Real> grnn_program(const Arguments& arguments) {
+std::vector<Real> regression_network_program(const Arguments& arguments) {
   const Rows inputs = arguments.rows("inputs");
   const Rows outputs = arguments.rows("outputs");
   const Real sigma = arguments.has("spread")
@@ -76,7 +75,7 @@ std::vector<Real> grnn_program(const Arguments& arguments) {
 std::vector<Real> manipulator_grnn_program(const Arguments& arguments) {
   const ManipulatorNumbers manipulator = read_planar_manipulator(arguments);
   const PlanarWrench wrench = read_wrench(arguments);
-  const Arguments trajectory = read_trajectory(arguments);
+  const Arguments trajectory = trajectory_arguments(arguments);
   const Real step = arguments.positive("step_s");
   Rows inputs, outputs;
   for (int k = 0; k < arguments.count("train"); ++k) {

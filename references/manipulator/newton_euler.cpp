@@ -52,13 +52,13 @@ PointJet mass_center(const LinkNumbers& link, const PointJet& from, const PointJ
   return {from[0] + share * (to[0] - from[0]), from[1] + share * (to[1] - from[1])};
 }
 
-PointJet mass_center(const ManipulatorNumbers& manipulator,
-                     const std::array<Jet<Real>, 3>& motion) {
+PointJet platform_mass_center(const ManipulatorNumbers& manipulator,
+                              const std::array<Jet<Real>, 3>& motion) {
   const PointJet offset = rotated(manipulator.platform_center, motion[2]);
   return {motion[0] + offset[0], motion[1] + offset[1]};
 }
 
-Jet<Real> direction(const PointJet& from, const PointJet& to) {
+Jet<Real> direction_angle(const PointJet& from, const PointJet& to) {
   const Jet<Real> x = to[0] - from[0], y = to[1] - from[1];
   const Real r2 = x.value * x.value + y.value * y.value;
   const Real rate = (x.value * y.rate - y.value * x.rate) / r2;
@@ -81,7 +81,7 @@ ManipulatorForces newton_euler_forces(const ManipulatorNumbers& m,
                                       const PlanarWrench& wrench) {
   RealMatrix A = RealMatrix::Zero(21, 21);
   RealVector b = RealVector::Zero(21);
-  Body platform(A, b, 18, mass_center(m, motion));
+  Body platform(A, b, 18, platform_mass_center(m, motion));
   platform.add_inertia(m.platform_mass, m.platform_inertia, motion[2].acceleration, m.gravity);
   platform.add_load(wrench, {motion[0], motion[1]});
   for (std::size_t i = 0; i < 3; ++i) {
@@ -93,11 +93,11 @@ ManipulatorForces newton_euler_forces(const ManipulatorNumbers& m,
     proximal.add_joint_force(first + at_B, B, -1);
     proximal.add_torque(first + torque);
     proximal.add_inertia(limb.proximal.mass, limb.proximal.inertia,
-                         direction(base_joint, B).acceleration, m.gravity);
+                         direction_angle(base_joint, B).acceleration, m.gravity);
     Body distal(A, b, 6 * i + 3, mass_center(limb.distal, B, C));
     distal.add_joint_force(first + at_B, B, 1);
     distal.add_joint_force(first + at_C, C, -1);
-    distal.add_inertia(limb.distal.mass, limb.distal.inertia, direction(B, C).acceleration,
+    distal.add_inertia(limb.distal.mass, limb.distal.inertia, direction_angle(B, C).acceleration,
                        m.gravity);
     platform.add_joint_force(first + at_C, C, 1);
   }

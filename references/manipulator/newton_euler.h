@@ -19,11 +19,11 @@ using PointJet = Point2<Jet<Real>>;
 /// Return the center of mass of a link with the joints `from` and `to`, or of the platform.
 [[nodiscard]] PointJet mass_center(const LinkNumbers& link, const PointJet& from,
                                    const PointJet& to);
-[[nodiscard]] PointJet mass_center(const ManipulatorNumbers& manipulator,
-                                   const std::array<Jet<Real>, 3>& motion);
+[[nodiscard]] PointJet platform_mass_center(const ManipulatorNumbers& manipulator,
+                                            const std::array<Jet<Real>, 3>& motion);
 
 /// Returns the angle of the line from one point to another, with its time derivatives.
-[[nodiscard]] Jet<Real> direction(const PointJet& from, const PointJet& to);
+[[nodiscard]] Jet<Real> direction_angle(const PointJet& from, const PointJet& to);
 
 /// Returns the joints A_i, B_i and C_i of a limb.
 /// @param motion  x, y of P and orientation of the platform, with their time derivatives

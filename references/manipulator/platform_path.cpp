@@ -116,17 +116,15 @@ Motion platform_motion(const Arguments& trajectory, const Real& time) {
   const auto section = [&](const char* key, const std::vector<std::string>& known) {
     return Arguments(trajectory[key], trajectory.pointer(key), known);
   };
-  if (trajectory.has("circle")) {
+  if (trajectory.has("circle"))
     return on_circle(section("circle", {"center_m", "radius_m", "angular_speed_rad_s", "phi_rad"}),
                      t);
-  }
   if (trajectory.has("line")) {
     const Arguments line = section("line", {"from", "to", "duration_s"});
     return interpolate_poses(line, t / line.positive("duration_s"));
   }
-  if (trajectory.has("rest_to_rest")) {
+  if (trajectory.has("rest_to_rest"))
     return from_rest_to_rest(section("rest_to_rest", {"from", "to", "duration_s"}), t);
-  }
   return on_spline(section("spline", {"knots", "ends"}), t);
 }
 

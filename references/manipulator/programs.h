@@ -16,7 +16,7 @@ namespace trammel::references {
 [[nodiscard]] PlanarWrench read_wrench(const Arguments& arguments);
 
 /// Returns the value of the key "trajectory", which `platform_motion` requires.
-[[nodiscard]] Arguments read_trajectory(const Arguments& arguments);
+[[nodiscard]] Arguments trajectory_arguments(const Arguments& arguments);
 
 /// Returns x, y and orientation of the platform with their derivatives at a time. Paths have the
 /// format of "trajectory" in case files: circle, line, rest_to_rest or spline. The positions are
@@ -48,19 +48,19 @@ namespace trammel::references {
 /// path. The load acts at P. The first of times_s is the start, at rest. Outputs:
 /// displacement_x_m:P, displacement_y_m:B1, platform_rotation_rad, torque_N_m:A1, ...
 /// Values: the first output at all times, then the second.
-[[nodiscard]] std::vector<Real> moving_links_program(const Arguments& arguments);
+[[nodiscard]] std::vector<Real> link_vibration_program(const Arguments& arguments);
 
 /// Computes the vibration of a platform on elastic links without mass, about its motion along a
 /// path. The load acts at P. Its factor load_history (time_s, factor) is linear between the times,
 /// and constant outside. The first of times_s is the start, at rest. Output: displacement_x_m,
 /// displacement_y_m, platform_rotation_rad, kinetic_energy_J, axial_force_N:B1-C1 ... or
 /// torque_N_m:A1 .... Values: the output at each time.
-[[nodiscard]] std::vector<Real> moving_platform_program(const Arguments& arguments);
+[[nodiscard]] std::vector<Real> platform_vibration_program(const Arguments& arguments);
 
 /// Computes the estimates of a general regression neural network at each query. Arguments: inputs,
 /// outputs, queries (arrays of rows); sigma, or spread in the convention of MATLAB's newgrnn,
 /// exp(-(0.8326 D / spread)^2), where D is the distance between query and training input.
-[[nodiscard]] std::vector<Real> grnn_program(const Arguments& arguments);
+[[nodiscard]] std::vector<Real> regression_network_program(const Arguments& arguments);
 
 /// Computes the angles or velocities of the active joints that a general regression neural network
 /// estimates. It is trained with torques by Newton and Euler along the path. Point k of the path is

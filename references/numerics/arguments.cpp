@@ -35,9 +35,8 @@ auto read_array(const Arguments& arguments, const std::string& key, const char* 
 
 Arguments::Arguments(const Json& object, std::string pointer)
     : object_(object), pointer_(std::move(pointer)) {
-  if (!object_.is_object()) {
+  if (!object_.is_object())
     throw DerivationError((pointer_.empty() ? "/" : pointer_) + ": expected an object");
-  }
 }
 
 Arguments::Arguments(const Json& object, std::string pointer, const std::vector<std::string>& known)
@@ -94,9 +93,8 @@ Real Arguments::not_negative(const std::string& key, const Real& default_value) 
 
 int Arguments::count(const std::string& key) const {
   const Json& value = (*this)[key];
-  if (!value.is_number_integer() || value.get<long>() < 1 || value.get<long>() > 1000) {
+  if (!value.is_number_integer() || value.get<long>() < 1 || value.get<long>() > 1000)
     fail(key, "expected a whole number from 1 to 1000");
-  }
   return value.get<int>();
 }
 

@@ -22,7 +22,7 @@ template <class T>
 /// Returns the function C at x and its integral S from 0 to x. If k^2 > 0, C is cosh(k x), and both
 /// values are divided by cosh(k x). Otherwise C is cos(|k| x).
 template <class T>
-[[nodiscard]] std::array<T, 2> wave_functions(const T& k2, const T& x) {
+[[nodiscard]] std::array<T, 2> scaled_cosine_and_integral(const T& k2, const T& x) {
   using std::cos, std::sin, std::sqrt, std::tanh;
   if (k2 == 0) return {T(1), x};
   const T k = sqrt(k2 > 0 ? k2 : T(-k2));

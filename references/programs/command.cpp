@@ -40,10 +40,9 @@ void print_values(const Comparison& comparison, std::ostream& out) {
         << in_column(derived - comparison.stored[i], 12, 2)
         << in_column(comparison.uncertainty[i], 13, 3) << "\n";
   }
-  if (comparison.derived.size() > comparison.stored.size()) {
+  if (comparison.derived.size() > comparison.stored.size())
     out << "  " << comparison.derived.size() - comparison.stored.size()
         << " derived values are not stored\n";
-  }
 }
 
 /// Prints the values of a proved reference whose stored digits differ from the proved digits.

@@ -61,9 +61,8 @@ std::vector<Real> parameter_sweep_program(const Arguments& arguments) {
     }
   } else {
     const std::vector<std::string> pointers = arguments.texts("pointers");
-    for (const Json& value : arguments["values"]) {
+    for (const Json& value : arguments["values"])
       levels.push_back(with_value(arguments["arguments"], pointers, value, arguments));
-    }
   }
   std::vector<Real> values;
   for (const Json& level : levels) {
@@ -77,11 +76,11 @@ std::vector<Real> parameter_sweep_program(const Arguments& arguments) {
 
 const std::map<std::string, Program>& programs() {
   static const std::map<std::string, Program> table = {
-      {"annular-membrane", {annular_membrane_program}},
+      {"annular-membrane", {annular_plate_inplane_program}},
       {"assembly-modes", {assembly_modes_program}},
       {"becks-column", {becks_column_program}},
       {"column-buckling", {column_buckling_program}},
-      {"deep-beam-response", {deep_beam_program}},
+      {"deep-beam-response", {forced_timoshenko_beam_program}},
       {"elastic-chain", {elastic_chain_program}},
       {"elastica-column", {elastica_column_program}},
       {"elastica-tip-force", {elastica_tip_force_program}},
@@ -90,22 +89,22 @@ const std::map<std::string, Program>& programs() {
       {"pendulum", {pendulum_program}},
       {"rotating-beam-frequencies", {rotating_beam_frequencies_program}},
       {"rotating-beam-roots", {rotating_beam_roots_program}},
-      {"run-up", {run_up_program}},
+      {"run-up", {rotor_run_up_program}},
       {"tapered-beam", {tapered_beam_program}},
       {"beam-frequencies", {beam_frequencies_program}},
       {"beam-roots", {beam_roots_program, prove_beam_roots}},
       {"beam-share", {beam_modal_mass_program}},
       {"frame-buckling", {frame_buckling_program}},
-      {"frame-count", {frame_count_program}},
+      {"frame-count", {frame_frequency_count_program}},
       {"frame-frequencies", {frame_frequencies_program, prove_frame_frequencies}},
       {"frame-frequency-sensitivity", {frame_frequency_sensitivity_program}},
       {"frame-statics", {frame_statics_program}},
-      {"grnn", {grnn_program}},
+      {"grnn", {regression_network_program}},
       {"manipulator-grnn", {manipulator_grnn_program}},
       {"manipulator-motion", {manipulator_motion_program}},
       {"manipulator-torques", {manipulator_torques_program}},
-      {"moving-links", {moving_links_program}},
-      {"moving-platform", {moving_platform_program}},
+      {"moving-links", {link_vibration_program}},
+      {"moving-platform", {platform_vibration_program}},
       {"wedge-exponent", {wedge_exponent_program}},
       {"formula", {formula_program}},
       {"swept", {parameter_sweep_program}},

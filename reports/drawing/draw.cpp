@@ -161,7 +161,7 @@ std::string slug(const std::string& text) {
   return (out.empty() ? "x" : out) + suffix.data();
 }
 
-bool can_draw() {
+bool has_gnuplot() {
   return std::system("command -v gnuplot >/dev/null 2>&1") == 0;
 }
 

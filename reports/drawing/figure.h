@@ -28,7 +28,7 @@ struct Figure {
 [[nodiscard]] std::string slug(const std::string& text);
 
 /// Returns whether gnuplot is installed.
-[[nodiscard]] bool can_draw();
+[[nodiscard]] bool has_gnuplot();
 
 /// Draws all figures with one gnuplot process. Sets `svg`, and writes <id>.svg and <id>.csv for
 /// each figure into `folder`.

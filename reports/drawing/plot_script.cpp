@@ -30,7 +30,7 @@ bool starts_character(char c) {
 std::string titled(const std::string& title) {
   return title.empty()
              ? " notitle"
-             : " title " + gnuplot_string(shortened(with_powers(title), kMaxKeyCharacters));
+             : " title " + gnuplot_string(shortened(with_powers_of_ten(title), kMaxKeyCharacters));
 }
 
 }  // namespace
@@ -95,7 +95,7 @@ void PlotScript::key_entry(const std::string& style, const std::string& title) {
 }
 
 void PlotScript::label(const std::string& text, const std::string& place) {
-  command("set label " + gnuplot_string(with_powers(text)) + " at " + place);
+  command("set label " + gnuplot_string(with_powers_of_ten(text)) + " at " + place);
 }
 
 void PlotScript::plot() {
@@ -105,7 +105,7 @@ void PlotScript::plot() {
   curves_.clear();
 }
 
-int PlotScript::key_below(const std::vector<std::string>& titles) {
+int PlotScript::place_key_below(const std::vector<std::string>& titles) {
   std::size_t longest = 1;
   for (const std::string& title : titles)
     longest = std::max(longest, std::min(characters(title), kMaxKeyCharacters));

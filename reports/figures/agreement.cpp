@@ -86,7 +86,7 @@ std::optional<Figure> agreement_figure(const CaseInfo& info, const Results& resu
   const bool modes = first.quantity.starts_with("frequency");
   script.axis_label("x", modes ? "mode" : "entry");
   script.axis_label("y", axis_label(to_text(quantity), quantity.unit));
-  const int key = script.key_below(titles);
+  const int key = script.place_key_below(titles);
   script.plot();
   const std::string caption =
       "Printed values, and computed values with their expanded uncertainty (discretization and "

@@ -187,7 +187,7 @@ Figure figure_of(const CaseInfo& info, const Run& run, const Sweeps& sweeps) {
   Interval extent{1, 1e-16};
   std::vector<std::string> titles = {"round-off"};
   for (const Convergence* c : sweeps) titles.push_back(series_title(*c, sweeps.size() == 1));
-  const int key_height = script.key_below(titles);
+  const int key_height = script.place_key_below(titles);
   const auto floor = roundoff_floor(sweeps);
   for (const auto& row : floor) extent.cover(0.3 * row[1]);
   script.curve(floor, "with filledcurves y1=1e-30" + lc(palette::kShade), "round-off");

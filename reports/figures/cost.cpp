@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 
 #include "harness/base/find_or_add.h"
 #include "reports/drawing/interval.h"
@@ -96,8 +95,8 @@ Table table_of(const CostStudy& study) {
     std::vector<Table::Cell> row = {s.title, s.curve, cell(s.value), s.status, s.reason};
     const Number low = s.time ? s.time->relative_low : Number();
     const Number high = s.time ? s.time->relative_high : Number();
-    for (const Number& x : std::initializer_list<Number>{errors.max, errors.rms, errors.mean,
-                                                         s.cpu_s, s.relative, low, high})
+    for (const Number& x :
+         {errors.max, errors.rms, errors.mean, Number(s.cpu_s), s.relative, low, high})
       row.push_back(cell(x));
     row.emplace_back(std::string(s.pareto_optimal ? "yes" : "no"));
     for (const auto& counter : s.counters) row.emplace_back(static_cast<double>(counter.second));
@@ -126,7 +125,7 @@ Figure cost_figure(const CostStudy& study) {
     draw_curve(script, study, *curves[i], i);
     keys.push_back(curves[i]->curve_title);
   }
-  const int key_height = script.key_below(keys);
+  const int key_height = script.place_key_below(keys);
   script.plot();
   const std::string note = " Not drawn: " + count(outside, "setting") + " without a result.";
   return {.id = slug("cost-" + study.id),

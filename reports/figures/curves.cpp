@@ -211,7 +211,7 @@ int draw_series(PlotScript& script, const std::vector<Series>& series, const Cas
     titles.push_back(title);
     script.key_entry(style, title);
   }
-  return script.key_below(titles);
+  return script.place_key_below(titles);
 }
 
 }  // namespace

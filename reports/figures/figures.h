@@ -44,7 +44,7 @@ namespace trammel::reports {
 
 /// Figure of processor time and counted work of the calls in a history file, relative to the first
 /// call. Calls with failures are marked.
-[[nodiscard]] Figure history_figure(const History& history);
+[[nodiscard]] Figure call_history_figure(const History& history);
 
 /// Colored map of a quantity over positions for one variant, as requested by a case. The curves of
 /// `request.lines` are drawn on the map.

@@ -108,7 +108,7 @@ std::vector<const Run*> Family::runs_of(const std::string& case_id) const {
   return out;
 }
 
-std::vector<Family> plan_families(const Results& results) {
+std::vector<Family> plan_family_figures(const Results& results) {
   std::vector<Family> families;
   for (const CaseInfo& info : results.cases) {
     std::vector<const Run*> runs;

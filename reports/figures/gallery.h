@@ -32,7 +32,7 @@ struct Family {
 };
 
 /// Returns all families with the cases that were run. The figures are not yet numbered or drawn.
-[[nodiscard]] std::vector<Family> plan_families(const Results& results);
+[[nodiscard]] std::vector<Family> plan_family_figures(const Results& results);
 
 /// Returns the figures of the page of each family and of each case.
 [[nodiscard]] std::vector<std::vector<Figure*>> figures_by_page(std::vector<Family>& families);

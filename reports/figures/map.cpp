@@ -197,7 +197,7 @@ int draw_map(PlotScript& script, const PlotRequest& request, const Run& run, con
     script.key_entry("with points pt 5 ps 1.6" + color, titles.back());
   }
   draw_lines(script, request, run, titles);
-  const int key_height = script.key_below(titles);
+  const int key_height = script.place_key_below(titles);
   script.plot();
   return key_height;
 }

@@ -154,7 +154,7 @@ int draw_overlays(PlotScript& script, Table& data, const std::vector<const Pose*
     draw_body(script, drawing, overlays[i]->nodes, palette::color(2 + i), 1.2, overlays[i]->label);
     add_rows(data, overlays[i]->label, drawing, overlays[i]->nodes);
   }
-  return script.key_below(titles);
+  return script.place_key_below(titles);
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ std::vector<std::vector<int>> outline(const Drawing& drawing) {
 
 }  // namespace
 
-double round_step(double min_step) {
+double tick_spacing(double min_step) {
   const double power = std::pow(10.0, std::floor(std::log10(min_step)));
   for (const double digit : {1.0, 2.0, 5.0})
     if (digit * power >= min_step) return digit * power;
@@ -173,7 +173,7 @@ void frame(PlotScript& script, const Box& box) {
   script.command("set size ratio -1");
   script.axis_label("x", "x (m)");
   script.axis_label("y", "y (m)");
-  const std::string step = shortest_decimal(round_step(box.side() / 5));
+  const std::string step = shortest_decimal(tick_spacing(box.side() / 5));
   script.command("set xtics " + step + "; set ytics " + step);
 }
 

@@ -48,7 +48,7 @@ struct Box {
                              double min_aspect);
 
 /// Returns the smallest number of at least `min_step` that is 1, 2 or 5 times a power of ten.
-[[nodiscard]] double round_step(double min_step);
+[[nodiscard]] double tick_spacing(double min_step);
 /// Sets the ranges of the axes x and y (m) to the box, with the same scale.
 void frame(PlotScript& script, const Box& box);
 

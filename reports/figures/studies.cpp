@@ -96,18 +96,16 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
     caption += " Requested " + relative(scene->tolerance, 2, false) + ", obtained " +
                relative(scene->change, 2, false) + ".";
   }
-  const int key = script.key_below({"needed", "not needed", "cumulative", "tolerance"});
+  const int key = script.place_key_below({"needed", "not needed", "cumulative", "tolerance"});
   script.plot();
-  return Figure{.id = slug(info.id + "-" + run.variant + "-effects"),
-                .title = titled("Effects", info, run),
-                .caption =
-                    "Change of the results without each effect alone, and without it and the "
-                    "effects removed before (cumulative). " +
-                    caption,
-                .alt = caption,
-                .height = 120 + 34 * static_cast<int>(table.rows.size()) + key,
-                .commands = script.commands(),
-                .data = std::move(table)};
+  return Figure{
+      .id = slug(info.id + "-" + run.variant + "-effects"),
+      .title = titled("Effects", info, run),
+      .caption = "Changes without one effect, and without several (cumulative). " + caption,
+      .alt = caption,
+      .height = 120 + 34 * static_cast<int>(table.rows.size()) + key,
+      .commands = script.commands(),
+      .data = std::move(table)};
 }
 
 std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes) {
@@ -137,7 +135,7 @@ std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes)
                  analysis);
     keys.push_back(analysis);
   }
-  const int key_height = script.key_below(keys);
+  const int key_height = script.place_key_below(keys);
   script.plot();
   const std::string plotted =
       "Change of the results caused by omitting effects, against the requested tolerance, one "
@@ -152,7 +150,7 @@ std::vector<Figure> effect_scene_figures(const std::vector<EffectScene>& scenes)
            .is_linked = true}};
 }
 
-Figure history_figure(const History& history) {
+Figure call_history_figure(const History& history) {
   const std::string machine = history.calls.back().machine;
   PlotScript::Rows time, work, failing;
   double first_time = 0, first_work = 0;
@@ -179,7 +177,7 @@ Figure history_figure(const History& history) {
                  std::to_string(step));
   script.range("x", static_cast<double>(history.calls.front().id) - 0.5,
                static_cast<double>(history.calls.back().id) + 0.5);
-  const int key = script.key_below({"counted work", "processor time", "with failures"});
+  const int key = script.place_key_below({"counted work", "processor time", "with failures"});
   const std::string line = "with linespoints lw 1.6 ps 0.8 pt ";
   script.curve(work, line + "7" + lc(palette::color(0)), "counted work");
   script.curve(time, line + "5" + lc(palette::color(1)), "processor time");

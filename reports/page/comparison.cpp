@@ -98,7 +98,7 @@ TextTable numbers_table(const ComparedRun& run, const SideComparison& comparison
     for (std::size_t s = 0; s < number.values.size(); ++s) {
       const Number value = number.values[s];
       const bool zero = value && std::abs(*value) <= number.noise;
-      row.push_back(zero ? "0" : or_dash(value, 6));
+      row.push_back(zero ? "0" : text_or_dash(value, 6));
       if (!zero && number.errors[s]) row.back() += " ± " + significant(*number.errors[s], 2);
       if (s > 0) row.push_back(percent_text(number.percent[s]));
     }

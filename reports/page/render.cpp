@@ -25,7 +25,7 @@ std::string with_powers_in_text(const std::string& html) {
   std::string out;
   for (std::size_t from = 0; from < html.size();) {
     const std::size_t tag = std::min(html.find('<', from), html.size());
-    out += with_powers(html.substr(from, tag - from));
+    out += with_powers_of_ten(html.substr(from, tag - from));
     from = html.find('>', tag);
     for (const std::string_view name : kUnchanged)
       if (html.compare(std::min(tag + 1, html.size()), name.size(), name) == 0)

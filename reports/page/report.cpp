@@ -53,7 +53,7 @@ void write_checks(const std::vector<Family>& families, const fs::path& folder) {
 fs::path write_report(const Results& results, const fs::path& out) {
   const fs::path part = out / kUnfinishedFolder;
   try {
-    std::vector<Family> families = plan_families(results);
+    std::vector<Family> families = plan_family_figures(results);
     StudyFigures studies = plan_studies(results);
     std::vector<std::vector<Figure*>> pages = figures_by_page(families);
     pages.push_back(studies.all());

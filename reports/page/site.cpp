@@ -94,12 +94,12 @@ Data index_contents(const Data& index) {
 /// page belongs is unfolded, so that its cases are listed.
 Data family_contents(const std::vector<Data>& sections, const std::string& path) {
   return list_of(sections, [&](const Data& section) {
-    bool open = text_under(section, "family_link") == path;
+    bool open = text_variable(section, "family_link") == path;
     Data family = object({{"is_here", open}}), cases = list();
     copy(section, family,
          {"family_link", "family_title", "cases_count", "status_text", "status_class", "sign"});
     for (const Data& entry : section.get("cases")->list_value()) {
-      const bool is_here = text_under(entry, "case_link") == path;
+      const bool is_here = text_variable(entry, "case_link") == path;
       Data contents = object({{"is_here", is_here}});
       copy(entry, contents, {"case_link", "short_title", "status_text", "status_class", "sign"});
       cases.push_back(contents);
@@ -125,7 +125,7 @@ std::string check_list(const std::vector<Family>& families) {
           const Check& worst = group.worst();
           const auto [role, is_new] = roles.emplace(worst.role, roles.size());
           if (is_new) json["roles"].push_back(worst.role);
-          const double share = tolerance_fraction(worst);
+          const double share = share_of_tolerance(worst);
           json["rows"].push_back(
               {json["cases"].size(), run->variant, check_title(worst), quantity_text(worst),
                role->second, static_cast<int>(check_status(worst)),
@@ -157,7 +157,7 @@ Data titled_index(const Data& index) {
 }
 
 Data titled_by(const Data& section, const char* title) {
-  Data data = titled(text_under(section, title));
+  Data data = titled(text_variable(section, title));
   copy(section, data, {"status_class", "status_text", "sign"});
   return data;
 }

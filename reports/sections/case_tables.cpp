@@ -27,9 +27,9 @@ Number timing_of(const Run& run, const std::string& name) {
 
 std::string cell_text(const ColumnRequest& column, const Run& run) {
   if (column.timing.empty())
-    return or_dash(statistic(column.statistic, run.quantity(column.quantity)), 3);
+    return text_or_dash(statistic(column.statistic, run.quantity(column.quantity)), 3);
   const Number time = timing_of(run, column.timing), other = timing_of(run, column.over_timing);
-  if (!time || (!column.over_timing.empty() && other.value_or(0) == 0)) return or_dash({}, 3);
+  if (!time || (!column.over_timing.empty() && other.value_or(0) == 0)) return text_or_dash({}, 3);
   return column.over_timing.empty() ? duration(*time) : "× " + trimmed(*time / *other, 2);
 }
 

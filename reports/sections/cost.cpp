@@ -114,7 +114,7 @@ StudyFigures plan_studies(const Results& results) {
   if (results.cost)
     for (const CostStudy& study : results.cost->studies) figures.cost.push_back(cost_figure(study));
   if (results.history && results.history->calls.size() > 1)
-    figures.history = {history_figure(*results.history)};
+    figures.history = {call_history_figure(*results.history)};
   return figures;
 }
 

@@ -112,7 +112,7 @@ Data case_section(const CaseInfo& info, const Family& family, const Results& res
              {"folded_figures_title",
               gallery.folded.empty() ? "" : count(gallery.folded.size(), "further figure")},
              {"folded_figures", list_of(gallery.folded, figure_data)},
-             {"tables", case_tables(info, runs, results)},
+             {"tables", case_check_tables(info, runs, results)},
              {"has_variant_tables", !info.tables.empty()},
              {"variant_tables", object({{"tables", variant_tables(info, runs)}})},
              {"csv", "checks/" + slug(info.id) + ".csv"}});

@@ -95,8 +95,8 @@ struct StudyFigures {
 
 /// Returns the tables of the checks of a case. If there are many checks, one table has the worst
 /// value of each check, and a folded table has all checks.
-[[nodiscard]] Data case_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
-                               const Results& results);
+[[nodiscard]] Data case_check_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
+                                     const Results& results);
 
 /// Returns all checks of a case with all digits, as a table for a CSV file.
 [[nodiscard]] Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs);

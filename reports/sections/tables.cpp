@@ -167,8 +167,8 @@ Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows
 
 }  // namespace
 
-Data case_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
-                 const Results& results) {
+Data case_check_tables(const CaseInfo& info, const std::vector<const Run*>& runs,
+                       const Results& results) {
   std::size_t checks = 0;
   for (const Run* run : runs) checks += run->checks.size();
   const bool few = rows_in(runs) <= kMaxUnfoldedChecks;

@@ -34,7 +34,7 @@ inline void set(Data& data, std::initializer_list<Entry> entries) {
 }
 
 /// Returns the text of a variable of the data; empty if the data have no such text.
-[[nodiscard]] inline std::string text_under(const Data& data, const std::string& name) {
+[[nodiscard]] inline std::string text_variable(const Data& data, const std::string& name) {
   const Data* found = data.get(name);
   return found != nullptr && found->is_string() ? found->string_value() : "";
 }

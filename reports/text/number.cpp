@@ -100,7 +100,7 @@ std::string power_of_ten(int exponent) {
   return out;
 }
 
-std::string with_powers(const std::string& text) {
+std::string with_powers_of_ten(const std::string& text) {
   static const std::regex number(R"((?:^|\W)(\d+(?:\.\d*)?)[eE]([-+]?\d+)(?!\w))");
   auto from = text.cbegin();
   std::string out;
@@ -131,7 +131,7 @@ std::string length_text(double length_m) {
                         : trimmed(length_m, 3) + "\u202fm";
 }
 
-std::string or_dash(harness::Number x, int digits) {
+std::string text_or_dash(harness::Number x, int digits) {
   return x ? trimmed(*x, digits) : "–";
 }
 

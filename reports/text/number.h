@@ -44,7 +44,7 @@ inline constexpr int kSampleDigits = 7;
 [[nodiscard]] std::string power_of_ten(int exponent);
 
 /// Replaces numbers such as 1e-6 and 2.1e-09 in a text by 10⁻⁶ and 2.1 × 10⁻⁹.
-[[nodiscard]] std::string with_powers(const std::string& text);
+[[nodiscard]] std::string with_powers_of_ten(const std::string& text);
 
 /// Returns a number with its noun in singular or plural: "1 check" or "3 checks".
 [[nodiscard]] std::string count(std::size_t n, const std::string& singular,
@@ -57,7 +57,7 @@ inline constexpr int kSampleDigits = 7;
 [[nodiscard]] std::string length_text(double length_m);
 
 /// Returns the number, or a dash if it is missing.
-[[nodiscard]] std::string or_dash(harness::Number x, int digits);
+[[nodiscard]] std::string text_or_dash(harness::Number x, int digits);
 
 /// Replaces hyphens and underscores by spaces.
 [[nodiscard]] std::string spaced(std::string name);

@@ -73,10 +73,9 @@ class Side {
  private:
   [[nodiscard]] double angle(const Vector2d& point) const {
     const Vector2d p = (point - ellipse_->center).cwiseQuotient(ellipse_->semi_axes);
-    if (!(std::abs(p.norm() - 1) < 1e-6)) {
+    if (!(std::abs(p.norm() - 1) < 1e-6))
       throw ModelError("a corner of a mesh block at (" + std::to_string(point.x()) + ", " +
                        std::to_string(point.y()) + ") m does not lie on the ellipse of its side");
-    }
     return std::atan2(p.y(), p.x());
   }
 
@@ -111,12 +110,10 @@ class Mesher {
   BlockMesh mesh() { return std::move(mesh_); }
 
   void add(const Block& block) {
-    if (block.cells[0] < 1 || block.cells[1] < 1) {
+    if (block.cells[0] < 1 || block.cells[1] < 1)
       throw ModelError("a mesh block must have at least one cell along each side");
-    }
-    if (!(block.grading[0] > 0 && block.grading[1] > 0)) {
+    if (!(block.grading[0] > 0 && block.grading[1] > 0))
       throw ModelError("the grading of a mesh block must be positive");
-    }
     const bool middles = mesh_.six_nodes;
     const std::vector<double> s = lines(block.cells[0], block.grading[0], middles);
     const std::vector<double> t = lines(block.cells[1], block.grading[1], middles);
@@ -243,9 +240,8 @@ double pattern(Index n) {
 }  // namespace
 
 Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate) {
-  if (!(mesh.distortion >= 0 && mesh.distortion < 0.3)) {
+  if (!(mesh.distortion >= 0 && mesh.distortion < 0.3))
     throw ModelError("the distortion of a rectangle's mesh must be >= 0 and < 0.3 cells");
-  }
   const auto cells = static_cast<double>(mesh.cells);
   const Vector2d size(mesh.length, mesh.height);
   const Vector2d x = size.x() * Vector2d::UnitX(), y = size.y() * Vector2d::UnitY();
@@ -263,11 +259,10 @@ Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate) {
   for (const auto& nodes : block.triangles) corners.insert(nodes.begin(), nodes.begin() + 3);
   for (const Index corner : corners) distort(block.positions[to_size(corner)]);
   for (const auto& nodes : block.triangles) {
-    for (std::size_t k = 3; k < 6 && mesh.six_nodes; ++k) {
+    for (std::size_t k = 3; k < 6 && mesh.six_nodes; ++k)
       block.positions[to_size(nodes[k])] =
           (block.positions[to_size(nodes[k - 3])] + block.positions[to_size(nodes[(k - 2) % 3])]) /
           2;
-    }
   }
   Model model;
   model.plates.push_back(plate);
@@ -277,9 +272,8 @@ Model mesh_rectangle(const RectangleMesh& mesh, const Plate& plate) {
 }
 
 Model mesh_line(const DistortedLine& mesh, const Member& member) {
-  if (!(mesh.distortion >= 0 && mesh.distortion < 1)) {
+  if (!(mesh.distortion >= 0 && mesh.distortion < 1))
     throw ModelError("the distortion of a line's mesh must be >= 0 and < 1 cell");
-  }
   Model model;
   for (Index i = 0; i <= mesh.cells; ++i) {
     const bool moved = i % 2 == 1 && i < mesh.cells;

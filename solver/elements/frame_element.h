@@ -78,8 +78,9 @@ template <Real T = double>
 
 /// Returns the diagonal stiffness of the three deformations d of an element [N/m, N m, N m].
 template <Real T>
-[[nodiscard]] Eigen::Vector3<T> frame_rigidity(const SectionOf<T>& section, BeamTheory theory,
-                                               const std::type_identity_t<T>& length) {
+[[nodiscard]] Eigen::Vector3<T> frame_deformation_stiffness(const SectionOf<T>& section,
+                                                            BeamTheory theory,
+                                                            const std::type_identity_t<T>& length) {
   const T phi = shear_ratio(section, theory, length);
   return {section.EA / length, section.EI / length, 3.0 * section.EI / (length * (1.0 + phi))};
 }
@@ -145,7 +146,7 @@ template <Real T>
 /// Returns T_s, 6 x 6, which maps world degrees of freedom to element degrees of freedom.
 /// Source: Varalakshmi & Srinivas (2017), Eq. 10.
 template <Real T = double>
-[[nodiscard]] Matrix6<T> frame_rotation(const Eigen::Vector2<T>& direction) {
+[[nodiscard]] Matrix6<T> frame_transformation_matrix(const Eigen::Vector2<T>& direction) {
   Matrix6<T> R = Matrix6<T>::Zero();
   for (const Index node : {Index{0}, Index{3}}) {
     R(node, node) = R(node + 1, node + 1) = direction.x();

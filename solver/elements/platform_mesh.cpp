@@ -117,10 +117,9 @@ void add_shares(const TriangleMesh& mesh, const TriangleMesh::Nodes& nodes, cons
                Vector3d(1, xi.x(), xi.y()).transpose();
   });
   if (moments.isZero(0)) return;
-  for (std::size_t k = 0; k < (six_nodes ? 6 : 3); ++k) {
+  for (std::size_t k = 0; k < (six_nodes ? 6 : 3); ++k)
     shares.try_emplace(nodes[k], Vector3d::Zero()).first->second +=
         moments.row(static_cast<Index>(k)).transpose();
-  }
 }
 
 }  // namespace

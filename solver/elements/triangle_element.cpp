@@ -36,7 +36,8 @@ Eigen::Matrix<double, 6, 1> triangle_shape_functions(const Vector3d& L, bool six
   return N;
 }
 
-TriangleInterpolation interpolate(std::span<const Vector2d> nodes, const Vector3d& at) {
+TriangleInterpolation evaluate_shape_functions(std::span<const Vector2d> nodes,
+                                               const Vector3d& at) {
   TriangleInterpolation result;
   result.nodes = std::ssize(nodes);
   result.N = triangle_shape_functions(at, nodes.size() == 6);
@@ -53,23 +54,24 @@ TriangleInterpolation interpolate(std::span<const Vector2d> nodes, const Vector3
   return result;
 }
 
-TriangleInterpolation interpolate(const Model& model, const Triangle& triangle,
-                                  const Vector3d& at) {
-  return visit_nodes(model, triangle, [&](const auto& nodes) { return interpolate(nodes, at); });
+TriangleInterpolation evaluate_shape_functions(const Model& model, const Triangle& triangle,
+                                               const Vector3d& at) {
+  return visit_nodes(model, triangle,
+                     [&](const auto& nodes) { return evaluate_shape_functions(nodes, at); });
 }
 
 double signed_area(const TrianglePoints& points) {
   return cross(points[1] - points[0], points[2] - points[0]) / 2;
 }
 
-Eigen::Matrix<double, 3, 6> triangle_deformation(const TrianglePoints& points) {
+Eigen::Matrix<double, 3, 6> triangle_deformation_matrix(const TrianglePoints& points) {
   const double twice = 2 * signed_area(points);
   TriangleInterpolation at;
   for (std::size_t i = 0; i < 3; ++i) {
     const Vector2d edge = points[(i + 2) % 3] - points[(i + 1) % 3];
     at.gradient.col(static_cast<Index>(i)) << -edge.y() / twice, edge.x() / twice;
   }
-  return triangle_deformation<3>(at);
+  return triangle_deformation_matrix<3>(at);
 }
 
 Vector3d membrane_rigidity(const Material& material, double volume) {
@@ -84,7 +86,7 @@ Vector3d membrane_stress(const Material& material, const Vector3d& deformation) 
 
 template <>
 TriangleStiffness<3> triangle_stiffness(const TrianglePoints& nodes, const Plate& plate) {
-  return {triangle_deformation(nodes),
+  return {triangle_deformation_matrix(nodes),
           membrane_rigidity(plate.material, plate.thickness * std::abs(signed_area(nodes)))};
 }
 
@@ -93,8 +95,8 @@ TriangleStiffness<6> triangle_stiffness(const TriangleNodes<6>& nodes, const Pla
   TriangleStiffness<6> k;
   Index row = 0;
   for (const TriangleQuadraturePoint& point : triangle_quadrature_of_degree_4()) {
-    const TriangleInterpolation at = interpolate(nodes, point.area_coordinates);
-    k.B.middleRows<3>(row) = triangle_deformation<6>(at);
+    const TriangleInterpolation at = evaluate_shape_functions(nodes, point.area_coordinates);
+    k.B.middleRows<3>(row) = triangle_deformation_matrix<6>(at);
     k.c.segment<3>(row) =
         membrane_rigidity(plate.material, point.weight * at.area * plate.thickness);
     row += 3;
@@ -116,7 +118,7 @@ template <>
 TriangleMatrix<6> triangle_mass(const TriangleNodes<6>& nodes, const Plate& plate) {
   TriangleMatrix<6> M = TriangleMatrix<6>::Zero();
   for (const TriangleQuadraturePoint& point : triangle_quadrature()) {
-    const TriangleInterpolation at = interpolate(nodes, point.area_coordinates);
+    const TriangleInterpolation at = evaluate_shape_functions(nodes, point.area_coordinates);
     const double dm = plate.material.rho * plate.thickness * at.area * point.weight;
     for (Index i = 0; i < 6; ++i) {
       for (Index j = 0; j < 6; ++j) {

@@ -45,7 +45,7 @@ struct TriangleInterpolation {
 };
 
 /// Returns the area coordinates of the corners and mid-side nodes of a triangle.
-[[nodiscard]] inline std::array<Vector3d, 6> triangle_node_coordinates() {
+[[nodiscard]] inline std::array<Vector3d, 6> triangle_node_area_coordinates() {
   return {Vector3d(1, 0, 0),     Vector3d(0, 1, 0),     Vector3d(0, 0, 1),
           Vector3d(0.5, 0.5, 0), Vector3d(0, 0.5, 0.5), Vector3d(0.5, 0, 0.5)};
 }
@@ -56,11 +56,12 @@ struct TriangleInterpolation {
                                                                    bool six_nodes);
 
 /// Evaluates the shape functions of a triangle with 3 or 6 nodes [m] at the area coordinates `at`.
-[[nodiscard]] TriangleInterpolation interpolate(std::span<const Vector2d> nodes,
-                                                const Vector3d& at);
+[[nodiscard]] TriangleInterpolation evaluate_shape_functions(std::span<const Vector2d> nodes,
+                                                             const Vector3d& at);
 /// Evaluates the shape functions of a triangle of a model at the area coordinates `at`.
-[[nodiscard]] TriangleInterpolation interpolate(const Model& model, const Triangle& triangle,
-                                                const Vector3d& at);
+[[nodiscard]] TriangleInterpolation evaluate_shape_functions(const Model& model,
+                                                             const Triangle& triangle,
+                                                             const Vector3d& at);
 
 /// Returns the positions of the first n nodes of a triangle [m].
 template <std::size_t n>
@@ -82,7 +83,7 @@ decltype(auto) visit_nodes(const Model& model, const Triangle& triangle, Visit&&
 
 /// Returns the matrix B at a point, which maps coordinates to (exx + eyy, exx - eyy, gxy) [-].
 template <int nodes>
-[[nodiscard]] Eigen::Matrix<double, 3, 2 * nodes> triangle_deformation(
+[[nodiscard]] Eigen::Matrix<double, 3, 2 * nodes> triangle_deformation_matrix(
     const TriangleInterpolation& at) {
   Eigen::Matrix<double, 3, 2 * nodes> B;
   for (Index i = 0; i < nodes; ++i) {
@@ -94,7 +95,7 @@ template <int nodes>
 }
 
 /// Returns the matrix B of a three-node triangle, in which the deformation is uniform.
-[[nodiscard]] Eigen::Matrix<double, 3, 6> triangle_deformation(const TrianglePoints& points);
+[[nodiscard]] Eigen::Matrix<double, 3, 6> triangle_deformation_matrix(const TrianglePoints& points);
 
 /// Returns the diagonal stiffness [N m] of (exx + eyy, exx - eyy, gxy) for a plate volume [m^3].
 [[nodiscard]] Vector3d membrane_rigidity(const Material& material, double volume);

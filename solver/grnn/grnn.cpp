@@ -48,7 +48,7 @@ Grnn make_grnn(const Eigen::MatrixXd& inputs, const Eigen::MatrixXd& outputs, do
   return make_grnn(inputs, outputs, sigma, input_scales(inputs, scaling));
 }
 
-double sigma_of_spread(double spread) {
+double sigma_of_newgrnn_spread(double spread) {
   return spread / (std::sqrt(2.0) * 0.8326);
 }
 
@@ -71,17 +71,18 @@ Eigen::MatrixXd predict(const Grnn& network, const Eigen::MatrixXd& queries) {
   Eigen::MatrixXd result(queries.rows(), columns), found(kBlock, columns + 1);
   Eigen::MatrixXd weights(samples.rows(), kBlock);
   ExcessDistances excess(samples);
-  const double reach = kernel_cutoff(network.sigma);
+  const double reach = kernel_cutoff_excess(network.sigma);
   for (Index begin = 0; begin < queries.rows(); begin += kBlock) {
     const Index count = std::min(kBlock, queries.rows() - begin);
     Index first = samples.rows(), last = 0;
     weights.leftCols(count).setZero();
     for (Index k = 0; k < count; ++k) {
       const Eigen::ArrayXd& e = excess.compute(scaled.col(begin + k), reach);
-      first = std::min(first, excess.first());
-      last = std::max(last, excess.last());
-      kernel_weights(&e(excess.first()), excess.last() - excess.first(), network.sigma,
-                     &weights(excess.first(), k));
+      first = std::min(first, excess.first_sample_in_reach());
+      last = std::max(last, excess.end_sample_in_reach());
+      kernel_weights(&e(excess.first_sample_in_reach()),
+                     excess.end_sample_in_reach() - excess.first_sample_in_reach(), network.sigma,
+                     &weights(excess.first_sample_in_reach(), k));
     }
     found.topRows(count).noalias() = weights.block(first, 0, last - first, count).transpose() *
                                      targets.middleRows(first, last - first);
@@ -141,7 +142,7 @@ void kernel_weights(const double* excess, Index count, double sigma, double* wei
       (-0.5 * (e * inverse) * inverse).max(kLeastExponent).exp();
 }
 
-double kernel_cutoff(double sigma) {
+double kernel_cutoff_excess(double sigma) {
   return -2 * kLeastExponent * sigma * sigma;
 }
 

@@ -44,7 +44,7 @@ struct Grnn {
 /// Returns the sigma [-] that corresponds to the spread of MATLAB's newgrnn(P, T, spread). MATLAB
 /// uses the weights exp(-(0.8326 D / spread)^2) at distance D. 0.8326 is sqrt(ln 2) to four digits,
 /// so that the weight is one half at D = spread.
-[[nodiscard]] double sigma_of_spread(double spread);
+[[nodiscard]] double sigma_of_newgrnn_spread(double spread);
 
 /// Returns the outputs of a network for queries (new inputs). The result is never 0/0, because
 /// weights are relative to the weight of the nearest sample m. They follow from the differences
@@ -88,8 +88,8 @@ class ExcessDistances {
 
   /// Range [first, last) of samples. It contains all samples whose excess is below the argument
   /// `reach` of the last call of `compute`.
-  [[nodiscard]] Index first() const { return first_; }
-  [[nodiscard]] Index last() const { return last_; }
+  [[nodiscard]] Index first_sample_in_reach() const { return first_; }
+  [[nodiscard]] Index end_sample_in_reach() const { return last_; }
 
  private:
   const Eigen::MatrixXd& samples_;
@@ -104,6 +104,6 @@ void kernel_weights(const double* excess, Index count, double sigma, double* wei
 
 /// Returns the excess above which the weight of a sample is negligible; infinite if sigma^2
 /// overflows.
-[[nodiscard]] double kernel_cutoff(double sigma);
+[[nodiscard]] double kernel_cutoff_excess(double sigma);
 
 }  // namespace trammel::solver

@@ -22,7 +22,7 @@ void check_sigmas(const Eigen::VectorXd& sigmas) {
 
 /// Returns the sample indices 0, 1, ..., optionally in the random order of the Fisher-Yates
 /// algorithm. The result of std::shuffle would differ between standard libraries.
-std::vector<Index> order_of(Index samples, bool shuffled, std::uint64_t seed) {
+std::vector<Index> theoretical_order(Index samples, bool shuffled, std::uint64_t seed) {
   std::vector<Index> order(to_size(samples));
   std::iota(order.begin(), order.end(), Index{0});
   std::mt19937_64 random(seed);
@@ -38,7 +38,7 @@ std::vector<Index> fold_of_samples(Index samples, const CrossValidation& validat
   require(folds >= 2, "cross-validation requires at least two folds");
   require(samples >= folds, "cross-validation requires at least one sample in each fold");
   std::vector<Index> fold =
-      order_of(samples, validation.order == FoldOrder::shuffled, validation.seed);
+      theoretical_order(samples, validation.order == FoldOrder::shuffled, validation.seed);
   const bool blocks = validation.order == FoldOrder::blocks;
   for (Index& p : fold) p = blocks ? p * folds / samples : p % folds;
   return fold;
@@ -47,7 +47,7 @@ std::vector<Index> fold_of_samples(Index samples, const CrossValidation& validat
 std::vector<bool> training_mask(Index samples, Index train, Split split, std::uint64_t seed) {
   require(train >= 1 && train <= samples,
           "the number of training samples must be between 1 and the number of samples");
-  const std::vector<Index> order = order_of(samples, split == Split::shuffled, seed);
+  const std::vector<Index> order = theoretical_order(samples, split == Split::shuffled, seed);
   std::vector<bool> trains(order.size(), false);
   for (Index k = 0; k < train; ++k) {
     // The k-th interleaved training sample is in the middle of the k-th of `train` equal intervals
@@ -75,7 +75,7 @@ Eigen::VectorXd cross_validation_error(const Grnn& network, const Eigen::VectorX
   Eigen::MatrixXd targets(n, columns + 1);
   targets << network.outputs, Eigen::VectorXd::Ones(n);
   ExcessDistances excess(samples);
-  const double reach = kernel_cutoff(sigmas.maxCoeff());
+  const double reach = kernel_cutoff_excess(sigmas.maxCoeff());
   Eigen::Array<bool, Eigen::Dynamic, 1> own(n);
   Eigen::ArrayXXd excesses(n, kBlock);
   Eigen::MatrixXd weights(n, kBlock), found(kBlock, columns + 1);
@@ -105,7 +105,7 @@ Eigen::VectorXd logarithmic_grid(double from, double to, Index count) {
   return Eigen::VectorXd::LinSpaced(count, std::log(from), std::log(to)).array().exp().matrix();
 }
 
-Eigen::VectorXd default_grid(const Grnn& network, Index count) {
+Eigen::VectorXd default_sigma_grid(const Grnn& network, Index count) {
   const Eigen::MatrixXd samples = scaled_inputs(network);
   const double extent = (samples.colwise().maxCoeff() - samples.colwise().minCoeff()).norm();
   if (extent == 0) return logarithmic_grid(0.1, 10, count);  // all samples coincide

@@ -63,7 +63,7 @@ struct SigmaSearch {
 [[nodiscard]] Eigen::VectorXd logarithmic_grid(double from, double to, Index count);
 /// Returns a grid of sigmas from a tenth of the median nearest-neighbor distance to the extent of
 /// all samples.
-[[nodiscard]] Eigen::VectorXd default_grid(const Grnn& network, Index count = 41);
+[[nodiscard]] Eigen::VectorXd default_sigma_grid(const Grnn& network, Index count = 41);
 
 /// Searches the sigma with the least cross-validation error. A grid search as in Varalakshmi &
 /// Srinivas (2017) is followed by Brent's method in log sigma between the neighbors of the best

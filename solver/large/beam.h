@@ -96,7 +96,7 @@ struct Beam : ElementSizes<12, 6> {
   /// the mass of the element.
   [[nodiscard]] Rows penalty(const TangentCoefficients& coefficients) const;
   /// Returns the unit normal of the cross section at a node, which is t0 rotated by theta.
-  [[nodiscard]] Vector2d section_axis(const Coordinates& q, int node) const {
+  [[nodiscard]] Vector2d section_normal(const Coordinates& q, int node) const {
     return rotated(axis, q[3 * node + 2]);
   }
 };

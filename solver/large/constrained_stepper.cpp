@@ -198,7 +198,7 @@ StepReport ConstrainedStepper::attempt(const Step& step) {
       A0_ = from_.a + shift * (to_.a - from_.a);
     }
   } else if (h != last_step_) {
-    change_step(h / last_step_, from_.a, A0_);
+    rescale_to_new_step(h / last_step_, from_.a, A0_);
   }
   StepReport report = iterate(step);
   if (report.status == Status::solved) {
@@ -207,10 +207,9 @@ StepReport ConstrainedStepper::attempt(const Step& step) {
     // If a system remains at rest under changing forces, its motion consists of the round-off
     // errors of these forces. Compute the residual of the relations of the time scheme again,
     // relative to terms that include these errors.
-    if (relation_residual_ > 1e-6) {
+    if (relation_residual_ > 1e-6)
       relation_residual_ = relation_residual(s, h, from_, A0_, to_, A1_, !projects_, norm, work_,
                                              acceleration_slope(h) * correction_roundoff(h));
-    }
     work_ = A1_ - A0_;
     if (options_.adaptive)
       report.error = scheme_.error_constant * h * h * size(work_) / options_.adaptive->relative;
@@ -334,10 +333,9 @@ void ConstrainedStepper::correct(double h) {
   residual(velocity_correction_.head(n));
   velocity_correction_.head(n) /= -acceleration_slope(h);
   system_.constraint_residual(to_, constraint_residual_, constraint_rate_);
-  for (Index r = 0; r < m; ++r) {
+  for (Index r = 0; r < m; ++r)
     velocity_correction_[n + r] =
         system_.compliance()[r] > 0 ? elastic_residual(r, h) : -constraint_residual_[r];
-  }
   position_correction_ = velocity_correction_;
   matrix_.solve(position_correction_);
   to_.q += position_correction_.head(n);

@@ -67,7 +67,7 @@ void Equilibrium::residual_of(const State& state, Eigen::Ref<VectorXd> residual)
   if (held_damping_.size() > 0) residual += held_damping_;
 }
 
-void Equilibrium::fix_damping_forces(const State& moving) {
+void Equilibrium::freeze_damping_forces(const State& moving) {
   State still = moving;
   still.v.setZero(system_.coordinates());
   VectorXd damped(step_.size()), undamped(step_.size());
@@ -88,7 +88,7 @@ void Equilibrium::correction(const State& state, VectorXd& step, NewtonResult& h
   history.correction.push_back(weighted_rms_norm(system_, step.head(n)));
 }
 
-void Equilibrium::load_direction(const State& state, VectorXd& direction) {
+void Equilibrium::load_factor_sensitivity(const State& state, VectorXd& direction) {
   const Index n = system_.coordinates(), m = system_.constraints();
   direction.resize(n + m);
   system_.load_derivative(state, direction.head(n));
@@ -124,9 +124,8 @@ double Equilibrium::smallest_eigenpair(VectorXd& shape) {
   if (n == 0) return 0;
   // A start vector without symmetry is not orthogonal to any mode.
   VectorXd x(n + m);
-  for (Index i = 0; i < n; ++i) {
+  for (Index i = 0; i < n; ++i)
     x[i] = system_.scale()[i] * (1 + 0.37 * std::sin(1.7 * static_cast<double>(i) + 0.4));
-  }
   double eigenvalue = 0;
   for (int pass = 0; pass < 12; ++pass) {
     const double norm = x.head(n).cwiseQuotient(system_.scale()).norm();
@@ -178,7 +177,7 @@ NewtonResult Equilibrium::solve(State& state, double load, const LoadControl& co
       return fail(Status::singular, "the tangent matrix is singular");
     correction(state, step_, result);
     if (control) {
-      load_direction(state, load_step_);
+      load_factor_sensitivity(state, load_step_);
       const double change = control(step_, load_step_);
       step_ += change * load_step_;
       system_.set_load(state, state.load + change);
@@ -201,8 +200,8 @@ NewtonResult Equilibrium::solve(State& state, double load, const LoadControl& co
 
 namespace trammel::solver {
 
-void count_tangents(const large_motion::GeometricallyExactSystem& system, std::int64_t tangents,
-                    bool moving, Counters& counters) {
+void count_element_evaluations(const large_motion::GeometricallyExactSystem& system,
+                               std::int64_t tangents, bool moving, Counters& counters) {
   const Model& model = system.model();
   const auto plates = static_cast<std::int64_t>(model.triangles.size());
   std::int64_t all = plates, stretching = 0, shearing = 0, turning = 0, heavy = 0, spring_ends = 0;
@@ -244,7 +243,7 @@ StaticSolution solve_large_statics(const Model& model,
   solution.outcome = path.outcome;
   solution.evidence = path.evidence;
   solution.counters = path.counters;
-  count_tangents(system, path.counters.factorizations, false, solution.counters);
+  count_element_evaluations(system, path.counters.factorizations, false, solution.counters);
   return solution;
 }
 
@@ -266,7 +265,7 @@ StaticSolution estimate_large_statics(const Model& model,
   StaticSolution solution = static_solution(system, state);
   solution.counters.factorizations = equilibrium.matrix().factorizations();
   solution.counters.solves = equilibrium.matrix().solves();
-  count_tangents(system, solution.counters.factorizations, false, solution.counters);
+  count_element_evaluations(system, solution.counters.factorizations, false, solution.counters);
   return solution;
 }
 

@@ -42,7 +42,7 @@ class Equilibrium {
 
   /// Adds the damping forces at the velocities of a state, as constant loads, to all following
   /// equilibria.
-  void fix_damping_forces(const State& moving);
+  void freeze_damping_forces(const State& moving);
 
   /// Computes the equilibrium at the load factor `load`, which is also the time of drives, from a
   /// start state. `control` may change the load factor. The state is unchanged on failure.
@@ -54,7 +54,7 @@ class Equilibrium {
   /// most the fraction `relative`.
   [[nodiscard]] bool factor_if_moved(const State& state, double relative);
   /// Computes dq/dload and dlambda/dload with the last factored tangent, as (dq, dlambda).
-  void load_direction(const State& state, VectorXd& direction);
+  void load_factor_sensitivity(const State& state, VectorXd& direction);
   /// Computes one Newton correction: the solution of the tangent equation for minus the residual.
   void correction(const State& state, VectorXd& step, NewtonResult& history);
   /// Returns the largest backward error |r| / (|K| |x| + |load|) of all rows in a state. r is the
@@ -99,7 +99,7 @@ class Equilibrium {
   KktMatrix matrix_;
   VectorXd constraint_residual_, constraint_rate_, step_, load_step_;
   State factored_;         ///< state of the last factored tangent
-  VectorXd held_damping_;  ///< damping forces of `fix_damping_forces`; empty: none
+  VectorXd held_damping_;  ///< damping forces of `freeze_damping_forces`; empty: none
   std::vector<std::pair<Index, double>> held_;  ///< held coordinates and their stiffness
   VectorXd force_unit_;                         ///< unit of each multiplier: 1/m or 1/rad
 };
@@ -113,8 +113,8 @@ namespace trammel::solver {
 
 /// Adds the element evaluations of `tangents` assembled tangent matrices to the counters of the
 /// effects, such as shear or gravity. `moving` is true if the tangent matrices include masses.
-void count_tangents(const large_motion::GeometricallyExactSystem& system, std::int64_t tangents,
-                    bool moving, Counters& counters);
+void count_element_evaluations(const large_motion::GeometricallyExactSystem& system,
+                               std::int64_t tangents, bool moving, Counters& counters);
 
 /// Solves statics with large displacement by the geometrically exact theory. The load is applied in
 /// steps of automatic size. The outcome is not_converged if the path of equilibria does not reach

@@ -62,7 +62,7 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   void set_accelerations(VectorXd accelerations) { accelerations_ = std::move(accelerations); }
   /// Sets reference velocities of the free coordinates as a function of time. Mass-proportional
   /// damping acts on the velocities relative to the reference velocities.
-  void set_undamped_velocities(std::function<VectorXd(double)> velocities) {
+  void set_damping_reference_velocity(std::function<VectorXd(double)> velocities) {
     undamped_velocities_ = std::move(velocities);
   }
   /// Returns the velocities on which mass-proportional damping acts.
@@ -84,7 +84,7 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   [[nodiscard]] const SystemParts& parts() const { return parts_; }
   /// Returns the index of the constraint row of a drive, and of its multiplier.
   [[nodiscard]] Index drive_row(Index drive) const {
-    return parts_.group<DrivenCoordinate>().first_row(drive);
+    return parts_.group<DrivenCoordinate>().first_constraint_row(drive);
   }
   /// Returns the number of computed element tangents of members and triangles.
   [[nodiscard]] std::int64_t element_evaluations() const { return element_evaluations_; }

@@ -170,7 +170,7 @@ struct Bar : LineSpringElement {
   [[nodiscard]] Coordinates distributed_load(const Vector2d& force_per_length) const {
     return offset.norm() / 2 * force_per_length.replicate<2, 1>();
   }
-  [[nodiscard]] Vector2d section_axis(const Coordinates& q, int) const {
+  [[nodiscard]] Vector2d section_normal(const Coordinates& q, int) const {
     return (offset + q.tail<2>() - q.head<2>()).normalized();
   }
 };

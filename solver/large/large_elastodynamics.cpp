@@ -129,7 +129,8 @@ class LargeElastodynamics {
                          Index from_part) {
       TimeFunction law = [](double) { return std::array<double, 3>{}; };
       if (moves)
-        law = joint_law(rigid_motion_, options_.path, options_.time.start, part, from_part);
+        law =
+            joint_rotation_law(rigid_motion_, options_.path, options_.time.start, part, from_part);
       large_motion.drives.push_back({name, node, 2, std::move(law), from_node});
     };
     for (Index i = 0; i < 3; ++i) {
@@ -162,7 +163,7 @@ class LargeElastodynamics {
     StaticPath path = follow_static_path(*now.system, options);
     Counters& counters = solution_.summary.counters;
     counters += path.counters;
-    count_tangents(*now.system, path.counters.factorizations, false, counters);
+    count_element_evaluations(*now.system, path.counters.factorizations, false, counters);
     solution_.outcome = path.outcome;
     if (!path.outcome.solved()) {
       solution_.outcome.reason = "at t = " + std::to_string(time) + " s: " + path.outcome.reason;
@@ -175,7 +176,8 @@ class LargeElastodynamics {
   }
 
   [[nodiscard]] VectorXd rates_of(const StaticInstant& now, int order) const {
-    return nominal_rates(*now.system, motion_between(now.nominal, now.nominal), order, now.ends);
+    return nominal_motion_derivative(*now.system, motion_between(now.nominal, now.nominal), order,
+                                     now.ends);
   }
 
   /// Corrects an equilibrium for the damping forces at the given rates of its deflections. Returns
@@ -183,10 +185,10 @@ class LargeElastodynamics {
   [[nodiscard]] bool add_damping(StaticInstant& now, const VectorXd& rates) {
     State& state = now.state;
     const VectorXd nominal = rates_of(now, 1);
-    now.system->set_undamped_velocities([nominal](double) { return nominal; });
+    now.system->set_damping_reference_velocity([nominal](double) { return nominal; });
     const VectorXd velocities = state.v = nominal + rates;
     Equilibrium equilibrium(*now.system);
-    equilibrium.fix_damping_forces(state);
+    equilibrium.freeze_damping_forces(state);
     state.v.setZero();
     solution_.outcome = equilibrium.solve(state, 1).outcome;
     if (!solution_.outcome.solved()) {
@@ -201,7 +203,8 @@ class LargeElastodynamics {
   /// Computes a quasi-static start with damping, K q = f - C v. The velocities v are second-order
   /// differences of the solutions of K q = f. Linear elastodynamics starts in the same way.
   [[nodiscard]] bool start_quasi_statically(State& state, VectorXd& rates) {
-    const double h = smooth_span(options_.load_history.breakpoint_times(), options_.time) / 2;
+    const double h =
+        smooth_load_interval(options_.load_history.breakpoint_times(), options_.time) / 2;
     std::array<std::optional<StaticInstant>, 3> found;
     for (std::size_t i = 0; i < 3; ++i) {
       found[i] = equilibrium_at(options_.time.start + static_cast<double>(i) * h);
@@ -231,9 +234,9 @@ class LargeElastodynamics {
     GeometricallyExactSystem system(std::move(model), std::move(large_motion));
     const auto velocities = [&](double t) {
       const NominalState now{at(options_.path, t), rigid_motion_(t), {}};
-      return nominal_rates(system, motion_between(start_, now), 1, ends);
+      return nominal_motion_derivative(system, motion_between(start_, now), 1, ends);
     };
-    system.set_undamped_velocities(velocities);
+    system.set_damping_reference_velocity(velocities);
     State state = system.reference_state();
     state.t = options_.time.start;
     VectorXd rates = velocities(state.t);
@@ -290,7 +293,7 @@ class LargeElastodynamics {
     result = summary;
     result.largest_step = options_.time.step;
     result.counters += before;
-    count_tangents(system, summary.iterations, true, result.counters);
+    count_element_evaluations(system, summary.iterations, true, result.counters);
     if (options_.damping.mass != 0 || options_.damping.stiffness != 0)
       result.counters.count(Effect::damping, summary.iterations);
   }
@@ -319,7 +322,7 @@ class LargeElastodynamics {
     for (Index i = 0; i < nodes; ++i) {
       const Vector2d from = built.model.nodes[to_size(i)].position;
       displacement.row(i).head<2>() += from.transpose() - moved.node[0].row(i);
-      displacement(i, 2) = turn(displacement(i, 2), moved.at_node(i).angle);
+      displacement(i, 2) = turn(displacement(i, 2), moved.part_motion_at_node(i).angle);
     }
     sample.displacement = std::move(displacement);
     for (Index m = 0; m < sample.end_rotation.rows(); ++m) {
@@ -424,8 +427,8 @@ RigidMotion cached_motion(std::function<InverseDynamics(double)> evaluate) {
   };
 }
 
-TimeFunction joint_law(const RigidMotion& motion, const Path& path, double start, Index part,
-                       Index from) {
+TimeFunction joint_rotation_law(const RigidMotion& motion, const Path& path, double start,
+                                Index part, Index from) {
   const auto seen = [part, from](const Vector9d& values) {
     return values[part] - (from < 0 ? 0.0 : values[from]);
   };
@@ -450,8 +453,9 @@ TimeFunction joint_law(const RigidMotion& motion, const Path& path, double start
   return extended(law, path);
 }
 
-VectorXd nominal_rates(const GeometricallyExactSystem& system, const NominalMotion& motion,
-                       int order, const std::vector<DrivenEnd>& ends) {
+VectorXd nominal_motion_derivative(const GeometricallyExactSystem& system,
+                                   const NominalMotion& motion, int order,
+                                   const std::vector<DrivenEnd>& ends) {
   const Model& model = system.model();
   const auto turn = [order](const PartMotion& part) {
     return order == 1 ? part.rate : part.acceleration;
@@ -459,7 +463,7 @@ VectorXd nominal_rates(const GeometricallyExactSystem& system, const NominalMoti
   const Index nodes = std::ssize(model.nodes), built = nodes - std::ssize(ends);
   Eigen::MatrixX3d node(nodes, 3);
   node.topLeftCorner(built, 2) = motion.node[to_size(order)].topRows(built);
-  for (Index i = 0; i < built; ++i) node(i, 2) = turn(motion.at_node(i));
+  for (Index i = 0; i < built; ++i) node(i, 2) = turn(motion.part_motion_at_node(i));
   for (const DrivenEnd& end : ends)
     node.row(end.node) << node.row(end.beside).head<2>(), turn(motion.part[end.member]);
   VectorXd member(std::ssize(model.members));
@@ -470,7 +474,7 @@ VectorXd nominal_rates(const GeometricallyExactSystem& system, const NominalMoti
     const PointMass& mass = model.masses[i];
     if (mass.offset.isZero(0)) continue;
     const Vector2d center = node.row(mass.node).head<2>().transpose() +
-                            motion.at_node(mass.node).derivative(mass.offset, order);
+                            motion.part_motion_at_node(mass.node).derivative(mass.offset, order);
     for (std::size_t k = 0; k < 2; ++k)
       rates[system.layout().mass_center[i][k]] = center[static_cast<Index>(k)];
   }

@@ -29,7 +29,8 @@ namespace trammel::solver {
 ///   equilibrium is then corrected for the damping forces at these rates.
 ///
 /// The outcome is not_converged if a path of equilibria or a step fails.
-/// @throws ModelError  as `solve_elastodynamics`; if `reason_no_large_displacement` returns a reason;
+/// @throws ModelError  as `solve_elastodynamics`; if `reason_no_large_displacement` returns a
+/// reason;
 ///   or without elastic inertia if there are no sample times.
 [[nodiscard]] ElastodynamicsSolution solve_large_elastodynamics(
     const ElastodynamicsOptions& options);
@@ -37,7 +38,7 @@ namespace trammel::solver {
 /// Returns the reason why `solve_large_elastodynamics` does not support a motion, or null. `model`
 /// is the manipulator at the start of the motion.
 [[nodiscard]] const char* reason_no_large_displacement(const ElastodynamicsOptions& options,
-                                                    const Model& model);
+                                                       const Model& model);
 
 }  // namespace trammel::solver
 
@@ -57,8 +58,8 @@ using RigidMotion = std::function<const InverseDynamics&(double)>;
 /// tracked from the last request in increments of 0.5 rad. Beyond the ends of the path, the
 /// rotation is extrapolated with the acceleration and its rate at the end. Central differences
 /// in time at the first and last times of the path require values beyond its ends.
-[[nodiscard]] TimeFunction joint_law(const RigidMotion& motion, const Path& path, double start,
-                                     Index part, Index from = -1);
+[[nodiscard]] TimeFunction joint_rotation_law(const RigidMotion& motion, const Path& path,
+                                              double start, Index part, Index from = -1);
 
 /// Additional node at a joint for the end of a distal link. Its rotation is driven relative to the
 /// node of the joint.
@@ -70,8 +71,8 @@ struct DrivenEnd {
 
 /// Returns rates of the coordinates if all parts move rigidly: velocities (order 1) or
 /// accelerations (order 2). The nodes of the driven `ends` are the last nodes of the model.
-[[nodiscard]] VectorXd nominal_rates(const GeometricallyExactSystem& system,
-                                     const NominalMotion& motion, int order,
-                                     const std::vector<DrivenEnd>& ends = {});
+[[nodiscard]] VectorXd nominal_motion_derivative(const GeometricallyExactSystem& system,
+                                                 const NominalMotion& motion, int order,
+                                                 const std::vector<DrivenEnd>& ends = {});
 
 }  // namespace trammel::solver::large_motion

@@ -51,7 +51,7 @@ class ShiftedStiffness {
   }
 
   /// Returns false if the matrix is singular.
-  [[nodiscard]] bool exists() const { return exists_; }
+  [[nodiscard]] bool is_nonsingular() const { return exists_; }
 
   /// Solves K (x, y) = (f, 0) for motions x and constraint forces y by iterative refinement.
   [[nodiscard]] Extended solve(const Extended& force) const {
@@ -198,7 +198,7 @@ double lowest_above_free(const GeometricallyExactSystem& system, const State& st
   double shift = mixed.w2.empty() ? 0 : std::abs(mixed.w2.back());
   for (int pass = 0; pass < 8 && shift > 0; ++pass) {
     const ShiftedStiffness K(system, state, -shift);
-    if (!K.exists()) return 0;
+    if (!K.is_nonsingular()) return 0;
     double lowest = 0;
     for (const std::complex<double> w2 : spectrum(K, L, -shift, system.symmetric()).w2) {
       const double size = std::abs(w2);
@@ -221,7 +221,7 @@ Extended beside(const GeometricallyExactSystem& system, const State& state, cons
   for (const double aside : {kAside, 0.03, 0.3}) {
     const double t = w2.real() - aside * std::abs(w2);
     const ShiftedStiffness K(system, state, t);
-    if (!K.exists()) continue;
+    if (!K.is_nonsingular()) continue;
     const int passes = aside == kAside ? 4 : 20;  // each pass reduces other modes by `aside`
     for (int pass = 0; pass < passes; ++pass) {
       const Extended inertia = M.cast<long double>() * mode.head(n);
@@ -247,7 +247,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
                      std::to_string(n));
   SmallVibration found;
   const ShiftedStiffness K(system, state, 0);
-  if (!K.exists()) {
+  if (!K.is_nonsingular()) {
     found.outcome = {Status::singular, "the tangent matrix is singular"};
     return found;
   }
@@ -266,8 +266,9 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
   }
   if (above > 0) {
     stiffened.emplace(system, state, -above);
-    const Spectrum clear =
-        stiffened->exists() ? spectrum(*stiffened, L, -above, system.symmetric()) : Spectrum();
+    const Spectrum clear = stiffened->is_nonsingular()
+                               ? spectrum(*stiffened, L, -above, system.symmetric())
+                               : Spectrum();
     // `above` and `next` are two estimates of w^2 of the lowest mode above the soft modes. `next`
     // follows from K with the shift -above. If the estimates differ by more than the factor kAlike,
     // the parts above the soft modes are massless.

@@ -54,7 +54,8 @@ struct PlacedElement {
     typename Element::Rows residual;
     typename Element::Gradient G;
     element.constraint_residual(q, state.t, residual, G);
-    Coordinates f = G.transpose() * state.lambda.segment<Element::R>(group.first_row(place));
+    Coordinates f =
+        G.transpose() * state.lambda.segment<Element::R>(group.first_constraint_row(place));
     if constexpr (requires { element.forces(q, q, 0.0); })
       f += element.forces(q, gather<N>(state.v, where), system.strain_rate_damping());
     return f - applied_forces();
@@ -64,7 +65,7 @@ struct PlacedElement {
   [[nodiscard]] Eigen::RowVector3d resultants(bool first) const {
     const int node = first ? 0 : N / stride - 1;
     const Coordinates f = nodal_forces();
-    const Vector2d e1 = element.section_axis(q, node), force = node_force(f, node);
+    const Vector2d e1 = element.section_normal(q, node), force = node_force(f, node);
     const double sign = first ? -1 : 1;
     return {sign * e1.dot(force), sign * perpendicular(e1).dot(force), sign * moment(f, node)};
   }
@@ -104,7 +105,7 @@ FreeBody cut_free(const GeometricallyExactSystem& system, const State& state, In
     const PlacedElement<Beam> beam{system, state, at_start ? first : last};
     const int node = at_start ? 0 : kLast;
     const Eigen::RowVector3d section = (at_start ? -1 : 1) * beam.resultants(at_start);
-    const Vector2d e1 = beam.element.section_axis(beam.q, node);
+    const Vector2d e1 = beam.element.section_normal(beam.q, node);
     body.add(beam.position(node), section[0] * e1 + section[1] * perpendicular(e1), section[2]);
   }
   for (Index e = first; e <= last; ++e) {
@@ -222,7 +223,7 @@ Eigen::MatrixX2d member_node_positions(const GeometricallyExactSystem& system, c
   return line;
 }
 
-Index redundant_constraints(const GeometricallyExactSystem& system, const State& state) {
+Index redundant_constraint_count(const GeometricallyExactSystem& system, const State& state) {
   const Index rigid = (system.compliance().array() == 0).count();
   if (rigid == 0 || rigid > kMaxCountedConstraints || system.coordinates() == 0) return 0;
   KktMatrix matrix(system.coordinates(), system.constraints(), system.blocks());

@@ -58,7 +58,7 @@ inline constexpr Index kMaxCountedConstraints = 400;
 /// Returns the number of redundant rigid constraints in a state. Equilibrium leaves the same number
 /// of constraint forces undetermined. The result is 0 if there are more than
 /// `kMaxCountedConstraints`.
-[[nodiscard]] Index redundant_constraints(const GeometricallyExactSystem& system,
-                                          const State& state);
+[[nodiscard]] Index redundant_constraint_count(const GeometricallyExactSystem& system,
+                                               const State& state);
 
 }  // namespace trammel::solver::large_motion

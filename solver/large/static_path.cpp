@@ -93,15 +93,13 @@ std::string describe_largest_coordinate(const GeometricallyExactSystem& system,
     description = what;
   };
   for (std::size_t i = 0; i < layout.node.size(); ++i) {
-    for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t k = 0; k < 3; ++k)
       consider(layout.node[i][k],
                std::string(names[k]) + " of node " + system.model().nodes[i].name);
-    }
   }
   for (std::size_t i = 0; i < layout.end_rotation.size(); ++i) {
-    for (const Index k : layout.end_rotation[i]) {
+    for (const Index k : layout.end_rotation[i])
       consider(k, "rotation of an end of member " + system.model().members[i].name);
-    }
   }
   return description;
 }
@@ -143,16 +141,15 @@ class PathFollower {
     for (Index found = 0; found <= system_.coordinates(); ++found) {
       const Equilibrium::FreeMotion free = equilibrium_.free_motion(point.state);
       if (!free.exists) break;
-      if (free.is_driven || !options_.keep_free_parts || found == system_.coordinates()) {
+      if (free.is_driven || !options_.keep_free_parts || found == system_.coordinates())
         return stop(
             {Status::singular, "free motion: " + describe_largest_coordinate(system_, free.shape)});
-      }
       equilibrium_.hold(free.coordinate, free.stiffness);
       if (!equilibrium_.factor(point.state))
         return stop({Status::singular, "the tangent matrix is singular"});
     }
     VectorXd direction;
-    equilibrium_.load_direction(point.state, direction);
+    equilibrium_.load_factor_sensitivity(point.state, direction);
     const double response = weighted_rms_norm(system_, direction.head(system_.coordinates()));
     if (!std::isfinite(response)) return stop({Status::singular, "the tangent matrix is singular"});
     const double typical = response < 1e-6 ? mean_response(point.state) : response;
@@ -202,7 +199,7 @@ class PathFollower {
   /// Returns the tangent direction of the path from the last factors, oriented like `along`.
   VectorXd tangent(const State& state, const VectorXd& along) {
     VectorXd step;
-    equilibrium_.load_direction(state, step);
+    equilibrium_.load_factor_sensitivity(state, step);
     const VectorXd d = normalized(with_load(step, 1));
     return dot(along, d) < 0 ? VectorXd(-d) : d;
   }

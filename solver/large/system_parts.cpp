@@ -323,10 +323,9 @@ class SystemBuilder {
       }
       const Index rotations =
           std::ranges::count_if(coordinates, [&](Index k) { return layout_.is_rotation(k); });
-      if (rotations != 0 && rotations != std::ssize(coordinates)) {
+      if (rotations != 0 && rotations != std::ssize(coordinates))
         throw ModelError("constraint " + constraint.name +
                          " mixes translations and rotations, which requires small displacements");
-      }
       add_row(factors, coordinates);
     }
   }

@@ -16,7 +16,7 @@ Triangle2d<Nodes>::Triangle2d(const Model& model, const Triangle& triangle) {
   for (std::size_t p = 0; p < points_.size(); ++p) {
     Vector3d area_coordinates = Vector3d::Constant(Nodes == 3 ? 1.0 / 3 : 1.0 / 6);
     if (Nodes == 6) area_coordinates[static_cast<Index>(p)] = 2.0 / 3;
-    const TriangleInterpolation at = interpolate(model, triangle, area_coordinates);
+    const TriangleInterpolation at = evaluate_shape_functions(model, triangle, area_coordinates);
     if (!(at.area > 0)) throw ModelError("a triangle has no area");
     points_[p] = {at.gradient.template leftCols<Nodes>(), plate.thickness * at.area / count};
   }
@@ -35,7 +35,7 @@ typename Triangle2d<Nodes>::Strain Triangle2d<Nodes>::strain(const Eigen::Matrix
 }
 
 template <int Nodes>
-typename Triangle2d<Nodes>::Operator Triangle2d<Nodes>::Point::strain_operator(
+typename Triangle2d<Nodes>::Operator Triangle2d<Nodes>::Point::strain_displacement_matrix(
     const Eigen::Matrix2d& H) const {
   const Eigen::Matrix2d F = Eigen::Matrix2d::Identity() + H;
   Operator B;
@@ -65,7 +65,7 @@ typename Triangle2d<Nodes>::Coordinates Triangle2d<Nodes>::forces(const Coordina
   Coordinates f = Coordinates::Zero();
   for (const Point& point : points_) {
     const Eigen::Matrix2d H = point.displacement_gradient(q);
-    const Operator B = point.strain_operator(H);
+    const Operator B = point.strain_displacement_matrix(H);
     Strain e = strain(H);
     if (tau != 0) e += tau * (B * v);
     f += point.volume * B.transpose() * (D_ * e);
@@ -80,7 +80,7 @@ typename Triangle2d<Nodes>::Square Triangle2d<Nodes>::tangent(const Coordinates&
   Square K = Square::Zero();
   for (const Point& point : points_) {
     const Eigen::Matrix2d H = point.displacement_gradient(q);
-    const Operator B = point.strain_operator(H);
+    const Operator B = point.strain_displacement_matrix(H);
     const Strain s = D_ * strain(H);
     K += (stiffness + damping) * point.volume * B.transpose() * D_ * B;
     Eigen::Matrix2d S;
@@ -103,7 +103,7 @@ typename Triangle2d<Nodes>::Coordinates Triangle2d<Nodes>::discrete_gradient_for
     const Eigen::Matrix2d H0 = point.displacement_gradient(q0);
     const Eigen::Matrix2d H1 = point.displacement_gradient(q1);
     const Strain e0 = strain(H0), e1 = strain(H1);
-    const Operator B = point.strain_operator((H0 + H1) / 2);
+    const Operator B = point.strain_displacement_matrix((H0 + H1) / 2);
     f += point.volume * B.transpose() * (D_ * ((e0 + e1) / 2 + rate * (e1 - e0)));
   }
   return f;

@@ -51,7 +51,7 @@ class Triangle2d : public ElementSizes<2 * Nodes, 0> {
     double volume = 0;  ///< thickness times area times weight [m^3]
 
     [[nodiscard]] Eigen::Matrix2d displacement_gradient(const Coordinates& q) const;
-    [[nodiscard]] Operator strain_operator(const Eigen::Matrix2d& H) const;
+    [[nodiscard]] Operator strain_displacement_matrix(const Eigen::Matrix2d& H) const;
   };
 
   [[nodiscard]] static Strain strain(const Eigen::Matrix2d& H);

@@ -55,7 +55,8 @@ class Solver {
 
   Eigenpairs run() {
     constexpr int kRounds = 40, kUncertainRounds = 8;
-    if (!factorization_.exists() || factorization_.smallest_pivot() <= 0) return no_eigenpairs();
+    if (!factorization_.is_nonsingular() || factorization_.smallest_pivot() <= 0)
+      return no_eigenpairs();
     add(next_block(count_ + 3 + count_ / 4));
     for (int round = 0; round < kRounds; ++round) {
       iterate_to_convergence();
@@ -75,11 +76,10 @@ class Solver {
       if (!dense_) return no_eigenpairs();
       break;
     }
-    if (some_are_hidden()) {
+    if (some_are_hidden())
       return finish("only " + std::to_string(checked_) +
                     " eigenvalues were found: the others are too large, relative to the first, for "
                     "double precision");
-    }
     iterate_beside_each();
     return finish({});
   }
@@ -145,10 +145,9 @@ class Solver {
     MatrixXd known(size_, known_count);  // y = F^T x = F^-1 (K - s B) x
     known << null_, X_;
     for (Index j = 0; j < known_count; ++j) {
-      known.col(j) = factorization_.solve_half(assembled(known.col(j)));
-      for (int pass = 0; pass < 2; ++pass) {
+      known.col(j) = factorization_.apply_inverse_factor(assembled(known.col(j)));
+      for (int pass = 0; pass < 2; ++pass)
         known.col(j) -= known.leftCols(j) * (known.leftCols(j).transpose() * known.col(j));
-      }
       known.col(j).normalize();
     }
     const auto complement = [&known](VectorXd x) {
@@ -158,7 +157,7 @@ class Solver {
     const auto apply = [&](const Eigen::Ref<const VectorXd>& x) -> VectorXd {
       const VectorXd p = factorization_.solve_half_transposed(complement(x));
       ++counters_.solves;
-      return complement(factorization_.solve_half(times_B(p)));
+      return complement(factorization_.apply_inverse_factor(times_B(p)));
     };
     const Index subspace = std::min(dimension, std::max(2 * wanted + 1, wanted + 20));
     const auto [mu, Y] = largest_eigenpairs(apply, complement(start_vectors(size_, 1, known_count)),
@@ -331,7 +330,7 @@ class Solver {
       return count.has_value();
     }
     factor(t);
-    counted_ = factorization_.exists() ? factorization_.negative_pivots() : -1;
+    counted_ = factorization_.is_nonsingular() ? factorization_.negative_pivots() : -1;
     return factorization_.is_reliable();
   }
 
@@ -372,7 +371,8 @@ class Solver {
     }
     factorization_.compute(B);
     ++counters_.factorizations;
-    return factorization_.exists() && B.rows() - factorization_.negative_pivots() > checked_;
+    return factorization_.is_nonsingular() &&
+           B.rows() - factorization_.negative_pivots() > checked_;
   }
 
   /// Returns the number of found eigenvalues below a gap between clusters of eigenvalues. It is the

@@ -174,7 +174,7 @@ void SparseLdlt::solve(const VectorXd& b, VectorXd& x) const {
   for (Index i = 0; i < b.size(); ++i) x[i] = factors_->solved[place[i]];
 }
 
-VectorXd SparseLdlt::solve_half(const VectorXd& b) const {
+VectorXd SparseLdlt::apply_inverse_factor(const VectorXd& b) const {
   VectorXd y = factors_->P * b;
   factors_->ldlt.matrixL().solveInPlace(y);
   y.array() /= factors_->root.array();
@@ -214,8 +214,8 @@ VectorXd Factorization::solve(const VectorXd& b) const {
   return scaling_.cwiseProduct(x);
 }
 
-VectorXd Factorization::solve_half(const VectorXd& b) const {
-  return ldlt_.solve_half(scaling_.cwiseProduct(b));
+VectorXd Factorization::apply_inverse_factor(const VectorXd& b) const {
+  return ldlt_.apply_inverse_factor(scaling_.cwiseProduct(b));
 }
 
 VectorXd Factorization::solve_half_transposed(const VectorXd& y) const {

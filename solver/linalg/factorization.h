@@ -47,7 +47,7 @@ class SparseLdlt {
 
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
   /// Returns y = D^(-1/2) L^-1 P b and x = P^T L^-T D^(-1/2) y for a positive definite A.
-  [[nodiscard]] Eigen::VectorXd solve_half(const Eigen::VectorXd& b) const;
+  [[nodiscard]] Eigen::VectorXd apply_inverse_factor(const Eigen::VectorXd& b) const;
   [[nodiscard]] Eigen::VectorXd solve_half_transposed(const Eigen::VectorXd& y) const;
 
  private:
@@ -67,7 +67,7 @@ class Factorization {
   void compute(const SparseMatrix& A);
 
   /// Returns false if a pivot is zero or not finite. No other function may then be called.
-  [[nodiscard]] bool exists() const { return exists_; }
+  [[nodiscard]] bool is_nonsingular() const { return exists_; }
   /// Returns the smallest pivot. It is at most 1, because S A S has a unit diagonal. For a positive
   /// definite matrix it is at least the smallest eigenvalue of S A S.
   [[nodiscard]] double smallest_pivot() const;
@@ -82,7 +82,7 @@ class Factorization {
 
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
   /// Returns y = F^-1 b and x = F^-T y with F F^T = A, for a positive definite A.
-  [[nodiscard]] Eigen::VectorXd solve_half(const Eigen::VectorXd& b) const;
+  [[nodiscard]] Eigen::VectorXd apply_inverse_factor(const Eigen::VectorXd& b) const;
   [[nodiscard]] Eigen::VectorXd solve_half_transposed(const Eigen::VectorXd& y) const;
 
   [[nodiscard]] const Eigen::VectorXd& scaling() const { return scaling_; }

@@ -28,7 +28,7 @@ class AugmentedSystem {
  public:
   explicit AugmentedSystem(FactoredStiffness factors);
   /// Returns false if the matrix is singular. Then `solve` must not be called.
-  [[nodiscard]] bool exists() const { return exists_; }
+  [[nodiscard]] bool is_nonsingular() const { return exists_; }
   /// Returns q, refined with the residuals of both equations.
   [[nodiscard]] RefinedSolution solve(const Eigen::VectorXd& f) const;
 

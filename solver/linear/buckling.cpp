@@ -73,7 +73,7 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   solution.outcome = statics.outcome;
   solution.evidence = statics.evidence;
   if (!statics.outcome.solved() || statics.q.size() == 0) return solution;
-  solution.outcome = require_determined_stiffening(system);
+  solution.outcome = require_determinate_prestress(system);
   if (!solution.outcome.solved()) return solution;
   const Prestress forces =
       prestress_of(system, system.T * statics.q, system.load, body_forces(system));
@@ -101,7 +101,7 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   pencil.shift = first.below;
   pencil.K_times = stiffness_operator(system);
   pencil.K_products = [&system](const Eigen::MatrixXd& X) {
-    return strain_products(system, system.T * X);
+    return projected_stiffness(system, system.T * X);
   };
   factorization.compute(shifted(system.K, softening, pencil.shift));
   ++solution.counters.factorizations;
@@ -120,7 +120,7 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
     solution.roundoff[j] = elastic + geometric + pairs.error[j] + 4 * kEps;
   }
   RowBalance<double> rows(system, pairs.value.size());
-  rows.add_stiffness(system.T * pairs.vector);
+  rows.add_elastic_forces(system.T * pairs.vector);
   rows.add(softening, pairs.vector * (-pairs.value).asDiagonal());
   if (pairs.value.size() > 0)
     solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());

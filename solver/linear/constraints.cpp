@@ -23,11 +23,10 @@ std::vector<ConstraintRow> support_rows(const Model& model, const Coordinates& c
     for (std::size_t k = 0; k < 3; ++k) {
       if (!support.fixed[k]) continue;
       const Index u = coordinates.node[static_cast<std::size_t>(support.node)][k];
-      if (u < 0) {
+      if (u < 0)
         throw ModelError("the support of " + node_label(model, support.node) +
                          " fixes a rotation that the node does not have: no member ends there and "
                          "no rigid body contains the node");
-      }
       rows.push_back({ConstraintRow::Source::support, static_cast<Index>(i), {{u, 1.0}}});
     }
   }
@@ -39,10 +38,9 @@ void add_linear_rows(const Model& model, const Coordinates& coordinates,
   for (std::size_t i = 0; i < model.constraints.size(); ++i) {
     ConstraintRow row{ConstraintRow::Source::linear, static_cast<Index>(i), {}};
     for (const auto& [coordinate, coefficient] : model.constraints[i].terms) {
-      if (!std::isfinite(coefficient)) {
+      if (!std::isfinite(coefficient))
         throw ModelError(part_label("constraint", model.constraints[i].name, i) +
                          " has a coefficient that is not a finite number");
-      }
       row.terms.emplace_back(coordinates.number(model, coordinate), coefficient);
     }
     rows.push_back(std::move(row));

@@ -51,9 +51,8 @@ class Discretiser {
 
   Discretisation run() {
     const std::vector<bool> turns = nodes_with_rotation(model_);
-    for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
+    for (std::size_t i = 0; i < model_.nodes.size(); ++i)
       add_node(model_.nodes[i].position, turns[i]);
-    }
     out_.coordinates.member_end.reserve(model_.members.size());
     for (std::size_t i = 0; i < model_.members.size(); ++i) cut(static_cast<Index>(i));
     return std::move(out_);
@@ -130,9 +129,8 @@ Index Coordinates::number(const Model& model, const Coordinate& coordinate) cons
     throw ModelError(member_label(model, coordinate.member) + " does not bend: its ends have no " +
                      "rotation");
   }
-  if (coordinate.node < 0 || coordinate.node >= static_cast<Index>(model.nodes.size())) {
+  if (coordinate.node < 0 || coordinate.node >= static_cast<Index>(model.nodes.size()))
     throw ModelError("a constraint refers to a node that does not exist");
-  }
   const Index found =
       node[static_cast<std::size_t>(coordinate.node)][static_cast<std::size_t>(coordinate.kind)];
   if (found >= 0) return found;

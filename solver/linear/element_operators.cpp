@@ -24,7 +24,7 @@ template <class Apply>
 Vector3d stress_by_deformation(const System& system, const Triangle& triangle, const Vector3d& at,
                                const Eigen::VectorXd& u, Apply&& apply) {
   const auto deform = [&]<std::size_t n>(const TriangleNodes<n>& nodes) -> Vector3d {
-    return apply(triangle_deformation<n>(interpolate(nodes, at)),
+    return apply(triangle_deformation_matrix<n>(evaluate_shape_functions(nodes, at)),
                  detail::gather(system.coordinates.triangle_dofs<2 * n>(triangle), u));
   };
   return membrane_stress(system.model.plates[to_size(triangle.plate)].material,
@@ -45,15 +45,13 @@ Eigen::VectorXd internal_force_roundoff(const System& system, const Eigen::Vecto
   });
 }
 
-Eigen::MatrixXd strain_products(const System& system, const Eigen::MatrixXd& U) {
+Eigen::MatrixXd projected_stiffness(const System& system, const Eigen::MatrixXd& U) {
   const Index k = U.cols();
   Eigen::MatrixXd products = Eigen::MatrixXd::Zero(k, k);
   Eigen::MatrixXd d(18, k);  // largest number of deformations of an element
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
     constexpr int m = std::decay_t<decltype(c)>::SizeAtCompileTime;
-    for (Index j = 0; j < k; ++j) {
-      d.col(j).head<m>() = B * detail::gather(coordinates, U.col(j));
-    }
+    for (Index j = 0; j < k; ++j) d.col(j).head<m>() = B * detail::gather(coordinates, U.col(j));
     for (Index i = 0; i < k; ++i) {
       const Eigen::Matrix<double, m, 1> stress = d.col(i).head<m>().cwiseProduct(c);
       for (Index j = 0; j <= i; ++j) products(i, j) += stress.dot(d.col(j).head<m>());
@@ -72,7 +70,7 @@ double strain_energy_roundoff(const System& system, const Eigen::VectorXd& u) {
   return 2 * std::numeric_limits<double>::epsilon() * sum;
 }
 
-double strain_energy_magnitude(const System& system, const Eigen::VectorXd& u) {
+double strain_energy_roundoff_scale(const System& system, const Eigen::VectorXd& u) {
   double sum = 0;
   for_each_deformation(system, [&](const auto& coordinates, const auto& B, const auto& c) {
     const auto size = (B.cwiseAbs() * detail::gather(coordinates, u).cwiseAbs()).eval();
@@ -104,7 +102,7 @@ Operator stiffness_operator(const System& system) {
 
 Eigen::VectorXd inertia_forces(const System& system, const Eigen::VectorXd& a) {
   Eigen::VectorXd force = Eigen::VectorXd::Zero(a.size());
-  for_each_inertia(system, [&](const auto& coordinates, const auto& m) {
+  for_each_mass_matrix(system, [&](const auto& coordinates, const auto& m) {
     const auto local = (m * detail::gather(coordinates, a)).eval();
     detail::scatter(coordinates, local, force);
   });
@@ -119,9 +117,8 @@ FactoredStiffness factored_stiffness(const System& system) {
       if (c[i] == 0) continue;
       for (std::size_t k = 0; k < coordinates.size(); ++k) {
         const double b = B(i, static_cast<Index>(k));
-        if (coordinates[k] >= 0 && b != 0) {
+        if (coordinates[k] >= 0 && b != 0)
           entries.emplace_back(static_cast<Index>(rigidity.size()), coordinates[k], b);
-        }
       }
       rigidity.push_back(c[i]);
     }

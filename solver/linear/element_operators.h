@@ -72,15 +72,14 @@ template <class Visit>
 void for_each_deformation(const System& system, Visit&& visit) {
   for (const FrameElement& e : system.mesh.frame) {
     const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
-    Vector3d c = frame_rigidity(e.section, member.theory, e.length);
+    Vector3d c = frame_deformation_stiffness(e.section, member.theory, e.length);
     if (!member.axially_flexible) c[0] = 0;
     visit(e.coordinates, frame_deformation_matrix(e.direction, e.length), c);
   }
   for_each_plate_deformation(system, visit);
-  for (const SpringElement& spring : system.springs) {
+  for (const SpringElement& spring : system.springs)
     visit(spring.coordinates, Eigen::RowVector2d(-1, 1),
           Eigen::Matrix<double, 1, 1>(spring.stiffness));
-  }
 }
 
 /// Returns the nodal forces in world axes [N, N m] of a uniform load on an element.
@@ -97,7 +96,7 @@ void for_each_deformation(const System& system, Visit&& visit) {
                                                       const Eigen::VectorXd& u);
 
 /// Returns U^T K U for the columns of U (u x k), which is twice the strain energies [J].
-[[nodiscard]] Eigen::MatrixXd strain_products(const System& system, const Eigen::MatrixXd& U);
+[[nodiscard]] Eigen::MatrixXd projected_stiffness(const System& system, const Eigen::MatrixXd& U);
 
 /// Returns the change of u^T K u caused by rounding u [J]: 2 eps times the sum of |d|^T C |B| |u|
 /// over all elements, with the deformations d = B u.
@@ -106,7 +105,7 @@ void for_each_deformation(const System& system, Visit&& visit) {
 /// Returns the scale of the round-off error of the strain energy [J]: the sum of (|B| |u|)^T C (|B|
 /// |u|) over all elements. A motion causes no deformation if its u^T K u is below about eps^2 times
 /// this value.
-[[nodiscard]] double strain_energy_magnitude(const System& system, const Eigen::VectorXd& u);
+[[nodiscard]] double strain_energy_roundoff_scale(const System& system, const Eigen::VectorXd& u);
 
 /// Returns the stress (sxx, syy, sxy) [Pa] of a triangle at a point for displacements u.
 /// @param system  assembled model.
@@ -124,9 +123,9 @@ void for_each_deformation(const System& system, Visit&& visit) {
 [[nodiscard]] Operator stiffness_operator(const System& system);
 
 /// Returns the mass matrix of a frame element in world axes.
-[[nodiscard]] inline Matrix6d world_mass(const FrameElement& e, const Member& member) {
+[[nodiscard]] inline Matrix6d world_mass_matrix(const FrameElement& e, const Member& member) {
   if (e.is_bar()) return bar_mass(e.section, member.mass, e.length);
-  const Matrix6d R = frame_rotation(e.direction);
+  const Matrix6d R = frame_transformation_matrix(e.direction);
   return R.transpose() * frame_mass(e.section, member.theory, member.mass, e.length) * R;
 }
 
@@ -148,8 +147,8 @@ void for_each_plate_mass(const System& system, Visit&& visit) {
 /// @param inertia  moment of inertia about the center of mass [kg m^2].
 /// @param offset  vector from the node to the center of mass in world axes [m].
 template <Real T>
-[[nodiscard]] Eigen::Matrix3<T> point_inertia(const T& mass, const T& inertia,
-                                              const Vector2d& offset) {
+[[nodiscard]] Eigen::Matrix3<T> point_mass_matrix(const T& mass, const T& inertia,
+                                                  const Vector2d& offset) {
   Eigen::Matrix3<T> m = Eigen::Matrix3<T>::Zero();
   m(0, 0) = m(1, 1) = mass;
   m(0, 2) = m(2, 0) = -mass * offset.y();
@@ -162,17 +161,16 @@ template <Real T>
 /// inertia. `coordinates` is an array of n indices into u, or -1 for none. The mass matrix m is n x
 /// n, in world axes.
 template <class Visit>
-void for_each_inertia(const System& system, Visit&& visit) {
+void for_each_mass_matrix(const System& system, Visit&& visit) {
   for (const FrameElement& e : system.mesh.frame) {
     if (e.section.mass_per_length == 0 && e.section.inertia_per_length == 0) continue;
     const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
-    visit(e.coordinates, world_mass(e, member));
+    visit(e.coordinates, world_mass_matrix(e, member));
   }
   for_each_plate_mass(system, visit);
-  for (const PointMass& point_mass : system.model.masses) {
+  for (const PointMass& point_mass : system.model.masses)
     visit(system.coordinates.node[static_cast<std::size_t>(point_mass.node)],
-          point_inertia(point_mass.mass, point_mass.inertia, point_mass.offset));
-  }
+          point_mass_matrix(point_mass.mass, point_mass.inertia, point_mass.offset));
   for (std::size_t i = 0; i < system.model.members.size(); ++i) {
     for (std::size_t end = 0; end < 2; ++end) {
       const double inertia = system.model.members[i].ends[end].inertia;

@@ -38,7 +38,8 @@ void add_body_force(System& system, const BodyForce& force) {
     const double thickness = system.model.plates[to_size(triangle.plate)].thickness;
     Eigen::Matrix<double, 2, 6> forces = Eigen::Matrix<double, 2, 6>::Zero();
     for (const TriangleQuadraturePoint& point : triangle_quadrature()) {
-      const TriangleInterpolation at = interpolate(system.model, triangle, point.area_coordinates);
+      const TriangleInterpolation at =
+          evaluate_shape_functions(system.model, triangle, point.area_coordinates);
       forces += point.weight * at.area * thickness * force(at.position) * at.N.transpose();
     }
     detail::scatter(system.coordinates.triangle_dofs<12>(triangle), forces.reshaped(), system.load);
@@ -72,7 +73,7 @@ void add_line_load(System& system, const LineLoad& load) {
     if (e.is_bar()) continue;
     const Member& member = system.model.members[static_cast<std::size_t>(e.member)];
     const double phi = shear_ratio(e.section, member.theory, e.length);
-    const Matrix6d R = frame_rotation(e.direction);
+    const Matrix6d R = frame_transformation_matrix(e.direction);
     const Vector2d& start = system.mesh.positions[static_cast<std::size_t>(e.nodes[0])];
     Vector6d force = Vector6d::Zero();
     for (const LineQuadraturePoint& point : line_quadrature()) {
@@ -128,8 +129,9 @@ double energy_density(const Material& material, const Vector3d& s) {
 BeamFieldPoint frame_point(const FrameElement& e, BeamTheory theory, const Vector6d& world,
                            double xi) {
   const double L = e.length, phi = shear_ratio(e.section, theory, L);
-  const Vector3d motion = frame_interpolation(phi, L, xi) * (frame_rotation(e.direction) * world);
-  const Vector3d force = frame_rigidity(e.section, theory, L)
+  const Vector3d motion =
+      frame_interpolation(phi, L, xi) * (frame_transformation_matrix(e.direction) * world);
+  const Vector3d force = frame_deformation_stiffness(e.section, theory, L)
                              .cwiseProduct(frame_deformation_matrix(e.direction, L) * world);
   return {motion[0], motion[1],         motion[2],
           force[0],  -2 * force[2] / L, force[1] + (2 * xi - 1) * force[2]};
@@ -152,7 +154,8 @@ MembraneErrors membrane_errors(const System& system, const Eigen::VectorXd& q,
                             p.stress.squaredNorm(), energy_density(plate.material, p.stress));
     };
     for (const TriangleQuadraturePoint& point : triangle_quadrature()) {
-      const TriangleInterpolation at = interpolate(system.model, triangle, point.area_coordinates);
+      const TriangleInterpolation at =
+          evaluate_shape_functions(system.model, triangle, point.area_coordinates);
       const MembraneFieldPoint h = membrane_point(system, triangle, at, u);
       const MembraneFieldPoint x = exact(at.position);
       const MembraneFieldPoint error{h.displacement - x.displacement, h.rotation - x.rotation,

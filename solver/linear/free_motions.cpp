@@ -25,7 +25,8 @@ constexpr double kShift = 1e-12;  // shift of K, relative to its diagonal
 /// A pivot below this limit starts the search for zero-energy modes. Pivots of a mechanism are
 /// round-off errors, up to 1.2e-9 for 1152 coordinates if all errors have the same sign.
 constexpr double kSmallPivot = 1e-8;
-// (45 eps)^2, relative to `strain_energy_magnitude`; smaller strain energies are round-off errors.
+// (45 eps)^2, relative to `strain_energy_roundoff_scale`; smaller strain energies are round-off
+// errors.
 constexpr double kDeformation = 1e-28;
 constexpr Index kMaxModes = 48;
 
@@ -35,7 +36,7 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
                                        Counters& counters) {
   const Index n = system.K.rows();
   ZeroEnergyModes modes{MatrixXd(n, 0), true};
-  if (n == 0 || (K.exists() && K.smallest_pivot() > kSmallPivot)) return modes;
+  if (n == 0 || (K.is_nonsingular() && K.smallest_pivot() > kSmallPivot)) return modes;
   // Inverse iteration with K + kShift D on a block of vectors. D is the diagonal of K, and the
   // block is D-orthonormal.
   VectorXd D = system.K.diagonal();
@@ -63,7 +64,7 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
       X = root.cwiseInverse().asDiagonal() * X;
     }
     // Ritz vectors in ascending order of strain energy; NaN if the iteration did not converge.
-    X = X * symmetric_eigenpairs(strain_products(system, system.T * X)).vector;
+    X = X * symmetric_eigenpairs(projected_stiffness(system, system.T * X)).vector;
     if (!X.allFinite()) {
       modes.all_found = false;
       return modes;
@@ -71,10 +72,10 @@ ZeroEnergyModes find_zero_energy_modes(const System& system, const Factorization
     Index count = 0;
     while (count < block) {
       const VectorXd u = system.T * X.col(count);
-      const double energy = strain_products(system, u)(0, 0);
+      const double energy = projected_stiffness(system, u)(0, 0);
       // The limit of the energy is relative to the larger of the sum of magnitudes and x^T D x = 1.
       // The second value is required for a motion in which both energy and sum are zero.
-      if (!(energy <= kDeformation * std::max(1.0, strain_energy_magnitude(system, u)))) break;
+      if (!(energy <= kDeformation * std::max(1.0, strain_energy_roundoff_scale(system, u)))) break;
       ++count;
     }
     modes.basis = X.leftCols(count);

@@ -116,7 +116,7 @@ void for_each_geometric_stiffness(const System& system, const Prestress& state, 
       model, [&](Index row, const Triangle& triangle, const Vector3d& at, double weight) {
         if (row >= state.stress.rows() || state.stress.row(row).isZero(0)) return;
         const Eigen::RowVector3d stress = state.stress.row(row);
-        const TriangleInterpolation point = interpolate(model, triangle, at);
+        const TriangleInterpolation point = evaluate_shape_functions(model, triangle, at);
         const double volume = model.plates[to_size(triangle.plate)].thickness * point.area * weight;
         visit_nodes(model, triangle, [&]<std::size_t n>(const TriangleNodes<n>&) {
           visit_plate_geometric_stiffness(system.coordinates.triangle_dofs<2 * n>(triangle), point,
@@ -178,9 +178,8 @@ VectorXd axial_forces(const System& system, const VectorXd& u, const VectorXd& m
   }
   for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
     const ConstraintRow& row = system.constraints.rows[i];
-    if (row.source == ConstraintRow::Source::inextensible) {
+    if (row.source == ConstraintRow::Source::inextensible)
       axial[row.index] = -multipliers[static_cast<Index>(i)];
-    }
   }
   return axial;
 }
@@ -244,7 +243,7 @@ Prestress prestress_roundoff(const System& system, const VectorXd& q) {
   return roundoff;
 }
 
-Outcome require_determined_stiffening(const System& system) {
+Outcome require_determinate_prestress(const System& system) {
   const Constraints& constraints = system.constraints;
   VectorXd selfstress = VectorXd::Zero(std::ssize(constraints.rows));
   VectorXd force = VectorXd::Zero(system.T.rows());

@@ -61,7 +61,7 @@ struct BodyForces {
 /// Returns the outcome `singular` if forces of redundant constraints stiffen or soften the model.
 /// Statics does not determine these forces. For example, any force can act in an inextensible
 /// member between two clamps.
-[[nodiscard]] Outcome require_determined_stiffening(const System& system);
+[[nodiscard]] Outcome require_determinate_prestress(const System& system);
 
 /// Returns the axial force of each frame element [N]. The force of an inextensible element follows
 /// from its constraint.

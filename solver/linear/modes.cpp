@@ -31,13 +31,12 @@ bool has_elastic_inertia(const SparseMatrix& M, const MatrixXd& Z) {
 /// modes. K - s M is then as well-conditioned as the elastic part of K.
 double floating_shift(const System& system, const MatrixXd& Z, Counters& counters) {
   SparseMatrix shifted = system.K;
-  const VectorXd diagonal = system.K.diagonal(), squared_length = squared_length_scales(system);
+  const VectorXd diagonal = system.K.diagonal(), squared_length = summed_squared_lengths(system);
   const double largest =
       diagonal.size() > 0 ? diagonal.cwiseQuotient(squared_length).maxCoeff() : 0;
   if (!(largest > 0)) return -1;
-  for (Index i = 0; i < diagonal.size(); ++i) {
+  for (Index i = 0; i < diagonal.size(); ++i)
     shifted.coeffRef(i, i) += 1e-11 * (diagonal[i] > 0 ? diagonal[i] : largest * squared_length[i]);
-  }
   Factorization factorization;
   factorization.compute(shifted);
   ++counters.factorizations;
@@ -51,7 +50,7 @@ double floating_shift(const System& system, const MatrixXd& Z, Counters& counter
     const double mass = x.dot(system.M * x);
     if (!(mass > 0)) break;
     x /= std::sqrt(mass);
-    quotient = strain_products(system, system.T * x)(0, 0);
+    quotient = projected_stiffness(system, system.T * x)(0, 0);
   }
   return quotient > 0 && std::isfinite(quotient) ? -quotient : -1;
 }
@@ -66,8 +65,8 @@ void add_evidence(const System& system, const SparseMatrix& K, const SparseMatri
   if (w2.size() > 0) {
     const MatrixXd u = system.T * solution.shape;
     RowBalance<double> rows(system, u.cols());
-    rows.add_stiffness(u);
-    rows.add_inertia(u * (-w2).asDiagonal());
+    rows.add_elastic_forces(u);
+    rows.add_inertia_forces(u * (-w2).asDiagonal());
     if (K_G.nonZeros() > 0) rows.add(K_G, solution.shape);
     solution.evidence.add(Residual::eigenvalue_equation, rows.backward_error());
   }
@@ -104,7 +103,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
                           "a part without mass moves freely: " + describe_mechanism(system, free)};
       return solution;
     }
-  } else if (!factorization.exists() || factorization.smallest_pivot() <= 0) {
+  } else if (!factorization.is_nonsingular() || factorization.smallest_pivot() <= 0) {
     solution.outcome = {Status::singular, "the loads reach or exceed the buckling load"};
     return solution;
   }
@@ -122,7 +121,7 @@ ModalSolution solve(const System& system, const ModesOptions& options,
       return state ? VectorXd(elastic(x) + K_G * x) : elastic(x);
     };
     pencil.K_products = [&](const MatrixXd& X) -> MatrixXd {
-      const MatrixXd elastic = strain_products(system, system.T * X);
+      const MatrixXd elastic = projected_stiffness(system, system.T * X);
       return state ? MatrixXd(elastic + X.transpose() * (K_G * X)) : elastic;
     };
     const Index elastic = std::max<Index>(0, options.count - free.count());
@@ -155,7 +154,7 @@ bool mass_orthonormalize(const System& system, MatrixXd& Z) {
   if (Z.cols() == 0) return true;
   const SparseMatrix& M = system.M;
   // Rotary inertia is divided by the square of the model size, to be comparable with mass.
-  const VectorXd squared_length = squared_length_scales(system);
+  const VectorXd squared_length = summed_squared_lengths(system);
   VectorXd mass = M.diagonal().cwiseQuotient(squared_length);
   const double largest = mass.maxCoeff();
   if (!(largest > 0)) return false;

@@ -200,11 +200,12 @@ System reduce_to_modes(const System& system, const ModalSolution& modes,
   for (const VectorXd& load : loads) {
     const VectorXd rest = load - system.M * (shape * (shape.transpose() * load));
     if (!(rest.norm() > kCarried * load.norm())) continue;
-    if (!factorization.exists()) {
+    if (!factorization.is_nonsingular()) {
       factorization.compute(K);
       ++counters.factorizations;
     }
-    if (!factorization.exists()) throw ModelError("the stiffness matrix to reduce is singular");
+    if (!factorization.is_nonsingular())
+      throw ModelError("the stiffness matrix to reduce is singular");
     VectorXd answer = factorization.solve(rest);
     answer += factorization.solve(rest - system.K * answer);  // corrects the effect of the shift
     counters.solves += 2;

@@ -61,7 +61,7 @@ Matrix6d frame_mass_with(const Eigen::Matrix2d& A, const FrameElement& e, const 
 /// Returns the mass matrix of the rotary inertia of the sections of a frame element, in world axes.
 Matrix6d rotary_mass(FrameElement e, const Member& member) {
   e.section.mass_per_length = 0;
-  return world_mass(e, member);
+  return world_mass_matrix(e, member);
 }
 
 /// Centrifugal effect on a section of unit rotary inertia, for an axis of rotation in the plane.
@@ -89,7 +89,7 @@ void for_each_rotating_mass(const System& system, RotationAxis axis, Visit&& vis
   for (const FrameElement& e : system.mesh.frame) {
     if (e.section.mass_per_length == 0) continue;
     const Member& member = model.members[static_cast<std::size_t>(e.member)];
-    const Matrix6d R = frame_rotation(e.direction);
+    const Matrix6d R = frame_transformation_matrix(e.direction);
     const auto world = [&](const Eigen::Matrix2d& A) -> Matrix6d {
       return R.transpose() * frame_mass_with(A, e, member) * R;
     };
@@ -176,13 +176,12 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
     detail::scatter(e.coordinates, (moment * (rotary_mass(e, member) * unit_turn)).eval(), force);
   }
   // Add the constant offset of each center of mass, which the interpolation does not contain.
-  for (const PointMass& point_mass : system.model.masses) {
+  for (const PointMass& point_mass : system.model.masses)
     detail::scatter(system.coordinates.node[to_size(point_mass.node)],
                     (w2 * point_mass.mass * center_of_mass_interpolation(point_mass).transpose() *
                      P * point_mass.offset)
                         .eval(),
                     force);
-  }
   return force;
 }
 
@@ -247,7 +246,7 @@ bool find_steady_state(const System& system, const RotatingOptions& options,
 double steady_backward_error(const System& system, const SparseMatrix& added, const VectorXd& q,
                              const RotatingFrame& frame) {
   RowBalance<double> rows(system);
-  rows.add_stiffness(system.T * q);
+  rows.add_elastic_forces(system.T * q);
   rows.add(added, q);
   rows.add_load(-system.load);
   rows.add_load(-centrifugal_forces(system, frame, VectorXd::Zero(system.T.rows())));
@@ -261,8 +260,8 @@ double mode_backward_error(const System& system, const SparseMatrix& added, cons
                            const MatrixXcd& x, const VectorXcd& s) {
   const MatrixXcd u = system.T * x;
   RowBalance<std::complex<double>> rows(system, x.cols());
-  rows.add_stiffness(u);
-  rows.add_inertia(u * s.cwiseProduct(s).asDiagonal());
+  rows.add_elastic_forces(u);
+  rows.add_inertia_forces(u * s.cwiseProduct(s).asDiagonal());
   rows.add(added, x);
   rows.add(C, x * s.asDiagonal());
   return rows.backward_error();
@@ -285,9 +284,7 @@ double miscounted_modes(const GyroscopicPencil& pencil, const GyroscopicModes& m
 GyroscopicModes gyroscopic_modes(const GyroscopicPencil& pencil, bool stable,
                                  const RotatingOptions& options, Counters& counters) {
   constexpr Index kLargestUnstable = 400;
-  if (stable) {
-    return stable_gyroscopic_modes(pencil, options.count, options.method, counters);
-  }
+  if (stable) return stable_gyroscopic_modes(pencil, options.count, options.method, counters);
   if (pencil.K.rows() <= kLargestUnstable) return all_gyroscopic_modes(pencil);
   GyroscopicModes modes;
   modes.outcome = {Status::not_converged,
@@ -307,7 +304,7 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
   ++result.counters.factorizations;
   result.outcome = require_no_mechanism(system, K, result.counters);
   if (result.outcome.solved() && options.stiffening)
-    result.outcome = require_determined_stiffening(system);
+    result.outcome = require_determinate_prestress(system);
   if (!result.outcome.solved()) return result;
   const double speed = options.frame.speed;
   const SparseMatrix softening = -speed * speed * centrifugal_softening(system, options.frame.axis);
@@ -318,7 +315,7 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
     return result;
   }
   result.q = state.q;
-  const SparseMatrix& added = steady.added();
+  const SparseMatrix& added = steady.added_stiffness();
   result.evidence.add(Residual::equilibrium,
                       steady_backward_error(system, added, state.q, options.frame));
   const bool has_gyroscopic_forces =
@@ -329,9 +326,9 @@ RotatingModes solve_rotating_modes(const System& system, const RotatingOptions& 
     result.counters.count(Effect::gyroscopic, 1);
   }
   const GyroscopicPencil pencil{
-      system.K + added, C, system.M, [&](const VectorXd& x) { return steady.times(x); },
+      system.K + added, C, system.M, [&](const VectorXd& x) { return steady.restoring_forces(x); },
       [&](const MatrixXd& X) -> MatrixXd {
-        return strain_products(system, system.T * X) + X.transpose() * (added * X);
+        return projected_stiffness(system, system.T * X) + X.transpose() * (added * X);
       }};
   if (system.M.coeffs().isZero(0)) return result;  // no mass, no vibration
   const bool stable = steady.is_stable();

@@ -46,7 +46,7 @@ MatrixXd RowBalance<Scalar>::bounded_magnitudes(const Matrix& u) const {
 }
 
 template <class Scalar>
-void RowBalance<Scalar>::add_stiffness(const Matrix& u) {
+void RowBalance<Scalar>::add_elastic_forces(const Matrix& u) {
   const MatrixXd size = bounded_magnitudes(u);
   for_each_deformation(system_, [&](const auto& coordinates, const auto& B, const auto& c) {
     const auto k = (B.transpose() * c.asDiagonal() * B).eval();
@@ -56,9 +56,9 @@ void RowBalance<Scalar>::add_stiffness(const Matrix& u) {
 }
 
 template <class Scalar>
-void RowBalance<Scalar>::add_inertia(const Matrix& acceleration) {
+void RowBalance<Scalar>::add_inertia_forces(const Matrix& acceleration) {
   const MatrixXd size = bounded_magnitudes(acceleration);
-  for_each_inertia(system_, [&](const auto& coordinates, const auto& m) {
+  for_each_mass_matrix(system_, [&](const auto& coordinates, const auto& m) {
     add_product(coordinates, m, acceleration, sum_);
     add_product(coordinates, m.cwiseAbs().eval(), size, terms_);
   });
@@ -82,13 +82,13 @@ typename RowBalance<Scalar>::Matrix RowBalance<Scalar>::rows() const {
 }
 
 template <class Scalar>
-MatrixXd RowBalance<Scalar>::row_terms() const {
+MatrixXd RowBalance<Scalar>::row_term_magnitudes() const {
   return system_.T.cwiseAbs().transpose() * terms_ + free_terms_;
 }
 
 template <class Scalar>
 double RowBalance<Scalar>::backward_error() const {
-  const MatrixXd residual = rows().cwiseAbs(), terms = row_terms();
+  const MatrixXd residual = rows().cwiseAbs(), terms = row_term_magnitudes();
   double largest = 0;
   for (Index state = 0; state < residual.cols(); ++state)
     largest = nan_max(largest, row_backward_error(residual.col(state), terms.col(state)));
@@ -101,7 +101,7 @@ double RowBalance<Scalar>::residual_over_load() const {
       [](double k) { return k > 0 ? 1 / std::sqrt(k) : 0; });
   const VectorXd load = system_.T.cwiseAbs().transpose() * system_.load.cwiseAbs();
   // Use at least the round-off error, because errors cancel at some orientations of the model only.
-  const VectorXd residual = rows().col(0).cwiseAbs().cwiseMax(kEps * row_terms().col(0));
+  const VectorXd residual = rows().col(0).cwiseAbs().cwiseMax(kEps * row_term_magnitudes().col(0));
   const double size = scale.cwiseProduct(residual).norm();
   return size == 0 ? 0 : size / scale.cwiseProduct(load).norm();
 }
@@ -130,9 +130,8 @@ SparseMatrix damping_matrix(const RayleighDamping& damping, const SparseMatrix& 
 
 SparseMatrix modal_damping_matrix(const SparseMatrix& M, const Eigen::VectorXd& omega,
                                   const Eigen::MatrixXd& shape, const Eigen::VectorXd& ratio) {
-  if (shape.rows() != M.rows() || shape.cols() != omega.size() || ratio.size() != omega.size()) {
+  if (shape.rows() != M.rows() || shape.cols() != omega.size() || ratio.size() != omega.size())
     throw ModelError("modal damping requires one damping ratio for each mode");
-  }
   const Eigen::MatrixXd inertia = M * shape;
   const Eigen::VectorXd factor = 2 * ratio.cwiseProduct(omega);
   const Eigen::MatrixXd C = inertia * factor.asDiagonal() * inertia.transpose();

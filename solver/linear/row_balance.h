@@ -20,9 +20,9 @@ class RowBalance {
   explicit RowBalance(const System& system, Index states = 1);
 
   /// Adds the elastic forces K u of the unconstrained coordinates u, one column per state.
-  void add_stiffness(const Matrix& u);
+  void add_elastic_forces(const Matrix& u);
   /// Adds the inertia forces M a of accelerations a of the coordinates u, one column per state.
-  void add_inertia(const Matrix& acceleration);
+  void add_inertia_forces(const Matrix& acceleration);
   /// Adds forces on the unconstrained coordinates [N, N m].
   void add_load(const Matrix& load);
   /// Adds the forces A q on the free coordinates q.
@@ -47,7 +47,7 @@ class RowBalance {
   /// Returns the magnitudes of u, each at least `kLeastFraction` of the largest of its column.
   [[nodiscard]] Eigen::MatrixXd bounded_magnitudes(const Matrix& u) const;
   [[nodiscard]] Matrix rows() const;
-  [[nodiscard]] Eigen::MatrixXd row_terms() const;
+  [[nodiscard]] Eigen::MatrixXd row_term_magnitudes() const;
 
   const System& system_;
   Eigen::VectorXd length_;  // length per unit of each unconstrained coordinate [m]

@@ -35,7 +35,7 @@ StaticState solve_linear_statics(const System& system, Counters& counters) {
     return factorization.solve(b);
   };
   const auto by_stiffness = [&] {
-    if (!factorization.exists() || factorization.smallest_pivot() <= 0) return false;
+    if (!factorization.is_nonsingular() || factorization.smallest_pivot() <= 0) return false;
     const Operator K = stiffness_operator(system);
     const RefinedSolution first = refined_solve(K, factorization, system.f, counters);
     const VectorXd left = solve(system.f - K(first.x));
@@ -44,17 +44,17 @@ StaticState solve_linear_statics(const System& system, Counters& counters) {
   if (!by_stiffness()) {
     const AugmentedSystem augmented(factors);
     ++counters.factorizations;
-    if (augmented.exists()) {
+    if (augmented.is_nonsingular()) {
       const RefinedSolution found = augmented.solve(system.f);
       take(found.x, found.correction,
            [&](const VectorXd& b) -> VectorXd { return augmented.solve(b).x; });
     }
   }
-  solution.outcome = outcome_by_error(solution.error);
+  solution.outcome = outcome_by_displacement_error(solution.error);
   return solution;
 }
 
-Outcome outcome_by_error(double error) {
+Outcome outcome_by_displacement_error(double error) {
   if (error < 0.1) return {};
   return {Status::not_converged,
           "the model is too ill-conditioned for double precision: less than one digit of the "
@@ -131,11 +131,11 @@ bool StiffenedEquilibrium::solve(const VectorXd& f, StaticState& state) {
   if (softening_) added_ += *softening_;
   factorization_.compute(system_.K + added_);
   ++counters_.factorizations;
-  if (!factorization_.exists() || (!softening_ && factorization_.smallest_pivot() <= 0)) {
+  if (!factorization_.is_nonsingular() || (!softening_ && factorization_.smallest_pivot() <= 0)) {
     state.outcome = {Status::singular, "the loads reach or exceed the buckling load"};
     return false;
   }
-  const Operator tangent = [this](const VectorXd& q) { return times(q); };
+  const Operator tangent = [this](const VectorXd& q) { return restoring_forces(q); };
   const RefinedSolution refined = refined_solve(tangent, factorization_, f, counters_);
   state.q = refined.x;
   if (refined.converged()) return true;
@@ -143,7 +143,7 @@ bool StiffenedEquilibrium::solve(const VectorXd& f, StaticState& state) {
   return false;
 }
 
-VectorXd StiffenedEquilibrium::times(const VectorXd& q) const {
+VectorXd StiffenedEquilibrium::restoring_forces(const VectorXd& q) const {
   return elastic_(q) + added_ * q;
 }
 
@@ -177,7 +177,7 @@ Prestress prestress_of(const System& system, const VectorXd& u, const VectorXd& 
 
 StaticState solve_second_order(const System& system, const VectorXd& linear, Counters& counters) {
   StaticState reached;
-  reached.outcome = require_determined_stiffening(system);
+  reached.outcome = require_determinate_prestress(system);
   if (!reached.outcome.solved()) return reached;
   StiffenedEquilibrium equilibrium(system, counters);
   Outcome whole;  // outcome of the attempt with the full load in one step
@@ -209,7 +209,7 @@ StaticState solve_second_order(const System& system, const VectorXd& linear, Cou
     return {{whole.status, reason.str()}, {}, {}};
   }
   reached.error = equilibrium.error(reached);
-  reached.outcome = outcome_by_error(reached.error);
+  reached.outcome = outcome_by_displacement_error(reached.error);
   return reached;
 }
 

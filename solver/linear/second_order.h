@@ -27,7 +27,7 @@ struct StaticState {
 
 /// Returns `not_converged` if the relative error of the displacements exceeds 0.1, which leaves
 /// less than one correct digit.
-[[nodiscard]] Outcome outcome_by_error(double error);
+[[nodiscard]] Outcome outcome_by_displacement_error(double error);
 
 /// Returns the round-off error of the forces of elements on nodes, relative to the largest such
 /// force. It is large for stiff elements, because their deformation is a small difference of
@@ -67,9 +67,9 @@ class StiffenedEquilibrium {
   /// Returns StaticState::error of the state that was solved last.
   [[nodiscard]] double error(const StaticState& state) const;
   /// Returns A + K_G of the last equation that was solved.
-  [[nodiscard]] const SparseMatrix& added() const { return added_; }
+  [[nodiscard]] const SparseMatrix& added_stiffness() const { return added_; }
   /// Returns (K + A + K_G) q [N, N m], with K q from the deformations of the elements.
-  [[nodiscard]] Eigen::VectorXd times(const Eigen::VectorXd& q) const;
+  [[nodiscard]] Eigen::VectorXd restoring_forces(const Eigen::VectorXd& q) const;
   [[nodiscard]] bool is_stable() const { return factorization_.smallest_pivot() > 0; }
 
  private:

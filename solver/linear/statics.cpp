@@ -33,9 +33,9 @@ double digits(double error) {
 /// causes no second-order displacement does not affect the result.
 double amplification(const System& system, const VectorXd& first, const StaticState& second) {
   const VectorXd added = second.q - first;
-  const double stiffness = strain_products(system, system.T * added)(0, 0);
+  const double stiffness = projected_stiffness(system, system.T * added)(0, 0);
   const double roundoff = second.error * second.error;
-  if (stiffness <= roundoff * strain_products(system, system.T * first)(0, 0)) return 1;
+  if (stiffness <= roundoff * projected_stiffness(system, system.T * first)(0, 0)) return 1;
   const double left = -added.dot(geometric_stiffness(system, second.forces) * first);
   return stiffness > 0 && left > 0 ? stiffness / left : 1;
 }
@@ -44,7 +44,7 @@ double amplification(const System& system, const VectorXd& first, const StaticSt
 /// computed again, and the imbalance of the reported forces.
 void take_residuals(const System& system, const ElasticState& state, StaticSolution& solution) {
   RowBalance<double> rows(system);
-  rows.add_stiffness(state.u);
+  rows.add_elastic_forces(state.u);
   rows.add_load(-system.load);
   if (state.prestress) {
     rows.add(geometric_stiffness(system, *state.prestress), solution.q);
@@ -56,7 +56,7 @@ void take_residuals(const System& system, const ElasticState& state, StaticSolut
   solution.evidence.add(Residual::equilibrium, rows.backward_error());
   solution.evidence.add(Residual::load, rows.residual_over_load());
   solution.evidence.add(Residual::recovered_forces,
-                        unbalanced_forces(system, state, solution, rows.terms()));
+                        largest_relative_imbalance(system, state, solution, rows.terms()));
 }
 
 }  // namespace
@@ -79,7 +79,7 @@ StaticSolution solve_statics(const System& system, const StaticsOptions& options
   solution.q = reached.q;
   solution.estimated_correct_digits = digits(reached.error);
   state.u = system.T * solution.q;
-  state.constraint_forces = constraint_forces(system, state);
+  state.constraint_forces = constraint_multipliers(system, state);
   postprocess(system, state, solution);
   take_residuals(system, state, solution);
   solution.outcome = outcome_by_evidence(solution.outcome, solution.evidence);
@@ -159,7 +159,7 @@ double largest_stress(const Member& member, const FrameElement& e, double from_s
 void recover_displacements(const System& system, const RecoveredForces& forces,
                            StaticSolution& solution) {
   const Model& model = system.model;
-  solution.displacement = full_node_motion(system, forces.u);
+  solution.displacement = node_motion_from_unconstrained(system, forces.u);
   solution.end_rotation.resize(std::ssize(model.members), 2);
   for (std::size_t i = 0; i < model.members.size(); ++i) {
     const auto& [first, second] = model.members[i].nodes;
@@ -203,7 +203,7 @@ void recover_triangles(const System& system, const VectorXd& u, StaticSolution& 
   solution.triangle_stress.resize(std::ssize(model.triangles), 3);
   solution.node_stress.setZero(std::ssize(model.nodes), 3);
   VectorXd area = VectorXd::Zero(std::ssize(model.nodes));
-  const std::array<Vector3d, 6> points = triangle_node_coordinates();
+  const std::array<Vector3d, 6> points = triangle_node_area_coordinates();
   for (std::size_t i = 0; i < model.triangles.size(); ++i) {
     const Triangle& triangle = model.triangles[i];
     const double size = std::abs(signed_area(triangle_nodes<3>(model, triangle)));
@@ -247,7 +247,7 @@ Vector2d acting_load(const System& system, const ElasticState& state, const Fram
          state.weight_factor * element.section.mass_per_length * system.model.gravity;
 }
 
-VectorXd constraint_forces(const System& system, const ElasticState& state) {
+VectorXd constraint_multipliers(const System& system, const ElasticState& state) {
   if (state.constraint_forces.size() > 0) return state.constraint_forces;
   VectorXd force = internal_forces(system, state.u) - acting_load(system, state);
   if (state.prestress) force += geometric_stiffness_forces(system, *state.prestress, state.u);
@@ -268,24 +268,24 @@ ForceRoundoff force_roundoff(const ElementForces& ends, double size) {
 }
 
 ElementForces end_forces(const System& system, const ElasticState& state) {
-  const VectorXd axial = axial_forces(system, state.u, constraint_forces(system, state));
+  const VectorXd axial = axial_forces(system, state.u, constraint_multipliers(system, state));
   ElementForces forces(6, std::ssize(system.mesh.frame));
   for (Index index = 0; index < forces.cols(); ++index) {
     const FrameElement& e = system.mesh.frame[to_size(index)];
     const Member& member = system.model.members[to_size(e.member)];
     const Vector6d u = detail::gather(e.coordinates, state.u);
-    Vector3d s = frame_rigidity(e.section, member.theory, e.length)
+    Vector3d s = frame_deformation_stiffness(e.section, member.theory, e.length)
                      .cwiseProduct(frame_deformation_matrix(e.direction, e.length) * u);
     s[0] = axial[index];
     Vector6d force =
         frame_deformation_matrix(Vector2d(Vector2d::UnitX()), e.length).transpose() * s;
-    if (state.prestress) {
+    if (state.prestress)
       force += geometric_stiffness_forces(e, member.theory, state.prestress->axial[index],
                                           state.prestress->axial_variation[index], u);
-    }
-    const Matrix6d R = frame_rotation(e.direction);
+    const Matrix6d R = frame_transformation_matrix(e.direction);
     if (state.acceleration.size() > 0)
-      force += R * (world_mass(e, member) * detail::gather(e.coordinates, state.acceleration));
+      force +=
+          R * (world_mass_matrix(e, member) * detail::gather(e.coordinates, state.acceleration));
     force -= R * element_load(e, acting_load(system, state, e));
     forces.col(index) = force;
   }
@@ -299,7 +299,8 @@ Index support_component(const System& system, const ConstraintRow& row) {
   return u == node[0] ? 0 : u == node[1] ? 1 : 2;
 }
 
-void set_results(const System& system, const RecoveredForces& forces, StaticSolution& solution) {
+void set_displacements_and_forces(const System& system, const RecoveredForces& forces,
+                                  StaticSolution& solution) {
   recover_displacements(system, forces, solution);
   solution.reaction.setZero(std::ssize(system.model.supports), 3);
   for (std::size_t i = 0; i < forces.constraints.rows.size(); ++i) {
@@ -337,10 +338,10 @@ ForceSum sum_forces(const System& system, const std::vector<Vector2d>& position,
 }
 
 void postprocess(const System& system, const ElasticState& state, StaticSolution& solution) {
-  set_results(system,
-              {system.mesh.positions, state.u, system.constraints, constraint_forces(system, state),
-               end_forces(system, state)},
-              solution);
+  set_displacements_and_forces(system,
+                               {system.mesh.positions, state.u, system.constraints,
+                                constraint_multipliers(system, state), end_forces(system, state)},
+                               solution);
   recover_triangles(system, state.u, solution);
   sum_external_forces(system, state, solution);
 }
@@ -359,7 +360,7 @@ void add_members(const System& system, const ElasticState& state, const StaticSo
     Vector6d force = forces.col(static_cast<Index>(i));
     if (first) force.head<3>() = -solution.resultant_start.row(e.member).transpose();
     if (last) force.tail<3>() = solution.resultant_end.row(e.member).transpose();
-    force = frame_rotation(e.direction).transpose() * force;
+    force = frame_transformation_matrix(e.direction).transpose() * force;
     // Add the nodal forces of the load along the element, because the section forces at its ends do
     // not include them.
     detail::scatter(e.coordinates, (force + element_load(e, acting_load(system, state, e))).eval(),
@@ -375,10 +376,9 @@ void add_other_elements(const System& system, const ElasticState& state, VectorX
     detail::scatter(coordinates, (B.transpose() * c.cwiseProduct(deformation)).eval(), sum);
   };
   for_each_plate_deformation(system, add);
-  for (const SpringElement& spring : system.springs) {
+  for (const SpringElement& spring : system.springs)
     add(spring.coordinates, Eigen::RowVector2d(-1, 1),
         Eigen::Matrix<double, 1, 1>(spring.stiffness));
-  }
   if (!state.prestress) return;
   Prestress rest = *state.prestress;
   rest.axial.setZero();
@@ -389,7 +389,7 @@ void add_other_elements(const System& system, const ElasticState& state, VectorX
 /// Adds the forces of supports and other constraints and their magnitudes.
 void add_constraints(const System& system, const ElasticState& state,
                      const StaticSolution& solution, VectorXd& sum, VectorXd& magnitudes) {
-  const VectorXd multipliers = constraint_forces(system, state);
+  const VectorXd multipliers = constraint_multipliers(system, state);
   for (std::size_t i = 0; i < system.constraints.rows.size(); ++i) {
     const ConstraintRow& row = system.constraints.rows[i];
     double force = multipliers[static_cast<Index>(i)];
@@ -405,8 +405,8 @@ void add_constraints(const System& system, const ElasticState& state,
 
 }  // namespace
 
-double unbalanced_forces(const System& system, const ElasticState& state,
-                         const StaticSolution& solution, const VectorXd& terms) {
+double largest_relative_imbalance(const System& system, const ElasticState& state,
+                                  const StaticSolution& solution, const VectorXd& terms) {
   VectorXd sum = -acting_load(system, state);
   VectorXd magnitudes = terms;
   add_members(system, state, solution, sum);

@@ -104,7 +104,8 @@ template <class T>
 /// Computes displacements, rotations of member ends, reactions, section forces and member stresses.
 /// The largest stress is searched at the ends of each element and between them. Within an element,
 /// the section forces follow from its end forces and a uniform load that balances them.
-void set_results(const System& system, const RecoveredForces& forces, StaticSolution& solution);
+void set_displacements_and_forces(const System& system, const RecoveredForces& forces,
+                                  StaticSolution& solution);
 
 /// Sums of forces, of moments about the origin, and of the magnitudes of their terms.
 struct ForceSum {
@@ -124,7 +125,8 @@ struct ForceSum {
 
 /// Returns the multipliers of the constraint rows [N, N m]: forces of supports, rigid bodies and
 /// inextensible members. They balance elastic forces, inertia forces and loads.
-[[nodiscard]] Eigen::VectorXd constraint_forces(const System& system, const ElasticState& state);
+[[nodiscard]] Eigen::VectorXd constraint_multipliers(const System& system,
+                                                     const ElasticState& state);
 
 /// Returns the forces of the nodes on the frame elements in a state: k u + k_G u + m a - f, with
 /// the load f.
@@ -145,8 +147,8 @@ void postprocess(const System& system, const ElasticState& state, StaticSolution
 /// @param state  displacements, loads and accelerations.
 /// @param solution  solution that contains the reported forces.
 /// @param terms  sums of the magnitudes of K u and the loads on the unconstrained coordinates.
-[[nodiscard]] double unbalanced_forces(const System& system, const ElasticState& state,
-                                       const StaticSolution& solution,
-                                       const Eigen::VectorXd& terms);
+[[nodiscard]] double largest_relative_imbalance(const System& system, const ElasticState& state,
+                                                const StaticSolution& solution,
+                                                const Eigen::VectorXd& terms);
 
 }  // namespace trammel::solver

@@ -56,7 +56,7 @@ SparseMatrix stiffness(const System& system, Counters& counters) {
 
 SparseMatrix mass(const System& system, Counters& counters) {
   Projection sum = empty_sum(system);
-  for_each_inertia(system, [&](const auto& coordinates, const auto& m) {
+  for_each_mass_matrix(system, [&](const auto& coordinates, const auto& m) {
     sum.add(coordinates, m);
     if (coordinates.size() >= 6) ++counters.element_evaluations;
   });
@@ -142,7 +142,7 @@ Vector6d element_load(const FrameElement& element, const Vector2d& load) {
     f << load * (element.length / 2), 0, load * (element.length / 2), 0;
     return f;
   }
-  const Matrix6d R = frame_rotation(element.direction);
+  const Matrix6d R = frame_transformation_matrix(element.direction);
   return R.transpose() * frame_uniform_load(R.topLeftCorner<2, 2>() * load, element.length);
 }
 
@@ -166,7 +166,7 @@ System assemble(const Model& model, Effects active) {
   return system;
 }
 
-Eigen::MatrixX3d full_node_motion(const System& system, const Eigen::VectorXd& u) {
+Eigen::MatrixX3d node_motion_from_unconstrained(const System& system, const Eigen::VectorXd& u) {
   Eigen::MatrixX3d motion(std::ssize(system.model.nodes), 3);
   for (Index node = 0; node < motion.rows(); ++node) {
     const auto& c = system.coordinates.node[to_size(node)];
@@ -176,7 +176,7 @@ Eigen::MatrixX3d full_node_motion(const System& system, const Eigen::VectorXd& u
 }
 
 Eigen::MatrixX3d node_motion(const System& system, const Eigen::VectorXd& q) {
-  return full_node_motion(system, system.T * q);
+  return node_motion_from_unconstrained(system, system.T * q);
 }
 
 }  // namespace trammel::solver

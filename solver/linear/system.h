@@ -48,7 +48,8 @@ struct System {
 [[nodiscard]] Eigen::MatrixX3d node_motion(const System& system, const Eigen::VectorXd& q);
 
 /// Returns the node motions of unconstrained coordinates u.
-[[nodiscard]] Eigen::MatrixX3d full_node_motion(const System& system, const Eigen::VectorXd& u);
+[[nodiscard]] Eigen::MatrixX3d node_motion_from_unconstrained(const System& system,
+                                                              const Eigen::VectorXd& u);
 
 /// Returns factors that convert the unconstrained coordinates u to lengths: 1 for translations, the
 /// model size [m] for rotations.
@@ -68,7 +69,7 @@ struct System {
 
 /// Returns, for each free coordinate, the sum of squared lengths [m^2] by which its unit motion
 /// moves all coordinates u.
-[[nodiscard]] inline Eigen::VectorXd squared_length_scales(const System& system) {
+[[nodiscard]] inline Eigen::VectorXd summed_squared_lengths(const System& system) {
   const SparseMatrix lengths = free_to_length_matrix(system);
   return lengths.cwiseAbs2().transpose() * Eigen::VectorXd::Ones(lengths.rows());
 }

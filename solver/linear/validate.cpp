@@ -36,9 +36,8 @@ class Validator {
     for (std::size_t i = 0; i < model_.rigid_bodies.size(); ++i) rigid_body(i);
     for (const PointMass& mass : model_.masses) point_mass(mass);
     for (std::size_t i = 0; i < model_.springs.size(); ++i) spring(i);
-    for (std::size_t i = 0; i < model_.supports.size(); ++i) {
+    for (std::size_t i = 0; i < model_.supports.size(); ++i)
       known(model_.supports[i].node, part_label("support", model_.supports[i].name, i));
-    }
     for (const NodalLoad& load : model_.loads) {
       known(load.node, "a load");
       require(load.force.allFinite(), "the load at " + node_label(model_, load.node),
@@ -50,10 +49,9 @@ class Validator {
 
  private:
   void known(Index node, const std::string& part) const {
-    if (node < 0 || node >= static_cast<Index>(model_.nodes.size())) {
+    if (node < 0 || node >= static_cast<Index>(model_.nodes.size()))
       throw ModelError(part + " refers to node " + std::to_string(node) + ", but the model has " +
                        std::to_string(model_.nodes.size()) + " nodes");
-    }
   }
 
   template <class Nodes>
@@ -69,10 +67,9 @@ class Validator {
 
   void nodes() const {
     require(!model_.nodes.empty(), "the model", "has no nodes");
-    for (std::size_t i = 0; i < model_.nodes.size(); ++i) {
+    for (std::size_t i = 0; i < model_.nodes.size(); ++i)
       require(model_.nodes[i].position.allFinite(), node_label(model_, static_cast<Index>(i)),
               "has a position that is not a finite number");
-    }
   }
 
   void member(std::size_t i) const {
@@ -127,23 +124,21 @@ class Validator {
     const double longest = std::max(
         {(p[1] - p[0]).squaredNorm(), (p[2] - p[1]).squaredNorm(), (p[0] - p[2]).squaredNorm()});
     if (triangle.quadratic()) curved(triangle, part);
-    if (!(std::abs(signed_area(p)) > 1e-12 * longest)) {
+    if (!(std::abs(signed_area(p)) > 1e-12 * longest))
       throw ModelError(part + " (" + node_label(model_, triangle.nodes[0]) + ", " +
                        node_label(model_, triangle.nodes[1]) + ", " +
                        node_label(model_, triangle.nodes[2]) + ") has no area");
-    }
   }
 
   /// Checks that the mapping from area coordinates to a six-node triangle does not fold: its
   /// determinant has the same sign at all six nodes and at the centroid.
   void curved(const Triangle& triangle, const std::string& part) const {
     const auto area_at = [&](const Vector3d& at) {
-      return interpolate(model_, triangle, at).signed_area;
+      return evaluate_shape_functions(model_, triangle, at).signed_area;
     };
     const double at_center = area_at(Vector3d::Constant(1 / 3.0));
-    for (const Vector3d& at : triangle_node_coordinates()) {
+    for (const Vector3d& at : triangle_node_area_coordinates())
       require(area_at(at) * at_center > 0, part, "has mid-side nodes that fold it over itself");
-    }
   }
 
   void edge_load(const EdgeLoad& load) const {
@@ -174,9 +169,8 @@ class Validator {
     known(spring.nodes[0], part);
     if (spring.nodes[1] != -1) known(spring.nodes[1], part);
     require(spring.nodes[0] != spring.nodes[1], part, "joins a node with itself");
-    for (const double k : spring.stiffness) {
+    for (const double k : spring.stiffness)
       require(is_amount(k), part, "must have stiffnesses that are not negative");
-    }
   }
 
   const Model& model_;
@@ -246,9 +240,7 @@ void restrict_effects(Member& member, Effects active) {
 Effects applicable_effects(const Model& model) {
   Effects effects;
   for (const Member& member : model.members) {
-    if (member.axially_flexible && bends(member)) {
-      effects = effects.with(Effect::axial_flexibility);
-    }
+    if (member.axially_flexible && bends(member)) effects = effects.with(Effect::axial_flexibility);
     if (has_shear_deformation(member.theory) && bends(member))
       effects = effects.with(Effect::shear);
     if (has_rotary_inertia(member.theory) && has_rotary_inertia_per_length(member))

@@ -42,9 +42,8 @@ using Eigen::VectorXd;
 
 std::vector<double> sample_times(const TransientOptions& options) {
   if (!options.sample_times.empty()) return options.sample_times;
-  if (!(options.step > 0 && options.end > options.start)) {
+  if (!(options.step > 0 && options.end > options.start))
     throw ModelError("the motion must end after its start, and the time step must be positive");
-  }
   return even_times(options.start, options.end, options.step);
 }
 
@@ -159,9 +158,8 @@ class MotionSolver {
   /// Computes the motion at every sample by superposition of closed-form solutions for all modes.
   void superpose_modes() {
     const std::vector<double> times = sample_times(options_.time);
-    if (!follower_.is_at_rest()) {
+    if (!follower_.is_at_rest())
       throw ModelError("modal superposition requires constant matrices, but the platform moves");
-    }
     if (options_.gyroscopic) throw ModelError("a platform at rest has no gyroscopic terms");
     const SparseMatrix& M = moving_.M();
     const SparseMatrix& K = moving_.K();
@@ -359,9 +357,8 @@ double mean_platform_rotation(const ManipulatorGeometry& geometry, double phi,
 }  // namespace
 
 ElastodynamicsSolution solve_elastodynamics(const ElastodynamicsOptions& options) {
-  if (options.gyroscopic && !options.elastic_inertia) {
+  if (options.gyroscopic && !options.elastic_inertia)
     throw ModelError("gyroscopic terms require elastic inertia");
-  }
   return MotionSolver(options).run();
 }
 
@@ -415,7 +412,7 @@ void set_triangle_stress(const MovingSystem& moving, const VectorXd& u, StaticSo
     const auto local = detail::gather(moving.start().coordinates.triangle_dofs<6>(triangles[i]), u);
     const Plate& plate = moving.start().model.plates[to_size(triangles[i].plate)];
     state.triangle_stress.row(static_cast<Index>(i)) =
-        membrane_stress(plate.material, triangle_deformation(points) * local);
+        membrane_stress(plate.material, triangle_deformation_matrix(points) * local);
   }
 }
 
@@ -430,10 +427,10 @@ StaticSolution postprocess_motion(const MovingSystem& moving, const VectorXd& q,
   std::vector<Vector2d> positions;
   for (Index node = 0; node < std::ssize(moving.start().mesh.positions); ++node)
     positions.push_back(moving.position(node));
-  set_results(moving.start(),
-              {positions, forces.working.u, constraints, multipliers,
-               end_forces(moving, forces, multipliers)},
-              state);
+  set_displacements_and_forces(moving.start(),
+                               {positions, forces.working.u, constraints, multipliers,
+                                end_forces(moving, forces, multipliers)},
+                               state);
   set_triangle_stress(moving, forces.working.u, state);
   const ForceSum sum = sum_forces(moving.start(), positions, forces.external, state);
   state.equilibrium_residual = sum.force.norm();

@@ -137,10 +137,10 @@ class SetDerivative {
     const Member& member = system_.model.members[to_size(e.member)];
     const Duals u = gather_modes(e.coordinates, U_).cast<Dual>();
     const Dual length = link.length / static_cast<double>(member.elements);
-    Eigen::Vector3<Dual> c = frame_rigidity(link.section, member.theory, length);
+    Eigen::Vector3<Dual> c = frame_deformation_stiffness(link.section, member.theory, length);
     if (!member.axially_flexible) c[0] = 0;
     const Duals d = frame_deformation_matrix(link.direction, length) * u;
-    const Duals v = frame_rotation(link.direction) * u;
+    const Duals v = frame_transformation_matrix(link.direction) * u;
     const Matrix6<Dual> m = frame_mass(link.section, member.theory, member.mass, length);
     const Duals strain = d.transpose() * c.asDiagonal() * d, inertia = v.transpose() * m * v;
     sum += rates_of(strain) - omega_squared_ * rates_of(inertia);
@@ -172,7 +172,7 @@ class SetDerivative {
     if (stiffness == 0 && mass == 0) return;
     for (const PointMass& lump : system_.model.masses) {
       const Eigen::Matrix3d dm = rates_of(
-          point_inertia(design.platform_mass.mass, design.platform_mass.inertia, lump.offset));
+          point_mass_matrix(design.platform_mass.mass, design.platform_mass.inertia, lump.offset));
       const auto u =
           gather_modes(system_.coordinates.node[static_cast<std::size_t>(lump.node)], U_);
       sum -= omega_squared_ * (u.transpose() * dm * u);
@@ -237,11 +237,10 @@ Outcome differentiate_set(const System& system, const ModalSolution& modes, cons
     if (!design) continue;
     const MatrixXd small = derivative.of(*design);
     result.counters.element_evaluations += 2 * std::ssize(system.mesh.frame);
-    if (!small.allFinite()) {
+    if (!small.allFinite())
       return {Status::singular,
               "a limb is straight or folded: its angles, and with them the frequencies, change "
               "infinitely fast with the link lengths"};
-    }
     const SymmetricEigenpairs rates = symmetric_eigenpairs(small);
     if (!rates.converged)
       return {Status::not_converged, "the derivatives of repeated frequencies did not converge"};
@@ -285,7 +284,8 @@ FrequencySensitivity frequency_sensitivity(const ManipulatorDesign& design, cons
 
   std::vector<std::optional<SeededDesign>> designs(parameters.size());
   for (std::size_t p = 0; p < parameters.size(); ++p) {
-    if (has_exact_derivative(parameters[p].kind)) designs[p] = seed_design(design, posture, parameters[p]);
+    if (has_exact_derivative(parameters[p].kind))
+      designs[p] = seed_design(design, posture, parameters[p]);
   }
   for (const FrequencySet& set : equal_frequencies(modes.frequency)) {
     if (set.first >= kept) break;

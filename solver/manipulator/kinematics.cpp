@@ -243,9 +243,8 @@ HoldingTorques holding_torques(const Jacobians& j, const Vector3d& wrench) {
   const Vector3d scaled_wrench(wrench(0), wrench(1), wrench(2) / j.platform_radius);
   const Matrix3d directions = scaled(j).transpose();
   result.tension = pivoted_solve(directions, scaled_wrench).x;
-  for (Index i = 0; i < 3; ++i) {
+  for (Index i = 0; i < 3; ++i)
     result.torque(i) = -result.tension(i) * j.serial(i) / j.parallel.row(i).head<2>().norm();
-  }
   return result;
 }
 

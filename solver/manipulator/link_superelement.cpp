@@ -24,11 +24,10 @@ struct ElementChain {
     return F;
   }
   /// Returns U^T K U. It is computed from deformations, which are accurate for long-wave modes.
-  [[nodiscard]] MatrixXd strain_products(const MatrixXd& U) const {
+  [[nodiscard]] MatrixXd projected_stiffness(const MatrixXd& U) const {
     MatrixXd D(3 * elements, U.cols());
-    for (Index e = 0; e < elements; ++e) {
+    for (Index e = 0; e < elements; ++e)
       D.middleRows<3>(3 * e) = c.cwiseSqrt().asDiagonal() * B * U.middleRows<6>(3 * e);
-    }
     return D.transpose() * D;
   }
 };
@@ -49,7 +48,7 @@ MatrixXd modes_of(const ElementChain& chain, const std::vector<Index>& coordinat
   const Index size = 3 * (chain.elements + 1);
   const auto count = static_cast<Index>(coordinates.size());
   const MatrixXd unit = motions_of(coordinates, MatrixXd::Identity(count, count), size);
-  const MatrixXd K = chain.strain_products(unit);
+  const MatrixXd K = chain.projected_stiffness(unit);
   const MatrixXd M = unit.transpose() * chain.mass_times(unit);
   const VectorXd scale = K.diagonal().cwiseSqrt().cwiseInverse();
   const SymmetricEigenpairs pairs = symmetric_eigenpairs(
@@ -69,23 +68,22 @@ double largest_off_diagonal(const MatrixXd& A) {
 
 }  // namespace
 
-LinkSuperelement condense(const Member& member, double length) {
+LinkSuperelement condense_member(const Member& member, double length) {
   const Index n = member.elements;
   const double part = length / static_cast<double>(n);
   const Section& section = member.section;
   LinkSuperelement link;
   ElementChain chain{n, frame_deformation_matrix(Vector2d(Vector2d::UnitX()), part),
-                     frame_rigidity(section, member.theory, part),
+                     frame_deformation_stiffness(section, member.theory, part),
                      frame_mass(section, member.theory, member.mass, part)};
   if (!member.axially_flexible) chain.c[0] = 0;
   // The static response of the interior of a prismatic member equals the interpolation of one
   // element.
   MatrixXd follows(3 * (n + 1), 6);
   const double phi = shear_ratio(section, member.theory, length);
-  for (Index k = 0; k <= n; ++k) {
+  for (Index k = 0; k <= n; ++k)
     follows.middleRows<3>(3 * k) =
         frame_interpolation(phi, length, static_cast<double>(k) / static_cast<double>(n));
-  }
   std::vector<Index> axial, bending;
   for (Index k = 1; k < n; ++k) {
     if (member.axially_flexible) axial.push_back(3 * k);
@@ -99,7 +97,7 @@ LinkSuperelement condense(const Member& member, double length) {
     X.conservativeResize(Eigen::NoChange, X.cols() + modes.cols());
     X.rightCols(modes.cols()) = modes;
   }
-  const MatrixXd energy = chain.strain_products(X);
+  const MatrixXd energy = chain.projected_stiffness(X);
   X = X * energy.diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
   const MatrixXd images = chain.mass_times(X), inertia = X.transpose() * images;
   link.coupling = std::max(largest_off_diagonal(energy), largest_off_diagonal(inertia));

@@ -29,6 +29,6 @@ struct LinkSuperelement {
 };
 
 /// Computes the condensed matrices of a member of the given length [m].
-[[nodiscard]] LinkSuperelement condense(const Member& member, double length);
+[[nodiscard]] LinkSuperelement condense_member(const Member& member, double length);
 
 }  // namespace trammel::solver

@@ -60,11 +60,10 @@ void check_platform_joints(const ManipulatorDesign& design) {
   for (std::size_t i = 0; i < 3; ++i) {
     const PlatformJointKind kind = joints[i].kind;
     const std::string C = numbered('C', i);
-    if (is_eq25(kind)) {
+    if (is_eq25(kind))
       require(joints[0].kind == joints[1].kind && joints[1].kind == joints[2].kind,
               "Eq. 25 relates the platform's rotation to the rotations of all link ends: choose "
               "the same joint type for C1, C2 and C3");
-    }
     if (design.platform.kind == PlatformDesign::Kind::rigid) continue;
     for (const auto& [joint, problem] :
          {std::pair(PlatformJointKind::welded, "a link cannot be welded to the platform at "),
@@ -118,10 +117,9 @@ void add_rigid_platform(const ManipulatorDesign& design, const Eigen::Matrix2d& 
   const PlatformJointKind kind = design.platform_joint[0].kind;
   if (!is_eq25(kind)) return;
   LinearConstraint eq25{"eq25", {{Coordinate{Coordinate::Kind::rotation, kP, -1, 0}, 1}}};
-  for (Index limb = 0; limb < 3; ++limb) {
+  for (Index limb = 0; limb < 3; ++limb)
     eq25.terms.emplace_back(Coordinate{Coordinate::Kind::end_rotation, -1, 2 * limb + 1, 1},
                             kind == PlatformJointKind::eq25_mean ? -1.0 / 3 : -1.0);
-  }
   model.constraints.push_back(std::move(eq25));
 }
 
@@ -297,9 +295,8 @@ ManipulatorDesign restrict_effects(ManipulatorDesign design, Effects active) {
     if (active.has(Effect::joint_compliance)) continue;
     if (design.active[i].kind == ActiveKind::sprung) design.active[i] = {ActiveKind::locked};
     if (design.elbow[i].kind == ElbowKind::sprung) design.elbow[i] = {ElbowKind::welded};
-    if (design.platform_joint[i].kind == PlatformJointKind::sprung) {
+    if (design.platform_joint[i].kind == PlatformJointKind::sprung)
       design.platform_joint[i] = {PlatformJointKind::welded};
-    }
   }
   if (!active.has(Effect::platform_flexibility)) {
     design.platform.kind = PlatformDesign::Kind::rigid;

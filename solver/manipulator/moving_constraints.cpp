@@ -22,7 +22,7 @@ const PartMotion* part_of(const System& start, const ConstraintRow& row,
   if (row.source == ConstraintRow::Source::inextensible)
     return &motion.part[to_size(start.mesh.frame[to_size(row.index)].member)];
   if (row.source == ConstraintRow::Source::rigid_body)
-    return &motion.part[to_size(body_part(start.model, row.index))];
+    return &motion.part[to_size(body_part_index(start.model, row.index))];
   return nullptr;
 }
 
@@ -59,12 +59,12 @@ MovingConstraints::MovingConstraints(const System& start, const NominalMotion& m
     variable_ = variable_ || (constraints_.pivot[r] >= 0 && turns);
   }
   if (!variable_) return;
-  find_dependent_rows();
+  find_eliminating_rows();
   extend_pattern(start, motion);
 }
 
 /// Selects the constraint rows from which T is computed.
-void MovingConstraints::find_dependent_rows() {
+void MovingConstraints::find_eliminating_rows() {
   dependent_row_of_.assign(to_size(constraints_.T.rows()), -1);
   for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
     const Index pivot = constraints_.pivot[r];
@@ -98,12 +98,11 @@ void MovingConstraints::extend_pattern(const System& start, const NominalMotion&
   double turn = 1;
   for (int found = 0, trial = 0; found < 3 && trial < 100; ++trial) {
     for (PartMotion& part : general.part) part.angle = 0.4 * std::sin(turn += std::numbers::phi);
-    const MatrixXd X = dependent_coordinates(start, general).cwiseAbs();
+    const MatrixXd X = dependent_coordinate_matrix(start, general).cwiseAbs();
     if (!(X.allFinite() && X.maxCoeff() < kLargestT)) continue;
     ++found;
-    for (Index i = 0; i < X.rows(); ++i) {
+    for (Index i = 0; i < X.rows(); ++i)
       needed.row(i) = needed.row(i) || X.row(i).array() > kVanishing * X.row(i).maxCoeff();
-    }
   }
   std::vector<Eigen::Triplet<double>> entries;
   for (Index u = 0; u < T.rows(); ++u) {
@@ -136,8 +135,8 @@ MatrixXd MovingConstraints::product(const System& start, const NominalMotion& mo
 }
 
 /// Returns X of C_p X = - C_f, which expresses the eliminated coordinates (rows) by the free ones.
-MatrixXd MovingConstraints::dependent_coordinates(const System& start,
-                                                  const NominalMotion& motion) {
+MatrixXd MovingConstraints::dependent_coordinate_matrix(const System& start,
+                                                        const NominalMotion& motion) {
   pivots_.compute(product(start, motion, 0, select_dependent_));
   return pivots_.solve(-product(start, motion, 0, select_free_));
 }
@@ -146,9 +145,8 @@ void MovingConstraints::store(const MatrixXd& values, RowMajorMatrix& target) co
   for (Index u = 0; u < target.rows(); ++u) {
     const Index row = dependent_row_of_[to_size(u)];
     if (row < 0) continue;
-    for (RowMajorMatrix::InnerIterator it(target, u); it; ++it) {
+    for (RowMajorMatrix::InnerIterator it(target, u); it; ++it)
       it.valueRef() = values(row, it.col());
-    }
   }
 }
 
@@ -159,16 +157,14 @@ Outcome MovingConstraints::move(const System& start, const NominalMotion& from,
     return before != nullptr && *before != *after;
   });
   if (!variable_ || !changes) return {};
-  const MatrixXd X = dependent_coordinates(start, to);
-  if (!(X.allFinite() && X.cwiseAbs().maxCoeff() < kLargestT)) {
+  const MatrixXd X = dependent_coordinate_matrix(start, to);
+  if (!(X.allFinite() && X.cwiseAbs().maxCoeff() < kLargestT))
     return {Status::singular,
             "the constraints do not determine the eliminated coordinates at this pose"};
-  }
   for (const std::size_t r : dependent_rows_) {
     ConstraintRow& row = constraints_.rows[r];
-    for (std::size_t t = 0; t < row.terms.size(); ++t) {
+    for (std::size_t t = 0; t < row.terms.size(); ++t)
       row.terms[t].second = coefficient(start, row, t, to, 0);
-    }
   }
   store(X, constraints_.T);
   if (!derivatives_) return {};

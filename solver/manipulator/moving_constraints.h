@@ -38,13 +38,15 @@ class MovingConstraints {
   /// First and second time derivative of T; empty if T is the same at every pose.
   [[nodiscard]] const RowMajorMatrix& T_dot() const { return T_dot_; }
   [[nodiscard]] const RowMajorMatrix& T_ddot() const { return T_ddot_; }
-  [[nodiscard]] bool variable() const { return variable_; }  ///< true if T changes with the pose
+  [[nodiscard]] bool is_pose_dependent() const {
+    return variable_;
+  }  ///< true if T changes with the pose
 
  private:
-  void find_dependent_rows();
+  void find_eliminating_rows();
   void extend_pattern(const System& start, const NominalMotion& motion);
-  [[nodiscard]] Eigen::MatrixXd dependent_coordinates(const System& start,
-                                                      const NominalMotion& motion);
+  [[nodiscard]] Eigen::MatrixXd dependent_coordinate_matrix(const System& start,
+                                                            const NominalMotion& motion);
   [[nodiscard]] Eigen::MatrixXd product(const System& start, const NominalMotion& motion, int order,
                                         const RowMajorMatrix& matrix) const;
   void store(const Eigen::MatrixXd& values, RowMajorMatrix& target) const;

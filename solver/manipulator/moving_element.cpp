@@ -28,16 +28,15 @@ NominalMotion nominal_motion(const Model& model, const InverseDynamics& dynamics
     motion.part.push_back(part(limb));
     motion.part.push_back(part(3 + limb));
   }
-  motion.part.resize(to_size(body_part(model, std::ssize(model.rigid_bodies))), part(8));
+  motion.part.resize(to_size(body_part_index(model, std::ssize(model.rigid_bodies))), part(8));
   for (Eigen::MatrixX2d& values : motion.node) values.resize(std::ssize(model.nodes), 2);
   using Carrier = std::array<Vector2d, 3>;
   const auto place = [&](Index node, const Vector2d& start, const Carrier& carrier,
                          const PartMotion& turns) {
     const Vector2d arm = model.nodes[to_size(node)].position - start;
-    for (int order = 0; order < 3; ++order) {
+    for (int order = 0; order < 3; ++order)
       motion.node[to_size(order)].row(node) =
           carrier[to_size(order)] + turns.derivative(arm, order);
-    }
   };
   for (Index limb = 0; limb < 3; ++limb) {
     const Vector2d& A = model.nodes[to_size(limb)].position;
@@ -86,7 +85,7 @@ MovingElement frame_element(const FrameElement& e, const Member& member) {
   element.part = e.member;
   element.axis = e.direction;
   element.B = frame_deformation_matrix(Vector2d(Vector2d::UnitX()), e.length);
-  element.c = frame_rigidity(e.section, member.theory, e.length);
+  element.c = frame_deformation_stiffness(e.section, member.theory, e.length);
   if (!member.axially_flexible) element.c[0] = 0;
   element.m = e.is_bar() ? bar_mass(e.section, member.mass, e.length)
                          : frame_mass(e.section, member.theory, member.mass, e.length);
@@ -107,7 +106,7 @@ void add_triangles(const System& system, std::vector<MovingElement>& elements) {
   for (const Triangle& triangle : system.model.triangles) {
     MovingElement element;
     element.layout = MovingElement::Layout::triangle;
-    element.part = plate_part(system.model, triangle.plate);
+    element.part = plate_part_index(system.model, triangle.plate);
     if (triangle.quadratic())
       throw ModelError("six-node triangles are not supported in a moving manipulator");
     const TrianglePoints points = triangle_nodes<3>(system.model, triangle);
@@ -132,10 +131,10 @@ void add_point_masses(const System& system, std::vector<MovingElement>& elements
       const RigidBody& body = model.rigid_bodies[b];
       if (body.reference == point_mass.node ||
           std::ranges::count(body.attached, point_mass.node) > 0)
-        element.part = body_part(model, static_cast<Index>(b));
+        element.part = body_part_index(model, static_cast<Index>(b));
     }
     element.m.topLeftCorner<3, 3>() =
-        point_inertia(point_mass.mass, point_mass.inertia, point_mass.offset);
+        point_mass_matrix(point_mass.mass, point_mass.inertia, point_mass.offset);
     element.first_moment = point_mass.mass * point_mass.offset;
     Eigen::Matrix<double, 3, 6> N = Eigen::Matrix<double, 3, 6>::Zero();
     N(0, 0) = N(1, 1) = N(2, 2) = 1;
@@ -175,7 +174,7 @@ Vector2d MovingElement::direction(const NominalMotion& nominal) const {
   return angle == 0 ? axis : rotated(axis, angle);
 }
 
-Matrix6d MovingElement::in_world(const Matrix6d& A, const Vector2d& direction) const {
+Matrix6d MovingElement::matrix_in_world_axes(const Matrix6d& A, const Vector2d& direction) const {
   Matrix6d turned = A;
   to_world(turned, direction);
   turned.transposeInPlace();

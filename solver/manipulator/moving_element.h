@@ -33,18 +33,18 @@ struct NominalMotion {
   double load_factor = 1;               ///< factor on the loads of the model
 
   /// Returns the motion of the link or platform whose rotation equals that of a model node.
-  [[nodiscard]] const PartMotion& at_node(Index model_node) const {
+  [[nodiscard]] const PartMotion& part_motion_at_node(Index model_node) const {
     return model_node < 6 ? part[to_size(2 * (model_node % 3))] : part.back();
   }
 };
 
 /// Returns the index in NominalMotion::part of a plate.
-[[nodiscard]] inline Index plate_part(const Model& model, Index plate) {
+[[nodiscard]] inline Index plate_part_index(const Model& model, Index plate) {
   return std::ssize(model.members) + plate;
 }
 /// Returns the index in NominalMotion::part of a rigid body.
-[[nodiscard]] inline Index body_part(const Model& model, Index body) {
-  return plate_part(model, std::ssize(model.plates)) + body;
+[[nodiscard]] inline Index body_part_index(const Model& model, Index body) {
+  return plate_part_index(model, std::ssize(model.plates)) + body;
 }
 
 /// Computes the nominal motion of every part of the model from that of the platform.
@@ -63,7 +63,7 @@ struct NominalMotion {
 /// Rotates the pair (x, y) of columns that starts at column i by the angle with cosine c and sine
 /// s.
 template <class Block>
-void turn_columns(Block& v, Index i, double c, double s) {
+void rotate_adjacent_columns(Block& v, Index i, double c, double s) {
   const auto x = (c * v.col(i) - s * v.col(i + 1)).eval();
   v.col(i + 1) = s * v.col(i) + c * v.col(i + 1);
   v.col(i) = x;
@@ -99,7 +99,7 @@ struct MovingElement {
   template <class Block>
   void to_world(Block& v, const Vector2d& direction) const {
     if (layout == Layout::scalar) return;
-    for (Index i = 0; i + 1 < 6; i += stride()) turn_columns(v, i, direction.x(), direction.y());
+    for (Index i = 0; i + 1 < 6; i += stride()) rotate_adjacent_columns(v, i, direction.x(), direction.y());
   }
   /// Rotates the columns of a block from world axes to element axes.
   template <class Block>
@@ -107,7 +107,7 @@ struct MovingElement {
     to_world(v, Vector2d(direction.x(), -direction.y()));
   }
   /// Transforms an element matrix A from element axes to world axes.
-  [[nodiscard]] Matrix6d in_world(const Matrix6d& A, const Vector2d& direction) const;
+  [[nodiscard]] Matrix6d matrix_in_world_axes(const Matrix6d& A, const Vector2d& direction) const;
 };
 
 /// Returns the moving elements of a model: frame elements in the order of the mesh, then triangles,

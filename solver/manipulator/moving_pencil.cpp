@@ -71,7 +71,7 @@ MovingPencil::MovingPencil(const Model& model, const ManipulatorGeometry& geomet
     const Index q = start.constraints.free[to_size(u)];
     if (q >= 0 && start.coordinates.is_rotation[to_size(u)]) length_[q] = size;
   }
-  P_.setZero(n, inside());
+  P_.setZero(n, interior_mode_count());
   static_cast<void>(move_to(start_posture_, pose));
 }
 
@@ -128,7 +128,7 @@ Index MovingPencil::eigenvalues_below(double shift) {
 template <int rows>
 void MovingPencil::mass_times(const VectorBlock<rows>& X, VectorBlock<rows>& Y) const {
   using Vector = Eigen::Matrix<double, rows, 1>;
-  const Index n = ends();
+  const Index n = joint_coordinate_count();
   Y.ends.setZero(rows, n);
   for (Index j = 0; j < n; ++j) {
     const Vector x = X.ends.col(j);
@@ -141,8 +141,8 @@ void MovingPencil::mass_times(const VectorBlock<rows>& X, VectorBlock<rows>& Y) 
     }
     Y.ends.col(j) = y;
   }
-  Y.inside.resize(rows, inside());
-  if (inside() == 0) return;
+  Y.inside.resize(rows, interior_mode_count());
+  if (interior_mode_count() == 0) return;
   for (const Link& link : links_) {
     for (Index j = link.first; j < link.last; ++j) {
       Vector y = mu_[j] * X.inside.col(j);
@@ -196,14 +196,14 @@ void MovingPencil::measure_residual(const VectorBlock<rows>& X, const VectorBloc
   const Numbers w2 = measures.strain / measures.inertia;
   space.sizes = X.ends.cwiseAbs();
   Numbers largest = Numbers::Zero();
-  for (Index i = 0; i < ends(); ++i) largest = largest.max(length_[i] * space.sizes.col(i).array());
-  for (Index i = 0; i < ends(); ++i) {
+  for (Index i = 0; i < joint_coordinate_count(); ++i)
+    largest = largest.max(length_[i] * space.sizes.col(i).array());
+  for (Index i = 0; i < joint_coordinate_count(); ++i)
     space.sizes.col(i) = space.sizes.col(i).array().max(kLeastFraction / length_[i] * largest);
-  }
   measures.backward_error.setZero();
-  for (Index i = 0; i < ends(); ++i) {
+  for (Index i = 0; i < joint_coordinate_count(); ++i) {
     Numbers sum = -w2 * MX.ends.col(i).array(), terms = sum.abs();
-    for (Index j = 0; j < ends(); ++j) {
+    for (Index j = 0; j < joint_coordinate_count(); ++j) {
       const double k = K_(j, i);
       if (k == 0) continue;
       sum += k * X.ends.col(j).array();
@@ -212,7 +212,7 @@ void MovingPencil::measure_residual(const VectorBlock<rows>& X, const VectorBloc
     measures.backward_error = measures.backward_error.max(sum.abs() / terms);
   }
   const Numbers size = measures.strain.sqrt();  // interior modes have stiffness 1
-  for (Index j = 0; j < inside(); ++j) {
+  for (Index j = 0; j < interior_mode_count(); ++j) {
     const Numbers force = w2 * MX.inside.col(j).array();
     measures.backward_error =
         measures.backward_error.max((X.inside.col(j).array() - force).abs() / size);

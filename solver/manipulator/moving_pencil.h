@@ -90,10 +90,10 @@ class MovingPencil {
   /// eliminated coordinates at this pose.
   [[nodiscard]] Outcome move_to(const Posture& posture, const Pose& pose);
 
-  [[nodiscard]] Index ends() const { return K_.rows(); }
-  [[nodiscard]] Index inside() const { return mu_.size(); }
+  [[nodiscard]] Index joint_coordinate_count() const { return K_.rows(); }
+  [[nodiscard]] Index interior_mode_count() const { return mu_.size(); }
   /// Returns the number of free coordinates without condensation, including massless interior ones.
-  [[nodiscard]] Index free_coordinates() const { return free_coordinates_; }
+  [[nodiscard]] Index free_coordinate_count() const { return free_coordinates_; }
   [[nodiscard]] const Counters& counters() const { return system_.start().counters; }
   [[nodiscard]] double coupling() const { return coupling_; }  ///< largest coupling of link modes
 

@@ -17,7 +17,7 @@ NominalMotion motion_at_start(const Model& model) {
   const Index nodes = std::ssize(model.nodes);
   for (Eigen::MatrixX2d& values : motion.node) values.setZero(nodes, 2);
   for (Index i = 0; i < nodes; ++i) motion.node[0].row(i) = model.nodes[to_size(i)].position;
-  motion.part.resize(to_size(body_part(model, std::ssize(model.rigid_bodies))));
+  motion.part.resize(to_size(body_part_index(model, std::ssize(model.rigid_bodies))));
   return motion;
 }
 
@@ -41,7 +41,8 @@ std::vector<LinkSuperelement> condense_members(const Model& model, const Mesh& m
   for (std::size_t i = 0; i < model.members.size(); ++i) {
     std::size_t same = 0;
     while (same < i && numbers(same) != numbers(i)) ++same;
-    links.push_back(same < i ? links[same] : condense(model.members[i], mesh.frame[i].length));
+    links.push_back(same < i ? links[same]
+                             : condense_member(model.members[i], mesh.frame[i].length));
   }
   return links;
 }
@@ -89,7 +90,7 @@ MovingSystem::MovingSystem(const Model& model, const MovingSystemOptions& option
       constraints_(start_, motion_, options.gyroscopic) {
   if (options_.condensed) links_ = condense_members(model, start_.mesh);
   elements_ = moving_elements(start_, links_);
-  find_spans();
+  locate_mesh_nodes();
   find_pattern();
   inertia_u_.setZero(start_.coordinates.size);
   inertia_load_.setZero(K_.rows());
@@ -97,7 +98,7 @@ MovingSystem::MovingSystem(const Model& model, const MovingSystemOptions& option
   static_cast<void>(move_to(NominalMotion(motion_)));
 }
 
-void MovingSystem::find_spans() {
+void MovingSystem::locate_mesh_nodes() {
   const Model& model = start_.model;
   span_.resize(start_.mesh.positions.size());
   for (Index i = 0; i < std::ssize(model.nodes); ++i) span_[to_size(i)].nodes = {i, i};
@@ -140,7 +141,8 @@ void MovingSystem::find_pattern() {
   if (options_.gyroscopic) C_gyroscopic_ = K_centrifugal_euler_ = K_T_dot_ = M_T_dot_ = K_;
 }
 
-Vector2d MovingSystem::at_mesh_node(Index mesh_node, const Eigen::MatrixX2d& values) const {
+Vector2d MovingSystem::interpolate_at_mesh_node(Index mesh_node,
+                                                const Eigen::MatrixX2d& values) const {
   const auto& [nodes, s] = span_[to_size(mesh_node)];
   return (1 - s) * values.row(nodes[0]).transpose() + s * values.row(nodes[1]).transpose();
 }
@@ -157,8 +159,8 @@ Vector6d MovingSystem::nominal_inertia(const MovingElement& element, const PartM
     const bool rotation =
         element.layout == MovingElement::Layout::scalar || i % element.stride() == 2;
     a[i] = rotation ? part.acceleration
-                    : at_mesh_node(start_.coordinates.node_of[to_size(u)],
-                                   motion_.node[2])[i % element.stride()];
+                    : interpolate_at_mesh_node(start_.coordinates.node_of[to_size(u)],
+                                               motion_.node[2])[i % element.stride()];
   }
   element.to_element_axes(a, direction);
   Vector6d f = -element.m * a.transpose();
@@ -202,8 +204,8 @@ void MovingSystem::add_loads(const MovingElement& element) {
 void MovingSystem::add_matrices(std::size_t index) {
   const MovingElement& element = elements_[index];
   const Vector2d direction = element.direction(motion_);
-  const Matrix6d k = element.in_world(element.k, direction);
-  const Matrix6d m = element.in_world(element.m, direction);
+  const Matrix6d k = element.matrix_in_world_axes(element.k, direction);
+  const Matrix6d m = element.matrix_in_world_axes(element.m, direction);
   const double* const T = constraints_.T().valuePtr();
   double* const K = K_.valuePtr();
   double* const M = options_.inertia ? M_.valuePtr() : nullptr;
@@ -213,20 +215,23 @@ void MovingSystem::add_matrices(std::size_t index) {
     K[destination] += factor * k(local);
     if (M != nullptr) M[destination] += factor * m(local);
   }
-  if (options_.gyroscopic) add_gyroscopic(index, k, m);
+  if (options_.gyroscopic) add_gyroscopic_matrices(index, k, m);
 }
 
-void MovingSystem::add_gyroscopic(std::size_t index, const Matrix6d& k, const Matrix6d& m) {
+void MovingSystem::add_gyroscopic_matrices(std::size_t index, const Matrix6d& k,
+                                           const Matrix6d& m) {
   const MovingElement& element = elements_[index];
   const PartMotion part = element.motion(motion_);
   const Vector2d direction = element.direction(motion_);
-  const Matrix6d first_derivative = element.in_world(element.first_derivative, direction);
-  const Matrix6d second_derivative = element.in_world(element.second_derivative, direction);
+  const Matrix6d first_derivative =
+      element.matrix_in_world_axes(element.first_derivative, direction);
+  const Matrix6d second_derivative =
+      element.matrix_in_world_axes(element.second_derivative, direction);
   const Matrix6d c = 2 * part.rate * first_derivative;
   const Matrix6d s =
       part.acceleration * first_derivative + part.rate * part.rate * second_derivative;
   const double* const T = constraints_.T().valuePtr();
-  const bool variable = constraints_.variable();
+  const bool variable = constraints_.is_pose_dependent();
   for (std::size_t t = first_contribution_[index]; t < first_contribution_[index + 1]; ++t) {
     const Contribution& at = contributions_[t];
     const double a = T[at.a];
@@ -248,7 +253,7 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
   forces.working = {.u = T * q, .load = load_u_, .drag = VectorXd::Zero(load_u_.size())};
   if (with_inertia) forces.working.load += inertia_u_;
   VectorXd u_dot = T * v, u_ddot = T * a;
-  if (options_.gyroscopic && constraints_.variable()) {
+  if (options_.gyroscopic && constraints_.is_pose_dependent()) {
     u_dot += constraints_.T_dot() * q;
     u_ddot += 2 * (constraints_.T_dot() * v) + constraints_.T_ddot() * q;
   }
@@ -265,11 +270,10 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
     const Vector6d strain_drag = damping.stiffness * (element.k * velocity);
     const Vector6d mass_drag = damping.mass * momentum;
     Vector6d inertia = element.m * gather_own(element, direction, u_ddot) + mass_drag;
-    if (options_.gyroscopic) {
+    if (options_.gyroscopic)
       inertia += 2 * part.rate * (element.first_derivative * velocity) +
                  part.acceleration * (element.first_derivative * u) +
                  part.rate * part.rate * (element.second_derivative * u);
-    }
     if (with_inertia) inertia -= nominal_inertia(element, part, direction);
     inertia -= weight(element, direction);
     const Vector6d f = strain_force + strain_drag + inertia;
@@ -313,9 +317,8 @@ bool PathFollower::update_to(double time) {
     point_.time = time;
   } else {
     outcome_ = move_to(time, options_.gravity);
-    if (!outcome_.solved()) {
+    if (!outcome_.solved())
       outcome_.reason = "at t = " + std::to_string(time) + " s: " + outcome_.reason;
-    }
   }
   time_ = time;
   return outcome_.solved();

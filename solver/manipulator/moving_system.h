@@ -72,7 +72,7 @@ class MovingSystem {
   [[nodiscard]] const NominalMotion& motion() const { return motion_; }
   /// Returns the nominal position of a mesh node [m].
   [[nodiscard]] Vector2d position(Index mesh_node) const {
-    return at_mesh_node(mesh_node, motion_.node[0]);
+    return interpolate_at_mesh_node(mesh_node, motion_.node[0]);
   }
   /// Returns the system at the start pose. Its mesh, coordinates and numbering are valid at every
   /// pose.
@@ -115,12 +115,13 @@ class MovingSystem {
     double fraction = 0;
   };
 
-  void find_spans();
+  void locate_mesh_nodes();
   void find_pattern();
   void add_matrices(std::size_t index);
-  void add_gyroscopic(std::size_t index, const Matrix6d& k, const Matrix6d& m);
+  void add_gyroscopic_matrices(std::size_t index, const Matrix6d& k, const Matrix6d& m);
   void add_loads(const MovingElement& element);
-  [[nodiscard]] Vector2d at_mesh_node(Index mesh_node, const Eigen::MatrixX2d& values) const;
+  [[nodiscard]] Vector2d interpolate_at_mesh_node(Index mesh_node,
+                                                  const Eigen::MatrixX2d& values) const;
   [[nodiscard]] Vector6d nominal_inertia(const MovingElement& element, const PartMotion& part,
                                          const Vector2d& direction) const;
   [[nodiscard]] Vector6d weight(const MovingElement& element, const Vector2d& direction) const;

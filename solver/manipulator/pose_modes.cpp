@@ -87,7 +87,9 @@ class BlockSolver {
 
   /// Computes the modes at a pose with the condensed matrices. Returns true if they are certified.
   bool solve(std::size_t at, const Posture& posture) {
-    if (pencil_.ends() > kLargest || pencil_.ends() + pencil_.inside() < rows) return false;
+    if (pencil_.joint_coordinate_count() > kLargest ||
+        pencil_.joint_coordinate_count() + pencil_.interior_mode_count() < rows)
+      return false;
     if (task_.options.count + kGuard > rows || pencil_.coupling() > kLargestCoupling) return false;
     if (!pencil_.move_to(posture, task_.poses[at]).solved()) return false;
     ++counters.factorizations;
@@ -102,11 +104,11 @@ class BlockSolver {
   }
 
   void begin() {
-    const Index n = pencil_.ends();
+    const Index n = pencil_.joint_coordinate_count();
     X_.ends = start_vectors(rows, n);
     // Scale the joint coordinates to unit stiffness, which is the stiffness of interior modes.
     X_.ends *= pencil_.K().diagonal().cwiseSqrt().cwiseInverse().asDiagonal();
-    X_.inside = start_vectors(rows, pencil_.inside(), 1);
+    X_.inside = start_vectors(rows, pencil_.interior_mode_count(), 1);
   }
 
   /// Computes Y = K^-1 M X and M Y.
@@ -284,7 +286,7 @@ PoseModes solve_pose_modes(const ManipulatorDesign& whole_design, const std::vec
   const Task task{design, poses, options, result};
   const MovingPencil pencil(model_at(task, *start), design.geometry, *start);
   result.counters = pencil.counters();
-  result.free_coordinates = pencil.free_coordinates();
+  result.free_coordinates = pencil.free_coordinate_count();
   result.coupling = pencil.coupling();
   const auto blocks = static_cast<Index>((poses.size() + kBlock - 1) / kBlock);
   const Index cores = std::max<Index>(1, std::thread::hardware_concurrency());

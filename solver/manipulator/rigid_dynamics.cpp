@@ -132,7 +132,7 @@ Eigen::Matrix<Dual, 9, 9> mass_matrix(const RigidManipulator& m, const Vector9<D
 /// (e^T, cross(c, e)). D is diagonal with the entries l1 cross(a, e) of the limbs. The rotation is
 /// scaled to be comparable with translations.
 template <Real T>
-Eigen::Matrix<T, 9, 3> motion_map(const RigidManipulator& m, const Vector9<T>& q) {
+Eigen::Matrix<T, 9, 3> actuator_to_joint_jacobian(const RigidManipulator& m, const Vector9<T>& q) {
   const double size = platform_radius(m.geometry);
   using Square = Eigen::Matrix<T, 3, 3>;
   Square K, D = Square::Zero();
@@ -171,8 +171,9 @@ Vector9<T> velocities(const RigidManipulator& m, const Vector9<T>& q,
   return q_dot;
 }
 
-template Matrix93d motion_map(const RigidManipulator&, const Vector9d&);
-template Eigen::Matrix<Dual, 9, 3> motion_map(const RigidManipulator&, const Vector9<Dual>&);
+template Matrix93d actuator_to_joint_jacobian(const RigidManipulator&, const Vector9d&);
+template Eigen::Matrix<Dual, 9, 3> actuator_to_joint_jacobian(const RigidManipulator&,
+                                                              const Vector9<Dual>&);
 template Vector9d velocities(const RigidManipulator&, const Vector9d&, const Vector3d&);
 template Vector9<Dual> velocities(const RigidManipulator&, const Vector9<Dual>&,
                                   const Eigen::Matrix<Dual, 3, 1>&);
@@ -197,7 +198,7 @@ RigidTerms rigid_terms(const RigidManipulator& m, const Pose& pose, const Vector
     terms.C += momentum.lazyProduct(body.J_dot);
     terms.N -= momentum.leftCols<2>() * m.gravity;
   }
-  const Eigen::Matrix<Dual, 9, 3> W = motion_map(m, q);
+  const Eigen::Matrix<Dual, 9, 3> W = actuator_to_joint_jacobian(m, q);
   terms.W = values_of(W);
   terms.W_dot = rates_of(W);
   terms.Mh = terms.W.transpose() * terms.M * terms.W;
@@ -208,7 +209,7 @@ RigidTerms rigid_terms(const RigidManipulator& m, const Pose& pose, const Vector
 
 PropertyResiduals property_residuals(const RigidManipulator& m, const RigidTerms& terms) {
   const Vector9<Dual> q = with_rates(terms.q, terms.q_dot);
-  const Eigen::Matrix<Dual, 9, 3> W = motion_map<Dual>(m, q);
+  const Eigen::Matrix<Dual, 9, 3> W = actuator_to_joint_jacobian<Dual>(m, q);
   const Eigen::Matrix<Dual, 3, 3> Mh = W.transpose() * mass_matrix(m, q) * W;
   const Matrix3d Mh_dot = rates_of(Mh);
   const Matrix3d S = Mh_dot - 2 * terms.Ch;

@@ -83,7 +83,8 @@ template <int n, int m>
 /// Returns the matrix W = [I; d theta_p / d theta_a; d(x, y, phi) / d theta_a] of q. = W theta_a.
 /// @pre The pose is no parallel singularity.
 template <Real T>
-[[nodiscard]] Eigen::Matrix<T, 9, 3> motion_map(const RigidManipulator& m, const Vector9<T>& q);
+[[nodiscard]] Eigen::Matrix<T, 9, 3> actuator_to_joint_jacobian(const RigidManipulator& m,
+                                                                const Vector9<T>& q);
 
 /// Returns q. = W theta_a. from the motion of the platform (xdot, ydot [m/s], phidot [rad/s]).
 template <Real T>

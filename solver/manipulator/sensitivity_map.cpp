@@ -66,10 +66,9 @@ struct Annulus {
 std::array<Annulus, 3> reach_annuli(const ManipulatorGeometry& g, double phi) {
   const Eigen::Rotation2Dd turn(phi);
   std::array<Annulus, 3> all;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (std::size_t i = 0; i < 3; ++i)
     all[i] = {g.base[i] - turn * g.platform[i], std::abs(g.proximal[i] - g.distal[i]),
               g.proximal[i] + g.distal[i]};
-  }
   return all;
 }
 
@@ -138,9 +137,8 @@ PoseGrid reachable_grid(const ManipulatorGeometry& geometry, double phi, Index c
     high = high.cwiseMin((limb.center.array() + limb.outer).matrix());
   }
   const Vector2d size = high - low;
-  if (!(size.minCoeff() > 0)) {
+  if (!(size.minCoeff() > 0))
     throw ModelError("no pose of this orientation is within reach of the three limbs");
-  }
   const double step = size.x() / static_cast<double>(columns - 1);
   const auto rows = static_cast<Index>(std::floor(size.y() / step * (1 + 1e-12))) + 1;
   return {low.x(), low.y(), step, step, columns, rows, phi};
@@ -171,9 +169,8 @@ std::vector<Polyline> parallel_singularities(const ManipulatorGeometry& geometry
         const std::optional<Vector2d> zero = crossing(geometry, grid.phi, from, to, a, b);
         if (zero) crossings.push_back(*zero);
       }
-      for (std::size_t k = 0; k + 1 < crossings.size(); k += 2) {
+      for (std::size_t k = 0; k + 1 < crossings.size(); k += 2)
         segments.push_back({crossings[k], crossings[k + 1]});
-      }
     }
   }
   return segments;

@@ -25,12 +25,10 @@ double matrix_norm(const SparseMatrix& A) {
 void check(const EquationOfMotion& e) {
   const Index n = e.M.rows();
   const auto fits = [n](const SparseMatrix& A) { return A.rows() == n && A.cols() == n; };
-  if (!fits(e.M) || !fits(e.K) || !(e.C.size() == 0 || fits(e.C))) {
+  if (!fits(e.M) || !fits(e.K) || !(e.C.size() == 0 || fits(e.C)))
     throw ModelError("M, C and K of an equation of motion must be square and of equal size");
-  }
-  if (e.update && !(same_pattern(e.M, e.K) && (e.C.size() == 0 || same_pattern(e.M, e.C)))) {
+  if (e.update && !(same_pattern(e.M, e.K) && (e.C.size() == 0 || same_pattern(e.M, e.C))))
     throw ModelError("M, C and K that change with time must have entries at the same positions");
-  }
 }
 
 }  // namespace
@@ -122,9 +120,8 @@ void PiecewiseLinearLoad::check() const {
 
 void PiecewiseLinearLoad::apply_to(EquationOfMotion& equation) const {
   check();
-  if (pattern.rows() != equation.M.rows()) {
+  if (pattern.rows() != equation.M.rows())
     throw ModelError("the load must have as many entries as the equation of motion has rows");
-  }
   equation.breakpoints.insert(equation.breakpoints.end(), time.begin(), time.end());
   equation.load = [self = *this](double t, VectorXd& f) { self.at(t, f); };
 }

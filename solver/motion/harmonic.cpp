@@ -30,10 +30,10 @@ VectorXcd solve_direct(const System& system, const RayleighDamping& damping, dou
   if (damping.mass == 0 && damping.stiffness == 0) {
     Factorization factorization;
     factorization.compute(system.K - omega * omega * system.M);
-    if (!factorization.exists()) {  // the frequency is an undamped natural frequency
+    if (!factorization.is_nonsingular()) {  // the frequency is an undamped natural frequency
       factorization.compute(system.K - omega * omega * (1 + 1e-9) * system.M);
     }
-    if (!factorization.exists()) return {};
+    if (!factorization.is_nonsingular()) return {};
     const VectorXd x = factorization.solve(f);
     const VectorXd residual = f - system.K * x + omega * omega * (system.M * x);
     return (x + factorization.solve(residual)).cast<Complex>();
@@ -58,9 +58,8 @@ HarmonicSolver::HarmonicSolver(const System& system, const HarmonicDamping& damp
       unsuperposed_load_(system.T.transpose() * load_),
       counters_(system.counters) {
   for (const double ratio : damping.modal_ratio) {
-    if (!(std::isfinite(ratio) && ratio >= 0)) {
+    if (!(std::isfinite(ratio) && ratio >= 0))
       throw ModelError("a damping ratio must be a finite number >= 0");
-    }
   }
   const auto count = static_cast<Index>(damping.modal_ratio.size());
   compute_modes(count);
@@ -85,10 +84,9 @@ void HarmonicSolver::compute_modes(Index damped) {
     counters_.factorizations += before.factorizations;
     counters_.solves += before.solves;
     outcome_ = modes_.outcome;
-    if (outcome_.solved() && modes_.frequency.size() < damped) {
+    if (outcome_.solved() && modes_.frequency.size() < damped)
       throw ModelError("there are " + std::to_string(damped) + " damping ratios but only " +
                        std::to_string(modes_.frequency.size()) + " modes");
-    }
   } else if (free.count() > 0 && free.all_found) {
     modes_.shape = free.basis;
     if (!mass_orthonormalize(system_, modes_.shape)) {
@@ -128,8 +126,8 @@ double HarmonicSolver::backward_error(const VectorXcd& q, double frequency) cons
   const double omega = kTwoPi * frequency;
   const Complex i(0, 1);
   RowBalance<Complex> rows(system_);
-  rows.add_stiffness((1.0 + i * omega * damping_.rayleigh.stiffness) * (system_.T * q));
-  rows.add_inertia(system_.T * acceleration(q, omega));
+  rows.add_elastic_forces((1.0 + i * omega * damping_.rayleigh.stiffness) * (system_.T * q));
+  rows.add_inertia_forces(system_.T * acceleration(q, omega));
   rows.add_load(-load_.cast<Complex>());
   return rows.backward_error();
 }

@@ -166,7 +166,7 @@ void add_massless_response(const ModalBasis& basis, const SparseMatrix& M, const
     Factorization factorization;
     factorization.compute(SparseMatrix(K + shift * M));
     ++counters.factorizations;
-    if (!factorization.exists()) return;
+    if (!factorization.is_nonsingular()) return;
     Eigen::MatrixXd held(rest.rows(), rest.cols());
     for (Index i = 0; i < rest.cols(); ++i)
       held.col(i) = beside_modes(factorization.solve(rest.col(i)));

@@ -15,7 +15,7 @@ MotionEvidence::MotionEvidence(const EquationOfMotion& equation, const TimeSchem
   for (VectorXd* x : {&size_, &sum_, &terms_, &f_}) x->setZero(equation.M.rows());
 }
 
-void MotionEvidence::find_scale(double step) {
+void MotionEvidence::set_coordinate_scale(double step) {
   scale_ = VectorXd(matrices_.M().diagonal()) + step * step * VectorXd(matrices_.K().diagonal());
   scale_ = scale_.cwiseAbs().cwiseSqrt();
   for (double& s : scale_) {
@@ -23,14 +23,14 @@ void MotionEvidence::find_scale(double step) {
   }
 }
 
-void MotionEvidence::set_sizes(const VectorXd& x) {
+void MotionEvidence::set_floored_magnitudes(const VectorXd& x) {
   const double largest = x.size() ? x.cwiseProduct(scale_).lpNorm<Eigen::Infinity>() : 0;
   size_ = x.cwiseAbs().cwiseMax((kLeastFraction * largest) * scale_.cwiseInverse());
   size_.array() += kUnderflow;
 }
 
 void MotionEvidence::add_product(const SparseMatrix& A, const VectorXd& x) {
-  set_sizes(x);
+  set_floored_magnitudes(x);
   sum_.noalias() += A * x;
   terms_.noalias() += A.cwiseAbs() * size_;
 }
@@ -39,7 +39,7 @@ void MotionEvidence::add_equilibrium(double time, double load_time, const Vector
                                      const VectorXd& v, const VectorXd& A, double step) {
   matrices_.load(load_time, f_);
   matrices_.update(time);
-  if (scale_.size() == 0) find_scale(step);
+  if (scale_.size() == 0) set_coordinate_scale(step);
   sum_ = -f_;
   // Moments of a load may cancel, so that the load on a rotation is only a round-off error. The
   // load scale of each row is therefore at least a fraction of the largest load.
@@ -51,22 +51,23 @@ void MotionEvidence::add_equilibrium(double time, double load_time, const Vector
   evidence_.add(Residual::equation_of_motion, row_backward_error(sum_, terms_));
 }
 
-void MotionEvidence::add_relations(const TransientState& from, const TransientState& to, double h) {
-  if (scale_.size() == 0) find_scale(h);
+void MotionEvidence::add_scheme_residual(const TransientState& from, const TransientState& to,
+                                         double h) {
+  if (scale_.size() == 0) set_coordinate_scale(h);
   const auto norm = [this](const VectorXd& x) { return x.cwiseProduct(scale_).norm(); };
   evidence_.add(Residual::equation_of_motion,
                 relation_residual(scheme_, h, from, from.A, to, to.A, true, norm, sum_));
 }
 
-void MotionEvidence::add_energy(const TransientState& from, const TransientState& to, double h) {
+void MotionEvidence::add_energy_balance(const TransientState& from, const TransientState& to,
+                                        double h) {
   const TimeScheme& s = scheme_;
   const double a = h / 2 - h * (s.gamma - 0.5), b = h / 2 + h * (s.gamma - 0.5);
   const double c = h * h * (s.beta - s.gamma / 2);
   double added = 0.5 * ((a * from.A + b * to.A).dot(from.Mv + to.Mv) -
                         ((h / 2) * (from.v + to.v) + c * (to.A - from.A)).dot(from.Ma + to.Ma));
-  if (!matrices_.constant()) {
+  if (!matrices_.constant())
     added += 0.5 * (from.q.dot(to.Kq) - to.q.dot(from.Kq) + from.v.dot(to.Mv) - to.v.dot(from.Mv));
-  }
   if (unbalanced_.size() > 0) {
     added -= 0.5 * (to.q - from.q).dot(unbalanced_);
     unbalanced_.setZero();

@@ -41,9 +41,9 @@ class MotionEvidence {
   void add_equilibrium(double time, double load_time, const Eigen::VectorXd& q,
                        const Eigen::VectorXd& v, const Eigen::VectorXd& A, double step);
   /// Adds the residuals of the relations of the scheme between q, v, a and A in a step of size h.
-  void add_relations(const TransientState& from, const TransientState& to, double h);
+  void add_scheme_residual(const TransientState& from, const TransientState& to, double h);
   /// Adds the residual of the energy balance in a step of size h between two states.
-  void add_energy(const TransientState& from, const TransientState& to, double h);
+  void add_energy_balance(const TransientState& from, const TransientState& to, double h);
   /// Starts a segment between two breakpoints with forces that are not balanced at its start. They
   /// do work in the first step, because massless coordinates have no inertia forces to balance
   /// them.
@@ -53,8 +53,8 @@ class MotionEvidence {
   [[nodiscard]] Evidence result() const;
 
  private:
-  void find_scale(double step);
-  void set_sizes(const Eigen::VectorXd& x);
+  void set_coordinate_scale(double step);
+  void set_floored_magnitudes(const Eigen::VectorXd& x);
   void add_product(const SparseMatrix& A, const Eigen::VectorXd& x);
 
   EquationMatrices matrices_;

@@ -27,7 +27,7 @@ VectorXd unit_rotation(const System& system, const Vector2d& center) {
 
 /// Computes K_1, the geometric stiffness of the centrifugal forces at 1 rad/s, by linear statics.
 Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseMatrix& K_1) {
-  if (Outcome determined = require_determined_stiffening(system); !determined.solved())
+  if (Outcome determined = require_determinate_prestress(system); !determined.solved())
     return determined;
   const VectorXd force = centrifugal_forces(system, unit, VectorXd::Zero(system.T.rows()));
   const VectorXd on_q = system.T.transpose() * force;
@@ -48,9 +48,8 @@ Outcome unit_stiffening(const System& system, const RotatingFrame& unit, SparseM
 
 Outcome add_rotating_frame_terms(const System& system, const PrescribedRotation& rotation,
                                  EquationOfMotion& equation) {
-  if (!system.load.isZero(0)) {
+  if (!system.load.isZero(0))
     throw ModelError("a model with loads is not supported: loads would not turn with the axes");
-  }
   const RotatingFrame unit{1, rotation.center, RotationAxis::normal};
   SparseMatrix K_1(system.K.rows(), system.K.cols());
   if (rotation.stiffening) {

@@ -31,11 +31,11 @@ struct TimeScheme {
 
   /// Returns the change of the algorithmic acceleration A per unit change of a1 at the end of a
   /// step.
-  [[nodiscard]] double gain() const { return (1 - alpha_f) / (1 - alpha_m); }
+  [[nodiscard]] double acceleration_gain() const { return (1 - alpha_f) / (1 - alpha_m); }
   /// Returns the change of v / h per unit change of the acceleration a1 at the end of a step.
-  [[nodiscard]] double velocity_gain() const { return gamma * gain(); }
+  [[nodiscard]] double velocity_gain() const { return gamma * acceleration_gain(); }
   /// Returns the change of q / h^2 per unit change of the acceleration a1 at the end of a step.
-  [[nodiscard]] double position_gain() const { return beta * gain(); }
+  [[nodiscard]] double position_gain() const { return beta * acceleration_gain(); }
   /// Returns the constant c of the local error c h^2 (A1 - A0) of a position (Zienkiewicz & Xie
   /// 1991). The error of v remains even if this error is zero. The result is therefore at least
   /// 1/12.
@@ -88,13 +88,13 @@ template <class State, class Correction>
 void correct(const TimeScheme& s, double h, const Correction& correction, State& to,
              Eigen::VectorXd& A1) {
   to.a += correction;
-  A1 += s.gain() * correction;
+  A1 += s.acceleration_gain() * correction;
   to.v += (s.velocity_gain() * h) * correction;
 }
 
 /// Converts the algorithmic acceleration A, which belongs to a time that depends on the step, to a
 /// new step. `ratio` is new step / old step, and a is the acceleration of the equation of motion.
-inline void change_step(double ratio, const Eigen::VectorXd& a, Eigen::VectorXd& A) {
+inline void rescale_to_new_step(double ratio, const Eigen::VectorXd& a, Eigen::VectorXd& A) {
   A = a + ratio * (A - a);
 }
 

@@ -31,12 +31,10 @@ double infinity_norm(const VectorXd& x) {
 void check(const EquationOfMotion& e, const TransientOptions& o) {
   const Index n = e.M.rows();
   const auto missing_or_sized = [n](const VectorXd& x) { return x.size() == 0 || x.size() == n; };
-  if (!missing_or_sized(o.q0) || !missing_or_sized(o.v0)) {
+  if (!missing_or_sized(o.q0) || !missing_or_sized(o.v0))
     throw ModelError("the initial state must have one entry per row of the equation of motion");
-  }
-  if (!(std::isfinite(o.start) && std::isfinite(o.end) && o.end > o.start)) {
+  if (!(std::isfinite(o.start) && std::isfinite(o.end) && o.end > o.start))
     throw ModelError("the end of a motion must be later than its start");
-  }
   if (!(std::isfinite(o.step) && o.step > 0)) throw ModelError("the time step must be positive");
   if (!std::is_sorted(o.sample_times.begin(), o.sample_times.end()) ||
       (!o.sample_times.empty() &&
@@ -261,9 +259,8 @@ Outcome LinearStepper::begin(const Step& first, double stop) {
   now_->A_step = h;
   now_->Ma.noalias() = matrices_.M() * now_->a;
   evidence_.begin_segment(residual_ - now_->Ma);
-  if (!mass_is_singular_) {
+  if (!mass_is_singular_)
     evidence_.add_equilibrium(now_->time, now_->time, now_->q, now_->v, now_->a, h);
-  }
   if (is_start) output_.start(*now_);
   if (options_.adaptive) estimate_size_from_load(now_->time, stop);
   return {};
@@ -274,7 +271,7 @@ Outcome LinearStepper::begin(const Step& first, double stop) {
 void LinearStepper::settle_massless(double h) {
   correction_ = now_->q;
   matrices_.load(now_->time + h / 2, next_->f);
-  massless_.settle(*now_, (next_->f - now_->f) / (h / 2));
+  massless_.equilibrate(*now_, (next_->f - now_->f) / (h / 2));
   now_->Cv.noalias() = matrices_.C() * now_->v;
   now_->Kq.noalias() = matrices_.K() * now_->q;
   residual_ = now_->f - now_->Cv - now_->Kq;
@@ -328,7 +325,7 @@ SparseLdlt* LinearStepper::step_factor(const Step& step) {
 /// equation of motion holds at the end. Symmetric matrices need a single correction.
 StepReport LinearStepper::attempt(const Step& step) {
   const double h = step.size;
-  if (now_->A_step != h) change_step(h / now_->A_step, now_->a, now_->A);
+  if (now_->A_step != h) rescale_to_new_step(h / now_->A_step, now_->a, now_->A);
   now_->A_step = h;
   matrices_.update(step.end);
   matrices_.load(load_time(step), next_->f);
@@ -425,9 +422,9 @@ void LinearStepper::update_energies(double load_time) {
 
 void LinearStepper::accept(const Step& step, bool inspect, Evidence& /*evidence*/) {
   update_energies(load_time(step));
-  evidence_.add_energy(*now_, *next_, step.size);
+  evidence_.add_energy_balance(*now_, *next_, step.size);
   if (inspect || output_.covers(next_->time)) {
-    evidence_.add_relations(*now_, *next_, step.size);
+    evidence_.add_scheme_residual(*now_, *next_, step.size);
     evidence_.add_equilibrium(next_->time, load_time(step), next_->q, next_->v, next_->a,
                               step.size);
   }
@@ -435,7 +432,7 @@ void LinearStepper::accept(const Step& step, bool inspect, Evidence& /*evidence*
     shown_[0] = *now_;
     shown_[1] = *next_;
     const VectorXd rate = (next_->f - now_->f) / step.size;
-    for (TransientState& state : shown_) massless_.follow(state, rate);
+    for (TransientState& state : shown_) massless_.set_rates_from_positions(state, rate);
     output_.step(shown_[0], shown_[1], step.size);
   } else {
     output_.step(*now_, *next_, step.size);

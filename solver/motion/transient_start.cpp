@@ -30,7 +30,8 @@ void solve_refined(const SparseMatrix& K, SparseLdlt& factor, const VectorXd& f,
 
 }  // namespace
 
-double smooth_span(const std::vector<double>& breakpoints, const TransientOptions& options) {
+double smooth_load_interval(const std::vector<double>& breakpoints,
+                            const TransientOptions& options) {
   // Part of the time from the start to a breakpoint that counts as smooth. It is below 1, because
   // the load at a jump has the value after the jump.
   constexpr double kBefore = 0.999;
@@ -43,7 +44,7 @@ double smooth_span(const std::vector<double>& breakpoints, const TransientOption
 Outcome start_quasi_statically(EquationMatrices& matrices, const TransientOptions& options,
                                VectorXd& q, VectorXd& v, Counters& counters) {
   constexpr std::array<double, 5> kSlope = {-25.0 / 12, 4, -3, 4.0 / 3, -0.25};
-  const double gap = smooth_span(matrices.breakpoints(), options) / 4;
+  const double gap = smooth_load_interval(matrices.breakpoints(), options) / 4;
   SparseLdlt factor(SparseLdlt::Triangle::mean);
   VectorXd f(q.size()), q_then(q.size());
   v.setZero();
@@ -52,9 +53,8 @@ Outcome start_quasi_statically(EquationMatrices& matrices, const TransientOption
     matrices.update(time);
     if (i == 4 || !matrices.constant()) {
       ++counters.factorizations;
-      if (!factor.factorize(matrices.K()) || factor.smallest_pivot_to_diagonal() < kSingularMass) {
+      if (!factor.factorize(matrices.K()) || factor.smallest_pivot_to_diagonal() < kSingularMass)
         return {Status::singular, "the stiffness is singular, so there is no quasi-static start"};
-      }
     }
     matrices.load(time, f);
     solve_refined(matrices.K(), factor, f, q_then, counters);
@@ -66,15 +66,14 @@ Outcome start_quasi_statically(EquationMatrices& matrices, const TransientOption
 }
 
 Outcome check_time_step_stability(const EquationMatrices& matrices, const TransientOptions& options,
-                        Counters& counters) {
+                                  Counters& counters) {
   const double limit = stability_limit(options.scheme);
   if (!std::isfinite(limit) || matrices.M().rows() == 0) return {};
   SparseLdlt factor(SparseLdlt::Triangle::mean);
   ++counters.factorizations;
-  if (!factor.factorize(matrices.M()) || factor.smallest_pivot_to_diagonal() < kSingularMass) {
+  if (!factor.factorize(matrices.M()) || factor.smallest_pivot_to_diagonal() < kSingularMass)
     return {Status::singular,
             "the mass is singular: a conditionally stable scheme has no stable step"};
-  }
   VectorXd x(matrices.M().rows()), Kx;
   for (Index i = 0; i < x.size(); ++i) x[i] = std::sin(1.0 + 3.7 * static_cast<double>(i));
   double squared = 0;
@@ -131,7 +130,7 @@ bool MasslessCoordinates::factor(const EquationMatrices& matrices, double h, Cou
   return factored_;
 }
 
-void MasslessCoordinates::balance(const VectorXd& residual, VectorXd& x) {
+void MasslessCoordinates::add_balancing_motion(const VectorXd& residual, VectorXd& x) {
   // B is C or K, and share is a small factor. The solution s of (M + share B) s = residual moves
   // both massless coordinates and masses. The solution w of (M + share B) w = M s moves the masses
   // by the same amount, and only masses. s - w therefore moves only massless coordinates.
@@ -142,11 +141,11 @@ void MasslessCoordinates::balance(const VectorXd& residual, VectorXd& x) {
   x += share_ * (s_ - w_);
 }
 
-void MasslessCoordinates::settle(TransientState& state, const VectorXd& rate) {
+void MasslessCoordinates::equilibrate(TransientState& state, const VectorXd& rate) {
   const SparseMatrix &C = matrices_->C(), &K = matrices_->K();
   const VectorXd residual = state.f - C * state.v - K * state.q;
-  balance(residual, damped_ ? state.v : state.q);
-  if (!damped_) balance(rate - K * state.v, state.v);
+  add_balancing_motion(residual, damped_ ? state.v : state.q);
+  if (!damped_) add_balancing_motion(rate - K * state.v, state.v);
   const VectorXd left = state.f - C * state.v - K * state.q;
   factor_.solve(left, state.a);
   factor_.solve(left - matrices_->M() * state.a, s_);
@@ -155,16 +154,16 @@ void MasslessCoordinates::settle(TransientState& state, const VectorXd& rate) {
   accelerate(state, rate);
 }
 
-void MasslessCoordinates::follow(TransientState& state, const VectorXd& rate) {
-  if (!damped_) balance(rate - matrices_->K() * state.v, state.v);
+void MasslessCoordinates::set_rates_from_positions(TransientState& state, const VectorXd& rate) {
+  if (!damped_) add_balancing_motion(rate - matrices_->K() * state.v, state.v);
   accelerate(state, rate);
 }
 
 void MasslessCoordinates::accelerate(TransientState& state, const VectorXd& rate) {
   if (damped_) {
-    balance(rate - matrices_->K() * state.v - matrices_->C() * state.a, state.a);
+    add_balancing_motion(rate - matrices_->K() * state.v - matrices_->C() * state.a, state.a);
   } else {
-    balance(-(matrices_->K() * state.a), state.a);
+    add_balancing_motion(-(matrices_->K() * state.a), state.a);
   }
 }
 

@@ -12,8 +12,8 @@ namespace trammel::solver {
 inline constexpr double kSingularMass = 1e-13;
 
 /// Returns a time span after the start without jump or kink of the load [s]. It is at most a step.
-[[nodiscard]] double smooth_span(const std::vector<double>& breakpoints,
-                                 const TransientOptions& options);
+[[nodiscard]] double smooth_load_interval(const std::vector<double>& breakpoints,
+                                          const TransientOptions& options);
 
 /// Computes a quasi-static start. K q = f is solved at the start and at four times after it, within
 /// a step and before a jump or kink of the load. The velocity v follows from the one-sided
@@ -27,7 +27,8 @@ inline constexpr double kSingularMass = 1e-13;
 /// Returns a failure if the time step is unstable at the highest natural frequency. Power iteration
 /// estimates this frequency from below, so that all stable steps are accepted.
 [[nodiscard]] Outcome check_time_step_stability(const EquationMatrices& matrices,
-                                      const TransientOptions& options, Counters& counters);
+                                                const TransientOptions& options,
+                                                Counters& counters);
 
 /// Massless coordinates of constant matrices: directions z with M z = 0. The time scheme does not
 /// determine their velocities. Undamped coordinates satisfy z^T (f - C v - K q) = 0 at any time,
@@ -42,14 +43,14 @@ class MasslessCoordinates {
   [[nodiscard]] bool factor(const EquationMatrices& matrices, double h, Counters& counters);
   /// Moves massless coordinates to equilibrium at the start of a segment, and computes all
   /// accelerations. `rate` is df/dt [SI/s].
-  void settle(TransientState& state, const Eigen::VectorXd& rate);
+  void equilibrate(TransientState& state, const Eigen::VectorXd& rate);
   /// Computes velocities and accelerations of massless coordinates with known positions.
-  void follow(TransientState& state, const Eigen::VectorXd& rate);
+  void set_rates_from_positions(TransientState& state, const Eigen::VectorXd& rate);
 
  private:
   /// Adds a motion z of massless coordinates to x such that z^T (residual - B z) = 0. B is C for
   /// damped coordinates, and K otherwise.
-  void balance(const Eigen::VectorXd& residual, Eigen::VectorXd& x);
+  void add_balancing_motion(const Eigen::VectorXd& residual, Eigen::VectorXd& x);
   void accelerate(TransientState& state, const Eigen::VectorXd& rate);
 
   const EquationMatrices* matrices_ = nullptr;

@@ -45,13 +45,13 @@ void compute(const Case& given, const std::string& variant, bool all) {
   if (all && result.outcome.solved()) errors = estimate_errors(document, result, references);
   record_result(std::move(result), run);
   if (run.is_solved()) {
-    if (all) run.sweeps = run_sweeps(document, references);
+    if (all) run.sweeps = run_sweep_levels(document, references);
     if (all && document.value().contains("uncertainty"))
       run.uncertainty =
           evaluate_validation_uncertainty(document, run.quantities, checks, errors, references);
     for (const results::Sweep& sweep : run.sweeps)
       for (Convergence& found :
-           study_sweep(sweep, document, checks, references, TrackedQuantities::named))
+           sweep_convergence(sweep, document, checks, references, TrackedQuantities::named))
         run.convergence.push_back(std::move(found));
     const auto other = [&](const std::string&) { return &run.quantities; };
     const CheckContext context{document, run.quantities, run.convergence, references, other};
@@ -60,7 +60,7 @@ void compute(const Case& given, const std::string& variant, bool all) {
         run.checks.push_back(std::move(judged));
   }
   run = parse_run(to_bytes(run));
-  (void)results::read_results(results::to_json(results_of({run}, {given}, references)));
+  (void)results::read_results(results::to_json(collect_results({run}, {given}, references)));
 }
 
 void test_case(const fs::path& file, std::size_t pick, const std::function<void()>& computing) {
@@ -156,7 +156,7 @@ Json sample_results() {
     std::vector<Case> cases;
     for (const char* name : {"cantilever-tip-force", "table-2-audit"})
       cases.push_back(load_case(catalogue().find_case(name)));
-    return results::to_json(results_of(run_cases(cases, references, {}), cases, references));
+    return results::to_json(collect_results(run_cases(cases, references, {}), cases, references));
   }();
   return sample;
 }

@@ -148,11 +148,11 @@ BOOST_AUTO_TEST_CASE(overflowing_number_is_not_solved) {
 
 BOOST_AUTO_TEST_CASE(intended_nan_does_not_prevent_the_status_solved) {
   Recorder record;
-  record.add_or_gap("a", "", std::nan(""));
+  record.add_or_missing("a", "", std::nan(""));
   record.add("a", "", 1);
-  BOOST_TEST(record.not_finite() == "");
+  BOOST_TEST(record.first_nonfinite_quantity() == "");
   record.add("b", "P", std::nan(""));
-  BOOST_TEST(record.not_finite() == "b:P");
+  BOOST_TEST(record.first_nonfinite_quantity() == "b:P");
 }
 
 BOOST_AUTO_TEST_CASE(too_large_computation_is_refused_at_its_cause) {
@@ -191,7 +191,8 @@ BOOST_AUTO_TEST_CASE(catalogue_stays_below_the_limit_of_memory) {
   for (const auto& file : catalogue.runnable_files()) {
     const Case given = load_case(file, catalogue);
     for (const std::string& variant : given.variants())
-      BOOST_TEST(estimate_size(patched(given, variant)).bytes < 2e9, file << ": " << variant);
+      BOOST_TEST(estimate_problem_size(patched(given, variant)).bytes < 2e9,
+                 file << ": " << variant);
   }
 }
 

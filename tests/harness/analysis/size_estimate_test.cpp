@@ -27,7 +27,7 @@ Memory memory_of(const std::function<Json()>& make) {
   Memory memory;
   const auto work = [&] {
     const Document document = testing::document_of(make());
-    const double estimated = estimate_size(document).bytes;
+    const double estimated = estimate_problem_size(document).bytes;
     Run run;
     record_result(analyze(document, References(), {true}), run);
     BOOST_REQUIRE(run.is_solved());

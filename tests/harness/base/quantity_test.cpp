@@ -25,10 +25,10 @@ BOOST_AUTO_TEST_CASE(unit_is_the_end_of_the_name) {
 BOOST_AUTO_TEST_CASE(diagnostic_quantities_are_recognized) {
   for (const char* name : {"frequency_roundoff", "equilibrium_residual_N", "step_residual:J",
                            "constraint_rate_residual"}) {
-    BOOST_TEST(is_diagnostic(name), name);
+    BOOST_TEST(is_error_measure(name), name);
   }
   for (const char* name : {"frequency_Hz", "displacement_error", "compliance_J", "x:roundoff"})
-    BOOST_TEST(!is_diagnostic(name), name);
+    BOOST_TEST(!is_error_measure(name), name);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -216,7 +216,7 @@ BOOST_AUTO_TEST_CASE(manipulator_on_a_path_is_bodies_joints_and_a_table) {
 BOOST_AUTO_TEST_CASE(exported_matrices_solve_the_case) {
   const Folder folder;
   const Document document = document_of(cantilever());
-  write_matrices(document, exported_scene(document), folder.path() / "m");
+  write_system_matrices(document, exported_scene(document), folder.path() / "m");
   const Eigen::MatrixXd K = read_matrix(folder.path() / "m/K.mtx");
   const Eigen::MatrixXd T = read_matrix(folder.path() / "m/T.mtx");
   BOOST_TEST((K - K.transpose()).norm() == 0);

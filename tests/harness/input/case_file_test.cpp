@@ -126,7 +126,7 @@ BOOST_AUTO_TEST_CASE(sweep_sets_the_values_at_its_pointers) {
   Json json = testing::cantilever();
   json["sweeps"]["length"] = {{"pointers", {"/model/elements", "/model/nodes/B/0"}},
                               {"values", {1, 2, 4}}};
-  const auto found = levels(patched(testing::read(folder, json), "base"), "length");
+  const auto found = sweep_levels(patched(testing::read(folder, json), "base"), "length");
   BOOST_REQUIRE(found.size() == 3);
   for (std::size_t i = 0; i < 3; ++i) {
     const Json& model = found[i].document.value()["model"];
@@ -142,7 +142,7 @@ BOOST_AUTO_TEST_CASE(sweep_may_set_a_key_with_a_default) {
   Json json = testing::cantilever();
   json["model"].erase("elements");
   json["sweeps"]["elements"] = {{"pointers", {"/model/elements"}}, {"values", {1, 2, 4}}};
-  const auto found = levels(patched(testing::read(folder, json), "base"), "elements");
+  const auto found = sweep_levels(patched(testing::read(folder, json), "base"), "elements");
   BOOST_REQUIRE(found.size() == 3);
   BOOST_TEST(found[2].document.value()["model"]["elements"] == 4);
 }
@@ -158,7 +158,7 @@ BOOST_AUTO_TEST_CASE(invalid_sweep_level_is_refused_at_its_value) {
   json["sweeps"]["both"]["pointers"] = {"/model/elements"};
   const Document base = patched(testing::read(folder, json), "base");
   const auto fault = [&](const char* sweep) {
-    return input_error_message([&] { (void)levels(base, sweep); });
+    return input_error_message([&] { (void)sweep_levels(base, sweep); });
   };
   BOOST_TEST(contains(fault("elements"),
                       "/sweeps/elements/values/1: expected a whole number at least 1 and at most "

@@ -46,7 +46,7 @@ Resumed run_all(const Folder& folder, const Json& json, bool resume) {
   options.store = folder.path() / "store";
   options.resume = resume;
   const std::vector<Run> runs = run_cases(all, references, options);
-  Json results = to_json(results_of(runs, all, references, options.store));
+  Json results = to_json(collect_results(runs, all, references, options.store));
   results["environment"].erase("date");
   results["environment"].erase("stored_runs");
   Resumed resumed{results.dump(), {}};
@@ -91,9 +91,9 @@ BOOST_AUTO_TEST_CASE(interrupted_run_is_resumed_last) {
   fs::create_directories(store);
   mark_started(first);
   mark_started(first);
-  BOOST_TEST(interrupted_starts(first) == 2U);
+  BOOST_TEST(count_interrupted_starts(first) == 2U);
   (void)run_all(folder, json, true);
-  BOOST_TEST(interrupted_starts(first) == 0U);
+  BOOST_TEST(count_interrupted_starts(first) == 0U);
   const auto files = entries(store);
   BOOST_TEST(files.size() == 3U);
   for (const fs::path& file : files)

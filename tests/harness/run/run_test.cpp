@@ -136,7 +136,7 @@ BOOST_AUTO_TEST_CASE(results_do_not_depend_on_jobs_and_obey_their_schema) {
   const std::vector<Case> cases = {testing::read(folder, json)};
   const auto text = [&](unsigned jobs) {
     const References references;
-    Json results = to_json(results_of(run_all(cases, jobs), cases, references));
+    Json results = to_json(collect_results(run_all(cases, jobs), cases, references));
     const auto fault = find_schema_fault(results, "results");
     BOOST_TEST(!fault.has_value(), (fault ? fault->pointer + ": " + fault->message : ""));
     results.erase("environment");

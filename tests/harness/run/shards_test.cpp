@@ -30,7 +30,7 @@ std::vector<Case> cases(const Folder& folder) {
 }
 
 std::string results_text(const std::vector<Run>& runs, const std::vector<Case>& all) {
-  Json json = to_json(results_of(runs, all, References()));
+  Json json = to_json(collect_results(runs, all, References()));
   json["environment"].erase("date");
   json["environment"].erase("stored_runs");
   json.erase("store");

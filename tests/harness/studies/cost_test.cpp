@@ -186,7 +186,7 @@ BOOST_AUTO_TEST_CASE(study_requires_a_reference_solution_and_a_baseline) {
 BOOST_AUTO_TEST_CASE(results_obey_their_schema_and_keep_the_front) {
   const results::CostStudy study = measured(study_json());
   const References references;
-  results::Results filled = results_of({}, {}, references);
+  results::Results filled = collect_results({}, {}, references);
   filled.cost = cost_results({study}, SweepExtent::full, {});
   const Json results = to_json(filled);
   const auto fault = find_schema_fault(results, "results");

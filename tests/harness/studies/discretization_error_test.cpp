@@ -250,18 +250,18 @@ BOOST_AUTO_TEST_CASE(unreachable_accuracy_and_invalid_search_are_reported) {
 BOOST_AUTO_TEST_CASE(defaults_follow_the_analysis_and_the_member) {
   Json json = cantilever();
   json["model"].erase("elements");
-  BOOST_TEST(elements_of(document_of(json), "AB") == 1);
+  BOOST_TEST(element_count_of(document_of(json), "AB") == 1);
   json["analysis"] = {{"modes", {{"count", 1}}}};
-  BOOST_TEST(elements_of(document_of(json), "AB") == 4);
+  BOOST_TEST(element_count_of(document_of(json), "AB") == 4);
   json["model"]["sections"]["tip"] = json["model"]["sections"]["bar"];
   json["model"]["members"]["AB"]["end_section"] = "tip";
-  BOOST_TEST(elements_of(document_of(json), "AB") == 8);
+  BOOST_TEST(element_count_of(document_of(json), "AB") == 8);
   json["model"]["members"]["AB"].erase("end_section");
   json["model"]["nodes"]["B"] = {0, 2};
   json["model"]["members"]["AB"]["arc_center_m"] = {0, 1};
-  BOOST_TEST(elements_of(document_of(json), "AB") == 24);  // half a circle
+  BOOST_TEST(element_count_of(document_of(json), "AB") == 24);  // half a circle
   json["model"]["elements"] = 3;
-  BOOST_TEST(elements_of(document_of(json), "AB") == 3);
+  BOOST_TEST(element_count_of(document_of(json), "AB") == 3);
 }
 
 BOOST_AUTO_TEST_CASE(numbers_in_a_wrong_unit_warn) {

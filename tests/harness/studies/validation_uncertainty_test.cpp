@@ -113,7 +113,7 @@ BOOST_AUTO_TEST_CASE(uncertainty_does_not_depend_on_jobs) {
     const References references;
     RunOptions options;
     options.jobs = jobs;
-    return to_json(results_of(run_cases({given}, references, options), {given}, references));
+    return to_json(collect_results(run_cases({given}, references, options), {given}, references));
   };
   const Json one = results(1), two = results(2);
   const auto fault = find_schema_fault(one, "results");
@@ -135,8 +135,9 @@ BOOST_AUTO_TEST_CASE(input_with_two_half_widths_is_refused) {
   const Folder folder;
   Json json = beam(folder, 0);
   json["uncertainty"]["inputs"]["depth"]["half_width"] = 1e-3;
-  BOOST_TEST(testing::contains(run(testing::read(folder, json)).reason,
-                               "expected either 'half_width' or 'reference' of the uncertain input"));
+  BOOST_TEST(
+      testing::contains(run(testing::read(folder, json)).reason,
+                        "expected either 'half_width' or 'reference' of an uncertain input"));
 }
 
 BOOST_AUTO_TEST_CASE(verdict_other_than_the_recorded_one_fails) {

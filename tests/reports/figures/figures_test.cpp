@@ -234,7 +234,7 @@ BOOST_AUTO_TEST_CASE(history_caption_states_work_and_time) {
   call("this", 100, 12, 0);
   call("this", 0, 15, 1);  // some runs are stored ones
   call("this", 150, 20, 0);
-  const Figure figure = history_figure(history);
+  const Figure figure = call_history_figure(history);
   BOOST_TEST(
       contains(figure.caption, "The newest call has 2 times the work and 1.5 times the time."),
       figure.caption);
@@ -243,7 +243,8 @@ BOOST_AUTO_TEST_CASE(history_caption_states_work_and_time) {
   BOOST_TEST(contains(figure.commands, "EOD\n3 1.5\nEOD"), figure.commands);
   BOOST_TEST(figure.data.rows.size() == 4U);
   history.calls.resize(1);
-  BOOST_TEST(contains(history_figure(history).caption, "The newest call has 1 times the work."));
+  BOOST_TEST(
+      contains(call_history_figure(history).caption, "The newest call has 1 times the work."));
 }
 
 BOOST_AUTO_TEST_CASE(straight_limb_is_two_points) {

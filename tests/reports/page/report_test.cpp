@@ -307,7 +307,7 @@ BOOST_AUTO_TEST_CASE(failed_report_leaves_the_former_one) {
   const auto files = count();
   {
     const WithoutGnuplot without;
-    BOOST_TEST(!trammel::reports::can_draw());
+    BOOST_TEST(!trammel::reports::has_gnuplot());
     BOOST_CHECK_THROW(write_report(all, out), std::runtime_error);
   }
   BOOST_TEST((read_text_file(out / "index.html") == before));

@@ -57,7 +57,7 @@ struct Sample {
     std::string all;
     const Data matrices = comparison_matrices(family, results);
     for (const Data& matrix : matrices.list_value())
-      if (text_under(matrix, "check") == check.name) all += text_under(matrix, "conclusion");
+      if (text_variable(matrix, "check") == check.name) all += text_variable(matrix, "conclusion");
     return all;
   }
 };

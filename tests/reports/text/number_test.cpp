@@ -26,7 +26,7 @@ BOOST_AUTO_TEST_CASE(very_small_and_large_numbers_are_powers_of_ten) {
 BOOST_AUTO_TEST_CASE(nan_infinity_and_missing_have_no_digits) {
   BOOST_TEST(trimmed(std::numeric_limits<double>::quiet_NaN(), 3) == "not a number");
   BOOST_TEST(trimmed(std::numeric_limits<double>::infinity(), 3) == "∞");
-  BOOST_TEST(or_dash(std::nullopt, 3) == "–");
+  BOOST_TEST(text_or_dash(std::nullopt, 3) == "–");
 }
 
 BOOST_AUTO_TEST_CASE(relative_differences_are_percent_unless_small) {
@@ -58,10 +58,10 @@ BOOST_AUTO_TEST_CASE(durations_have_readable_units) {
 }
 
 BOOST_AUTO_TEST_CASE(numbers_within_a_text_get_powers_of_ten) {
-  BOOST_TEST(with_powers("1e-6 takes 'fine'") == "10⁻⁶ takes 'fine'");
-  BOOST_TEST(with_powers("off by 2.1e-09.") == "off by 2.1\u202f×\u202f10⁻⁹.");
+  BOOST_TEST(with_powers_of_ten("1e-6 takes 'fine'") == "10⁻⁶ takes 'fine'");
+  BOOST_TEST(with_powers_of_ten("off by 2.1e-09.") == "off by 2.1\u202f×\u202f10⁻⁹.");
   for (const char* same : {"", "0.01 % of 3", "information", "v1e6", "3e5a", "1.e", "x_1e-6"})
-    BOOST_TEST(with_powers(same) == same);
+    BOOST_TEST(with_powers_of_ten(same) == same);
 }
 
 BOOST_AUTO_TEST_SUITE_END()

@@ -47,7 +47,7 @@ double area(const Model& model) {
     const double a = 1.0 / 6;  // quadrature of degree 2: exact for the area of six-node triangles
     for (const Vector3d& at :
          {Vector3d(4 * a, a, a), Vector3d(a, 4 * a, a), Vector3d(a, a, 4 * a)}) {
-      sum += interpolate(model, triangle, at).signed_area / 3;
+      sum += evaluate_shape_functions(model, triangle, at).signed_area / 3;
     }
   }
   return sum;
@@ -146,7 +146,8 @@ BOOST_AUTO_TEST_CASE(distorted_triangles_cover_the_rectangle) {
       const Model model = mesh_rectangle({0.8, 0.5, 9, six, distortion}, {});
       double sum = 0, smallest = 1, largest = 0;
       for (const Triangle& triangle : model.triangles) {
-        const double part = interpolate(model, triangle, Vector3d::Constant(1.0 / 3)).signed_area;
+        const double part =
+            evaluate_shape_functions(model, triangle, Vector3d::Constant(1.0 / 3)).signed_area;
         smallest = std::min(smallest, part);
         largest = std::max(largest, part);
         sum += part;

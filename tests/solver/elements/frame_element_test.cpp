@@ -20,7 +20,7 @@ const auto kTheories = {BeamTheory::euler_bernoulli, BeamTheory::timoshenko};
 /// Returns the stiffness matrix of a frame element in element axes.
 Matrix6d frame_stiffness(const Section& section, BeamTheory theory, double length) {
   const FrameDeformation B = frame_deformation_matrix<double>(Eigen::Vector2d::UnitX(), length);
-  return B.transpose() * frame_rigidity(section, theory, length).asDiagonal() * B;
+  return B.transpose() * frame_deformation_stiffness(section, theory, length).asDiagonal() * B;
 }
 
 double largest_difference(const Matrix6d& a, const Matrix6d& b) {
@@ -28,7 +28,7 @@ double largest_difference(const Matrix6d& a, const Matrix6d& b) {
 }
 
 Matrix6d world(const Matrix6d& k, double angle) {
-  const Matrix6d R = frame_rotation({std::cos(angle), std::sin(angle)});
+  const Matrix6d R = frame_transformation_matrix({std::cos(angle), std::sin(angle)});
   return R.transpose() * k * R;
 }
 
@@ -73,7 +73,8 @@ BOOST_AUTO_TEST_CASE(deformations_rebuild_the_stiffness_of_equation_10) {
     const double angle = 2.1;
     const FrameDeformation B =
         frame_deformation_matrix({std::cos(angle), std::sin(angle)}, kLength);
-    const Matrix6d k = B.transpose() * frame_rigidity(kSection, theory, kLength).asDiagonal() * B;
+    const Matrix6d k =
+        B.transpose() * frame_deformation_stiffness(kSection, theory, kLength).asDiagonal() * B;
     BOOST_TEST(largest_difference(k, world(frame_stiffness(kSection, theory, kLength), angle)) <
                1e-15);
   }

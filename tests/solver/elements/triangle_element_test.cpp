@@ -81,11 +81,12 @@ template <std::size_t n>
 void check_interpolation(bool curved) {
   const Element<n> element(curved);
   for (std::size_t i = 0; i < n; ++i) {
-    const TriangleInterpolation here = interpolate(element.nodes, triangle_node_coordinates()[i]);
+    const TriangleInterpolation here =
+        evaluate_shape_functions(element.nodes, triangle_node_area_coordinates()[i]);
     BOOST_TEST((here.position - element.nodes[i]).norm() < 1e-15);
     BOOST_TEST(here.N == (Eigen::Matrix<double, 6, 1>::Unit(static_cast<Index>(i))));
   }
-  const TriangleInterpolation here = interpolate(element.nodes, {0.2, 0.5, 0.3});
+  const TriangleInterpolation here = evaluate_shape_functions(element.nodes, {0.2, 0.5, 0.3});
   Matrix2d gradient = Matrix2d::Zero();
   for (std::size_t i = 0; i < n; ++i)
     gradient += element.nodes[i] * here.gradient.col(static_cast<Index>(i)).transpose();
@@ -112,7 +113,7 @@ BOOST_AUTO_TEST_CASE(uniform_strain_has_its_stress_and_energy) {
   const Matrix2d F{{1e-3, 2e-3}, {-5e-4, -7e-4}};
   const Vector6d u =
       element.sample([&](const Vector2d& p) { return Vector2d(Vector2d(0.1, 0.2) + F * p); });
-  const Vector3d d = triangle_deformation(element.nodes) * u;
+  const Vector3d d = triangle_deformation_matrix(element.nodes) * u;
   const double exx = F(0, 0), eyy = F(1, 1), gxy = F(0, 1) + F(1, 0);
   BOOST_TEST(d[0] == exx + eyy, tolerance(1e-12));
   BOOST_TEST(d[1] == exx - eyy, tolerance(1e-12));

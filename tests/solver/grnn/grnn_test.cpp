@@ -151,7 +151,7 @@ BOOST_AUTO_TEST_CASE(search_beats_nearest_neighbor_and_mean) {
     y(i, 0) = std::sin(x(i, 0)) + noise(i, 0);
   }
   const Grnn g = make_grnn(x, y, 1);
-  const SigmaSearch search = search_sigma(g, default_grid(g), {});
+  const SigmaSearch search = search_sigma(g, default_sigma_grid(g), {});
   BOOST_TEST(search.bracketed);
   BOOST_TEST(search.error <= search.grid_error.minCoeff());
   BOOST_TEST((search.sigma > 0.05 && search.sigma < 1));

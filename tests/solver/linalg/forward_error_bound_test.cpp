@@ -26,7 +26,7 @@ struct Bounded {
 
 Bounded bounded_solution(const FactoredStiffness& K, const VectorXd& f) {
   const AugmentedSystem augmented(K);
-  BOOST_TEST_REQUIRE(augmented.exists());
+  BOOST_TEST_REQUIRE(augmented.is_nonsingular());
   const Operator solve = [&](const VectorXd& b) -> VectorXd { return augmented.solve(b).x; };
   SparseMatrix R(f.size(), f.size());
   R.setIdentity();

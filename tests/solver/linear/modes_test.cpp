@@ -108,8 +108,8 @@ BOOST_AUTO_TEST_CASE(backward_error_of_modes_finds_a_wrong_mode) {
   const auto error_of = [&](Index first, Index count) {
     const Eigen::MatrixXd u = system.T * modes.shape.middleCols(first, count);
     RowBalance<double> rows(system, count);
-    rows.add_stiffness(u);
-    rows.add_inertia(u * (-w2.segment(first, count)).asDiagonal());
+    rows.add_elastic_forces(u);
+    rows.add_inertia_forces(u * (-w2.segment(first, count)).asDiagonal());
     return rows.backward_error();
   };
   double largest = 0;

@@ -41,9 +41,9 @@ Vector2d joint_of_a_toggle(const Model& model) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(error_that_is_not_a_number_is_no_solution) {
-  BOOST_TEST(outcome_by_error(0.09).solved());
-  BOOST_TEST(!outcome_by_error(0.11).solved());
-  BOOST_TEST(!outcome_by_error(std::nan("")).solved());
+  BOOST_TEST(outcome_by_displacement_error(0.09).solved());
+  BOOST_TEST(!outcome_by_displacement_error(0.11).solved());
+  BOOST_TEST(!outcome_by_displacement_error(std::nan("")).solved());
 }
 
 BOOST_AUTO_TEST_CASE(load_on_a_clamped_node_is_its_reaction) {

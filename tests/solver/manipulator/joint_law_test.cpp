@@ -3,7 +3,7 @@
 
 #include "solver/large/large_elastodynamics.h"
 
-BOOST_AUTO_TEST_SUITE(joint_law)
+BOOST_AUTO_TEST_SUITE(joint_rotation_law)
 
 using namespace trammel::solver;
 
@@ -18,7 +18,7 @@ BOOST_AUTO_TEST_CASE(joint_angle_continues_beyond_half_a_turn) {
     motion.q_dot[4] = kRate;
     return motion;
   });
-  const auto law = large_motion::joint_law(crank, Circle{}, 1, 4);
+  const auto law = large_motion::joint_rotation_law(crank, Circle{}, 1, 4);
   for (const double t : {1.0, 1.5, 2.3, 9.0, 3.0, -4.0})
     BOOST_TEST(law(t)[0] == kRate * (t - 1), boost::test_tools::tolerance(1e-13));
 }

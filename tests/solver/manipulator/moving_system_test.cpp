@@ -136,7 +136,7 @@ BOOST_AUTO_TEST_CASE(load_of_inertia_is_that_of_equation_14) {
     H8 += rho * p.xi * length * N.row(1);
     H9 += rho * N;
   }
-  const Matrix6d T = frame_rotation(d);
+  const Matrix6d T = frame_transformation_matrix(d);
   const Vector6d F = T.transpose() * (w * w * H7.transpose() - alpha * H8.transpose() -
                                       H9.transpose() * (T.topLeftCorner<2, 2>() * a_A));
   BOOST_TEST((moving.inertia_load() - F).norm() < 1e-14 * F.norm());

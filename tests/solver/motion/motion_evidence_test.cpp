@@ -118,9 +118,9 @@ BOOST_AUTO_TEST_CASE(wrong_newmark_coefficient_is_refused) {
     }
     MotionEvidence evidence(equation);
     evidence.add_equilibrium(h, h, to.q, to.v, to.a, h);
-    evidence.add_energy(from, to, h);
+    evidence.add_energy_balance(from, to, h);
     BOOST_TEST(outcome_by_evidence({}, evidence.result()).solved() == (gamma == 0.5));
-    evidence.add_relations(from, to, h);
+    evidence.add_scheme_residual(from, to, h);
     BOOST_TEST(outcome_by_evidence({}, evidence.result()).solved() == (gamma == 0.5));
   }
 }

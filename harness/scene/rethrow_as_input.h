@@ -5,13 +5,13 @@
 namespace trammel::harness {
 
 /// Calls `work` and returns its result.
-/// @throws InputError  (see `model_error`) if the solver throws ModelError for an invalid model.
+/// @throws InputError  (see `to_input_error`) if the solver throws ModelError for an invalid model.
 template <class Work>
-auto with_model_errors(const Document& document, const Work& work) {
+auto rethrow_as_input(const Document& document, const Work& work) {
   try {
     return work();
   } catch (const solver::ModelError& error) {
-    throw model_error(document, error);
+    throw to_input_error(document, error);
   }
 }
 
