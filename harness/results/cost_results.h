@@ -50,8 +50,8 @@ struct CostSetting {
 
   /// Returns true if the error and the time of the setting were measured.
   [[nodiscard]] bool measured() const { return status == "measured"; }
-  /// Returns true if the setting failed, diverged or timed out. The figure of error and time shows
-  /// such settings in a strip at its edge.
+  /// Returns true if the setting failed, diverged or timed out. The caption of the figure of error
+  /// and time states the number of such settings.
   [[nodiscard]] bool without_result() const {
     return status == "failed" || status == "diverged" || status == "timed-out";
   }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <set>
 #include <utility>
 
@@ -74,9 +73,8 @@ void draw_dimensions(PlotScript& script, const Drawing& drawing, const Box& box)
   constexpr std::size_t kMaxDimensions = 6;
   const double cx = 0.5 * (box.x.low + box.x.high), cy = 0.5 * (box.y.low + box.y.high);
   std::set<std::string> lengths;
-  std::vector<std::vector<int>> parts = polylines(drawing);
-  std::ranges::move(triangle_edges(drawing), std::back_inserter(parts));
-  const PlotScript::Rows lines = rows_of(parts, drawing.nodes);
+  const PlotScript::Rows lines = rows_of(
+      drawing.members.empty() ? triangle_edges(drawing) : polylines(drawing), drawing.nodes);
   for (std::size_t i = 1; i < lines.size() && lengths.size() < kMaxDimensions; ++i) {
     if (lines[i].empty() || lines[i - 1].empty()) continue;
     const double x = lines[i - 1][0], y = lines[i - 1][1], dx = lines[i][0] - x;
@@ -88,7 +86,7 @@ void draw_dimensions(PlotScript& script, const Drawing& drawing, const Box& box)
     const double nx = turned * dy, ny = -turned * dx;
     script.curve({{x + nx, y + ny, dx, dy}},
                  "with vectors heads size graph 0.012,20 lw 1" + lc(palette::kMuted));
-    write_at(script, x + 0.5 * dx + 2 * nx, y + 0.5 * dy + 2 * ny, text, palette::kMuted);
+    write_at(script, x + 0.5 * dx + 2.6 * nx, y + 0.5 * dy + 2.6 * ny, text, palette::kMuted);
   }
 }
 

@@ -81,7 +81,7 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
   script.log_axis("x", kSmallestDrawnChange, largest);
   script.range("y", y - 0.6, -0.4);
   script.command("set ytics (" + tics + ")");
-  script.axis_label("x", "relative change of the results without the effect");
+  script.axis_label("x", "relative change");
   const std::string boxes = "using 1:2:3:4:5:6 with boxxyerror lw 1.5" + lc(palette::color(0));
   script.curve(kept, boxes + " fs solid", "needed");
   script.curve(omitted, boxes + " fs empty", "not needed");

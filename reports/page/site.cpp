@@ -54,7 +54,7 @@ Data index_data(const Results& results, const std::vector<Family>& families,
   const Data of_catalogue = object({{"has_rows", results.claims.has_value()}});
   const auto group = [](const Data& section) {
     Data data = object();
-    copy(section, data, {"family_link", "family_title", "extent", "counts"});
+    copy(section, data, {"family_link", "family_title", "cases_count", "counts"});
     return data;
   };
   const Data summary = summary_section(results, families);
@@ -105,8 +105,7 @@ Data family_contents(const std::vector<Data>& sections, const std::string& path)
       cases.push_back(contents);
       open = open || is_here;
     }
-    const bool has_cases = open || path == "index.html";
-    set(family, {{"open", open}, {"has_cases", has_cases}, {"cases", has_cases ? cases : list()}});
+    set(family, {{"open", open}, {"has_cases", open}, {"cases", open ? cases : list()}});
     return family;
   });
 }

@@ -11,7 +11,7 @@ namespace trammel::reports {
 
 namespace {
 
-constexpr std::size_t kMaxClaim = 90;  ///< largest number of characters of a claim in the table
+constexpr std::size_t kMaxClaim = 60;  ///< largest number of characters of a claim in the table
 
 /// CSS class and symbol of a verdict on a claim. The symbol shows the verdict without color.
 struct VerdictStyle {

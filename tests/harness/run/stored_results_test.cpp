@@ -1,7 +1,6 @@
 #include "harness/run/stored_results.h"
 
 #include <boost/test/unit_test.hpp>
-#include <map>
 
 #include "harness/base/json_file.h"
 #include "harness/run/results.h"

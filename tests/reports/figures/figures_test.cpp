@@ -12,6 +12,7 @@ BOOST_AUTO_TEST_SUITE(figures)
 
 using namespace trammel::reports;
 using trammel::testing::contains;
+using trammel::testing::occurrences;
 
 namespace {
 
@@ -149,7 +150,7 @@ BOOST_AUTO_TEST_CASE(undrawable_curves_report_the_reason) {
 
 BOOST_AUTO_TEST_CASE(magnified_motion_states_its_largest_deflection) {
   Run run = run_with({});
-  run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}};
+  run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}, {}};
   BOOST_TEST(!motion_figure(beam(), run));
   run.drawing->poses = {{"0 s", {{0, 0}, {1, 0}}, 0.0, {{0, 0}, {0, 0}}},
                         {"1 s", {{0, 0}, {0.9, 0.3}}, 1.0, {{0, 0}, {0, 0.0011}}},
@@ -177,7 +178,7 @@ BOOST_AUTO_TEST_CASE(magnified_motion_states_its_largest_deflection) {
 
 BOOST_AUTO_TEST_CASE(rigid_motion_is_drawn_at_few_instants) {
   Run run = run_with({});
-  run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}};
+  run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}, {}};
   for (int k = 0; k <= 20; ++k)
     run.drawing->poses.push_back(
         {"", {{0, 0}, {std::cos(0.1 * k), std::sin(0.1 * k)}}, 0.5 * k, {}});
@@ -197,7 +198,7 @@ BOOST_AUTO_TEST_CASE(rigid_motion_is_drawn_at_few_instants) {
 BOOST_AUTO_TEST_CASE(caption_of_shapes_compares_frequencies) {
   Run run = run_with({});
   run.quantities["frequency_Hz"].values = {0.0, 10.0, 19.6, 20.0};
-  run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}};
+  run.drawing = Drawing{{{0, 0}, {1, 0}}, {{0, 1}}, {}, {}, {}, {}, {}};
   for (const char* label : {"mode 1, 0 Hz", "mode 2, 10 Hz", "mode 3, 19.6 Hz", "mode 4, 20 Hz"})
     run.drawing->shapes.push_back({label, {{0, 0}, {0, 1}}});
   BOOST_TEST(contains(shapes_figure(beam(), run)->caption,
@@ -217,7 +218,7 @@ BOOST_AUTO_TEST_CASE(caption_of_shapes_compares_frequencies) {
 BOOST_AUTO_TEST_CASE(geometry_has_one_dimension_line_for_each_length) {
   Run run = run_with({});
   run.drawing =
-      Drawing{{{0, 0}, {1, 0}, {1, 1}, {1.5, 1}}, {{0, 1}, {1, 2}, {2, 3}}, {}, {}, {}, {}};
+      Drawing{{{0, 0}, {1, 0}, {1, 1}, {1.5, 1}}, {{0, 1}, {1, 2}, {2, 3}}, {}, {}, {}, {}, {}};
   const std::string commands = mechanism_figure(beam(), run)->commands;
   BOOST_TEST(occurrences(commands, "1\u202fm'") == 1U, commands);
   BOOST_TEST(occurrences(commands, "0.5\u202fm'") == 1U, commands);
