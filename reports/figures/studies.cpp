@@ -97,6 +97,7 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
                relative(scene->change, 2, false) + ".";
   }
   const int key = script.place_key_below({"needed", "not needed", "cumulative", "tolerance"});
+  script.command("set key maxcols 2");  // the names of effects leave little width
   script.plot();
   return Figure{
       .id = slug(info.id + "-" + run.variant + "-effects"),

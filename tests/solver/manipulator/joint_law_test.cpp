@@ -3,7 +3,7 @@
 
 #include "solver/large/large_elastodynamics.h"
 
-BOOST_AUTO_TEST_SUITE(joint_rotation_law)
+BOOST_AUTO_TEST_SUITE(joint_law)
 
 using namespace trammel::solver;
 
