@@ -35,17 +35,18 @@ void round_drawing(results::Drawing& drawing) {
 }
 
 /// Adds the numbers, texts and short lists at `place` in the model to the inputs of a case.
-void add_inputs(const Document& document, const JsonPointer& place, const std::string& case_file,
-                results::CaseInfo& info) {
+void add_inputs(const Document& document, const JsonPointer& place, results::CaseInfo& info) {
   constexpr std::size_t kMaxLength = 60, kMaxInputs = 60;
   const Json& json = document.value().at(place);
   if (json.is_object())
-    for (const auto& item : json.items()) add_inputs(document, place / item.key(), case_file, info);
+    for (const auto& item : json.items()) add_inputs(document, place / item.key(), info);
+  if (json.is_object() || info.inputs.size() == kMaxInputs) return;
   const std::string text = json.is_string() ? json.get<std::string>() : json.dump();
-  if (json.is_object() || text.size() > kMaxLength || info.inputs.size() == kMaxInputs) return;
+  if (text.size() > kMaxLength) return;
   const std::string pointer = place.to_string(), file = document.origin(pointer).file;
+  const bool is_own = file == document.origin("/id").file;  // bases do not pass on their id
   info.inputs.push_back({pointer.substr(std::string("/model/").size()), text,
-                         file == case_file ? "" : std::filesystem::path(file).filename().string()});
+                         is_own ? "" : std::filesystem::path(file).filename().string()});
 }
 
 results::CaseInfo case_info(const Case& given) {
@@ -61,8 +62,7 @@ results::CaseInfo case_info(const Case& given) {
   auto info = results::from_json<results::CaseInfo>(json);
   info.id = given.id();
   const Document base = patched(given, kBaseVariant);
-  if (base.value().contains("model"))
-    add_inputs(base, JsonPointer("/model"), given.file.string(), info);
+  if (base.value().contains("model")) add_inputs(base, JsonPointer("/model"), info);
   return info;
 }
 

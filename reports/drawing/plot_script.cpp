@@ -105,11 +105,11 @@ void PlotScript::plot() {
   curves_.clear();
 }
 
-int PlotScript::place_key_below(const std::vector<std::string>& titles) {
+int PlotScript::place_key_below(const std::vector<std::string>& titles, std::size_t max_columns) {
   std::size_t longest = 1;
   for (const std::string& title : titles)
     longest = std::max(longest, std::min(characters(title), kMaxKeyCharacters));
-  const std::size_t columns = std::clamp<std::size_t>(56 / (longest + 7), 1, 4);
+  const std::size_t columns = std::clamp<std::size_t>(56 / (longest + 7), 1, max_columns);
   command("set key maxcols " + std::to_string(columns));
   return 8 + 22 * static_cast<int>((titles.size() + columns - 1) / columns);
 }

@@ -50,7 +50,7 @@ class PlotScript {
 
   /// Places the key (legend) below the plot, in as many columns as the titles permit.
   /// @returns the height of the key [px].
-  int place_key_below(const std::vector<std::string>& titles);
+  int place_key_below(const std::vector<std::string>& titles, std::size_t max_columns = 4);
 
   void range(const std::string& axis, double low, double high);
   void axis_label(const std::string& axis, const std::string& text);

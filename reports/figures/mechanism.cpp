@@ -187,8 +187,9 @@ std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
   for (const JointSymbol& symbol : kJointSymbols) draw_joints(script, drawing, symbol);
   for (const LoadArrows& arrows : loads)
     script.curve(arrows.rows, "with vectors filled lw 2" + lc(palette::kSeries[1]), arrows.title);
-  name_joints(script, drawing, box_around({drawing.nodes}, 0, 0));
-  draw_dimensions(script, drawing, box_around({drawing.nodes}, 0, 0));
+  const Box body = box_around({drawing.nodes}, 0, 0);
+  name_joints(script, drawing, body);
+  draw_dimensions(script, drawing, body);
   script.plot();
 
   const std::string caption = mechanism_caption(extent, overlays.size() + 1);

@@ -96,8 +96,8 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
     caption += " Requested " + relative(scene->tolerance, 2, false) + ", obtained " +
                relative(scene->change, 2, false) + ".";
   }
-  const int key = script.place_key_below({"needed", "not needed", "cumulative", "tolerance"});
-  script.command("set key maxcols 2");  // the names of effects leave little width
+  // The names of effects leave little width for the key.
+  const int key = script.place_key_below({"needed", "not needed", "cumulative", "tolerance"}, 2);
   script.plot();
   return Figure{
       .id = slug(info.id + "-" + run.variant + "-effects"),

@@ -94,18 +94,20 @@ Data index_contents(const Data& index) {
 /// page belongs is unfolded, so that its cases are listed.
 Data family_contents(const std::vector<Data>& sections, const std::string& path) {
   return list_of(sections, [&](const Data& section) {
-    bool open = text_variable(section, "family_link") == path;
-    Data family = object({{"is_here", open}}), cases = list();
+    const auto& entries = section.get("cases")->list_value();
+    const auto is_here = [&](const Data& e) { return text_variable(e, "case_link") == path; };
+    const bool is_family = text_variable(section, "family_link") == path;
+    const bool open = is_family || std::ranges::any_of(entries, is_here);
+    const auto contents = [&](const Data& entry) {
+      Data data = object({{"is_here", is_here(entry)}});
+      copy(entry, data, {"case_link", "short_title", "status_text", "status_class", "sign"});
+      return data;
+    };
+    Data family = object({{"is_here", is_family},
+                          {"open", open},
+                          {"cases", open ? list_of(entries, contents) : list()}});
     copy(section, family,
          {"family_link", "family_title", "cases_count", "status_text", "status_class", "sign"});
-    for (const Data& entry : section.get("cases")->list_value()) {
-      const bool is_here = text_variable(entry, "case_link") == path;
-      Data contents = object({{"is_here", is_here}});
-      copy(entry, contents, {"case_link", "short_title", "status_text", "status_class", "sign"});
-      cases.push_back(contents);
-      open = open || is_here;
-    }
-    set(family, {{"open", open}, {"has_cases", open}, {"cases", open ? cases : list()}});
     return family;
   });
 }
