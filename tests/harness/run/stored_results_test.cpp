@@ -3,6 +3,7 @@
 #include <boost/test/unit_test.hpp>
 
 #include "harness/base/json_file.h"
+#include "harness/input/catalogue.h"
 #include "harness/run/results.h"
 #include "tests/support/harness/support.h"
 
@@ -47,6 +48,14 @@ BOOST_AUTO_TEST_CASE(results_read_back_with_their_store_are_unchanged) {
   Json a = to_json(before), b = to_json(after);
   a.erase("store"), b.erase("store");
   BOOST_TEST(a.dump() == b.dump());
+}
+
+BOOST_AUTO_TEST_CASE(inputs_name_the_extended_case_that_states_them) {
+  const Case given = harness::load_named_case("exact-statics");
+  const Json json = to_json(collect_results({}, {given}, References(), ""));
+  const Json& inputs = json["cases"]["exact-statics"]["inputs"];
+  BOOST_TEST(inputs["manipulator/links/thickness_m"]["source"] == "table-1.json");
+  BOOST_TEST(!inputs["loads/P/node"].contains("source"));
 }
 
 BOOST_AUTO_TEST_CASE(summary_holds_scalars_verdicts_and_each_reason_once) {

@@ -11,8 +11,7 @@
 BOOST_AUTO_TEST_SUITE(figures)
 
 using namespace trammel::reports;
-using trammel::testing::contains;
-using trammel::testing::occurrences;
+using trammel::testing::contains, trammel::testing::occurrences;
 
 namespace {
 
@@ -220,8 +219,8 @@ BOOST_AUTO_TEST_CASE(geometry_has_one_dimension_line_for_each_length) {
   run.drawing =
       Drawing{{{0, 0}, {1, 0}, {1, 1}, {1.5, 1}}, {{0, 1}, {1, 2}, {2, 3}}, {}, {}, {}, {}, {}};
   const std::string commands = mechanism_figure(beam(), run)->commands;
-  BOOST_TEST(occurrences(commands, "1\u202fm'") == 1U, commands);
-  BOOST_TEST(occurrences(commands, "0.5\u202fm'") == 1U, commands);
+  for (const char* length : {"1\u202fm'", "0.5\u202fm'"})
+    BOOST_TEST(occurrences(commands, length) == 1U, commands);
   BOOST_TEST(occurrences(commands, "vectors heads") == 2U, commands);
 }
 
