@@ -25,11 +25,13 @@ struct Ellipse {
 /// Quadrilateral block of a mapped mesh.
 struct Block {
   std::array<Vector2d, 4> corners;  ///< counterclockwise [m]
-  /// Ellipse of each side; empty: straight side. Side i runs from corner i to corner i + 1.
+  /// Ellipse on which each side lies, or an empty value for a straight side. Side i runs from
+  /// corner i to corner i + 1.
   std::array<std::optional<Ellipse>, 4> sides;
   /// Numbers of cells in two directions: along sides 0 and 2, and along sides 1 and 3.
   std::array<Index, 2> cells{1, 1};
-  /// Length of the last cell over the length of the first cell in each direction, from corner 0.
+  /// Ratio of the length of the last cell to that of the first cell in each direction. The cells
+  /// are counted from corner 0.
   std::array<double, 2> grading{1, 1};
 };
 
@@ -37,10 +39,11 @@ struct Block {
 struct BlockMesh {
   bool six_nodes = false;
   std::vector<Vector2d> positions;  ///< [m]
-  /// Nodes of each triangle, counterclockwise; entries 3 to 5 are -1 for three-node triangles.
+  /// Indices of the nodes of each triangle, corners counterclockwise, then mid-side nodes; entries
+  /// 3 to 5 are -1 for three-node triangles.
   std::vector<std::array<Index, 6>> triangles;
-  /// Nodes of each side of each block, from corner to corner, with mid-side nodes:
-  /// sides[block][side].
+  /// Indices of the nodes along each side of each block, from corner to corner, with mid-side
+  /// nodes: sides[block][side].
   std::vector<std::array<std::vector<Index>, 4>> sides;
 };
 

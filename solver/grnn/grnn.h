@@ -78,16 +78,17 @@ class ExcessDistances {
   explicit ExcessDistances(const Eigen::MatrixXd& samples)
       : samples_(samples), excess_(samples.rows()), last_(samples.rows()) {}
 
-  /// Computes the excess of every sample for a query.
+  /// Computes the excess D_i^2 - D_m^2 of every sample i for a query. D is the distance from the
+  /// query, and m the nearest sample.
   /// @param query  scaled input.
-  /// @param reach  excess above which a lower bound is sufficient: samples beyond it may get any
-  ///   excess that is at least `reach`.
+  /// @param reach  limit above which the excess need not be exact: samples with a larger excess may
+  ///   get any value that is at least `reach`.
   /// @param skip   samples to leave out (their excess is infinite), or null.
   const Eigen::ArrayXd& compute(const Eigen::Ref<const Eigen::VectorXd>& query, double reach,
                                 const Eigen::Array<bool, Eigen::Dynamic, 1>* skip = nullptr);
 
-  /// Range [first, last) of samples. It contains all samples whose excess is below the argument
-  /// `reach` of the last call of `compute`.
+  /// Ends of the index range [first, end) of samples near the query of the last call of `compute`.
+  /// It contains all samples whose excess is below the argument `reach` of this call.
   [[nodiscard]] Index first_sample_in_reach() const { return first_; }
   [[nodiscard]] Index end_sample_in_reach() const { return last_; }
 
@@ -97,13 +98,14 @@ class ExcessDistances {
   Index first_ = 0, last_;
 };
 
-/// Computes the weights exp(-excess / 2 sigma^2) of `count` samples. The weight of the nearest
+/// Computes the weights exp(-excess / 2 sigma^2) of `count` samples. The excess is the squared
+/// distance of a sample from the query, minus that of the nearest sample. The weight of the nearest
 /// sample is 1 for any sigma. All weights are at least e^-708, which is a normal number and
 /// negligible compared with 1.
 void kernel_weights(const double* excess, Index count, double sigma, double* weights);
 
-/// Returns the excess above which the weight of a sample is negligible; infinite if sigma^2
-/// overflows.
+/// Returns the difference of squared distances (`ExcessDistances`) above which the weight of a
+/// sample is negligible. It is infinite if sigma^2 overflows.
 [[nodiscard]] double kernel_cutoff_excess(double sigma);
 
 }  // namespace trammel::solver

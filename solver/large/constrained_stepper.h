@@ -14,8 +14,8 @@ namespace trammel::solver::large_motion {
 /// Largest residuals of the rigid constraints of a state.
 struct ConstraintGaps {
   double position = 0, rate = 0;  ///< residual [m or rad], its rate [m/s or rad/s]
-  /// Largest residual and largest rate over all constraints, relative to the model size for
-  /// translations and to 1 rad for rotations [-], [1/s].
+  /// Largest residual of all constraints [-], and largest time derivative of a residual [1/s].
+  /// Residuals are relative to the model size for translations and to 1 rad for rotations.
   double relative_position = 0, relative_rate = 0;
 };
 
@@ -50,12 +50,13 @@ class AssemblyBranch {
  public:
   /// @pre The system outlives this object.
   explicit AssemblyBranch(const ConstrainedSystem& system);
-  /// Returns true if the orientation at the end of a step is opposite to that at its start.
+  /// Returns true if the sign that identifies the assembly branch differs between the start and the
+  /// end of a step.
   [[nodiscard]] bool changes(const State& from, const State& to);
 
  private:
-  /// Returns the sign of the determinant of the constraint matrix, or 0 if it is undefined, as at a
-  /// singular position or at rest.
+  /// Returns the sign of det G, or of det (G, v) with one degree of freedom. Returns 0 if the sign
+  /// is undefined, as at a singular position or at rest.
   [[nodiscard]] double branch_sign(const State& state);
 
   const ConstrainedSystem& system_;
@@ -65,7 +66,7 @@ class AssemblyBranch {
   std::optional<KktMatrix> matrix_;  ///< empty: the orientation is undefined
 };
 
-/// Function that receives each state to be output.
+/// Function that receives each state of the motion that is to be output.
 using Observer = std::function<void(const State&)>;
 
 class StepConvergence;
@@ -103,7 +104,7 @@ class ConstrainedStepper : public Stepper {
   virtual void add_energy(Evidence& /*evidence*/) const {}
 
  protected:
-  /// Time scheme, and limits of the corrections of its Newton iteration [-].
+  /// Parameters of the time scheme, and limits at which its Newton iteration ends [-].
   struct Scheme {
     TimeScheme relations;
     double error_constant = 0;
@@ -132,8 +133,8 @@ class ConstrainedStepper : public Stepper {
   virtual void accepted_residual(Eigen::Ref<VectorXd> r) const { system_.force_residual(from_, r); }
   /// Assembles the tangent matrix of a step of size h. @returns true if it is symmetric.
   virtual bool tangent(double h, bool exact);
-  /// Returns -(g + tau dg/dt - c lambda) of the elastic constraint row r, divided by d(g + tau
-  /// dg/dt)/dg.
+  /// Returns the residual of the elastic constraint row r with compliance c and damping tau: -(g +
+  /// tau dg/dt - c lambda), divided by d(g + tau dg/dt)/dg.
   [[nodiscard]] virtual double elastic_residual(Index r, double h) const;
   virtual void begin_step() {}
   virtual void end_step(double /*h*/) {}

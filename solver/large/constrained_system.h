@@ -26,9 +26,9 @@ struct State {
   VectorXd lambda;     ///< multipliers: forces [N] or moments [N m] of the constraints
 };
 
-/// Factors `mass`, `damping` and `stiffness` in the tangent matrix S = mass M + damping D +
-/// stiffness K, where D = -df/dv and K = d(M a - f + G^T lambda)/dq. `compliance` is the factor of
-/// C.
+/// Factors of the matrices in a tangent matrix S = mass M + damping D + stiffness K. M is the mass
+/// matrix, D = -df/dv, and K = d(M a - f + G^T lambda)/dq. `compliance` is the factor of the
+/// compliance matrix C.
 struct TangentCoefficients {
   double mass = 0;
   double damping = 0;
@@ -57,16 +57,20 @@ class ConstrainedSystem {
   [[nodiscard]] virtual Index constraints() const = 0;
   /// Returns the compliance c >= 0 of each constraint row.
   [[nodiscard]] virtual const VectorXd& compliance() const = 0;
-  /// Returns the unit change of each coordinate: the model size [m] or 1 rad.
+  /// Returns the reference value of each coordinate, by which its changes are divided: the model
+  /// size [m] for translations, 1 rad for rotations.
   [[nodiscard]] virtual const VectorXd& scale() const = 0;
-  /// Returns the unit of the residual of each constraint: the model size [m] or 1 rad.
+  /// Returns the reference value of each constraint row, by which its residual is divided: the
+  /// model size [m] or 1 rad.
   [[nodiscard]] virtual VectorXd row_units() const;
-  /// Returns the unknowns that each element couples, for `KktMatrix`.
+  /// Returns, for each element, the indices of the unknowns that it couples. They define the
+  /// sparsity pattern of `KktMatrix`.
   [[nodiscard]] virtual std::vector<std::vector<Index>> blocks() const = 0;
 
   /// Computes the residual of the equation of motion, r = M a - f + G^T lambda.
   virtual void force_residual(const State& state, Eigen::Ref<VectorXd> r) const = 0;
-  /// Computes the residuals g of the constraints and dg/dt = G v + partial g / partial t.
+  /// Computes the residuals g of the constraints and their time derivatives dg/dt = G v + partial g
+  /// / partial t.
   virtual void constraint_residual(const State& state, Eigen::Ref<VectorXd> residual,
                                    Eigen::Ref<VectorXd> rate) const = 0;
   /// Adds the tangent matrix of a state to `matrix`, which the caller has cleared.
@@ -97,7 +101,8 @@ inline VectorXd ConstrainedSystem::row_units() const {
   return VectorXd::Constant(constraints(), length_scale(*this));
 }
 
-/// Returns the root mean square of a change of coordinates relative to their scale [-].
+/// Returns the root mean square of a change of the coordinates. Each change is divided by the
+/// reference value of its coordinate (`scale`) [-].
 [[nodiscard]] inline double weighted_rms_norm(const ConstrainedSystem& system,
                                               const Eigen::Ref<const VectorXd>& change) {
   if (change.size() == 0) return 0;
@@ -105,7 +110,7 @@ inline VectorXd ConstrainedSystem::row_units() const {
          std::sqrt(static_cast<double>(change.size()));
 }
 
-/// Energies of a state.
+/// Energies of a geometrically exact model in one state.
 struct Energy {
   double kinetic = 0;  ///< kinetic energy [J]
   double strain = 0;   ///< strain energy of members, plates and springs [J]

@@ -14,14 +14,14 @@
 
 namespace trammel::solver::large_motion {
 
-/// Typical stiffness and mass of the parts that a constraint row joins. They determine the penalty
-/// rho of the row (`KktMatrix`).
+/// Typical stiffness and mass of the members and bodies that a constraint row joins. They determine
+/// the penalty rho of the row (`KktMatrix`).
 struct RowScales {
-  /// Unit of the residual: 1 rad if all coordinates of the row are rotations, otherwise the model
-  /// size [m].
+  /// Reference value of the residual of the constraint row: 1 rad if all coordinates in the row are
+  /// rotations, otherwise the model size [m].
   double unit = 1;
-  /// Largest stiffness and largest mass of the coordinates of the row, in the unit of the row. If
-  /// all of them are zero, the mean over the model is used.
+  /// Largest stiffness and largest mass of the coordinates in the constraint row, in the unit of
+  /// the row. If all of them are zero, the mean over the model is used.
   double stiffness = 0, mass = 0;
 };
 
@@ -33,9 +33,9 @@ class PenaltyScales {
   PenaltyScales(const Model& model, const LargeMotionModel& large_motion, const Layout& layout,
                 const Eigen::VectorXd& mass, double size);
 
-  /// Returns the scales of a constraint row with the given coordinates. If the displacements in the
-  /// row have no stiffness or mass, the values of the rotations divided by the squared `lever` [m]
-  /// are used.
+  /// Returns the typical stiffness and mass of a constraint row with the given coordinates. If the
+  /// translations in the row have no stiffness or mass, those of the rotations, divided by the
+  /// squared `lever` [m], are used.
   [[nodiscard]] RowScales row_scales(std::span<const Index> coordinates, double lever) const;
 
  private:
@@ -62,8 +62,8 @@ Eigen::Matrix<double, N, 1> gather(const VectorXd& values, const CoordinateIndic
   return local;
 }
 
-/// Adds the values of an element, such as nodal forces, to the entries of `values` at its free
-/// coordinates.
+/// Adds the values `local` of an element, such as nodal forces, to the entries of `values` at the
+/// free coordinates of the element.
 template <int N>
 void scatter(const Eigen::Matrix<double, N, 1>& local, const CoordinateIndices<N>& where,
              Eigen::Ref<VectorXd> values) {  // NOLINT(performance-unnecessary-value-param)
@@ -106,8 +106,8 @@ class ElementGroup {
   void for_each_coordinate(const Function& function) {
     for (CoordinateIndices<N>& where : where_) std::ranges::for_each(where, function);
   }
-  /// Sets the index of the first row of this group. The rows of all groups are numbered in
-  /// sequence.
+  /// Sets the index of the first constraint row of this element group. The rows of all groups are
+  /// numbered in sequence.
   void set_first_constraint_row(Index row) { first_constraint_row_ = row; }
 
   void append_masses(std::vector<Eigen::Triplet<double>>& masses) const {
@@ -123,9 +123,10 @@ class ElementGroup {
     }
   }
 
-  /// Adds the unknowns that each element couples to `system`, and sets the compliances and units of
-  /// its constraint rows. Joints also get the stiffness and mass of the joined parts, which
-  /// determine their penalties. Coordinates with indices of at least `free` are held by supports.
+  /// Adds to `system`, for each element, the indices of the unknowns that it couples, and the
+  /// compliances and units of its constraint rows. Joints also get the stiffness and mass of the
+  /// joined members or bodies, which determine their penalties. Coordinates with indices of at
+  /// least `free` are held by supports.
   void connect(Index free, const PenaltyScales& scales, SystemRows& system) {
     first_block_ = std::ssize(system.blocks);
     for (Index e = 0; e < size(); ++e) {
@@ -213,8 +214,8 @@ class ElementGroup {
     return sum;
   }
 
-  /// Adds element forces between two states, as `forces` does for one state. Their work from the
-  /// first to the second state equals the change of the energy exactly.
+  /// Adds the mean element forces of a step between two states (discrete gradients). The work of
+  /// these forces from the first to the second state equals the change of the energy exactly.
   void discrete_gradient_forces(const State& from, const State& to, const VectorXd& lambda,
                                 double tau, Eigen::Ref<VectorXd> r) const {
     if constexpr (R == 0 && !kIsElastic && !kIsLoad) return;

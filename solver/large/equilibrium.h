@@ -19,23 +19,26 @@ struct NewtonOptions {
   double same_state = 1e-7;
 };
 
-/// Function that returns the change of the load factor in an iteration, or a value that is not
-/// finite to stop the iteration. Its arguments are the correction at a fixed load factor and d(q,
-/// lambda)/dload.
+/// Function that returns the change of the load factor in a Newton iteration, or a value that is
+/// not finite to stop the iteration. Its arguments are the Newton correction at a fixed load
+/// factor, and the derivative d(q, lambda)/dload.
 using LoadControl = std::function<double(const VectorXd& correction, const VectorXd& load_step)>;
 
 /// Result of Newton's method. Each list has one entry per iteration.
 struct NewtonResult {
   Outcome outcome;
-  /// Size of the correction; translations relative to the model size.
+  /// Root mean square of the Newton correction in each iteration [-]; translations are divided by
+  /// the model size.
   std::vector<double> correction;
-  /// Residual of equilibrium; forces times the model size [N m].
+  /// Norm of the residual of equilibrium in each iteration [N m]; forces are multiplied by the
+  /// model size.
   std::vector<double> force_residual;
   std::vector<double>
       constraint_residual;  ///< residual of the constraints and of stretch and shear of beams [m]
 };
 
-/// Solver of static equilibrium by Newton's method with exact tangents. Reuses its memory.
+/// Solver of static equilibrium by Newton's method with exact tangents. An object reuses its memory
+/// from one solution to the next.
 class Equilibrium {
  public:
   explicit Equilibrium(const GeometricallyExactSystem& system, const NewtonOptions& options = {});
@@ -50,12 +53,12 @@ class Equilibrium {
 
   /// Factors the tangent matrix at a state. @return false if it is singular to working precision.
   [[nodiscard]] bool factor(const State& state);
-  /// Factors the tangent matrix unless the state differs from that of the last factorization by at
-  /// most the fraction `relative`.
+  /// Factors the tangent matrix at a state. The last factorization is kept if its state differs by
+  /// at most `relative` times the size of the state.
   [[nodiscard]] bool factor_if_moved(const State& state, double relative);
   /// Computes dq/dload and dlambda/dload with the last factored tangent, as (dq, dlambda).
   void load_factor_sensitivity(const State& state, VectorXd& direction);
-  /// Computes one Newton correction: the solution of the tangent equation for minus the residual.
+  /// Computes one Newton correction `step`, which solves: tangent matrix * step = -residual.
   void correction(const State& state, VectorXd& step, NewtonResult& history);
   /// Returns the largest backward error |r| / (|K| |x| + |load|) of all rows in a state. r is the
   /// residual of equilibrium and constraints, x the unknowns, and K a newly assembled tangent.
@@ -75,9 +78,9 @@ class Equilibrium {
   };
   /// Checks if the mode of the smallest eigenvalue of the last tangent matrix is a free motion.
   [[nodiscard]] FreeMotion free_motion(const State& state);
-  /// Fixes a coordinate in all following tangent matrices by an additional stiffness. A free part
-  /// without driving force therefore remains in place, and its motion counts neither as stable nor
-  /// as unstable.
+  /// Fixes a coordinate in all following tangent matrices by an additional stiffness. A member or
+  /// body that can move freely therefore remains in place if no force acts along its free motion.
+  /// The motion counts neither as stable nor as unstable.
   void hold(Index coordinate, double stiffness) {
     held_.emplace_back(coordinate, stiffness);
     factored_ = State();
@@ -90,8 +93,8 @@ class Equilibrium {
   [[nodiscard]] const KktMatrix& matrix() const { return matrix_; }
 
  private:
-  /// Computes the residual of equilibrium and of the constraint rows. The residual of a row is g -
-  /// C lambda, plus tau dg/dt if the row is elastic.
+  /// Computes the residual of equilibrium and of the constraint rows. The residual of a constraint
+  /// row g is g - C lambda, plus tau dg/dt if the row is elastic.
   void residual_of(const State& state, Eigen::Ref<VectorXd> residual);
 
   const GeometricallyExactSystem& system_;

@@ -17,7 +17,8 @@ double model_size(const Model& model) {
   return box_diagonal(points);
 }
 
-/// Returns the unit change of each free coordinate: the model size [m] or 1 rad.
+/// Returns the reference value of each free coordinate: the model size [m] for translations, 1 rad
+/// for rotations.
 VectorXd coordinate_scales(const Model& model, const Layout& layout) {
   const double size = model_size(model);
   VectorXd scale(layout.free);
@@ -173,9 +174,9 @@ double GeometricallyExactSystem::nonconservative_work(const State& from, const S
   padded_.head(n) = (from.v + to.v) / 2;
   product_.noalias() = mass_ * padded_;
   work -= h * large_motion_.mass_damping * padded_.head(n).dot(product_.head(n));
-  // The residuals of constraint rows change by the motion and by the drives. Constraint forces do
-  // work only on the change by the motion, which is computed with the drives held at the start
-  // time.
+  // The residuals of constraint rows change in a step by the motion and by the drives. Constraint
+  // forces do work only on the change by the motion, which is computed with the drives held at the
+  // start time.
   VectorXd before = VectorXd::Zero(parts_.rows), after = before, rate = before;
   State held = to;
   held.t = from.t;

@@ -65,7 +65,8 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   void set_damping_reference_velocity(std::function<VectorXd(double)> velocities) {
     undamped_velocities_ = std::move(velocities);
   }
-  /// Returns the velocities on which mass-proportional damping acts.
+  /// Returns the velocities that mass-proportional damping multiplies: those of the state minus the
+  /// reference velocities.
   [[nodiscard]] VectorXd damped_velocities(const State& state) const;
 
   /// Scales loads, gravity and inertia forces of statics by `load`, which is also the time of
@@ -86,7 +87,7 @@ class GeometricallyExactSystem final : public ConstrainedSystem {
   [[nodiscard]] Index drive_row(Index drive) const {
     return parts_.group<DrivenCoordinate>().first_constraint_row(drive);
   }
-  /// Returns the number of computed element tangents of members and triangles.
+  /// Returns the number of computed tangent matrices of member elements and triangles.
   [[nodiscard]] std::int64_t element_evaluations() const { return element_evaluations_; }
   [[nodiscard]] const Eigen::SparseMatrix<double>& mass() const { return mass_; }
 

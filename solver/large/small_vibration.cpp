@@ -25,7 +25,7 @@ constexpr double kRoundoffShare = 1e-7;
 /// called soft. The computed K^-1 then has few correct digits of the higher modes.
 constexpr double kSoftShare = 1e-10;
 /// Largest ratio of two estimates of the lowest w^2 above the soft modes: from K^-1 and from a
-/// shifted K. A larger ratio shows that the parts above the soft modes are massless.
+/// shifted K. A larger ratio shows that all stiffer motions than the soft modes are massless.
 constexpr double kAlike = 1e6;
 /// Relative distance of the shift from w^2 of a mode in the inverse iteration.
 constexpr double kAside = 1e-3;
@@ -66,8 +66,8 @@ class ShiftedStiffness {
       VectorXd correction = residual.cast<double>();
       factored_.solve(correction);
       x += correction.cast<long double>();
-      // Corrections of motions are relative to the motions. Corrections of constraint forces are
-      // relative to all forces, including those on the coordinates.
+      // The refinement measures corrections of motions relative to the motions. Corrections of
+      // constraint forces are relative to all forces, including those on the coordinates.
       const auto size_of = [&](const VectorXd& values, const VectorXd& unit, Index begin) {
         return values.segment(begin, unit.size()).cwiseProduct(unit).norm();
       };
@@ -212,8 +212,8 @@ double lowest_above_free(const GeometricallyExactSystem& system, const State& st
 
 /// Improves a real mode and its w^2 by inverse iteration with K - t M, where the shift t is next to
 /// w^2. The matrix from which all modes follow has round-off errors relative to its lowest mode.
-/// They contaminate a higher mode by the ratio of both w^2. With the shift, the requested mode
-/// dominates.
+/// They contaminate a higher mode in proportion to the ratio of its w^2 to that of the lowest mode.
+/// With the shift, the requested mode dominates.
 Extended beside(const GeometricallyExactSystem& system, const State& state, const MatrixXd& M,
                 std::complex<double>& w2, Extended mode) {
   const Index n = system.coordinates();
@@ -271,7 +271,7 @@ SmallVibration small_vibration(const GeometricallyExactSystem& system, const Sta
                                : Spectrum();
     // `above` and `next` are two estimates of w^2 of the lowest mode above the soft modes. `next`
     // follows from K with the shift -above. If the estimates differ by more than the factor kAlike,
-    // the parts above the soft modes are massless.
+    // all stiffer motions than the soft modes are massless.
     const double next = lowest_above_soft(clear);
     if (next > above / kAlike && next < kAlike * above) {
       modes = clear;

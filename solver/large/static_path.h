@@ -14,18 +14,19 @@ struct StaticPathOptions {
   double target = 1;  ///< load factor at the end of the path
   double first_step =
       0.1;  ///< first increment of the load factor; later ones follow from Newton's convergence
-  /// Displacement due to the full load, relative to the model size and by linear theory, below
-  /// which the load is applied in one step.
+  /// Limit of the displacement under the full load by linear theory, relative to the model size
+  /// [-]. Below this limit, the load is applied in one step.
   double small_response = 0;
   int max_points = 2000;       ///< limit of the number of points
   bool switch_branch = false;  ///< leave the first bifurcation along its buckling shape
   bool keep_points = true;     ///< false: keep only the last point
-  /// true: free parts without driving loads remain in place; false: such a model is singular.
+  /// true: members or bodies that move freely without driving loads remain in place; false: a model
+  /// with such free motions is singular.
   bool keep_free_parts = false;
   NewtonOptions newton;
 };
 
-/// Point of a path of equilibria.
+/// Equilibrium at one point of a path of equilibria.
 struct PathPoint {
   State state;  ///< state.load is the load factor
   /// Number of unstable directions, from the negative pivots of the tangent matrix. It is -1 if
@@ -34,7 +35,7 @@ struct PathPoint {
   NewtonResult newton;
 };
 
-/// Critical point of a path of equilibria.
+/// Critical point of a path of equilibria: limit point or bifurcation.
 struct PathEvent {
   enum class Kind { limit_point, bifurcation };
   Kind kind = Kind::limit_point;

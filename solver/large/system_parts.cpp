@@ -13,7 +13,7 @@ namespace trammel::solver::large_motion {
 
 namespace {
 
-/// Sets of coordinates that are equal. One of its coordinates represents each set.
+/// Sets of coordinates that are equal. Each set is represented by one of its coordinates.
 class MergedSets {
  public:
   Index add() {
@@ -24,7 +24,8 @@ class MergedSets {
     while (parent_[to_size(i)] != i) i = parent_[to_size(i)];
     return i;
   }
-  /// Merges the sets of two coordinates. The representative of `second` represents the result.
+  /// Merges the sets of two coordinates. The merged set is represented by the representative of
+  /// `second`.
   void merge(Index first, Index second) { parent_[to_size(find(first))] = find(second); }
 
  private:

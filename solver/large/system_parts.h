@@ -20,7 +20,7 @@ struct SystemParts {
              ElementGroup<PointInertia>>
       groups;
   Index rows = 0;  ///< number of constraint rows
-  /// For each element of a member: its index among the beams or the bars.
+  /// Index of each element of a member among the beams, or among the bars if the member is a bar.
   std::vector<Index> group_index;
   VectorXd loads;  ///< dead loads, one per coordinate [N, N m]
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 
 /// Dense decompositions of Eigen, compiled once. All numbers of a result are NaN if an iteration
-/// does not converge, or if B is not positive definite.
+/// does not converge, or if the matrix B of A x = lambda B x is not positive definite.
 namespace trammel::solver {
 
 /// Eigenvalues and eigenvectors of a symmetric eigenvalue problem.
@@ -31,7 +31,8 @@ struct ComplexEigenpairs {
 /// Solves A x = lambda x for any square A. The eigenvalues have no order.
 [[nodiscard]] ComplexEigenpairs eigenpairs(const Eigen::MatrixXd& A);
 
-/// Solution of a 3 x 3 system and the ratio of its pivots, which shows if the matrix is singular.
+/// Solution of three linear equations A x = b and the ratio of the pivots, which shows if A is
+/// singular.
 struct PivotedSolution {
   Eigen::Vector3d x;                     ///< meaningless if A is singular
   double smallest_to_largest_pivot = 0;  ///< |R_33| / |R_11|; near zero if A is singular
@@ -39,7 +40,7 @@ struct PivotedSolution {
 /// Solves A x = b by column-pivoted QR.
 [[nodiscard]] PivotedSolution pivoted_solve(const Eigen::Matrix3d& A, const Eigen::Vector3d& b);
 
-/// Returns the singular values in descending order, or NaN if A is not finite.
+/// Returns the singular values of A in descending order, or NaN if A is not finite.
 [[nodiscard]] Eigen::Vector3d singular_values(const Eigen::Matrix3d& A);
 
 /// Returns the row-wise backward error of a system of equations. It is the largest ratio of |sum|
@@ -48,9 +49,9 @@ struct PivotedSolution {
 /// Source: Oettli and Prager (1964).
 [[nodiscard]] double row_backward_error(const Eigen::VectorXd& sum, const Eigen::VectorXd& terms);
 
-/// Lower limit of coordinates and forces in the terms that scale the residual of a row, relative to
-/// the largest coordinate or force. Without the limit, these terms could consist of round-off
-/// errors.
+/// Lower limit of coordinates and forces, relative to the largest coordinate or force. The limit
+/// applies in the sum of magnitudes by which the residual of a row is divided. Without the limit,
+/// this sum could consist of round-off errors.
 inline constexpr double kLeastFraction = 1e-3;
 
 }  // namespace trammel::solver

@@ -20,11 +20,13 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Number of coordinates above which Lanczos' method computes a few modes faster than the dense one.
+// Number of coordinates above which Lanczos' method computes a few modes faster than the dense
+// method.
 constexpr Index kDenseSize = 64;
 constexpr double kConvergenceTolerance =
     1e-11;  // relative change of an eigenvalue in one inverse iteration
-// Relative gap above which neighboring eigenvalues are distinct, not copies of a repeated one.
+// Relative gap above which neighboring eigenvalues are distinct, not copies of a repeated
+// eigenvalue.
 constexpr double kClusterGap = 1e-3;
 
 // K and B are symmetric. Products use their transpose, because Eigen then sums each row in
@@ -183,9 +185,9 @@ class Solver {
 
   /// Improves eigenvectors of indefinite pencils and of eigenvalues far above the first by inverse
   /// iteration with a shift t just below their eigenvalue. The round-off error of (K - s B)^-1 B is
-  /// relative to its largest |mu|. It contaminates the vector of a smaller mu by the ratio of both
-  /// values. With the shift t, the mu of the requested vector is the largest. Deflation is no
-  /// alternative, because vectors of negative mu are unknown.
+  /// relative to its largest |mu|. This error contaminates the eigenvector of a smaller mu in
+  /// proportion to the ratio of both values. With the shift t, the mu of the requested vector is
+  /// the largest. Deflation is no alternative, because vectors of negative mu are unknown.
   void iterate_beside_each() {
     constexpr double kAside = 1e-4, kWideSpread = 1e4;
     constexpr int kPasses = 4;
@@ -359,8 +361,8 @@ class Solver {
   }
 
   /// Returns true if fewer pairs were found than requested, although B has more positive
-  /// eigenvalues. The other eigenvalues are then so far from the first that its round-off error
-  /// hides them.
+  /// eigenvalues. The missing eigenvalues are then so far from the first that the round-off error
+  /// of the first hides them.
   [[nodiscard]] bool some_are_hidden() {
     constexpr double kNoMass = 1e-12;  // relative to B scaled to a unit diagonal
     if (X_.cols() >= count_ || pencil_.indefinite || !pencil_.B) return false;

@@ -22,22 +22,24 @@ struct Pencil {
   double shift = 0;                 ///< shift s, below the requested eigenvalues
   bool indefinite = false;          ///< true: B is indefinite and negative eigenvalues exist
   Operator K_times;                 ///< x -> K x, more accurate than the assembled K
-  /// Function that returns X^T K X for the columns of X, as accurate as `K_times`.
+  /// Function that returns X^T K X for the columns of X, more accurate than with the assembled K.
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> K_products;
   Operator B_times;  ///< x -> B x for a B that is not assembled
   /// Returns the number of eigenvalues below a shift, or an empty value if round-off dominates it.
   std::function<std::optional<Index>(double)> count_below;
 };
 
-/// Lowest eigenvalues above the shift s and eigenvectors, including copies of repeated eigenvalues.
+/// Lowest eigenvalues above the shift s with their eigenvectors. A repeated eigenvalue has one
+/// entry for each independent eigenvector.
 struct Eigenpairs {
   Outcome outcome;  ///< not_converged: fewer pairs than the negative pivots of K - t B require
   Eigen::VectorXd value;
   Eigen::MatrixXd vector;  ///< q x pair, x^T |B| x = 1
-  /// Estimated relative error of each eigenvalue; it is of second order in the error of the vector.
+  /// Estimated relative error of each eigenvalue; it is of second order in the error of the
+  /// eigenvector.
   Eigen::VectorXd error;
-  /// Value t above these eigenvalues and below all others, as the negative pivots of K - t B
-  /// confirm.
+  /// Value t above the computed eigenvalues and below all other eigenvalues. The number of negative
+  /// pivots of K - t B confirms this.
   double check_shift = 0;
 };
 

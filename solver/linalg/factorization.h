@@ -42,11 +42,12 @@ class SparseLdlt {
   /// Returns the smallest ratio of |pivot| to the diagonal entry of A in its row. It is near zero
   /// if A is singular.
   [[nodiscard]] double smallest_pivot_to_diagonal() const;
-  /// Returns the largest magnitude of an entry of L.
+  /// Returns the largest magnitude of an entry of the factor L.
   [[nodiscard]] double element_growth() const;
 
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) const;
-  /// Returns y = D^(-1/2) L^-1 P b and x = P^T L^-T D^(-1/2) y for a positive definite A.
+  /// Solves A x = b in two halves for a positive definite A. The first function returns y =
+  /// D^(-1/2) L^-1 P b, and the second returns x = P^T L^-T D^(-1/2) y.
   [[nodiscard]] Eigen::VectorXd apply_inverse_factor(const Eigen::VectorXd& b) const;
   [[nodiscard]] Eigen::VectorXd solve_half_transposed(const Eigen::VectorXd& y) const;
 
@@ -81,7 +82,8 @@ class Factorization {
   [[nodiscard]] bool is_reliable() const { return exists_ && ldlt_.element_growth() < 1e8; }
 
   [[nodiscard]] Eigen::VectorXd solve(const Eigen::VectorXd& b) const;
-  /// Returns y = F^-1 b and x = F^-T y with F F^T = A, for a positive definite A.
+  /// Solves A x = b in two halves for a positive definite A = F F^T. The first function returns y =
+  /// F^-1 b, and the second returns x = F^-T y.
   [[nodiscard]] Eigen::VectorXd apply_inverse_factor(const Eigen::VectorXd& b) const;
   [[nodiscard]] Eigen::VectorXd solve_half_transposed(const Eigen::VectorXd& y) const;
 
@@ -117,10 +119,11 @@ using Operator = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
 /// Solution of a linear system by iterative refinement.
 struct RefinedSolution {
   Eigen::VectorXd x;
-  /// Norm of the last correction relative to x. The remaining error is about its square over the
-  /// previous correction. x is meaningless if `correction` is near 1 or above.
+  /// Norm of the last correction of the iterative refinement, relative to x. The remaining error is
+  /// about the square of this correction, divided by the previous correction. x is meaningless if
+  /// `correction` is near 1 or above.
   double correction = 0;
-  /// Returns false if the matrix is too ill-conditioned for any correct digits.
+  /// Returns false if the matrix is so ill-conditioned that the solution has no correct digits.
   [[nodiscard]] bool converged() const { return correction < 1e-4; }
 };
 

@@ -29,7 +29,8 @@ class AugmentedSystem {
   explicit AugmentedSystem(FactoredStiffness factors);
   /// Returns false if the matrix is singular. Then `solve` must not be called.
   [[nodiscard]] bool is_nonsingular() const { return exists_; }
-  /// Returns q, refined with the residuals of both equations.
+  /// Returns the solution q of K q = f, improved by iterative refinement with the residuals of both
+  /// equations of the system.
   [[nodiscard]] RefinedSolution solve(const Eigen::VectorXd& f) const;
 
  private:

@@ -16,7 +16,7 @@ namespace trammel::solver {
 struct GyroscopicPencil {
   SparseMatrix K, C, M;
   Operator K_times;  ///< x -> K x, more accurate than the assembled K
-  /// X -> X^T K X, as accurate as `K_times`.
+  /// Function that returns X^T K X for the columns of X, more accurate than with the assembled K.
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> K_products;
 };
 

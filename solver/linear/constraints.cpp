@@ -117,7 +117,8 @@ class Elimination {
   };
   struct Entry {
     double value = 0;
-    /// Sum of the magnitudes of all added terms; separates small values from round-off.
+    /// Sum of the magnitudes of all added terms. A value that is much smaller than this sum is
+    /// treated as round-off error.
     double magnitude = 0;
   };
   using Row = std::map<Index, Entry>;

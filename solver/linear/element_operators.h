@@ -43,7 +43,8 @@ auto force_roundoff(const Matrix& B, const Rigidity& c, const Vector& u) {
   return (kEps * (B.cwiseAbs().transpose() * c.cwiseProduct(size))).eval();
 }
 
-/// Adds the values of an element to the entries of u at its coordinates, except missing ones (-1).
+/// Adds the values `local` of an element to the entries of u at the coordinates of the element.
+/// Missing coordinates (-1) are skipped.
 template <std::size_t n, class Vector, class Sum>
 void scatter(const std::array<Index, n>& coordinates, const Vector& local, Sum&& u) {
   for (std::size_t i = 0; i < n; ++i) {
@@ -211,12 +212,12 @@ class Projection {
       }
     }
   }
-  /// Adds a value to an entry of the lower triangle of the sum.
+  /// Adds a value to the entry (i, j) of the sum of matrices, with i >= j (lower triangle).
   void add(Index i, Index j, double value) {
     entries_.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
   }
 
-  /// Returns the sum with both triangles stored.
+  /// Returns the symmetric sum of matrices. Entries above and below the diagonal are stored.
   [[nodiscard]] SparseMatrix build() const {
     SparseMatrix lower(T_.cols(), T_.cols());
     lower.setFromTriplets(entries_.begin(), entries_.end());

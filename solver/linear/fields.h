@@ -8,13 +8,15 @@
 /// integral of N^T load. They are added to `load` and `f` of the system.
 namespace trammel::solver {
 
-/// Force per volume [N/m^3] at a world point [m].
+/// Function that returns the force per volume [N/m^3] at a position in world axes [m].
 using BodyForce = std::function<Vector2d(const Vector2d&)>;
 
-/// Force per area [Pa] at a world point [m] with an outward normal [-].
+/// Function that returns the force per area [Pa] on a boundary. Its arguments are the position in
+/// world axes [m] and the outward unit normal [-].
 using Traction = std::function<Vector2d(const Vector2d&, const Vector2d&)>;
 
-/// Force per length along world x, y [N/m] and moment per length [N m/m] at a world point [m].
+/// Function that returns the force per length along world x, y [N/m] and the moment per length [N
+/// m/m] at a position in world axes [m].
 using LineLoad = std::function<Vector3d(const Vector2d&)>;
 
 /// Adds a body force on all triangles.
@@ -39,7 +41,7 @@ struct MembraneFieldPoint {
   Vector3d stress = Vector3d::Zero();        ///< sxx, syy, sxy [Pa]
 };
 
-/// Plane-stress field at a world point [m].
+/// Function that returns a plane-stress field at a position in world axes [m].
 using MembraneField = std::function<MembraneFieldPoint(const Vector2d&)>;
 
 /// Relative errors of a plane-stress solution in L2 norms over the triangles [-]. The norm of the
@@ -66,7 +68,8 @@ struct BeamFieldPoint {
   double bending_moment = 0;  ///< [N m]
 };
 
-/// Beam field at a world point [m].
+/// Function that returns displacements and section forces of a beam at a position in world axes
+/// [m].
 using BeamField = std::function<BeamFieldPoint(const Vector2d&)>;
 
 /// Relative errors of a frame solution in L2 norms over the frame elements [-]. The energy error

@@ -27,24 +27,26 @@ class RowBalance {
   void add_load(const Matrix& load);
   /// Adds the forces A q on the free coordinates q.
   void add(const SparseMatrix& A, const Matrix& q);
-  /// Adds magnitudes to the scales of the rows of the unconstrained coordinates. They are the
-  /// larger values if a term was added as their difference.
+  /// Adds magnitudes of terms to the scales of the rows of the unconstrained coordinates. Use it if
+  /// an added term is a small difference of two larger values, with the magnitudes of these values.
   void add_terms(const Eigen::VectorXd& magnitudes) { terms_ += magnitudes; }
 
-  /// Returns the largest ratio of a residual to its scale over all rows of the free coordinates. It
-  /// is the smallest relative change of matrices and loads for which the states are exact.
-  /// Source: Oettli and Prager (1964).
+  /// Returns the largest ratio of a residual to its scale over all rows of the free coordinates.
+  /// The states would be exact solutions if matrices and loads were changed by at most this
+  /// fraction. Source: Oettli and Prager (1964).
   [[nodiscard]] double backward_error() const;
   /// Returns the norm of the residuals of the first state over the norm of the load, in the free
   /// coordinates. A residual counts at least with the round-off error of its terms. The diagonal
   /// stiffness scales forces and moments to make them comparable.
   [[nodiscard]] double residual_over_load() const;
 
-  /// Returns the scales of the rows of the unconstrained coordinates.
+  /// Returns the scale of each row of the unconstrained coordinates: the sum of the magnitudes of
+  /// its terms [N, N m].
   [[nodiscard]] const Eigen::MatrixXd& terms() const { return terms_; }
 
  private:
-  /// Returns the magnitudes of u, each at least `kLeastFraction` of the largest of its column.
+  /// Returns the magnitudes of the entries of u, increased to at least `kLeastFraction` of the
+  /// largest magnitude in the same column.
   [[nodiscard]] Eigen::MatrixXd bounded_magnitudes(const Matrix& u) const;
   [[nodiscard]] Matrix rows() const;
   [[nodiscard]] Eigen::MatrixXd row_term_magnitudes() const;

@@ -50,21 +50,22 @@ struct StaticState {
 /// no negative pivot (Sylvester). Functions that fail set the outcome of the state.
 class StiffenedEquilibrium {
  public:
-  /// Returns the internal forces of a state q, from q and the internal forces that define the K_G
-  /// with which q was computed.
+  /// Function that returns the internal forces of a state q. Its arguments are q and the internal
+  /// forces that define the K_G with which q was computed.
   using Forces = std::function<Prestress(const Eigen::VectorXd&, const Prestress*)>;
 
   StiffenedEquilibrium(const System& system, Counters& counters,
                        const SparseMatrix* softening = nullptr);
 
-  /// Solves for q with K_G of the internal forces in `state`, or without K_G if these are empty.
-  /// Returns false on failure.
+  /// Solves for q with the K_G of the internal forces in `state`, or without K_G if `state` has no
+  /// internal forces. Returns false on failure.
   bool solve(const Eigen::VectorXd& f, StaticState& state);
   /// Solves for q and updates its internal forces until both converge, starting from a nearby
   /// state.
   void iterate(const Eigen::VectorXd& f, const Forces& forces, StaticState& state);
 
-  /// Returns StaticState::error of the state that was solved last.
+  /// Returns the bound of the relative error of the displacements (StaticState::error) for the
+  /// state that was solved last.
   [[nodiscard]] double error(const StaticState& state) const;
   /// Returns A + K_G of the last equation that was solved.
   [[nodiscard]] const SparseMatrix& added_stiffness() const { return added_; }

@@ -7,7 +7,7 @@ namespace trammel::solver {
 
 /// Checks the requirements of `assemble`: valid indices, finite positions, positive lengths, areas
 /// and stiffnesses.
-/// @throws ModelError  with one sentence that names the part and the problem.
+/// @throws ModelError  with one sentence that names the object of the model and the problem.
 void validate(const Model& model);
 
 // Removal of inactive physical effects, such as gravity, from a model before its assembly.

@@ -72,9 +72,11 @@ struct ElastodynamicsSolution {
   /// coordinates.
   std::vector<StaticSolution> state;
   Eigen::MatrixX2d deflection;  ///< elastic displacement of P, world axes [m]
-  /// Deflection of P without elastic inertia and damping, K q = F + f [m]; NaN if K is singular.
+  /// Deflection of the platform point P without elastic inertia and damping, K q = F + f [m]; NaN
+  /// if K is singular.
   Eigen::MatrixX2d quasi_static_deflection;
-  /// Deflections of P along the nominal velocity and to the left of it [m]; NaN at zero velocity.
+  /// Deflections of the platform point P along its nominal velocity and to the left of it [m]; NaN
+  /// at zero velocity.
   Eigen::VectorXd tangential_error, normal_error;
   Eigen::VectorXd platform_rotation;  ///< mean elastic rotation of the triangle C1 C2 C3 [rad]
   Eigen::MatrixX3d torque;            ///< torques of the actuators on the proximal links [N m]

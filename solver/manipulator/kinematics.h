@@ -66,9 +66,9 @@ struct Posture {
   std::array<Vector2d, 3> B, C;
   std::array<double, 3> active{};   ///< theta_ai: absolute angle of A_i B_i, in (-pi, pi] [rad]
   std::array<double, 3> passive{};  ///< absolute angle of B_i C_i, in (-pi, pi] [rad]
-  /// Sine of the elbow angle, passive - active [-]. It is computed from the sides of the triangle
-  /// A_i B_i C_i by Heron's formula with Kahan's order of the factors. It is therefore accurate
-  /// even if the limb is nearly straight or folded.
+  /// Sine of the elbow angle [-], which is the angle of B_i C_i minus the angle of A_i B_i. It is
+  /// computed from the sides of the triangle A_i B_i C_i by Heron's formula with Kahan's order of
+  /// the factors. It is therefore accurate even if the limb is nearly straight or folded.
   std::array<double, 3> elbow_sine{};
   double closure_error = 0;  ///< largest error of a distal length, | |C_i - B_i| - distal_i | [m]
 };

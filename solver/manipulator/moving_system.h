@@ -133,7 +133,8 @@ class MovingSystem {
   std::vector<LinkSuperelement> links_;
   std::vector<MovingElement> elements_;
   std::vector<Contribution> contributions_;
-  // Index of the first contribution of each element, then the number of contributions.
+  // Index in `contributions_` of the first contribution of each element. The last entry is the
+  // number of all contributions.
   std::vector<std::size_t> first_contribution_;
   std::vector<Span> span_;  // position of each mesh node on its member
   SparseMatrix K_, M_, C_gyroscopic_, K_centrifugal_euler_, K_T_dot_, M_T_dot_;

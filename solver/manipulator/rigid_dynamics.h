@@ -109,7 +109,8 @@ struct RigidTerms {
   Matrix9d C = M;  ///< sum of J^T diag(inertia) J., so that M. - 2 C is skew-symmetric
   Vector9d N = q;  ///< gravity, dV/dq of the potential energy V [N, N m]
   Matrix93d W = Matrix93d::Constant(kNaN), W_dot = W;
-  /// Mh is symmetric positive definite, and Mh. - 2 Ch is skew-symmetric.
+  /// Matrices of the reduced equation of motion. The mass matrix Mh is symmetric positive definite,
+  /// and Mh. - 2 Ch is skew-symmetric.
   Matrix3d Mh = Matrix3d::Constant(kNaN), Ch = Mh;
   Vector3d Nh = Vector3d::Constant(kNaN);
   std::array<BodyTerms, 7> bodies;  ///< proximal 1-3, distal 1-3, platform
