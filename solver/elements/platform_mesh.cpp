@@ -48,7 +48,8 @@ TriangleMesh split(TriangleMesh mesh) {
   return fine;
 }
 
-/// Degree-5 rule with seven points on a triangle (Radon 1948): barycentric coordinates and weight.
+/// Point of an integration rule of degree 5 with seven points on a triangle (Radon 1948):
+/// barycentric coordinates and weight.
 struct RulePoint {
   Vector3d barycentric;
   double weight;
@@ -96,8 +97,8 @@ void integrate_near(const Corners& t, const Vector2d& x0, double radius, const V
   }
 }
 
-/// Integrals for the weight of each node i of a pin: int N_i phi (1, xi, eta) dA with (xi, eta) =
-/// (x - x0) / radius (platform_mesh.h).
+/// Integrals from which the weight of each mesh node i within a pin follows: int N_i phi (1, xi,
+/// eta) dA with (xi, eta) = (x - x0) / radius (platform_mesh.h).
 using Shares = std::unordered_map<Index, Vector3d>;
 
 void add_shares(const TriangleMesh& mesh, const TriangleMesh::Nodes& nodes, const Vector2d& x0,

@@ -127,8 +127,8 @@ const Eigen::ArrayXd& ExcessDistances::compute(const Eigen::Ref<const Eigen::Vec
     near += (m - s) * ((x - s) + (x - m));
   }
   if (skip) near = skip->segment(first_, near.size()).select(kInfinity, near);
-  // Round-off may have selected the second nearest sample. Subtract the minimum, so that no excess
-  // is negative.
+  // Round-off may have selected the second nearest sample as the nearest one. Subtract the minimum,
+  // so that no difference of squared distances is negative.
   near -= near.minCoeff();
   return excess_;
 }

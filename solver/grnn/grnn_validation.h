@@ -49,7 +49,7 @@ enum class Split {
                                                      const Eigen::VectorXd& sigmas,
                                                      const CrossValidation& validation);
 
-/// Result of a search for sigma.
+/// Result of a search for the smoothing parameter sigma.
 struct SigmaSearch {
   double sigma = 0;        ///< sigma with the least error [-]
   double error = 0;        ///< cross-validation error of this sigma [-]
@@ -59,16 +59,17 @@ struct SigmaSearch {
   Index evaluations = 0;       ///< total number of sigmas evaluated
 };
 
-/// Returns `count` sigmas with equal spacing of their logarithms.
+/// Returns `count` numbers between `from` and `to` whose logarithms have equal distances.
 [[nodiscard]] Eigen::VectorXd logarithmic_grid(double from, double to, Index count);
-/// Returns a grid of sigmas from a tenth of the median nearest-neighbor distance to the extent of
-/// all samples.
+/// Returns trial values of the smoothing parameter sigma, from a tenth of the median
+/// nearest-neighbor distance to the extent of all samples.
 [[nodiscard]] Eigen::VectorXd default_sigma_grid(const Grnn& network, Index count = 41);
 
-/// Searches the sigma with the least cross-validation error. A grid search as in Varalakshmi &
-/// Srinivas (2017) is followed by Brent's method in log sigma between the neighbors of the best
-/// grid point. If errors are equal on the grid, the smaller sigma is selected. The result has the
-/// least error of all evaluations. It may be a local minimum if there are several minima.
+/// Searches the smoothing parameter sigma with the least cross-validation error. A grid search as
+/// in Varalakshmi & Srinivas (2017) is followed by Brent's method in log sigma between the
+/// neighbors of the best grid point. If errors are equal on the grid, the smaller sigma is
+/// selected. The result has the least error of all evaluations. It may be a local minimum if there
+/// are several minima.
 /// @throws ModelError  if the grid does not ascend from a positive number, or for the reasons of
 ///   `fold_of_samples`.
 [[nodiscard]] SigmaSearch search_sigma(const Grnn& network, const Eigen::VectorXd& grid,

@@ -51,7 +51,8 @@ BeamInterpolation make_interpolation() {
   return s;
 }
 
-/// Strains at a Gauss point. The unit vectors e1 and e2 are normal and parallel to the section.
+/// Strains (stretch and shear) at a Gauss point. The unit vector e1 is normal to the cross section,
+/// and e2 is parallel to it.
 struct Strain {
   Vector2d e1, e2;
   double stretch = 0, shear = 0;

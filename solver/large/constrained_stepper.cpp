@@ -122,8 +122,8 @@ class StepConvergence {
   [[nodiscard]] bool converged(double acceleration, double velocity, double position,
                                double limit) const {
     const double next = next_of(step_correction_, previous_step_correction_);
-    // Level at which corrections stagnate. It includes a multiple of the round-off error of the
-    // positions, which corrections amplify near a singular position.
+    // Norm of the corrections at which they stagnate because of round-off. It includes a multiple
+    // of the round-off error of the positions, which corrections amplify near a singular position.
     const double least = 1e-11 * (velocity + acceleration) + 1e-13 * position;
     const bool motion_met = next <= limit || step_correction_ <= 1e-16 * velocity ||
                             (stalled() && step_correction_ <= least);

@@ -91,8 +91,8 @@ struct SlidingJoint : Joint<5, 1> {
   }
 };
 
-/// Coordinate u whose displacement relative to another coordinate u0 or the ground is a given
-/// function of time, u - u0 - law(t) = 0. The coordinates are u, u0.
+/// Joint that prescribes the displacement of a coordinate u relative to another coordinate u0 or
+/// the ground as a function of time: u - u0 - law(t) = 0. The coordinates are u, u0.
 struct DrivenCoordinate : Joint<2, 1> {
   TimeFunction law;
 
@@ -206,7 +206,7 @@ struct PointInertia : ElementSizes<1, 0> {
 struct FollowerForce : ElementSizes<3, 0> {
   Vector3d force = Vector3d::Zero();  ///< force and moment in the pose of the model
 
-  /// Returns the rotated force and the moment for a load factor of 1.
+  /// Returns the force, rotated with its node, and the moment for a load factor of 1.
   [[nodiscard]] Coordinates load(const Coordinates& q) const {
     Coordinates f = force;
     f.head<2>() = rotated(force.head<2>(), q[2]);

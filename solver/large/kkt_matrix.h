@@ -81,7 +81,7 @@ class KktMatrix {
         penalty.cwiseQuotient(E);
   }
 
-  /// Adds a value to the diagonal of a coordinate.
+  /// Adds a value to the diagonal entry of a coordinate.
   void add_diagonal(Index coordinate, double value);
 
   /// Factors the matrix by LDL^T, or by LU if it is not symmetric or a pivot vanishes. @return
@@ -96,7 +96,8 @@ class KktMatrix {
   /// lambda if the matrix was assembled without penalties.
   [[nodiscard]] Extended multiply(const Extended& x) const;
 
-  /// Returns G scaled by the units of the rows and of the coordinates: G_rk scale_k / row_unit_r.
+  /// Returns the constraint gradient G scaled by the units of its rows and of the coordinates: G_rk
+  /// scale_k / row_unit_r.
   /// @pre The matrix was assembled without penalties.
   [[nodiscard]] Eigen::MatrixXd constraint_gradient(const VectorXd& scale,
                                                     const VectorXd& row_units) const;

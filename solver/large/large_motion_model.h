@@ -80,7 +80,7 @@ struct LargeMotionModel {
   double strain_rate_damping = 0;  ///< stress from strain + strain_rate_damping * strain rate [s]
 };
 
-/// Checks indices and numbers.
+/// Checks the node indices and the numbers of drives, loads and joints.
 /// @throws ModelError  if a part refers to a node that does not exist, or its numbers are invalid.
 void validate(const LargeMotionModel& large_motion, const Model& model);
 

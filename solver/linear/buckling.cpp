@@ -37,8 +37,9 @@ FirstFactor bracket_first_factor(const SparseMatrix& K, const SparseMatrix& B,
   double least = largest;
   for (const double size : scaled.coeffs())
     if (size > kRoundoff * largest) least = std::min(least, size);
-  // Largest factor t to check. Then t B exceeds each affected entry of K a thousandfold, unless an
-  // entry of t B would exceed 1e10. The stiffness of unloaded parts then loses at most ten digits.
+  // Largest load factor t to check. The nonzero entries of t B then exceed those of K at least a
+  // thousandfold, unless the largest would exceed 1e10. The stiffness of unloaded parts then loses
+  // at most ten digits.
   const double farthest = std::min(1e3 / least, 1e10 / largest);
   double counted = 0;
   const auto has_factor_below = [&](double t) -> std::optional<bool> {

@@ -25,8 +25,8 @@ constexpr double kShift = 1e-12;  // shift of K, relative to its diagonal
 /// A pivot below this limit starts the search for zero-energy modes. Pivots of a mechanism are
 /// round-off errors, up to 1.2e-9 for 1152 coordinates if all errors have the same sign.
 constexpr double kSmallPivot = 1e-8;
-// (45 eps)^2, relative to `strain_energy_roundoff_scale`; smaller strain energies are round-off
-// errors.
+// Strain energy, relative to `strain_energy_roundoff_scale`, below which a motion counts as a
+// zero-energy mode. The value is (45 eps)^2.
 constexpr double kDeformation = 1e-28;
 constexpr Index kMaxModes = 48;
 

@@ -100,7 +100,8 @@ double RowBalance<Scalar>::residual_over_load() const {
   const VectorXd scale = system_.K.diagonal().cwiseAbs().unaryExpr(
       [](double k) { return k > 0 ? 1 / std::sqrt(k) : 0; });
   const VectorXd load = system_.T.cwiseAbs().transpose() * system_.load.cwiseAbs();
-  // Use at least the round-off error, because errors cancel at some orientations of the model only.
+  // Increase each residual to at least its round-off error, because round-off errors cancel at some
+  // orientations of the model. The result would otherwise depend on the orientation.
   const VectorXd residual = rows().col(0).cwiseAbs().cwiseMax(kEps * row_term_magnitudes().col(0));
   const double size = scale.cwiseProduct(residual).norm();
   return size == 0 ? 0 : size / scale.cwiseProduct(load).norm();

@@ -33,7 +33,8 @@ class RowBalance {
 
   /// Returns the largest ratio of a residual to its scale over all rows of the free coordinates.
   /// The states would be exact solutions if matrices and loads were changed by at most this
-  /// fraction. Source: Oettli and Prager (1964).
+  /// fraction.
+  /// Source: Oettli and Prager (1964).
   [[nodiscard]] double backward_error() const;
   /// Returns the norm of the residuals of the first state over the norm of the load, in the free
   /// coordinates. A residual counts at least with the round-off error of its terms. The diagonal

@@ -67,9 +67,11 @@ class StiffenedEquilibrium {
   /// Returns the bound of the relative error of the displacements (StaticState::error) for the
   /// state that was solved last.
   [[nodiscard]] double error(const StaticState& state) const;
-  /// Returns A + K_G of the last equation that was solved.
+  /// Returns the sum of the softening matrix A and the geometric stiffness K_G of the last equation
+  /// that was solved.
   [[nodiscard]] const SparseMatrix& added_stiffness() const { return added_; }
-  /// Returns (K + A + K_G) q [N, N m], with K q from the deformations of the elements.
+  /// Returns the restoring forces (K + A + K_G) q [N, N m]. K q is computed from the deformations
+  /// of the elements.
   [[nodiscard]] Eigen::VectorXd restoring_forces(const Eigen::VectorXd& q) const;
   [[nodiscard]] bool is_stable() const { return factorization_.smallest_pivot() > 0; }
 

@@ -29,18 +29,18 @@ struct StaticSolution {
   Prestress forces;          ///< second-order theory: internal forces of q
   double amplification = 1;  ///< factor by which the loads amplify second-order displacements [-]
   double estimated_correct_digits = 0;  ///< of the largest displacement, from StaticState::error
-  /// Model node x (ux [m], uy [m], rotation [rad]). The rotation is NaN for a node without
-  /// rotation.
+  /// Displacements of the model nodes, one row (ux [m], uy [m], rotation [rad]) per node. The
+  /// rotation is NaN for a node without rotation.
   Eigen::MatrixX3d displacement;
   Eigen::MatrixX2d end_rotation;  ///< member x (first end, second end) [rad]
-  /// Support x (Fx, Fy [N], moment [N m]), forces of the ground on the node.
+  /// Reactions (forces of the ground on the nodes), one row (Fx, Fy [N], moment [N m]) per support.
   Eigen::MatrixX3d reaction;
   Eigen::MatrixX3d resultant_start;  ///< member x (N [N], V [N], M [N m]) at its first node
   Eigen::MatrixX3d resultant_end;    ///< member x (N [N], V [N], M [N m]) at its second node
   Eigen::VectorXd member_stress;     ///< largest |N|/A + |M|/W along each member [Pa]
   Eigen::MatrixX3d triangle_stress;  ///< triangle x (sxx, syy, sxy) at its centroid [Pa]
-  /// Model node x (sxx, syy, sxy) [Pa]: area-weighted mean of the stresses at the node in its
-  /// triangles. Nodes without triangles have NaN.
+  /// Nodal stresses, one row (sxx, syy, sxy) [Pa] per model node: the area-weighted mean of the
+  /// stresses at the node in its triangles. Nodes without triangles have NaN.
   Eigen::MatrixX3d node_stress;
   double equilibrium_residual = 0;  ///< norm of the sum of reactions and loads [N]
   double moment_residual = 0;       ///< moment of this sum about the world origin [N m]
@@ -83,7 +83,8 @@ struct RecoveredForces {
   ElementForces element;
 };
 
-/// Limits of magnitude; smaller forces [N] and moments [N m] of a state are round-off errors.
+/// Limits of the magnitudes of forces [N] and moments [N m] of a state. Smaller values are
+/// round-off errors.
 struct ForceRoundoff {
   double force = 0, moment = 0;
 };

@@ -43,11 +43,12 @@ struct System {
 /// @throws ModelError  if the model is invalid.
 [[nodiscard]] System assemble(const Model& model, Effects active = Effects::all());
 
-/// Returns the node motions of free coordinates q: model node x (ux [m], uy [m], rotation [rad]).
-/// The rotation is NaN for a node without rotation.
+/// Returns the node motions of free coordinates q: one row (ux [m], uy [m], rotation [rad]) per
+/// model node. The rotation is NaN for a node without rotation.
 [[nodiscard]] Eigen::MatrixX3d node_motion(const System& system, const Eigen::VectorXd& q);
 
-/// Returns the node motions of unconstrained coordinates u.
+/// Returns the node motions of unconstrained coordinates u: one row (ux [m], uy [m], rotation
+/// [rad]) per model node.
 [[nodiscard]] Eigen::MatrixX3d node_motion_from_unconstrained(const System& system,
                                                               const Eigen::VectorXd& u);
 
@@ -62,7 +63,8 @@ struct System {
   return scale;
 }
 
-/// Returns the matrix that maps the free coordinates q to u in units of length.
+/// Returns the matrix that maps the free coordinates q to the unconstrained coordinates u in units
+/// of length (rotations times the model size).
 [[nodiscard]] inline SparseMatrix free_to_length_matrix(const System& system) {
   return length_scales(system).asDiagonal() * system.T;
 }

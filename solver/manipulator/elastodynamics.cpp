@@ -281,7 +281,8 @@ class MotionSolver {
     solution_.nominal.push_back(follower_.point());
     solution_.nominal.back().time = sample.time;
     solution_.energy.push_back(sample.energy);
-    // Skip the balance when a load starts or jumps: massless coordinates do not follow it at once.
+    // Exclude samples at which a load starts or jumps from the balance of forces, because massless
+    // coordinates do not follow a jump at once.
     const std::vector<double>& jumps = options_.load_history.time;
     const bool jumps_here = std::ranges::find(jumps, sample.time) != jumps.end();
     const bool begins =

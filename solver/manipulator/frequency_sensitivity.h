@@ -95,13 +95,14 @@ struct FrequencySensitivity {
   Outcome outcome;
   Evidence evidence;          ///< residuals of the modes
   Eigen::VectorXd frequency;  ///< ascending [Hz]
-  /// Derivatives, mode x parameter [Hz / unit of the parameter]. For a set of repeated frequencies
-  /// they are directional derivatives: the eigenvalues of X^T (dK/dp - w^2 dM/dp) X over the set,
-  /// ascending. This is the order of the frequencies if p increases. Rigid modes have derivative 0.
+  /// Derivatives of the frequencies, one row per mode and one column per parameter [Hz / unit of
+  /// the parameter]. For a set of repeated frequencies they are directional derivatives: the
+  /// eigenvalues of X^T (dK/dp - w^2 dM/dp) X over the set, ascending. This is the order of the
+  /// frequencies if p increases. Rigid modes have derivative 0.
   Eigen::MatrixXd derivative;
   std::vector<FrequencySet> sets;
-  /// Difference of each frequency from the nearest frequency outside its set, over the frequency
-  /// [-]. A small difference g costs about -log10(g) digits of the derivative.
+  /// Relative gap of each frequency [-]: its difference from the nearest frequency outside its set,
+  /// divided by the frequency. A small gap g costs about -log10(g) digits of the derivative.
   Eigen::VectorXd gap;
   Counters counters;
 };

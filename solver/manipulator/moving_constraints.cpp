@@ -10,9 +10,11 @@ using Eigen::MatrixXd;
 
 namespace {
 
-/// Limit of the entries of T. Larger entries amplify round-off by four digits.
+/// Limit of the magnitudes of the entries of the matrix T in u = T q. Larger entries amplify
+/// round-off by four digits.
 constexpr double kLargestT = 1e4;
-/// Fraction of the largest entry of a row of T below which an entry is a round-off error.
+/// Fraction of the largest entry in a row of the matrix T (u = T q) below which an entry is a
+/// round-off error.
 constexpr double kVanishing = 1e-11;
 
 /// Returns the motion of the member or rigid body whose rotation changes the coefficients of a
@@ -63,7 +65,7 @@ MovingConstraints::MovingConstraints(const System& start, const NominalMotion& m
   extend_pattern(start, motion);
 }
 
-/// Selects the constraint rows from which T is computed.
+/// Selects the constraint rows from which the matrix T in u = T q is computed.
 void MovingConstraints::find_eliminating_rows() {
   dependent_row_of_.assign(to_size(constraints_.T.rows()), -1);
   for (std::size_t r = 0; r < constraints_.rows.size(); ++r) {
@@ -86,10 +88,10 @@ void MovingConstraints::find_eliminating_rows() {
   select_dependent_ = columns(dependent_row_of_, std::ssize(dependent_rows_));
 }
 
-/// Extends the sparsity pattern of T by all entries that are nonzero at any pose. They are found
-/// numerically at three arbitrary rotations of members and bodies. The pattern of C alone would
-/// lead to more entries. Each node of an inextensible member would then depend on all preceding
-/// nodes, whose contributions cancel.
+/// Extends the sparsity pattern of the matrix T in u = T q by all entries that are nonzero at any
+/// pose. The entries are found numerically at three arbitrary rotations of members and bodies. The
+/// pattern of C alone would lead to more entries. Each node of an inextensible member would then
+/// depend on all preceding nodes, whose contributions cancel.
 void MovingConstraints::extend_pattern(const System& start, const NominalMotion& motion) {
   auto& T = constraints_.T;
   Eigen::ArrayXX<bool> needed(static_cast<Index>(dependent_rows_.size()), T.cols());

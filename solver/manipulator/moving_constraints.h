@@ -19,15 +19,15 @@ namespace trammel::solver {
 /// f).
 class MovingConstraints {
  public:
-  /// Finds the sparsity pattern of T. `start` is the system at the pose at which it was built, and
-  /// `motion` the nominal motion at this pose. Time derivatives of T are computed if `derivatives`
-  /// is true.
+  /// Finds the sparsity pattern of the matrix T in u = T q. `start` is the system at the pose at
+  /// which it was built, and `motion` the nominal motion at this pose. Time derivatives of T are
+  /// computed if `derivatives` is true.
   MovingConstraints(const System& start, const NominalMotion& motion, bool derivatives);
 
-  /// Computes T for the nominal motion `to`. T is kept if all parts have the same motion in `from`,
-  /// the nominal motion of the present T. The outcome is singular if the constraints do not
-  /// determine the eliminated coordinates at the pose of `to`. T is then also kept. `start` is the
-  /// system at the pose at which it was built.
+  /// Computes the matrix T in u = T q for the nominal motion `to`. `from` is the nominal motion for
+  /// which T was computed last. T is kept if all members and bodies have the same motion in both.
+  /// The outcome is singular if the constraints do not determine the eliminated coordinates at the
+  /// pose of `to`. T is then also kept. `start` is the system at the pose at which it was built.
   [[nodiscard]] Outcome move(const System& start, const NominalMotion& from,
                              const NominalMotion& to);
 
@@ -35,7 +35,8 @@ class MovingConstraints {
   /// pose.
   [[nodiscard]] const Constraints& constraints() const { return constraints_; }
   [[nodiscard]] const RowMajorMatrix& T() const { return constraints_.T; }
-  /// First and second time derivative of T; empty if T is the same at every pose.
+  /// Return the first and second time derivatives of the matrix T in u = T q. They are empty if T
+  /// is the same at every pose.
   [[nodiscard]] const RowMajorMatrix& T_dot() const { return T_dot_; }
   [[nodiscard]] const RowMajorMatrix& T_ddot() const { return T_ddot_; }
   [[nodiscard]] bool is_pose_dependent() const {

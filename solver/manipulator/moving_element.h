@@ -26,7 +26,8 @@ struct PartMotion {
 
 /// Nominal motion: every member, plate and rigid body of a model moves as a rigid part.
 struct NominalMotion {
-  /// Position, velocity and acceleration, model node x (x, y) [m], [m/s], [m/s^2].
+  /// Positions, velocities and accelerations of the model nodes, one row (x, y) per node [m],
+  /// [m/s], [m/s^2].
   std::array<Eigen::MatrixX2d, 3> node;
   std::vector<PartMotion> part;         ///< members, then plates, then rigid bodies
   Vector2d gravity = Vector2d::Zero();  ///< [m/s^2]

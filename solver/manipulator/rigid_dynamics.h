@@ -86,7 +86,8 @@ template <Real T>
 [[nodiscard]] Eigen::Matrix<T, 9, 3> actuator_to_joint_jacobian(const RigidManipulator& m,
                                                                 const Vector9<T>& q);
 
-/// Returns q. = W theta_a. from the motion of the platform (xdot, ydot [m/s], phidot [rad/s]).
+/// Returns the velocities q. = W theta_a. of the nine coordinates from the velocity of the platform
+/// (xdot, ydot [m/s], phidot [rad/s]).
 template <Real T>
 [[nodiscard]] Vector9<T> velocities(const RigidManipulator& m, const Vector9<T>& q,
                                     const Eigen::Matrix<T, 3, 1>& platform);

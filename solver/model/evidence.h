@@ -7,7 +7,7 @@
 
 namespace trammel::solver {
 
-/// Result of a computation. A numerical outcome is a value, never an exception.
+/// Status of a computation. Numerical failures are reported by this value, never by an exception.
 enum class Status { solved, singular, not_converged };
 
 /// Status of a computation with its reason.
@@ -45,7 +45,7 @@ inline constexpr std::array kResiduals = {Residual::equilibrium,
 struct ResidualRule {
   const char* name;  ///< name in results and messages
   double limit;      ///< a solution with a larger residual does not count as solved
-  /// Error term that the limit bounds.
+  /// Description of the error term on which the limit of the residual is based.
   const char* why;
 };
 /// Returns the name and the limit of a type of residual.
@@ -61,7 +61,7 @@ class Evidence {
  public:
   /// Records a residual. NaN and negative values count as infinite.
   void add(Residual kind, double value);
-  /// Records the largest residuals of other evidence.
+  /// Records the largest residual of each type in another `Evidence` object.
   void add(const Evidence& other);
   [[nodiscard]] bool has(Residual kind) const { return taken_[index(kind)]; }
   /// Returns the largest residual of a type.

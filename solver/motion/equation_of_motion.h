@@ -56,7 +56,7 @@ class EquationMatrices {
   [[nodiscard]] const SparseMatrix& M() const { return M_; }
   [[nodiscard]] const SparseMatrix& C() const { return C_; }
   [[nodiscard]] const SparseMatrix& K() const { return K_; }
-  /// Returns the norm of a matrix: the largest column sum of magnitudes.
+  /// Returns the norm of the matrix M, C or K: the largest column sum of magnitudes.
   [[nodiscard]] double norm_M() const { return norm_M_; }
   [[nodiscard]] double norm_C() const { return norm_C_; }
   [[nodiscard]] double norm_K() const { return norm_K_; }
@@ -77,12 +77,13 @@ struct TimeInterval {
   double share = 0;
   double length = 1;  ///< [s]
 };
-/// Finds the interval that contains a time.
+/// Finds the interval between two entries of `times`, or the range before or after them, that
+/// contains the time t.
 /// @param times  ascending [s].
 /// @param t  time [s].
 [[nodiscard]] TimeInterval find_interval(const std::vector<double>& times, double t);
 
-/// Factor on loads as a function of time. The default is 1.
+/// Factor on loads as a function of time. The default factor is 1 at all times.
 struct LoadHistory {
   std::vector<double> time{0.0};    ///< [s]
   std::vector<double> factor{1.0};  ///< one for each time [-]
@@ -90,7 +91,7 @@ struct LoadHistory {
   [[nodiscard]] bool constant() const { return time.size() == 1; }
   /// Returns the times of jumps of the factor or its slope [s].
   [[nodiscard]] std::vector<double> breakpoint_times() const;
-  /// Returns the factor at a time [-].
+  /// Returns the load factor at time t [-].
   [[nodiscard]] double at(double t) const;
   /// Returns the time [s] at which loads are evaluated for the end `t` of a step. If the factor
   /// jumps at `t`, this time is just before `t`.
@@ -103,11 +104,11 @@ struct PiecewiseLinearLoad {
   std::vector<double> time;  ///< ascending [s]
   Eigen::MatrixXd factor;    ///< load x time [-]
 
-  /// Writes the load at a time.
+  /// Writes the load vector at time t to `f`.
   void at(double t, Eigen::VectorXd& f) const;
   /// Sets this load as the load of an equation, and adds its times to the breakpoints.
   void apply_to(EquationOfMotion& equation) const;
-  /// Checks the sizes and times.
+  /// Checks the sizes of `pattern`, `time` and `factor`, and the order of the times.
   /// @throws ModelError  if the sizes differ or the times descend.
   void check() const;
 };

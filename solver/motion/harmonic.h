@@ -40,7 +40,8 @@ class HarmonicSolver {
   /// @throws ModelError  if a ratio is negative or infinite, or there are fewer modes than ratios.
   HarmonicSolver(const System& system, const HarmonicDamping& damping);
 
-  /// Returns the outcome. singular: the model is a mechanism; not_converged: modes were not found.
+  /// Returns the outcome of the computation of the modes. singular: the model is a mechanism;
+  /// not_converged: modes were not found.
   [[nodiscard]] const Outcome& outcome() const { return outcome_; }
   /// Returns the natural frequencies of the modes with a modal damping ratio, in the order of
   /// `HarmonicDamping::modal_ratio` [Hz].

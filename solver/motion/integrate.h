@@ -29,9 +29,10 @@ struct ErrorControl {
 struct TransientOptions {
   double start = 0;  ///< [s]
   double end = 0;    ///< > start [s]
-  /// Step [s]. With error control it is the largest step of a linear system and the first step of a
-  /// geometrically exact system. It is shortened so that the time between two stops is a multiple
-  /// of the step. Stops are breakpoints and, for geometrically exact systems, sample times.
+  /// Size of the time steps [s]. With error control it is the largest step of a linear system and
+  /// the first step of a geometrically exact system. The size is reduced so that the time between
+  /// two stops is a multiple of the step. Stops are breakpoints and, for geometrically exact
+  /// systems, sample times.
   double step = 0;
   TimeScheme scheme = average_acceleration();
   std::optional<ErrorControl> adaptive;  ///< empty: fixed steps
@@ -42,7 +43,8 @@ struct TransientOptions {
   bool quasi_static_start = false;
   Eigen::VectorXd q0, v0;  ///< empty: zero
 
-  // Breakpoints and multiples of steps of geometrically exact systems, and a limit for all systems.
+  // Options of geometrically exact systems (`breakpoints`, `steps_in_multiples_of`), and the limit
+  // `max_steps` for all systems.
   std::vector<double> breakpoints;  ///< ascending; a step ends at each of them [s]
   int steps_in_multiples_of = 1;    ///< divides the number of steps between stops; fixed steps only
   std::int64_t max_steps = 100'000'000;  ///< limit of the number of steps, with rejected ones
@@ -79,7 +81,7 @@ struct Step {
   bool last = false;  ///< the step ends at a stop
 };
 
-/// Result of an attempted step.
+/// Result of an attempted time step.
 struct StepReport {
   Status status = Status::not_converged;
   int iterations = 0;
@@ -89,19 +91,20 @@ struct StepReport {
   bool leaves_branch = false;  ///< the mechanism changes its assembly mode within the step
 };
 
-/// Interface of equations with a time scheme. Computes single steps from the last accepted state.
+/// Interface of a system of equations with a time scheme. It computes single time steps, each from
+/// the last accepted state.
 class Stepper {
  public:
   Stepper() = default;
   Stepper& operator=(Stepper&&) = delete;  // steppers are neither moved nor copied
   virtual ~Stepper() = default;
 
-  /// Prepares the steps until the next stop.
+  /// Prepares the time steps until the next stop of the integration (breakpoint or sample time).
   [[nodiscard]] virtual Outcome begin(const Step& /*first*/, double /*stop*/) { return {}; }
   /// Attempts a step. The result is pending until it is accepted.
   [[nodiscard]] virtual StepReport attempt(const Step& step) = 0;
-  /// Accepts the last attempted step. With `inspect`, the equation of motion is also checked.
-  /// `evidence` receives residuals.
+  /// Accepts the last attempted step. If `inspect` is true, the equation of motion is also checked.
+  /// The residuals are added to `evidence`.
   virtual void accept(const Step& step, bool inspect, Evidence& evidence) = 0;
   /// Prepares for discontinuous accelerations after a breakpoint.
   virtual void restart() {}
@@ -111,7 +114,7 @@ class Stepper {
   [[nodiscard]] virtual std::string describe(const StepReport& report) const = 0;
 };
 
-/// Selection of step sizes.
+/// Method by which the sizes of time steps are selected.
 enum class StepSizes {
   halved,  ///< largest step / 2^level, so that constant matrices need one factorization per level
   free     ///< according to the error; smaller and larger steps if a step does not converge

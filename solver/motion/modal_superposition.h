@@ -27,14 +27,15 @@ struct ModalBasis {
 /// @throws ModelError  if the model has no mass.
 [[nodiscard]] ModalBasis all_modes(const SparseMatrix& M, const SparseMatrix& K);
 
-/// Response at ascending times: one row per coordinate, one column per time.
+/// Displacements, velocities and accelerations at ascending times: one row per coordinate, one
+/// column per time.
 struct ModalResponse {
   Eigen::MatrixXd q, v, a;  ///< [SI], [SI/s], [SI/s^2]; a is the value after a jump of the load
 };
 
-/// Superposes modal responses at ascending times [s]. `decay` is ratio * omega of each mode [1/s]
-/// (`decay_rates`); a mode is overdamped above omega. q0 and v0 are the displacements and
-/// velocities at times.front(), which are projected on the modes; empty: zero.
+/// Superposes modal responses at ascending times [s]. `decay` is damping ratio * omega of each mode
+/// [1/s] (`decay_rates`). A mode is overdamped if its decay exceeds omega. q0 and v0 are the
+/// displacements and velocities at times.front(), which are projected on the modes; empty: zero.
 [[nodiscard]] ModalResponse superpose(const ModalBasis& basis, const Eigen::VectorXd& decay,
                                       const SparseMatrix& M, const PiecewiseLinearLoad& load,
                                       const std::vector<double>& times, const Eigen::VectorXd& q0,
@@ -88,7 +89,7 @@ struct ImpulseResponse {
 /// and c = `decay` = ratio * w [1/s].
 [[nodiscard]] ImpulseResponse impulse_response(double omega, double decay, double t);
 
-/// State of an oscillator.
+/// Displacement and velocity of an oscillator with one degree of freedom.
 struct OscillatorState {
   double y = 0;  ///< [SI]
   double v = 0;  ///< y' [SI/s]

@@ -35,12 +35,14 @@ class MotionEvidence {
   explicit MotionEvidence(const EquationOfMotion& equation, const TimeScheme& scheme = {});
 
   /// Adds the largest residual |M A + C v + K q - f| of a row, relative to its terms. The load f is
-  /// that at `load_time`, and the matrices are those at `time`. Each coordinate counts in the terms
-  /// with at least `kLeastFraction` of the largest, after scaling by the diagonal of M + step^2 K.
-  /// Otherwise, rows whose motions are only round-off errors would have no scale.
+  /// that at `load_time`, and the matrices are those at `time`. In these terms, each coordinate
+  /// counts with at least `kLeastFraction` of the largest coordinate. For this comparison,
+  /// coordinates are scaled by the diagonal of M + step^2 K. Otherwise, rows whose motions are only
+  /// round-off errors would have no scale.
   void add_equilibrium(double time, double load_time, const Eigen::VectorXd& q,
                        const Eigen::VectorXd& v, const Eigen::VectorXd& A, double step);
-  /// Adds the residuals of the relations of the scheme between q, v, a and A in a step of size h.
+  /// Adds the residuals of the relations between q, v, a and A by which the time scheme is defined
+  /// (time_scheme.h), in a step of size h.
   void add_scheme_residual(const TransientState& from, const TransientState& to, double h);
   /// Adds the residual of the energy balance in a step of size h between two states.
   void add_energy_balance(const TransientState& from, const TransientState& to, double h);

@@ -37,8 +37,8 @@ struct TimeScheme {
   /// Returns the change of q / h^2 per unit change of the acceleration a1 at the end of a step.
   [[nodiscard]] double position_gain() const { return beta * acceleration_gain(); }
   /// Returns the constant c of the local error c h^2 (A1 - A0) of a position (Zienkiewicz & Xie
-  /// 1991). The error of v remains even if this error is zero. The result is therefore at least
-  /// 1/12.
+  /// 1991). The error of the velocity remains even if the error of the position is zero. The result
+  /// is therefore at least 1/12.
   [[nodiscard]] double error_constant() const {
     return std::max(1.0 / 12, std::abs(beta + (alpha_m - alpha_f) / 2 - 1.0 / 6));
   }
@@ -58,8 +58,8 @@ struct TimeScheme {
 /// @throws ModelError  if alpha is outside this range.
 [[nodiscard]] TimeScheme hht_alpha(double alpha);
 /// Returns the generalized-alpha method of Chung & Hulbert (1993): order 2, stable for any step.
-/// @param radius  factor in [0, 1] by which a step reduces a motion that is much faster than the
-///   step; 1 conserves it, 0 removes it.
+/// @param radius  factor in [0, 1] by which a step multiplies vibrations whose period is much
+///   shorter than the step. 1 conserves such vibrations, 0 removes them.
 /// @throws ModelError  if the radius is outside this range.
 [[nodiscard]] TimeScheme generalized_alpha(double radius);
 
@@ -74,7 +74,8 @@ struct TimeScheme {
 
 // Relations of the scheme for states with q, v and a.
 
-/// Computes A, q and v at the end of a step from the acceleration a at the end (`to.a`).
+/// Computes the algorithmic acceleration A, positions q and velocities v at the end of a step from
+/// the acceleration a at the end (`to.a`).
 template <class State>
 void predict(const TimeScheme& s, double h, const State& from, const Eigen::VectorXd& A0, State& to,
              Eigen::VectorXd& A1) {
@@ -83,7 +84,8 @@ void predict(const TimeScheme& s, double h, const State& from, const Eigen::Vect
   to.v = from.v + h * ((1 - s.gamma) * A0 + s.gamma * A1);
 }
 
-/// Adds a correction to the acceleration a at the end of a step, and changes A and v accordingly.
+/// Adds a correction to the acceleration a at the end of a step, and changes the algorithmic
+/// acceleration A and the velocity v accordingly.
 template <class State, class Correction>
 void correct(const TimeScheme& s, double h, const Correction& correction, State& to,
              Eigen::VectorXd& A1) {
@@ -109,9 +111,9 @@ double relation_residual(const TimeScheme& s, double h, const State& from,
                          bool positions, const Norm& norm, Eigen::VectorXd& defect,
                          double force_roundoff = 0) {
   // If a body stops moving, its computed accelerations are the round-off error of its positions
-  // over beta h^2. A, a, v and q are sums of magnitudes by which the differences are divided. They
-  // are increased, so that the quotient of round-off error and sum is at most kRoundoffShare. This
-  // value is a tenth of the limit for Residual::equation_of_motion.
+  // over beta h^2. A, a, v and q are sums of magnitudes by which the residuals of the relations are
+  // divided. The sums are increased so that round-off errors divided by them are at most
+  // kRoundoffShare. This value is a tenth of the limit for Residual::equation_of_motion.
   constexpr double kRoundoffShare = 1e-5;
   const double roundoff =
       kEps * (norm(from.q) + norm(to.q)) / (std::max(s.beta, 1.0 / 12) * h * h) + force_roundoff;

@@ -10,8 +10,9 @@
 /// Motions of linear systems by integration in time.
 namespace trammel::solver {
 
-/// Energies since the start [J]. The sum kinetic + strain - work + dissipated is constant, except
-/// for the energy that the scheme dissipates or that changing matrices exchange.
+/// Energies of a motion, and work and dissipation since its start [J]. The sum kinetic + strain -
+/// work + dissipated is constant, except for the energy that the scheme dissipates or that changing
+/// matrices exchange.
 struct MotionEnergy {
   double kinetic = 0;     ///< v^T M v / 2
   double strain = 0;      ///< q^T K q / 2

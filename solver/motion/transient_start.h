@@ -11,7 +11,8 @@ namespace trammel::solver {
 /// Ratio of pivot to diagonal below which a mass or stiffness matrix counts as singular.
 inline constexpr double kSingularMass = 1e-13;
 
-/// Returns a time span after the start without jump or kink of the load [s]. It is at most a step.
+/// Returns a time span after the start of the motion in which the load has no jump or kink [s]. The
+/// span is at most one time step.
 [[nodiscard]] double smooth_load_interval(const std::vector<double>& breakpoints,
                                           const TransientOptions& options);
 
@@ -24,8 +25,9 @@ inline constexpr double kSingularMass = 1e-13;
                                              const TransientOptions& options, Eigen::VectorXd& q,
                                              Eigen::VectorXd& v, Counters& counters);
 
-/// Returns a failure if the time step is unstable at the highest natural frequency. Power iteration
-/// estimates this frequency from below, so that all stable steps are accepted.
+/// Returns a failure if the time scheme is unstable with the given step at the highest natural
+/// frequency. Power iteration estimates this frequency from below, so that all stable steps are
+/// accepted.
 [[nodiscard]] Outcome check_time_step_stability(const EquationMatrices& matrices,
                                                 const TransientOptions& options,
                                                 Counters& counters);
