@@ -70,7 +70,8 @@ std::vector<Index> append_mesh(Model& model, Index plate, const BlockMesh& mesh,
 struct RectangleMesh {
   double length = 0;  ///< along x, from the origin [m]
   double height = 0;  ///< along y [m]
-  /// Cells along each side. Each cell is split into two triangles with alternating diagonals.
+  /// Number of cells along each side of the rectangle. Each cell is split into two triangles with
+  /// alternating diagonals.
   Index cells = 1;
   bool six_nodes = false;
   double distortion = 0;  ///< displacement of inner corners [cell size]; 0 <= distortion < 0.3

@@ -76,7 +76,8 @@ template <Real T = double>
   return B;
 }
 
-/// Returns the diagonal stiffness of the three deformations d of an element [N/m, N m, N m].
+/// Returns the stiffnesses of the three deformations of an element: elongation [N/m], symmetric and
+/// antisymmetric bending [N m].
 template <Real T>
 [[nodiscard]] Eigen::Vector3<T> frame_deformation_stiffness(const SectionOf<T>& section,
                                                             BeamTheory theory,

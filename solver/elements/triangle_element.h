@@ -81,7 +81,8 @@ decltype(auto) visit_nodes(const Model& model, const Triangle& triangle, Visit&&
 /// Returns the area of a triangle [m^2], positive if its points run counterclockwise.
 [[nodiscard]] double signed_area(const TrianglePoints& points);
 
-/// Returns the matrix B at a point, which maps coordinates to (exx + eyy, exx - eyy, gxy) [-].
+/// Returns the deformation matrix B at a point of a triangle. B maps the nodal displacements to the
+/// deformations (exx + eyy, exx - eyy, gxy) [-].
 template <int nodes>
 [[nodiscard]] Eigen::Matrix<double, 3, 2 * nodes> triangle_deformation_matrix(
     const TriangleInterpolation& at) {
@@ -94,10 +95,11 @@ template <int nodes>
   return B;
 }
 
-/// Returns the matrix B of a three-node triangle, in which the deformation is uniform.
+/// Returns the deformation matrix B of a three-node triangle, in which the deformation is uniform.
 [[nodiscard]] Eigen::Matrix<double, 3, 6> triangle_deformation_matrix(const TrianglePoints& points);
 
-/// Returns the diagonal stiffness [N m] of (exx + eyy, exx - eyy, gxy) for a plate volume [m^3].
+/// Returns the diagonal of the stiffness matrix [N m] with respect to the deformations (exx + eyy,
+/// exx - eyy, gxy), for plate material of the given volume [m^3].
 [[nodiscard]] Vector3d membrane_rigidity(const Material& material, double volume);
 
 /// Returns the stresses (sxx, syy, sxy) [Pa] of the deformation (exx + eyy, exx - eyy, gxy).

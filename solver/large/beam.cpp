@@ -74,8 +74,8 @@ struct Strain {
   }
 
   /// Sets the derivatives of stretch and shear at Gauss point g with respect to the coordinates of
-  /// node a. `slope` multiplies the derivatives by displacements, and `value` the derivatives by
-  /// the rotation.
+  /// node a. `slope` is a factor of the derivatives with respect to the displacements, and `value`
+  /// a factor of those with respect to the rotation.
   void set_rows(int g, int a, double slope, double value, Beam::Gradient& G) const {
     G.block<1, 2>(2 * g, 3 * a) = slope * e1.transpose();
     G(2 * g, 3 * a + 2) = value * shear;

@@ -17,7 +17,7 @@ namespace trammel::solver::large_motion {
 /// triangles, rigid bodies and joints. An object must not be shared between threads.
 class GeometricallyExactSystem final : public ConstrainedSystem {
  public:
-  /// Builds the equations.
+  /// Builds the equations of motion of a model.
   /// @throws ModelError  if the model is invalid.
   explicit GeometricallyExactSystem(Model model, LargeMotionModel large_motion = {});
 

@@ -41,8 +41,8 @@ class KktMatrix {
 
   void clear();
 
-  /// Adds an element matrix S. Its rows are the coordinates, or all unknowns, of the element's
-  /// block.
+  /// Adds the matrix S of an element to the assembled matrix. The rows of S are the coordinates of
+  /// the element, or all unknowns that it couples (`block`).
   template <class Matrix>
   void add(Index block, const Matrix& S) {
     const Index n = S.rows();

@@ -54,10 +54,11 @@ using RigidMotion = std::function<const InverseDynamics&(double)>;
 
 /// Returns the rotation of a part since the time `start` relative to the part `from` or the ground
 /// (-1) [rad], including full turns, as a function of time. Parts are indices in
-/// `InverseDynamics::q`: proximal links 0 to 2, distal links 3 to 5, platform 8. The rotation is
-/// tracked from the last request in increments of 0.5 rad. Beyond the ends of the path, the
-/// rotation is extrapolated with the acceleration and its rate at the end. Central differences
-/// in time at the first and last times of the path require values beyond its ends.
+/// `InverseDynamics::q`: proximal links 0 to 2, distal links 3 to 5, platform 8. To count full
+/// turns, the rotation is followed from the last requested time in increments of at most 0.5 rad.
+/// Beyond the ends of the path, the rotation is extrapolated with the acceleration and its rate at
+/// the end. Central differences in time at the first and last times of the path require values
+/// beyond its ends.
 [[nodiscard]] TimeFunction joint_rotation_law(const RigidMotion& motion, const Path& path,
                                               double start, Index part, Index from = -1);
 

@@ -179,7 +179,8 @@ Spectrum spectrum(const ShiftedStiffness& K, const MatrixXd& L, double shift, bo
   return found;
 }
 
-/// Returns w^2 of the lowest mode above the free and the soft modes, or 0 if there is none.
+/// Returns w^2 of the lowest mode above the free and the soft modes (see kSoftShare), or 0 if there
+/// is none.
 double lowest_above_soft(const Spectrum& modes) {
   for (std::size_t k = 1; k < modes.w2.size(); ++k) {
     const double above = std::abs(modes.w2[k]);

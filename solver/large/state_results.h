@@ -5,8 +5,8 @@
 #include "solver/large/geometrically_exact_system.h"
 #include "solver/linear/statics.h"
 
-/// Results of a state for the parts of the model, in the order and with the signs of
-/// `StaticSolution`.
+/// Results of a state for nodes, members, supports and drives of the model, in the order and with
+/// the signs of `StaticSolution`.
 namespace trammel::solver::large_motion {
 
 /// Returns displacements, velocities or accelerations of the model nodes: one row per node, with

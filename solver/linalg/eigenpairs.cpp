@@ -171,7 +171,7 @@ class Solver {
     return found;
   }
 
-  /// Makes x B-orthogonal to the null vectors.
+  /// Makes x B-orthogonal to the known vectors of the null space of K.
   void remove_null(Eigen::Ref<VectorXd> x) const {
     if (null_.cols() > 0) x -= null_ * (null_.transpose() * times_B(x));
   }

@@ -25,7 +25,8 @@ struct Pencil {
   /// Function that returns X^T K X for the columns of X, more accurate than with the assembled K.
   std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)> K_products;
   Operator B_times;  ///< x -> B x for a B that is not assembled
-  /// Returns the number of eigenvalues below a shift, or an empty value if round-off dominates it.
+  /// Function that returns the number of eigenvalues below a shift, or an empty value if round-off
+  /// dominates this number.
   std::function<std::optional<Index>(double)> count_below;
 };
 

@@ -67,8 +67,8 @@ void for_each_plate_deformation(const System& system, Visit&& visit) {
 }
 
 /// Calls visit(coordinates, B, c) for every frame element, triangle and spring. `coordinates` is an
-/// array of n indices into u, or -1 for none. B (m x n) and the diagonal c (m) define the stiffness
-/// B^T diag(c) B of the element.
+/// array of n indices into u, or -1 for a missing coordinate. B (m x n) and the diagonal c (m)
+/// define the stiffness B^T diag(c) B of the element.
 template <class Visit>
 void for_each_deformation(const System& system, Visit&& visit) {
   for (const FrameElement& e : system.mesh.frame) {
@@ -159,8 +159,8 @@ template <Real T>
 }
 
 /// Calls visit(coordinates, m) for every frame element, triangle, point mass and member end with
-/// inertia. `coordinates` is an array of n indices into u, or -1 for none. The mass matrix m is n x
-/// n, in world axes.
+/// inertia. `coordinates` is an array of n indices into u, or -1 for a missing coordinate. The mass
+/// matrix m is n x n, in world axes.
 template <class Visit>
 void for_each_mass_matrix(const System& system, Visit&& visit) {
   for (const FrameElement& e : system.mesh.frame) {

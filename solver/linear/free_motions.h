@@ -9,7 +9,8 @@
 
 namespace trammel::solver {
 
-/// Zero-energy modes: a basis of the null space of K, whose motions cause no deformation.
+/// Zero-energy modes: a basis of the null space of the stiffness matrix K. The motions of this
+/// space cause no deformation.
 struct ZeroEnergyModes {
   Eigen::MatrixXd basis;  ///< one mode per column, in the free coordinates q
   bool all_found = true;  ///< false: there are more modes than the search covers

@@ -15,7 +15,8 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Returns L H of `frame_chord_rotation_and_bending` for the mean axial force N and its increase n.
+/// Returns the matrix L H of the second-order work of the axial force (see
+/// `frame_chord_rotation_and_bending`). N is the mean axial force, and n its increase.
 Eigen::Matrix3d geometric_rigidity(const FrameElement& e, BeamTheory theory, double N, double n) {
   Eigen::Matrix3d H = Eigen::Matrix3d::Zero();
   H(0, 0) = N;

@@ -97,15 +97,15 @@ struct SectionForces {
   Vector3d end;
   Vector2d load;  ///< mean (qx, qy) along and across the element, including inertia [N/m]
 
-  /// Returns N, V and M at a distance x from the first end. M is a parabola through both end
-  /// moments.
+  /// Returns the section forces N, V and M at a distance x from the first end of the element. M is
+  /// a parabola through both end moments.
   [[nodiscard]] Vector3d at(double x, double length) const {
     const double straight = start[2] + (end[2] - start[2]) * x / length;
     return {start[0] - load.x() * x, start[1] - load.y() * x,
             straight - load.y() * x * (length - x) / 2};
   }
-  /// Returns dM/dx = -V at the first end. V acts across the undeformed axis. In second-order theory
-  /// the axial force contributes to dM/dx.
+  /// Returns the slope dM/dx = -V of the bending moment at the first end of the element. V acts
+  /// across the undeformed axis. In second-order theory the axial force contributes to dM/dx.
   [[nodiscard]] double slope(double length) const {
     return (end[2] - start[2]) / length - load.y() * length / 2;
   }

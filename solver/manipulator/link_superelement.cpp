@@ -23,7 +23,8 @@ struct ElementChain {
     for (Index e = 0; e < elements; ++e) F.middleRows<6>(3 * e) += m * U.middleRows<6>(3 * e);
     return F;
   }
-  /// Returns U^T K U. It is computed from deformations, which are accurate for long-wave modes.
+  /// Returns U^T K U for the motions in the columns of U, with the stiffness K of the chain. It is
+  /// computed from the deformations of the elements, which are accurate for long-wave modes.
   [[nodiscard]] MatrixXd projected_stiffness(const MatrixXd& U) const {
     MatrixXd D(3 * elements, U.cols());
     for (Index e = 0; e < elements; ++e)

@@ -111,7 +111,7 @@ class BlockSolver {
     X_.inside = start_vectors(rows, pencil_.interior_mode_count(), 1);
   }
 
-  /// Computes Y = K^-1 M X and M Y.
+  /// Performs a step of inverse iteration: computes Y = K^-1 M X and M Y for the vectors X.
   void inverse_iteration() {
     Y_ = MX_;
     stiffness_.solve_in_place(Y_.ends);

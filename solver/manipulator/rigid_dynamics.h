@@ -58,7 +58,7 @@ struct RigidManipulator {
 /// @throws ModelError  as `link_section` and `platform_mass`.
 [[nodiscard]] RigidManipulator rigid_manipulator(const ManipulatorDesign& design);
 
-/// Returns dual numbers with the given values, whose derivatives are the rates.
+/// Returns dual numbers with the given values and with the given rates as derivatives.
 template <int n>
 [[nodiscard]] Eigen::Matrix<Dual, n, 1> with_rates(const Eigen::Matrix<double, n, 1>& values,
                                                    const Eigen::Matrix<double, n, 1>& rates) {
@@ -102,8 +102,9 @@ struct BodyTerms {
 /// Terms of the equations of motion (Varalakshmi & Srinivas 2017, Eq. 1-5) in one state; NaN unless
 /// solved.
 struct RigidTerms {
-  /// singular: out of reach, at a parallel singularity (no W), or at a serial singularity. At a
-  /// serial singularity, the velocity of the platform requires an infinite velocity of an actuator.
+  /// singular: the pose is out of reach, at a parallel singularity (no W), or at a serial
+  /// singularity. At a serial singularity, the velocity of the platform requires an infinite
+  /// velocity of an actuator.
   Outcome outcome;
   Vector9d q = Vector9d::Constant(kNaN), q_dot = q;
   Matrix9d M = Matrix9d::Constant(kNaN);

@@ -18,7 +18,7 @@ struct LineQuadraturePoint {
 
 /// Point of an integration rule on a triangle.
 struct TriangleQuadraturePoint {
-  /// Area coordinates of the corners [-].
+  /// Area coordinates of the integration point, one for each corner of the triangle [-].
   Eigen::Vector3d area_coordinates = Eigen::Vector3d::Zero();
   double weight = 0;  ///< the weights sum to 1
 };

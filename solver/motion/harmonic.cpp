@@ -105,8 +105,8 @@ VectorXcd HarmonicSolver::at(double frequency) const {
   ++counters_.factorizations;
   counters_.solves += 2;
   if (q.size() == 0) return q;
-  // Remove the superposed modes from the direct response. It contains them as round-off errors that
-  // are large near a resonance.
+  // Remove the superposed modes from the direct response. In the direct response, these modes are
+  // round-off errors that are large near a resonance.
   if (participation_.size() > 0) {
     const VectorXcd image = system_.M * q;
     q -= modes_.shape * (modes_.shape.transpose() * image);

@@ -37,7 +37,8 @@ struct TransientOptions {
   TimeScheme scheme = average_acceleration();
   std::optional<ErrorControl> adaptive;  ///< empty: fixed steps
   /// Sample times, ascending, within [start, end] [s]; empty: every step. Steps of geometrically
-  /// exact systems end at each sample time. Linear motions are interpolated.
+  /// exact systems end at each sample time. Motions of linear systems are interpolated at these
+  /// times.
   std::vector<double> sample_times;
   /// True: start from the solution of K q = f - C v and its velocity v; false: start from q0, v0.
   bool quasi_static_start = false;

@@ -160,8 +160,8 @@ void add_massless_response(const ModalBasis& basis, const SparseMatrix& M, const
   const Eigen::MatrixXd rest =
       load.pattern - M * (basis.shape * (basis.shape.transpose() * load.pattern));
   if (rest.norm() > 1e-9 * load.pattern.norm()) {
-    // Add a multiple of M to K, because K is singular if there are rigid modes. It does not affect
-    // massless coordinates, because M x = 0.
+    // Add a multiple of M to K, because K is singular if there are rigid modes. This multiple does
+    // not affect massless coordinates, because M x = 0.
     const double shift = K.diagonal().sum() / M.diagonal().sum();
     Factorization factorization;
     factorization.compute(SparseMatrix(K + shift * M));
@@ -189,8 +189,8 @@ void add_massless_response(const ModalBasis& basis, const SparseMatrix& M, const
 
 namespace {
 
-/// Evaluates the Taylor series for w t < 1 and c t < 1, where the closed forms suffer from
-/// cancellation.
+/// Evaluates the Taylor series of the impulse response for w t < 1 and c t < 1, for which the
+/// closed forms suffer from cancellation.
 ImpulseResponse by_series(double omega, double decay, double t) {
   const double c = decay * t;
   const double w2 = omega * t * omega * t;

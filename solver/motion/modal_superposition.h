@@ -95,8 +95,8 @@ struct OscillatorState {
   double v = 0;  ///< y' [SI/s]
 };
 
-/// Returns the state of an oscillator after the time of `response`, under the load p0 at the start
-/// that grows by p1 per second.
+/// Returns the state of an oscillator after the time for which `response` was computed. The load
+/// per unit mass is p0 at the start and grows by p1 per second.
 [[nodiscard]] OscillatorState advance(const ImpulseResponse& response, double omega,
                                       const OscillatorState& start, double p0, double p1);
 

@@ -12,7 +12,8 @@ namespace trammel::solver {
 
 /// Prescribed rotation of the axes.
 struct PrescribedRotation {
-  /// Returns Omega [rad/s] and its rate [rad/s^2], counterclockwise.
+  /// Function that returns the angular speed Omega of the axes [rad/s] and its time derivative
+  /// [rad/s^2], counterclockwise.
   std::function<std::array<double, 2>(double time)> speed;
   Vector2d center = Vector2d::Zero();  ///< center of rotation [m]
   /// true: include K_1, the geometric stiffness of the centrifugal forces at 1 rad/s on the
