@@ -28,7 +28,8 @@ class Places {
     by_x_.emplace(position.x(), Place{by_x_.size(), node, position});
   }
 
-  /// Returns the first node that was added within the tolerance of a position, or -1.
+  /// Returns the index of the first added node whose distance from a position is within the merge
+  /// tolerance, or -1.
   [[nodiscard]] Index find(const Vector2d& position) const {
     const Place* first = nullptr;
     auto at = by_x_.lower_bound(position.x() - tolerance_);

@@ -15,7 +15,8 @@
 /// elastic (stretch, a spring), and tau is the coefficient of its strain-rate damping.
 namespace trammel::solver::large_motion {
 
-/// State of a constrained system.
+/// State of a constrained system at one time: displacements, velocities, accelerations and
+/// multipliers.
 struct State {
   double t = 0;        ///< time [s]; the load factor in statics
   double load = 1;     ///< factor on the loads [-]

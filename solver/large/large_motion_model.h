@@ -49,7 +49,8 @@ struct LineSpring {
   std::string name;
   std::array<Index, 2> nodes{-1, -1};
   double stiffness = 0;  ///< [N/m]
-  /// Length without force [m]; NaN: the length in the pose of the model.
+  /// Length of the spring without force [m]; NaN: the distance of its nodes in the pose of the
+  /// model.
   double rest_length = std::numeric_limits<double>::quiet_NaN();
 };
 

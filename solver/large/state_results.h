@@ -29,7 +29,8 @@ namespace trammel::solver::large_motion {
 /// are the section forces at both ends, loads, weight and inertia.
 class MemberBalance {
  public:
-  /// Adds the residuals of all members in a state that satisfies the equation of motion.
+  /// Adds the residuals of the equilibrium of all members in a state that satisfies the equation of
+  /// motion.
   void add(const GeometricallyExactSystem& system, const State& state);
   /// Returns the largest resultant force, or moment about the first end, of all members and states.
   /// It is relative to the largest sum of the magnitudes of these forces or moments. Members whose

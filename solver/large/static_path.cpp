@@ -196,7 +196,8 @@ class PathFollower {
   double dot(const VectorXd& a, const VectorXd& b) const { return a.cwiseProduct(metric_).dot(b); }
   VectorXd normalized(const VectorXd& d) const { return d / std::sqrt(dot(d, d)); }
 
-  /// Returns the tangent direction of the path from the last factors, oriented like `along`.
+  /// Returns the tangent direction of the path, computed with the last factorization and oriented
+  /// like `along`.
   VectorXd tangent(const State& state, const VectorXd& along) {
     VectorXd step;
     equilibrium_.load_factor_sensitivity(state, step);
@@ -389,8 +390,8 @@ class PathFollower {
       return true;
     };
     std::optional<double> load;
-    // Solve on both sides of the root, because the equations are singular at the bifurcation
-    // itself.
+    // Solve at points on both sides of the bifurcation, because the equations are singular at the
+    // bifurcation itself.
     const auto solve_beside = [&](double root, PathPoint& trial) {
       const double least = load ? nearest : std::max(1e-3 * bracket.width(), nearest);
       for (const double aside : {least, 4 * least})

@@ -45,7 +45,7 @@ class Triangle2d : public ElementSizes<2 * Nodes, 0> {
   using Strain = Eigen::Vector3d;  ///< E11, E22, 2 E12
   using Operator = Eigen::Matrix<double, 3, 2 * Nodes>;
 
-  /// Point of the integration rule.
+  /// Integration point of the triangle.
   struct Point {
     Gradients gradients;
     double volume = 0;  ///< thickness times area times weight [m^3]

@@ -65,7 +65,8 @@ Permutation fill_reducing_order(const SparseMatrix& A) {
   if (A.rows() < kSmall) {
     Eigen::AMDOrdering<int>()(A, elimination);
   } else {
-    // METIS uses the global random sequence of the process.
+    // Only one thread at a time may call METIS, because METIS uses the global random sequence of
+    // the process.
     static std::mutex one_at_a_time;
     const std::lock_guard lock(one_at_a_time);
     Eigen::MetisOrdering<int>()(A, elimination);

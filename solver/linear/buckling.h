@@ -22,7 +22,7 @@ struct BucklingSolution {
   /// Largest load factor [-] that was checked: the negative pivots of K + factor K_G show if the
   /// model buckles below it. It is 0 if the loads cause no geometric stiffness.
   double checked_factor = 0;
-  /// Estimated relative round-off error of each factor [-], as defined in `ModalSolution`.
+  /// Estimated relative round-off error of each buckling factor [-], as defined in `ModalSolution`.
   Eigen::VectorXd roundoff;
   Eigen::MatrixXd shape;  ///< buckling shapes x, free coordinate x factor, x^T |K_G| x = 1
   Evidence evidence;

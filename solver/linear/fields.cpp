@@ -99,7 +99,7 @@ struct Squares {
     error += weight * error_squared;
     exact += weight * exact_squared;
   }
-  /// Returns relative errors; NaN if the exact field is zero.
+  /// Returns the relative error of each quantity; NaN if its exact field is zero.
   [[nodiscard]] Values relative() const { return (error / exact).sqrt(); }
 };
 

@@ -34,7 +34,7 @@ void add_line_load(System& system, const LineLoad& load);
 // interpolation of the elements, computed by quadrature. Each error is relative to the same norm of
 // the exact field.
 
-/// Values of a plane-stress field at a point.
+/// Displacement, rotation and stress of a plane-stress field at a point.
 struct MembraneFieldPoint {
   Vector2d displacement = Vector2d::Zero();  ///< [m]
   double rotation = 0;                       ///< (dv/dx - du/dy) / 2 [rad]

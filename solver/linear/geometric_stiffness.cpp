@@ -226,7 +226,8 @@ Prestress prestress_roundoff(const System& system, const VectorXd& q) {
   for (Index i = 0; i < roundoff.axial.size(); ++i) {
     const FrameElement& e = frame[to_size(i)];
     if (!system.model.members[to_size(e.member)].axially_flexible) continue;
-    // The elongation is a difference of displacements, whose round-off errors do not cancel.
+    // The elongation is a difference of displacements. Their round-off errors do not cancel, so
+    // that the sum of their magnitudes scales the error.
     const Vector2d size(u[e.coordinates[3]] + u[e.coordinates[0]],
                         u[e.coordinates[4]] + u[e.coordinates[1]]);
     roundoff.axial[i] = kEps * e.section.EA / e.length * e.direction.cwiseAbs().dot(size);

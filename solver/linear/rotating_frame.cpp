@@ -175,7 +175,8 @@ VectorXd centrifugal_forces(const System& system, const RotatingFrame& frame, co
     const double moment = w2 * section_pull(P, e.direction).moment;
     detail::scatter(e.coordinates, (moment * (rotary_mass(e, member) * unit_turn)).eval(), force);
   }
-  // Add the constant offset of each center of mass, which the interpolation does not contain.
+  // Add the constant offset of each center of mass from its node, which the interpolation does not
+  // contain.
   for (const PointMass& point_mass : system.model.masses)
     detail::scatter(system.coordinates.node[to_size(point_mass.node)],
                     (w2 * point_mass.mass * center_of_mass_interpolation(point_mass).transpose() *

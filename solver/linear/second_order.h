@@ -10,7 +10,7 @@
 
 namespace trammel::solver {
 
-/// Displacements of a static state.
+/// Equilibrium state of statics: displacements, internal forces and error.
 struct StaticState {
   /// singular: the reason describes the zero-energy mode. not_converged: the displacements have
   /// less than one correct digit.
@@ -76,7 +76,8 @@ class StiffenedEquilibrium {
   [[nodiscard]] bool is_stable() const { return factorization_.smallest_pivot() > 0; }
 
  private:
-  /// Returns the largest |u| of u = T q [m]; rotations are multiplied by the model size.
+  /// Returns the largest magnitude of the displacements u = T q [m]; rotations are multiplied by
+  /// the model size.
   [[nodiscard]] double largest_displacement(const Eigen::VectorXd& q) const;
   /// Returns the error of the displacements [m] caused by the round-off error of the internal
   /// forces.

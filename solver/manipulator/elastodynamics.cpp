@@ -295,8 +295,8 @@ class MotionSolver {
     update_effect_numbers();
   }
 
-  /// Returns the displacement of P without elastic inertia and damping (ux, uy [m], rotation
-  /// [rad]).
+  /// Returns the displacement (ux, uy [m], rotation [rad]) of the platform point P without elastic
+  /// inertia and damping.
   [[nodiscard]] Vector3d quasi_static_displacement(const StaticSolution& state) {
     const Index P = moving_.start().model.find_node("P");
     if (!options_.elastic_inertia) return state.displacement.row(P);

@@ -48,13 +48,14 @@ struct ElastodynamicsOptions {
 struct ElastodynamicsEffects {
   double first_frequency = kNaN;  ///< lowest elastic frequency at the start [Hz]
   double damping_ratio = kNaN;    ///< damping ratio of the lowest elastic mode
-  /// Inertia load f of the nominal motion over the weight and platform load F, |f| / |T^T F| in the
-  /// norm of K^-1; infinite if F is zero.
+  /// Ratio [-] of the inertia load f of the nominal motion to the weight and platform load F, |f| /
+  /// |T^T F| in the norm of K^-1; infinite if F is zero.
   double nominal_inertia = 0;
-  /// Square of the ratio of the path frequency to the first elastic frequency. The path frequency
-  /// is the largest acceleration over the largest velocity of the platform.
+  /// Square of the ratio of the path frequency to the first elastic frequency [-]. The path
+  /// frequency is the largest acceleration over the largest velocity of the platform.
   double elastic_inertia = 0;
-  /// Twice the largest angular velocity of links and platform over the first angular frequency.
+  /// Twice the largest angular velocity of links and platform, divided by the first natural angular
+  /// frequency [-].
   double gyroscopic = 0;
 };
 

@@ -39,11 +39,11 @@ struct NominalMotion {
   }
 };
 
-/// Returns the index in NominalMotion::part of a plate.
+/// Returns the index of a plate in the list NominalMotion::part.
 [[nodiscard]] inline Index plate_part_index(const Model& model, Index plate) {
   return std::ssize(model.members) + plate;
 }
-/// Returns the index in NominalMotion::part of a rigid body.
+/// Returns the index of a rigid body in the list NominalMotion::part.
 [[nodiscard]] inline Index body_part_index(const Model& model, Index body) {
   return plate_part_index(model, std::ssize(model.plates)) + body;
 }

@@ -21,8 +21,8 @@ class DenseLdlt {
   [[nodiscard]] double smallest_pivot() const { return pivots_.minCoeff(); }
   /// Returns the number of negative eigenvalues of A (Sylvester's law of inertia).
   [[nodiscard]] Index negative_pivots() const { return (pivots_.array() < 0).count(); }
-  /// Returns the largest absolute entry of L. If it exceeds 1e8, the signs of pivots are
-  /// unreliable.
+  /// Returns the largest magnitude of an entry of the factor L. If it exceeds 1e8, the signs of
+  /// pivots are unreliable.
   [[nodiscard]] double element_growth() const { return growth_; }
 
   /// Solves A x = b for several right-hand sides b, one per row of X.
@@ -92,7 +92,8 @@ class MovingPencil {
 
   [[nodiscard]] Index joint_coordinate_count() const { return K_.rows(); }
   [[nodiscard]] Index interior_mode_count() const { return mu_.size(); }
-  /// Returns the number of free coordinates without condensation, including massless interior ones.
+  /// Returns the number of free coordinates without condensation, including massless interior
+  /// coordinates.
   [[nodiscard]] Index free_coordinate_count() const { return free_coordinates_; }
   [[nodiscard]] const Counters& counters() const { return system_.start().counters; }
   [[nodiscard]] double coupling() const { return coupling_; }  ///< largest coupling of link modes

@@ -168,7 +168,8 @@ class PathFollower {
   [[nodiscard]] bool is_at_rest() const { return is_at_rest_; }
   [[nodiscard]] bool damped() const;
 
-  // Quantities at the current pose, in free coordinates.
+  // Loads, matrices and static solutions at the current pose of the manipulator, in free
+  // coordinates.
 
   /// Returns the weight and the load on the platform plus, if active, the inertia load of the
   /// nominal motion [N, N m].

@@ -85,7 +85,8 @@ class BlockSolver {
   using Numbers = Eigen::Array<double, rows, 1>;
   using Square = Eigen::Matrix<double, rows, rows>;
 
-  /// Computes the modes at a pose with the condensed matrices. Returns true if they are certified.
+  /// Computes the modes at a pose with the condensed matrices. Returns true if Sylvester's law of
+  /// inertia certifies that no mode is missing.
   bool solve(std::size_t at, const Posture& posture) {
     if (pencil_.joint_coordinate_count() > kLargest ||
         pencil_.joint_coordinate_count() + pencil_.interior_mode_count() < rows)

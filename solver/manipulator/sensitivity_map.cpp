@@ -57,7 +57,8 @@ SensitivityMap map_first_frequency(const ManipulatorDesign& design,
 
 namespace {
 
-/// Region of positions of P that a limb can reach: between two circles about one center.
+/// Region of positions of the platform point P that a limb can reach: between two circles about one
+/// center.
 struct Annulus {
   Vector2d center;
   double inner = 0, outer = 0;

@@ -16,7 +16,7 @@ class PathError : public ModelError {
   using ModelError::ModelError;
 };
 
-/// State of the platform at a time.
+/// Pose, velocity and acceleration of the platform at a time.
 struct TrajectoryPoint {
   double time = 0;  ///< [s]
   Pose pose;

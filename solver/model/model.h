@@ -231,7 +231,7 @@ inline void require(bool condition, const std::string& message) {
 /// is empty.
 [[nodiscard]] std::string part_label(const char* kind, const std::string& name, std::size_t index);
 
-// Vectors in the plane.
+// Operations on vectors in the plane.
 
 /// Returns the out-of-plane component of a x b. It is positive if b lies to the left of a.
 [[nodiscard]] inline double cross(const Vector2d& a, const Vector2d& b) {

@@ -79,7 +79,7 @@ class HalvedSteps {
     done_ /= 2;
     count_ /= 2;
   }
-  /// Halves the step. @returns null, or the reason of a failure.
+  /// Halves the size of the next time steps. @returns null, or the reason of a failure.
   [[nodiscard]] const char* reject(const Step& /*step*/, const StepReport& report) {
     if (report.status != Status::solved) return "no solution of the step was found";
     if (++level_ > options_.adaptive->finest_level) return "the step size is at its minimum";

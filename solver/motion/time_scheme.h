@@ -72,7 +72,8 @@ struct TimeScheme {
 /// are stable for any step.
 [[nodiscard]] double stability_limit(const TimeScheme& scheme);
 
-// Relations of the scheme for states with q, v and a.
+// Relations of the time scheme, applied to states with positions q, velocities v and accelerations
+// a.
 
 /// Computes the algorithmic acceleration A, positions q and velocities v at the end of a step from
 /// the acceleration a at the end (`to.a`).

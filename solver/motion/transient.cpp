@@ -386,7 +386,8 @@ double LinearStepper::judge_residual(StepReport& report, double& allowed) const 
   return left;
 }
 
-/// Returns the estimated error of a step in the norm of kinetic energy over the allowed error.
+/// Returns the ratio of the estimated error of a step to the allowed error, in the norm of the
+/// kinetic energy.
 double LinearStepper::error_ratio(double h) {
   correction_ = next_->A - now_->A;
   residual_.noalias() = matrices_.M() * correction_;

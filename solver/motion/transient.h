@@ -65,7 +65,7 @@ struct Peak {
 /// Returns the refined largest magnitude of values at equally spaced times [s], or zeros if empty.
 [[nodiscard]] Peak peak(const std::vector<double>& time, const Eigen::VectorXd& value);
 
-/// State at the end of a time step.
+/// Motion at the end of a time step: displacements, velocities, accelerations, forces and energies.
 struct TransientState {
   double time = 0;
   Eigen::VectorXd q, v, a;
