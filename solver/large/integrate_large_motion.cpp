@@ -21,8 +21,8 @@ void add_constraints(const ConstraintGaps& gaps, IntegrationSummary& summary) {
   largest.relative_position = nan_max(largest.relative_position, gaps.relative_position);
 }
 
-/// Integrates from a state. `conservative` is the system for the energy-momentum method, or null
-/// for generalized-alpha.
+/// Integrates the motion from a state. `conservative` is the system for the energy-momentum method,
+/// or null for generalized-alpha.
 IntegrationSummary run(const ConstrainedSystem& system,
                        const GeometricallyExactSystem* conservative, State& state,
                        const TransientOptions& options, const Observer& observe) {

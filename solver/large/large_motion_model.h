@@ -82,7 +82,8 @@ struct LargeMotionModel {
 };
 
 /// Checks the node indices and the numbers of drives, loads and joints.
-/// @throws ModelError  if a part refers to a node that does not exist, or its numbers are invalid.
+/// @throws ModelError  if a drive, load or joint refers to a node that does not exist or has an
+///   invalid number.
 void validate(const LargeMotionModel& large_motion, const Model& model);
 
 }  // namespace trammel::solver::large_motion

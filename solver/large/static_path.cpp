@@ -66,11 +66,11 @@ class IllinoisBracket {
   bool was_updated_ = false, was_left_ = false;
 };
 
-/// Returns the ratio of the next step to the last step of the path. It depends on the ratio of the
-/// second to the first Newton correction, which grows with the square of the step (Deuflhard,
-/// Newton Methods for Nonlinear Problems, 2004, section 5.1). The target of this second ratio is a
-/// tenth. Unlike the number of iterations, this ratio is continuous, so that round-off does not
-/// change the points of the path.
+/// Returns the ratio of the length of the next step along the path to that of the last step. It
+/// depends on the ratio of the second to the first Newton correction, which grows with the square
+/// of the step (Deuflhard, Newton Methods for Nonlinear Problems, 2004, section 5.1). The target of
+/// this second ratio is a tenth. Unlike the number of iterations, this ratio is continuous, so that
+/// round-off does not change the points of the path.
 double step_factor(const std::vector<double>& correction) {
   constexpr double kWantedRatio = 0.1;
   if (correction.size() < 2) return 2;

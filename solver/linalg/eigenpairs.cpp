@@ -191,8 +191,8 @@ class Solver {
   void iterate_beside_each() {
     constexpr double kAside = 1e-4, kWideSpread = 1e4;
     constexpr int kPasses = 4;
-    // Relative change of the vector below which the iteration ends. Each pass reduces other
-    // components by the factor kAside.
+    // Relative change of the eigenvector below which the iteration ends. Each pass reduces the
+    // components along other eigenvectors by the factor kAside.
     constexpr double kEnough = 1e-9;
     const Index wanted = std::min(count_, X_.cols());
     if (wanted == 0 || !pencil_.B) return;

@@ -195,8 +195,8 @@ class Elimination {
     return best;
   }
 
-  /// Substitutes backward, because an expression contains only free coordinates and coordinates
-  /// that were eliminated later.
+  /// Replaces the eliminated coordinates in all expressions by backward substitution. An expression
+  /// contains only free coordinates and coordinates that were eliminated later.
   void resolve() {
     for (std::size_t i = expressions_.size(); i-- > 0;)
       expressions_[i].terms = significant_terms(substitute(expressions_[i].terms), -1, 1);

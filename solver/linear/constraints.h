@@ -38,7 +38,8 @@ struct Constraints {
   [[nodiscard]] Eigen::VectorXd multipliers(const Eigen::VectorXd& force) const;
 };
 
-/// Builds the constraint rows of a model and eliminates them, which results in T.
+/// Builds the constraint rows of a model and eliminates them, which results in the matrix T of u =
+/// T q.
 /// @throws ModelError  if a constraint refers to a coordinate that does not exist.
 [[nodiscard]] Constraints build_constraints(const Model& model,
                                             const Discretisation& discretization);

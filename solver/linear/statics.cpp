@@ -368,8 +368,8 @@ void add_members(const System& system, const ElasticState& state, const StaticSo
   }
 }
 
-/// Adds the forces of springs and triangles, and second-order forces of all parts except members,
-/// whose section forces include them.
+/// Adds the forces of springs and triangles, and second-order forces of all elements except
+/// members. The section forces of members include these forces.
 void add_other_elements(const System& system, const ElasticState& state, VectorXd& sum) {
   const auto add = [&](const auto& coordinates, const auto& B, const auto& c) {
     const auto deformation = (B * detail::gather(coordinates, state.u)).eval();

@@ -122,7 +122,7 @@ class SetDerivative {
 
   /// Returns U^T (dK/dp - w^2 dM/dp) U, mode x mode. It is not finite if a limb is straight or
   /// folded.
-  [[nodiscard]] MatrixXd of(const SeededDesign& design) const {
+  [[nodiscard]] MatrixXd evaluate(const SeededDesign& design) const {
     MatrixXd sum = MatrixXd::Zero(U_.cols(), U_.cols());
     for (const FrameElement& e : system_.mesh.frame)
       add_element(e, design.links[to_size(e.member)], sum);
@@ -235,7 +235,7 @@ Outcome differentiate_set(const System& system, const ModalSolution& modes, cons
   for (Index p = 0; p < std::ssize(designs); ++p) {
     const auto& design = designs[to_size(p)];
     if (!design) continue;
-    const MatrixXd small = derivative.of(*design);
+    const MatrixXd small = derivative.evaluate(*design);
     result.counters.element_evaluations += 2 * std::ssize(system.mesh.frame);
     if (!small.allFinite())
       return {Status::singular,

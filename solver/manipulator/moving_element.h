@@ -19,8 +19,9 @@ struct PartMotion {
   double acceleration = 0;  ///< [rad/s^2]
 
   bool operator==(const PartMotion&) const = default;
-  /// Returns a vector that rotates with the part (order 0), or its time derivative (order 1, 2).
-  /// The vector is `at_start` at the pose at which the model was built.
+  /// Returns a vector that rotates with the member, plate or rigid body (order 0), or the time
+  /// derivative of this vector (order 1, 2). The vector is `at_start` at the pose at which the
+  /// model was built.
   [[nodiscard]] Vector2d derivative(const Vector2d& at_start, int order) const;
 };
 

@@ -86,8 +86,8 @@ class MovingPencil {
   /// the model. The number of interior modes of a link follows from its number of elements.
   MovingPencil(const Model& model, const ManipulatorGeometry& geometry, const Pose& pose);
 
-  /// Computes K and M at a pose. The outcome is singular if the constraints do not determine the
-  /// eliminated coordinates at this pose.
+  /// Computes the stiffness matrix K and the mass matrix M at a pose. The outcome is singular if
+  /// the constraints do not determine the eliminated coordinates at this pose.
   [[nodiscard]] Outcome move_to(const Posture& posture, const Pose& pose);
 
   [[nodiscard]] Index joint_coordinate_count() const { return K_.rows(); }

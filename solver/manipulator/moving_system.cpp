@@ -66,7 +66,7 @@ void for_each_contribution(const MovingElement& element, const RowMajorMatrix& T
 }
 
 /// Returns the values of the coordinates of an element in element axes.
-Vector6d gather_own(const MovingElement& element, const Vector2d& direction, const VectorXd& u) {
+Vector6d gather_local(const MovingElement& element, const Vector2d& direction, const VectorXd& u) {
   Eigen::Matrix<double, 1, 6> v = detail::gather(element.coordinates, u).transpose();
   element.to_element_axes(v, direction);
   return v.transpose();
@@ -74,8 +74,8 @@ Vector6d gather_own(const MovingElement& element, const Vector2d& direction, con
 
 /// Adds the forces of an element, given in element axes, to the vector `u` of forces on the
 /// unconstrained coordinates, in world axes.
-void scatter_own(const MovingElement& element, const Vector2d& direction, const Vector6d& force,
-                 VectorXd& u) {
+void scatter_local(const MovingElement& element, const Vector2d& direction, const Vector6d& force,
+                   VectorXd& u) {
   Eigen::Matrix<double, 1, 6> f = force.transpose();
   element.to_world(f, direction);
   detail::scatter(element.coordinates, f.transpose().eval(), u);
@@ -196,9 +196,9 @@ Outcome MovingSystem::move_to(const NominalMotion& motion) {
 
 void MovingSystem::add_loads(const MovingElement& element) {
   const Vector2d direction = element.direction(motion_);
-  scatter_own(element, direction, nominal_inertia(element, element.motion(motion_), direction),
-              inertia_u_);
-  scatter_own(element, direction, weight(element, direction), load_u_);
+  scatter_local(element, direction, nominal_inertia(element, element.motion(motion_), direction),
+                inertia_u_);
+  scatter_local(element, direction, weight(element, direction), load_u_);
 }
 
 void MovingSystem::add_matrices(std::size_t index) {
@@ -264,12 +264,12 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
     const MovingElement& element = elements_[e];
     const PartMotion part = element.motion(motion_);
     const Vector2d direction = element.direction(motion_);
-    const Vector6d u = gather_own(element, direction, forces.working.u);
-    const Vector6d velocity = gather_own(element, direction, u_dot);
+    const Vector6d u = gather_local(element, direction, forces.working.u);
+    const Vector6d velocity = gather_local(element, direction, u_dot);
     const Vector6d strain_force = element.k * u, momentum = element.m * velocity;
     const Vector6d strain_drag = damping.stiffness * (element.k * velocity);
     const Vector6d mass_drag = damping.mass * momentum;
-    Vector6d inertia = element.m * gather_own(element, direction, u_ddot) + mass_drag;
+    Vector6d inertia = element.m * gather_local(element, direction, u_ddot) + mass_drag;
     if (options_.gyroscopic)
       inertia += 2 * part.rate * (element.first_derivative * velocity) +
                  part.acceleration * (element.first_derivative * u) +
@@ -279,9 +279,9 @@ MovingSystem::Forces MovingSystem::forces(const VectorXd& q, const VectorXd& v, 
     const Vector6d f = strain_force + strain_drag + inertia;
     forces.working.strain += u.dot(strain_force) / 2;
     forces.working.kinetic += velocity.dot(momentum) / 2;
-    scatter_own(element, direction, mass_drag + strain_drag, forces.working.drag);
-    scatter_own(element, direction, f, forces.total);
-    scatter_own(element, direction, -inertia, forces.external);
+    scatter_local(element, direction, mass_drag + strain_drag, forces.working.drag);
+    scatter_local(element, direction, f, forces.total);
+    scatter_local(element, direction, -inertia, forces.external);
     if (element.layout == MovingElement::Layout::frame)  // frame elements come first
       forces.element.col(static_cast<Index>(e)) = f;
   }

@@ -32,8 +32,8 @@ void solve_refined(const SparseMatrix& K, SparseLdlt& factor, const VectorXd& f,
 
 double smooth_load_interval(const std::vector<double>& breakpoints,
                             const TransientOptions& options) {
-  // Part of the time from the start to a breakpoint that counts as smooth. It is below 1, because
-  // the load at a jump has the value after the jump.
+  // Fraction of the time from the start to a breakpoint in which the load counts as smooth. It is
+  // below 1, because the load at a jump has the value after the jump.
   constexpr double kBefore = 0.999;
   double span = std::min(options.step, options.end - options.start);
   for (const double time : breakpoints)
