@@ -137,7 +137,8 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   return scope;
 }
 
-/// Returns true if point masses or plates have mass. Else, vibration requires mass of members.
+/// Returns true if point masses or plates have mass. If not, the mass of members is required for
+/// vibration.
 bool has_mass_of_other_parts(const solver::Model& model) {
   return std::ranges::any_of(model.masses,
                              [](const solver::PointMass& one) { return one.mass > 0; }) ||

@@ -113,7 +113,8 @@ void print_run_errors(const std::vector<Run>& runs) {
   }
 }
 
-/// Selects the cases with the given names or labels; the catalogue if there are neither.
+/// Selects the cases with the given names or labels; all cases of the catalogue if the options
+/// contain neither names nor labels.
 Selection select(const CommandOptions& options) {
   const Catalogue catalogue;
   if (is_catalogue(options)) return load(catalogue.runnable_files(), catalogue);
