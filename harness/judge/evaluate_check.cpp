@@ -16,7 +16,8 @@ namespace {
 /// entries, only the worst is reported.
 constexpr std::size_t kMaxEntries = 16;
 
-/// Reason why a check cannot be judged.
+/// Exception with the reason why the computed and the expected values of a check cannot be
+/// compared.
 struct NotComparable {
   std::string message;
   bool is_missing = false;  ///< the requested quantity is missing

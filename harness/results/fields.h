@@ -100,7 +100,8 @@ inline constexpr None kNames{};
 #define TRAMMEL_NAMES(Enum, ...) \
   template <>                    \
   inline constexpr std::array kNames<Enum> = {__VA_ARGS__}
-/// Member whose value is the key if several structs are written as a JSON object, not as an array.
+/// Member of a struct that is written as key, if several structs are written as a JSON object
+/// instead of an array.
 template <class Struct>
 inline constexpr None kKeyMember{};
 
