@@ -17,7 +17,7 @@ Json without_nulls(const Json& value) {
   return kept;
 }
 
-/// Applies a merge patch (RFC 7386). Parts that the target lacks are copied in one pass.
+/// Applies a merge patch (RFC 7386). Objects that the target lacks are copied in one pass.
 void merge(Json& target, const Json& patch) {
   if (!patch.is_object() || !target.is_object() || target.empty()) {
     target = without_nulls(patch);

@@ -153,7 +153,7 @@ class Checker {
     if (deepest_.value == &value) deepest_.rules.push_back(&rule);
   }
 
-  /// Step of a path: the key of an object's member, or the index of an array's item.
+  /// Step of a JSON pointer: the key of an object's member, or the index of an array's item.
   struct Step {
     const std::string* key = nullptr;
     std::size_t index = 0;

@@ -16,15 +16,15 @@ namespace trammel::harness {
 [[nodiscard]] std::string analysis_pointer(const Document& document);
 
 /// Returns the default number of elements of a link or member: the key "elements" of "model" if
-/// present. Else it is 1 in linear statics, where nodal values are exact, and in large statics;
-/// else 4.
+/// present. Without this key, it is 1 in linear statics, where nodal values are exact, and in
+/// statics with large displacement. In other analyses, it is 4.
 [[nodiscard]] solver::Index default_element_count(const Document& document);
 /// Returns the number of elements of a member, in this order of precedence:
 /// - the number stated by the member, or by "model".
 /// - 1 for a bar, which does not bend.
 /// - 8 for a tapered member.
 /// - one element for each 7.5 degrees of an arc, and at least 4.
-/// - the number returned by `default_elements`.
+/// - the number returned by `default_element_count`.
 [[nodiscard]] solver::Index element_count_of(const Document& document, const std::string& member);
 
 enum class Refine { coarser, finer };
