@@ -272,8 +272,8 @@ class Selector {
     return {.phase = phase, .platform = phase};
   }
 
-  /// @returns true if a sudden start or a fast path excites elastic vibration. A change of its
-  /// frequency then shifts its phase.
+  /// @returns true if a sudden start or a fast path excites elastic vibration. A change of the
+  ///   frequency of this vibration then shifts its phase.
   [[nodiscard]] bool vibrates() const {
     return from_rest_ || frequency_ratio_ * frequency_ratio_ > 0.1;
   }

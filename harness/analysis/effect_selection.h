@@ -31,8 +31,8 @@ struct EffectEvidence {
 };
 
 struct EffectSelection {
-  solver::Outcome outcome;  ///< of the coarse model with all effects; if unsolved, every effect
-                            ///< remains
+  /// Outcome of the coarse model with all effects. If it is not solved, every effect remains.
+  solver::Outcome outcome;
   solver::Effects chosen;
   std::array<EffectEvidence, solver::kEffectCount> evidence;
   /// Relative change of the results if the chosen effects replace all effects: sum of the measured

@@ -56,7 +56,8 @@ void read_bound(const JsonView& place, Check& check) {
   check.why = place.text("why");
 }
 
-/// Returns what a sweep states about one quantity, such as its theoretical order of convergence.
+/// Returns the settings that a sweep states for one quantity, such as its theoretical order of
+/// convergence.
 Json followed(const Json& sweep, const std::string& quantity) {
   return sweep.value("quantities", Json::object()).value(quantity, Json::object());
 }

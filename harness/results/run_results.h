@@ -226,8 +226,9 @@ struct EffectRow {
 /// Estimated discretization error of a quantity: half-widths of error bands about its values.
 struct ErrorEstimate {
   std::string quantity;
-  Numbers relative;  ///< relative to each value or to `scale`, whichever is larger; a curve has a
-                     ///< single entry
+  /// Relative error of each value: relative to the value or to `scale`, whichever is larger. A
+  /// curve has a single entry.
+  Numbers relative;
   /// Scale of the error: largest value of all quantities of the same kind, such as all
   /// displacements [unit]. If the scale is missing, the error is relative to each value.
   Number scale;
