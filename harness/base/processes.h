@@ -74,7 +74,7 @@ struct ProgramLimits {
                                          const std::filesystem::path& folder,
                                          const ProgramLimits& limits);
 
-/// Makes this process the parent of orphaned descendants, from now on.
+/// From now on, makes this process the parent of its orphaned descendants.
 void adopt_descendants();
 /// Kills every child of this process, including descendants that become its children.
 void kill_descendants();

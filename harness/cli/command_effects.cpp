@@ -98,8 +98,8 @@ Json study_json(const std::string& id, const std::string& analysis, const Effect
   return json;
 }
 
-/// @returns true if the omitted effects change the results by at most the tolerance. This includes
-/// large displacement if the analysis cannot represent it.
+/// @returns true if the omitted effects change the results by at most the tolerance. The change
+///   includes the effect of large displacement if the analysis cannot represent this effect.
 bool holds(const EffectStudy& study) {
   return study.within_tolerance() && !study.choice.is_beyond_linear_theory();
 }

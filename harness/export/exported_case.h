@@ -13,8 +13,8 @@
 #include "solver/model/model.h"
 
 /// Exports cases for other codes, as one computation each. The exported case contains explicit
-/// nodes, members, loads and effects. They replace inheritance, patches, mesh options, tapers and
-/// arcs, and the manipulator unless it moves along a path.
+/// nodes, members, loads and effects. These replace inheritance, patches, mesh options, tapers and
+/// arcs. A manipulator at rest is also replaced by its nodes and members.
 namespace trammel::harness {
 
 /// Selects one computation of a case.
@@ -39,8 +39,8 @@ struct ExportedScene {
 
 /// Returns the exported case file: model, analysis, and "export" with its origin and the requested
 /// quantities. The manipulator along its path (kinematics, rigid dynamics, elastodynamics) is kept.
-/// Its bodies, its joints and a table of the path over time are added under "export". The case of a
-/// neural network whose samples are stated in the case is exported unchanged.
+/// Bodies, joints and a table of the path over time are added under "export". The case of a neural
+/// network whose samples are stated in the case is exported unchanged.
 /// @throws InputError  as `exported_scene`, and if a case file cannot express a part or a quantity.
 [[nodiscard]] Json export_case(const Case& given, const ExportChoice& choice);
 

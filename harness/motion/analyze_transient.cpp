@@ -283,8 +283,8 @@ class Motion {
 };
 
 /// Returns the part of the initial velocity that a reduced basis cannot represent [-]. The part is
-/// relative to the initial velocity of the full model, in the norm of kinetic energy. It is 0
-/// without an initial velocity.
+/// relative to the initial velocity of the full model, in the norm of kinetic energy. The result is
+/// 0 without an initial velocity.
 double unrepresented_velocity(const JsonView& transient, const solver::System& full,
                               const solver::System& reduced) {
   const auto initial = transient.find("initial_state");

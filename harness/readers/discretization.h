@@ -9,7 +9,8 @@
 /// Discretization of a case: elements of its members and plates, steps in time.
 namespace trammel::harness {
 
-/// Returns the kind of the analysis, such as "modes". For a study, this is the repeated analysis.
+/// Returns the kind of a case's analysis, such as "modes". For a parameter study, returns the kind
+/// of the analysis that the study repeats.
 [[nodiscard]] std::string discretized_analysis(const Document& document);
 /// Returns the JSON pointer of the analysis that `discretized_analysis` names, such as
 /// "/analysis/modes" or, for a study, "/analysis/study/analysis/modes".
@@ -31,10 +32,10 @@ enum class Refine { coarser, finer };
 
 /// Return merge patches of the case for a finer or coarser discretization:
 /// - mesh: twice or half the elements of every member, plate and platform
-/// - step: half or twice the time step. With a step control: a tenth or ten times its tolerance.
-///   With "error_control", the largest step "step_s" is halved or doubled as well; `largest_step`
-///   replaces it if the case does not state it. A finer step of large motion also halves the
-///   interval "output_step_s" between recorded times.
+/// - step: half or twice the time step. With automatic step control: a tenth or ten times the
+///   tolerance of the control. With "error_control", the largest step "step_s" is halved or doubled
+///   as well; `largest_step` replaces it if the case does not state it. A finer step of large
+///   motion also halves the interval "output_step_s" between recorded times.
 ///
 /// The result is empty without a mesh or step. It is also empty if an odd number of elements, or of
 /// intervals between the frequencies of a harmonic response, would be halved.

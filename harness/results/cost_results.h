@@ -10,7 +10,8 @@
 /// Section "cost" of results.json: error and processor time of a computation with several settings.
 namespace trammel::results {
 
-/// Result of a computation with one setting in a separate process. It is not part of results.json.
+/// Result of a computation with one setting in a separate process. This result is not part of
+/// results.json.
 struct SandboxedRun {
   enum class Termination { failed, solved, timed_out };
   Termination termination = Termination::failed;

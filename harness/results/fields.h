@@ -147,7 +147,7 @@ inline constexpr bool is_map = false;
 template <class T>
 inline constexpr bool is_map<std::map<std::string, T>> = true;
 using Pair = std::pair<double, double>;
-/// Types whose arrays are written as bytes in the form `store`.
+/// True for types whose arrays are written as bytes in the form `store`.
 template <class T>
 inline constexpr bool is_packed =
     std::is_same_v<T, double> || std::is_same_v<T, Number> || std::is_same_v<T, Pair>;

@@ -234,8 +234,8 @@ bool is_condensable(const solver::ManipulatorDesign& design) {
           !design.platform.six_nodes);
 }
 
-/// Returns true if the modes of all poses are computed together. This requires a manipulator on a
-/// path, without other parts, rotating frame, reduction or geometric stiffening.
+/// Returns true if the modes of all poses are computed together. The case must have a manipulator
+/// on a path, and no other parts, rotating frame, reduction or geometric stiffening.
 bool follows_pose(const JsonView& analysis, const CaseModel& case_model) {
   const solver::Model& others = case_model.structure;
   const auto& joints = case_model.joint_elements;
