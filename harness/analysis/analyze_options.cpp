@@ -36,11 +36,12 @@ void disagree(double by, OptionCounts& counts) {
 struct Options {
   std::vector<Json> combinations;  ///< patches of the analysis, one per combination
   bool must_agree = false;         ///< if true, no combination may change a number
-  /// Words that the message must contain if a computation does not converge.
+  /// Words that the reason of the outcome must contain if a computation does not converge.
   std::vector<std::string> required_terms;
 };
 
-/// Returns all combinations of the option values under "vary", each added to the options "set".
+/// Returns all combinations of the option values under the key "vary". Each also contains the
+/// options under the key "set".
 std::vector<Json> combinations_of(const JsonView& place) {
   std::vector<Json> found = {place.has("set") ? place["set"].json() : Json::object()};
   if (!place.has("vary")) return found;
@@ -156,8 +157,8 @@ void run_combinations(const Document& document, const JsonView& place, const Ref
   }
 }
 
-/// Returns the cases to be computed for a variant: the variant itself or, if it is a study, its
-/// selected levels.
+/// Returns the cases to be computed for a variant: the variant itself or, if it is a study, the
+/// cases of selected parameter values.
 std::vector<Document> computations_of(const Document& document, const JsonView& choice) {
   if (analysis_kind(document) != "study") return {document};
   std::vector<Document> found;

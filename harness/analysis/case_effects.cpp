@@ -20,7 +20,8 @@ JsonView analysis_place(const Document& document) {
   return JsonView(document)["analysis"][analysis_kind(document)];
 }
 
-/// Returns the value of the key by which the analysis switches an effect; empty without the key.
+/// Returns the value of the key by which an analysis switches an effect on or off; empty if the key
+/// is absent.
 std::optional<JsonView> find_key(const Document& document, const EffectKey& effect_key) {
   std::optional<JsonView> place = analysis_place(document);
   for (const char* key : effect_key.place)
@@ -28,7 +29,8 @@ std::optional<JsonView> find_key(const Document& document, const EffectKey& effe
   return place;
 }
 
-/// Returns the effects of a case without the key "effects", as defined by model and analysis.
+/// Returns the effects with which a case without the key "effects" is computed. The keys of its
+/// model and analysis define them.
 Effects stated_effects(const Document& document, const EffectScope& scope) {
   Effects stated = scope.applicable;
   if (!scope.required.has(Effect::large_displacement))

@@ -14,7 +14,8 @@
 /// element matrices.
 namespace trammel::harness {
 
-/// Returns the scene with at most `elements` elements per member and three triangles in a platform.
+/// Returns the scene on a coarse mesh: at most `elements` elements per member, and three triangles
+/// in a platform.
 [[nodiscard]] CaseModel coarsen_scene(CaseModel scene, solver::Index elements);
 
 /// Returns the number of unknowns of a model before constraints.
@@ -37,11 +38,11 @@ class CoarseScene {
         model_(model_at_path_start(scene_)),
         size_(typical_scales(model_)) {}
 
-  /// Returns the largest relative change of the results at the steps if the effects `all` are
-  /// replaced by `effects`. The change is infinite without a solution.
+  /// Returns the largest relative change of the results at these steps of the path if the effects
+  /// `all` are replaced by `effects`. The change is infinite without a solution.
   [[nodiscard]] double change(solver::Effects all, solver::Effects effects,
                               const std::set<std::size_t>& steps);
-  /// Returns the results at all given steps; empty if one of the steps has no solution.
+  /// Returns the results at these steps of the path; empty if one of the steps has no solution.
   [[nodiscard]] std::optional<Quantities> along(solver::Effects effects,
                                                 const std::set<std::size_t>& steps);
 

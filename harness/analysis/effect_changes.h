@@ -32,7 +32,8 @@ struct ModelScales {
 /// "displacement", "force", "stress" and similar groups are relative to the largest value of the
 /// group. Changes of "frequency" are relative to each frequency, and infinite if modes are missing.
 /// The two components of a vector are compared as one vector. Quantities without a group are not
-/// compared, nor are quantities of one result only, such as rotations of a rigid platform.
+/// compared, nor are quantities that only one of the two results contains, such as rotations of a
+/// rigid platform.
 using Changes = std::map<std::string, LargestDifference>;
 [[nodiscard]] Changes changes_between(const Quantities& full, const Quantities& other,
                                       const ModelScales& model);

@@ -12,7 +12,8 @@ using solver::Effect;
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
-/// Returns the highest of the first angular frequencies of all members as cantilevers [rad/s].
+/// Computes the first angular frequency of each member as a cantilever, and returns the highest
+/// [rad/s].
 double highest_first_frequency(const solver::Model& model) {
   double highest = 0;
   for (const solver::Member& member : model.members) {
@@ -106,7 +107,7 @@ EffectNumbers effect_numbers(const solver::Model& model, const ResponseScale& sc
   };
   const double load =
       size.force * size.length * size.length / (std::numbers::pi * std::numbers::pi * softest);
-  // Loads near the buckling load of a cantilever amplify the change by every effect.
+  // Loads near the buckling load of a cantilever amplify the change of the results by every effect.
   const double of_buckling = scale.loads_stiffen ? 4 * load : 0;
   const double factor = of_buckling < 0.95 ? scale.phase / (1 - of_buckling) : kInfinite;
   set(Effect::axial_flexibility, axial, kInfinite);  // a frame may carry its loads by axial forces

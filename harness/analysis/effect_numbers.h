@@ -20,8 +20,9 @@ struct ResponseScale {
 };
 
 struct EffectNumber {
-  std::optional<double> value;  ///< dimensionless number, see `number_formula`
-  /// Estimated relative change of the results without the effect; infinite without a bound.
+  std::optional<double> value;  ///< dimensionless number, see `dimensionless_number_formula`
+  /// Estimated relative change of the results if the effect is removed; infinite if no upper bound
+  /// of the change is known.
   double change;
 };
 

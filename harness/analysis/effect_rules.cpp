@@ -110,7 +110,8 @@ EffectScope rotating_scope(const JsonView& rotating, const solver::Model& model)
   EffectScope scope = inertia_scope(model);
   scope.applicable = scope.applicable.with(Effect::geometric_stiffening);
   if (scope.applicable.has(Effect::gravity)) scope.required = scope.required.with(Effect::gravity);
-  // If the axis lies in the plane, Coriolis forces are normal to the plane.
+  // If the axis of rotation lies in the plane of the model, Coriolis forces are normal to this
+  // plane.
   if (rotating.get<std::string>("axis", "normal") == "normal")
     scope.applicable = scope.applicable.with(Effect::gyroscopic);
   return scope;
@@ -137,7 +138,8 @@ EffectScope motion_scope(const JsonView& analysis, const solver::Model& model) {
   return scope;
 }
 
-/// Returns true if point masses or plates have mass. Else, vibration requires mass of members.
+/// Returns true if point masses or plates have mass. If not, the mass of members is required for
+/// vibration.
 bool has_mass_of_other_parts(const solver::Model& model) {
   return std::ranges::any_of(model.masses,
                              [](const solver::PointMass& one) { return one.mass > 0; }) ||

@@ -9,7 +9,7 @@
 /// Rules for the selection of physical effects: applicable and required effects of each analysis.
 namespace trammel::harness {
 
-/// Key of an analysis that switches an effect on or off.
+/// Key of an analysis by which the user switches an effect on or off.
 struct EffectKey {
   solver::Effect effect;
   std::vector<const char*> place;  ///< path of the key below the analysis
@@ -26,9 +26,10 @@ struct EffectScope {
   /// it.
   const char* no_large_displacement = nullptr;
 
-  /// Adds gyroscopic forces to a set with large displacement and inertia, which imply these forces.
+  /// Adds gyroscopic forces to a set of effects with large displacement and inertia, which imply
+  /// gyroscopic forces.
   [[nodiscard]] solver::Effects completed(solver::Effects set) const;
-  /// Returns the set without the effect and without its dependents.
+  /// Returns a set of effects without `effect` and without the effects that depend on it.
   [[nodiscard]] solver::Effects without(solver::Effects set, solver::Effect effect) const;
 };
 

@@ -68,8 +68,9 @@ class Selector {
     return selection_.chosen.has(effect) && !scope_.required.has(effect);
   }
 
-  /// Removes an effect from the chosen effects if the resulting `change` from the set `full` is at
-  /// most the fraction `share` of the remaining tolerance.
+  /// Removes an effect from the chosen effects if the results then differ from those of the set
+  /// `full` by at most the fraction `share` of the remaining tolerance. `change` is this relative
+  /// difference.
   bool try_without(Effect effect, Effects full, double change, double share, bool is_measured) {
     EffectEvidence& evidence = selection_.of(effect);
     evidence.is_measured = is_measured;
@@ -80,9 +81,10 @@ class Selector {
     return true;
   }
 
-  /// Removes effects by dimensionless numbers, while the sum of changes is within a fraction of the
-  /// tolerance. Expensive effects (a meshed platform, stiffening of a frame at rest) precede cheap
-  /// ones. Each group is in ascending order of change.
+  /// Removes effects by dimensionless numbers, while the sum of the estimated changes of the
+  /// results is within a fraction of the tolerance. Expensive effects (a meshed platform,
+  /// stiffening of a frame at rest) precede cheap ones. Each group is in ascending order of the
+  /// estimated change.
   void apply_numbers(const ResponseScale& scale) {
     const EffectNumbers numbers = effect_numbers(model_, scale);
     const auto change_of = [&](Effect effect) {
@@ -122,9 +124,9 @@ class Selector {
     selection_.work += estimated_work(counters, unknown_count(model));
   }
 
-  /// Compares linear theory with large displacement on one element per member, which is exact in
-  /// linear theory for prismatic members. If linear theory is insufficient near a buckling load,
-  /// compares second-order theory with large displacement on four elements per member, which
+  /// Compares linear theory with large displacement on one element per member. One element per
+  /// prismatic member is exact in linear theory. If linear theory is insufficient near a buckling
+  /// load, compares second-order theory with large displacement on four elements per member, which
   /// reproduce buckling. On a path, only the steps with extreme results of linear theory are
   /// compared. Steps with a change beyond the tolerance are added.
   void select_in_statics() {
@@ -202,7 +204,8 @@ class Selector {
     return size;
   }
 
-  /// Returns the step with the largest displacement and the step with the largest force.
+  /// Returns the indices of the largest displacement and of the largest force over the points of a
+  /// path, or over the samples of a motion.
   static std::set<std::size_t> extremes(const Quantities& quantities) {
     std::map<std::string, std::pair<double, std::size_t>> largest;
     for (const auto& [name, quantity] : quantities) {
@@ -269,8 +272,8 @@ class Selector {
     return {.phase = phase, .platform = phase};
   }
 
-  /// @returns true if a sudden start or a fast path excites elastic vibration. A change of its
-  /// frequency then shifts its phase.
+  /// @returns true if a sudden start or a fast path excites elastic vibration. A change of the
+  ///   frequency of this vibration then shifts its phase.
   [[nodiscard]] bool vibrates() const {
     return from_rest_ || frequency_ratio_ * frequency_ratio_ > 0.1;
   }
@@ -307,7 +310,7 @@ class Selector {
         selection_.chosen = scope_.applicable;
       }
     }
-    // Large displacement contains gyroscopic terms without additional cost.
+    // A computation with large displacement includes gyroscopic terms without additional cost.
     if (!selection_.chosen.has(Effect::large_displacement) &&
         selection_.chosen.has(Effect::inertia)) {
       measure_without(coarse, Effect::gyroscopic);
@@ -348,8 +351,8 @@ class Selector {
   /// Returns the relative change of the results of a motion by large displacement. If the motion
   /// starts quasi-statically, the change is measured on the equilibria at the times with extreme
   /// results. These equilibria include loads, weight and nominal inertia. If the motion starts
-  /// suddenly, the change is measured on the first part of the motion. It grows with time during
-  /// the vibration.
+  /// suddenly, the change is measured on the first part of the motion. The change grows with time
+  /// during the vibration.
   std::optional<double> change_of_theory() {
     /// A vibration doubles the quasi-static change (kSwing). After a sudden start, only the
     /// fraction kShortened of the duration is simulated.

@@ -23,18 +23,20 @@ namespace trammel::harness {
 struct EffectEvidence {
   std::optional<double> number;  ///< dimensionless number of the effect
   std::optional<double> own;     ///< relative change of the results without this effect only
-  /// Relative change of the results without this effect and without the effects removed before it.
+  /// Relative change of the results if this effect is removed together with all effects that were
+  /// removed before it.
   std::optional<double> cumulative;
-  /// True if the changes are measured on a coarse model; otherwise they are bounds.
+  /// True if the changes of the results are measured on a coarse model; false if they are bounds.
   bool is_measured = false;
 };
 
 struct EffectSelection {
-  solver::Outcome outcome;  ///< of the coarse model with all effects; if unsolved, every effect
-                            ///< remains
+  /// Outcome of the coarse model with all effects. If it is not solved, every effect remains.
+  solver::Outcome outcome;
   solver::Effects chosen;
   std::array<EffectEvidence, solver::kEffectCount> evidence;
-  /// Relative change of the results from all to the chosen effects: sum of measurements and bounds.
+  /// Relative change of the results if the chosen effects replace all effects: sum of the measured
+  /// changes, and of bounds for the other changes.
   double change = 0;
   /// Relative change of the results by large displacement; empty if the analysis can compute large
   /// displacement or if there is no estimate.

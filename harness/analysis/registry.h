@@ -16,7 +16,7 @@ struct AnalysisKind {
   std::variant<std::monostate, AnalyseStep*, AnalysePath*> of_scene = {};
   bool needs_manipulator = false;
   const EffectRules* effects = nullptr;  ///< null: the analysis does not support effects
-  /// Function that replaces `of_scene` if `of_scene` is empty or the case has no "model".
+  /// Function that performs the analysis if `of_scene` is empty or the case has no key "model".
   AnalyseCase* of_case = nullptr;
   const char* without_model = "";  ///< description of the model for `of_case`
   /// Residuals that must be small for the status "solved"; empty if no equation is solved.

@@ -15,8 +15,8 @@ namespace {
 // and include a margin (size_estimate_test). Coordinates require memory in the model, matrices and
 // states. Recorded numbers are also written as JSON and drawn.
 constexpr double kCoordinate = 2500, kEntry = 24, kNumber = 44;
-/// Bytes per number of a sensitivity map, which is rounded and drawn. Bytes per number of the
-/// samples of a neural network, which are read from JSON.
+/// Memory per number of a sensitivity map, and per number of the samples of a neural network
+/// [bytes]. The numbers of a map are rounded and drawn; those of samples are read from JSON.
 constexpr double kMapNumber = 90, kSampleNumber = 500;
 /// Bytes per recorded number of a frequency response.
 constexpr double kResponseNumber = 22;

@@ -14,7 +14,8 @@
 namespace trammel::harness {
 namespace {
 
-/// Returns the value of the first line of a file that starts with `key`.
+/// Finds the first line of a file that starts with `key`. Returns the text after ':' or '=' in this
+/// line, or "unknown".
 std::string line_of(const char* file, const std::string& key) {
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {

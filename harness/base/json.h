@@ -6,7 +6,8 @@
 
 namespace trammel::harness {
 
-/// JSON that keeps the order of the file: cases, checks and variants are shown in that order.
+/// JSON type that keeps the order of keys. Cases, checks and variants are therefore shown in the
+/// order of their file.
 using Json = nlohmann::ordered_json;
 using JsonPointer = Json::json_pointer;
 

@@ -180,9 +180,9 @@ Json read_json(const std::filesystem::path& file) {
 namespace {
 
 void append_json(const Json& json, std::size_t depth, std::size_t deepest, std::string& text) {
-  // JSON with many lines, such as results.json, is written with a limit of nested lines
-  // (`deepest`). Its lines are indented by at most one space, because full indentation would take 2
-  // % of the size.
+  // Large files, such as results.json, are written with a limit of the nesting depth (`deepest`).
+  // Their lines are indented by at most one space, because full indentation would take 2 % of the
+  // file size.
   const std::size_t most = deepest < kMaxDepth ? 1 : kMaxDepth;
   const auto line = [&](std::size_t spaces) {
     text.append(1, '\n').append(std::min(spaces, most), ' ');

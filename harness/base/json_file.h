@@ -23,7 +23,8 @@ namespace trammel::harness {
 [[nodiscard]] Json parse_cbor(const std::string& bytes);
 
 /// Formats JSON for people and for diffs: objects over several lines, flat arrays on one line.
-/// @param deepest  level of nesting beyond which values are on one line, objects one level earlier
+/// @param deepest  nesting level beyond which a value is written on one line. An object is written
+///   on one line from one level earlier.
 [[nodiscard]] std::string format_json(const Json& json, std::size_t deepest = 1000);
 
 /// Writes the complete file or nothing: the text is written into a temporary file in the same

@@ -15,12 +15,12 @@ struct ProcessTask {
   unsigned cpu_limit_s = 0;           ///< limit of processor time; at least 1
 };
 
-/// Result of a child process: the way it ended, its answer and its computing times.
+/// Result of a child process: the cause of its end, its answer and its computing times.
 struct ProcessOutcome {
   enum class Termination { answered, timed_out, out_of_memory, disk_full, crashed, not_started };
   Termination termination = Termination::not_started;
-  /// Answer of a function, or the reason why there is no answer. For a program, this is the end of
-  /// its standard output and error, at most 64 KiB.
+  /// Text returned by a function, or the reason why the function did not return. For a program: the
+  /// end of its standard output and error, at most 64 KiB.
   std::string text;
   int status = 0;  ///< exit status, signal number, or errno if the process was not started
   double wall_s = 0, cpu_s = 0;
@@ -67,14 +67,14 @@ struct ProgramLimits {
 [[nodiscard]] std::string find_program(const std::string& name);
 
 /// Runs a program in a folder, which is also its TMPDIR, in a separate session without standard
-/// input. Then kills it with all its descendants. The outcome is `answered` for any exit status.
-/// This process must have no other children.
+/// input. Then kills the program with all its descendants. The outcome is `answered` for any exit
+/// status. This process must have no other children.
 /// @param words  the program's path, then its arguments
 [[nodiscard]] ProcessOutcome run_limited(const std::vector<std::string>& words,
                                          const std::filesystem::path& folder,
                                          const ProgramLimits& limits);
 
-/// Makes this process the parent of orphaned descendants, from now on.
+/// From now on, makes this process the parent of its orphaned descendants.
 void adopt_descendants();
 /// Kills every child of this process, including descendants that become its children.
 void kill_descendants();

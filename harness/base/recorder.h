@@ -11,7 +11,8 @@
 
 namespace trammel::harness {
 
-/// Collects the quantities of an analysis. Each call appends one number: one per point of a path.
+/// Collects the quantities of an analysis. Each call of `add` appends one number to a quantity.
+/// Along a path, a quantity has one number per point.
 class Recorder {
  public:
   /// @param item  part of the model, written after the colon of the name; empty: none
@@ -25,14 +26,15 @@ class Recorder {
   template <class Number>
   requires std::is_arithmetic_v<Number>
   void add(const std::string& name, Number value) { add(name, "", static_cast<double>(value)); }
-  /// Adds one number for each part of the model.
+  /// Adds one number to the quantity of each part of the model.
   template <class Items, class Values>
   void add_each(const std::string& name, const Items& items, const Values& values) {
     auto value = std::begin(values);
     for (const auto& item : items) add(name, item, *value++);
   }
-  /// Records a missing number, such as a break in a curve or a study level without solution. It is
-  /// written as null. A check fails only if it requires this number.
+  /// Records a missing number, such as a break in a curve, or the result of a parameter study at a
+  /// value without solution. Files contain null for the number. A check of the quantity fails only
+  /// if it requires this number.
   void add_missing_value(const std::string& name, const std::string& item) {
     quantity_of(name, item).values.push_back(std::numeric_limits<double>::quiet_NaN());
   }
@@ -70,7 +72,8 @@ class EnergyRecorder {
     largest_kinetic_ = std::max(largest_kinetic_, kinetic);
   }
   [[nodiscard]] double largest_kinetic_energy() const { return largest_kinetic_; }
-  /// Returns the largest change of total energy over the largest kinetic energy; 0 without motion.
+  /// Returns the largest change of the total energy, divided by the largest kinetic energy; 0
+  /// without motion.
   [[nodiscard]] double relative_drift() const {
     return largest_kinetic_ > 0 ? change_ / largest_kinetic_ : 0;
   }

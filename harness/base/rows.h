@@ -15,8 +15,8 @@ struct Column {
   double scale;  ///< factor of numbers in the table: 100 for percent
   bool is_right_aligned = false;
 
-  /// @param head  heading, by default the key. Text below a heading that starts with '>' is right
-  ///   aligned; numbers always are.
+  /// @param head  heading of the column, by default the key. Text below a heading that starts with
+  ///   '>' is aligned to the right. Numbers are always aligned to the right.
   Column(const char* key, const std::string& head = "", int digits = 6, double scale = 1);
 };
 

@@ -13,8 +13,8 @@ namespace trammel::harness {
 
 namespace {
 
-/// Returns the number of insertions, deletions, substitutions and swaps of neighbors between two
-/// words.
+/// Returns the edit distance of two words: number of inserted, deleted, replaced and swapped
+/// adjacent letters.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before, last(b.size() + 1), row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;

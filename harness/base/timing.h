@@ -39,13 +39,13 @@ struct RelativeTime {
                                          std::size_t step = 1);
 
 /// Runs every function once to warm up, then all of them once in each repeat, in a new random
-/// order. Disturbances of the machine therefore affect all functions alike.
+/// order. Disturbances of the machine therefore affect the times of all functions alike.
 /// @param done  called after each repeat
 [[nodiscard]] std::vector<Timing> time_interleaved(const std::vector<std::function<void()>>& works,
                                                    const TimingOptions& options,
                                                    const std::function<void()>& done);
 
-/// Time of one evaluation of a function, measured for information and not checked.
+/// Time of one evaluation of a function. It is reported for information, and checks do not use it.
 struct EvaluationTime {
   std::string name;             ///< name of the function, with '_' between words
   double wall_s = 0;            ///< time of one evaluation [s]

@@ -73,7 +73,8 @@ std::vector<Side> sides_of_cases(const std::vector<std::string>& names) {
   return sides;
 }
 
-/// Returns the sides to be compared: results files, each read once, or computed cases.
+/// Returns the results to be compared (sides): those of results files, each read once, or of
+/// computed cases.
 std::vector<Side> sides_of(const std::vector<std::string>& names) {
   std::vector<Side> sides;
   std::vector<std::string> others;

@@ -22,7 +22,8 @@ std::string note(const Convergence& found, std::size_t k) {
   return found.in_asymptotic_range[k] ? "asymptotic" : "";
 }
 
-/// Describes the results of a refinement study: order, fitted error law and extrapolated value.
+/// Describes the results of a refinement study: observed order of convergence, fitted error law and
+/// extrapolated value.
 std::string conclusion(const Convergence& found) {
   std::vector<std::string> parts;
   if (found.theory_order)

@@ -26,8 +26,8 @@ double ratio(double part, double full) {
   return full > 0 ? part / full : 0;
 }
 
-/// Table columns of a model without some effects. They contain the changes of its results from
-/// those of the full model, its computing time and its work.
+/// Columns of a table with one row per model from which some effects are removed. The row contains
+/// the changes of the results relative to the full model, the computing time and the counted work.
 const std::vector<Column> kRunColumns = {"left_out",
                                          {"status", ""},
                                          {"change", "change [%]", 3, 100},
@@ -58,7 +58,8 @@ Rows own_contributions(const EffectStudy& study) {
   return rows;
 }
 
-/// Table columns of the effects selected in a case, with the keys of `results::EffectScene`.
+/// Columns of a table of the effects selected in each case. The keys are those of
+/// `results::EffectScene`.
 const std::vector<Column> kSceneColumns = {"scene",
                                            "analysis",
                                            "chosen",
@@ -97,8 +98,8 @@ Json study_json(const std::string& id, const std::string& analysis, const Effect
   return json;
 }
 
-/// @returns true if the omitted effects change the results by at most the tolerance. This includes
-/// large displacement if the analysis cannot represent it.
+/// @returns true if the omitted effects change the results by at most the tolerance. The change
+///   includes the effect of large displacement if the analysis cannot represent this effect.
 bool holds(const EffectStudy& study) {
   return study.within_tolerance() && !study.choice.is_beyond_linear_theory();
 }

@@ -31,8 +31,8 @@ class Descendants {
   Descendants& operator=(const Descendants&) = delete;
 };
 
-/// Returns true for cases that test only trammel's evaluation of checks. They do not apply to other
-/// codes.
+/// Returns true for cases that test only trammel's evaluation of checks. Such cases do not apply to
+/// other codes.
 bool is_control(const Case& one) {
   const std::vector<std::string> labels = one.labels();
   return contains(labels, "control");

@@ -29,7 +29,7 @@ struct Renderers {
       comparison;
 };
 
-/// Message printed if a command is interrupted whose finished computations are stored.
+/// Message printed if SIGINT or SIGTERM interrupts a command that stores its finished computations.
 inline constexpr const char* kInterrupted =
     "trammel: interrupted; with --resume the same command computes the rest\n";
 

@@ -113,7 +113,8 @@ void print_run_errors(const std::vector<Run>& runs) {
   }
 }
 
-/// Selects the cases with the given names or labels; the catalogue if there are neither.
+/// Selects the cases with the given names or labels; all cases of the catalogue if the options
+/// contain neither names nor labels.
 Selection select(const CommandOptions& options) {
   const Catalogue catalogue;
   if (is_catalogue(options)) return load(catalogue.runnable_files(), catalogue);
@@ -178,7 +179,7 @@ bool is_results_file(const std::string& name) {
   }
 }
 
-/// Returns the path of the first of these programs that is installed.
+/// Returns the path of the first installed program of the list `names`.
 /// @throws InputError  if none is installed
 std::string require_program(const std::string& option, const std::vector<std::string>& names) {
   for (const std::string& name : names)
@@ -206,8 +207,8 @@ void present(const CommandOptions& options, const std::filesystem::path& page) {
   if (options.pdf) {
     if (!std::filesystem::exists(sheet))
       throw InputError("--pdf: the report has no summary, because no case was run");
-    // Below the system's folder for temporary files, because Chromium limits the length of the
-    // path.
+    // The profile of the browser is below the system's folder for temporary files, because Chromium
+    // limits the length of its path.
     std::string profile = (std::filesystem::temp_directory_path() / "trammel-XXXXXX").string();
     if (mkdtemp(profile.data()) == nullptr)
       throw InputError(profile + ": no folder for Chromium can be created");

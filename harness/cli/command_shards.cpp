@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the cases and labels as words of a command line, each preceded by a space.
+/// Returns the selected cases and labels as arguments of a command line, each preceded by a space.
 std::string words_of(const CommandOptions& options) {
   std::string words;
   for (const std::string& name : options.words) words += " " + shell_quoted(name);

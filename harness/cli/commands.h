@@ -45,7 +45,7 @@ struct CommandOptions {
   bool quick = false;
   int repeats = 7;
   std::size_t seed = 1;
-  /// Estimate discretization errors of all cases, or of none.
+  /// True if discretization errors are estimated for all cases, or for no case.
   bool all_errors = false, no_errors = false;
   double warn_above = 0.01;  ///< relative discretization error above which a warning is printed
   double accuracy = 0;       ///< relative error for the search of mesh and step; 0: no search
@@ -55,7 +55,7 @@ struct CommandOptions {
   double tolerance = 0.01;  ///< permitted relative change of the results, for `effects`
 
   std::vector<std::string> builds;  ///< results.json of other builds, for `certify`
-  /// Print only rows without independent evidence, for `coverage`.
+  /// For the command `coverage`: print only the features without independent evidence.
   bool gaps = false;
 
   int level = -1;  ///< level of the sweep written by `export`; -1: the case itself
@@ -78,7 +78,8 @@ Command cost_command, effects_command;
 Command claims_command, paper_command, coverage_command;
 Command export_command, solve_command, grade_command;
 
-/// Returns the cases with the given names or labels; the catalogue if there are neither.
+/// Returns the cases with the given names or labels; all cases of the catalogue if the options
+/// contain neither names nor labels.
 /// @throws InputError  if a case cannot be read.
 [[nodiscard]] std::vector<Case> select_cases(const CommandOptions& options);
 

@@ -190,8 +190,8 @@ class Coverage {
   std::map<std::pair<std::string, std::string>, Kinds> rows_;
 };
 
-/// Returns true if a stated name denotes the feature. "*: time_s" denotes this quantity for every
-/// analysis.
+/// Returns true if the name `stated` denotes the feature. The name "*: time_s" denotes the quantity
+/// time_s of every analysis.
 bool means(const std::string& stated, const std::string& feature) {
   if (stated.rfind("*: ", 0) != 0) return stated == feature;
   const std::string end = stated.substr(1);

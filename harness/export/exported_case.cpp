@@ -27,14 +27,15 @@ JsonView analysis_place(const Document& document) {
   return JsonView(document)["analysis"][analysis_kind(document)];
 }
 
-/// Returns true for analyses of the manipulator along a path. They export the manipulator unchanged
-/// and add a description of its mechanism.
+/// Returns true for analyses of the manipulator along a path. Their export contains the manipulator
+/// unchanged, and a description of its bodies and joints.
 bool is_of_mechanism(const std::string& kind) {
   return kind == "kinematics" || kind == "inverse-dynamics" || kind == "forward-dynamics" ||
          kind == "elastodynamics";
 }
 
-/// Returns true for a neural network with samples in the case, which has no model to export.
+/// Returns true for the analysis of a neural network whose samples are stated in the case. Such a
+/// case has no model.
 bool is_of_samples(const Document& document) {
   return analysis_kind(document) == "grnn" && analysis_place(document).has("samples");
 }
@@ -53,7 +54,7 @@ void require_exportable(const Document& document) {
     throw place["track"].error("'track' cannot be exported; expected 'drives'");
 }
 
-/// Returns the analysis with keys that switch the chosen effects on or off.
+/// Returns the JSON object of the analysis, with keys that switch each effect on or off as chosen.
 Json stated_analysis(const Document& document, solver::Effects chosen) {
   Json analysis = document.value().at("analysis");
   if (!document.value().contains("effects")) return analysis;
@@ -109,7 +110,7 @@ Json length_of(const Document& document, const std::string& name) {
   return is_list && !place.has("rotating") ? place["count"].json() : Json(nullptr);
 }
 
-/// Returns the checks of this variant, and those checks of other variants that compare with it.
+/// Returns the checks of this variant, and the checks by which other variants are compared with it.
 std::vector<Check> checks_that_look_at(const Document& document, const std::string& variant,
                                        const Case& given) {
   const std::vector<std::string> variants = given.variants();

@@ -13,8 +13,8 @@
 #include "solver/model/model.h"
 
 /// Exports cases for other codes, as one computation each. The exported case contains explicit
-/// nodes, members, loads and effects. They replace inheritance, patches, mesh options, tapers and
-/// arcs, and the manipulator unless it moves along a path.
+/// nodes, members, loads and effects. These replace inheritance, patches, mesh options, tapers and
+/// arcs. A manipulator at rest is also replaced by its nodes and members.
 namespace trammel::harness {
 
 /// Selects one computation of a case.
@@ -24,11 +24,12 @@ struct ExportChoice {
   std::optional<std::size_t> level = std::nullopt;
 };
 
-/// Returns the case with the patches of the variant and the level.
+/// Returns the case with the patches of the chosen variant and of the chosen level of a sweep.
 /// @throws InputError  if the variant, sweep or level does not exist.
 [[nodiscard]] Document chosen_document(const Case& given, const ExportChoice& choice);
 
-/// Model of a case for export, with the effects of its analysis. Driven actuators are not locked.
+/// Model of a case for export, with the effects of its analysis. Actuators that follow a prescribed
+/// motion have no support against rotation.
 struct ExportedScene {
   solver::Model model;
   solver::large_motion::LargeMotionModel joints;
@@ -38,13 +39,13 @@ struct ExportedScene {
 
 /// Returns the exported case file: model, analysis, and "export" with its origin and the requested
 /// quantities. The manipulator along its path (kinematics, rigid dynamics, elastodynamics) is kept.
-/// Its bodies, joints and a table over time are added under "export". A neural network with samples
-/// in the case is exported unchanged.
+/// Bodies, joints and a table of the path over time are added under "export". The case of a neural
+/// network whose samples are stated in the case is exported unchanged.
 /// @throws InputError  as `exported_scene`, and if a case file cannot express a part or a quantity.
 [[nodiscard]] Json export_case(const Case& given, const ExportChoice& choice);
 
 /// Writes the linear matrices of a case into a folder. A case with large displacement is linearized
-/// at zero load.
+/// about the unloaded state.
 ///   K.mtx, M.mtx      stiffness and mass matrix for the free coordinates q.
 ///   C.mtx             Rayleigh damping matrix, if the analysis has Rayleigh damping.
 ///   T.mtx             matrix that yields all coordinates u = T q.

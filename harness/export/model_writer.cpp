@@ -284,7 +284,7 @@ class ModelWriter {
     return std::move(writer.json);
   }
 
-  /// @param names  names of the first parts, if their C++ type does not contain a name
+  /// @param names  names of the first entries of `parts`, if their C++ type does not contain a name
   template <class T>
   void add(const char* kind, const std::vector<T>& parts,
            const std::vector<std::string>& names = {}) {

@@ -23,10 +23,10 @@ struct VtkCell {
                               const std::vector<VtkCell>& cells, const std::string& part,
                               const std::vector<results::Point>& displacement = {});
 
-/// Writes the drawings of a run as CASE-VARIANT-shapes.pvd, -poses.pvd and -motion.pvd. They list
-/// one VTU file per mode shape, per pose and per selected time of a motion. The files of a motion
-/// are listed with their times [s]. Displaced grids have point vectors "displacement" [m]. Writes
-/// nothing if the run has no drawing.
+/// Writes the drawings of a run as CASE-VARIANT-shapes.pvd, -poses.pvd and -motion.pvd. These files
+/// list one VTU file per mode shape, per pose and per selected time of a motion. The files of a
+/// motion are listed with their times [s]. Displaced grids have point vectors "displacement" [m].
+/// Writes nothing if the run has no drawing.
 /// @throws InputError  if the folder cannot be written.
 void write_vtk(const results::Run& run, const std::filesystem::path& folder);
 

@@ -76,7 +76,7 @@ std::string without_file(const std::string& message) {
   return at == std::string::npos ? message : message.substr(at + 2);
 }
 
-/// Runs the adapter once in a separate folder. The files are kept unless they exceed
+/// Runs the adapter once in a separate folder. Its files are kept unless their size exceeds
 /// `kMaxKeptBytes`.
 void call(const Adapter& adapter, const fs::path& folder, const Json& json, Run& run) {
   std::error_code error;
@@ -107,8 +107,8 @@ void call(const Adapter& adapter, const fs::path& folder, const Json& json, Run&
   if (fs::is_directory(folder, error)) write_file(folder / "output.txt", outcome.text);
 }
 
-/// Computes the sweeps whose orders of convergence are checked, level by level. A level without a
-/// solution stays empty.
+/// Computes all levels of the refinement sweeps whose order of convergence is checked. A level
+/// without a solution has no quantities.
 std::vector<results::Sweep> swept(const Adapter& adapter, const fs::path& folder, const Case& owner,
                                   const std::string& variant, const Document& document,
                                   const std::vector<Check>& checks, Run& run) {

@@ -23,7 +23,8 @@ struct Adapter {
 [[nodiscard]] std::vector<std::string> split_adapter_command(const std::string& command);
 
 /// Returns a solver that runs an adapter for a case or variant. If the adapter reports the order of
-/// its element, it also runs the sweeps whose orders are checked, level by level.
+/// convergence of its element, the solver also computes all levels of the refinement sweeps whose
+/// order is checked.
 [[nodiscard]] OtherSolver adapter_solver(const Adapter& adapter);
 
 /// Reads the RESULT.json of an adapter into status, reason, quantities and solver. Missing

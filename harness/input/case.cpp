@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the keys that a case inherits from an extended case: the computation, but no checks.
+/// Returns the keys that a case inherits from an extended case: those that define the computation,
+/// but no checks.
 Json inherited(const Json& base) {
   Json inherited_keys = Json::object();
   for (const char* key : {"model", "analysis", "effects", "variants", "sweeps", "uncertainty"})
@@ -35,7 +36,8 @@ Json inherited(const Json& base) {
   return inherited_keys;
 }
 
-/// Applies the extended cases, starting with the most remote one, and then the case file itself.
+/// Applies the extended cases in the order of inheritance, from the root to the direct parent, and
+/// then the case file itself.
 void apply_with_bases(Document& document, const fs::path& file, const Catalogue& catalogue,
                       std::vector<fs::path> seen) {
   const Json json = read_json(file);

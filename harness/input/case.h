@@ -34,9 +34,10 @@ inline constexpr const char* kBaseVariant = "base";
 /// @param catalogue  cases to which the key "extends" may refer by name
 [[nodiscard]] Case load_case(const std::filesystem::path& file, const Catalogue& catalogue);
 
-/// Returns the case with the variant's patch applied. The result has no "variants", and its
+/// Returns the case with the variant's patch applied. The result has no key "variants", and its
 /// "description" is that of the variant.
-/// @throws InputError  for an unknown name, or if the patched case violates the schema.
+/// @throws InputError  for an unknown name of a variant, or if the patched case violates the
+/// schema.
 [[nodiscard]] Document patched(const Case& given, const std::string& variant);
 
 /// Returns warnings about numbers that probably have a wrong unit: angles above 2 pi in a key
@@ -52,7 +53,8 @@ void require_pointer(const Document& document, const JsonView& pointer);
 [[nodiscard]] Json patch_setting_value(const Json& document, const std::string& pointer,
                                        const Json& value);
 
-/// Level of a parameter sweep: the parameter value, and the case with the patch for this value.
+/// One level of a parameter sweep: the value of the parameter, and the case in which the patch has
+/// set this value.
 struct Level {
   double parameter = 0;
   Document document;
@@ -61,7 +63,8 @@ struct Level {
 /// @param variant  case with the patch of a variant, as returned by `patched`
 /// @throws InputError  if a swept pointer does not exist or a level violates the schema.
 [[nodiscard]] std::vector<Level> sweep_levels(const Document& variant, const std::string& sweep);
-/// Returns the levels of a sweep or study with the keys "values", and "pointers" or "patches".
+/// Returns the levels of a sweep or study. Its JSON object has the key "values", and either
+/// "pointers" or "patches".
 [[nodiscard]] std::vector<Level> sweep_levels(const Document& variant, const JsonView& sweep);
 
 }  // namespace trammel::harness

@@ -56,7 +56,8 @@ void read_bound(const JsonView& place, Check& check) {
   check.why = place.text("why");
 }
 
-/// Returns the settings of a sweep for one quantity, such as the theoretical order of convergence.
+/// Returns the settings that a sweep states for one quantity, such as its theoretical order of
+/// convergence.
 Json followed(const Json& sweep, const std::string& quantity) {
   return sweep.value("quantities", Json::object()).value(quantity, Json::object());
 }
@@ -98,8 +99,8 @@ OrderCriterion read_order(const JsonView& place, const std::string& quantity,
   return order;
 }
 
-/// Rejects a known discrepancy if the windows of all entries contain zero, because agreement would
-/// go unnoticed.
+/// Rejects a known discrepancy if the allowed intervals of all entries contain zero, because
+/// agreement would go unnoticed.
 void require_discrepancy(const JsonView& place, const Check& check) {
   const bool is_difference =
       check.measure == Measure::relative || check.measure == Measure::absolute;

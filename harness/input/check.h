@@ -19,7 +19,8 @@ enum class Measure { relative, absolute, ratio, value };
 
 using results::Expectation;
 
-/// Interval that must contain the number limited by a check. An open end is infinite.
+/// Interval that must contain the number limited by a check. An interval without a limit on one
+/// side has an infinite limit there.
 struct Window {
   double low = 0, high = 0;
   [[nodiscard]] bool contains(double value) const { return low <= value && value <= high; }
@@ -31,7 +32,8 @@ struct Window {
 
 /// Requirements for the observed order of convergence of a mesh refinement.
 struct OrderCriterion {
-  /// Condition for a fine mesh: wave number times element length is at most `at_most`.
+  /// Condition for a mesh that is fine enough: wave number times element length is at most
+  /// `at_most`.
   struct WaveNumber {
     std::string reference;
     std::vector<std::size_t> index;
@@ -46,7 +48,8 @@ struct OrderCriterion {
   };
   std::string sweep;
   double within = 0;  ///< tolerance of the observed order, unless `two_term_within` is set
-  /// Tolerance of an error law with two powers of the mesh size; it replaces `within`.
+  /// Tolerance of the error law a h^p + b h^q, which replaces the tolerance `within` of a single
+  /// order.
   std::optional<double> two_term_within;
   std::size_t meshes = 3;  ///< required number of meshes that are fine enough
   bool of_errors = false;  ///< the quantity is itself an error and needs no reference
@@ -73,7 +76,8 @@ struct Check {
   std::string why;
   std::optional<OrderCriterion> order;
   std::optional<NegativeControl> negative_control;
-  /// Recorded verdicts of the ASME V&V 20 comparisons, one per value; empty: not recorded.
+  /// Expected verdicts of the ASME V&V 20 comparisons, one per value, as the case records them;
+  /// empty: none are recorded.
   std::vector<std::string> validation_verdicts;
   std::string pointer;  ///< JSON pointer of the check in the case
 

@@ -17,7 +17,7 @@ Json without_nulls(const Json& value) {
   return kept;
 }
 
-/// Applies a merge patch (RFC 7386). Parts that the target lacks are copied in one pass.
+/// Applies a merge patch (RFC 7386). Objects that the target lacks are copied in one pass.
 void merge(Json& target, const Json& patch) {
   if (!patch.is_object() || !target.is_object() || target.empty()) {
     target = without_nulls(patch);
@@ -50,7 +50,7 @@ Document Document::from_json(const std::string& file, const Json& json) {
 }
 
 void Document::apply_patch(const std::string& file, const std::string& origin, const Json& patch) {
-  // Variants are patches themselves; their nulls apply later.
+  // The key "variants" contains patches. Their nulls are kept until the variant is applied.
   Json variants = value_.value("variants", Json());
   merge(value_, patch);
   if (const auto stated = patch.find("variants"); stated != patch.end() && stated->is_object()) {

@@ -13,7 +13,8 @@ namespace trammel::harness {
 /// File and JSON pointer at which the user wrote a value.
 struct Origin {
   std::string file, pointer;
-  /// True if `pointer` refers to a value of a sweep, which replaces the value in the document.
+  /// True if `pointer` refers to a value in a sweep, by which the sweep replaces a value of the
+  /// document.
   bool is_value = false;
 };
 
@@ -56,7 +57,7 @@ class Document {
   std::vector<Layer> layers_;
 };
 
-/// Violation of a JSON schema and its position in the document.
+/// Violation of a JSON schema: message and position in the document.
 struct SchemaFault {
   std::string pointer;  ///< JSON pointer into the document; empty: the document itself
   std::string message;  ///< text of the form "expected ... (got ...)"

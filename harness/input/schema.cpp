@@ -46,7 +46,8 @@ bool has_type(const Json& value, const SchemaRule& rule) {
          (is_whole(value) && allows_type(rule, "integer"));
 }
 
-/// Returns true if a JSON value satisfies a keyword. The type and nested values are not examined.
+/// Returns true if a JSON value satisfies one keyword of a schema, such as "minimum". The type and
+/// nested values are not examined.
 bool obeys(const Json& value, std::string_view name, const SchemaRule& limit) {
   if (name == "enum")
     return std::any_of(limit.Begin(), limit.End(),
@@ -153,7 +154,7 @@ class Checker {
     if (deepest_.value == &value) deepest_.rules.push_back(&rule);
   }
 
-  /// Step of a path: the key of an object's member, or the index of an array's item.
+  /// Step of a JSON pointer: the key of an object's member, or the index of an array's item.
   struct Step {
     const std::string* key = nullptr;
     std::size_t index = 0;

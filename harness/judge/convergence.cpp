@@ -11,7 +11,8 @@ namespace {
 
 using results::Number;
 
-/// Relative tolerance for agreement of an order with theory, or with that of the adjacent level.
+/// Relative tolerance for the agreement of an observed order of convergence with the theoretical
+/// order, or with the order on the adjacent refinement level.
 constexpr double kOrderTolerance = 0.1;
 
 bool orders_agree(double order, double other) {
@@ -28,7 +29,7 @@ double relative(double value, double reference) {
 double order_of_three(const std::vector<double>& v, const std::vector<double>& h, std::size_t k) {
   const double ratio = (v[k - 2] - v[k - 1]) / (v[k - 1] - v[k]);
   if (!std::isfinite(ratio) || ratio <= 0) return kNaN;
-  // Sizes are scaled by h1 so that powers with a large p do not overflow.
+  // Element sizes are scaled by h1 so that powers with a large p do not overflow.
   const double coarse = h[k - 2] / h[k - 1], fine = h[k] / h[k - 1];
   const auto excess = [&](double p) {
     return (std::pow(coarse, p) - 1) / (1 - std::pow(fine, p)) - ratio;
@@ -42,12 +43,12 @@ double order_of_three(const std::vector<double>& v, const std::vector<double>& h
   return 0.5 * (low + high);
 }
 
-/// Returns the observed order of convergence from the errors on two levels.
+/// Returns the observed order of convergence from the errors on two refinement levels.
 double order_of_errors(double coarse, double fine, double h_coarse, double h_fine) {
   return std::log(coarse / fine) / std::log(h_coarse / h_fine);
 }
 
-/// Analyzes the convergence of a series of values. Levels without a value are skipped.
+/// Analyzes the convergence of a series of values. Refinement levels without a value are skipped.
 class ConvergenceStudy {
  public:
   explicit ConvergenceStudy(Convergence& series) : series_(series) {
@@ -85,14 +86,14 @@ class ConvergenceStudy {
  private:
   [[nodiscard]] std::size_t count() const { return v_.size(); }
 
-  /// Computes the observed orders from the values alone.
+  /// Computes the observed orders of convergence from the values alone, without an exact value.
   void observe() {
     observed_.assign(count(), kNaN);
     for (std::size_t k = 2; k < count(); ++k) observed_[k] = order_of_three(v_, h_, k);
   }
 
-  /// Returns true if the values on three levels converge no faster than with order zero. They have
-  /// no limit, such as the stress at a reentrant corner.
+  /// Returns true if the values on three refinement levels do not converge (order zero or less). An
+  /// example is the stress at a reentrant corner.
   [[nodiscard]] bool diverges(std::size_t k) const {
     if (k < 2) return false;
     const double before = std::abs(v_[k - 1] - v_[k - 2]), last = std::abs(v_[k] - v_[k - 1]);
@@ -100,17 +101,20 @@ class ConvergenceStudy {
     return last * std::log(h_[k - 2] / h_[k - 1]) >= before * std::log(h_[k - 1] / h_[k]);
   }
 
-  /// Converged value extrapolated from a level and the previous levels, with its safety factor.
+  /// Converged value, extrapolated from a refinement level and the previous levels, with its safety
+  /// factor.
   struct Expected {
     double value = kNaN, factor = 3;
   };
 
-  /// Returns the limit by Richardson extrapolation of levels k - 1 and k with one order.
+  /// Returns the Richardson extrapolation of the values on the levels k - 1 and k with the order
+  /// `order`.
   [[nodiscard]] double extrapolated(std::size_t k, double order) const {
     return v_[k] + (v_[k] - v_[k - 1]) / (std::pow(h_[k - 1] / h_[k], order) - 1);
   }
 
-  /// Returns true if the order agrees with theory, or lies between two theoretical orders that mix.
+  /// Returns true if `order` agrees with the theoretical order, or is between two theoretical
+  /// orders that mix.
   [[nodiscard]] bool is_theoretical_order(double order) const {
     if (!series_.theory_order || std::isnan(order)) return false;
     if (!series_.lower_order) return orders_agree(order, *series_.theory_order);
@@ -125,8 +129,8 @@ class ConvergenceStudy {
     if (!series_.theory_order)
       return {extrapolated(k, std::isnan(seen) ? 1 : std::max(0.5, seen)), 3};
     const double lowest = series_.lower_order.value_or(*series_.theory_order);
-    // Two levels have no observed order. The theoretical order applies, with Roache's safety factor
-    // 3.
+    // An observed order requires three levels. On two levels, the theoretical order applies, with
+    // Roache's safety factor 3.
     if (k == 1) return {extrapolated(k, lowest), 3};
     // The values oscillate, so that they have no observed order.
     if (std::isnan(seen)) return {extrapolated(k, std::min(1.0, lowest)), 3};
@@ -137,7 +141,8 @@ class ConvergenceStudy {
       if (std::isfinite(value)) return {value, 1.25};
     }
     if (is_theoretical_order(seen)) return {extrapolated(k, *series_.theory_order), 1.25};
-    // An observed order above theory does not persist under refinement, so theory limits the order.
+    // An observed order above the theoretical order does not persist under refinement, so it is
+    // reduced to the theoretical order.
     return {extrapolated(k, std::clamp(seen, std::min(0.5, lowest), lowest)), 3};
   }
 
@@ -149,8 +154,8 @@ class ConvergenceStudy {
       const auto [value, factor] = expected(k);
       gci_[k] = factor * std::abs((value - v_[k]) / v_[k]) + roundoff_[k];
       factor_[k] = factor;
-      // Each level yields an extrapolated value. The value with the smallest sum of its change from
-      // the previous level and its round-off error is used.
+      // Each level yields an extrapolated value. The level is used whose extrapolated value has the
+      // smallest sum of round-off error and change from the previous level.
       const double from = std::isfinite(before) ? before : v_[k];
       const double change = std::abs(value - from) + roundoff_[k] * std::abs(value);
       before = value;

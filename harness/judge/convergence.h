@@ -12,18 +12,19 @@ namespace trammel::harness {
 
 using results::Convergence;
 
-/// Completes a series of values by observed orders, asymptotic range, Richardson extrapolation (L.
-/// F. Richardson 1911) and the grid convergence index (P. J. Roache, J. Fluids Eng. 116, 1994; I.
-/// B. Celik et al., J. Fluids Eng. 130, 078001, 2008).
+/// Adds the results of a convergence study to a series of values: observed orders, asymptotic
+/// range, Richardson extrapolation (L. F. Richardson 1911) and the grid convergence index (P. J.
+/// Roache, J. Fluids Eng. 116, 1994; I. B. Celik et al., J. Fluids Eng. 130, 078001, 2008).
 [[nodiscard]] Convergence analyze_convergence(Convergence series);
 
-/// Returns the least-squares slope of log error over log size on the chosen levels; empty for fewer
-/// than two levels.
+/// Returns the least-squares slope of log error over log element size on the chosen refinement
+/// levels; empty for fewer than two levels.
 [[nodiscard]] std::optional<double> log_log_slope(const std::vector<double>& size,
                                                   const results::Numbers& error,
                                                   const std::vector<bool>& chosen);
 
-/// Largest allowed relative misfit of the two-term error law on the levels used for its fit.
+/// Largest allowed relative misfit of the error law a h^p + b h^q on the refinement levels used for
+/// its fit.
 inline constexpr double kTwoTermTolerance = 0.05;
 
 /// Minimum ratio of an error to its round-off error. Below this ratio, round-off error hides the
@@ -33,17 +34,18 @@ inline constexpr double kRoundoffMargin = 100;
 /// Required fraction of refinement levels whose uncertainty band contains the exact value (hit
 /// rate). The bands claim a coverage of about 95 %.
 inline constexpr double kMinHitRate = 0.95;
-/// Limit of the median ratio of uncertainty band to true error. The limit is Roache's larger safety
-/// factor, which applies if no observed order is close to theory.
+/// Limit of the median ratio of uncertainty band to true error. The limit is the larger of Roache's
+/// safety factors. It applies if no observed order is close to the theoretical order.
 inline constexpr double kMaxMedianRatio = 3;
-/// Minimum number of levels for a judgment of the uncertainty bands. With fewer levels, a single
-/// band without the exact value would decide the result.
+/// Minimum number of refinement levels for a judgment of the uncertainty bands. With fewer levels,
+/// a single band without the exact value would decide the result.
 inline constexpr std::size_t kMinLevels = 100;
 
 /// Compares uncertainty bands (grid convergence index) with exact values: the hit rate, and the
 /// band width relative to the error. The width matters because an excessively wide band always
-/// contains the exact value. Levels without a band, or with an exact value of 0, are excluded. The
-/// median ratio includes levels with an error above 100 times round-off.
+/// contains the exact value. Refinement levels without a band, or with an exact value of 0, are
+/// excluded. The median ratio only includes levels with an error above 100 times the round-off
+/// error.
 [[nodiscard]] results::UncertaintyCoverage summarize_numerical_uncertainty(
     const std::vector<results::Run>& runs);
 
@@ -56,18 +58,18 @@ struct TwoTermOrders {
   double p = 4, q = 2;  ///< orders, p > q > 0
 };
 
-/// Fits the law a h^p + b h^q by least squares of the relative residuals over the usable levels.
-/// The coarsest levels, whose errors contain further terms, are removed one by one until the
-/// largest relative residual is at most `within`. At least three levels remain.
-/// @param error   signed error of each level, coarse to fine.
+/// Fits the law a h^p + b h^q by least squares of the relative residuals over the usable refinement
+/// levels. The coarsest levels, whose errors contain further terms, are removed one by one until
+/// the largest relative residual is at most `within`. At least three levels remain.
+/// @param error   signed error on each refinement level, coarse to fine.
 /// @param usable  false if an error is missing or dominated by round-off.
 /// @return empty for fewer than three usable levels
 [[nodiscard]] std::optional<results::TwoTermLaw> fit_two_term_error_law(
     const std::vector<double>& h, const std::vector<double>& error, const std::vector<bool>& usable,
     const TwoTermOrders& law, double within);
 
-/// Returns the limit of values v = limit + a h^p + b h^q through three levels; NaN if two levels
-/// have the same size.
+/// Fits v = limit + a h^p + b h^q to the values v on three refinement levels, and returns the
+/// limit. Returns NaN if two levels have the same element size h.
 [[nodiscard]] double extrapolate_two_term_law(const std::array<double, 3>& h,
                                               const std::array<double, 3>& v,
                                               const TwoTermOrders& law);

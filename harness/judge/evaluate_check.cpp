@@ -16,7 +16,8 @@ namespace {
 /// entries, only the worst is reported.
 constexpr std::size_t kMaxEntries = 16;
 
-/// Reason why a check cannot be judged.
+/// Exception with the reason why the computed and the expected values of a check cannot be
+/// compared.
 struct NotComparable {
   std::string message;
   bool is_missing = false;  ///< the requested quantity is missing
@@ -145,7 +146,8 @@ Window widened(const Window& window, const Check& check, const CheckResult& entr
   return {window.low - half_unit, window.high + half_unit};
 }
 
-/// Sets the verdict of an entry, whose computed and expected values are set, by its tolerance.
+/// Sets the verdict of an entry of a check by its tolerance. The computed and expected values must
+/// be set before.
 void evaluate_entry(const Check& check, const Window* window, double uncertainty,
                     CheckResult& entry) {
   const double expected = check.has_comparison_target() ? *entry.expected : 0;

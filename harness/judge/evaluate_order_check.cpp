@@ -37,8 +37,9 @@ class OrderCheckEvaluator {
     meshes_ = static_cast<std::size_t>(std::ranges::count(qualifies_, true));
   }
 
-  /// Judges the requested criteria. For another solver, judges only the order, because leading term
-  /// and extrapolation depend on trammel's elements.
+  /// Judges the criteria that the check states: order, leading term of the error, and extrapolated
+  /// value. For another solver, judges only the order, because the other criteria depend on
+  /// trammel's elements.
   [[nodiscard]] std::vector<CheckResult> run() const {
     if (is_other_solver_) {
       CheckResult check_result = order();
@@ -59,7 +60,8 @@ class OrderCheckEvaluator {
     return fine && found_.error[k].has_value() && !found_.at_roundoff_floor[k];
   }
 
-  /// Returns true, with a message, if the levels are insufficient for a judgment of the order.
+  /// Returns true if the refinement levels are insufficient for a judgment of the order. Then sets
+  /// the message of `check_result`.
   bool lacks_asymptotic_range(CheckResult& check_result) const {
     if (found_.broken) {
       check_result.message = "a refined level has no finite value";
@@ -92,8 +94,9 @@ class OrderCheckEvaluator {
     return check_result;
   }
 
-  /// Returns the value with the largest distance from `target` over the levels that qualify. These
-  /// are the levels in the asymptotic range or, if the check states a wave number, on fine meshes.
+  /// Returns the value with the largest distance from `target` over the refinement levels that
+  /// qualify. These are the levels in the asymptotic range or, if the check states a wave number,
+  /// on fine meshes.
   template <class Value>
   double worst(double target, const Value& value, CheckResult& check_result) const {
     double farthest = kNaN;

@@ -20,9 +20,9 @@ using Response = std::function<std::optional<std::vector<double>>(const std::vec
 
 /// First-order standard uncertainty u of an output f due to the inputs x:
 ///   u^2 = sum over inputs of (df/dx half_width)^2 / 3.
-/// Returns the signed contributions df/dx half_width / sqrt(3), input x output [unit of the
-/// output]. The central differences have a step of half_width / 16. Their truncation error is 1/256
-/// of the nonlinearity over the half-width.
+/// Returns the signed contributions df/dx half_width / sqrt(3): one list per input, with one value
+/// per output [unit of the output]. The central differences have a step of half_width / 16. Their
+/// truncation error is 1/256 of the nonlinearity over the half-width.
 /// @return empty if the model has no solution near its nominal inputs
 [[nodiscard]] std::optional<std::vector<std::vector<double>>> uncertainty_by_derivatives(
     const Response& response, const std::vector<double>& half_widths);
@@ -47,7 +47,7 @@ struct SampledUncertainty {
 inline constexpr const char* kWithinUncertainty = "within-uncertainty";
 inline constexpr const char* kModelError = "model-error";
 inline constexpr const char* kReferenceInconsistent = "reference-inconsistent";
-/// Verdict if a number is missing, so that no conclusion is drawn.
+/// Verdict of a validation comparison if a number is missing, so that no conclusion is drawn.
 inline constexpr const char* kUndecided = "undecided";
 
 inline constexpr double kCoverageFactor = 2;

@@ -24,7 +24,7 @@ void add_everything_else(const Sweep& sweep, std::vector<TrackedQuantity>& track
   }
 }
 
-/// Returns the value of one entry of a quantity on one level, with the round-off error.
+/// Returns the value of one entry of a quantity on one refinement level, with its round-off error.
 std::pair<double, double> entry_of(const Quantities& quantities,
                                    const TrackedQuantity& tracked_quantity, std::size_t index) {
   const auto found = quantities.find(tracked_quantity.quantity);

@@ -47,7 +47,8 @@ struct TrackedQuantity {
 [[nodiscard]] std::vector<TrackedQuantity> quantities_of_sweep(const JsonView& quantities,
                                                                const References& references);
 
-/// Returns the quantities of the checks, each once. A check with exact values replaces one without.
+/// Returns the quantities of the checks, each once. Of several checks of the same quantity, one
+/// with an exact reference is preferred.
 [[nodiscard]] std::vector<TrackedQuantity> quantities_of_checks(const Document& document,
                                                                 const std::vector<Check>& checks,
                                                                 const References& references);

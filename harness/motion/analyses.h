@@ -12,7 +12,7 @@ namespace trammel::harness {
 /// loads.
 AnalyseStep analyze_kinematics;
 
-/// Computes the response in time: outputs at sample times, their peaks, energies.
+/// Computes the response in time: output quantities at sample times, their peaks, and energies.
 AnalyseStep analyze_transient;
 
 /// Computes amplitudes of the steady response over a range of frequencies, and their peaks.
@@ -20,7 +20,7 @@ AnalyseStep analyze_harmonic;
 /// Computes the motion of a model with large displacement by geometrically exact elements.
 AnalysePath analyze_large_motion;
 
-/// Computes torques, angles, powers and energies of the rigid manipulator along its path.
+/// Computes torques, joint angles, powers and energies of the rigid manipulator along its path.
 AnalysePath analyze_inverse_dynamics;
 
 /// Integrates the motion of the rigid manipulator under constant torques or under the torques of
@@ -28,8 +28,8 @@ AnalysePath analyze_inverse_dynamics;
 AnalysePath analyze_forward_dynamics;
 
 /// Computes the elastic vibration about the nominal motion along the path. Records deflection and
-/// error of P, joint rotations, section forces, stresses, reactions, torques compared with those of
-/// rigid links, and energies.
+/// path error of the platform point P, joint rotations, section forces, stresses, reactions,
+/// torques compared with those of rigid links, and energies.
 AnalysePath analyze_elastodynamics;
 
 /// Evaluates a general regression neural network on samples of the inverse dynamics along the path.
@@ -44,8 +44,8 @@ AnalyseCase analyze_grnn_samples;
     const JsonView& analysis);
 
 /// Reads the motion of an elastodynamics case, with the chosen effects.
-/// @throws InputError  if the model has parts besides the manipulator or the trajectory has no
-///   time.
+/// @throws InputError  if the model has parts other than the manipulator and loads at P, or has no
+///   trajectory of at least two points.
 [[nodiscard]] solver::ElastodynamicsOptions read_elastodynamics_options(
     const JsonView& analysis, const CaseModel& case_model);
 

@@ -58,8 +58,8 @@ void record_energy(const solver::ElastodynamicsSolution& solution, bool quasi_st
     record.add("energy_drift", (energy.total() - solution.energy.front().total()) / size);
 }
 
-/// Records the distance of P between two solutions at each sample, relative to the largest
-/// deflection of the first solution.
+/// Records the distance between the positions of P in two solutions at each sample, relative to the
+/// largest deflection of P in the first solution.
 void record_distance(const char* name, const Eigen::MatrixX2d& a, const Eigen::MatrixX2d& b,
                      Recorder& record) {
   const double size = a.rowwise().norm().maxCoeff();
@@ -101,8 +101,8 @@ void record_damping(const solver::RayleighDamping& damping, const solver::System
   record.add_or_missing("mode_count_below", "", below ? static_cast<double>(*below) : std::nan(""));
 }
 
-/// Records dimensionless numbers that predict the importance of effects, and integration
-/// statistics.
+/// Records dimensionless numbers that predict the importance of physical effects, and the numbers
+/// and lengths of time steps.
 void record_summary(const solver::ElastodynamicsSolution& solution, Recorder& record) {
   const solver::ElastodynamicsEffects& effects = solution.effects;
   const solver::TransientSummary& summary = solution.summary;

@@ -40,7 +40,7 @@ struct GrnnSamples {
 
 /// Samples as in Varalakshmi and Srinivas (2017), Section 4.3, one for each point of the path.
 /// Inputs are the torques of the inverse dynamics. Outputs are the angles and velocities of the
-/// active joints. Angles are continuous across pi.
+/// active joints. Angles do not jump by 2 pi.
 struct PathSamples {
   solver::Outcome outcome;  ///< outcome of the first point without a solution
   GrnnSamples samples;
@@ -103,8 +103,8 @@ PathSamples samples_of_path(const solver::RigidManipulator& manipulator,
   return result;
 }
 
-/// Replaces the angles and velocities by those of geometrically exact flexible links under the same
-/// torques.
+/// Replaces the joint angles and velocities in the samples by those of a manipulator with
+/// geometrically exact flexible links under the same torques.
 /// @param place  "flexible_links" of the case
 /// @throws InputError  as `add_tracking`, and if points of the path are not evenly spaced.
 void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamples& path) {
@@ -138,7 +138,8 @@ void let_links_bend(const JsonView& place, const CaseModel& case_model, PathSamp
       }).outcome;
 }
 
-/// Sets the smoothing parameter: the stated value, or that with the least cross-validation error.
+/// Sets the smoothing parameter of the network: the value stated in the case, or the value with the
+/// least cross-validation error.
 void choose_sigma(const JsonView& analysis, solver::Grnn& network, Recorder& record) {
   if (analysis.has("sigma") == analysis.has("spread") && analysis.has("sigma"))
     throw analysis.error("expected at most one of 'sigma' and 'spread' (got both)");
@@ -180,7 +181,8 @@ Parts parts_of(const std::vector<bool>& trains) {
   return parts;
 }
 
-/// Scales of the outputs over all samples, by which errors of different outputs become comparable.
+/// Scales of the network's outputs over all samples. Errors divided by these scales are comparable
+/// between outputs.
 struct OutputScales {
   Eigen::RowVectorXd deviation, range;
   explicit OutputScales(const Eigen::MatrixXd& outputs)
@@ -311,7 +313,8 @@ void record_positions(const solver::ManipulatorGeometry& geometry, const CaseMod
 }
 
 /// Predicts the outputs over time without torques, by a modified Akima spline through the training
-/// points. Beyond these points, the prediction follows the end tangents.
+/// points. Before the first and after the last training point, the prediction follows the tangents
+/// of the spline at its ends.
 Eigen::MatrixXd spline_over_time(const CaseModel& case_model, const Eigen::MatrixXd& outputs,
                                  const std::vector<solver::Index>& training) {
   std::vector<double> times;

@@ -39,7 +39,8 @@ class HarmonicScene {
     outcome = reduced.outcome.solved() ? response->outcome() : reduced.outcome;
   }
 
-  /// Records the response at a frequency; a missing number at a resonance without damping.
+  /// Records the response at one frequency. At a resonance without damping, records a missing
+  /// number.
   void record_at(std::size_t point, Recorder& record, StepResult& result) const {
     const double share = static_cast<double>(point) / static_cast<double>(points - 1);
     const double frequency = low + (high - low) * share;
@@ -94,7 +95,8 @@ class HarmonicScene {
     return std::nullopt;
   }
 
-  /// Draws the deformation in phase with the load, and a quarter period later, at a frequency.
+  /// Draws the deformation at one frequency: the part in phase with the load, and the deformation a
+  /// quarter period later.
   void draw_at(double frequency, Drawing& drawing) const {
     const Eigen::VectorXcd q = response->at(frequency);
     if (q.size() == 0) return;

@@ -86,7 +86,7 @@ solver::TransientOptions read_large_motion_options(const JsonView& analysis) {
   return options;
 }
 
-/// Returns the displacement of each node relative to a moving and rotating node `eye`:
+/// Returns the displacement of each node in axes that move and rotate with the node `eye`:
 ///   relative = R^T (arm + moved) - arm
 /// R is the rotation of `eye`, `arm` the initial vector from `eye` to the node, and `moved` the
 /// difference of their displacements. The row of `eye` is NaN.
@@ -117,7 +117,7 @@ Eigen::MatrixX3d support_reactions(const GeometricallyExactSystem& system, const
   return reaction;
 }
 
-/// Records the outputs at each state that the integrator reports.
+/// Records the requested quantities at each state of the motion that the integrator reports.
 class MotionRecorder {
  public:
   MotionRecorder(const GeometricallyExactSystem& system, OutputSelection selection,

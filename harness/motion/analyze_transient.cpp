@@ -202,8 +202,8 @@ class Motion {
     return damped_ ? read_damping(transient_, modes) : solver::HarmonicDamping();
   }
 
-  /// Adds the damping to the equation of motion. Returns false if the modes that modal damping
-  /// requires cannot be computed.
+  /// Adds the damping of the case to the equation of motion. Returns false if the modes that modal
+  /// damping requires cannot be computed.
   bool damp(solver::EquationOfMotion& equation) {
     solver::HarmonicDamping damping = stated_damping();
     if (damping.modal_ratio.empty()) {
@@ -260,7 +260,8 @@ class Motion {
     add_evidence(equation);
   }
 
-  /// Adds the equilibrium residuals of modal superposition at the sample times as evidence.
+  /// Computes the equilibrium residuals of modal superposition at the sample times, and adds them
+  /// to the evidence of the solution.
   void add_evidence(solver::EquationOfMotion& equation) {
     load_.apply_to(equation);
     solver::MotionEvidence evidence(equation);
@@ -282,8 +283,8 @@ class Motion {
 };
 
 /// Returns the part of the initial velocity that a reduced basis cannot represent [-]. The part is
-/// relative to the initial velocity of the full model, in the norm of kinetic energy. It is 0
-/// without an initial velocity.
+/// relative to the initial velocity of the full model, in the norm of kinetic energy. The result is
+/// 0 without an initial velocity.
 double unrepresented_velocity(const JsonView& transient, const solver::System& full,
                               const solver::System& reduced) {
   const auto initial = transient.find("initial_state");

@@ -9,32 +9,33 @@
 /// Discretization of a case: elements of its members and plates, steps in time.
 namespace trammel::harness {
 
-/// Returns the kind of the analysis, such as "modes". For a study, this is the repeated analysis.
+/// Returns the kind of a case's analysis, such as "modes". For a parameter study, returns the kind
+/// of the analysis that the study repeats.
 [[nodiscard]] std::string discretized_analysis(const Document& document);
 /// Returns the JSON pointer of the analysis that `discretized_analysis` names, such as
 /// "/analysis/modes" or, for a study, "/analysis/study/analysis/modes".
 [[nodiscard]] std::string analysis_pointer(const Document& document);
 
 /// Returns the default number of elements of a link or member: the key "elements" of "model" if
-/// present. Else it is 1 in linear statics, where nodal values are exact, and in large statics;
-/// else 4.
+/// present. Without this key, it is 1 in linear statics, where nodal values are exact, and in
+/// statics with large displacement. In other analyses, it is 4.
 [[nodiscard]] solver::Index default_element_count(const Document& document);
 /// Returns the number of elements of a member, in this order of precedence:
 /// - the number stated by the member, or by "model".
 /// - 1 for a bar, which does not bend.
 /// - 8 for a tapered member.
 /// - one element for each 7.5 degrees of an arc, and at least 4.
-/// - the number returned by `default_elements`.
+/// - the number returned by `default_element_count`.
 [[nodiscard]] solver::Index element_count_of(const Document& document, const std::string& member);
 
 enum class Refine { coarser, finer };
 
 /// Return merge patches of the case for a finer or coarser discretization:
 /// - mesh: twice or half the elements of every member, plate and platform
-/// - step: half or twice the time step. With a step control: a tenth or ten times its tolerance.
-///   With "error_control", the largest step "step_s" is halved or doubled as well; `largest_step`
-///   replaces it if the case does not state it. A finer step of large motion also halves the
-///   interval "output_step_s" between recorded times.
+/// - step: half or twice the time step. With automatic step control: a tenth or ten times the
+///   tolerance of the control. With "error_control", the largest step "step_s" is halved or doubled
+///   as well; `largest_step` replaces it if the case does not state it. A finer step of large
+///   motion also halves the interval "output_step_s" between recorded times.
 ///
 /// The result is empty without a mesh or step. It is also empty if an odd number of elements, or of
 /// intervals between the frequencies of a harmonic response, would be halved.

@@ -141,7 +141,7 @@ void require_force(const JsonView& load) {
     throw load.error("the load is empty; expected 'force_N', 'moment_N_m' or both");
 }
 
-/// Supports every node on an edge, except motions that are already supported.
+/// Adds a support to every node on an edge, except for motions that are already supported.
 void support_edge(const JsonView& place, const solver::Support& all, const Edge& edge,
                   solver::Model& model) {
   if (all.fixed[2])
@@ -158,7 +158,8 @@ void support_edge(const JsonView& place, const solver::Support& all, const Edge&
   }
 }
 
-/// Reads supports of nodes before those of edges. Nodes of a supported edge keep their reactions.
+/// Reads supports of nodes before those of edges. Supported nodes on a supported edge therefore
+/// keep separate reactions.
 void read_supports(const JsonView& model, const SymbolTable& symbols, solver::Model& structure) {
   for (const bool of_edges : {false, true})
     for (const auto& [name, place] : model.entries("supports")) {

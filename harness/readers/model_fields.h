@@ -36,7 +36,7 @@ TRAMMEL_WORDS(Axial, "flexible", "inextensible");
 enum class NodeMotion { x, y, rotation };
 TRAMMEL_WORDS(NodeMotion, "x", "y", "rotation");
 
-/// Node indices that a case states as names of nodes.
+/// List of node indices. The case file contains the names of these nodes.
 template <class Indices>
 struct NodeNames {
   explicit NodeNames(Indices& all) : indices(all) {}

@@ -46,7 +46,8 @@ struct PlatformMotion {
 /// Properties that turn a member of a case into a chain of straight one-element members, AB.1,
 /// AB.2, ...
 struct MemberChain {
-  /// The members are chords of a counterclockwise circle about this point [m].
+  /// Center of the circle of which the members of the chain are counterclockwise chords [m]; empty:
+  /// straight chain.
   std::optional<Eigen::Vector2d> arc_center;
   std::array<bool, 3> held{};  ///< supported motions (x, y, rotation) of all inner nodes
 

@@ -38,7 +38,8 @@ void limit_time_step_count(const JsonView& step, double duration);
 [[nodiscard]] solver::TransientOptions read_time_options(const JsonView& analysis);
 
 /// Reads the key "damping" of an analysis; no damping if it is absent.
-/// @param modes  number of modes of the model, to which "all" refers; empty if it is unknown.
+/// @param modes  number of modes of the model, which the text "all" in the case denotes; empty if
+///   it is unknown.
 /// @throws InputError  for "all" with an unknown number of modes, for more ratios than modes, or
 ///   for meaningless numbers.
 [[nodiscard]] solver::HarmonicDamping read_damping(

@@ -62,7 +62,8 @@ std::optional<solver::Ellipse> read_curve(const JsonView& edge) {
   return solver::Ellipse{read_point((*ellipse)["center_m"]), read_point((*ellipse)["semi_axes_m"])};
 }
 
-/// Edges of a case: their corner nodes, and the curve between each pair of adjacent corners.
+/// Edges of the plates of a case: corner nodes of each edge, and the curve between adjacent
+/// corners.
 class Outline {
  public:
   Outline(const JsonView& model, const SymbolTable& symbols, const solver::Model& structure) {

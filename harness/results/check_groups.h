@@ -8,17 +8,19 @@
 namespace trammel::results {
 
 /// Returns the difference between computed and expected value, divided by the tolerance. The result
-/// is 1 at the limit, and infinity if the check has no difference. If the tolerance is a range, the
-/// result is the distance of the difference from the middle of the range, divided by half of the
-/// range's width. If the check is a bound, the computed value replaces the difference.
+/// is 1 at the limit of the tolerance, and infinity if the check has no difference. If the
+/// tolerance is a range, the result is the distance of the difference from the middle of the range,
+/// divided by half of the range's width. If the check is a bound, the computed value replaces the
+/// difference.
 [[nodiscard]] double share_of_tolerance(const Check& check);
 
 /// Returns the magnitude of a check's difference, or |ratio - 1| if the check measures a ratio.
 [[nodiscard]] double size_of_difference(const Check& check);
 
-/// Returns true if check `a` is more severe than check `b`. The verdicts in descending severity
-/// are: error, fail, without result, not judged, known discrepancy, pass. Of two known
-/// discrepancies, the larger difference is more severe. Otherwise `tolerance_fraction` decides.
+/// Returns true if the result of check `a` is more severe than that of check `b`. The results in
+/// descending severity are: error, fail, not run or not given, recorded without judgment, known
+/// discrepancy, pass. Of two known discrepancies, the one with the larger difference is more
+/// severe. Otherwise the larger `share_of_tolerance` is more severe.
 [[nodiscard]] bool worse(const Check& a, const Check& b);
 
 /// Checks of one run that have the same name and the same quantity, in the order of the run.
@@ -26,7 +28,7 @@ struct CheckGroup {
   std::vector<const Check*> checks;
 
   [[nodiscard]] const Check& front() const { return *checks.front(); }
-  /// Returns the most severe check of the group.
+  /// Returns the check of the group with the most severe result.
   [[nodiscard]] const Check& worst() const;
 };
 [[nodiscard]] std::vector<CheckGroup> group_checks(const Run& run);

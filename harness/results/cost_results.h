@@ -10,7 +10,8 @@
 /// Section "cost" of results.json: error and processor time of a computation with several settings.
 namespace trammel::results {
 
-/// Result of a computation with one setting in a separate process. It is not part of results.json.
+/// Result of a computation with one setting in a separate process. This result is not part of
+/// results.json.
 struct SandboxedRun {
   enum class Termination { failed, solved, timed_out };
   Termination termination = Termination::failed;
@@ -30,8 +31,8 @@ struct ErrorNorms {
 
 struct SettingTime {
   std::vector<double> cpu_s;  ///< processor time of each repeat of the computation
-  /// Limits of the 98 % confidence interval of the median processor time, relative to the baseline.
-  /// `wall_median_s` is the median elapsed time [s].
+  /// Limits of the 98 % confidence interval of the median processor time, relative to the time of
+  /// the baseline setting. `wall_median_s` is the median elapsed time [s].
   double relative_low = 0, relative_high = 0, wall_median_s = 0;
   std::size_t runs_per_measurement = 0;
 };
@@ -59,7 +60,8 @@ struct CostSetting {
 
 struct CheapestSetting {
   double error = 0;
-  /// Index of the fastest setting with at most this error; empty if no setting reaches the error.
+  /// Index of the fastest setting with an error of at most `error`; empty if no setting is so
+  /// accurate.
   std::optional<std::size_t> setting;
   std::vector<std::size_t> tied;  ///< settings that are not significantly slower
 };
@@ -76,7 +78,7 @@ struct Repeatability {
   Number median_difference, largest_difference;
 };
 
-/// Result of a study for one of its outputs, or for all of them together.
+/// Result of a cost study for one of its outputs, or for all outputs together.
 struct CostOutput {
   std::string title, scale;
   std::vector<Number> errors;  ///< error of each setting (study's norm); empty without the output
@@ -94,7 +96,7 @@ struct CostStudy {
   /// Hash of each reference file that was used. The hashes are not part of results.json.
   std::map<std::string, std::string> references;
 
-  /// Returns the error of a setting in the study's norm.
+  /// Returns the error of a setting in the norm of the cost study.
   [[nodiscard]] Number error(const CostSetting& setting) const;
 };
 

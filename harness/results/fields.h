@@ -100,7 +100,8 @@ inline constexpr None kNames{};
 #define TRAMMEL_NAMES(Enum, ...) \
   template <>                    \
   inline constexpr std::array kNames<Enum> = {__VA_ARGS__}
-/// Member whose value is the key if several structs are written as a JSON object, not as an array.
+/// Member of a struct that is written as key, if several structs are written as a JSON object
+/// instead of an array.
 template <class Struct>
 inline constexpr None kKeyMember{};
 
@@ -146,7 +147,7 @@ inline constexpr bool is_map = false;
 template <class T>
 inline constexpr bool is_map<std::map<std::string, T>> = true;
 using Pair = std::pair<double, double>;
-/// Types whose arrays are written as bytes in the form `store`.
+/// True for types whose arrays are written as bytes in the form `store`.
 template <class T>
 inline constexpr bool is_packed =
     std::is_same_v<T, double> || std::is_same_v<T, Number> || std::is_same_v<T, Pair>;

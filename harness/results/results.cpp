@@ -13,11 +13,12 @@ namespace trammel::results {
 
 namespace {
 
-/// Requires that every vector of a convergence study has one entry per level.
+/// Requires that every vector of a convergence study has one entry per refinement level.
 void complete(Convergence& study, const Place& place) {
   const std::size_t levels = study.parameter.size();
   for (std::size_t i = 0; i < levels; ++i) {
-    // If a level has no value of the refined parameter, its number (from 1) replaces the value.
+    // If a refinement level has no value of the refined parameter, the number of the level (from 1)
+    // replaces the value.
     if (!study.parameter[i]) study.parameter[i] = static_cast<double>(i + 1);
   }
   const auto fit = [&](auto& column, const char* key) {
@@ -46,7 +47,7 @@ void require_nodes(const std::vector<std::vector<int>>& sets, int nodes, std::si
   }
 }
 
-/// Requires that references to nodes refer to existing nodes.
+/// Requires that all node indices in a drawing refer to existing nodes.
 void require_consistent(const Drawing& drawing, const Place& place) {
   const std::size_t nodes = drawing.nodes.size();
   const int limit = static_cast<int>(nodes);

@@ -19,7 +19,8 @@ namespace trammel::results {
 struct Environment {
   std::string trammel, commit, date, compiler, flags, build_type, processor, system;
   int cores = 0;
-  /// Number of runs that an earlier call with the same program and input computed.
+  /// Number of runs that were read from the store, because an earlier call with the same program
+  /// and input computed them.
   int stored_runs = 0;
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
 };
@@ -135,7 +136,8 @@ struct Claims {
   std::vector<PaperItem> items = {};
 };
 
-/// Kinds of verification evidence for a feature of the program, such as a key of the case file.
+/// Feature of the program, such as a key of the case file, with the kinds of verification evidence
+/// for it.
 struct CoverageRow {
   std::string group, feature;  ///< the group is "key", "pair" or "quantity"
   std::vector<std::string> evidence = {};
@@ -158,7 +160,8 @@ struct EffectScene {
   /// the run with all effects.
   double work_ratio = 0;
   double deciding_work_ratio = 0;  ///< relative work of the selection alone
-  /// Relative change of the results with the selected effects if the number of elements is halved.
+  /// Relative change of the results if the number of elements is halved; computed with the selected
+  /// effects.
   Number mesh_change;
   /// Relative change due to large displacement, if the analysis cannot represent that effect [-].
   Number beyond_tier;
@@ -178,7 +181,8 @@ struct HistoryCall {
   [[nodiscard]] bool has_passed() const { return failures == 0; }
 };
 
-/// Change of a verdict or number from the last call without failures (green) to the newest call.
+/// Change of a verdict or number from the last call of `trammel run` without failures (green) to
+/// the newest call.
 struct HistoryChange {
   std::string name;  ///< name of run, check and entry; for counted work, of the run
   std::string verdict_before, verdict;
@@ -187,7 +191,8 @@ struct HistoryChange {
   [[nodiscard]] bool verdict_changed() const { return verdict_before != verdict; }
 };
 
-/// A value that has changed in one direction in small steps, in at least three calls.
+/// Computed value that has increased, or decreased, by small steps in at least three calls of
+/// `trammel run`.
 struct HistoryDrift {
   std::string name;
   std::size_t steps = 0;

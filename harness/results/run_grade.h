@@ -8,9 +8,11 @@
 /// Grade of a run in one word, for the comparison of finite element codes.
 namespace trammel::results {
 
-/// agrees: all judged checks pass. off: a check fails. broken: the answer cannot be judged. cannot:
-/// the code does not support the case. not_exported: the export format does not support the case.
-/// not_given: the code does not compute the quantities. not_judged: no check passes or fails.
+/// agrees: all judged checks pass. off: a check fails. broken: the answer of the code is invalid,
+/// or a check of it ends with an error. crashed, timed_out: the code ended without an answer.
+/// cannot: the code does not support the case. not_exported: the export format does not support the
+/// case. not_given: the code does not compute the quantities. not_judged: no check passes or fails.
+/// not_run: the code was not called.
 enum class Grade {
   agrees,
   off,

@@ -18,9 +18,10 @@ namespace trammel::results {
 using harness::Number;
 using harness::Numbers;
 
-/// Verdict of a check. recorded: a validation without an expectation, or a regression check that
-/// another solver does not meet. not_given: another solver does not compute the quantity. The
-/// verdicts recorded and not_given never fail a run.
+/// Verdict of a check. recorded: the difference is recorded without judgment, because a validation
+/// check states no expected difference, or because another solver does not reproduce trammel's
+/// earlier results. not_given: another solver does not compute the quantity. The verdicts recorded
+/// and not_given never fail a run.
 enum class Verdict { pass, fail, error, not_run, recorded, not_given };
 enum class Expectation { agrees, known_discrepancy, none };
 /// Status of a run. The last four values apply only to solvers other than trammel.
@@ -47,7 +48,8 @@ struct Tolerance {
 
 struct Check {
   std::string name, title, quantity, unit, reference, role, measure, why, message;
-  /// Judged statistic (empty: single entries); variant and quantity to compare with (or empty).
+  /// Statistic of the quantity that is judged (empty: single entries); variant and quantity with
+  /// which the quantity is compared (empty: none).
   std::string statistic, against_variant, against_quantity;
   std::optional<int> index;  ///< index of the entry, from 0
   Number computed, expected, difference;
@@ -55,7 +57,8 @@ struct Check {
   Expectation expectation = Expectation::agrees;
   Verdict verdict = Verdict::error;
 
-  /// Returns true if the case records that the check disagrees, with a reason.
+  /// Returns true if the case declares the difference between computed and expected value to be a
+  /// known discrepancy.
   [[nodiscard]] bool known_discrepancy() const {
     return expectation == Expectation::known_discrepancy;
   }
@@ -80,13 +83,15 @@ struct Convergence {
   Number exact;
   bool is_error = false;  ///< the values are themselves errors and `exact` is 0; not written
   Number theory_order;
-  /// A second, lower order that dominates on fine meshes: error = a h^theory + b h^lower.
+  /// Second, lower theoretical order of convergence, which dominates on fine meshes: error = a
+  /// h^theory + b h^lower.
   Number lower_order;
 
   Numbers error;  ///< error relative to the exact value, or else to `richardson`
   Numbers order;  ///< observed order between a level and the previous level
-  /// True for levels with an error above 100 times the round-off error and an order within 10 % of
-  /// a neighboring level's order. If two orders mix, the two-term law must fit the error instead.
+  /// True for refinement levels with an error above 100 times the round-off error, and an observed
+  /// order within 10 % of that of a neighboring level. If two orders mix, the two-term law must fit
+  /// the error instead.
   std::vector<bool> in_asymptotic_range;
   std::vector<bool> at_roundoff_floor;  ///< true: error at most 100 times the round-off
   Number fitted_order;                  ///< slope log error / log h in the asymptotic range
@@ -95,8 +100,9 @@ struct Convergence {
   /// Grid convergence index: relative half-width of the interval expected to contain the converged
   /// value. It does not use the exact value. It includes round-off. Missing if the values diverge.
   Numbers gci;
-  /// Roache's safety factor of the index: 1.25 if the observed order is within 10 % of theory, else
-  /// 3. If two orders mix, theory is the range between the two orders.
+  /// Roache's safety factor of the grid convergence index: 1.25 if the observed order is within 10
+  /// % of the theoretical order, else 3. If two orders mix, the observed order may be anywhere
+  /// between the two theoretical orders.
   Numbers safety_factor;
   bool broken = false;  ///< a level after the first finite one has no finite value; not written
 };
@@ -106,7 +112,7 @@ struct SweepLevel {
   harness::Quantities quantities;  ///< quantities of the level; empty without a solution
 };
 
-/// Results of one computation at all levels of a refinement.
+/// Results of one computation at all levels of a mesh or time step refinement.
 struct Sweep {
   std::string name;
   std::vector<SweepLevel> levels;  ///< coarse to fine
@@ -115,7 +121,7 @@ struct Sweep {
 /// An input known to a limited number of digits, as stated by the case.
 struct UncertainInput {
   std::string name, why;
-  /// JSON pointers of the numbers in the case that are this input.
+  /// JSON pointers of the numbers in the case that state this input.
   std::vector<std::string> pointers;
   /// Half-width of the uniform distribution of the input, in the unit of the input.
   Number half_width;
@@ -143,10 +149,11 @@ struct Comparison : ValidationVerdict {
   Number dominant_share;      ///< fraction of u_input^2 due to `dominant_input`
   /// Signed contribution of each input to u_input.
   std::vector<std::pair<std::string, Number>> contributions;
-  /// Differences from `expected` of the values that other references print for the same computed
-  /// value. The verdict ignores them.
+  /// Values that other references print for the same computed value, each minus `expected`. The
+  /// verdict ignores these values.
   Numbers spread;
-  /// Verdict if nominal design values are as uncertain as their printed digits.
+  /// Verdict if nominal design values also count as uncertain inputs, with the uncertainty of their
+  /// printed digits.
   ValidationVerdict all_inputs;
 };
 
@@ -177,14 +184,14 @@ struct Pose {
   std::vector<Point> displacement = {};
 };
 
-/// Drawing of the model: mesh (nodes, members, triangles), joints, and deformed or mode shapes.
-/// A load that is drawn as an arrow: a force at a node, or a uniform load at the end of an element.
+/// Arrow in the drawing of a model: a force at a node, or a uniform load at the end of an element.
 struct DrawnForce {
   int node = 0;
   double x = 0, y = 0;
   std::string unit;  ///< N or N/m
 };
 
+/// Drawing of the model: mesh (nodes, members, triangles), joints, and deformed or mode shapes.
 struct Drawing {
   std::vector<Point> nodes;
   std::vector<std::vector<int>> members, triangles;
@@ -219,10 +226,11 @@ struct EffectRow {
 /// Estimated discretization error of a quantity: half-widths of error bands about its values.
 struct ErrorEstimate {
   std::string quantity;
-  Numbers relative;  ///< relative to each value or to `scale`, whichever is larger; a curve has a
-                     ///< single entry
-  /// Largest value of all quantities of the same kind, such as all displacements [unit]. If it is
-  /// missing, the error is relative to each value.
+  /// Relative error of each value: relative to the value or to `scale`, whichever is larger. A
+  /// curve has a single entry.
+  Numbers relative;
+  /// Scale of the error: largest value of all quantities of the same kind, such as all
+  /// displacements [unit]. If the scale is missing, the error is relative to each value.
   Number scale;
   Number order;  ///< lowest order of all discretizations; missing: the values are exact in theory
   /// False if the mesh or step is too coarse for the order `order`. The estimate then assumes a

@@ -5,8 +5,9 @@
 
 #include "harness/results/results.h"
 
-/// Comparison of several sides, number by number. A side is a variant, a case, or the results of
-/// one date, machine or code. Every list of values has one entry per side.
+/// Comparison of several sets of results (sides), number by number. A side contains the results of
+/// a variant or case, or the results of one date, machine or code. Every list of values has one
+/// entry per side.
 namespace trammel::results {
 
 /// Values of one number, or of the frequency of a set of modes, on each side.
@@ -14,8 +15,8 @@ struct ComparedValue {
   Numbers values;  ///< value on each side; missing if the side lacks it
   /// Change from the first side [%]; missing if the first value is zero up to round-off.
   Numbers percent;
-  /// Half-width of the band of the discretization error on each side [unit]; missing without an
-  /// estimate.
+  /// Estimated discretization error of the value on each side: half-width of the error band [unit].
+  /// Missing if the run has no estimate.
   Numbers errors;
   double noise = 0;  ///< differences up to this value are round-off
   /// Largest difference from the first side, relative to the largest value of all quantities with
@@ -53,7 +54,7 @@ struct ComparedRun {
 struct ComparedSide {
   std::string label, commit, date, processor, solver;
   std::size_t runs = 0;
-  /// Processor time and work of one side, summed over the runs that all sides have.
+  /// Processor time and counted work of one side, summed over the runs that all sides contain.
   double cpu_s = 0;
   std::size_t work = 0;                ///< element evaluations, factorizations, solves and steps
   Number relative_time;                ///< processor time relative to the first side

@@ -54,8 +54,8 @@ void compare(const Entries& first, const Configuration& other, Certification& re
   ConfigurationRow total{other.name, 0, 0, kAllDigits, kAllDigits, {}};
   const Entries entries = entries_of(other.results);
   std::vector<double> digits;
-  // For the run of the current row: the first configuration contains the run, and its status is
-  // equal in both configurations. The rows of checks follow the row of their run.
+  // True if the first configuration contains the run of the current row; true if the run has the
+  // same status in both configurations. The rows of checks follow the row of their run.
   bool is_known = false, ends_equally = false;
   for (const DiffRow& row : pair_entries(first, entries)) {
     bool flipped = false;

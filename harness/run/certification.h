@@ -18,14 +18,15 @@ struct Configuration {
 struct ConfigurationRow {
   std::string name;
   std::size_t checks = 0, missing = 0;  ///< checks judged in both configurations; in only one
-  /// Number of digits of a judged number that agree with the first configuration.
+  /// Numbers of digits that agree with the first configuration: minimum and median over all judged
+  /// numbers.
   double fewest_digits = 16, median_digits = 16;
   std::string least_certain;  ///< name of the number with the fewest equal digits
 };
 
-/// Verdict of a check "case:variant name[index]", or status of a run "case:variant", that is
-/// missing or differs from the first configuration. A status without an answer, such as a crash, is
-/// also listed, with its reason.
+/// Verdict of a check ("case:variant name[index]") or status of a run ("case:variant") that is
+/// missing in one configuration, or differs from the first configuration. A status without an
+/// answer, such as a crash, is also listed, with its reason.
 struct VerdictFlip {
   std::string configuration, check, from, to;
 };

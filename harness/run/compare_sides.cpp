@@ -78,7 +78,8 @@ constexpr auto changed_more = [](const auto& a, const auto& b) {
   return std::pair(a.changed, a.share) > std::pair(b.changed, b.share);
 };
 
-/// Returns the distance of two numbers: infinity if one is missing, 0 if both are missing.
+/// Returns the absolute difference of two numbers: infinity if one of them is missing, 0 if both
+/// are missing.
 double distance(const Number& a, const Number& b) {
   if (a && b) return std::abs(*b - *a);
   return a || b ? std::numeric_limits<double>::infinity() : 0;
@@ -279,7 +280,8 @@ void match_by_shape(const Runs& runs, const std::vector<const Document*>& docume
   if (!found.modes.empty()) std::erase_if(found.numbers, by_number);
 }
 
-/// Adds remarks about changed statuses of runs, and about at most three changed verdicts per side.
+/// Adds remarks about changed statuses of runs, and about at most three changed verdicts of checks
+/// per side.
 void add_verdicts(const Runs& runs, const std::vector<std::string>& labels, ComparedRun& found) {
   Entries first;
   add_entries(*runs.front(), found.name, first);
@@ -391,7 +393,8 @@ std::string words_of(const ComparedValue& value, const std::string& name, const 
                      number(*worst), unit == "1" ? "" : " " + unit);
 }
 
-/// Returns a text about the largest change of a run: of a mode, else of a number, else a remark.
+/// Returns a text about the largest change of a run: that of a mode. If no mode has changed, that
+/// of a number; else the first remark.
 std::string most_changed(const ComparedRun& run, const std::vector<ComparedSide>& sides) {
   const auto mode = std::ranges::max_element(
       run.modes, {}, [](const ComparedModes& m) { return m.changed ? m.share : -1; });

@@ -36,7 +36,8 @@ void add_entries(const results::Run& run, const std::string& name, Entries& entr
 /// Returns "case:variant".
 [[nodiscard]] std::string name_of(const results::Run& run);
 
-/// The same entry in two sets of results; null if a set does not contain the entry.
+/// The same entry in two sets of results. The pointer to an entry is null if its set does not
+/// contain the entry.
 struct DiffRow {
   std::string name;
   const Entry *before = nullptr, *after = nullptr;
@@ -45,7 +46,8 @@ struct DiffRow {
   [[nodiscard]] bool is_run() const { return (before ? before : after)->check == nullptr; }
 };
 
-/// Pairs the entries of two sets of results by name. A run precedes its checks.
+/// Pairs the entries of two sets of results by name. The row of a run precedes the rows of its
+/// checks.
 [[nodiscard]] std::vector<DiffRow> pair_entries(const Entries& before, const Entries& after);
 
 /// Results of runs that form one side of a comparison, such as one variant, date or solver.

@@ -25,7 +25,7 @@ void record_result(AnalysisResult result, Run& run);
 
 /// History of the calls of `trammel run` in an SQLite file. It contains totals of each call, and
 /// time and counted work of each computed run. Verdict and value of a check entry are added if they
-/// differ from the previous call.
+/// differ from those of the previous call.
 
 using results::History;
 using results::HistoryCall;

@@ -201,7 +201,8 @@ void mark_ended(Task& task, const ProcessOutcome& outcome, const RunOptions& opt
   }
 }
 
-/// Returns the options that, together with the case, determine the stored result.
+/// Returns a text with the options of a task that, together with the case, determine the stored
+/// result.
 std::string request_of(const Task& task) {
   if (task.accuracy.accuracy == 0) return task.errors ? "errors" : "";
   return shortest_decimal(task.accuracy.accuracy) + " " + join(task.accuracy.quantities, " ");
@@ -312,7 +313,7 @@ void evaluate_checks(Task& task, const std::vector<Task>& tasks, const Reference
   if (run.status == Status::not_run) return leave_unjudged("interrupted", Verdict::not_run);
   if (run.status == Status::cannot || run.status == Status::not_exported)
     return leave_unjudged(to_string(run.status) + ": " + run.reason, Verdict::not_given);
-  // If the case expects a computation without solution, no other check applies.
+  // If the case expects that the computation has no solution, no other check applies.
   if (evaluate_status_check(task, run) && !run.is_solved()) return;
   for (const Sweep& sweep : run.sweeps) {
     auto found = sweep_convergence(sweep, task.document, task.checks, references, options.tracked,

@@ -46,10 +46,11 @@ struct RunOptions {
   bool any_machine = false;          ///< also reuse times measured by another machine
   std::size_t memory_bytes = 0;      ///< memory limit of one computation; 0: none
   OtherSolver solver = {};
-  /// Compute refinement sweeps and validation uncertainty. May be false only without a store.
+  /// True if refinement sweeps and validation uncertainties are computed. May be false only without
+  /// a run store.
   bool studies = true;
   ErrorWish errors = ErrorWish::own_cases;
-  /// Relative discretization error above which a warning is added.
+  /// Relative discretization error of a quantity above which a warning is added to the run.
   double warn_above = 0.01;
   double accuracy = 0;                       ///< requested accuracy; 0: mesh of the case
   std::vector<std::string> quantities = {};  ///< quantities that require this accuracy
@@ -88,7 +89,7 @@ struct ShardRuns {
 void require_no_error(const Run& run);
 /// @throws InputError  if the run failed because of its input, or has no solution.
 void require_solved(const Run& run);
-/// Returns true if one of the checks has a verdict that fails the run.
+/// Returns true if a check of the run has a verdict that counts as a failure.
 [[nodiscard]] bool counts_as_failure(const Run& run);
 
 /// @throws Interrupted  if a signal interrupted one of the runs.

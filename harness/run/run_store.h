@@ -17,8 +17,8 @@ namespace trammel::harness {
 
 /// Returns the file name of a computation of a case or variant. The name is a hash of the program,
 /// of the case file and of the case with all cases that it extends. The hash includes the identity
-/// of a solver other than trammel. It also includes `requested`, because runs needed only by checks
-/// of other runs are smaller.
+/// of a solver other than trammel. It also includes `requested`, because a run that is only needed
+/// by checks of other runs contains less data.
 [[nodiscard]] std::string run_file_name(const Document& document, bool requested,
                                         const std::string& solver_hash = "");
 
@@ -37,7 +37,8 @@ namespace trammel::harness {
 
 /// Returns the number of interrupted calls that had started the computation stored in `file`.
 [[nodiscard]] std::size_t count_interrupted_starts(const std::filesystem::path& file);
-/// Record next to a file of the store that its computation has started, and delete this record.
+/// Write a record, next to a file of the store, that the computation of the file has started;
+/// delete this record.
 void mark_started(const std::filesystem::path& file);
 void clear_start_record(const std::filesystem::path& file);
 
@@ -48,22 +49,23 @@ void clear_start_record(const std::filesystem::path& file);
                                                    const References& references,
                                                    const std::filesystem::path& store, bool resume);
 
-/// Computes a setting by `run_sandboxed`, or reads its solution by the same program from the store.
+/// Computes a setting by `run_sandboxed`, or reads its solution from the store if the same program
+/// has computed it.
 [[nodiscard]] SandboxedRun cached_solution(const Setting& setting, int time_limit_s,
                                            const References& references,
                                            const std::filesystem::path& store, bool resume);
 
 using EffectScenes = std::vector<results::EffectScene>;
-/// Returns the effect study of a case computed by `measure`, or the stored study of the same case
-/// by the same program on this machine.
+/// Returns the effect study of a case from the store if the same program has measured it on this
+/// machine. Otherwise, calls `measure` and stores its result.
 [[nodiscard]] EffectScenes cached_effect_study(const Document& document,
                                                const std::function<EffectScenes()>& measure,
                                                const std::filesystem::path& store, bool resume);
 
-/// Removes files that no call has written or read for 30 days.
+/// Removes the files of the store that no call has written or read for 30 days.
 void remove_unused_files(const std::filesystem::path& store);
 
-/// Returns processor and host name, which identify the machine of time measurements.
+/// Returns processor and host name, which identify the machine on which times are measured.
 [[nodiscard]] std::string machine_name();
 
 }  // namespace trammel::harness

@@ -7,8 +7,8 @@
 #include "harness/base/json.h"
 #include "harness/run/run.h"
 
-/// Parts (shards) of a long call of `run`, which are computed separately, each into a separate
-/// store, and the union of these stores.
+/// Splits a long call of `run` into parts (shards), which are computed separately, each with a
+/// separate store. Merges these stores.
 namespace trammel::harness {
 
 /// Parses "2/8", the second of eight shards.

@@ -29,7 +29,8 @@ bool mentions(const std::string& text, const std::string& label) {
   return false;
 }
 
-/// Names of the parts in quantities. Two parts with the same name would overwrite each other.
+/// Names of model parts, as they occur in names of quantities. Two parts with the same name would
+/// overwrite each other's quantities.
 class PartNames {
  public:
   /// @throws InputError  if another part has this name. The message contains both JSON pointers.

@@ -25,7 +25,8 @@ struct CaseModel {
   /// Sliders, line springs and follower loads, which linear analysis supports only in part.
   solver::large_motion::LargeMotionModel joint_elements;
   solver::Effects effects = solver::Effects::all();  ///< effects that `build_model` keeps
-  /// If true, statics with large displacement is solved to six digits only, without residuals.
+  /// If true, statics with large displacement is solved to six digits only, and residuals of the
+  /// solution are not computed.
   bool estimates_large_displacement = false;
 
   [[nodiscard]] std::size_t steps() const { return path ? motion.size() : 1; }
@@ -69,7 +70,8 @@ inline const std::vector<std::string> kActiveJoints = {"A1", "A2", "A3"},
 [[nodiscard]] Eigen::Vector3d wrench_on_platform(const CaseModel& case_model,
                                                  const solver::Pose& pose);
 
-/// Returns true if every load acts at P itself, so that the wrench is independent of the pose.
+/// Returns true if every load of the case acts at P, so that the wrench on the platform is
+/// independent of the pose.
 [[nodiscard]] bool loads_at_P_only(const CaseModel& case_model);
 
 }  // namespace trammel::harness

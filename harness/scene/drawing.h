@@ -24,8 +24,8 @@ inline constexpr std::size_t kMaxDrawnNodes = 4000;
 void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawing);
 
 /// Draws the mesh of a model, with points inside elements that smooth the members. A fine mesh is
-/// drawn without the mid-side nodes of its six-node triangles. Returns nothing if more nodes remain
-/// than a picture can show.
+/// drawn without the mid-side nodes of its six-node triangles. Returns nothing if the drawing would
+/// have more than kMaxDrawnNodes nodes.
 [[nodiscard]] std::optional<Drawing> draw_model(const solver::System& system, bool is_manipulator);
 
 /// Returns the displacements of the drawing's nodes for free coordinates q. Inside elements, it
@@ -33,8 +33,8 @@ void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawin
 [[nodiscard]] results::Shape draw_shape(const solver::System& system, const Eigen::VectorXd& q,
                                         const std::string& label);
 
-/// Returns the samples of a motion that a picture shows: at most 48, and fewer for a fine mesh. If
-/// so few samples cannot show the vibrations, they cover only the beginning of the motion.
+/// Returns the samples of a motion that are drawn: at most 48, and fewer for a fine mesh. If these
+/// samples are too few to show the vibrations of the full motion, they cover only its beginning.
 /// @param q      coordinates of each sample
 /// @param nodes  number of nodes of the drawing
 [[nodiscard]] std::vector<std::size_t> drawn_samples(const std::vector<Eigen::VectorXd>& q,
@@ -57,8 +57,8 @@ void draw_parts(const solver::Model& model, bool is_manipulator, Drawing& drawin
 [[nodiscard]] Drawing draw_manipulator(const solver::ManipulatorGeometry& geometry,
                                        const std::vector<solver::TrajectoryPoint>& motion);
 
-/// Draws the model in its initial pose. Returns nothing if it has more nodes than a picture can
-/// show.
+/// Draws the model in its initial pose. Returns nothing if the drawing would have more than
+/// kMaxDrawnNodes nodes.
 [[nodiscard]] std::optional<Drawing> draw_initial_pose(
     const solver::large_motion::GeometricallyExactSystem& system, bool is_manipulator);
 

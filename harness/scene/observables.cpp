@@ -42,8 +42,9 @@ double resultant(const Model&, const State& state, const ModelPart& part) {
                                                                        component);
 }
 
-/// Returns the bending stress M / W with the sign of M. It is the stress at the fiber to the right,
-/// seen from the first to the second node. Returns NaN for a section without a depth.
+/// Returns the bending stress M / W at the end of a member, with the sign of M. It is the stress at
+/// the fiber to the right, seen from the first to the second node. Returns NaN for a section
+/// without a depth.
 double bending_stress(const Model& model, const State& state, const ModelPart& part) {
   const solver::Member& member = model.members[solver::to_size(part.items.front())];
   const double modulus = (part.end == 0 ? member.section : member.end_section).section_modulus;
@@ -111,8 +112,8 @@ constexpr auto kObservables = std::to_array<Observable>({
     {"von_mises_stress_Pa", Of::plate, von_mises_stress, true, true},
 });
 
-/// Returns all named parts of one kind, such as nodes. Parts without a name belong to a plate or a
-/// chain of members.
+/// Returns all named parts of one kind, such as nodes. Nodes and members without a name, such as
+/// those inside a plate or a chain of members, are omitted.
 std::vector<ModelPart> parts_of(const Model& model, Of of) {
   std::vector<ModelPart> parts;
   const auto add_all = [&](const auto& all, Index end, const char* suffix) {

@@ -9,7 +9,7 @@
 
 /// Table of the quantities of nodes, members, supports and plates as functions of a model's state.
 /// Analyses record states by this table, and the key "outputs" selects quantities.
-/// results/quantities.txt documents each quantity and the kinds of analysis that have it.
+/// results/quantities.txt documents each quantity and the kinds of analysis that compute it.
 namespace trammel::harness {
 
 /// State of a model at one time, or amplitudes of its vibration. An analysis sets only the matrices
@@ -30,7 +30,8 @@ struct Observable {
   enum class Of { node, member, member_end, support, plate };
   const char* name;
   Of of;
-  /// Function that computes the quantity of a part; NaN if the part does not have the quantity.
+  /// Function that computes the quantity for a part of the model. It returns NaN if the part does
+  /// not have the quantity.
   double (*value)(const solver::Model&, const ModelState&, const ModelPart&);
   bool is_force = false;     ///< has the round-off error of forces
   bool is_optional = false;  ///< omitted for parts with the value NaN

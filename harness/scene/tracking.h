@@ -15,7 +15,8 @@ namespace trammel::harness {
 /// dynamics under the same loads.
 enum class Tracking { angles, torques };
 
-/// Drives the actuators along the trajectory, or applies torques to them.
+/// Prescribes the rotations of the actuators that follow the trajectory, or applies the torques of
+/// the rigid twin to the actuators.
 /// @param place  the object of the case that requests tracking
 /// @throws InputError  if the case lacks a trajectory, locked actuators, hinged elbows or hinged
 ///   platform joints. For torques, also if the case has parts that rigid dynamics would ignore.
@@ -25,7 +26,8 @@ void add_tracking(const JsonView& place, Tracking tracking, const CaseModel& cas
 void record_drives(const solver::large_motion::GeometricallyExactSystem& system,
                    const solver::large_motion::State& state, Recorder& record);
 
-/// Removes the supports that lock actuators which are driven or loaded by a torque.
+/// Removes the supports that lock actuators, if a prescribed motion or a torque acts on these
+/// actuators.
 /// @throws InputError  if a drive prescribes the rotation of a free actuator, because no link is
 ///   attached to this rotation.
 void release_driven_actuators(const JsonView& analysis, const CaseModel& case_model,

@@ -30,7 +30,8 @@ void require_absent(const JsonView& analysis, const char* key, const char* other
   throw analysis[key].error(std::string("not allowed with '") + other_key + "': " + reason);
 }
 
-/// Returns the system, reduced to fixed-interface modes if the analysis has the key "reduction".
+/// Returns the system of equations, reduced to fixed-interface modes if the analysis has the key
+/// "reduction".
 solver::System condensed(const JsonView& analysis, const CaseModel& case_model,
                          solver::System system) {
   if (!analysis.has("reduction")) return system;
@@ -144,7 +145,8 @@ solver::RotatingOptions read_rotating_options(const JsonView& modes) {
 
 /// Computes modes in a steadily rotating frame (key "rotating") at one speed, or one number per
 /// speed. The outcome is that of the first speed without a steady state.
-/// @param effects  effects that decide about Coriolis forces and stiffening by tension
+/// @param effects  physical effects of the case, which include or omit Coriolis forces and
+///   stiffening by tension
 StepResult analyze_rotating(const JsonView& modes, const solver::System& system,
                             solver::Effects effects, bool draw, Recorder& record) {
   const Json& stated = modes["rotating"]["angular_speed_rad_s"].json();
@@ -232,8 +234,8 @@ bool is_condensable(const solver::ManipulatorDesign& design) {
           !design.platform.six_nodes);
 }
 
-/// Returns true if the modes of all poses are computed together. This requires a manipulator on a
-/// path, without other parts, rotating frame, reduction or geometric stiffening.
+/// Returns true if the modes of all poses are computed together. The case must have a manipulator
+/// on a path, and no other parts, rotating frame, reduction or geometric stiffening.
 bool follows_pose(const JsonView& analysis, const CaseModel& case_model) {
   const solver::Model& others = case_model.structure;
   const auto& joints = case_model.joint_elements;

@@ -27,7 +27,8 @@ std::vector<Named> read_parameters(const JsonView& analysis, const CaseModel& ca
   return read;
 }
 
-/// Computes derivatives by finite differences: extrapolated, or one quotient if a step is stated.
+/// Computes derivatives of natural frequencies by finite differences: extrapolated, or by one
+/// difference quotient if the case states a step.
 FrequencyDifferences differences_of(const std::optional<JsonView>& method,
                                     const CaseModel& case_model,
                                     const solver::DesignParameter& parameter, solver::Index count) {
@@ -72,8 +73,9 @@ solver::FrequencySensitivity derive(const JsonView& analysis, const CaseModel& c
   return all;
 }
 
-/// Records the error of the derivative against extrapolated differences. The error is relative to
-/// frequency over parameter, the scale of the derivative.
+/// Records the error of a derivative of the frequencies, compared with extrapolated finite
+/// differences. The error is relative to the scale of the derivative, which is frequency /
+/// parameter.
 void record_differences(const CaseModel& case_model, const Named& named,
                         const solver::FrequencySensitivity& found, solver::Index column,
                         Recorder& record, StepResult& result) {

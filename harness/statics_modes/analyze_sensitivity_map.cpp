@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-/// Results for one orientation of the platform. The "sensitivity" of the examined publication may
-/// be the value at the center, the mean or the maximum over the workspace.
+/// Sensitivities and frequencies for one orientation of the platform. The "sensitivity" in the
+/// examined publication may be the value at the center, the mean or the maximum over the workspace.
 struct Reading {
   double center_frequency = kNaN,
          center = kNaN;                       ///< sensitivity at the central position

@@ -11,7 +11,7 @@
 namespace trammel::harness {
 namespace {
 
-/// Solves statics with large displacement, as geometrically exact statics.
+/// Solves statics with large displacement by geometrically exact elements.
 StepResult analyze_exactly(const CaseModel& case_model, std::size_t step, bool draw,
                            Recorder& record) {
   const solver::Model model = build_without_joint_elements(case_model, step);

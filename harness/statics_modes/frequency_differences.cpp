@@ -134,8 +134,9 @@ class Differences {
     return rate;
   }
 
-  /// Returns a finite-difference step of at most `step`. Ten such steps keep the manipulator within
-  /// reach, and adjacent sets of frequencies remain separate.
+  /// Returns a finite-difference step of at most `step`. The step is so small that the pose remains
+  /// within reach if the parameter changes by ten steps, and that adjacent sets of frequencies
+  /// remain separate.
   double first_step(const VectorXd& all, double step) {
     while (!within_reach(10 * step) || !within_reach(-10 * step)) step /= 2;
     const double fastest = central(1e-3 * step).cwiseAbs().maxCoeff();

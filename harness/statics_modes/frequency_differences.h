@@ -7,8 +7,8 @@
 #include "solver/model/evidence.h"
 
 /// Computes sensitivities of the natural frequencies by finite differences over a design parameter.
-/// The method is independent of the exact derivatives of `solver::frequency_sensitivity`. Other
-/// functions read and change the values of design parameters.
+/// The method is independent of the exact derivatives of `solver::frequency_sensitivity`. Further
+/// functions return and change the values of design parameters.
 namespace trammel::harness {
 
 struct DesignInPose {
@@ -36,20 +36,21 @@ struct FrequencyDifferences {
   solver::Counters counters;
 };
 
-/// Computes central differences for up to 7 steps, each smaller than the previous one by the factor
-/// 1.6. Extrapolates the differences to the step zero. From the table of extrapolated values, it
-/// selects the entry that agrees best with its neighbors (Ridders 1982). Steps keep adjacent
-/// frequencies apart and the limbs within reach. The branches of a repeated frequency are smooth.
-/// Therefore, at a parameter p with step h, the lowest branch for p + h continues the highest
-/// branch for p - h.
-/// @param relative_step  first step over the value of the parameter; reduced if it is too large
+/// Computes the derivatives by central differences with up to 7 finite-difference steps, each
+/// smaller than the previous one by the factor 1.6. Extrapolates the differences to the step zero.
+/// From the table of extrapolated values, it selects the entry that agrees best with its neighbors
+/// (Ridders 1982). The steps are so small that adjacent frequencies remain apart and the limbs
+/// remain within reach. The branches of a repeated frequency are smooth. Therefore, at a parameter
+/// p with step h, the lowest branch for p + h continues the highest branch for p - h.
+/// @param relative_step  ratio of the first step to the value of the parameter; reduced if it is
+///   too large
 /// @throws ModelError  as `build_manipulator`.
 [[nodiscard]] FrequencyDifferences differentiate_frequencies(
     const solver::ManipulatorDesign& design, const solver::Pose& pose,
     const solver::DesignParameter& parameter, solver::Index count, double relative_step = 5e-3);
 
 /// Computes one difference quotient without extrapolation: central over 2 h or forward over h.
-/// @param relative_step  h over the value of the parameter, > 0
+/// @param relative_step  ratio of the step h to the value of the parameter, > 0
 /// @throws ModelError  as `build_manipulator`, also if the changed design cannot reach the pose.
 [[nodiscard]] FrequencyDifferences difference_quotient(const solver::ManipulatorDesign& design,
                                                        const solver::Pose& pose,

@@ -191,15 +191,15 @@ BeamTest read_beam(const JsonView& place) {
           place.get("distortion", 0.0)};
 }
 
-/// Norm of the error of the solution, or of its derivatives of order `derivative`.
+/// Norm of the error of the manufactured solution, or of its derivatives of order `derivative`.
 struct ErrorNorm {
   const char* name;
   double error;
   int derivative;
 };
 
-/// Records the relative error norms. For each order of the derivative, their round-off error is
-/// multiplied by the number of cells.
+/// Records the relative error norms with their estimated round-off errors. The estimate is the
+/// resolution of a double, multiplied by the number of cells for each order of the derivative.
 StepResult record_norms(const ManufacturedSolution& solution, solver::Index cells, bool draw,
                         std::initializer_list<ErrorNorm> norms, Recorder& record) {
   StepResult result{solution.outcome, solution.counters, solution.evidence};

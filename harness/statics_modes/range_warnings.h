@@ -7,8 +7,8 @@
 /// Validity ranges of the theories, and warnings of solutions outside these ranges.
 namespace trammel::harness {
 
-/// Limit of linear theory [rad], which approximates cos(theta) by 1 and sin(theta) by theta. At the
-/// limit it neglects theta^2 / 2 = 0.5 %.
+/// Largest rotation for which linear theory is accepted [rad]. The theory approximates cos(theta)
+/// by 1 and sin(theta) by theta. At the limit it neglects theta^2 / 2 = 0.5 %.
 inline constexpr double kMaxLinearRotation = 0.1;
 
 /// Largest axial or shear strain for which the linear law of a section (axial force = EA times
@@ -23,7 +23,7 @@ inline constexpr double kMaxStrain = 0.1;
 /// Returns the largest rotation of nodes and members' ends only [rad].
 [[nodiscard]] double largest_rotation(const solver::StaticSolution& solution);
 
-/// Warns if the rotation is outside the range of linear theory.
+/// Warns if the largest rotation is outside the validity range of linear theory.
 /// @param rotation  [rad]
 void warn_of_rotation(double rotation, std::vector<Warning>& warnings);
 
@@ -45,8 +45,8 @@ void warn_of_wave_length(const solver::System& system, double frequency,
                          std::vector<Warning>& warnings);
 
 /// Limit of the ratio of the stiffnesses at both ends of an element of a tapered member. The
-/// element has a constant section, that at its middle. At the limit, the error of the axial
-/// flexibility of the element is about 1 %.
+/// element has a constant section: the section of the member at the middle of the element. At the
+/// limit, the error of the axial flexibility of the element is about 1 %.
 inline constexpr double kMaxTaperRatio = 1.5;
 void warn_of_taper(const solver::Model& model, std::vector<Warning>& warnings);
 

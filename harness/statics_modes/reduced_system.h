@@ -17,8 +17,8 @@ struct ReducedSystem {
   solver::System system;
 };
 
-/// Reduces the system as the key "reduction" of the analysis requests. Returns it unchanged without
-/// this key.
+/// Reduces the system as the key "reduction" of the analysis requests. Without this key, returns
+/// the system unchanged.
 /// @param weight  whether the weight acts in addition to the loads
 /// @throws InputError  for a reduction that the system does not allow.
 [[nodiscard]] ReducedSystem reduced_system(const JsonView& analysis, solver::System system,

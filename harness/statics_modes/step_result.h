@@ -18,8 +18,8 @@
 
 namespace trammel::harness {
 
-/// Result of an analysis, apart from the recorded quantities: at one step of the path, along the
-/// full path, or of a case.
+/// Result of an analysis, apart from the recorded quantities. The analysis is performed at one
+/// point of the path, along the full path, or for a case without a path.
 struct StepResult {
   solver::Outcome outcome;
   solver::Counters counters;
@@ -30,8 +30,8 @@ struct StepResult {
   std::optional<results::ModelProbabilities> model_probabilities = std::nullopt;
 };
 
-/// Signatures of an analysis: at one step of the path, along the full path, and of a case without a
-/// model.
+/// Types of the functions that perform an analysis: at one point of the path, along the full path,
+/// and for a case without a model.
 using AnalyseStep = StepResult(const JsonView& analysis, const CaseModel& case_model,
                                std::size_t step, bool draw, Recorder& record);
 using AnalysePath = StepResult(const JsonView& analysis, const CaseModel& case_model, bool draw,
@@ -39,7 +39,8 @@ using AnalysePath = StepResult(const JsonView& analysis, const CaseModel& case_m
 using AnalyseCase = StepResult(const Document& document, const References& references, bool draw,
                                Recorder& record);
 
-/// Runs the steps along the path in order. Stops at the first step without a solution.
+/// Runs an analysis at each point of the path in order. Stops at the first point without a
+/// solution.
 [[nodiscard]] StepResult analyze_path_points(
     const CaseModel& case_model, bool draw,
     const std::function<StepResult(std::size_t step, bool draw)>& analyze_step);
@@ -50,8 +51,8 @@ inline constexpr solver::Index kMaxDrawnShapes = 12;
 /// @param number  frequency or load factor of the mode, in the unit `unit`
 [[nodiscard]] std::string mode_label(solver::Index mode, double number, const char* unit);
 
-/// Records frequencies and growth rates of vibration about one or several states. For several
-/// states, there is one quantity per mode, whose name includes the number of the mode.
+/// Records frequencies and growth rates of the vibration about an equilibrium. If there are several
+/// equilibria, there is one quantity per mode, whose name includes the number of the mode.
 /// @param roundoff  relative round-off error of each frequency; empty if unknown
 void record_frequencies(const Eigen::VectorXd& frequency, const Eigen::VectorXd& growth_rate,
                         bool several, Recorder& record, const Eigen::VectorXd& roundoff = {});

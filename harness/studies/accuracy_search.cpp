@@ -54,8 +54,9 @@ std::string setting_of(const Document& document) {
   return text;
 }
 
-/// Returns error bands with the safety factor 1.25 instead of 3 if three levels show the order of
-/// theory (Roache 1998, Verification and Validation in Computational Science and Engineering, 5.9).
+/// Returns error bands with the safety factor 1.25 instead of 3, if the observed order of three
+/// refinement levels agrees with the theoretical order. Source: Roache 1998, Verification and
+/// Validation in Computational Science and Engineering, 5.9.
 ErrorBands narrowed(ErrorBands bands, const ErrorBands& coarser, double ratio) {
   constexpr double kFactor = 1.25 / 3, kNearOrder = 0.5;
   for (auto& [name, band] : bands) {
@@ -158,8 +159,8 @@ class Search {
     return true;
   }
 
-  /// Refines the setting until the case has a solution. A mesh may be too coarse for the requested
-  /// number of modes, and a time scheme may not converge.
+  /// Refines mesh and time step until the case has a solution. A mesh may be too coarse for the
+  /// requested number of modes, and a time scheme may not converge.
   void solve_coarsest() {
     for (int i = 0; i < kMaxRefinements; ++i) {
       try {

@@ -12,8 +12,9 @@ namespace trammel::harness {
 
 struct AccuracyRequest {
   double accuracy = 1e-3;  ///< largest relative error, > 0
-  /// Names of quantities, with or without the part after the colon. If empty: frequencies, load
-  /// factors, displacements and positions, or all quantities if the case computes none of these.
+  /// Names of the quantities that must be accurate, with or without the part after the colon. If
+  /// empty: frequencies, load factors, displacements and positions, or all quantities if the case
+  /// computes none of these.
   std::vector<std::string> quantities;
   double time_limit_s = 120;  ///< limit of the processor time of the search
 };
@@ -26,17 +27,19 @@ struct AccuracySearch {
   bool reached = false;
 };
 
-/// Refines mesh and time step until the estimated error is at most `accuracy`. Starts from up to
-/// four times the time step, and from numbers of elements that are halved until one of them is odd.
-/// Then refines the source of the larger error, mesh or time step. Beam theory and analysis are
-/// kept. Each level also serves for the error estimate of the next level.
-/// @throws InputError  if the case has no mesh or steps, no solution or no such quantity.
+/// Refines mesh and time step until the estimated error is at most `accuracy`. Starts from a coarse
+/// discretization: up to four times the case's time step, and the case's numbers of elements,
+/// halved until one of them is odd. Then refines the source of the larger error, mesh or time step.
+/// Beam theory and analysis remain unchanged. The results on each refinement level also serve for
+/// the error estimate of the next level.
+/// @throws InputError  if the case has neither mesh nor time steps, no solution, or none of the
+///   requested quantities.
 [[nodiscard]] AccuracySearch search_accuracy(const Document& document,
                                              const AccuracyRequest& request,
                                              const References& references);
 
-/// Returns the settings of a search as a cost study. The reference solution has twice the elements
-/// and half the step of the last setting.
+/// Returns a cost study of the discretizations tried by a search. The reference solution has twice
+/// the elements and half the time step of the last one.
 [[nodiscard]] CostStudy cost_study_of_search(const Case& given, const std::string& variant,
                                              const AccuracySearch& search,
                                              const AccuracyRequest& request);

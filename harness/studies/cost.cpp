@@ -43,7 +43,7 @@ std::vector<double> relative_errors(const std::vector<double>& found,
   return errors;
 }
 
-/// Returns the values of the quantities that belong to one output of the study.
+/// Returns the values of the quantities that belong to one output of a cost study.
 Observations values_of(const Observations& all, const std::vector<ObservedQuantity>& observed,
                        std::size_t output) {
   Observations values;
@@ -52,7 +52,7 @@ Observations values_of(const Observations& all, const std::vector<ObservedQuanti
   return values;
 }
 
-/// Returns the error norms of a setting for each output of the study.
+/// Returns the error norms of a setting for each output of a cost study.
 std::vector<std::optional<ErrorNorms>> output_errors(const CostStudy& study, const Setting& setting,
                                                      const Observations& found,
                                                      const Observations& reference_solution) {
@@ -90,7 +90,8 @@ Observations compute_reference_solution(const CostStudy& study, const References
   return sandboxed.values;
 }
 
-/// Returns the setting with its error and status, and without repeated measurements of time.
+/// Returns the error and the status of a setting, determined by a single run without repeated
+/// measurements of time.
 CostSetting classify_run(const SandboxedRun& sandboxed, const Setting& setting,
                          const Observations& reference_solution, const CostStudy& study) {
   CostSetting measured;
@@ -175,7 +176,8 @@ std::vector<results::CheapestSetting> cheapest_settings(const std::vector<CostPo
   return all;
 }
 
-/// Returns the results of a study before measurement: titles and descriptions without settings.
+/// Returns the results of a cost study before its measurement: titles and descriptions without
+/// settings.
 results::CostStudy describe(const CostStudy& study) {
   results::CostStudy out;
   out.id = study.id;

@@ -8,7 +8,8 @@
 #include "harness/studies/cost_study.h"
 #include "harness/studies/pareto_front.h"
 
-/// Measures the cost of accuracy: the error and the time of every setting of a study.
+/// Measures the computing time that an accuracy requires: error and time of every setting of a cost
+/// study.
 namespace trammel::harness {
 
 /// Returns the norms of the relative errors over all observed entries.
@@ -22,9 +23,9 @@ namespace trammel::harness {
 /// Relative error above which a computation counts as diverged.
 inline constexpr double kDivergedError = 10;
 
-/// Returns the measured settings as points of error and time. The error is that of one output in
-/// the study's norm, or the largest of all outputs if `output` is empty. Settings that lack an
-/// error or diverge are omitted.
+/// Returns the measured settings of a cost study as points of error and time. The error is that of
+/// one output in the study's norm, or the largest over all outputs if `output` is empty. Settings
+/// that lack an error or diverge are omitted.
 /// @param first, step  first repeat and step between repeats that are used, as in `relative_time`
 [[nodiscard]] std::vector<CostPoint> cost_points(const results::CostStudy& study,
                                                  std::optional<std::size_t> output = 0,
@@ -35,16 +36,16 @@ struct CostOptions {
   std::function<void(std::size_t done, std::size_t all)> progress;
 };
 
-/// Measures error and processor time of all settings of a study.
+/// Measures error and processor time of all settings of a cost study.
 /// @throws InputError  if the reference solution or the baseline cannot be computed.
 [[nodiscard]] results::CostStudy measure_study(const CostStudy& study, const CostOptions& options,
                                                const References& references);
 
-/// Computes times relative to the baseline, the Pareto front and the conclusion of a measured
-/// study.
+/// Computes the times relative to the baseline setting, the Pareto front and the conclusion of a
+/// measured cost study.
 void derive_results(results::CostStudy& measured);
 
-/// Returns the section "cost" of results.json from measured studies.
+/// Returns the section "cost" of results.json, which contains the measured cost studies.
 [[nodiscard]] results::CostStudies cost_results(std::vector<results::CostStudy> studies,
                                                 SweepExtent extent, const TimingOptions& timing);
 

@@ -34,7 +34,7 @@ std::vector<double> exact_values(const JsonView& place, const std::string& quant
   return values;
 }
 
-/// Returns the index of the output to which a quantity of the study belongs.
+/// Returns the index of the output to which a quantity of a cost study belongs.
 std::size_t output_number(const JsonView& study, const JsonView& place) {
   if (!place.has("output")) return 0;
   std::size_t number = 0;
@@ -63,7 +63,7 @@ std::vector<ObservedQuantity> read_observed(const JsonView& study, const JsonVie
   return observed;
 }
 
-/// Loads the case of a study or of one of its curves. Paths are relative to the study's file.
+/// Loads the case of a cost study or of one of its curves. Paths are relative to the study's file.
 Document open_case(const JsonView& study, const JsonView& part) {
   const JsonView name = part.has("case") ? part["case"] : study["case"];
   const Origin written = study.document().origin(name.pointer());

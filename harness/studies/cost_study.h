@@ -11,19 +11,20 @@
 #include "harness/input/reference_library.h"
 #include "harness/results/cost_results.h"
 
-/// Studies of the computing time that an accuracy requires. The results of one computation with
-/// several settings are compared with one reference solution.
+/// Cost studies: computing time that an accuracy requires. The results of one computation with
+/// several settings, such as meshes, are compared with one reference solution.
 namespace trammel::harness {
 
-/// Quantity whose error is measured.
+/// Quantity of which a cost study measures the error.
 struct ObservedQuantity {
   std::string quantity;
-  std::string addend;              ///< quantity that is added to each entry; empty: none
-  std::string statistic;           ///< reduces the entries to one number; empty: the entries
-                                   ///< themselves
+  std::string addend;  ///< name of a quantity that is added to each entry; empty: none
+  /// Statistic that reduces the entries to one number, such as the maximum; empty: all entries.
+  std::string statistic;
   std::vector<std::size_t> index;  ///< selected entries; empty: all
   bool is_error = false;           ///< the values are relative errors
-  /// Exact values; if empty, errors are relative to the study's reference solution.
+  /// Exact values of the quantity. If empty, errors are differences from the reference solution of
+  /// the study.
   std::vector<double> exact;
   std::size_t output = 0;  ///< index of its output in CostStudy::outputs
 
@@ -69,18 +70,19 @@ struct CostStudy {
   std::string id, family, title, description;
   std::vector<Setting> settings;  ///< settings of all curves, each coarse to fine
   std::optional<Setting>
-      reference_solution;             ///< used if the observed quantities have no exact values
-  std::string reference_description;  ///< description of the solution that errors are measured
-                                      ///< against
-  std::size_t baseline = 0;           ///< index of the setting to which times are relative
-  /// The first output defines the figure, the Pareto front and the conclusion, and every setting
-  /// computes it. Other outputs are optional.
+      reference_solution;  ///< used if the observed quantities have no exact values
+  /// Description of the solution against which errors are measured.
+  std::string reference_description;
+  std::size_t baseline = 0;  ///< index of the setting to which times are relative
+  /// The first output defines the figure, the Pareto front and the conclusion of the study. Every
+  /// setting computes the first output; further outputs are optional.
   std::vector<StudyOutput> outputs{1};
   std::string norm = "max";  ///< "max", "rms" or "mean"
   int time_limit_s = 60;
 };
 
-/// All values of the parameters (full), or a short selection (quick).
+/// Settings of a cost study that are measured: those for all values of the parameters (full), or
+/// for a short selection of values (quick).
 enum class SweepExtent { full, quick };
 
 /// Loads a cost study from a file.
@@ -89,13 +91,13 @@ enum class SweepExtent { full, quick };
 [[nodiscard]] CostStudy load_cost_study(const std::filesystem::path& file, SweepExtent extent,
                                         const References& references);
 
-/// Returns a study without settings, named after the case or variant.
+/// Returns a cost study without settings, named after a case or variant.
 [[nodiscard]] CostStudy cost_study_without_settings(const Case& given, const std::string& variant);
 
-/// Returns true if a file contains a study, not a case.
+/// Returns true if a file contains a cost study, not a case.
 [[nodiscard]] bool is_cost_study(const std::filesystem::path& file);
 
-/// Returns the files of the catalogue's studies, by name.
+/// Returns the files of the catalogue's cost studies, sorted by name.
 [[nodiscard]] std::vector<std::filesystem::path> cost_study_files();
 
 using results::SandboxedRun;
@@ -107,10 +109,11 @@ using results::SandboxedRun;
                                          const References& references,
                                          const std::function<void()>& waiting = {});
 
-/// Returns the refinements of a case as a study, with a curve for each named sweep, or all sweeps
-/// if none is named. The observed quantities are those of the sweeps, or else those of the checks.
-/// Their errors are measured against references of kind exact or computed, or else against the
-/// finest level of the first sweep. The baseline is the coarsest level of the first sweep.
+/// Returns a cost study of the refinement sweeps of a case, with one curve per named sweep, or per
+/// sweep of the case if `sweeps` is empty. The observed quantities are those of the sweeps, or else
+/// those of the checks. Their errors are measured against references of the kinds proved, exact or
+/// computed, or else against the finest level of the first sweep. The baseline is the coarsest
+/// level of the first sweep.
 /// @throws InputError  if the case has no such sweep, or nothing can be measured.
 [[nodiscard]] CostStudy cost_study_of_sweeps(const Case& given, const std::string& variant,
                                              const std::vector<std::string>& sweeps,

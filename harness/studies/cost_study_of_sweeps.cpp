@@ -41,8 +41,8 @@ std::vector<ObservedQuantity> observed_quantities(const std::vector<TrackedQuant
   return observed;
 }
 
-/// Keeps only quantities with exact values if there are any, because a study measures all errors in
-/// one way.
+/// Removes the quantities without exact values if others have exact values, because a cost study
+/// measures all errors against the same kind of reference.
 bool keep_exact(std::vector<ObservedQuantity>& observed) {
   const auto lacks = [](const ObservedQuantity& entry) { return entry.needs_reference_solution(); };
   if (std::ranges::all_of(observed, lacks)) return false;

@@ -173,7 +173,7 @@ bool is_estimated(const std::string& name) {
   return !is_error_measure(name) && !is_count(head) && std::ranges::none_of(others, is_other);
 }
 
-/// Scales by which errors of quantities are divided to obtain relative errors.
+/// Scales of the quantities. An error divided by the scale is a relative error.
 class ErrorScales {
  public:
   ErrorScales(const Document& document, const AnalysisResult& own)
@@ -186,8 +186,8 @@ class ErrorScales {
       scales_[kind] = std::max(scales_[kind], kPositionRoundoff * size);
   }
 
-  /// Returns true for a series over time or a path, and for quantities with many entries. Only
-  /// their largest error is reported.
+  /// Returns true for a quantity recorded over time or along a path, and for a quantity with many
+  /// entries. Only the largest error of such a quantity is reported.
   [[nodiscard]] bool is_curve(const std::string& name) const {
     const std::size_t size = own_.at(name).values.size();
     const auto time = own_.find("time_s");
@@ -206,8 +206,8 @@ class ErrorScales {
       return is_curve(name) ? largest : 1e-6 * largest;
     return std::max(largest, found->second);
   }
-  /// Returns the assumed relative round-off error of a quantity. It is larger for analyses with
-  /// iterations or time steps.
+  /// Returns the assumed relative round-off error of a quantity. This error is larger for analyses
+  /// with iterations or time steps.
   [[nodiscard]] double roundoff() const {
     return kind_ == "statics" || kind_ == "modes" || kind_ == "buckling" ? 1e-12 : 1e-9;
   }

@@ -21,16 +21,16 @@ struct Companion {
   double ratio = 2;   ///< ratio of element sizes, steps or tolerances
   std::string words;  ///< description, for example "half the elements"
 };
-/// Returns the companion with half the elements or twice the step (or the opposite for
-/// Refine::finer). If the number of elements cannot be halved, the companion is finer. Returns
-/// nothing if the analysis has no mesh or no steps.
+/// Returns a second computation (companion) with half the elements or twice the time step, or with
+/// the opposite for Refine::finer. If the number of elements cannot be halved, the companion is
+/// finer. Returns nothing if the analysis has no mesh or no time steps.
 /// @param own  result of `document`, from which the largest step of a step control is read
 [[nodiscard]] std::optional<Companion> adjacent_refinement_level(
     const Document& document, ErrorSource source, Refine refine = Refine::coarser,
     const AnalysisResult* own = nullptr);
 
-/// Returns true if the results of two levels are the same to the last bit. Then both levels had the
-/// same steps, and their difference says nothing about the error.
+/// Returns true if the results on two refinement levels are the same to the last bit. Both levels
+/// then had the same time steps, and their difference is no estimate of the error.
 [[nodiscard]] bool is_same_result(const AnalysisResult& own, const AnalysisResult& other);
 
 /// Returns the order of convergence, which is the lowest order of all discretized parts of the
@@ -51,26 +51,28 @@ struct ErrorBand {
 };
 using ErrorBands = std::map<std::string, ErrorBand>;
 
-/// Returns error bands from the results of two levels. The band about the fine value has the half
-/// width U = 3 |fine - coarse| / (r^p - 1), with the ratio r of element sizes or steps and the
-/// order p (P. J. Roache, J. Fluids Eng. 116, 1994). The band about the coarse value is r^p times
-/// as wide. If the difference exceeds 10 % of the value, p is at most 2. If the theory is exact, U
-/// is the difference plus round-off. Modes are matched by their shapes if both results have them.
+/// Returns error bands from the results on two refinement levels. The band about the fine value has
+/// the half width U = 3 |fine - coarse| / (r^p - 1), with the ratio r of element sizes or steps and
+/// the order p (P. J. Roache, J. Fluids Eng. 116, 1994). The band about the coarse value is r^p
+/// times as wide. If the difference exceeds 10 % of the value, p is at most 2. If the values are
+/// exact in theory, U is the difference plus round-off. Modes are matched by their shapes if both
+/// results have them.
 [[nodiscard]] ErrorBands error_bands(const AnalysisResult& own, const AnalysisResult& other,
                                      ErrorSource source, const Companion& companion);
 
-/// Returns the relative errors of a solved computation: the sums of the half widths due to mesh and
-/// step, divided by the scales of the values.
+/// Returns the relative errors of a solved computation: sums of the half widths of the error bands
+/// due to mesh and time step, divided by the scales of the values.
 [[nodiscard]] std::vector<results::ErrorEstimate> relative_errors(
     const Document& document, const AnalysisResult& own,
     const std::map<ErrorSource, ErrorBands>& bands);
-/// Computes the companions of a solved computation and returns its estimated errors.
+/// Repeats a solved computation with a coarser or finer mesh and time step, and returns the
+/// estimated errors of its quantities.
 [[nodiscard]] results::ErrorEstimates estimate_errors(const Document& document,
                                                       const AnalysisResult& own,
                                                       const References& references);
 
 /// Returns warnings about quantities whose estimated error exceeds the limit. Each warning names
-/// the setting to be refined.
+/// the key of the mesh or time step to be refined.
 [[nodiscard]] std::vector<std::string> error_warnings(const results::ErrorEstimates& errors,
                                                       double limit);
 

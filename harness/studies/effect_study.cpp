@@ -94,8 +94,8 @@ class Study {
     return effects;
   }
 
-  /// Measures the times of the sets of effects in turns and in random order, so that a slowdown of
-  /// the machine affects all sets.
+  /// Measures the computing times with the different sets of effects in turns and in random order,
+  /// so that a slowdown of the machine affects all sets.
   void measure_time() {
     std::vector<EffectRun*> runs = {&study_.full, &study_.chosen};
     for (EffectRun& run : study_.without_one) runs.push_back(&run);

@@ -21,7 +21,8 @@ struct EffectRun {
   Changes changes;   ///< changes of the results, relative to the scene with all effects
   double cpu_s = 0;  ///< median of the repeats, or time of a single run
 
-  /// Returns the largest relative change of the results; infinite without a solution.
+  /// Returns the largest relative change of the results, compared with all effects; infinite if the
+  /// computation has no solution.
   [[nodiscard]] double change() const { return max_change(changes).value; }
 };
 
@@ -35,12 +36,15 @@ struct EffectStudy {
   /// has two elements.
   std::optional<double> mesh_change;
   double deciding_cpu_s = 0;
-  std::vector<EffectRun> without_one;     ///< the full set without each effect: separate
-                                          ///< contributions
-  std::vector<EffectRun> without_chosen;  ///< the chosen effects without each removable effect
+  /// Runs without one effect of the full set, for each effect: separate contributions of the
+  /// effects.
+  std::vector<EffectRun> without_one;
+  /// Runs without one of the chosen effects, for each chosen effect that can be removed.
+  std::vector<EffectRun> without_chosen;
 
   [[nodiscard]] bool within_tolerance() const { return chosen.change() <= tolerance; }
-  /// @returns true if the tolerance does not permit removal of an expensive chosen effect
+  /// @returns true if no expensive effect can be removed from the chosen effects within the
+  ///   tolerance
   [[nodiscard]] bool is_minimal() const;
   /// Returns the counted work of the selection and of the run with the chosen effects, relative to
   /// the work of the run with all effects.
@@ -54,7 +58,7 @@ struct EffectStudyOptions {
   int repeats = 7;  ///< number of timed runs of each set, after one warm-up; 0: no times
 };
 
-/// Measures the effects in a case.
+/// Measures by how much each physical effect changes the results and the computing time of a case.
 /// @param document  a case whose analysis has effects; its tolerance overrides that of `options`
 /// @throws InputError  if the analysis has no effects or the model is invalid.
 [[nodiscard]] EffectStudy study_effects(const Document& document,

@@ -14,8 +14,8 @@
 namespace trammel::harness {
 namespace {
 
-using Places = std::map<std::string, std::vector<Eigen::Vector2d>>;  ///< name of a point ->
-                                                                     ///< displacement of each mode
+/// Displacement of a point in each mode, by the name of the point.
+using Places = std::map<std::string, std::vector<Eigen::Vector2d>>;
 
 /// Number of modes computed in addition to the requested modes. They complete the last set of equal
 /// frequencies.
@@ -138,8 +138,8 @@ std::vector<ModeMatch> match_modes(const SampledModes& a, const SampledModes& b)
   std::ranges::stable_sort(
       pairs, [](const auto& x, const auto& y) { return std::get<0>(x) > std::get<0>(y); });
   std::vector<ModeMatch> matches;
-  // A set matches as many modes as it contains. If asymmetry splits a repeated frequency of the
-  // other model, both split modes match the set of the repeated frequency.
+  // A set of n modes can match n modes of the other model. If asymmetry splits a repeated frequency
+  // of the other model, both split modes match the set of the repeated frequency.
   std::vector<std::size_t> room_a, room_b;
   for (const auto& set : sets_a) {
     matches.push_back({set, {}, 0});

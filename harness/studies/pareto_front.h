@@ -26,14 +26,14 @@ inline constexpr double kMinError = std::numeric_limits<double>::epsilon();
 /// more accurate one. If the errors are also equal, it contains the first setting of the study.
 inline constexpr double kParetoTolerance = 0.05;
 
-/// Returns true if one of the points belongs to the setting.
+/// Returns true if one of the points belongs to the setting with the index `setting`.
 [[nodiscard]] bool has_setting(const std::vector<CostPoint>& points, std::size_t setting);
 
-/// Returns the fastest point whose error is at most `error`.
+/// Returns the fastest point whose error is at most `error`; empty if there is none.
 [[nodiscard]] std::optional<CostPoint> cheapest(const std::vector<CostPoint>& points, double error);
 
-/// Returns the settings with at most this error that are not significantly slower than the fastest
-/// setting: the confidence intervals of the times overlap, or nearly do.
+/// Returns the settings with an error of at most `error` that are not significantly slower than the
+/// fastest of them: the confidence intervals of the times overlap, or nearly do.
 [[nodiscard]] std::vector<std::size_t> tied_settings(const std::vector<CostPoint>& points,
                                                      double error);
 

@@ -9,12 +9,13 @@
 #include "harness/judge/sweep.h"
 
 /// Validation comparison of ASME V&V 20-2009 for the checks of a run with the role "validation".
-/// The key "uncertainty" of a case requests this comparison. A difference has contributions of the
-/// discretization, the printed digits of inputs and reference, and the model.
+/// The key "uncertainty" of a case requests this comparison. The difference between computed and
+/// printed value has contributions of the discretization, of the printed digits of inputs and
+/// reference, and of the model.
 namespace trammel::harness {
 
 /// Returns the uncertain inputs of a case or variant with the key "uncertainty". Inputs that are
-/// not numbers in this variant are omitted.
+/// not numbers in the case or variant are omitted.
 /// @throws InputError  if a pointer is invalid.
 [[nodiscard]] std::vector<results::UncertainInput> uncertain_inputs(const Document& document,
                                                                     const References& references);
