@@ -35,7 +35,7 @@ struct FrameFrequencies {
 
 /// Returns the lowest sqrt(EI/rho A)/L^2 of the members [rad/s]. It is an order of magnitude of the
 /// lowest natural frequencies, not a bound.
-/// @throws DerivationError  if a member has no mass, or there is none.
+/// @throws DerivationError  if a member has no mass, or if the frame has no member.
 [[nodiscard]] Real frequency_order_of_magnitude(const Frame& frame);
 
 /// Returns the number of natural frequencies below `frequency` [Hz], including rigid motions.

@@ -41,8 +41,8 @@ class Arguments {
   [[nodiscard]] Arguments object(const std::string& key,
                                  const std::vector<std::string>& known) const;
 
-  // The functions below return a number as the decimal number in the file: 0.0015 is 15/10000, not
-  // the nearest double.
+  // Numbers are returned exactly as the decimal numbers in the file: 0.0015 is 15/10000, not the
+  // nearest double. This also applies to positive() and the other functions below.
   [[nodiscard]] Real number(const std::string& key, const Default& default_value = {}) const;
   [[nodiscard]] Real positive(const std::string& key, const Default& default_value = {}) const;
   [[nodiscard]] Real not_negative(const std::string& key, const Real& default_value) const;

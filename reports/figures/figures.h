@@ -32,8 +32,8 @@ namespace trammel::reports {
                                                   const std::vector<const Run*>& runs,
                                                   std::string& problem);
 
-/// Bars of the change of a run's results without each measured effect. Empty if no effect was
-/// measured.
+/// Bar chart with a bar for each measured mechanical effect: the change of a run's results if the
+/// effect is omitted. Empty if no effect was measured.
 [[nodiscard]] std::optional<Figure> effects_figure(const CaseInfo& info, const Results& results,
                                                    const Run& run);
 

@@ -70,8 +70,8 @@ std::vector<double> class_limits(std::vector<double> sorted) {
   return limits;
 }
 
-/// Returns the boxes of each color (center, then edges). Adjacent cells of one row with the same
-/// color share one box.
+/// Returns the boxes of a map for each color. Each box is a row with the coordinates of its center
+/// and its edges. Adjacent cells of the map in one line with the same color share one box.
 std::vector<PlotScript::Rows> boxes(const Field& field) {
   std::vector<PlotScript::Rows> by_color(palette::kSequence.size());
   for (std::size_t from = 0; from < field.cells.size();) {
@@ -186,7 +186,7 @@ int draw_map(PlotScript& script, const PlotRequest& request, const Run& run, con
   for (const Cell& cell : field.cells) box.x.cover(cell.x), box.y.cover(cell.y);
   box.x.widen(0.5 * field.dx);
   box.y.widen(0.5 * field.dy);
-  frame(script, box);
+  set_axis_ranges(script, box);
   std::vector<std::string> titles;
   const auto by_color = boxes(field);
   for (std::size_t k = 0; k < by_color.size(); ++k) {

@@ -237,7 +237,7 @@ BOOST_AUTO_TEST_CASE(pins_hold_the_plate_by_constraints_only) {
     for (std::size_t k = 0; k < 3; ++k) BOOST_TEST(t.nodes[k] > model.find_node("P"));
     BOOST_TEST(triangle_area(model, t) > 0);
   }
-  // Every constraint holds for a translation and for a small rotation.
+  // Every constraint of the model permits rigid motions: a translation and a small rotation.
   for (const LinearConstraint& tie : model.constraints) {
     double translation = 0, rotation = 0, size = 0;
     for (const auto& [coordinate, factor] : tie.terms) {
