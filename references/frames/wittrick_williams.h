@@ -50,8 +50,8 @@ struct FrameFrequencies {
 /// Computes derivatives of frequencies by central differences of `frame_frequencies` at step, step
 /// / 2 and step / 4, extrapolated twice. The error is O(step^6) plus 1e-20 over the step, because
 /// each frequency has the error 1e-20. Frequencies that remain repeated have a common derivative.
-/// The argument pointers contains JSON pointers into the arguments, to equal numbers that change
-/// together by step. Values: [Hz / unit of the numbers], ascending in frequency.
+/// The argument pointers is a list of JSON pointers to equal numbers in the arguments. The numbers
+/// change together by step. Values: [Hz / unit of the numbers], ascending in frequency.
 [[nodiscard]] std::vector<Real> frame_frequency_sensitivity_program(const Arguments& arguments);
 
 /// Computes the first `count` positive factors of the loads at which a frame buckles. The axial

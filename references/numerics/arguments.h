@@ -29,7 +29,7 @@ class Arguments {
   /// @param pointer  JSON pointer to the object, for error messages.
   /// @throws DerivationError  if `object` is not an object, or has a key that is not in `known`.
   Arguments(const Json& object, std::string pointer, const std::vector<std::string>& known);
-  /// Creates arguments from an object whose keys are names that the user chooses.
+  /// Creates arguments from an object whose keys are arbitrary names, such as names of nodes.
   Arguments(const Json& object, std::string pointer);
 
   [[nodiscard]] const Json& json() const { return object_; }

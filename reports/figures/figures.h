@@ -60,7 +60,7 @@ namespace trammel::reports {
 /// Empty if there are fewer than two instants.
 [[nodiscard]] std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run);
 
-/// Up to eight mode shapes or deformed shapes of a run, one panel each.
+/// Figure of up to eight mode shapes or deformed shapes of a run, one panel each.
 [[nodiscard]] std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run);
 
 /// Figure of the differences of all checks of a family, divided by their tolerances. Known

@@ -86,7 +86,8 @@ ManipulatorDesign rigid_design() {
   return design;
 }
 
-/// Returns a design with unequal parts and P off the centroid.
+/// Returns a manipulator design without symmetry: unequal links, base and platform, and P off the
+/// centroid of the platform.
 ManipulatorDesign uneven_design() {
   ManipulatorDesign design = table_1_design();
   design.geometry = uneven_geometry();
@@ -272,7 +273,8 @@ BOOST_AUTO_TEST_CASE(joint_kinds_become_fixities) {
   BOOST_TEST((fixity("B1-C1", 1) == EndFixity::welded));
   BOOST_TEST((fixity("B2-C2", 1) == EndFixity::hinged));
   BOOST_TEST(member(model, "B3-C3").ends[1].stiffness == 9.0);
-  // The proximal links keep the rotation of node B, so that it has stiffness.
+  // The proximal link of each limb is welded to the elbow node, so that the rotation of the node
+  // has stiffness.
   for (const char* name : {"A1-B1", "A2-B2", "A3-B3"})
     BOOST_TEST((fixity(name, 1) == EndFixity::welded));
 }
