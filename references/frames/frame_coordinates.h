@@ -31,7 +31,7 @@ class FrameCoordinates {
   [[nodiscard]] int free() const { return static_cast<int>(N_.cols()); }  ///< size of q
   [[nodiscard]] const RealMatrix& N() const { return N_; }                ///< matrix of u = N q
 
-  /// Index in u of motion 0 (x), 1 (y) or 2 (rotation) of a node; -1 if it has no rotation.
+  /// Index in u of motion 0 (x), 1 (y) or 2 (rotation) of a node; -1 if the node has no rotation.
   [[nodiscard]] int node_coordinate_index(int node, int motion) const {
     return node_[node][motion];
   }
