@@ -31,7 +31,8 @@ struct Beam {
   Real L, a, r2, e, kG;  ///< kG = 0: Euler-Bernoulli
 };
 
-/// Returns both roots P of the equation of an exponential beam, the smaller one first.
+/// Returns both roots P = z^2 - a^2 of the characteristic equation of an exponential beam at the
+/// circular frequency w, the smaller root first. `w2` is w^2.
 std::array<Real, 2> exponents(const Beam& beam, const Real& w2) {
   if (beam.kG == 0) {
     const Real P = sqrt(w2 / (beam.e * beam.r2));
@@ -56,8 +57,9 @@ Real characteristic(const Beam& beam, const Real& w) {
     const Real z2 = P[i] + beam.a * beam.a;
     const auto [C, S] = scaled_cosine_and_integral(z2, beam.L);
     const Real unit = z2 > 0 ? Real(1 / cosh(sqrt(z2) * beam.L)) : Real(1);
-    // Functions F without the factor exp(a x): f[0] is cosh z x, f[1] is (sinh z x)/z. Each row has
-    // value and slope at x = 0, then at x = L. All are divided by cosh z L if z^2 > 0.
+    // The two solutions of the beam equation without the factor exp(a x): cosh z x in row f[0],
+    // (sinh z x)/z in row f[1]. Each row has value and slope at x = 0, then at x = L. All entries
+    // are divided by cosh z L if z^2 > 0.
     const std::array<std::array<Real, 4>, 2> f = {{{unit, 0, C, z2 * S}, {0, unit, S, C}}};
     for (int j = 0; j < 2; ++j) {
       for (int end = 0; end < 2; ++end) {

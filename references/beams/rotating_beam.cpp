@@ -34,11 +34,12 @@ struct RotatingBeam {
   std::optional<Real> axial_ratio;  ///< s, for lag only; none: axially rigid
 };
 
-/// V'', V''' and U' at the tip for one solution. All three vanish for a vibration mode.
+/// V'', V''' and U' at the tip of a rotating beam, for one solution of its equations. All three
+/// vanish for a vibration mode.
 using Tip = std::array<Real, 3>;
 
-/// Returns the tip values of the solution that starts at the clamped hub with V'' = a, V''' = b and
-/// U' = c.
+/// Returns V'', V''' and U' at the tip of a rotating beam, for the solution that starts at the
+/// clamped hub with V'' = a, V''' = b and U' = c.
 Tip tip_of_series(const RotatingBeam& beam, const Real& mu, const Tip& start) {
   const Real eta2 = beam.eta * beam.eta;
   const Real at_hub = Real(1) / 2 + beam.hub_ratio;  // tension over eta^2: at_hub - r x - x^2/2

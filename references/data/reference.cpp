@@ -81,8 +81,8 @@ std::vector<double> read_uncertainty(const Json& json, const Reference& referenc
     fail(place, "", "'uncertainty', or 'printed' digits that imply it");
   std::vector<double> half_widths;
   for (std::size_t i = 0; i < reference.printed.size(); ++i) {
-    // If the value differs from the printed digits (corrected, or in another unit), these do not
-    // determine the uncertainty.
+    // If the value differs from the printed number (corrected, or in another unit), the printed
+    // digits do not determine its uncertainty.
     const double read = std::strtod(reference.printed[i].c_str(), nullptr);
     if (std::abs(read - reference.values[i]) > 1e-12 * std::abs(read))
       fail(place, "/printed/" + std::to_string(i),
@@ -121,7 +121,8 @@ double half_unit_in_last_place(const std::string& printed) {
   const auto decimals = point == std::string::npos ? 0 : last - point - 1;
   const long exponent =
       mantissa == std::string::npos ? 0 : std::strtol(printed.c_str() + mantissa + 1, nullptr, 10);
-  // Parsing the text 0.5e-3 yields the nearest double. A product with std::pow may differ from it.
+  // The half unit is parsed from a text such as 0.5e-3, which yields the nearest double. The
+  // product 0.5 * std::pow(10, -3) can differ from the nearest double.
   const long place = exponent - static_cast<long>(decimals);
   return std::strtod(("0.5e" + std::to_string(place)).c_str(), nullptr);
 }

@@ -25,7 +25,8 @@ struct Reference {
   std::vector<std::string> errata;       ///< proved misprints and errors of the source
   std::vector<std::string> ambiguities;  ///< missing or contradictory statements, other models
   std::string notes;
-  /// Probabilities of readings (interpretations of a published model), as JSON text; empty: none.
+  /// Probabilities of the interpretations ("readings") of a published model, as JSON text. The text
+  /// is empty if the reference has no probabilities.
   std::string probabilities;
 };
 

@@ -61,7 +61,8 @@ MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const 
   // shear waves. The formulas avoid cancellation.
   const T below = p >= 0 ? T(-p - root) : T(q / (root - p));
   const T above = p >= 0 ? T(q / below) : T(root - p);
-  // The solutions with the roots `above` and `below` are the columns of these matrices.
+  // Displacements (v, psi) and forces (V, M) at the member's right end, for motions even and odd
+  // about mid-span. The columns are the solutions with k^2 = `above` and k^2 = `below`.
   Eigen::Matrix<T, 2, 2> even_motion, even_force, odd_motion, odd_force;
   for (int i = 0; i < 2; ++i) {
     const T k2 = i == 0 ? above : below;
@@ -88,7 +89,8 @@ MemberStiffness<T> bending_stiffness(const MemberData<T>& m, const T& w2, const 
   return result;
 }
 
-/// @param w2  w^2 > 0 [1/s^2].
+/// Returns the dynamic stiffness of a member for axial and bending motions.
+/// @param w2  square of the circular frequency, > 0 [1/s^2].
 /// @param load_factor  multiplies the member's tension.
 template <class T>
 MemberStiffness<T> member_stiffness(const MemberData<T>& m, const T& w2, const T& load_factor) {

@@ -34,7 +34,8 @@ struct MemberData {
 template <class T>
 class DynamicStiffness {
  public:
-  /// @throws DerivationError  if a member has no length.
+  /// Prepares the dynamic stiffness matrix of a frame for any frequency.
+  /// @throws DerivationError  if a member has the length 0.
   explicit DynamicStiffness(const Frame& frame);
 
   struct Count {
@@ -42,6 +43,7 @@ class DynamicStiffness {
     int clamped_below = 0;  ///< J0
     T log_determinant = 0;  ///< log |det D|
   };
+  /// Returns the Wittrick-Williams counts J and J0 at a frequency, and log |det D|.
   /// @param w  circular frequency > 0 [rad/s]
   /// @param load_factor  factor of the tension of every member
   [[nodiscard]] Count count(const T& w, const T& load_factor = T(1)) const;

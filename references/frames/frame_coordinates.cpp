@@ -6,7 +6,8 @@ namespace trammel::references {
 
 namespace {
 
-/// Returns true for each node that has a rotation, because a part of the frame rotates with it.
+/// Returns true for each node that has a rotation: a node with a member end that is not hinged, a
+/// rigid body, a mass with inertia or offset, or a rotational spring.
 std::vector<bool> nodes_with_rotation(const Frame& frame) {
   std::vector<bool> has_rotation(frame.nodes.size(), false);
   for (const FrameMember& member : frame.members) {

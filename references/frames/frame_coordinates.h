@@ -7,10 +7,10 @@
 #include "references/frames/frame.h"
 #include "references/numerics/dense.h"
 
-/// Coordinates u of a frame: x, y and (if a part rotates with the node) the rotation of each node,
-/// and the rotation of each hinged or sprung member end. Supports, rigid bodies, inextensible
-/// members and sums of rotations are equations C u = 0. Elimination with full pivoting solves them:
-/// u = N q, with the free coordinates q.
+/// Coordinates u of a frame: x and y of each node, the rotation of each node that has one, and the
+/// rotation of each hinged or sprung member end. Supports, rigid bodies, inextensible members and
+/// sums of rotations are equations C u = 0. Elimination with full pivoting solves them: u = N q,
+/// with the free coordinates q.
 namespace trammel::references {
 
 /// Spring between the coordinates `from` and `to` of u. Its tension, stiffness * (u[to] - u[from]),
@@ -24,14 +24,14 @@ class FrameCoordinates {
  public:
   /// @param constrain_inextensible  true if members without axial compliance are constraints
   /// (dynamics), false if their axial force is an unknown (statics).
-  /// @throws DerivationError  if a member has no length.
+  /// @throws DerivationError  if a member has the length 0.
   FrameCoordinates(const Frame& frame, bool constrain_inextensible);
 
   [[nodiscard]] int size() const { return size_; }                        ///< size of u
   [[nodiscard]] int free() const { return static_cast<int>(N_.cols()); }  ///< size of q
   [[nodiscard]] const RealMatrix& N() const { return N_; }                ///< matrix of u = N q
 
-  /// Index in u of motion 0 (x), 1 (y) or 2 (rotation) of a node; -1 if it has no rotation.
+  /// Index in u of motion 0 (x), 1 (y) or 2 (rotation) of a node; -1 if the node has no rotation.
   [[nodiscard]] int node_coordinate_index(int node, int motion) const {
     return node_[node][motion];
   }

@@ -12,12 +12,14 @@ std::vector<Point2<Real>> triangle(const Point2<Real>& center, const Real& side)
           {center[0], center[1] + 2 * height}};
 }
 
-/// Returns true if the mass or inertia of a key is a number, not "from-density" or "from-mass".
+/// Returns true if the mass or inertia at a key is given as a number, not "from-density" or
+/// "from-mass".
 bool is_given(const Arguments& object, const std::string& key) {
   return object.has(key) && object[key] != "from-density" && object[key] != "from-mass";
 }
 
-/// Returns the mass [kg] or inertia [kg m^2] of a key if it is a number, otherwise `computed`.
+/// Returns the mass [kg] or inertia [kg m^2] at a key if it is given as a number, otherwise
+/// `computed`.
 Real given_or(const Arguments& object, const std::string& key, const Real& computed) {
   return is_given(object, key) ? object.positive(key) : computed;
 }

@@ -68,7 +68,7 @@ struct ManipulatorNumbers {
 [[nodiscard]] ManipulatorNumbers read_manipulator_numbers(const Arguments& manipulator);
 
 /// Returns arguments["manipulator"].
-/// @throws DerivationError  if it has a key that is not listed at the top of this file.
+/// @throws DerivationError  if it has an unknown key.
 [[nodiscard]] Arguments manipulator_arguments(const Arguments& arguments);
 
 /// Returns a planar 3-RRR with a rigid platform as a frame. Closed-form inverse kinematics is used:

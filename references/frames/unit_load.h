@@ -30,7 +30,7 @@ struct FrameStatics {
 };
 
 /// Computes the exact statics of a frame.
-/// @throws DerivationError  if the frame can move freely, or if a part without compliance is
+/// @throws DerivationError  if the frame can move freely, or if a rigid part of the frame is
 /// statically indeterminate.
 [[nodiscard]] FrameStatics force_method_statics(const Frame& frame);
 

@@ -35,7 +35,7 @@ struct FrameFrequencies {
 
 /// Returns the lowest sqrt(EI/rho A)/L^2 of the members [rad/s]. It is an order of magnitude of the
 /// lowest natural frequencies, not a bound.
-/// @throws DerivationError  if a member has no mass, or there is none.
+/// @throws DerivationError  if a member has no mass, or if the frame has no member.
 [[nodiscard]] Real frequency_order_of_magnitude(const Frame& frame);
 
 /// Returns the number of natural frequencies below `frequency` [Hz], including rigid motions.
@@ -50,8 +50,8 @@ struct FrameFrequencies {
 /// Computes derivatives of frequencies by central differences of `frame_frequencies` at step, step
 /// / 2 and step / 4, extrapolated twice. The error is O(step^6) plus 1e-20 over the step, because
 /// each frequency has the error 1e-20. Frequencies that remain repeated have a common derivative.
-/// The argument pointers contains JSON pointers into the arguments, to equal numbers that change
-/// together by step. Values: [Hz / unit of the numbers], ascending in frequency.
+/// The argument pointers is a list of JSON pointers to equal numbers in the arguments. The numbers
+/// change together by step. Values: [Hz / unit of the numbers], ascending in frequency.
 [[nodiscard]] std::vector<Real> frame_frequency_sensitivity_program(const Arguments& arguments);
 
 /// Computes the first `count` positive factors of the loads at which a frame buckles. The axial

@@ -116,9 +116,9 @@ class Platform {
 struct History {
   std::vector<Real> time, factor;
 
-  /// Returns the load factor at t, from the linear segment of the load history that contains
-  /// `within`.
-  [[nodiscard]] Real at(const Real& t, const Real& within) const {
+  /// Returns the load factor at the time t. It is computed from the linear segment of the load
+  /// history that contains the time `within`.
+  [[nodiscard]] Real load_factor(const Real& t, const Real& within) const {
     const auto next = std::ranges::upper_bound(time, within);
     if (next == time.begin()) return factor.front();
     if (next == time.end()) return factor.back();
@@ -132,7 +132,7 @@ void advance(const Platform& platform, const History& history, const Real& from,
              State& x) {
   const Real within = (from + to) / 2;
   const auto rate = [&](const State& now, State& dx, const Real& t) {
-    platform.rate(now, dx, t, history.at(t, within));
+    platform.rate(now, dx, t, history.load_factor(t, within));
   };
   integrate(rate, x, from, to, static_cast<int>(ceil((to - from) * 4000)));
 }
@@ -250,8 +250,8 @@ class Links {
 
   /// Solves the equations of motion for the accelerations.
   /// @param torques  if not null, receives the torques of the base on the proximal links
-  [[nodiscard]] SystemMotion solved(const SystemState& x, const Real& t,
-                                    std::array<Real, 3>* torques = nullptr) const {
+  [[nodiscard]] SystemMotion solve_motion(const SystemState& x, const Real& t,
+                                          std::array<Real, 3>* torques = nullptr) const {
     const Nominal now = nominal(t);
     SystemMotion motion;
     for (std::size_t j = 0; j < kCoordinates; ++j) motion[j] = {x[j], x[kCoordinates + j], 0};
@@ -273,7 +273,7 @@ class Links {
     const auto limb = static_cast<std::size_t>(name.back() - '1');
     if (name[0] == 't') {
       std::array<Real, 3> torques;
-      static_cast<void>(solved(x, t, &torques));
+      static_cast<void>(solve_motion(x, t, &torques));
       return torques[limb];
     }
     const std::size_t component = name.find("_y_") == std::string::npos ? 0 : 1;
@@ -351,7 +351,7 @@ class Links {
 std::vector<SystemState> states(const Links& links, const std::vector<Real>& times) {
   constexpr int kSteps = 4;  // steps between two successive times
   const auto rate = [&](const SystemState& x, SystemState& dx, const Real& t) {
-    const SystemMotion motion = links.solved(x, t);
+    const SystemMotion motion = links.solve_motion(x, t);
     for (std::size_t j = 0; j < kCoordinates; ++j) {
       dx[j] = motion[j].rate;
       dx[kCoordinates + j] = motion[j].acceleration;

@@ -34,7 +34,8 @@ Sample sample_at(const ManipulatorNumbers& manipulator, const Arguments& traject
   return sample;
 }
 
-/// Returns the estimate at `query`. `inputs` and `outputs` have one row per sample.
+/// Returns the estimate of the Nadaraya-Watson estimator for the input `query`. `inputs` and
+/// `outputs` have one row per training sample.
 std::vector<Real> nadaraya_watson(const Rows& inputs, const Rows& outputs,
                                   const std::vector<Real>& query, const Real& sigma) {
   std::vector<Real> squared_distance;

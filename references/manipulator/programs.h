@@ -63,10 +63,11 @@ namespace trammel::references {
 [[nodiscard]] std::vector<Real> regression_network_program(const Arguments& arguments);
 
 /// Computes the angles or velocities of the active joints that a general regression neural network
-/// estimates. It is trained with torques by Newton and Euler along the path. Point k of the path is
-/// at the time k step_s, and k starts from 0. Arguments: train (number of training samples, which
-/// are the first points of the path), sigma [N m], queries (numbers k of the points to estimate).
-/// Values: the estimates for A1 at each query, then for A2, then for A3 [rad or rad/s].
+/// estimates. The network is trained with torques along the path that follow from the Newton-Euler
+/// equations. Point k of the path is at the time k step_s, and k starts from 0. Arguments: train
+/// (number of training samples, which are the first points of the path), sigma [N m], queries
+/// (numbers k of the points to estimate). Values: the estimates for A1 at each query, then for A2,
+/// then for A3 [rad or rad/s].
 [[nodiscard]] std::vector<Real> manipulator_grnn_program(const Arguments& arguments);
 
 }  // namespace trammel::references

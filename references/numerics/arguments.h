@@ -29,7 +29,7 @@ class Arguments {
   /// @param pointer  JSON pointer to the object, for error messages.
   /// @throws DerivationError  if `object` is not an object, or has a key that is not in `known`.
   Arguments(const Json& object, std::string pointer, const std::vector<std::string>& known);
-  /// Creates arguments from an object whose keys are names that the user chooses.
+  /// Creates arguments from an object whose keys are arbitrary names, such as names of nodes.
   Arguments(const Json& object, std::string pointer);
 
   [[nodiscard]] const Json& json() const { return object_; }
@@ -41,8 +41,8 @@ class Arguments {
   [[nodiscard]] Arguments object(const std::string& key,
                                  const std::vector<std::string>& known) const;
 
-  // The functions below return a number as the decimal number in the file: 0.0015 is 15/10000, not
-  // the nearest double.
+  // Numbers are returned exactly as the decimal numbers in the file: 0.0015 is 15/10000, not the
+  // nearest double. This also applies to positive() and the other functions below.
   [[nodiscard]] Real number(const std::string& key, const Default& default_value = {}) const;
   [[nodiscard]] Real positive(const std::string& key, const Default& default_value = {}) const;
   [[nodiscard]] Real not_negative(const std::string& key, const Real& default_value) const;

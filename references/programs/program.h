@@ -14,8 +14,8 @@ namespace trammel::references {
 
 struct Program {
   std::function<std::vector<Real>(const Arguments&)> run;
-  /// Returns the values of the program as proved enclosures with 30 digits, the last uncertain by
-  /// one. The function is empty if the program has no proof.
+  /// Returns the values of the program as proved enclosures with 30 digits. The last digit is
+  /// uncertain by one unit. The function is empty if the program has no proof.
   std::function<std::vector<std::string>(const Arguments&)> prove = {};
 };
 

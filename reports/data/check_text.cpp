@@ -83,8 +83,8 @@ std::string target_text(const Check& check) {
   if (check.measure == "validation") return "as recorded";
   if (!check.expected) return check.measure == "bound" && check.tolerance ? bound_text(check) : "–";
   // A target with at most kMaxTargetDigits digits is shown with all digits.
-  const int own = digits_in(shortest_decimal(*check.expected));
-  if (own <= kMaxTargetDigits) return significant(*check.expected, own);
+  const int digits = digits_in(shortest_decimal(*check.expected));
+  if (digits <= kMaxTargetDigits) return significant(*check.expected, digits);
   return significant(*check.expected, digits_for(check));
 }
 

@@ -49,8 +49,9 @@ static_assert(kStatusStyles[4].status == static_cast<CheckStatus>(4));
 [[nodiscard]] bool is_failure(CheckStatus status);
 [[nodiscard]] CheckStatus check_status(const Check& check);
 
-/// Returns the status of the end of a run. A run that ends with a singular matrix or without
-/// convergence passes if it has checks and all checks pass, because its case then expects this end.
+/// Returns the status of a run by its end: solved, singular matrix, no convergence or error. A run
+/// that ends with a singular matrix or without convergence passes if it has checks and all checks
+/// pass, because its case then expects this end.
 [[nodiscard]] CheckStatus check_status(const Run& run);
 
 /// Number of checks of each status.

@@ -7,7 +7,7 @@
 
 namespace trammel::reports {
 
-/// Range from the lowest to the highest of the covered numbers.
+/// Range from the lowest to the highest number that was passed to `cover`.
 struct Interval {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();

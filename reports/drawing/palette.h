@@ -21,7 +21,8 @@ inline constexpr const char* kPlate = "#dde6f0";
 
 inline constexpr std::array<const char*, 7> kSeries = {"#1f5fa8", "#c8500a", "#16806a", "#a3478f",
                                                        "#4a9fd4", "#b0830a", "#5b6470"};
-/// Colors of the value classes of a map: light blue for low values to dark blue for high values.
+/// Colors of a map of a quantity, one for each range of values: light blue for low values to dark
+/// blue for high values.
 inline constexpr std::array<const char*, 7> kSequence = {"#e3edf7", "#c3d9ee", "#98bfe1", "#6a9fd0",
                                                          "#437eb8", "#265c96", "#123b6b"};
 /// Point types of gnuplot for the curves of a figure: disc, square, triangle, diamond, ...

@@ -17,7 +17,8 @@ namespace trammel::reports {
 /// Returns a tick mark with its text and position, for the gnuplot command `set xtics (...)`.
 [[nodiscard]] std::string tic(const std::string& text, double at);
 
-/// Returns at most `max_characters` characters; a shortened text ends with an ellipsis.
+/// Returns a text that is shortened to at most `max_characters` characters. A shortened text ends
+/// with an ellipsis.
 [[nodiscard]] std::string shortened(const std::string& text, std::size_t max_characters);
 [[nodiscard]] std::size_t characters(const std::string& utf8);
 

@@ -65,6 +65,7 @@ PlotScript::Rows steps_of(const CostStudy& study, double right) {
   return rows;
 }
 
+/// Draws the curve of error and time that starts with a setting.
 /// @param first  first setting of the curve
 void draw_curve(PlotScript& script, const CostStudy& study, const CostSetting& first,
                 std::size_t number) {

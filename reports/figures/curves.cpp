@@ -184,7 +184,7 @@ std::string dashed(std::size_t variant) {
 }
 
 /// Draws the curves and their key. If quantities and variants both differ, the key has entries for
-/// colors and dashes, not for every pair. @returns the height of the key.
+/// colors (quantities) and dashes (variants), not for every curve. @returns the height of the key.
 int draw_series(PlotScript& script, const std::vector<Series>& series, const CaseInfo& info,
                 const PlotRequest& request, const std::vector<std::string>& variants,
                 std::pair<double, double> factors, const std::vector<const Run*>& runs) {

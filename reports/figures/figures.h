@@ -32,8 +32,8 @@ namespace trammel::reports {
                                                   const std::vector<const Run*>& runs,
                                                   std::string& problem);
 
-/// Bars of the change of a run's results without each measured effect. Empty if no effect was
-/// measured.
+/// Bar chart with a bar for each measured mechanical effect: the change of a run's results if the
+/// effect is omitted. Empty if no effect was measured.
 [[nodiscard]] std::optional<Figure> effects_figure(const CaseInfo& info, const Results& results,
                                                    const Run& run);
 
@@ -60,7 +60,7 @@ namespace trammel::reports {
 /// Empty if there are fewer than two instants.
 [[nodiscard]] std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run);
 
-/// Up to eight mode shapes or deformed shapes of a run, one panel each.
+/// Figure of up to eight mode shapes or deformed shapes of a run, one panel each.
 [[nodiscard]] std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run);
 
 /// Figure of the differences of all checks of a family, divided by their tolerances. Known

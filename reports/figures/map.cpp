@@ -55,7 +55,8 @@ Field read_field(const std::vector<double>& x, const std::vector<double>& y,
   return field;
 }
 
-/// Returns limits, rounded to two digits, between value classes with about equally many cells.
+/// Returns the limits between the value ranges of a map that have different colors, rounded to two
+/// digits. The ranges contain about equal numbers of cells.
 std::vector<double> class_limits(std::vector<double> sorted) {
   std::ranges::sort(sorted);
   const std::size_t classes = palette::kSequence.size();
@@ -70,8 +71,8 @@ std::vector<double> class_limits(std::vector<double> sorted) {
   return limits;
 }
 
-/// Returns the boxes of each color (center, then edges). Adjacent cells of one row with the same
-/// color share one box.
+/// Returns the boxes of a map for each color. Each box is a row with the coordinates of its center
+/// and its edges. Adjacent cells of the map in one line with the same color share one box.
 std::vector<PlotScript::Rows> boxes(const Field& field) {
   std::vector<PlotScript::Rows> by_color(palette::kSequence.size());
   for (std::size_t from = 0; from < field.cells.size();) {
@@ -152,7 +153,7 @@ Table table_of(const Field& field, const PlotRequest& request) {
   return table;
 }
 
-/// Classes of the values of all maps of one quantity, with their colors.
+/// Value ranges ("classes") of all maps of one quantity, with their colors.
 struct ColorClasses {
   explicit ColorClasses(const std::vector<double>& values)
       : count(values.size()),
@@ -163,7 +164,8 @@ struct ColorClasses {
   [[nodiscard]] std::size_t class_of(double value) const {
     return static_cast<std::size_t>(std::ranges::upper_bound(limits, value) - limits.begin());
   }
-  /// Returns the color of value class k. High values are dark, or low values if none is positive.
+  /// Returns the color of value range k of a map. High values are dark. If no value is positive,
+  /// low values are dark.
   [[nodiscard]] std::string color(std::size_t k) const {
     return lc(palette::kSequence[negative ? limits.size() - std::min(k, limits.size()) : k]);
   }
@@ -186,7 +188,7 @@ int draw_map(PlotScript& script, const PlotRequest& request, const Run& run, con
   for (const Cell& cell : field.cells) box.x.cover(cell.x), box.y.cover(cell.y);
   box.x.widen(0.5 * field.dx);
   box.y.widen(0.5 * field.dy);
-  frame(script, box);
+  set_axis_ranges(script, box);
   std::vector<std::string> titles;
   const auto by_color = boxes(field);
   for (std::size_t k = 0; k < by_color.size(); ++k) {

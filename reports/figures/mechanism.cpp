@@ -67,8 +67,9 @@ void name_joints(PlotScript& script, const Drawing& drawing, const Box& box) {
   }
 }
 
-/// Draws a dimension line with the length at one straight part of the body for each length, on the
-/// side away from the center of the drawing. Parts shorter than 0.12 of its longer side have none.
+/// Draws dimension lines with the lengths of straight lines of the body, on the side away from the
+/// center of the drawing. Equal lengths have one dimension line. Lines shorter than 0.12 of the
+/// longer side of the drawing have no dimension line.
 void draw_dimensions(PlotScript& script, const Drawing& drawing, const Box& box) {
   constexpr std::size_t kMaxDimensions = 6;
   const double cx = 0.5 * (box.x.low + box.x.high), cy = 0.5 * (box.y.low + box.y.high);
@@ -137,7 +138,8 @@ std::vector<const Pose*> overlays_of(const Drawing& drawing) {
   return overlays;
 }
 
-/// Draws further poses. @returns the height of the key [px]
+/// Draws the poses of a mechanism other than the first pose, and the key of poses, joints and
+/// loads. @returns the height of the key [px]
 int draw_overlays(PlotScript& script, Table& data, const std::vector<const Pose*>& overlays,
                   const std::string& base_label, const Drawing& drawing,
                   const std::vector<LoadArrows>& loads) {
@@ -175,7 +177,7 @@ std::optional<Figure> mechanism_figure(const CaseInfo& info, const Run& run) {
     for (const auto& row : arrows.rows) sets.push_back({{row[0], row[1]}});
   PlotScript script;
   const Box box = box_around(sets, 0.12, 0.2);
-  frame(script, box);
+  set_axis_ranges(script, box);
   Table table{words_in("pose node x_m y_m joint name"), {}, kSampleDigits};
   const int key_height = draw_overlays(script, table, overlays, base_label, drawing, loads);
   script.curve(filled_triangles(drawing, drawing.nodes),

@@ -20,6 +20,7 @@ struct Largest {
   double length = 0, time = 0;
 };
 
+/// Returns the length of the longest vector at any node and instant, and its time.
 /// @param of  function that returns the vectors of all nodes at an instant
 template <class Vectors>
 Largest largest(const std::vector<Pose>& instants, const Vectors& of) {
@@ -135,8 +136,9 @@ Json row_differences(std::vector<Coordinates> rows) {
   return rows;
 }
 
-/// Returns the animation of a motion as JSON: the positions at each instant with deflections, and
-/// without deflections if they differ. Positions are differences from the previous instant.
+/// Returns the animation of a motion as JSON: the node positions at each instant with deflections,
+/// and also without deflections if any node deflects. Positions are stored as differences from the
+/// previous instant.
 std::string moving_poses(const Drawing& drawing, const std::vector<Pose>& instants, double factor,
                          const Box& box, double panel) {
   Panel moving(drawing, box, panel);
@@ -173,7 +175,7 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
   }
   const Box box = box_around(everything, 0.04, 0.22);
   PlotScript script;
-  frame(script, box);
+  set_axis_ranges(script, box);
   const std::size_t stride = (instants.size() + kMaxDrawnInstants - 2) / (kMaxDrawnInstants - 1);
   std::string drawn;
   for (std::size_t k = 0; k < instants.size(); ++k) {

@@ -167,7 +167,7 @@ Box box_around(const std::vector<std::vector<Point>>& sets, double margin, doubl
   return box;
 }
 
-void frame(PlotScript& script, const Box& box) {
+void set_axis_ranges(PlotScript& script, const Box& box) {
   script.range("x", box.x.low, box.x.high);
   script.range("y", box.y.low, box.y.high);
   script.command("set size ratio -1");

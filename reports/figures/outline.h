@@ -50,7 +50,7 @@ struct Box {
 /// Returns the smallest number of at least `min_step` that is 1, 2 or 5 times a power of ten.
 [[nodiscard]] double tick_spacing(double min_step);
 /// Sets the ranges of the axes x and y (m) to the box, with the same scale.
-void frame(PlotScript& script, const Box& box);
+void set_axis_ranges(PlotScript& script, const Box& box);
 
 /// Returns the height of a drawing of the box, including the axes [px].
 [[nodiscard]] int drawing_height(const Box& box);

@@ -114,7 +114,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
 
   PlotScript script;
   script.command("set lmargin 0; set rmargin 0; set tmargin 2; set bmargin 0");
-  frame(script, box);
+  set_axis_ranges(script, box);
   script.command("unset border; unset tics; unset xlabel; unset ylabel; unset grid; unset key");
   script.command("set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns));
   for (std::size_t s = 0; s < n; ++s)

@@ -43,6 +43,7 @@ std::string conclusion(const std::vector<EffectScene>& scenes) {
          " times as long as running with all effects.";
 }
 
+/// Returns the caption of the figure of the calls of trammel.
 /// @param work, time  rows of (call, value relative to the first call)
 std::string caption_of(const PlotScript::Rows& work, const PlotScript::Rows& time) {
   const auto last = [](const PlotScript::Rows& rows) { return trimmed(rows.back()[1], 3); };
@@ -96,7 +97,7 @@ std::optional<Figure> effects_figure(const CaseInfo& info, const Results& result
     caption += " Requested " + relative(scene->tolerance, 2, false) + ", obtained " +
                relative(scene->change, 2, false) + ".";
   }
-  // The names of effects leave little width for the key.
+  // The key has only two columns, because the names of the effects reduce the width of the plot.
   const int key = script.place_key_below({"needed", "not needed", "cumulative", "tolerance"}, 2);
   script.plot();
   return Figure{

@@ -49,7 +49,7 @@ Counts counts_of(const std::vector<const Run*>& runs) {
   return counts;
 }
 
-/// Returns the worst status of the checks and of the ends of the runs.
+/// Returns the worst status of the checks of all runs, and of the runs themselves.
 CheckStatus worst_status(const std::vector<const Run*>& runs) {
   Counts counts = counts_of(runs);
   for (const Run* run : runs)

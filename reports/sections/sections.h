@@ -109,7 +109,7 @@ struct StudyFigures {
 
 /// Sets tables of all validation uncertainties, and of the probabilities of interpretations of the
 /// published model. Also sets tables of discretization errors and of selected effects, each from
-/// the first run with these data. A table without rows is false.
+/// the first run with these data. The template variable of a table without rows is false.
 void set_run_tables(Data& data, const CaseInfo& info, const std::vector<const Run*>& runs);
 
 }  // namespace trammel::reports

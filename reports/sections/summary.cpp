@@ -22,6 +22,7 @@ constexpr std::array<std::pair<const char*, const char*>, 4> kRoles = {{
     {"all", ""},
 }};
 
+/// Returns the number of checks of each status, for the checks with one role.
 /// @param role  "all" for the checks of all roles
 Counts counts_of(const Results& results, const std::string& role) {
   Counts counts;

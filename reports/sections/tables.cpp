@@ -32,7 +32,8 @@ std::string range_text(const Check& check) {
   return (check.known_discrepancy() ? "expected " : "") + tolerance_text(check);
 }
 
-/// State of a table under construction: the results, and the names of checks that have an anchor.
+/// State of a table under construction: the results, and the names of checks to which links on the
+/// page can point.
 struct Rows {
   const Results& results;
   bool is_linked = false;
@@ -40,7 +41,7 @@ struct Rows {
 };
 
 /// Returns the data of one check with a row for each value.
-/// @param shared  all rows have the same tolerance
+/// @param shared  true if all rows have the same tolerance
 Data group_of(const Check& check, Rows& table, const Data& rows, bool shared) {
   const bool first = table.is_linked && table.named.insert(check.name).second;
   std::size_t n = rows.list_value().size();

@@ -17,7 +17,7 @@ namespace trammel::reports {
 using Data = kainjow::mustache::data;
 
 /// A variable of a template with its value: a text, a truth value, or nested data. An empty text
-/// becomes false, so that {{#name}} is skipped and no `name` of an outer level is used.
+/// becomes false, so that Mustache skips {{#name}} and does not use a `name` of the enclosing data.
 struct Entry {
   Entry(std::string key, const std::string& text)
       : name(std::move(key)), value(text.empty() ? Data(false) : Data(text)) {}

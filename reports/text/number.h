@@ -31,7 +31,8 @@ namespace trammel::reports {
 /// Returns 6 if the numbers agree in more than 10 digits.
 [[nodiscard]] int distinguishing_digits(double a, double b);
 
-/// Significant digits of the points of curves in figures. They resolve less than a pixel.
+/// Number of significant digits of the points of curves in figures. Its rounding error is smaller
+/// than a pixel.
 inline constexpr int kSampleDigits = 7;
 
 /// Returns the shortest text that reads back as the same double, independent of the locale.

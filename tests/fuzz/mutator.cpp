@@ -284,8 +284,8 @@ void Mutator::change(Random& random, const std::string& kind, Json& json, Input&
       note("copied from " + other.name + " to");
     }
   }
-  // The input is invalid if the new value breaks its own rule. If the value was erased, the input
-  // is invalid if the object that contained it now breaks the rule of this object.
+  // The input is invalid if the new value breaks its schema rule. If the value was erased, the
+  // input is invalid if the object that contained it now breaks the rule of this object.
   if (!place.is_certain || json.contains("extends")) return;
   const Json found = json.value(at, Json());
   const bool erased = !json.contains(at);

@@ -36,7 +36,8 @@ class Schema {
   Json root_;
 };
 
-/// Returns true if the rule forbids this value by its type, range, words or required keys alone.
+/// Returns true if a schema rule forbids this value by its type, range, list of permitted words or
+/// required keys.
 [[nodiscard]] bool forbids(const Json& rule, const Json& value);
 
 }  // namespace trammel::fuzz

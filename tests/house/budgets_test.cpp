@@ -1,5 +1,5 @@
-// Compares the size of the project with budgets.json. If a count falls, its limit must be reduced
-// to the count, but not below the budget.
+// Compares numbers of files and code lines of the project with the limits in budgets.json. If a
+// number decreases, its limit must be reduced to this number, but not below the budget.
 #include <algorithm>
 #include <boost/test/unit_test.hpp>
 #include <filesystem>

@@ -47,8 +47,9 @@ auto scaled(int number, const T& x) {
   return fault(number) ? Number(Number(x) * (1 + mutation::error)) : Number(x);
 }
 
-/// Factor that is inserted before the operand of a + or -. It is `whole` (1, or -1 after an
-/// inserted sign). If the fault with this number is active, it is `size` (-1, 0 or 1).
+/// Factor that mutate.py inserts before the operand of a + or -. Its value is `whole` (1, or -1
+/// after an inserted sign) if the fault with this number is inactive, and `size` (-1, 0 or 1) if
+/// the fault is active.
 struct Factor {
   int number, size, whole = 1;
 };
@@ -69,7 +70,9 @@ T operator->*(Reciprocal reciprocal, const T& x) {
   return fault(reciprocal.number) ? T(1.0 / x) : x;
 }
 
-/// Switch that is inserted as `a < Compared{n} < b`: an active fault changes < to <=, and so on.
+/// Switch that mutate.py inserts in a comparison as `a < Compared{n} < b`. If fault n is active,
+/// the operators < and <= are exchanged. The operators > and >=, and == and !=, are exchanged
+/// likewise.
 struct Compared {
   int number;
 };

@@ -38,8 +38,8 @@ void check_counters(const Document& document, const References& references) {
 
 }  // namespace
 
-/// Runs each variant of each case that supports effects, with the effects of the variant and with
-/// the required effects only.
+/// Tests that the number of evaluations of each inactive mechanical effect is 0. Each variant of
+/// each case that supports effects runs with its own effects, and with the required effects only.
 BOOST_AUTO_TEST_CASE(inactive_effects_are_never_evaluated) {
   const References references;
   std::size_t runs = 0;

@@ -67,7 +67,8 @@ BOOST_AUTO_TEST_CASE(automatic_effects_state_numbers_and_reasons) {
   BOOST_TEST(!result_of(json).effects.at(static_cast<std::size_t>(Effect::shear)).active);
 }
 
-/// Compares the measured change without shear flexibility with beam theory.
+/// Tests the change of the tip displacement of a Timoshenko cantilever that the effect study
+/// measures without shear flexibility. The expected change follows from beam theory.
 BOOST_AUTO_TEST_CASE(effect_study_measures_each_contribution) {
   const Folder folder;
   const Document document = patched(testing::read(folder, timoshenko_cantilever()), "base");
@@ -83,7 +84,8 @@ BOOST_AUTO_TEST_CASE(effect_study_measures_each_contribution) {
   }
 }
 
-/// Compares one dimensionless number of each type with its definition.
+/// Compares the dimensionless numbers of the mechanical effects of a member with their definitions,
+/// such as EI k^2 / EA for axial flexibility.
 BOOST_AUTO_TEST_CASE(effect_numbers_are_ratios_of_stiffness_and_inertia,
                      *boost::unit_test::tolerance(1e-12)) {
   Model model;
@@ -160,8 +162,9 @@ BOOST_AUTO_TEST_CASE(scenes_use_only_the_expensive_effects_they_require) {
   }
 }
 
-/// The importance of large displacement was once estimated from the displacements of linear theory,
-/// without the factor 1 / (1 - P / Pcr) of a compressed column.
+/// The effect of large displacement on compressed columns was once estimated from the displacements
+/// of linear theory. The factor 1 / (1 - P / Pcr) for an axial load P near the buckling load Pcr
+/// was missing.
 BOOST_AUTO_TEST_CASE(columns_near_buckling_get_the_required_theory) {
   const Case columns = load_named_case("scene-columns-near-buckling");
   for (const std::string& variant : columns.variants()) {
@@ -176,8 +179,8 @@ BOOST_AUTO_TEST_CASE(columns_near_buckling_get_the_required_theory) {
   }
 }
 
-/// On the slow circle, linear theory has the same error as in statics, between 3 % and 15 %. The
-/// geometrically exact theory is required.
+/// The platform of a manipulator moves slowly on a circle under a load of 10 N. The error of linear
+/// theory is between 3 % and 15 %, so that the automatic selection must contain large displacement.
 BOOST_AUTO_TEST_CASE(slow_circle_under_10_N_uses_large_displacement) {
   const Case circle = load_named_case("scene-slow-circle");
   const EffectStudy study = study_effects(patched(circle, "ten-newton"), {0.01, 0});
@@ -190,8 +193,8 @@ BOOST_AUTO_TEST_CASE(slow_circle_under_10_N_uses_large_displacement) {
   }
 }
 
-/// A sudden start excites stiff parts. The flexible platform has only 3e-6 of the strain energy,
-/// but if it is modeled as rigid, the largest force is wrong by 28 %.
+/// A sudden start of a manipulator also excites vibrations of its stiff platform. The platform has
+/// only 3e-6 of the strain energy. If it is modeled as rigid, the largest force is wrong by 28 %.
 BOOST_AUTO_TEST_CASE(sudden_start_keeps_stiff_parts) {
   Json json = patched(load_named_case("scene-slow-circle"), "base").value();
   json.erase("extends");
@@ -203,9 +206,9 @@ BOOST_AUTO_TEST_CASE(sudden_start_keeps_stiff_parts) {
   BOOST_TEST(choice.chosen.has(Effect::platform_flexibility));
 }
 
-/// Without inertia, the results change by at most about r^2 + 2 zeta r. The ratio of path frequency
-/// to first natural frequency is r, and zeta is the damping ratio. This bound requires no
-/// computation of a motion.
+/// Omitting inertia changes the results by at most about r^2 + 2 zeta r. The ratio of path
+/// frequency to first natural frequency is r, and zeta is the damping ratio. With this bound, the
+/// selection of effects computes no motion.
 BOOST_AUTO_TEST_CASE(slower_circle_has_no_inertia_by_its_frequency) {
   Document slower = patched(load_named_case("scene-slow-circle"), "base");
   slower.apply_patch("test", "",

@@ -50,7 +50,8 @@ const Refusal kRefusals[] = {
     {"/model/supports", R"({"P": ["x", "x"]})", "/model/supports/P: expected"},
     {"/model/manipulator/links/mass_kg", "true",
      "/model/manipulator/links/mass_kg: expected a number above 0 or 'from-density' (got true)"},
-    // If a value has alternative rules, the innermost fault is reported.
+    // If a value may have several forms, such as a number or an array, the error message contains
+    // the pointer of the innermost invalid value.
     {"/model/manipulator/links/proximal_length_m", "[0.2, -0.2, 0.2]",
      "/model/manipulator/links/proximal_length_m/1: expected a number above 0 (got -0.2)"},
     {"/model/manipulator/material", R"({"nu": 0.33, "rho_kg_m3": 2700})",

@@ -61,7 +61,7 @@ Convergence of_values(const std::vector<double>& values) {
 }
 
 BOOST_AUTO_TEST_CASE(values_that_diverge_are_not_extrapolated) {
-  // The series grow like log h or 1/h, or oscillate.
+  // The values of each series do not converge: they grow like log h or 1/h, or oscillate.
   for (const auto& values : {std::vector<double>{1, 2, 3, 4, 5}, {1, 2, 4, 8, 16}, {1, 2, 0, 4}})
     for (const bool known : {false, true}) {
       Convergence series = of_values(values);

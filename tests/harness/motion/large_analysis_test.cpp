@@ -46,7 +46,8 @@ BOOST_AUTO_TEST_CASE(step_that_does_not_converge_is_reported) {
   BOOST_TEST(contains(result.outcome.reason, "step 4 at time 0.03 s"), result.outcome.reason);
 }
 
-// Central differences at the first instant once required a pose before the spline's first knot.
+// Tests joint angles that follow a spline path of the platform. Central differences at the first
+// instant once required a pose before the spline's first knot.
 BOOST_AUTO_TEST_CASE(spline_is_tracked_from_first_to_last_instant) {
   const AnalysisResult spline = result_of(tracking(kStraightSpline));
   BOOST_REQUIRE_MESSAGE(spline.outcome.solved(), spline.outcome.reason);
@@ -109,7 +110,8 @@ BOOST_AUTO_TEST_CASE(steps_end_only_where_a_load_bends) {
   BOOST_TEST(testing::values(bent, "velocity_x_m_per_s:A").back() == 1, tolerance(1e-12));
 }
 
-// By similarity, the times of a pendulum are proportional to the square root of its length.
+// Tests that the motion of a pendulum is refused if its time steps are too long. The step is
+// proportional to the square root of the pendulum length, as is the period.
 BOOST_AUTO_TEST_CASE(too_long_steps_are_refused_for_any_length) {
   for (const double length : {1e-3, 1.0, 1e3}) {
     Json json = Json::parse(R"({

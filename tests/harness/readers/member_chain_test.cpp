@@ -62,8 +62,9 @@ BOOST_AUTO_TEST_CASE(intermediate_nodes_have_no_quantities) {
       tolerance(1e-9));
 }
 
-// Area and second moment of area were once interpolated linearly along a tapered member.
-// Frequencies of a strip tapered 5 : 1 were wrong by up to 178 %.
+// Tests the section of a tapered member halfway between two rectangular sections. Area and second
+// moment of area were once interpolated linearly. Frequencies of a strip tapered 5 : 1 were wrong
+// by up to 178 %.
 BOOST_AUTO_TEST_CASE(between_rectangles_depth_and_width_are_linear) {
   Json json = testing::cantilever();
   json["model"]["sections"]["thin"] = {{"material", "steel"},

@@ -31,7 +31,8 @@ AnalysisResult of_cantilever(double force_x, double force_y, const char* analysi
 
 }  // namespace
 
-// The tip rotates by F L^2 / (2 E I) = 2.4e-6 rad per newton.
+// Tests the warning about large rotations in linear statics. The rotation of the cantilever's tip
+// is F L^2 / (2 E I), or 2.4e-6 rad per newton.
 BOOST_AUTO_TEST_CASE(linear_rotation_beyond_its_range_warns) {
   BOOST_TEST(of_cantilever(0, 40000, "statics").warnings.empty());
   const AnalysisResult beyond = of_cantilever(0, 50000, "statics");
@@ -41,8 +42,9 @@ BOOST_AUTO_TEST_CASE(linear_rotation_beyond_its_range_warns) {
   BOOST_TEST(of_cantilever(0, 50000, "large-statics").warnings.empty());
 }
 
-// The end of a strip of 0.2 m was once computed at -64 m without a warning. The strains N / EA and,
-// for a beam without shear flexibility, V / EA are 1e-9 per newton.
+// Tests the warning about large strains of a member. A strip of 0.2 m was once compressed to an end
+// position of -64 m without a warning. The extension N / EA and the shear V / EA of the cantilever
+// in this test are 1e-9 per newton.
 BOOST_AUTO_TEST_CASE(strain_beyond_its_range_warns) {
   for (const char* analysis : {"statics", "large-statics"}) {
     BOOST_TEST(of_cantilever(9e7, 0, analysis).warnings.empty());
@@ -56,8 +58,9 @@ BOOST_AUTO_TEST_CASE(strain_beyond_its_range_warns) {
   }
 }
 
-// The Euler load of the cantilever is pi^2 E I / (4 L^2). At 0.95 of this load, displacements are
-// about 20 times those of linear theory.
+// Tests the warning about second-order statics near buckling. The Euler load of the cantilever is
+// pi^2 E I / (4 L^2). At 0.95 of this load, its displacements are about 20 times those of linear
+// theory.
 BOOST_AUTO_TEST_CASE(second_order_theory_near_buckling_warns) {
   const double critical = std::pow(std::numbers::pi / 4, 2) * 2e11 * 0.05 * 1e-3 / 12;
   for (const auto& [share, across, warned] :
@@ -99,7 +102,8 @@ BOOST_AUTO_TEST_CASE(model_that_cannot_vibrate_or_buckle_is_singular) {
   BOOST_TEST(reason({{"A", all}}, 0, "modes") == "no vibration: no movable part has a mass");
 }
 
-// A rigid beam on three supports is statically indeterminate.
+// Tests the warning about reactions that equilibrium does not determine. A rigid beam on three
+// supports is statically indeterminate.
 BOOST_AUTO_TEST_CASE(indeterminate_reactions_warn) {
   Json json = testing::cantilever();
   BOOST_TEST(result_of(json).warnings.empty());
@@ -150,8 +154,9 @@ BOOST_AUTO_TEST_CASE(coarse_meshes_of_tapered_members_warn) {
   }
 }
 
-// The first mode has 61.3 % of the kinetic energy of a cantilever in uniform translation. The
-// remaining velocity has the relative norm sqrt(0.387) = 0.622 on a fine mesh.
+// Tests the warning that reduced modes do not represent the initial velocity of a cantilever, a
+// uniform translation. The first mode has 61.3 % of its kinetic energy. The remaining velocity has
+// the relative norm sqrt(0.387) = 0.622 on a fine mesh.
 BOOST_AUTO_TEST_CASE(velocity_outside_the_reduced_basis_warns) {
   Json json = testing::cantilever();
   json["model"]["loads"] = Json::object();
@@ -200,7 +205,8 @@ BOOST_AUTO_TEST_CASE(path_has_one_warning_with_its_largest_rotation) {
   BOOST_TEST(result.warnings[0].value >= largest);
 }
 
-// The lines of the distal links intersect in P at 0.669 rad, which is 0.744 of the path.
+// Tests the warning about a parallel singularity of the manipulator. The lines of the distal links
+// intersect in P if the platform angle is 0.669 rad, which is at 0.744 of the path.
 BOOST_AUTO_TEST_CASE(path_through_a_parallel_singularity_warns) {
   const AnalysisResult result = turning_to(0.9);
   BOOST_TEST(contains(result.warnings.back().text(),

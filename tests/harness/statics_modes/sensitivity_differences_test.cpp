@@ -51,7 +51,8 @@ BOOST_AUTO_TEST_CASE(difference_quotients_are_of_first_and_second_order) {
 }
 
 BOOST_AUTO_TEST_CASE(straight_limb_has_infinite_derivatives_by_its_lengths) {
-  // With a straight limb, all derivatives were once reported as infinite, even those by E.
+  // With a straight limb, all derivatives of frequencies were once reported as infinite, even those
+  // with respect to the elastic modulus E.
   ManipulatorDesign design = coarse_design();
   const Pose pose{0.25, 0.144, 0};
   const Vector2d C = inverse_kinematics(design.geometry, pose).C[0];

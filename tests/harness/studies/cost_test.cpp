@@ -59,7 +59,8 @@ BOOST_AUTO_TEST_CASE(errors_are_relative_to_the_chosen_scale) {
   const results::ErrorNorms fixed =
       error_norms({{10, 0, -4}}, reference_solution, {Scale::Kind::number, 4});
   BOOST_TEST(*fixed.max == 0.25);
-  // Quantities that are errors need no reference solution.
+  // Outputs that are errors, such as relative errors of frequencies, need no reference solution in
+  // a cost study.
   BOOST_TEST(*error_norms({{1e-3, -2e-3}}, {{}}, {}).max == 2e-3);
   BOOST_TEST(std::isnan(*error_norms({{1, std::nan(""), 1}}, {{1, 1, 1}}, {}).max));
   BOOST_CHECK_THROW((void)error_norms({{1, 2}}, {{1}}, {}), std::runtime_error);

@@ -188,7 +188,8 @@ BOOST_AUTO_TEST_CASE(errors_of_steps_hold_the_motion_without_them) {
   }
 }
 
-/// All steps have the length of the interval between samples, for any tolerance.
+/// Tests the error estimate of a motion whose time steps have the length of the sampling interval,
+/// because the tolerance of the error control permits longer steps.
 BOOST_AUTO_TEST_CASE(steps_limited_by_samples_have_an_error) {
   const std::string name = "displacement_x_m:P";
   Json json = own_manipulator();

@@ -66,7 +66,8 @@ BOOST_AUTO_TEST_CASE(uncertainties_agree_with_scaling_laws_of_a_beam) {
   BOOST_TEST(entry.dominant_input == "depth");
   BOOST_TEST(*entry.dominant_share == 0.8, boost::test_tools::tolerance(1e-3));
   BOOST_TEST(*entry.u_reference == 0.05 / std::sqrt(3.0), boost::test_tools::tolerance(1e-12));
-  // The difference between two references is reported, but does not change the verdict.
+  // The difference between two references of the same value is reported, but does not change the
+  // verdict.
   BOOST_REQUIRE(entry.spread.size() == 1U);
   BOOST_TEST(*entry.spread[0] == 3, boost::test_tools::tolerance(1e-12));
   BOOST_TEST(*entry.u_val < 0.5);

@@ -273,7 +273,7 @@ BOOST_AUTO_TEST_CASE(members_join_to_polylines_and_meshes_to_outlines) {
   BOOST_REQUIRE(loops.size() == 2U);
   for (const auto& loop : loops) BOOST_TEST(loop.front() == loop.back());
   BOOST_TEST(loops[0].size() + loops[1].size() == 4U * n + 1 + 5);
-  // One polygon: 4 + 1 corners of the square, 4 + 1 of the hole, and back to the start.
+  // The filled area is one polygon: 4 + 1 corners of the square, 4 + 1 of the hole, and the start.
   BOOST_TEST(filled_triangles(drawing, nodes).size() == 11U);
   BOOST_TEST(triangle_edges_inside(drawing).size() == (3U * 48 - 24) / 2);
   BOOST_TEST(triangle_edges_inside(drawing, 20).empty());

@@ -115,7 +115,8 @@ BOOST_AUTO_TEST_CASE(positions_without_a_number_stay_blank) {
 }
 
 BOOST_AUTO_TEST_CASE(map_of_one_row_or_column_has_valid_cells_and_tics) {
-  // Gnuplot refuses a distance of 0 between tick marks, so that once no report was written.
+  // Gnuplot refuses a distance of 0 between the tick marks of a map. A report with such a map was
+  // once not written.
   std::string problem;
   for (const auto& [columns, rows] : {std::pair{1, 6}, std::pair{6, 1}}) {
     const auto figure = draw(field(columns, rows), problem);

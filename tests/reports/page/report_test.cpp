@@ -178,7 +178,8 @@ BOOST_AUTO_TEST_CASE(summary_counts_the_checks_by_verdict) {
   BOOST_TEST(shows("1 check fails, 1 could not be evaluated, 1 run did not end as expected."));
   BOOST_TEST(shows("<p class=\"reason\">the value is not finite"));
   BOOST_TEST(shows("/model/nodes/B: a member of length 0"));
-  // An expected status is judged like any other check.
+  // The case expects a run that ends as singular. The page shows the check of this status like
+  // other checks.
   BOOST_TEST(shows("A free frame has no stiffness"));
   BOOST_TEST(shows("<td class=\"number\">singular</td>"));
 }
@@ -257,7 +258,8 @@ BOOST_AUTO_TEST_CASE(known_discrepancy_is_never_shown_as_a_success) {
                            "class=\"mark known-discrepancy\" title=\"known discrepancy"})
     BOOST_TEST(text.find(part) != std::string::npos, part);
   BOOST_TEST(text.find("class=\"banner passes\"") == std::string::npos);
-  // Checks of several variants against the same printed number have one target.
+  // If checks of several variants compare with the same printed number, the page counts this number
+  // once.
   for (const char* variant : {"second", "third"}) {
     results.cases[0].variants.push_back({variant, variant});
     results.runs.push_back(results.runs[0]);

@@ -76,7 +76,8 @@ BOOST_AUTO_TEST_CASE(predictions_are_those_of_the_printed_formula) {
 BOOST_AUTO_TEST_CASE(samples_at_the_same_distance_have_equal_weights) {
   const Grnn between = make_grnn(column({1, 2, 5}), column({10, 20, 90}), 1e-300);
   BOOST_TEST(predict(between, column({1.5}))(0, 0) == 15.0);
-  // Within one rounding error of the middle between two samples, 0/0 must not occur.
+  // The query is within one rounding error of the middle between two samples. Its prediction must
+  // not be 0/0, although both weights underflow.
   const double y =
       predict(make_grnn(column({0.1, 0.2}), column({1, 2}), 1e-300), column({0.15}))(0);
   BOOST_TEST((y == 1.0 || y == 2.0 || y == 1.5));
@@ -141,7 +142,8 @@ BOOST_AUTO_TEST_CASE(split_has_the_requested_size_and_order) {
 }
 
 BOOST_AUTO_TEST_CASE(search_beats_nearest_neighbor_and_mean) {
-  // For a noisy sine, the best smoothing is between nearest neighbor and mean of all samples.
+  // For samples of a noisy sine, the best smoothing parameter sigma is between the limits 0
+  // (nearest neighbor) and infinity (mean of all samples).
   const Index n = 200;
   MatrixXd x(n, 1);
   MatrixXd y(n, 1);

@@ -138,7 +138,7 @@ BOOST_AUTO_TEST_CASE(pulse_within_a_step_is_resolved) {
 }
 
 BOOST_AUTO_TEST_CASE(path_out_of_reach_is_reported) {
-  // The steps of 5e-3 s resolve the vibration. With steps of 1e-2 s, round-off decides if the
+  // Time steps of 5e-3 s resolve the vibration. With time steps of 1e-2 s, round-off decides if the
   // motion fails before the path leaves the workspace.
   ElastodynamicsOptions options = options_of(ElbowKind::hinged, 1, 1, 5e-3);
   options.path = Line{{0.25, 0.144, 0}, {0.25, 0.9, 0}, 1};

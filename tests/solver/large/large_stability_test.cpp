@@ -44,8 +44,8 @@ Model shallow_arch(double across) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(path_does_not_step_over_its_target) {
-  // Newton's method may not converge from a distant state to the target. The step must then be
-  // reduced.
+  // The path of equilibria must end at the target load. If Newton's method does not converge from a
+  // state far from the target, the load step must be reduced.
   const GeometricallyExactSystem system(column(24));
   StaticPathOptions options;
   options.target = kPi * kPi / 2;

@@ -15,7 +15,7 @@ using namespace trammel::testing;
 namespace {
 
 /// Returns two beams at a right angle, clamped at both far ends and loaded at their corner.
-Model angle(Index elements) {
+Model right_angle_frame(Index elements) {
   Model model;
   model.nodes = {{"A", {0, 0}}, {"B", {1, 0}}, {"C", {1, 1.5}}};
   model.members = {member("AB", 0, 1, unit_section(), elements),
@@ -34,7 +34,7 @@ Eigen::VectorXd frequencies(const System& system, Index count) {
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(statics_are_exact_in_reduced_coordinates) {
-  const System full = assemble(angle(8));
+  const System full = assemble(right_angle_frame(8));
   const System reduced = reduce_members(full, 0);
   BOOST_TEST(reduced.K.rows() == 3);
   const StaticSolution a = solve_statics(full), b = solve_statics(reduced);
@@ -42,7 +42,7 @@ BOOST_AUTO_TEST_CASE(statics_are_exact_in_reduced_coordinates) {
 }
 
 BOOST_AUTO_TEST_CASE(member_modes_lower_frequencies_to_the_full_ones) {
-  const System full = assemble(angle(16));
+  const System full = assemble(right_angle_frame(16));
   const Eigen::VectorXd exact = frequencies(full, 4);
   double before = 1e300;
   for (const Index modes : {0, 1, 2, 4, 8}) {
@@ -58,7 +58,7 @@ BOOST_AUTO_TEST_CASE(member_modes_lower_frequencies_to_the_full_ones) {
 }
 
 BOOST_AUTO_TEST_CASE(full_set_of_member_modes_keeps_the_model) {
-  const System full = assemble(angle(4));
+  const System full = assemble(right_angle_frame(4));
   const System same = reduce_members(full, 9);
   BOOST_TEST(same.K.rows() == full.K.rows());
   BOOST_TEST((frequencies(same, 6) - frequencies(full, 6)).norm() < 1e-10);
@@ -66,7 +66,7 @@ BOOST_AUTO_TEST_CASE(full_set_of_member_modes_keeps_the_model) {
 }
 
 BOOST_AUTO_TEST_CASE(modes_with_static_correction_are_exact_in_statics) {
-  const System full = assemble(angle(8));
+  const System full = assemble(right_angle_frame(8));
   for (const Index count : {1, 3}) {
     const System reduced = reduce_to_modes(full, solve_modes(full, {.count = count}), {full.f});
     BOOST_TEST(reduced.K.rows() == count + 1);
@@ -76,7 +76,7 @@ BOOST_AUTO_TEST_CASE(modes_with_static_correction_are_exact_in_statics) {
 }
 
 BOOST_AUTO_TEST_CASE(truncation_error_is_the_squared_frequency_ratio) {
-  const System full = assemble(angle(8));
+  const System full = assemble(right_angle_frame(8));
   const ModalSolution modes = solve_modes(full, {.count = 4});
   const System reduced = reduce_to_modes(full, solve_modes(full, {.count = 3}), {full.f});
   const auto answer = [](const System& system, double frequency) -> Eigen::VectorXcd {

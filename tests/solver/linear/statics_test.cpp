@@ -70,8 +70,9 @@ BOOST_AUTO_TEST_CASE(ill_conditioned_model_is_exact_or_refused) {
 }
 
 BOOST_AUTO_TEST_CASE(digits_next_to_a_singularity_are_kept_and_reported) {
-  // The error estimate was once proportional to the condition number of K, 1/height^2, so that all
-  // heights below 1e-7 were refused. The displacement has a relative error of only eps/height.
+  // Two nearly collinear hinged bars meet at a joint of small height. The error estimate was once
+  // proportional to the condition number of K, 1/height^2, so that heights below 1e-7 were refused.
+  // The displacement has a relative error of only eps/height.
   std::vector<double> beyond;  // number of correct digits minus its estimate
   for (int power = 1; power <= 12; ++power) {
     const double height = std::pow(10.0, -power);

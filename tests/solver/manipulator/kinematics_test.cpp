@@ -35,7 +35,8 @@ BOOST_AUTO_TEST_CASE(loops_close_to_round_off_around_the_circle) {
       const Posture p =
           inverse_kinematics(g, {0.25 + 0.01 * std::cos(t), 0.144 + 0.01 * std::sin(t), 0.1});
       BOOST_TEST_REQUIRE(p.outcome.solved());
-      // Coordinates of 0.8 m have rounding errors of a few 1e-16 m.
+      // The closure error of a limb is of round-off size: coordinates of 0.8 m have rounding errors
+      // of a few 1e-16 m.
       BOOST_TEST(p.closure_error < 1e-15);
       for (std::size_t i = 0; i < 3; ++i) {
         const Vector2d tip =

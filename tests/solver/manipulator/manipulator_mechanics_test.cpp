@@ -20,7 +20,7 @@ ManipulatorDesign with_platform(PlatformDesign::Kind kind) {
   return design;
 }
 
-/// Pose of the manipulator without symmetry.
+/// Pose in which the manipulator has no symmetry.
 constexpr Pose kPose{0.26, 0.15, 0.1};
 const Vector3d kForce{10, 4, 0};
 
@@ -180,7 +180,8 @@ BOOST_AUTO_TEST_CASE(threefold_pose_repeats_its_frequencies) {
     for (const double phi : {0.0, 0.3}) {
       const ModalSolution m = modes(with_platform(kind), centered_pose(phi), 9);
       BOOST_TEST_REQUIRE(m.outcome.solved(), m.outcome.reason);
-      // Two of every three modes are a pair: displacements along x and y are equivalent.
+      // Two of every three modes have equal frequencies, because displacements along x and y are
+      // equivalent in the threefold symmetry.
       int pairs = 0;
       for (Index k = 0; k + 1 < m.frequency.size(); ++k) {
         const double gap = m.frequency(k + 1) / m.frequency(k) - 1;

@@ -86,7 +86,8 @@ ManipulatorDesign rigid_design() {
   return design;
 }
 
-/// Returns a design with unequal parts and P off the centroid.
+/// Returns a manipulator design without symmetry: unequal links, base and platform, and P off the
+/// centroid of the platform.
 ManipulatorDesign uneven_design() {
   ManipulatorDesign design = table_1_design();
   design.geometry = uneven_geometry();
@@ -237,7 +238,7 @@ BOOST_AUTO_TEST_CASE(pins_hold_the_plate_by_constraints_only) {
     for (std::size_t k = 0; k < 3; ++k) BOOST_TEST(t.nodes[k] > model.find_node("P"));
     BOOST_TEST(triangle_area(model, t) > 0);
   }
-  // Every constraint holds for a translation and for a small rotation.
+  // Every constraint of the model permits rigid motions: a translation and a small rotation.
   for (const LinearConstraint& tie : model.constraints) {
     double translation = 0, rotation = 0, size = 0;
     for (const auto& [coordinate, factor] : tie.terms) {
@@ -272,7 +273,8 @@ BOOST_AUTO_TEST_CASE(joint_kinds_become_fixities) {
   BOOST_TEST((fixity("B1-C1", 1) == EndFixity::welded));
   BOOST_TEST((fixity("B2-C2", 1) == EndFixity::hinged));
   BOOST_TEST(member(model, "B3-C3").ends[1].stiffness == 9.0);
-  // The proximal links keep the rotation of node B, so that it has stiffness.
+  // The proximal link of each limb is welded to the elbow node, so that the rotation of the node
+  // has stiffness.
   for (const char* name : {"A1-B1", "A2-B2", "A3-B3"})
     BOOST_TEST((fixity(name, 1) == EndFixity::welded));
 }

@@ -50,7 +50,8 @@ BOOST_AUTO_TEST_CASE(inactive_effect_has_no_matrix_and_no_evaluation) {
     }
   }
   BOOST_TEST(assemble(model, all.without(Effect::inertia)).M.size() == 0);
-  // Two elements become inextensible, and one spring end becomes welded.
+  // Without axial flexibility, two elements become inextensible. Without joint compliance, one
+  // sprung member end becomes welded. The number of free coordinates decreases.
   BOOST_TEST(assemble(model, all.without(Effect::axial_flexibility)).K.rows() ==
              whole.K.rows() - 2);
   BOOST_TEST(assemble(model, all.without(Effect::joint_compliance)).K.rows() == whole.K.rows() - 1);

@@ -22,7 +22,8 @@ struct ExportTwin {
   std::string worst = {};
 };
 
-/// Returns all models of a case that can be exported: the variant, and each level of its sweeps.
+/// Returns all models of a case that can be exported: the variant itself, and the variant with each
+/// parameter value of its sweeps.
 inline std::vector<ExportChoice> choices_of(const Case& given, const std::string& variant) {
   std::vector<ExportChoice> choices = {{variant}};
   const Document document = patched(given, variant);
@@ -43,7 +44,7 @@ inline bool is_roundoff(const std::string& name) {
 
 /// Returns true for quantities of edges and of tapered members. They have no counterpart in an
 /// exported case.
-inline bool is_of_lost_part(const std::string& name, const Json& model) {
+inline bool has_no_exported_counterpart(const std::string& name, const Json& model) {
   std::string item = name.substr(std::min(name.size(), name.find(':') + 1));
   if (model.contains("edges") && model.at("edges").contains(item)) return true;
   item = item.substr(0, item.find('.'));
@@ -54,7 +55,7 @@ inline bool is_of_lost_part(const std::string& name, const Json& model) {
 /// Returns the scale to which differences of a quantity are relative: the largest magnitude among
 /// the quantities with the same name before the colon. The x and y components of a vector have a
 /// common scale.
-inline double largest_of_head(const Quantities& all, const std::string& name) {
+inline double largest_of_same_name(const Quantities& all, const std::string& name) {
   const auto head = [](const std::string& text) {
     const std::string quantity = text.substr(0, text.find(':'));
     const std::size_t axis = std::min(quantity.find("_x_"), quantity.find("_y_"));
@@ -71,7 +72,7 @@ inline double largest_of_head(const Quantities& all, const std::string& name) {
 
 inline void compare(const Quantities& own, const Json& model, ExportTwin& twin) {
   for (const auto& [name, quantity] : own) {
-    if (is_roundoff(name) || is_of_lost_part(name, model)) continue;
+    if (is_roundoff(name) || has_no_exported_counterpart(name, model)) continue;
     if (name.rfind("effect_", 0) == 0) continue;  // the exported case has the selected effects
     const auto found = twin.exported.quantities.find(name);
     const bool there = found != twin.exported.quantities.end() &&
@@ -80,7 +81,7 @@ inline void compare(const Quantities& own, const Json& model, ExportTwin& twin) 
     for (std::size_t i = 0; there && i < quantity.values.size(); ++i) {
       const double a = quantity.values[i], b = found->second.values[i];
       if (a == b || (std::isnan(a) && std::isnan(b))) continue;
-      difference = std::max(difference, std::abs(a - b) / largest_of_head(own, name));
+      difference = std::max(difference, std::abs(a - b) / largest_of_same_name(own, name));
     }
     if (difference <= twin.difference) continue;
     twin.difference = difference;

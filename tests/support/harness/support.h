@@ -194,7 +194,7 @@ inline Case read(const Folder& folder, const Json& json) {
   return load_case(folder.write(json));
 }
 
-/// Returns the base variant of a case that needs no files next to it.
+/// Returns the base variant of a case that requires no other files.
 inline Document document_of(const Json& json) {
   const Folder folder;
   return patched(read(folder, json), kBaseVariant);

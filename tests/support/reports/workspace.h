@@ -24,7 +24,7 @@ class Workspace {
 
 [[nodiscard]] std::string read_text_file(const std::filesystem::path& file);
 
-/// Returns the pages of a report by their relative paths, or all pages as one text.
+/// Returns the texts of all pages of a report by their relative paths.
 [[nodiscard]] std::map<std::string, std::string> pages_of(const std::filesystem::path& report);
 [[nodiscard]] std::string text_of_pages(const std::filesystem::path& report);
 
@@ -45,7 +45,7 @@ class Workspace {
 /// this program.
 [[nodiscard]] const std::filesystem::path& sample_report();
 
-/// Returns the first page of a report of these results, or all pages as one text.
+/// Returns the text of the front page of a report of these results.
 [[nodiscard]] std::string page_of(const results::Results& results);
 [[nodiscard]] std::string all_pages_of(const results::Results& results);
 

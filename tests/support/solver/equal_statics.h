@@ -16,9 +16,10 @@ inline Model static_model(const ElastodynamicsOptions& options, const Trajectory
   return model;
 }
 
-/// Compares displacements, rotations of the members' ends, reactions and resultants. Rotations of
-/// nodes are compared if all nodes have one. Tolerances are relative: `motion` for displacements
-/// and rotations, `force` for reactions and resultants.
+/// Compares two static solutions: displacements, rotations of the members' ends, reactions, and
+/// resultants (forces and moments at the members' ends). Rotations of nodes are compared if all
+/// nodes have a rotation. Tolerances are relative: `motion` for displacements and rotations,
+/// `force` for reactions and resultants.
 inline void check_equal_statics(const StaticSolution& found, const StaticSolution& expected,
                                 double motion, double force) {
   const auto check = [](const char* what, const auto& value, const auto& truth, double share) {

@@ -4,7 +4,7 @@
 #include "solver/large/large_motion_model.h"
 #include "tests/support/solver/frames.h"
 
-/// Models in large motion that the tests share.
+/// Models with large displacements that several tests of the solver share.
 namespace trammel::testing {
 
 using namespace solver;
@@ -20,7 +20,7 @@ inline Model elastica(Index elements, double angle = 0) {
   return model;
 }
 
-/// IFToMM A01: 1 kg at the end of a massless rod of 1 m, released where the rod is level.
+/// IFToMM A01: 1 kg at the end of a massless rod of 1 m, released with the rod horizontal.
 inline Model simple_pendulum() {
   Model model;
   model.nodes = {{"O", {0, 0}}, {"B", {-1, 0}}};
