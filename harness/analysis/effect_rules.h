@@ -27,9 +27,10 @@ struct EffectScope {
   const char* no_large_displacement = nullptr;
 
   /// Adds gyroscopic forces to a set with large displacement and inertia, which imply these forces.
-  [[nodiscard]] solver::Effects completed(solver::Effects set) const;
+  [[nodiscard]] solver::Effects with_implied_effects(solver::Effects set) const;
   /// Returns the set without the effect and without its dependents.
-  [[nodiscard]] solver::Effects without(solver::Effects set, solver::Effect effect) const;
+  [[nodiscard]] solver::Effects remove_with_dependents(solver::Effects set,
+                                                       solver::Effect effect) const;
 };
 
 /// Rules of one analysis for the selection of effects. The parameter `analysis` is the JSON object

@@ -217,7 +217,7 @@ constexpr CommandEntry kCommands[] = {
 };
 
 std::string version_text() {
-  const Json all = environment();
+  const Json all = build_and_machine_info();
   std::string text = "trammel " TRAMMEL_VERSION "\ncommit " + all["commit"].get<std::string>();
   for (const auto& [name, version] : all["libraries"].items())
     text += "\n" + name + " " + version.get<std::string>();

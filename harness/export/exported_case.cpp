@@ -230,7 +230,7 @@ Document chosen_document(const Case& given, const ExportChoice& choice) {
                                         (names.empty() ? "none" : join(names, "and")) + ")");
   std::vector<Level> all = sweep_levels(document, name);
   if (*choice.level >= all.size())
-    throw document.error("/sweeps/" + name, "expected a level from 0 to " +
+    throw document.error("/sweeps/" + name, "expected a sweep level from 0 to " +
                                                 std::to_string(all.size() - 1) + " (got " +
                                                 std::to_string(*choice.level) + ")");
   return all[*choice.level].document;

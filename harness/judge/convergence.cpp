@@ -308,8 +308,7 @@ double extrapolate_two_term_law(const std::array<double, 3>& h, const std::array
   const auto p = [&](std::size_t i) { return std::pow(h[i] / fine, law.p) - 1; };
   const auto q = [&](std::size_t i) { return std::pow(h[i] / fine, law.q) - 1; };
   const double determinant = p(0) * q(1) - p(1) * q(0);
-  if (determinant == 0 || !std::isfinite(determinant))
-    return std::numeric_limits<double>::quiet_NaN();
+  if (determinant == 0 || !std::isfinite(determinant)) return std::nan("");
   const double d0 = v[0] - v[2], d1 = v[1] - v[2];
   const double a = (d0 * q(1) - d1 * q(0)) / determinant, b = (p(0) * d1 - p(1) * d0) / determinant;
   return v[2] - a - b;

@@ -22,7 +22,7 @@ class HarmonicScene {
         high(analysis.number("to_Hz")),
         points(static_cast<std::size_t>(analysis.get<solver::Index>("points", 101))),
         damped_(case_model.effects.has(solver::Effect::damping) && analysis.has("damping")) {
-    if (case_model.path) throw analysis.error("requires a model with 'pose' (got 'trajectory')");
+    if (case_model.path) throw analysis.error("this analysis requires 'pose' (got 'trajectory')");
     if (!(high > low)) throw analysis["to_Hz"].error("expected a frequency above 'from_Hz'");
     ReducedSystem reduced = reduced_system(
         analysis, solver::assemble(build_model(case_model, step), case_model.effects),

@@ -225,7 +225,7 @@ StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_
                  case_model, model, large_motion);
     require_path_to_the_end(analysis, *case_model.path);
     for (const char* key : {"extrapolated", "initial_velocities"})
-      if (analysis.has(key)) throw analysis[key].error("not allowed with 'track'");
+      if (analysis.has(key)) throw analysis[key].error("this key excludes 'track'");
     if (analysis.get<std::string>("integrator", "generalized-alpha") != "generalized-alpha")
       throw analysis["integrator"].error("'track' requires the integrator 'generalized-alpha'");
   }

@@ -103,7 +103,7 @@ void read_members(const JsonView& model, const SymbolTable& symbols, solver::Mod
     const FieldReader reader(place);
     if (place.has("arc_center_m")) reader.optional("arc_center_m", chain.arc_center.emplace());
     reader.optional("restrained_motions", chain.held);
-    if (!chain.needed()) {
+    if (!chain.needs_chain()) {
       structure.members.push_back(member);
       continue;
     }

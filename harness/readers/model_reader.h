@@ -50,7 +50,7 @@ struct MemberChain {
   std::optional<Eigen::Vector2d> arc_center;
   std::array<bool, 3> held{};  ///< supported motions (x, y, rotation) of all inner nodes
 
-  [[nodiscard]] bool needed() const { return arc_center || held[0] || held[1] || held[2]; }
+  [[nodiscard]] bool needs_chain() const { return arc_center || held[0] || held[1] || held[2]; }
 };
 
 /// Adds a chain of `member.elements` members in place of `member`, with unnamed intermediate nodes

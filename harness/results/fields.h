@@ -253,8 +253,7 @@ Json packed(const std::vector<Entry>& values) {
   const std::size_t count = values.size() * sizeof(Entry) / kBytes;
   std::vector<std::uint8_t> bytes(count * kBytes);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::uint64_t step =
-        std::bit_cast<std::uint64_t>(numbers[i]) - bits_two_before(numbers, i);
+    const auto step = std::bit_cast<std::uint64_t>(numbers[i]) - bits_two_before(numbers, i);
     for (std::size_t b = 0; b < kBytes; ++b)
       bytes[b * count + i] = static_cast<std::uint8_t>(step >> (8 * b));
   }
@@ -326,8 +325,7 @@ const char* name_of(Enum value) {
 
 template <class Enum>
 void enum_from_json(const Json& json, const Place& place, Enum& value) {
-  const auto name =
-      std::ranges::find_if(kNames<Enum>, [&](const char* word) { return json == word; });
+  const auto name = std::ranges::find_if(kNames<Enum>, [&](const char* w) { return json == w; });
   if (name == kNames<Enum>.end())
     place.fail(fmt::format("one of {}", fmt::join(kNames<Enum>, " ")));
   value = static_cast<Enum>(name - kNames<Enum>.begin());

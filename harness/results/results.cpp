@@ -102,8 +102,7 @@ void complete(CaseInfo& info) {
 
 template <class Entry>
 const Entry* find_id(const std::vector<Entry>& entries, const std::string& id) {
-  const auto found =
-      std::ranges::find_if(entries, [&](const Entry& entry) { return entry.id == id; });
+  const auto found = std::ranges::find_if(entries, [&](const Entry& e) { return e.id == id; });
   return found == entries.end() ? nullptr : &*found;
 }
 
@@ -298,7 +297,7 @@ Number ErrorNorms::get(const std::string& norm) const {
   return norm == "max" ? max : norm == "rms" ? rms : mean;
 }
 
-Number CostStudy::error(const CostSetting& setting) const {
+Number CostStudy::error_of(const CostSetting& setting) const {
   return setting.errors ? setting.errors->get(norm) : Number();
 }
 

@@ -162,10 +162,9 @@ class Differences {
 
   void keep(const VectorXd& next, const VectorXd& fine, const VectorXd& coarse) {
     for (Index n = 0; n < count_; ++n) {
-      const double difference =
-          std::max(std::abs(next[n] - fine[n]), std::abs(next[n] - coarse[n]));
-      if (!(difference < error_estimate_[n])) continue;
-      error_estimate_[n] = difference;
+      const double change = std::max(std::abs(next[n] - fine[n]), std::abs(next[n] - coarse[n]));
+      if (!(change < error_estimate_[n])) continue;
+      error_estimate_[n] = change;
       result_.derivative[n] = next[n];
     }
   }

@@ -28,7 +28,7 @@ std::vector<double> relative_errors(const std::vector<double>& found,
                                     const Scale& scale, double largest_of_all) {
   if (found.size() != reference_solution.size())
     throw std::runtime_error("expected " + std::to_string(reference_solution.size()) +
-                             " values, the number of the reference solution (got " +
+                             " values, as in the reference solution (got " +
                              std::to_string(found.size()) + ")");
   const double largest =
       scale.kind == Scale::Kind::largest ? largest_of_all : max_abs(reference_solution);
@@ -124,7 +124,7 @@ CostSetting classify_run(const SandboxedRun& sandboxed, const Setting& setting,
 }
 
 bool is_computed(const CostSetting& setting) {
-  return setting.measured() || setting.status == "reference";
+  return setting.is_measured() || setting.status == "reference";
 }
 
 /// @param output  index of the output; empty: the largest error of all outputs
@@ -169,7 +169,7 @@ std::vector<results::CheapestSetting> cheapest_settings(const std::vector<CostPo
   for (const double error : target_errors()) {
     results::CheapestSetting& best = all.emplace_back();
     best.error = error;
-    if (const auto point = cheapest(points, error)) best.setting = point->setting;
+    if (const auto point = fastest_within(points, error)) best.setting = point->setting;
     best.tied = tied_settings(points, error);
   }
   return all;
@@ -221,16 +221,16 @@ ErrorNorms error_norms(const Observations& found, const Observations& reference_
 }
 
 std::vector<CostPoint> cost_points(const results::CostStudy& study,
-                                   std::optional<std::size_t> output, std::size_t first,
-                                   std::size_t step) {
+                                   std::optional<std::size_t> output, std::size_t first_repeat,
+                                   std::size_t stride) {
   const std::vector<double>& baseline = study.settings[study.baseline].time->cpu_s;
   std::vector<CostPoint> points;
   for (std::size_t i = 0; i < study.settings.size(); ++i) {
     const CostSetting& setting = study.settings[i];
-    if (!setting.measured()) continue;
+    if (!setting.is_measured()) continue;
     const auto error = error_of(setting, study.norm, output);
     if (!error || !(*error <= kDivergedError)) continue;
-    const RelativeTime time = relative_time(setting.time->cpu_s, baseline, first, step);
+    const RelativeTime time = time_ratio(setting.time->cpu_s, baseline, first_repeat, stride);
     points.push_back({i, std::max(*error, kMinError), time.median, time.low, time.high});
   }
   return points;
@@ -270,7 +270,7 @@ void derive_results(results::CostStudy& measured) {
     titles.push_back(setting.title);
     setting.relative = setting.cpu_s / baseline.cpu_s;
     if (!setting.time) continue;
-    const RelativeTime relative = relative_time(setting.time->cpu_s, baseline.time->cpu_s);
+    const RelativeTime relative = time_ratio(setting.time->cpu_s, baseline.time->cpu_s);
     setting.relative = relative.median;
     setting.time->relative_low = relative.low;
     setting.time->relative_high = relative.high;

@@ -360,8 +360,7 @@ ErrorEstimates estimate_errors(const Document& document, const AnalysisResult& o
     while (companion) {
       try {
         companion->document.validate("case");
-        const AnalysisResult other =
-            analyze(companion->document, references, {.drawing = has_shapes(own)});
+        const auto other = analyze(companion->document, references, {.drawing = has_shapes(own)});
         counters += other.counters;
         if (other.outcome.solved() && (companion->finer || !is_same_result(own, other)))
           bands[source] = error_bands(own, other, source, *companion);

@@ -22,7 +22,7 @@ struct EffectRun {
   double cpu_s = 0;  ///< median of the repeats, or time of a single run
 
   /// Returns the largest relative change of the results; infinite without a solution.
-  [[nodiscard]] double change() const { return max_change(changes).value; }
+  [[nodiscard]] double largest_change() const { return max_change(changes).value; }
 };
 
 struct EffectStudy {
@@ -39,7 +39,7 @@ struct EffectStudy {
                                           ///< contributions
   std::vector<EffectRun> without_chosen;  ///< the chosen effects without each removable effect
 
-  [[nodiscard]] bool within_tolerance() const { return chosen.change() <= tolerance; }
+  [[nodiscard]] bool within_tolerance() const { return chosen.largest_change() <= tolerance; }
   /// @returns true if the tolerance does not permit removal of an expensive chosen effect
   [[nodiscard]] bool is_minimal() const;
   /// Returns the counted work of the selection and of the run with the chosen effects, relative to

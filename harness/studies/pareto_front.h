@@ -30,7 +30,8 @@ inline constexpr double kParetoTolerance = 0.05;
 [[nodiscard]] bool has_setting(const std::vector<CostPoint>& points, std::size_t setting);
 
 /// Returns the fastest point whose error is at most `error`.
-[[nodiscard]] std::optional<CostPoint> cheapest(const std::vector<CostPoint>& points, double error);
+[[nodiscard]] std::optional<CostPoint> fastest_within(const std::vector<CostPoint>& points,
+                                                      double error);
 
 /// Returns the settings with at most this error that are not significantly slower than the fastest
 /// setting: the confidence intervals of the times overlap, or nearly do.

@@ -107,7 +107,7 @@ std::string difference_text(const Check& check) {
   if (check.measure == "bound") {
     // A value with only an upper limit is shown as its fraction of the limit: "12 % of limit". A
     // value with a lower limit is shown as "within" or "outside" its limits.
-    const double used = share_of_tolerance(check);
+    const double used = difference_over_tolerance(check);
     if (!std::isfinite(used)) return "–";
     if (check.tolerance->low) return used <= 1 ? "within" : "outside";
     return relative(used, 2, false) + " of limit";

@@ -16,11 +16,11 @@ constexpr double kSmallestDrawnCostError = 1e-16;  ///< smaller errors are drawn
 constexpr double kMargin = 1.3;                    ///< ratio of axis limits to outermost points
 
 double drawn_error(const CostStudy& study, const CostSetting& setting) {
-  return std::max(study.error(setting).value_or(0), kSmallestDrawnCostError);
+  return std::max(study.error_of(setting).value_or(0), kSmallestDrawnCostError);
 }
 
 bool is_drawn(const CostStudy& study, const CostSetting& setting) {
-  return setting.measured() && study.error(setting) && setting.relative;
+  return setting.is_measured() && study.error_of(setting) && setting.relative;
 }
 
 Interval errors_of(const CostStudy& study) {

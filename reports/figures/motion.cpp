@@ -184,8 +184,7 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
     draw_body(script, drawing, places[k], palette::color(0), k == 0 ? 2.4 : 1.1);
   }
   script.plot();
-  const std::string caption =
-      caption_of(instants, deflection, factor, drawn + "\u202fs (thick: first)");
+  const auto caption = caption_of(instants, deflection, factor, drawn + "\u202fs (thick: first)");
   return Figure{.id = slug(info.id + "-" + run.variant + "-motion"),
                 .title = titled("Motion", info, run),
                 .caption = caption,

@@ -53,7 +53,7 @@ TextTable settings_table(const CostStudy& study) {
     std::vector<std::string> row = {error_text(cheapest.error), "none of these settings"};
     if (cheapest.setting) {
       const CostSetting& setting = study.settings[*cheapest.setting];
-      const Number error = study.error(setting);
+      const Number error = study.error_of(setting);
       row = {row[0],
              settings_text(study, cheapest),
              error ? relative(*error, 2, false) : "–",

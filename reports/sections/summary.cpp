@@ -138,7 +138,7 @@ std::vector<KnownDiscrepancy> known_discrepancies(const Family& family, const Re
       };
       auto& entries = harness::find_or_add(known, same, {&info, {}}).entries;
       entries.emplace_back(run, &check);
-      if (worse(check, *entries.front().second)) std::swap(entries.front(), entries.back());
+      if (is_worse_than(check, *entries.front().second)) std::swap(entries.front(), entries.back());
     }
   return known;
 }

@@ -151,12 +151,11 @@ Data worst_table(const CaseInfo& info, const std::vector<const Run*>& runs, Rows
       };
       Worst& known = harness::find_or_add(worst, same, {&check, run, 0});
       known.entries += group.checks.size();
-      if (worse(check, *known.check)) known.check = &check, known.run = run;
+      if (is_worse_than(check, *known.check)) known.check = &check, known.run = run;
     }
   Data groups = list();
   for (const Worst& w : worst) {
-    std::string entry =
-        w.entries > 1 ? worst_entry(*w.check, w.entries) : entry_text(*w.check, w.entries);
+    auto entry = w.entries > 1 ? worst_entry(*w.check, w.entries) : entry_text(*w.check, w.entries);
     if (runs.size() > 1) add_item(entry, info.variant_title(w.run->variant));
     groups.push_back(group_of_worst(*w.check, entry, linked));
   }

@@ -131,8 +131,7 @@ class ShiftedStiffness {
 MatrixXd mass_factor(const MatrixXd& M) {
   const VectorXd size = M.diagonal().cwiseMax(0).cwiseSqrt();
   const VectorXd inverse = size.unaryExpr([](double x) { return x > 0 ? 1 / x : 0.0; });
-  const SymmetricEigenpairs pairs =
-      symmetric_eigenpairs((inverse.asDiagonal() * M * inverse.asDiagonal()).eval());
+  const auto pairs = symmetric_eigenpairs((inverse.asDiagonal() * M * inverse.asDiagonal()).eval());
   const double rounding = static_cast<double>(M.rows()) * kEps;  // relative to a unit diagonal
   const Index rank = (pairs.value.array() > rounding).count();
   return size.asDiagonal() * pairs.vector.rightCols(rank) *

@@ -75,12 +75,10 @@ BucklingSolution solve_buckling(const System& system, const BucklingOptions& opt
   if (!statics.outcome.solved() || statics.q.size() == 0) return solution;
   solution.outcome = require_determinate_prestress(system);
   if (!solution.outcome.solved()) return solution;
-  const Prestress forces =
-      prestress_of(system, system.T * statics.q, system.load, body_forces(system));
+  const auto forces = prestress_of(system, system.T * statics.q, system.load, body_forces(system));
   const SparseMatrix softening = -geometric_stiffness(system, forces);
   Factorization factorization;
-  const FirstFactor first =
-      bracket_first_factor(system.K, softening, factorization, solution.counters);
+  const auto first = bracket_first_factor(system.K, softening, factorization, solution.counters);
   if (!first.determined) {
     solution.outcome = {Status::not_converged,
                         "buckling factors cannot be counted: round-off dominates the pivots"};

@@ -186,8 +186,7 @@ void recover_members(const System& system, const RecoveredForces& forces,
   for (std::size_t i = 0; i < system.mesh.frame.size(); ++i) {
     const FrameElement& e = system.mesh.frame[i];
     const bool first = i == 0 || system.mesh.frame[i - 1].member != e.member;
-    const SectionForces section =
-        section_forces(forces.element.col(static_cast<Index>(i)), e.length);
+    const auto section = section_forces(forces.element.col(static_cast<Index>(i)), e.length);
     if (first) from_start = 0;
     if (first) solution.resultant_start.row(e.member) = section.start;
     solution.resultant_end.row(e.member) = section.end;

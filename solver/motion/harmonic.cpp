@@ -162,8 +162,7 @@ HarmonicAmplitudes HarmonicSolver::amplitudes(const VectorXcd& q, double frequen
   const Eigen::Matrix<double, Eigen::Dynamic, 6> quadrature =
       part(u.imag(), inertial.imag(), elastic.imag());
   const Eigen::Matrix<double, Eigen::Dynamic, 6> size = amplitude(in_phase, quadrature);
-  const ForceRoundoff roundoff =
-      force_roundoff(size.transpose(), box_diagonal(system_.mesh.positions));
+  const auto roundoff = force_roundoff(size.transpose(), box_diagonal(system_.mesh.positions));
   // Returns the complex stress amplitude of a force. If the section does not define the resistance
   // (area or section modulus), a force above round-off gives NaN.
   const auto stress_amplitude = [](const Complex& force, double resistance, double negligible) {
