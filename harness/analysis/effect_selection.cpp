@@ -132,7 +132,7 @@ class Selector {
     const Effects all = selection_.chosen, linear = without(Effect::geometric_stiffening);
     const Effects second = without(Effect::large_displacement);
     std::set<std::size_t> every;
-    for (std::size_t step = 0; step < scene_.steps(); ++step) every.insert(step);
+    for (std::size_t step = 0; step < scene_.path_point_count(); ++step) every.insert(step);
     const auto overview = single.results_at_steps(linear, every);
     if (!overview) {
       selection_.outcome = single.outcome;

@@ -177,7 +177,7 @@ int cost_command(const CommandOptions& options, const Renderers& renderers) {
   if (options.repeats < kLeastRepeats)
     throw InputError("trammel: --repeats requires at least 7 measurements (got " +
                      std::to_string(options.repeats) + ")");
-  require_drawing(renderers);
+  require_gnuplot(renderers);
   const OutputLock lock(options.out);
   exit_on_signals(kInterrupted);
   const References references;

@@ -209,7 +209,7 @@ int effects_command(const CommandOptions& options, const Renderers& renderers) {
   const std::vector<EffectCase> cases = selected_cases(options);
   if (cases.size() == 1 && options.labels.empty() && options.out.empty())
     return print_one(cases.front(), options);
-  if (!options.out.empty()) require_drawing(renderers);
+  if (!options.out.empty()) require_gnuplot(renderers);
   std::vector<results::EffectScene> scenes;
   Json json = Json::array();
   bool all_hold = true;

@@ -322,7 +322,7 @@ class CommandLine {
 
 }  // namespace
 
-void require_drawing(const Renderers& renderers) {
+void require_gnuplot(const Renderers& renderers) {
   if (!renderers.has_gnuplot())
     throw InputError("PATH: expected a folder with gnuplot, which draws the report");
 }

@@ -39,7 +39,7 @@ class FeatureWalk {
   void visit(const SchemaRule& stated, const Json* value, const std::string& context) {
     if (const SchemaRule* reference = keyword(stated, "$ref")) {
       const std::string path = string_of(*reference), name = path.substr(path.rfind('/') + 1);
-      if (value || seen_.insert(name).second) visit(resolved(root_, stated), value, name);
+      if (value || seen_.insert(name).second) visit(resolve_ref(root_, stated), value, name);
       return;
     }
     if (const SchemaRule* alternatives = keyword(stated, "anyOf"))

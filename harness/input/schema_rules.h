@@ -47,7 +47,7 @@ using SchemaDocument = rapidjson::GenericDocument<rapidjson::UTF8<>, SchemaPool,
 [[nodiscard]] const SchemaRule& load_schema(const std::string& name);
 
 /// Returns the schema rule to which "$ref" refers, or the rule itself if it has no "$ref".
-[[nodiscard]] const SchemaRule& resolved(const SchemaRule& root, const SchemaRule& rule);
+[[nodiscard]] const SchemaRule& resolve_ref(const SchemaRule& root, const SchemaRule& rule);
 
 /// Returns true if the keyword "type" of a schema rule allows the given JSON type.
 [[nodiscard]] bool allows_type(const SchemaRule& rule, const char* type);

@@ -287,7 +287,7 @@ class Fit {
 std::optional<TwoTermLaw> fit_two_term_error_law(const std::vector<double>& h,
                                                  const std::vector<double>& error,
                                                  const std::vector<bool>& usable,
-                                                 const TwoTermOrders& law, double within) {
+                                                 const TwoTermOrders& law, double max_residual) {
   std::vector<bool> levels = usable;
   for (std::size_t k = 0; k < levels.size(); ++k)
     levels[k] = levels[k] && std::isfinite(error[k]) && error[k] != 0;
@@ -295,7 +295,7 @@ std::optional<TwoTermLaw> fit_two_term_error_law(const std::vector<double>& h,
   std::optional<TwoTermLaw> found;
   while (std::ranges::count(levels, true) >= 3) {
     found = fit.over(levels);
-    if (found && found->max_relative_misfit <= within) break;
+    if (found && found->max_relative_misfit <= max_residual) break;
     *std::ranges::find(levels, true) = false;
   }
   return found;

@@ -58,13 +58,13 @@ struct TwoTermOrders {
 
 /// Fits the law a h^p + b h^q by least squares of the relative residuals over the usable levels.
 /// The coarsest levels, whose errors contain further terms, are removed one by one until the
-/// largest relative residual is at most `within`. At least three levels remain.
+/// largest relative residual is at most `max_residual`. At least three levels remain.
 /// @param error   signed error of each level, coarse to fine.
 /// @param usable  false if an error is missing or dominated by round-off.
 /// @return empty for fewer than three usable levels
 [[nodiscard]] std::optional<results::TwoTermLaw> fit_two_term_error_law(
     const std::vector<double>& h, const std::vector<double>& error, const std::vector<bool>& usable,
-    const TwoTermOrders& law, double within);
+    const TwoTermOrders& law, double max_residual);
 
 /// Returns the limit of values v = limit + a h^p + b h^q through three levels; NaN if two levels
 /// have the same size.

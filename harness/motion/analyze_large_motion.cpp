@@ -214,7 +214,7 @@ StepResult analyze_large_motion(const JsonView& analysis, const CaseModel& case_
   solver::Model model = build_without_joint_elements(case_model, 0);
   solver::large_motion::LargeMotionModel large_motion = case_model.joint_elements;
   read_prescribed_motions(analysis, model, large_motion);
-  read_history(analysis, model, large_motion);
+  read_motion_conditions(analysis, model, large_motion);
   const bool damped = case_model.effects.has(solver::Effect::damping) &&
                       (large_motion.mass_damping > 0 || large_motion.strain_rate_damping > 0);
   if (!damped) large_motion.mass_damping = large_motion.strain_rate_damping = 0;

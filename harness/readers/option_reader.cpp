@@ -236,8 +236,8 @@ void read_prescribed_motions(const JsonView& analysis, const solver::Model& buil
   }
 }
 
-void read_history(const JsonView& analysis, const solver::Model& built,
-                  solver::large_motion::LargeMotionModel& large_motion) {
+void read_motion_conditions(const JsonView& analysis, const solver::Model& built,
+                            solver::large_motion::LargeMotionModel& large_motion) {
   large_motion.mass_damping = analysis.get("mass_damping_per_s", 0.0);
   large_motion.strain_rate_damping = analysis.get("strain_rate_damping_s", 0.0);
   if (const auto ramp = analysis.find("load_ramp_s")) {

@@ -14,7 +14,7 @@ namespace {
 constexpr std::array kSeverity = {0, 4, 5, 3, 2, 3};
 
 int severity(const Check& check) {
-  const bool is_known = check.verdict == Verdict::pass && check.known_discrepancy();
+  const bool is_known = check.verdict == Verdict::pass && check.is_known_discrepancy();
   return is_known ? 1 : kSeverity.at(static_cast<std::size_t>(check.verdict));
 }
 
@@ -54,7 +54,7 @@ double size_of_difference(const Check& check) {
 
 bool is_worse_than(const Check& a, const Check& b) {
   if (severity(a) != severity(b)) return severity(a) > severity(b);
-  if (a.known_discrepancy() && b.known_discrepancy())
+  if (a.is_known_discrepancy() && b.is_known_discrepancy())
     return size_of_difference(a) > size_of_difference(b);
   const double share_a = difference_over_tolerance(a), share_b = difference_over_tolerance(b);
   if (share_a != share_b) return share_a > share_b;

@@ -85,8 +85,8 @@ constexpr Field<Struct, Member> store_only(const char* key, Member Struct::*memb
 
 /// Declares a field that is omitted if it equals the default computed from the preceding fields.
 template <class Struct, class Member>
-constexpr UsualField<Struct, Member> usual(const char* key, Member Struct::*member,
-                                           Member (*value)(const Struct& fields_before)) {
+constexpr UsualField<Struct, Member> omitted_if_default(
+    const char* key, Member Struct::*member, Member (*value)(const Struct& fields_before)) {
   return {key, member, value};
 }
 
@@ -187,27 +187,27 @@ T from_json(const Json& json) {
 namespace detail {
 
 template <class Struct, class Member>
-bool is_left_out(const Field<Struct, Member>& field, const std::type_identity_t<Struct>& value,
-                 Form form) {
+bool is_omitted(const Field<Struct, Member>& field, const std::type_identity_t<Struct>& value,
+                Form form) {
   if (field.presence == Presence::required) return false;
   return (field.presence == Presence::stored && form == Form::summary) ||
          (field.presence == Presence::store_only && form != Form::store) ||
          is_empty(value.*field.member);
 }
 template <class Struct, class Member>
-bool is_left_out(const UsualField<Struct, Member>& field, const std::type_identity_t<Struct>& value,
-                 Form) {
+bool is_omitted(const UsualField<Struct, Member>& field, const std::type_identity_t<Struct>& value,
+                Form) {
   return value.*field.member == field.usual(value);
 }
 
 template <class Struct, class Member>
-void set_absent(const Field<Struct, Member>& field, const Place& place,
-                std::type_identity_t<Struct>&) {
+void set_default_if_absent(const Field<Struct, Member>& field, const Place& place,
+                           std::type_identity_t<Struct>&) {
   if (field.presence == Presence::required) place.fail("a value, found nothing");
 }
 template <class Struct, class Member>
-void set_absent(const UsualField<Struct, Member>& field, const Place&,
-                std::type_identity_t<Struct>& value) {
+void set_default_if_absent(const UsualField<Struct, Member>& field, const Place&,
+                           std::type_identity_t<Struct>& value) {
   value.*field.member = field.usual(value);
 }
 
@@ -218,7 +218,7 @@ Json object_to_json(const T& value, Form form) {
   // Memory is reserved, because a growing vector copies all members.
   members.reserve(std::tuple_size_v<std::decay_t<decltype(kFields<T>)>>);
   const auto write = [&](const auto& field) {
-    if (!is_left_out(field, value, form))
+    if (!is_omitted(field, value, form))
       members.emplace_back(field.key, to_json(value.*field.member, form));
   };
   std::apply([&](const auto&... fields) { (write(fields), ...); }, kFields<T>);
@@ -232,7 +232,7 @@ void object_from_json(const Json& json, const Place& place, T& value) {
     const Place member_place{&place, field.key};
     const auto found = json.find(field.key);
     if (found != json.end()) return from_json(*found, member_place, value.*field.member);
-    set_absent(field, member_place, value);
+    set_default_if_absent(field, member_place, value);
   };
   std::apply([&](const auto&... fields) { (read(fields), ...); }, kFields<T>);
 }

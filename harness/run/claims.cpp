@@ -330,7 +330,7 @@ Document load_claims() {
   return document;
 }
 
-std::vector<Case> cases_of(const Document& claim_set, const std::vector<Case>& catalogue) {
+std::vector<Case> cases_used_by(const Document& claim_set, const std::vector<Case>& catalogue) {
   std::vector<JsonView> interpretations;
   for (const auto& claim : JsonView(claim_set)["claims"].entries())
     for (const auto& item : claim.second.entries("interpretations"))

@@ -28,7 +28,7 @@ struct CaseModel {
   /// If true, statics with large displacement is solved to six digits only, without residuals.
   bool estimates_large_displacement = false;
 
-  [[nodiscard]] std::size_t steps() const { return path ? motion.size() : 1; }
+  [[nodiscard]] std::size_t path_point_count() const { return path ? motion.size() : 1; }
 };
 
 /// Reads the "model" of a case.

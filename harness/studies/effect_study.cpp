@@ -137,7 +137,7 @@ EffectStudy study_effects(const Document& document, const EffectStudyOptions& op
     throw JsonView(document)["analysis"].error("this analysis does not support effects; expected " +
                                                analyses_with_effects());
   require_memory(document);
-  return rethrow_as_input(document, [&] { return Study(document, options).run(); });
+  return rethrow_as_input_error(document, [&] { return Study(document, options).run(); });
 }
 
 }  // namespace trammel::harness

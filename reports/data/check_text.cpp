@@ -168,7 +168,7 @@ std::string failure_text(const CheckGroup& group) {
   text += "computed " + computed_text(worst) + " against " + target_text(worst);
   if (worst.measure != "bound")
     text += ", " + difference_text(worst) + " where " + tolerance_text(worst) +
-            (worst.known_discrepancy() ? " is expected" : " is allowed");
+            (worst.is_known_discrepancy() ? " is expected" : " is allowed");
   return worst.message.empty() ? text : text + " (" + worst.message + ")";
 }
 

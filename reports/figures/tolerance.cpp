@@ -33,7 +33,7 @@ double drawn_fraction(const Check& check) {
 }
 
 bool is_shown(const Check& check) {
-  if (check.known_discrepancy() || check.verdict == Verdict::not_run) return false;
+  if (check.is_known_discrepancy() || check.verdict == Verdict::not_run) return false;
   return check.verdict == Verdict::fail || check.verdict == Verdict::error ||
          (check.verdict == Verdict::pass && std::isfinite(difference_over_tolerance(check)));
 }

@@ -29,7 +29,7 @@ Data row_of(const Check& check, const std::string& entry, bool first = true) {
 /// shows the limits of the bound.
 std::string range_text(const Check& check) {
   if (check.measure == "status" || (check.measure == "bound" && !check.expected)) return "";
-  return (check.known_discrepancy() ? "expected " : "") + tolerance_text(check);
+  return (check.is_known_discrepancy() ? "expected " : "") + tolerance_text(check);
 }
 
 /// State of a table under construction: the results, and the names of checks that have an anchor.
@@ -192,7 +192,8 @@ Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
     for (const Check& c : run->checks) {
       const bool is_entry = c.index && c.statistic.empty();
       const Number error =
-          is_entry ? run->half_width(c.quantity, static_cast<std::size_t>(*c.index)) : Number();
+          is_entry ? run->error_half_width(c.quantity, static_cast<std::size_t>(*c.index))
+                   : Number();
       const Tolerance range = c.tolerance.value_or(Tolerance());
       const Comparison* found = find_comparison(*run, c);
       const Comparison entry = found != nullptr ? *found : Comparison();
@@ -203,7 +204,7 @@ Table checks_table(const CaseInfo& info, const std::vector<const Run*>& runs) {
       add({info.id, run->variant, to_string(run->status), c.name, c.role, c.quantity});
       add({cell(c.index ? Number(*c.index + 1) : Number()), c.unit, cell(c.expected)});
       add({cell(c.computed), c.measure, cell(c.difference), cell(range.low), cell(range.high)});
-      add({std::string(c.known_discrepancy() ? "known-discrepancy" : "agrees"), c.reference});
+      add({std::string(c.is_known_discrepancy() ? "known-discrepancy" : "agrees"), c.reference});
       add({verdict_text(c), c.message, cell(error), cell(entry.u_num), cell(entry.u_input)});
       add({cell(entry.u_reference), cell(entry.u_val), entry.dominant_input});
     }
