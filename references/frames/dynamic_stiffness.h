@@ -44,7 +44,7 @@ class DynamicStiffness {
   };
   /// @param w  circular frequency > 0 [rad/s]
   /// @param load_factor  factor of the tension of every member
-  [[nodiscard]] Count count(const T& w, const T& load_factor = T(1)) const;
+  [[nodiscard]] Count wittrick_williams(const T& w, const T& load_factor = T(1)) const;
 
  private:
   struct TransformedMember {

@@ -76,7 +76,7 @@ std::size_t total(const Counts& counts) {
   return sum;
 }
 
-void add(Counts& counts, const Run& run) {
+void add_check_counts(Counts& counts, const Run& run) {
   for (const CheckGroup& group : group_checks(run)) ++counts[check_status(group.worst())];
 }
 

@@ -19,7 +19,7 @@ namespace trammel::reports {
 
 /// Returns at most `max_characters` characters; a shortened text ends with an ellipsis.
 [[nodiscard]] std::string shortened(const std::string& text, std::size_t max_characters);
-[[nodiscard]] std::size_t characters(const std::string& utf8);
+[[nodiscard]] std::size_t character_count(const std::string& utf8);
 
 /// Returns the line color as an option of gnuplot: " lc rgb '#1f5fa8'".
 [[nodiscard]] std::string lc(const std::string& color);

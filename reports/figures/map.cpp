@@ -186,7 +186,7 @@ int draw_map(PlotScript& script, const PlotRequest& request, const Run& run, con
   for (const Cell& cell : field.cells) box.x.cover(cell.x), box.y.cover(cell.y);
   box.x.widen(0.5 * field.dx);
   box.y.widen(0.5 * field.dy);
-  frame(script, box);
+  set_axes_to_box(script, box);
   std::vector<std::string> titles;
   const auto by_color = boxes(field);
   for (std::size_t k = 0; k < by_color.size(); ++k) {

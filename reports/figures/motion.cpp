@@ -173,7 +173,7 @@ std::optional<Figure> motion_figure(const CaseInfo& info, const Run& run) {
   }
   const Box box = box_around(everything, 0.04, 0.22);
   PlotScript script;
-  frame(script, box);
+  set_axes_to_box(script, box);
   const std::size_t stride = (instants.size() + kMaxDrawnInstants - 2) / (kMaxDrawnInstants - 1);
   std::string drawn;
   for (std::size_t k = 0; k < instants.size(); ++k) {
@@ -201,8 +201,8 @@ bool are_finite(const std::vector<Point>& points) {
 }
 
 std::string mode_animation(const Drawing& drawing, const std::vector<double>& factor,
-                           const Box& box, double panel) {
-  Panel moving(drawing, box, panel);
+                           const Box& box, double panel_width) {
+  Panel moving(drawing, box, panel_width);
   moving.json["nodes"] = moving.places(drawing.nodes);
   for (std::size_t s = 0; s < factor.size(); ++s) {
     const Shape& shape = drawing.shapes[s];

@@ -24,8 +24,8 @@ namespace trammel::reports {
                                                                   std::size_t panels = 1);
 
 /// Returns rows of (x, y), with an empty row between polylines.
-[[nodiscard]] PlotScript::Rows rows_of(const std::vector<std::vector<int>>& lines,
-                                       const std::vector<Point>& nodes);
+[[nodiscard]] PlotScript::Rows polyline_points(const std::vector<std::vector<int>>& lines,
+                                               const std::vector<Point>& nodes);
 
 /// Returns closed polygons to be filled: triangles of a coarse mesh, or the outline of a fine mesh.
 [[nodiscard]] PlotScript::Rows filled_triangles(const Drawing& drawing,
@@ -50,7 +50,7 @@ struct Box {
 /// Returns the smallest number of at least `min_step` that is 1, 2 or 5 times a power of ten.
 [[nodiscard]] double tick_spacing(double min_step);
 /// Sets the ranges of the axes x and y (m) to the box, with the same scale.
-void frame(PlotScript& script, const Box& box);
+void set_axes_to_box(PlotScript& script, const Box& box);
 
 /// Returns the height of a drawing of the box, including the axes [px].
 [[nodiscard]] int drawing_height(const Box& box);
@@ -71,8 +71,8 @@ inline constexpr double kDrawnAmplitude = 0.13;  ///< ratio of largest deflectio
 
 /// Returns the animation of modes as JSON, with one panel for each mode.
 /// @param factor  magnification of each mode shape
-/// @param panel   width of a panel [px]
+/// @param panel_width   width of a panel [px]
 [[nodiscard]] std::string mode_animation(const Drawing& drawing, const std::vector<double>& factor,
-                                         const Box& box, double panel);
+                                         const Box& box, double panel_width);
 
 }  // namespace trammel::reports

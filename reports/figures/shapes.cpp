@@ -26,7 +26,7 @@ void draw_panel(PlotScript& script, const Drawing& drawing, const std::vector<Po
       label, "graph 0.5,1 center offset 0,0.75 textcolor rgb '" + std::string(palette::kInk) + "'");
   draw_body(script, drawing, drawing.nodes, palette::kStructure, 1.2);
   script.curve(filled_triangles(drawing, moved), "with filledcurves closed" + lc(palette::kPlate));
-  script.curve(rows_of(triangle_edges_inside(drawing, panels), moved),
+  script.curve(polyline_points(triangle_edges_inside(drawing, panels), moved),
                "with lines lw 0.4" + lc(palette::color(0)));
   draw_body(script, drawing, moved, palette::color(0), 2.2);
   script.plot();
@@ -114,7 +114,7 @@ std::optional<Figure> shapes_figure(const CaseInfo& info, const Run& run) {
 
   PlotScript script;
   script.command("set lmargin 0; set rmargin 0; set tmargin 2; set bmargin 0");
-  frame(script, box);
+  set_axes_to_box(script, box);
   script.command("unset border; unset tics; unset xlabel; unset ylabel; unset grid; unset key");
   script.command("set multiplot layout " + std::to_string(rows) + "," + std::to_string(columns));
   for (std::size_t s = 0; s < n; ++s)
