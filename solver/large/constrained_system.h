@@ -53,8 +53,8 @@ class ConstrainedSystem {
   ConstrainedSystem() = default;
   virtual ~ConstrainedSystem() = default;
 
-  [[nodiscard]] virtual Index coordinates() const = 0;
-  [[nodiscard]] virtual Index constraints() const = 0;
+  [[nodiscard]] virtual Index coordinate_count() const = 0;
+  [[nodiscard]] virtual Index constraint_count() const = 0;
   /// Returns the compliance c >= 0 of each constraint row.
   [[nodiscard]] virtual const VectorXd& compliance() const = 0;
   /// Returns the unit change of each coordinate: the model size [m] or 1 rad.
@@ -62,7 +62,7 @@ class ConstrainedSystem {
   /// Returns the unit of the residual of each constraint: the model size [m] or 1 rad.
   [[nodiscard]] virtual VectorXd row_units() const;
   /// Returns the unknowns that each element couples, for `KktMatrix`.
-  [[nodiscard]] virtual std::vector<std::vector<Index>> blocks() const = 0;
+  [[nodiscard]] virtual std::vector<std::vector<Index>> coupled_unknowns() const = 0;
 
   /// Computes the residual of the equation of motion, r = M a - f + G^T lambda.
   virtual void force_residual(const State& state, Eigen::Ref<VectorXd> r) const = 0;
@@ -73,7 +73,7 @@ class ConstrainedSystem {
   virtual void tangent(const State& state, const TangentCoefficients& coefficients,
                        KktMatrix& matrix) const = 0;
   /// Returns false if the tangent matrix is not symmetric, as with follower loads.
-  [[nodiscard]] virtual bool symmetric() const { return true; }
+  [[nodiscard]] virtual bool has_symmetric_tangent() const { return true; }
   /// Returns the coefficient tau of strain-rate damping [s].
   [[nodiscard]] virtual double strain_rate_damping() const { return 0; }
   /// Returns the factor on the loads at time t.
@@ -88,7 +88,7 @@ class ConstrainedSystem {
 
 /// Returns the model size [m], which scales translations.
 [[nodiscard]] inline double length_scale(const ConstrainedSystem& system) {
-  if (system.coordinates() == 0) return 1;
+  if (system.coordinate_count() == 0) return 1;
   const double least = system.scale().minCoeff();
   return least < 1 ? least : system.scale().maxCoeff();
 }

@@ -182,7 +182,8 @@ class ElementGroup {
       for (Index e = 0; e < size(); ++e) {
         const RowValues rows = evaluate_rows(e, gather<N>(state.q, coordinates(e)), state.t);
         residual.segment<R>(first_constraint_row(e)) = rows.residual;
-        rate.segment<R>(first_constraint_row(e)) = rows.gradient * gather<N>(state.v, coordinates(e));
+        rate.segment<R>(first_constraint_row(e)) =
+            rows.gradient * gather<N>(state.v, coordinates(e));
         if constexpr (requires { element(e).time_rate(state.t); })
           rate.segment<R>(first_constraint_row(e)) += element(e).time_rate(state.t);
       }
@@ -223,7 +224,8 @@ class ElementGroup {
       const Coordinates q1 = gather<N>(to.q, coordinates(e));
       Coordinates f = Coordinates::Zero(q0.size());
       if constexpr (R > 0)
-        f.noalias() += discrete_gradient(e, from, to).transpose() * lambda.segment<R>(first_constraint_row(e));
+        f.noalias() +=
+            discrete_gradient(e, from, to).transpose() * lambda.segment<R>(first_constraint_row(e));
       if constexpr (kIsElastic)
         f += element(e).discrete_gradient_forces(q0, q1, tau / (to.t - from.t));
       if constexpr (kIsLoad) f -= (from.load + to.load) / 2 * element(e).load((q0 + q1) / 2);

@@ -74,9 +74,9 @@ VectorXd GeometricallyExactSystem::damped_velocities(const State& state) const {
   return state.v - undamped_velocities_(state.t);
 }
 
-void GeometricallyExactSystem::set_load(State& state, double load) const {
-  state.t = state.load = state.gravity = load;
-  if (accelerations_.size() > 0) state.a = load * accelerations_;
+void GeometricallyExactSystem::set_load_factor(State& state, double load_factor) const {
+  state.t = state.load = state.gravity = load_factor;
+  if (accelerations_.size() > 0) state.a = load_factor * accelerations_;
 }
 
 void GeometricallyExactSystem::add_torques(double factor, double t, Eigen::Ref<VectorXd> r) const {
@@ -135,7 +135,7 @@ void GeometricallyExactSystem::discrete_gradient_residual(const State& from, con
   });
 }
 
-bool GeometricallyExactSystem::symmetric() const {
+bool GeometricallyExactSystem::has_symmetric_tangent() const {
   return large_motion_.follower_loads.empty();
 }
 
@@ -199,7 +199,8 @@ double GeometricallyExactSystem::nonconservative_work(const State& from, const S
   return work - moved.dot(forces - elastic);
 }
 
-void GeometricallyExactSystem::load_derivative(const State& state, Eigen::Ref<VectorXd> r) const {
+void GeometricallyExactSystem::load_factor_derivative(const State& state,
+                                                      Eigen::Ref<VectorXd> r) const {
   r = -gravity_.head(r.size()) - parts_.loads.head(r.size());
   if (accelerations_.size() > 0) {
     padded_.head(layout_.free) = accelerations_;

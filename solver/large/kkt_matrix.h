@@ -65,8 +65,7 @@ class KktMatrix {
     constexpr int N = Matrix::RowsAtCompileTime, M = Gradient::RowsAtCompileTime;
     constexpr int kSize = N == Eigen::Dynamic ? N : N + M;
     const Index n = S.rows(), m = G.rows();
-    const Rows penalty =
-        rho.cwiseMin(c.unaryExpr([](double x) { return x > 0 ? 0.5 / x : 1e300; }));
+    const Rows penalty = rho.cwiseMin(c.unaryExpr([](auto x) { return x > 0 ? 0.5 / x : 1e300; }));
     const Rows E = Rows::Ones(c.size()) - penalty.cwiseProduct(c);
     const Rows least = penalty.unaryExpr([](double x) { return x > 0 ? 1e-11 / x : 0; });
     const Rows compliance = c.cwiseProduct(E).cwiseMax(least);
@@ -114,7 +113,7 @@ class KktMatrix {
 
   /// Returns the number of unstable directions: the number of negative pivots minus the number of
   /// constraints. It is -1 if the matrix was not factored by LDL^T.
-  [[nodiscard]] Index negative_pivots() const;
+  [[nodiscard]] Index unstable_direction_count() const;
 
   [[nodiscard]] std::int64_t factorizations() const { return factorizations_; }
   [[nodiscard]] std::int64_t solves() const { return solves_; }
@@ -122,8 +121,8 @@ class KktMatrix {
  private:
   struct Factors;
 
-  void order(const Blocks& blocks);
-  void locate(const Blocks& blocks);
+  void set_elimination_order(const Blocks& blocks);
+  void locate_entries(const Blocks& blocks);
 
   Index coordinates_ = 0, constraints_ = 0;
   Eigen::PermutationMatrix<Eigen::Dynamic> permutation_;  ///< order of elimination

@@ -281,11 +281,10 @@ class LargeElastodynamics {
     if (integration.sample_times.empty())
       integration.sample_times = even_times(integration.start, integration.end, integration.step);
     const ConstrainedSystem& equations = system;
-    const IntegrationSummary summary =
-        integrate(equations, state, integration, [&](const State& now) {
-          if (now.t > options_.time.start) balance_.add(system, now);
-          add_sample(system, now, start_, at_time(now.t));
-        });
+    const auto summary = integrate(equations, state, integration, [&](const State& now) {
+      if (now.t > options_.time.start) balance_.add(system, now);
+      add_sample(system, now, start_, at_time(now.t));
+    });
     solution_.outcome = summary.outcome.solved() || reached_.solved() ? summary.outcome : reached_;
     solution_.evidence.add(summary.evidence);
     TransientSummary& result = solution_.summary;
@@ -468,7 +467,7 @@ VectorXd nominal_motion_derivative(const GeometricallyExactSystem& system,
     node.row(end.node) << node.row(end.beside).head<2>(), turn(motion.part[end.member]);
   VectorXd member(std::ssize(model.members));
   for (Index m = 0; m < member.size(); ++m) member[m] = turn(motion.part[to_size(m)]);
-  VectorXd rates = VectorXd::Zero(system.coordinates());
+  VectorXd rates = VectorXd::Zero(system.coordinate_count());
   for (const auto& [k, value] : rigid_member_velocities(system, node, member)) rates[k] = value;
   for (std::size_t i = 0; i < model.masses.size(); ++i) {
     const PointMass& mass = model.masses[i];

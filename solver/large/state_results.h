@@ -30,7 +30,7 @@ namespace trammel::solver::large_motion {
 class MemberBalance {
  public:
   /// Adds the residuals of all members in a state that satisfies the equation of motion.
-  void add(const GeometricallyExactSystem& system, const State& state);
+  void add_state(const GeometricallyExactSystem& system, const State& state);
   /// Returns the largest resultant force, or moment about the first end, of all members and states.
   /// It is relative to the largest sum of the magnitudes of these forces or moments. Members whose
   /// forces are only round-off errors therefore do not contribute.

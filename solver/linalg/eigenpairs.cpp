@@ -128,8 +128,7 @@ class Solver {
   /// Returns all eigenvectors with mu = 1 / (lambda - s) > 0 in descending order of mu.
   MatrixXd dense_vectors() {
     const MatrixXd B = times_B(MatrixXd::Identity(size_, size_));
-    const SymmetricEigenpairs pairs =
-        scaled_eigenpairs(B, MatrixXd(*pencil_.K) - pencil_.shift * B);
+    const auto pairs = scaled_eigenpairs(B, MatrixXd(*pencil_.K) - pencil_.shift * B);
     failed_ = !pairs.converged;
     if (failed_) return MatrixXd(size_, 0);
     const double zero = static_cast<double>(size_) * kEps * pairs.value.cwiseAbs().maxCoeff();
@@ -491,8 +490,7 @@ Index count_dependent_vectors(const SparseMatrix& metric, const MatrixXd& X) {
   constexpr double kDependent = 1e-3;  // eigenvalue of products; 0 for a duplicate
   const MatrixXd products = X.transpose() * (metric * X);
   const VectorXd scale = products.diagonal().cwiseSqrt().cwiseInverse();
-  const SymmetricEigenpairs pairs =
-      symmetric_eigenpairs(scale.asDiagonal() * products * scale.asDiagonal());
+  const auto pairs = symmetric_eigenpairs(scale.asDiagonal() * products * scale.asDiagonal());
   return X.cols() - (pairs.value.array() > kDependent).count();  // all if not finite
 }
 

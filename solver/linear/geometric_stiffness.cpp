@@ -191,8 +191,7 @@ Prestress prestress(const System& system, const VectorXd& u, const VectorXd& mul
   state.axial_variation.resize(state.axial.size());
   for (Index i = 0; i < state.axial_variation.size(); ++i) {
     const FrameElement& e = system.mesh.frame[static_cast<std::size_t>(i)];
-    state.axial_variation[i] =
-        -e.length * e.direction.dot(body.element[static_cast<std::size_t>(i)]);
+    state.axial_variation[i] = -e.length * e.direction.dot(body.element[to_size(i)]);
   }
   state.stress = no_stress(system.model);
   for_each_stress_point(system.model,

@@ -173,8 +173,7 @@ class SetDerivative {
     for (const PointMass& lump : system_.model.masses) {
       const Eigen::Matrix3d dm = rates_of(
           point_mass_matrix(design.platform_mass.mass, design.platform_mass.inertia, lump.offset));
-      const auto u =
-          gather_modes(system_.coordinates.node[static_cast<std::size_t>(lump.node)], U_);
+      const auto u = gather_modes(system_.coordinates.node[to_size(lump.node)], U_);
       sum -= omega_squared_ * (u.transpose() * dm * u);
     }
     // Deformations are accurate even if they are small compared with the rigid motion of a stiff

@@ -93,13 +93,14 @@ struct MovingElement {
   /// Returns the element x axis during a motion, world axes.
   [[nodiscard]] Vector2d direction(const NominalMotion& nominal) const;
   /// Returns the number of coordinates per node.
-  [[nodiscard]] Index stride() const { return layout == Layout::triangle ? 2 : 3; }
+  [[nodiscard]] Index coordinates_per_node() const { return layout == Layout::triangle ? 2 : 3; }
 
   /// Rotates the columns of a block (any x 6), one per coordinate, from element axes to world axes.
   template <class Block>
   void to_world(Block& v, const Vector2d& direction) const {
     if (layout == Layout::scalar) return;
-    for (Index i = 0; i + 1 < 6; i += stride()) rotate_adjacent_columns(v, i, direction.x(), direction.y());
+    for (Index i = 0; i + 1 < 6; i += coordinates_per_node())
+      rotate_adjacent_columns(v, i, direction.x(), direction.y());
   }
   /// Rotates the columns of a block from world axes to element axes.
   template <class Block>

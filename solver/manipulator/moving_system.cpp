@@ -157,10 +157,10 @@ Vector6d MovingSystem::nominal_inertia(const MovingElement& element, const PartM
     const Index u = element.coordinates[to_size(i)];
     if (u < 0) continue;
     const bool rotation =
-        element.layout == MovingElement::Layout::scalar || i % element.stride() == 2;
+        element.layout == MovingElement::Layout::scalar || i % element.coordinates_per_node() == 2;
     a[i] = rotation ? part.acceleration
                     : interpolate_at_mesh_node(start_.coordinates.node_of[to_size(u)],
-                                               motion_.node[2])[i % element.stride()];
+                                               motion_.node[2])[i % element.coordinates_per_node()];
   }
   element.to_element_axes(a, direction);
   Vector6d f = -element.m * a.transpose();
@@ -173,7 +173,8 @@ Vector6d MovingSystem::weight(const MovingElement& element, const Vector2d& dire
   Eigen::Matrix<double, 1, 6> g = Eigen::Matrix<double, 1, 6>::Zero();
   if (element.layout == MovingElement::Layout::scalar || motion_.gravity.isZero(0))
     return Vector6d::Zero();
-  for (Index i = 0; i + 1 < 6; i += element.stride()) g.segment<2>(i) = motion_.gravity;
+  for (Index i = 0; i + 1 < 6; i += element.coordinates_per_node())
+    g.segment<2>(i) = motion_.gravity;
   element.to_element_axes(g, direction);
   return element.m * g.transpose();
 }

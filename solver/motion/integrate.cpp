@@ -173,11 +173,11 @@ class TimeIntegration {
 
   TransientSummary run(const std::vector<Stop>& stops) {
     set_step_limit(std::ssize(stops));
-    stepper_.show();
+    stepper_.output_state();
     for (const Stop& stop : stops) {
       if (!advance(stop.time)) break;
       if (stop.breakpoint) stepper_.restart();
-      if (stop.sample && stop.time > options_.start) stepper_.show();
+      if (stop.sample && stop.time > options_.start) stepper_.output_state();
     }
     summary_.time = time_;
     summary_.counters.steps = summary_.accepted + summary_.rejected;

@@ -106,7 +106,7 @@ class Stepper {
   /// Prepares for discontinuous accelerations after a breakpoint.
   virtual void restart() {}
   /// Outputs the last accepted state, at the start and at a sample time.
-  virtual void show() {}
+  virtual void output_state() {}
   /// Describes the last attempt in words, for the reason of a failure.
   [[nodiscard]] virtual std::string describe(const StepReport& report) const = 0;
 };
